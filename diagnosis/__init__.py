@@ -1,0 +1,1 @@
+"""Simulation against recordings: where they differ, and which physics was left out."""

@@ -1,0 +1,1 @@
+"""One thin film: pressure from film thickness (Reynolds 1886). Knows nothing of pumps."""

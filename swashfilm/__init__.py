@@ -1,0 +1,1 @@
+"""The doors of the program: command line, run folders, report. Computes nothing."""
