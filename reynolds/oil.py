@@ -1,0 +1,116 @@
+"""The oil: viscosity over temperature (Walther; ASTM D341) and the ISO viscosity grades (ISO 3448)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+WALTHER_SHIFT = 0.7  # mm2/s; the constant of ASTM D341, good above LOWEST_KINEMATIC_VISCOSITY
+LOWEST_KINEMATIC_VISCOSITY = 2e-6  # m2/s; below this ASTM D341 needs further terms
+LOWEST_TEMPERATURE = 233.15  # K (-40 degC): near the pour point of mineral hydraulic oils
+HIGHEST_TEMPERATURE = 423.15  # K (150 degC): the oil ages within hours above this
+
+_TEMPERATURE_40C = 313.15
+_TEMPERATURE_100C = 373.15
+
+
+@dataclass(frozen=True)
+class Oil:
+    """A Newtonian oil at the pressure of the case, named by two viscosities.
+
+    kinematic_viscosity_40C, kinematic_viscosity_100C in m2/s, density in kg/m3, bulk_modulus in Pa,
+    specific_heat in J/(kg K). Raises ValueError for a value that is not positive, for a viscosity below
+    ASTM D341's 2 mm2/s and for an oil that does not thin from 40 to 100 degC.
+    """
+
+    kinematic_viscosity_40C: float
+    kinematic_viscosity_100C: float
+    density: float
+    bulk_modulus: float
+    specific_heat: float
+
+    def __post_init__(self) -> None:
+        for name, value in vars(self).items():
+            if not value > 0.0:
+                raise ValueError(f"oil {name}: found {value:g}, expected a positive SI value")
+        if self.kinematic_viscosity_100C < LOWEST_KINEMATIC_VISCOSITY:
+            raise ValueError(
+                f"oil kinematic_viscosity_100C: found {self.kinematic_viscosity_100C * 1e6:g} mm2/s, "
+                "expected at least 2 mm2/s (ASTM D341)"
+            )
+        if self.kinematic_viscosity_100C >= self.kinematic_viscosity_40C:
+            raise ValueError(
+                f"oil kinematic_viscosity_100C: found {self.kinematic_viscosity_100C * 1e6:g} mm2/s, expected "
+                f"less than the {self.kinematic_viscosity_40C * 1e6:g} mm2/s at 40 degC"
+            )
+
+
+@dataclass(frozen=True)
+class ViscosityGrade:
+    """An ISO viscosity grade by its kinematic viscosities at 40 and 100 degC, in m2/s."""
+
+    kinematic_viscosity_40C: float
+    kinematic_viscosity_100C: float
+
+
+# At 40 degC: the midpoint of ISO 3448. At 100 degC: viscosity index 100 by ASTM D2270 (a mineral oil),
+# to the 0.1 mm2/s of a data sheet.
+ISO_GRADES = {
+    "ISO VG 10": ViscosityGrade(10e-6, 2.7e-6),
+    "ISO VG 15": ViscosityGrade(15e-6, 3.4e-6),
+    "ISO VG 22": ViscosityGrade(22e-6, 4.3e-6),
+    "ISO VG 32": ViscosityGrade(32e-6, 5.4e-6),
+    "ISO VG 46": ViscosityGrade(46e-6, 6.8e-6),
+    "ISO VG 68": ViscosityGrade(68e-6, 8.7e-6),
+    "ISO VG 100": ViscosityGrade(100e-6, 11.4e-6),
+    "ISO VG 150": ViscosityGrade(150e-6, 15.0e-6),
+}
+
+
+def walther_coefficients(oil: Oil) -> tuple[float, float]:
+    """Return A, m of log10 log10(nu + 0.7) = A - m log10 T, nu in mm2/s and T in K, through 40 and 100 degC.
+
+    Source: Walther 1931, as in ASTM D341.
+    """
+    at_40 = _double_log(oil.kinematic_viscosity_40C)
+    at_100 = _double_log(oil.kinematic_viscosity_100C)
+    slope = (at_40 - at_100) / (np.log10(_TEMPERATURE_100C) - np.log10(_TEMPERATURE_40C))
+    return float(at_40 + slope * np.log10(_TEMPERATURE_40C)), float(slope)
+
+
+def walther(temperature: ArrayLike, oil: Oil) -> np.ndarray:
+    """Return the kinematic viscosity in m2/s at `temperature` in K (any shape), from Walther's law.
+
+    Raises ValueError outside -40 .. 150 degC and where the oil is thinner than 2 mm2/s: the law is void there.
+    Source: Walther 1931, ASTM D341.
+    """
+    kelvin = np.asarray(temperature, dtype=float)
+    inside = (kelvin >= LOWEST_TEMPERATURE) & (kelvin <= HIGHEST_TEMPERATURE)
+    if not np.all(inside):
+        raise ValueError(
+            f"oil temperature: found {np.min(kelvin) - 273.15:g} .. {np.max(kelvin) - 273.15:g} degC, expected "
+            f"{LOWEST_TEMPERATURE - 273.15:g} .. {HIGHEST_TEMPERATURE - 273.15:g} degC (Walther's law)"
+        )
+    intercept, slope = walther_coefficients(oil)
+    viscosity = 1e-6 * (10.0**10.0 ** (intercept - slope * np.log10(kelvin)) - WALTHER_SHIFT)
+    if not np.all(viscosity >= LOWEST_KINEMATIC_VISCOSITY):
+        raise ValueError(
+            f"oil at {np.max(kelvin) - 273.15:g} degC: {np.min(viscosity) * 1e6:.3g} mm2/s, but ASTM D341 in this "
+            "form holds from 2 mm2/s: choose a thicker grade or a lower temperature"
+        )
+    return viscosity
+
+
+def dynamic_viscosity(oil: Oil, temperature: float) -> float:
+    """Return the dynamic viscosity in Pa s at `temperature` in K: Walther's law times the density.
+
+    The density is constant: its thermal expansion (0.07 %/K) is within the oil grade's own 10 %.
+    Raises ValueError outside the range of `walther`.
+    """
+    return float(walther(temperature, oil)) * oil.density
+
+
+def _double_log(kinematic_viscosity: float) -> float:
+    return float(np.log10(np.log10(kinematic_viscosity * 1e6 + WALTHER_SHIFT)))
