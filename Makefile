@@ -1,0 +1,40 @@
+# The way in. `make run` and `make test` need Python 3.11 or newer and a network once; nothing else.
+
+VENV := .venv/bin
+# The first Python on the path that is new enough; to choose another: make PYTHON=/path/to/python3 install
+PYTHON = $(shell for python in python3.11 python3.12 python3.13 python3.14 python3; do \
+	$$python -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null && echo $$python && break; done)
+
+.PHONY: help install run test check lock clean
+
+help:
+	@echo "make install   set up .venv in this folder (once; later calls only check)"
+	@echo "make run       set up, then solve the reference pump at 2100 r/min, 35 MPa, full displacement"
+	@echo "make test      set up, then run all tests"
+	@echo "make check     set up, then style (ruff), types (mypy) and direction of imports (import-linter)"
+	@echo "make lock      resolve pyproject.toml anew into requirements.lock, keeping versions that still fit"
+	@echo "make clean     remove .venv and every cache; keeps runs/"
+
+install:
+	@test -n "$(PYTHON)" || { echo "No Python 3.11 or newer on the path: install Debian's python3." >&2; exit 1; }
+	@$(PYTHON) tools/bootstrap.py
+
+run: install
+	$(VENV)/swashfilm run ref90 --speed 2100rpm --pressure 35MPa --displacement 1.0
+
+test: install
+	$(VENV)/python -m pytest
+
+check: install
+	$(VENV)/ruff check
+	$(VENV)/ruff format --check
+	$(VENV)/mypy
+	$(VENV)/lint-imports
+
+lock: install
+	$(VENV)/uv pip compile --quiet pyproject.toml --all-extras --universal --python-version 3.11 \
+		--generate-hashes --no-header --no-annotate --output-file requirements.lock
+
+clean:
+	rm -rf .venv dist build .mypy_cache .ruff_cache .import_linter_cache .hypothesis
+	find . -name __pycache__ -type d -prune -exec rm -rf {} +
