@@ -1,0 +1,217 @@
+"""The pump description, format 1: what a pump file says, in SI floats.
+
+Lengths in m, angles in rad, speeds in rad/s, pressures in Pa gauge (atmosphere = 0), temperatures in K.
+`system.pump_file` reads and writes it; `system.checks` holds it to geometry.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import Annotated
+
+from pydantic import BaseModel, ConfigDict, Field
+from pydantic.fields import FieldInfo
+
+from reynolds.oil import Oil
+from system.units import Dimension
+
+FORMAT = 1
+
+Positive = Field(gt=0.0)
+NotNegative = Field(ge=0.0)
+
+Length = Annotated[float, Dimension.LENGTH, Positive]
+Area = Annotated[float, Dimension.AREA, Positive]
+Volume = Annotated[float, Dimension.VOLUME, Positive]
+Displacement = Annotated[float, Dimension.DISPLACEMENT, Positive]
+Angle = Annotated[float, Dimension.ANGLE]
+AcuteAngle = Annotated[float, Dimension.ANGLE, Field(gt=0.0, lt=math.pi / 2)]
+Pressure = Annotated[float, Dimension.PRESSURE]
+Modulus = Annotated[float, Dimension.MODULUS, Positive]
+AngularSpeed = Annotated[float, Dimension.ANGULAR_SPEED, Positive]
+Temperature = Annotated[float, Dimension.TEMPERATURE, Positive]
+Mass = Annotated[float, Dimension.MASS, Positive]
+Force = Annotated[float, Dimension.FORCE, NotNegative]
+Stiffness = Annotated[float, Dimension.STIFFNESS, NotNegative]
+KinematicViscosity = Annotated[float, Dimension.KINEMATIC_VISCOSITY, Positive]
+Density = Annotated[float, Dimension.DENSITY, Positive]
+SpecificHeat = Annotated[float, Dimension.SPECIFIC_HEAT, Positive]
+Fraction = Annotated[float, Field(ge=0.0, le=1.0)]
+Coefficient = Annotated[float, NotNegative]
+
+
+class Section(BaseModel):
+    """A table of the pump file; frozen, and no key beside the named ones."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
+
+
+class PumpSection(Section):
+    """[pump]: the rotating group as a whole."""
+
+    pistons: int = Field(ge=3)
+    displacement: Displacement | None = None  # checked against the geometry, Eq. (6)
+    swash_angle_max: AcuteAngle
+    bore_cone_angle: Annotated[float, Dimension.ANGLE, Field(ge=0.0, lt=math.pi / 2)]
+    piston_diameter: Length
+    pitch_radius: Length  # of the ball centres at zero swash angle
+    dead_volume: Volume  # of one chamber at inner dead centre and full swash angle
+    rated_speed: AngularSpeed
+    rated_pressure: Annotated[float, Dimension.PRESSURE, Positive]
+
+
+class PistonSection(Section):
+    """[piston]: one piston in its bore; lengths at inner dead centre and full swash angle."""
+
+    radial_clearance: Length
+    engaged_length: Length
+    overhang: Annotated[float, Dimension.LENGTH, NotNegative]  # ball centre to bore edge
+    eccentricity_ratio: Annotated[float, Field(ge=0.0, lt=1.0)]  # given; used where no balance is
+    mass: Mass
+    spin_ratio: float  # spin relative to the block / shaft speed
+
+
+class SlipperSection(Section):
+    """[slipper]: one slipper; film thickness and tilts are the given ones, used where no balance is."""
+
+    land_inner_radius: Length
+    land_outer_radius: Length
+    orifice_diameter: Length
+    orifice_length: Length
+    film_thickness: Length
+    mass: Mass
+    centre_of_mass_to_ball: Annotated[float, Dimension.LENGTH, NotNegative]
+    ball_joint_radius: Length
+    spin_ratio: float  # spin about its own axis / shaft speed
+    tilt_radial: Angle
+    tilt_tangential: Angle
+
+
+class ValvePlateSection(Section):
+    """[valve_plate]: sealing lands 1 .. 2 and 3 .. 4 (inner and outer), the block's kidneys between them."""
+
+    land_radius_1: Length
+    land_radius_2: Length
+    land_radius_3: Length
+    land_radius_4: Length
+    kidney_pitch_radius: Length
+    kidney_width: Length
+    kidney_arc: Annotated[float, Dimension.ANGLE, Positive]  # over all, rounded ends included
+    film_thickness: Length
+    tilt_x: Angle
+    tilt_y: Angle
+    residual_clamping: Coefficient  # fraction of the pressure force
+
+
+class PortsSection(Section):
+    """[ports]: opening of either port over the angle from its own dead centre."""
+
+    groove_start: Angle
+    groove_end: Angle
+    groove_area: Area
+    kidney_full_start: Angle
+    kidney_full_end: Angle
+    kidney_end: Angle
+    kidney_area: Area
+    flow_coefficient: Annotated[float, Field(gt=0.0, le=1.0)]
+    critical_reynolds: Annotated[float, Positive]  # laminar-turbulent transition of the orifice law
+
+
+class BallGuideSection(Section):
+    """[ball_guide]: the ball guide under its spring, F = stiffness (compression + displacement), Eq. (13)."""
+
+    radius: Length
+    contact_latitude: AcuteAngle
+    spring_preload: Force  # at zero relative displacement
+    spring_stiffness: Stiffness
+    spring_compression: Annotated[float, Dimension.LENGTH, NotNegative]  # relative displacement
+
+
+class BlockSection(Section):
+    """[block]: the cylinder block."""
+
+    mass: Mass
+
+
+class BearingsSection(Section):
+    """[bearings]: mean diameters, and the share of the side force that each bearing takes."""
+
+    front_diameter: Length
+    rear_diameter: Length
+    front_share: Fraction
+    rear_share: Fraction
+
+
+class FrictionSection(Section):
+    """[friction]: Coulomb coefficient of each of the seven friction pairs."""
+
+    piston_cylinder: Coefficient
+    piston_slipper_socket: Coefficient
+    slipper_swash_plate: Coefficient
+    valve_plate_cylinder: Coefficient
+    ball_guide_retainer: Coefficient
+    front_bearing: Coefficient
+    rear_bearing: Coefficient
+
+
+class OilSection(Section):
+    """[oil]: a pump file may say `grade` in place of the two viscosities."""
+
+    kinematic_viscosity_40C: KinematicViscosity
+    kinematic_viscosity_100C: KinematicViscosity
+    density: Density
+    bulk_modulus: Modulus
+    specific_heat: SpecificHeat
+
+    @property
+    def fluid(self) -> Oil:
+        """The oil as `reynolds.oil` knows it; raises ValueError where Walther's law is void."""
+        return Oil(**self.model_dump())
+
+
+class OperatingSection(Section):
+    """[operating]: where the pump runs when nothing else is asked for."""
+
+    speed: AngularSpeed
+    pressure: Pressure
+    displacement_ratio: Annotated[float, Field(gt=0.0, le=1.0)]
+    temperature: Temperature
+    inlet_pressure: Pressure
+    case_pressure: Pressure
+
+
+class PumpDescription(Section):
+    """A pump, complete: every table of the pump file."""
+
+    name: str = Field(min_length=1)
+    format: int = Field(ge=FORMAT, le=FORMAT)
+    pump: PumpSection
+    piston: PistonSection
+    slipper: SlipperSection
+    valve_plate: ValvePlateSection
+    ports: PortsSection
+    ball_guide: BallGuideSection
+    block: BlockSection
+    bearings: BearingsSection
+    friction: FrictionSection
+    oil: OilSection
+    operating: OperatingSection
+
+
+def section_models() -> Iterator[tuple[str, type[Section]]]:
+    """Yield the name and the model of every table, in the order of the file."""
+    for name, field in PumpDescription.model_fields.items():
+        if isinstance(field.annotation, type) and issubclass(field.annotation, Section):
+            yield name, field.annotation
+
+
+def dimension_of(field: FieldInfo) -> Dimension | None:
+    """Return what a field of a table measures, or None for a bare number."""
+    return next((mark for mark in _marks(field) if isinstance(mark, Dimension)), None)
+
+
+def _marks(field: FieldInfo) -> list[object]:
+    """Return the annotations of a field, also of one that may be left out."""
+    inner = getattr(field.annotation, "__args__", ())
+    return [*field.metadata, *(mark for part in inner for mark in getattr(part, "__metadata__", ()))]

@@ -1,0 +1,84 @@
+"""Faults of an input, for the person who wrote it: where, what was found, what was expected, what to try."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from difflib import get_close_matches
+
+
+@dataclass(frozen=True)
+class Fault:
+    """One thing that is wrong: `path` in the file (`section.key`), what was found, what was expected.
+
+    `nearest` names the nearest valid choice, or what to do; empty where there is none.
+    """
+
+    path: str
+    found: str
+    expected: str
+    nearest: str = ""
+
+
+class InputFaults(Exception):
+    """All faults of one input at once. `source` is the file, the built-in name or the command line.
+
+    `lines` gives the line of a path in the file, where it is known.
+    """
+
+    def __init__(self, source: str, faults: Sequence[Fault], lines: dict[str, int] | None = None) -> None:
+        self.source = source
+        self.faults = tuple(faults)
+        self.lines = dict(lines or {})
+        super().__init__(source, self.faults)
+
+    def __str__(self) -> str:
+        """One block of text: the source, then each fault with its line, in the order of the file."""
+        count = f"{len(self.faults)} fault" + ("s" if len(self.faults) != 1 else "")
+        last = max(self.lines.values(), default=0) + 1
+        ordered = sorted(self.faults, key=lambda fault: self._line(fault) or last)
+        return "\n".join([f"{self.source}: {count}", *(self._block(fault) for fault in ordered)])
+
+    def _line(self, fault: Fault) -> int | None:
+        """Return the line of the path, or of the section that holds it."""
+        section = fault.path.rpartition(".")[0]
+        return self.lines.get(fault.path) or self.lines.get(section)
+
+    def _block(self, fault: Fault) -> str:
+        line = self._line(fault)
+        rows = [
+            f"  {fault.path}" + (f" (line {line})" if line else ""),
+            f"    found:    {fault.found}",
+            f"    expected: {fault.expected}",
+        ]
+        if fault.nearest:
+            rows.append(f"    try:      {fault.nearest}")
+        return "\n".join(rows)
+
+
+def nearest_choice(found: str, choices: Iterable[str]) -> str:
+    """Return the choice spelt most like `found` (any case), or an empty string when none comes near."""
+    by_lower = {choice.lower(): choice for choice in choices}
+    matches = get_close_matches(found.lower(), by_lower, n=1, cutoff=0.6)
+    return by_lower[matches[0]] if matches else ""
+
+
+_HEADER = re.compile(r"^\s*\[\s*([\w.\-]+)\s*\]")
+_KEY = re.compile(r"^\s*([\w.\-]+)\s*=")
+
+
+def key_lines(text: str) -> dict[str, int]:
+    """Return the line number (from 1) of every `section` and `section.key` of a TOML text.
+
+    Plain tables with bare keys, one key a line, are found; a path written otherwise has no entry.
+    """
+    lines: dict[str, int] = {}
+    section = ""
+    for number, line in enumerate(text.splitlines(), start=1):
+        if header := _HEADER.match(line):
+            section = header[1]
+            lines.setdefault(section, number)
+        elif key := _KEY.match(line):
+            lines.setdefault(f"{section}.{key[1]}" if section else key[1], number)
+    return lines

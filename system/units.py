@@ -1,0 +1,211 @@
+"""Quantities at the doors: text with a unit to SI floats and back. SI inside, always.
+
+The unit registry of pint costs some 0.4 s, so it is made at the first quantity, not at import.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from enum import Enum
+from fractions import Fraction
+from functools import cache
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    import pint
+
+STANDARD_ATMOSPHERE = 101325.0  # Pa; gauge pressure = absolute pressure - this
+
+
+@dataclass(frozen=True)
+class _Unit:
+    """What a unit text means: value in base units (m, kg, s, K, rad) = factor * number + offset, exactly."""
+
+    factor: Fraction
+    offset: Fraction
+    dimensionality: frozenset[tuple[str, object]]
+    counts_angle: bool
+
+
+class Dimension(Enum):
+    """What a quantity measures: a word for it, its SI unit, the units people read it in, and an example.
+
+    Of the reading units the first one that makes the number at least one is shown.
+    """
+
+    LENGTH = ("a length", "m", ("mm", "um"), "22 mm")
+    AREA = ("an area", "m2", ("mm2",), "152 mm2")
+    VOLUME = ("a volume", "m3", ("cm3",), "6 cm3")
+    DISPLACEMENT = ("a displacement per revolution", "m3/rev", ("cm3/rev",), "90 cm3/rev")
+    ANGLE = ("an angle", "rad", ("deg",), "16.2 deg")
+    PRESSURE = ("a pressure", "Pa", ("MPa", "kPa"), "350 bar")
+    MODULUS = ("a bulk modulus", "Pa", ("GPa", "MPa"), "1.6 GPa")
+    ANGULAR_SPEED = ("a rotational speed", "rad/s", ("rpm",), "2100 rpm")
+    TEMPERATURE = ("a temperature", "K", ("degC",), "50 degC")
+    MASS = ("a mass", "kg", ("kg", "g"), "160 g")
+    FORCE = ("a force", "N", ("N",), "1080 N")
+    STIFFNESS = ("a stiffness", "N/m", ("N/mm",), "20 N/mm")
+    TORQUE = ("a torque", "N m", ("N m",), "500 N m")
+    POWER = ("a power", "W", ("kW", "W"), "1.2 kW")
+    DENSITY = ("a density", "kg/m3", ("kg/m3",), "860 kg/m3")
+    KINEMATIC_VISCOSITY = ("a kinematic viscosity", "m2/s", ("mm2/s",), "46 mm2/s")
+    DYNAMIC_VISCOSITY = ("a dynamic viscosity", "Pa s", ("mPa s",), "25.8 mPa s")
+    SPECIFIC_HEAT = ("a specific heat", "J/(kg K)", ("J/(kg K)",), "1950 J/(kg K)")
+    VELOCITY = ("a velocity", "m/s", ("m/s", "mm/s", "um/s"), "2.9 m/s")
+    VOLUME_FLOW = ("a volume flow", "m3/s", ("L/min", "mL/min"), "188 L/min")
+    TIME = ("a time", "s", ("s", "ms"), "20 ms")
+
+    def __init__(self, noun: str, si_unit: str, reading_units: tuple[str, ...], example: str) -> None:
+        self.noun = noun
+        self.si_unit = si_unit
+        self.reading_units = reading_units
+        self.example = example
+
+
+class QuantityError(ValueError):
+    """A text that is not the quantity asked for: what was found, what was expected, what may be meant."""
+
+    def __init__(self, found: str, expected: str, nearest: str = "") -> None:
+        self.found = found
+        self.expected = expected
+        self.nearest = nearest
+        super().__init__(f"found {found}, expected {expected}" + (f"; try {nearest}" if nearest else ""))
+
+
+_QUANTITY = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d{1,3})?)\s*(.*?)\s*")
+_ANGLE_WORDS = ("radian", "turn", "revolution", "arcminute", "arcsecond", "grade")
+_POWER = re.compile(r"(?<=[A-Za-zµμ])(?:\^|\*\*)?(-?\d)")
+_FACTOR = r"[A-Za-zµμ°]+[A-Za-z]*(?:(?:\^|\*\*)?-?\d|[²³])?"
+_PRODUCT = rf"{_FACTOR}(?:\s*[*·. ]\s*{_FACTOR})*"
+_UNIT_TEXT = re.compile(rf"{_PRODUCT}(?:\s*/\s*(?:{_FACTOR}|\(\s*{_PRODUCT}\s*\)))*")
+
+
+def parse_quantity(text: object, dimension: Dimension) -> float:
+    """Return the SI value of a text such as "22 mm", rounded once: "15 um" is 1.5e-05 to the last bit.
+
+    rpm, r/min, cm3, cm^3, cc/rev, mL/r, lpm, um, degC, cSt, mPa s and what pint knows are understood.
+    Raises QuantityError for a bare number, a number that cannot be read, an unknown unit and a unit that
+    measures something else; a turn or an angle is never left to be guessed ("90 cm3" is no displacement
+    per revolution and "35 Hz" no rotational speed).
+    """
+    expected = f"{dimension.noun} with its unit, such as '{dimension.example}'"
+    if isinstance(text, bool) or not isinstance(text, (str, int, float)):
+        raise QuantityError(_shown(text), expected)
+    match = _QUANTITY.fullmatch(str(text))
+    if match is None:
+        raise QuantityError(_shown(text), expected)
+    number, unit_text = match[1], match[2]
+    if not unit_text:
+        raise QuantityError(_shown(text), expected, f"'{number} {_example_unit(dimension)}'")
+    unit = _unit(unit_text)
+    if unit is None:
+        raise QuantityError(f"{_shown(text)}, a unit that is not known", expected)
+    if not _measures(unit, dimension):
+        raise QuantityError(f"{_shown(text)}, which is not {dimension.noun}", expected)
+    try:
+        return float((Fraction(number) * unit.factor + unit.offset) / _unit_of(dimension.si_unit).factor)
+    except OverflowError:
+        raise QuantityError(_shown(text), expected) from None
+
+
+def format_quantity(value: float, dimension: Dimension, digits: int | None = None) -> str:
+    """Return an SI value as text with its unit, in the unit people read it in.
+
+    With `digits` it is rounded to that many; without, `parse_quantity` gives back the same float to the
+    last bit (the SI unit is used where no shorter decimal does so).
+    """
+    name = _reading_unit(value, dimension)
+    shown = _in_unit(value, name, dimension)
+    if digits is not None:
+        return f"{_rounded(shown, digits)} {name}"
+    for precision in range(1, 18):
+        text = f"{_rounded(shown, precision)} {name}"
+        if parse_quantity(text, dimension) == value:
+            return text
+    return f"{value!r} {dimension.si_unit}"
+
+
+def to_gauge(absolute_pressure: float) -> float:
+    """Return the gauge pressure in Pa of an absolute one, at the standard atmosphere."""
+    return absolute_pressure - STANDARD_ATMOSPHERE
+
+
+def to_absolute(gauge_pressure: float) -> float:
+    """Return the absolute pressure in Pa of a gauge one, at the standard atmosphere."""
+    return gauge_pressure + STANDARD_ATMOSPHERE
+
+
+@cache
+def _registry() -> pint.UnitRegistry:
+    """Return the one registry; its numbers are fractions, so that a unit adds no rounding of its own."""
+    import pint
+
+    registry: pint.UnitRegistry = pint.UnitRegistry(non_int_type=Fraction)
+    registry.define("@alias turn = rev = r")
+    registry.define("lpm = liter / minute")
+    registry.define("Nm = newton * meter")  # pint reads a count of textile yarn here
+    return registry
+
+
+@cache
+def _unit(text: str) -> _Unit | None:
+    """Return what a unit text means, or None when it is not known."""
+    import pint
+
+    if _UNIT_TEXT.fullmatch(text) is None:
+        return None
+    registry = _registry()
+    try:
+        unit = registry.Unit(_POWER.sub(r"**\1", text.replace(".", "*")))
+        origin = registry.Quantity(Fraction(0), unit).to_base_units().magnitude
+        first = registry.Quantity(Fraction(1), unit).to_base_units().magnitude
+    except (pint.PintError, TypeError):  # TypeError: a logarithmic unit, such as dB
+        return None
+    names = [name for name, _ in registry.Quantity(1, unit).unit_items()]
+    return _Unit(
+        factor=Fraction(first) - Fraction(origin),
+        offset=Fraction(origin),
+        dimensionality=frozenset(unit.dimensionality.items()),
+        counts_angle="degree" in names or any(word in name for name in names for word in _ANGLE_WORDS),
+    )
+
+
+def _measures(unit: _Unit, dimension: Dimension) -> bool:
+    """True when a unit is one of the dimension; angles count, which are one in the SI."""
+    si = _unit_of(dimension.si_unit)
+    return unit.dimensionality == si.dimensionality and unit.counts_angle == si.counts_angle
+
+
+def _unit_of(text: str) -> _Unit:
+    unit = _unit(text)
+    if unit is None:
+        raise ValueError(f"{text!r} is no unit")
+    return unit
+
+
+def _in_unit(value: float, name: str, dimension: Dimension) -> float:
+    """Return an SI value of the dimension in the unit `name`."""
+    unit = _unit_of(name)
+    return float((Fraction(value) * _unit_of(dimension.si_unit).factor - unit.offset) / unit.factor)
+
+
+def _reading_unit(value: float, dimension: Dimension) -> str:
+    """Return the first reading unit in which the value is at least one, or the last of them."""
+    for name in dimension.reading_units:
+        if abs(_in_unit(value, name, dimension)) >= 1.0:
+            return name
+    return dimension.reading_units[-1] if value != 0.0 else dimension.reading_units[0]
+
+
+def _rounded(number: float, digits: int) -> str:
+    """Return a number rounded to significant digits, without a decimal exponent where it can be helped."""
+    return repr(float(f"{number:.{digits}g}")).removesuffix(".0")
+
+
+def _example_unit(dimension: Dimension) -> str:
+    return dimension.example.split(" ", 1)[1]
+
+
+def _shown(value: object) -> str:
+    return repr(value) if isinstance(value, str) else str(value)
