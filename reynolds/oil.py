@@ -42,8 +42,8 @@ class Oil:
             )
         if self.kinematic_viscosity_100C >= self.kinematic_viscosity_40C:
             raise ValueError(
-                f"oil kinematic_viscosity_100C: found {self.kinematic_viscosity_100C * 1e6:g} mm2/s, expected "
-                f"less than the {self.kinematic_viscosity_40C * 1e6:g} mm2/s at 40 degC"
+                f"oil kinematic_viscosity_100C: found {self.kinematic_viscosity_100C * 1e6:g} mm2/s, "
+                f"expected less than the {self.kinematic_viscosity_40C * 1e6:g} mm2/s at 40 degC"
             )
 
 
@@ -83,22 +83,22 @@ def walther_coefficients(oil: Oil) -> tuple[float, float]:
 def walther(temperature: ArrayLike, oil: Oil) -> np.ndarray:
     """Return the kinematic viscosity in m2/s at `temperature` in K (any shape), from Walther's law.
 
-    Raises ValueError outside -40 .. 150 degC and where the oil is thinner than 2 mm2/s: the law is void there.
-    Source: Walther 1931, ASTM D341.
+    Raises ValueError outside -40 .. 150 degC and where the oil is thinner than 2 mm2/s: the law is void
+    there. Source: Walther 1931, ASTM D341.
     """
     kelvin = np.asarray(temperature, dtype=float)
     inside = (kelvin >= LOWEST_TEMPERATURE) & (kelvin <= HIGHEST_TEMPERATURE)
     if not np.all(inside):
         raise ValueError(
-            f"oil temperature: found {np.min(kelvin) - 273.15:g} .. {np.max(kelvin) - 273.15:g} degC, expected "
-            f"{LOWEST_TEMPERATURE - 273.15:g} .. {HIGHEST_TEMPERATURE - 273.15:g} degC (Walther's law)"
+            f"oil temperature: found {np.min(kelvin) - 273.15:g} .. {np.max(kelvin) - 273.15:g} degC, "
+            f"expected {LOWEST_TEMPERATURE - 273.15:g} .. {HIGHEST_TEMPERATURE - 273.15:g} degC (Walther)"
         )
     intercept, slope = walther_coefficients(oil)
     viscosity = 1e-6 * (10.0**10.0 ** (intercept - slope * np.log10(kelvin)) - WALTHER_SHIFT)
     if not np.all(viscosity >= LOWEST_KINEMATIC_VISCOSITY):
         raise ValueError(
-            f"oil at {np.max(kelvin) - 273.15:g} degC: {np.min(viscosity) * 1e6:.3g} mm2/s, but ASTM D341 in this "
-            "form holds from 2 mm2/s: choose a thicker grade or a lower temperature"
+            f"oil at {np.max(kelvin) - 273.15:g} degC: {np.min(viscosity) * 1e6:.3g} mm2/s, but ASTM D341 in "
+            "this form holds from 2 mm2/s: choose a thicker grade or a lower temperature"
         )
     return viscosity
 
