@@ -1,0 +1,141 @@
+"""The element loops of the film equation, compiled once by numba.
+
+Weak form of the Reynolds equation (Reynolds 1886): for every test function f
+
+    int h^3/(12 mu) grad p . grad f  -  int h U . grad f  +  int dh/dt f  =  - contour int q_n f
+
+with U the mean velocity of the two walls and q_n the flow leaving through the edge. Fields stand at the
+quadrature points as (cells | 1, points | 1) arrays: a length of one means "the same everywhere".
+Geometry is recomputed from the vertices in the loop, which is cheaper than reading it from memory and lets
+a mesh move without rebuilding anything.
+"""
+
+import numpy as np
+from numba import njit
+
+_FAST = {"cache": True, "fastmath": False, "error_model": "numpy"}
+
+
+@njit(inline="always")
+def _inverse_map(vertices, cell, geometry_gradient, q):
+    """Jacobian determinant and inverse transpose of the map reference -> film plane at point q."""
+    a = b = c = d = 0.0
+    for v in range(cell.shape[0]):
+        x, y = vertices[cell[v], 0], vertices[cell[v], 1]
+        gx, gy = geometry_gradient[q, v, 0], geometry_gradient[q, v, 1]
+        a += x * gx
+        b += x * gy
+        c += y * gx
+        d += y * gy
+    det = a * d - b * c
+    return det, d / det, -c / det, -b / det, a / det
+
+
+@njit(**_FAST)
+def measure(vertices, cells, geometry_gradient, weights, area):
+    """Fill area[cell, q] with weight x |Jacobian| (m2)."""
+    for e in range(cells.shape[0]):
+        for q in range(weights.shape[0]):
+            det, _, _, _, _ = _inverse_map(vertices, cells[e], geometry_gradient, q)
+            area[e, q] = weights[q] * abs(det)
+
+
+@njit(**_FAST)
+def stiffness(vertices, cells, dofs, slots, gradient, geometry_gradient, weights, conductance, data):
+    """Add int c grad p . grad f to the upper triangle; data follows the fixed pattern through slots."""
+    nb = dofs.shape[1]
+    se, sq = int(conductance.shape[0] > 1), int(conductance.shape[1] > 1)
+    gx, gy = np.empty(nb), np.empty(nb)
+    data[:] = 0.0
+    for e in range(cells.shape[0]):
+        for q in range(weights.shape[0]):
+            det, ixx, ixy, iyx, iyy = _inverse_map(vertices, cells[e], geometry_gradient, q)
+            w = weights[q] * abs(det) * conductance[e * se, q * sq]
+            for i in range(nb):
+                rx, ry = gradient[q, i, 0], gradient[q, i, 1]
+                gx[i] = ixx * rx + ixy * ry
+                gy[i] = iyx * rx + iyy * ry
+            k = 0
+            for i in range(nb):
+                for j in range(i, nb):
+                    value = w * (gx[i] * gx[j] + gy[i] * gy[j])
+                    # Two local nodes tied to one unknown (seam, pocket) meet on its diagonal twice.
+                    if i != j and dofs[e, i] == dofs[e, j]:
+                        value *= 2.0
+                    data[slots[e, k]] += value
+                    k += 1
+
+
+@njit(**_FAST)
+def residual(
+    vertices, cells, dofs, value, gradient, geometry_gradient, weights,
+    conductance, flux_x, flux_y, source, pressure, out, size,
+):  # fmt: skip
+    """out[i] = int c grad p . grad f_i - int (flux_x, flux_y) . grad f_i + int source f_i  (m3/s).
+
+    size[i] sums the magnitudes of the terms: the scale against which out is round-off.
+    """
+    nb = dofs.shape[1]
+    ce, cq = int(conductance.shape[0] > 1), int(conductance.shape[1] > 1)
+    xe, xq = int(flux_x.shape[0] > 1), int(flux_x.shape[1] > 1)
+    ye, yq = int(flux_y.shape[0] > 1), int(flux_y.shape[1] > 1)
+    se, sq = int(source.shape[0] > 1), int(source.shape[1] > 1)
+    gx, gy = np.empty(nb), np.empty(nb)
+    out[:] = 0.0
+    size[:] = 0.0
+    for e in range(cells.shape[0]):
+        for q in range(weights.shape[0]):
+            det, ixx, ixy, iyx, iyy = _inverse_map(vertices, cells[e], geometry_gradient, q)
+            w = weights[q] * abs(det)
+            px = py = 0.0
+            for i in range(nb):
+                rx, ry = gradient[q, i, 0], gradient[q, i, 1]
+                gx[i] = ixx * rx + ixy * ry
+                gy[i] = iyx * rx + iyy * ry
+                p = pressure[dofs[e, i]]
+                px += p * gx[i]
+                py += p * gy[i]
+            c = conductance[e * ce, q * cq]
+            px, py = c * px, c * py
+            fx, fy = flux_x[e * xe, q * xq], flux_y[e * ye, q * yq]
+            s = source[e * se, q * sq]
+            for i in range(nb):
+                poiseuille = w * (px * gx[i] + py * gy[i])
+                couette = w * (fx * gx[i] + fy * gy[i])
+                squeeze = w * s * value[q, i]
+                out[dofs[e, i]] += poiseuille - couette + squeeze
+                size[dofs[e, i]] += abs(poiseuille) + abs(couette) + abs(squeeze)
+
+
+@njit(**_FAST)
+def evaluate(vertices, cells, dofs, value, gradient, geometry_gradient, weights, nodal, at, at_x, at_y):
+    """Nodal field -> value and gradient at the quadrature points, (cells, points) each."""
+    nb = dofs.shape[1]
+    for e in range(cells.shape[0]):
+        for q in range(weights.shape[0]):
+            _, ixx, ixy, iyx, iyy = _inverse_map(vertices, cells[e], geometry_gradient, q)
+            p = rx = ry = 0.0
+            for i in range(nb):
+                node = nodal[dofs[e, i]]
+                p += node * value[q, i]
+                rx += node * gradient[q, i, 0]
+                ry += node * gradient[q, i, 1]
+            at[e, q] = p
+            at_x[e, q] = ixx * rx + ixy * ry
+            at_y[e, q] = iyx * rx + iyy * ry
+
+
+@njit(**_FAST)
+def hold(indptr, indices, data, held, gain, data_out):
+    """Replace rows and columns of held unknowns by the identity, add gain to the diagonal of the others.
+
+    Upper triangle by columns (CSC), diagonal last in its column. The pattern stays, so that the symbolic
+    part of a factorisation is kept while nodes enter and leave the cavity.
+    """
+    for j in range(indptr.shape[0] - 1):
+        for k in range(indptr[j], indptr[j + 1]):
+            i = indices[k]
+            if i == j:
+                data_out[k] = 1.0 if held[j] else data[k] + gain[j]
+            else:
+                data_out[k] = 0.0 if held[i] or held[j] else data[k]

@@ -1,0 +1,197 @@
+"""What a pressure field does: load, moments, wall friction, dissipation, flows and their balances."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from reynolds import kernels
+from reynolds.film import Film, FilmSolution, Pocket
+from reynolds.mesh import Array
+
+
+@dataclass(frozen=True)
+class Loads:
+    """Integrals of one film solution, SI.
+
+    load N (integral of p); moment_x, moment_y N m (integrals of p y and of -p x about the origin);
+    friction_moving, friction_fixed N: force of the oil on each wall (x, y); friction_torque_* N m about the
+    origin; dissipation W; flow m3/s by boundary name, positive out of the film; squeeze_flow m3/s = integral
+    of dh/dt; cavity_flow m3/s that Reynolds' condition makes the cavity supply (+) or swallow (-), zero in a
+    full film; cavitated_area_fraction; mass_balance_error = |out + squeeze - cavity| / throughput;
+    energy_balance_error relative to the dissipation.
+    """
+
+    load: float
+    moment_x: float
+    moment_y: float
+    pressure_max: float
+    pressure_max_at: tuple[float, float]
+    film_thickness_min: float
+    friction_moving: tuple[float, float]
+    friction_fixed: tuple[float, float]
+    friction_torque_moving: float
+    friction_torque_fixed: float
+    dissipation: float
+    flow: Mapping[str, float]
+    squeeze_flow: float
+    cavity_flow: float
+    cavitated_area_fraction: float
+    mass_balance_error: float
+    energy_balance_error: float
+
+
+@dataclass(frozen=True)
+class PointFields:
+    """Pressure (Pa), its gradient (Pa/m) and the shear stress on both walls (Pa) at the quadrature points."""
+
+    pressure: Array
+    gradient: tuple[Array, Array]
+    shear_moving: tuple[Array, Array]
+    shear_fixed: tuple[Array, Array]
+
+
+def point_fields(solution: FilmSolution) -> PointFields:
+    """Pressure, gradient and wall shear of a solution at the quadrature points, (cells, points) each.
+
+    Stress of the oil on the moving wall: -h/2 grad p - mu (U1 - U2)/h, on the fixed wall
+    -h/2 grad p + mu (U1 - U2)/h (parabolic plus linear profile). A cavity under Reynolds' condition is taken
+    as full of oil: that condition knows no film fraction.
+    """
+    at, at_x, at_y = evaluate(solution, solution.pressure)
+    film = solution.problem.film
+    half = 0.5 * film.thickness
+    drag = [
+        film.viscosity * (one - two) / film.thickness
+        for one, two in zip(film.velocity_moving, film.velocity_fixed, strict=True)
+    ]
+    moving = (-half * at_x - drag[0], -half * at_y - drag[1])
+    fixed = (-half * at_x + drag[0], -half * at_y + drag[1])
+    return PointFields(at, (at_x, at_y), moving, fixed)
+
+
+def evaluate(solution: FilmSolution, nodal: Array) -> tuple[Array, Array, Array]:
+    """A nodal field (size,) of the solution's space and its gradient at the quadrature points."""
+    space = solution.problem.space
+    reference = space.reference
+    out = tuple(np.empty((len(space.cells), len(reference.weights))) for _ in range(3))
+    kernels.evaluate(
+        space.vertices, space.cells, space.dofs, reference.value, reference.gradient,
+        reference.geometry_gradient, reference.weights, nodal, *out,
+    )  # fmt: skip
+    return out[0], out[1], out[2]
+
+
+def loads(solution: FilmSolution, weight: Array | None = None) -> Loads:
+    """All integrals of a solution.
+
+    `weight` (cells | 1, points | 1) leaves regions out of friction and dissipation (0 where the film is no
+    film but a port); pressure integrals and flows count the whole mesh.
+    """
+    space, film = solution.problem.space, solution.problem.film
+    fields = point_fields(solution)
+    area = space.area
+    rubbing = area if weight is None else area * weight
+    x, y = space.points
+    moving = [float(np.sum(t * rubbing)) for t in fields.shear_moving]
+    fixed = [float(np.sum(t * rubbing)) for t in fields.shear_fixed]
+    flow = boundary_flows(solution)
+    squeeze_flow = float(np.sum(film.squeeze * area))
+    cavity_flow = float(-solution.outflow[solution.cavity].sum()) if solution.cavity.any() else 0.0
+    out = float(solution.outflow[solution.held].sum()) + _pocket_flow(solution)
+    throughput = max(
+        float(np.abs(solution.outflow[solution.held]).sum()) + float(np.sum(np.abs(film.squeeze) * area)),
+        1e-300,
+    )
+    peak = int(np.argmax(solution.pressure))
+    return Loads(
+        load=float(np.sum(fields.pressure * area)),
+        moment_x=float(np.sum(fields.pressure * y * area)),
+        moment_y=float(-np.sum(fields.pressure * x * area)),
+        pressure_max=float(solution.pressure[peak]),
+        pressure_max_at=_place(solution, peak),
+        film_thickness_min=float(space.to_vertices(film.thickness).min()),
+        friction_moving=(moving[0], moving[1]),
+        friction_fixed=(fixed[0], fixed[1]),
+        friction_torque_moving=_torque(fields.shear_moving, x, y, rubbing),
+        friction_torque_fixed=_torque(fields.shear_fixed, x, y, rubbing),
+        dissipation=float(np.sum(_dissipation_density(film, fields) * rubbing)),
+        flow=flow,
+        squeeze_flow=squeeze_flow,
+        cavity_flow=cavity_flow,
+        cavitated_area_fraction=_cavitated_fraction(solution),
+        mass_balance_error=abs(out + squeeze_flow - cavity_flow) / throughput,
+        energy_balance_error=_energy_error(solution, fields),
+    )
+
+
+def boundary_flows(solution: FilmSolution) -> dict[str, float]:
+    """Flow through each named boundary (m3/s, positive out), from the consistent nodal residuals.
+
+    A corner's flow is divided between the held boundaries that meet there by the length of their facets. A
+    closed boundary's flow is zero by construction.
+    """
+    space = solution.problem.space
+    named = [name for name in space.edge_dofs if name in solution.problem.boundary]
+    total = np.zeros(space.size)
+    for name in named:
+        total[space.edge_dofs[name]] += space.edge_share[name]
+    flows = dict.fromkeys(space.edge_dofs, 0.0)
+    for name in named:
+        nodes = space.edge_dofs[name]
+        flows[name] = float(np.sum(solution.outflow[nodes] * space.edge_share[name] / total[nodes]))
+    return flows
+
+
+def _pocket_flow(solution: FilmSolution) -> float:
+    space = solution.problem.space
+    return sum(
+        float(solution.outflow[space.edge_dofs[name]].sum())
+        for name, condition in solution.problem.boundary.items()
+        if isinstance(condition, Pocket)
+    )
+
+
+def _torque(shear: tuple[Array, Array], x: Array, y: Array, area: Array) -> float:
+    return float(np.sum((x * shear[1] - y * shear[0]) * area))
+
+
+def _dissipation_density(film: Film, fields: PointFields) -> Array:
+    """h^3/(12 mu) |grad p|^2 + mu |U1 - U2|^2 / h (W/m2)."""
+    slip = sum((a - b) ** 2 for a, b in zip(film.velocity_moving, film.velocity_fixed, strict=True))
+    gradient = fields.gradient[0] ** 2 + fields.gradient[1] ** 2
+    return film.thickness**3 / (12.0 * film.viscosity) * gradient + film.viscosity * slip / film.thickness
+
+
+def _energy_error(solution: FilmSolution, fields: PointFields) -> float:
+    """Shear work of the walls + flow work at boundaries and cavity - squeeze work, against dissipation."""
+    film, area = solution.problem.film, solution.problem.space.area
+    walls = -sum(
+        float(np.sum((m * u1 + f * u2) * area))
+        for m, f, u1, u2 in zip(
+            fields.shear_moving, fields.shear_fixed, film.velocity_moving, film.velocity_fixed, strict=True
+        )
+    )
+    flow = -float(np.sum(solution.outflow * solution.pressure))
+    squeeze = float(np.sum(fields.pressure * film.squeeze * area))
+    spent = float(np.sum(_dissipation_density(film, fields) * area))
+    return abs(walls + flow - squeeze - spent) / max(spent, abs(walls), abs(flow), 1e-300)
+
+
+def _cavitated_fraction(solution: FilmSolution) -> float:
+    if not solution.cavity.any():
+        return 0.0
+    space = solution.problem.space
+    inside, _, _ = evaluate(solution, solution.cavity.astype(float))
+    return float(np.sum(inside * space.area) / np.sum(space.area))
+
+
+def _place(solution: FilmSolution, node: int) -> tuple[float, float]:
+    space = solution.problem.space
+    cell, local = (int(k[0]) for k in np.nonzero(space.dofs == node))
+    corners = space.vertices[space.cells[cell]]
+    if local < len(corners):
+        return float(corners[local, 0]), float(corners[local, 1])
+    return float(corners[:, 0].mean()), float(corners[:, 1].mean())

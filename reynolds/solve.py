@@ -1,0 +1,183 @@
+"""Pressure of a film: Newton on the flow balance of every unknown.
+
+Each step solves the linearised balance for the change of pressure. Without cavitation and with linear feeds
+the first step is exact; the second would change nothing. Reynolds' condition is the complementarity
+p >= p_c, r >= 0, (p - p_c) r = 0 solved by a primal-dual active set (Hintermueller, Ito and Kunisch 2002).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from reynolds import kernels
+from reynolds.errors import FilmInputError, FilmNotConverged
+from reynolds.film import Cavitation, Film, FilmProblem, FilmSolution, Held, Pocket
+from reynolds.linear import Factor
+from reynolds.mesh import Array
+from reynolds.space import FilmSpace
+
+MAX_ITERATIONS = 100
+TOLERANCE = 1e-9
+
+
+@dataclass(frozen=True)
+class _Setting:
+    """Boundary conditions spread over the unknowns."""
+
+    pressure: Array
+    held: NDArray[np.bool_]
+    pockets: tuple[tuple[int, Pocket], ...]
+
+
+class FilmSolver:
+    """Solves films on one space, its vertices moved or not; keeps the symbolic factorisation between calls."""
+
+    def __init__(self, space: FilmSpace) -> None:
+        self._pattern = space.pattern
+        self._factor = Factor()
+
+    def solve(self, problem: FilmProblem, start: FilmSolution | None = None) -> FilmSolution:
+        """The pressure field of `problem`; `start` warms pressures and cavity.
+
+        Afterwards every free unknown's flow balance holds to 1e-9 of the flows meeting there. Raises
+        FilmInputError if no pressure level is given or a boundary lies below cavitation pressure, and
+        FilmNotConverged when the active set does not settle.
+        """
+        space = problem.space
+        if space.pattern is not self._pattern:
+            raise FilmInputError("space", "another mesh", "the space of this solver, moved or not")
+        setting = _spread(problem)
+        flows = flow_terms(problem.film)
+        pressure = setting.pressure.copy()
+        if start is not None:
+            pressure = np.where(setting.held, pressure, start.pressure)
+        cavity = np.zeros(space.size, dtype=bool)
+        if start is not None and problem.cavitation is Cavitation.REYNOLDS:
+            cavity = start.cavity & ~setting.held
+            pressure[cavity] = problem.cavitation_pressure
+        stiffness = _stiffness(space, flows[0])
+        for iteration in range(1, MAX_ITERATIONS + 1):
+            pressure = self._step(space, pressure, setting, setting.held | cavity, stiffness, flows)
+            balance, size = _balance(space, flows, pressure)
+            new_cavity = _cavity(problem, pressure, balance, cavity, setting)
+            settled = bool(np.array_equal(new_cavity, cavity))
+            pressure[new_cavity] = problem.cavitation_pressure
+            imbalance = _imbalance(balance, size, setting, cavity, pressure)
+            if settled and imbalance < TOLERANCE:
+                return FilmSolution(problem, pressure, -balance, setting.held, cavity, imbalance, iteration)
+            cavity = new_cavity
+        raise FilmNotConverged(
+            f"film pressure not settled after {MAX_ITERATIONS} iterations (imbalance {imbalance:.2g}, "
+            f"{int(cavity.sum())} of {space.size} unknowns cavitated)",
+            "a finer or more regular (Delaunay) mesh, or triangles instead of stretched quadrilaterals",
+        )
+
+    def _step(
+        self,
+        space: FilmSpace,
+        pressure: Array,
+        setting: _Setting,
+        fixed: NDArray[np.bool_],
+        stiffness: Array,
+        flows: FlowTerms,
+    ) -> Array:
+        """Newton step of the free unknowns; fixed ones stay at the pressure they have."""
+        balance, _ = _balance(space, flows, pressure)
+        gain = np.zeros(space.size)
+        for node, pocket in setting.pockets:
+            inflow, slope = pocket.feed(pressure[node])
+            balance[node] -= inflow
+            gain[node] = -slope
+        # Conductances are 1e-15 to 1e-9: scaled to order one they stay clear of any pivot threshold.
+        scale = stiffness.max()
+        data = np.empty_like(stiffness)
+        pattern = space.pattern
+        kernels.hold(pattern.indptr, pattern.indices, stiffness / scale, fixed, gain / scale, data)
+        self._factor.update(space.matrix(data))
+        return pressure + self._factor.solve(np.where(fixed, 0.0, -balance / scale))
+
+
+def _stiffness(space: FilmSpace, conductance: Array) -> Array:
+    reference = space.reference
+    data = np.empty(len(space.pattern.indices))
+    kernels.stiffness(
+        space.vertices, space.cells, space.dofs, space.pattern.slots, reference.gradient,
+        reference.geometry_gradient, reference.weights, conductance, data,
+    )  # fmt: skip
+    return data
+
+
+FlowTerms = tuple[Array, Array, Array, Array]
+
+
+def flow_terms(film: Film) -> FlowTerms:
+    """Conductance h^3/(12 mu), Couette flow h (U1 + U2)/2 in x and y, and squeeze, at quadrature points."""
+    h = film.thickness
+    mean_x = 0.5 * (film.velocity_moving[0] + film.velocity_fixed[0])
+    mean_y = 0.5 * (film.velocity_moving[1] + film.velocity_fixed[1])
+    return h**3 / (12.0 * film.viscosity), h * mean_x, h * mean_y, film.squeeze
+
+
+def _balance(space: FilmSpace, flows: FlowTerms, pressure: Array) -> tuple[Array, Array]:
+    out, size = np.empty(space.size), np.empty(space.size)
+    reference = space.reference
+    kernels.residual(
+        space.vertices, space.cells, space.dofs, reference.value, reference.gradient,
+        reference.geometry_gradient, reference.weights, *flows, pressure, out, size,
+    )  # fmt: skip
+    return out, size
+
+
+def _spread(problem: FilmProblem) -> _Setting:
+    space = problem.space
+    names = space.film_mesh.boundary_names
+    level = problem.cavitation_pressure if problem.cavitation is Cavitation.REYNOLDS else 0.0
+    pressure = np.full(space.size, level)
+    held = np.zeros(space.size, dtype=bool)
+    pockets = []
+    for name, condition in problem.boundary.items():
+        if name not in space.edge_dofs:
+            raise FilmInputError(f"boundary {name}", "no boundary of this mesh", f"one of {', '.join(names)}")
+        nodes = space.edge_dofs[name]
+        if isinstance(condition, Held):
+            pressure[nodes], held[nodes] = condition.pressure, True
+        elif len(nodes) == 1:
+            pockets.append((int(nodes[0]), condition))
+        else:
+            raise FilmInputError(f"boundary {name}", "a pocket on separate nodes", "film_space(pockets=...)")
+    if problem.held_nodes is not None:
+        more = ~np.isnan(problem.held_nodes)
+        pressure[more], held[more] = problem.held_nodes[more], True
+    if not held.any() and not any(pocket.feed(level)[1] < 0.0 for _, pocket in pockets):
+        raise FilmInputError("boundary", "no pressure given anywhere", "at least one boundary with a pressure")
+    if problem.cavitation is Cavitation.REYNOLDS and (low := pressure[held].min(initial=np.inf)) < level:
+        raise FilmInputError(
+            "boundary", f"pressure {low:.4g} Pa", f"at least the cavitation pressure {level:.4g} Pa"
+        )
+    return _Setting(pressure, held, tuple(pockets))
+
+
+def _cavity(
+    problem: FilmProblem, pressure: Array, balance: Array, cavity: NDArray[np.bool_], setting: _Setting
+) -> NDArray[np.bool_]:
+    if problem.cavitation is Cavitation.NONE:
+        return cavity
+    enters = ~cavity & (pressure < problem.cavitation_pressure)
+    stays = cavity & (balance > 0.0)
+    return (enters | stays) & ~setting.held
+
+
+def _imbalance(
+    balance: Array, size: Array, setting: _Setting, cavity: NDArray[np.bool_], pressure: Array
+) -> float:
+    free = ~(setting.held | cavity)
+    rest = balance.copy()
+    for node, pocket in setting.pockets:
+        inflow = pocket.feed(pressure[node])[0]
+        rest[node] -= inflow
+        size[node] += abs(inflow)
+    scale = np.where(size > 0.0, size, 1.0)
+    return float(np.max(np.abs(rest[free]) / scale[free], initial=0.0))
