@@ -38,7 +38,7 @@ def main() -> int:
     try:
         check_python()
         set_up()
-    except SetupError as error:
+    except (SetupError, OSError) as error:
         print(f"\nswashfilm could not be set up: {error}", file=sys.stderr)
         return 1
     return 0
