@@ -1,0 +1,334 @@
+"""Checks of the geometry: does the pump described fit together, and are its films films?"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from itertools import pairwise
+
+import numpy as np
+
+from system.checks import CheckWarning, Finding, angle, length, needs
+from system.description import PumpDescription
+from system.faults import Fault
+from system.kinematics import SwashDrive, displacement, stroke
+from system.units import Dimension, format_quantity
+
+DISPLACEMENT_TOLERANCE = 0.01
+ROUNDING = 1e-9  # relative; two lengths of a drawing that meet exactly do not overlap
+THIN_FILM = 0.01  # film thickness / land width; above it Reynolds' equation loses percents
+
+_CONE = ("pump.bore_cone_angle", "pump.swash_angle_max")
+_DRIVE = ("pump.pitch_radius", *_CONE)
+
+
+def _drive(pump: PumpDescription) -> SwashDrive | None:
+    """Return the kinematics at full swash angle; None where the plate does not cut every bore axis."""
+    if math.tan(pump.pump.bore_cone_angle) * math.tan(pump.pump.swash_angle_max) >= 1.0:
+        return None
+    return SwashDrive(pump.pump.pitch_radius, pump.pump.bore_cone_angle, pump.pump.swash_angle_max)
+
+
+@needs(*_CONE)
+def swash_plate_cuts_every_bore(pump: PumpDescription) -> Iterator[Finding]:
+    """tan(cone angle) tan(swash angle) < 1: else Eq. (6) has a pole and the piston leaves the block for good."""
+    cone, swash = pump.pump.bore_cone_angle, pump.pump.swash_angle_max
+    if math.tan(cone) * math.tan(swash) >= 1.0:
+        yield Fault(
+            "pump.bore_cone_angle",
+            f"{angle(cone)} with a swash angle of {angle(swash)}",
+            "tan(bore_cone_angle) tan(swash_angle_max) below 1, so that the swash plate cuts every bore axis",
+            f"bore_cone_angle below {angle(math.pi / 2 - swash)}",
+        )
+
+
+@needs("pump.pistons", "pump.piston_diameter", *_DRIVE)
+def displacement_is_that_of_the_geometry(pump: PumpDescription) -> Iterator[Finding]:
+    """A stated displacement is pistons x piston area x stroke of Eq. (6), to 1 %."""
+    stated, drive = pump.pump.displacement, _drive(pump)
+    if stated is None or drive is None:
+        return
+    area = math.pi * pump.pump.piston_diameter**2 / 4
+    geometric = displacement(pump.pump.pistons, area, stroke(drive))
+    if abs(stated / geometric - 1.0) > DISPLACEMENT_TOLERANCE:
+        shown = format_quantity(geometric, Dimension.DISPLACEMENT, digits=4)
+        fitting = length(pump.pump.pitch_radius * stated / geometric)
+        yield Fault(
+            "pump.displacement",
+            f"{format_quantity(stated, Dimension.DISPLACEMENT, digits=4)}, "
+            f"{100 * (stated / geometric - 1.0):+.3g} % from the geometry",
+            f"{shown} within 1 % (pistons x piston area x stroke, Eq. (6))",
+            f"displacement = '{shown}', or pitch_radius = '{fitting}'",
+        )
+
+
+@needs("pump.pistons", "slipper.land_outer_radius", *_DRIVE)
+def slippers_clear_each_other(pump: PumpDescription) -> Iterator[Finding]:
+    """Two slippers are narrower than the smallest distance of neighbouring ball centres on the swash plate.
+
+    With a cone the ball centres draw together at the inner dead centre, r = R/(1 + tan(cone) tan(swash) cos phi).
+    """
+    drive = _drive(pump)
+    if drive is None:
+        return
+    pitch = min(
+        _ball_pitch(drive, pump.pump.pistons), 2 * drive.pitch_radius * math.sin(math.pi / pump.pump.pistons)
+    )
+    overlap = 2 * pump.slipper.land_outer_radius - pitch
+    if overlap >= 0.0:
+        fitting = length(pump.pump.pitch_radius * 2 * pump.slipper.land_outer_radius / pitch)
+        yield Fault(
+            "slipper.land_outer_radius",
+            f"{length(pump.slipper.land_outer_radius)}: neighbouring slippers overlap by {length(overlap)}",
+            f"less than {length(pitch / 2)}, half the smallest distance of neighbouring ball centres",
+            f"land_outer_radius below '{length(pitch / 2)}', or pitch_radius above '{fitting}'",
+        )
+
+
+def _ball_pitch(drive: SwashDrive, pistons: int) -> float:
+    """Return the smallest distance of neighbouring ball centres over a turn, in m, on the tilted swash plate."""
+    phi = np.linspace(0.0, 2 * np.pi, 1441)
+    first, second = (_ball_centre(drive, phi + half * np.pi / pistons) for half in (-1, 1))
+    return float(np.min(np.hypot(*(first - second))))
+
+
+def _ball_centre(drive: SwashDrive, phi: np.ndarray) -> np.ndarray:
+    """Return ball centres in the plane of the swash plate in m, shape (2, n): bore axes cut by that plane."""
+    radius = drive.pitch_radius / (1.0 + drive.cone_swash_product * np.cos(phi))
+    return np.stack([radius * np.cos(phi) / math.cos(drive.swash_angle), radius * np.sin(phi)])
+
+
+@needs("slipper.land_inner_radius", "slipper.land_outer_radius")
+def slipper_land_has_a_width(pump: PumpDescription) -> Iterator[Finding]:
+    """The slipper's sealing land runs from a smaller to a larger radius."""
+    inner, outer = pump.slipper.land_inner_radius, pump.slipper.land_outer_radius
+    if inner >= outer:
+        yield Fault("slipper.land_inner_radius", length(inner), f"less than land_outer_radius, {length(outer)}")
+
+
+@needs("pump.piston_diameter", "slipper.land_inner_radius", "slipper.land_outer_radius")
+def slipper_is_not_lifted_off(pump: PumpDescription) -> Iterator[Finding]:
+    """The hydrostatic force of a parallel slipper at full pocket pressure stays below the piston force."""
+    inner, outer = pump.slipper.land_inner_radius, pump.slipper.land_outer_radius
+    if inner >= outer:
+        return
+    effective = math.pi * (outer**2 - inner**2) / (2 * math.log(outer / inner))
+    balance = effective / (math.pi * pump.pump.piston_diameter**2 / 4)
+    if balance > 1.0:
+        yield CheckWarning(
+            "slipper.land_outer_radius",
+            f"hydrostatic balance ratio {balance:.3f} at zero swash angle",
+            "1 (above it the pocket lifts the slipper off the swash plate)",
+            "reduce the land radii or enlarge the piston",
+        )
+
+
+@needs(
+    "valve_plate.land_radius_1",
+    "valve_plate.land_radius_2",
+    "valve_plate.land_radius_3",
+    "valve_plate.land_radius_4",
+)
+def valve_plate_lands_are_in_order(pump: PumpDescription) -> Iterator[Finding]:
+    """The four land radii grow from the shaft outwards."""
+    plate = pump.valve_plate
+    radii = (plate.land_radius_1, plate.land_radius_2, plate.land_radius_3, plate.land_radius_4)
+    for number, (inner, outer) in enumerate(pairwise(radii), start=1):
+        if inner >= outer:
+            yield Fault(
+                f"valve_plate.land_radius_{number + 1}",
+                length(outer),
+                f"more than land_radius_{number}, {length(inner)} (the radii grow from 1 to 4)",
+            )
+
+
+@needs(
+    "valve_plate.land_radius_2",
+    "valve_plate.land_radius_3",
+    "valve_plate.kidney_pitch_radius",
+    "valve_plate.kidney_width",
+)
+def kidneys_lie_between_the_lands(pump: PumpDescription) -> Iterator[Finding]:
+    """The block's kidneys lie between the inner and the outer sealing land, which they may touch."""
+    plate = pump.valve_plate
+    inner = plate.kidney_pitch_radius - plate.kidney_width / 2
+    outer = plate.kidney_pitch_radius + plate.kidney_width / 2
+    slack = ROUNDING * plate.kidney_pitch_radius
+    if inner < plate.land_radius_2 - slack or outer > plate.land_radius_3 + slack:
+        fitting = 2 * min(
+            plate.kidney_pitch_radius - plate.land_radius_2, plate.land_radius_3 - plate.kidney_pitch_radius
+        )
+        yield Fault(
+            "valve_plate.kidney_width",
+            f"{length(plate.kidney_width)}: kidneys from radius {length(inner)} to {length(outer)}",
+            f"kidneys between land_radius_2, {length(plate.land_radius_2)}, and land_radius_3, "
+            f"{length(plate.land_radius_3)}",
+            f"kidney_width = '{length(fitting)}'" if fitting > 0 else "a kidney_pitch_radius between the two",
+        )
+
+
+@needs("pump.pistons", "valve_plate.kidney_arc")
+def kidneys_leave_webs(pump: PumpDescription) -> Iterator[Finding]:
+    """A kidney is shorter than its share of the turn, so that a web parts it from the next."""
+    share = 2 * math.pi / pump.pump.pistons
+    if pump.valve_plate.kidney_arc >= share:
+        yield Fault(
+            "valve_plate.kidney_arc",
+            f"{angle(pump.valve_plate.kidney_arc)}: neighbouring kidneys run into each other",
+            f"less than {angle(share)}, a turn divided by {pump.pump.pistons} pistons",
+        )
+
+
+@needs(
+    "ports.kidney_area", "valve_plate.kidney_pitch_radius", "valve_plate.kidney_width", "valve_plate.kidney_arc"
+)
+def port_opening_fits_the_kidney(pump: PumpDescription) -> Iterator[Finding]:
+    """A port opens at most the whole kidney: pitch radius x arc x width, square ends."""
+    plate = pump.valve_plate
+    largest = plate.kidney_pitch_radius * plate.kidney_arc * plate.kidney_width
+    if pump.ports.kidney_area > largest * (1 + ROUNDING):
+        limit = format_quantity(largest, Dimension.AREA, digits=4)
+        yield Fault(
+            "ports.kidney_area",
+            format_quantity(pump.ports.kidney_area, Dimension.AREA, digits=4),
+            f"at most {limit}, the block kidney with square ends (pitch radius x arc x width)",
+            f"kidney_area below '{limit}', or a larger kidney in [valve_plate]",
+        )
+
+
+@needs("pump.pistons", "pump.piston_diameter", "piston.engaged_length", "piston.overhang", *_DRIVE)
+def bores_clear_each_other(pump: PumpDescription) -> Iterator[Finding]:
+    """Pistons do not meet at their inner ends, where a cone has drawn their axes together (inner dead centre)."""
+    drive = _drive(pump)
+    if drive is None:
+        return
+    travel = drive.stroke_scale / (1.0 + drive.cone_swash_product)
+    depth = travel + pump.piston.overhang + pump.piston.engaged_length
+    radius = drive.pitch_radius - depth * math.sin(drive.bore_cone_angle)
+    pitch = 2 * radius * math.sin(math.pi / pump.pump.pistons)
+    if pitch <= pump.pump.piston_diameter:
+        yield Fault(
+            "pump.piston_diameter",
+            f"{length(pump.pump.piston_diameter)}: at their inner ends the piston axes are {length(pitch)} apart",
+            f"less than {length(pitch)}, so that the block has a wall between its bores",
+            "fewer or smaller pistons, a larger pitch_radius, or a smaller bore_cone_angle",
+        )
+
+
+@needs("piston.engaged_length", "piston.radial_clearance", "pump.piston_diameter", *_DRIVE)
+def piston_stays_in_its_bore(pump: PumpDescription) -> Iterator[Finding]:
+    """The engaged length left at the outer dead centre is positive; below one diameter the piston tilts freely."""
+    drive = _drive(pump)
+    if drive is None:
+        return
+    left = pump.piston.engaged_length - stroke(drive)
+    if left < pump.piston.radial_clearance:
+        yield Fault(
+            "piston.engaged_length",
+            f"{length(pump.piston.engaged_length)}: the stroke of {length(stroke(drive))} draws the piston out",
+            "more than the stroke at full swash angle",
+            f"engaged_length = '{length(stroke(drive) + pump.pump.piston_diameter)}', stroke + one diameter",
+        )
+    elif left < pump.pump.piston_diameter:
+        yield CheckWarning(
+            "piston.engaged_length",
+            f"{length(left)} left in the bore at the outer dead centre",
+            f"one piston diameter, {length(pump.pump.piston_diameter)} (side forces grow with the lever)",
+            "lengthen the bore, or read the piston's friction near the outer dead centre with care",
+        )
+
+
+_PORT_ANGLES = ("groove_start", "groove_end", "kidney_full_start", "kidney_full_end", "kidney_end")
+
+
+@needs(*(f"ports.{name}" for name in _PORT_ANGLES))
+def ports_open_in_order(pump: PumpDescription) -> Iterator[Finding]:
+    """The angles of a port grow, and it is shut before the other port, half a turn later, opens."""
+    angles = {name: getattr(pump.ports, name) for name in _PORT_ANGLES}
+    for before, after in pairwise(_PORT_ANGLES):
+        if angles[before] >= angles[after]:
+            yield Fault(f"ports.{after}", angle(angles[after]), f"more than {before}, {angle(angles[before])}")
+    shut, opens = angles["kidney_end"], math.pi + angles["groove_start"]
+    if shut >= opens:
+        yield Fault(
+            "ports.kidney_end",
+            f"{angle(shut)}: suction is still open when delivery opens",
+            f"less than {angle(opens)} (180 deg + groove_start), else the ports are short-circuited",
+            "a smaller kidney_end or a larger groove_start",
+        )
+
+
+@needs("ports.groove_area", "ports.kidney_area")
+def groove_is_smaller_than_the_kidney(pump: PumpDescription) -> Iterator[Finding]:
+    """The relief groove opens less than the kidney does."""
+    groove, kidney = pump.ports.groove_area, pump.ports.kidney_area
+    if groove >= kidney:
+        yield Fault(
+            "ports.groove_area",
+            format_quantity(groove, Dimension.AREA, digits=4),
+            f"less than kidney_area, {format_quantity(kidney, Dimension.AREA, digits=4)}",
+        )
+
+
+@needs("bearings.front_share", "bearings.rear_share")
+def bearings_share_the_side_force(pump: PumpDescription) -> Iterator[Finding]:
+    """The two bearings take the whole side force."""
+    total = pump.bearings.front_share + pump.bearings.rear_share
+    if abs(total - 1.0) > 1e-6:
+        yield Fault(
+            "bearings.rear_share",
+            f"{pump.bearings.rear_share:g}: front_share + rear_share = {total:g}",
+            "shares that sum to 1",
+            f"rear_share = {1.0 - pump.bearings.front_share:g}",
+        )
+
+
+@needs("piston.radial_clearance", "piston.engaged_length")
+def piston_film_is_thin(pump: PumpDescription) -> Iterator[Finding]:
+    """The piston's clearance is small against its engaged length (Reynolds' thin-film assumption)."""
+    yield from _thin("piston.radial_clearance", pump.piston.radial_clearance, pump.piston.engaged_length)
+
+
+@needs("slipper.film_thickness", "slipper.land_inner_radius", "slipper.land_outer_radius")
+def slipper_film_is_thin(pump: PumpDescription) -> Iterator[Finding]:
+    """The slipper's film is small against its land width (Reynolds' thin-film assumption)."""
+    width = pump.slipper.land_outer_radius - pump.slipper.land_inner_radius
+    yield from _thin("slipper.film_thickness", pump.slipper.film_thickness, width)
+
+
+@needs("valve_plate.film_thickness", "valve_plate.land_radius_1", "valve_plate.land_radius_2")
+def valve_plate_film_is_thin(pump: PumpDescription) -> Iterator[Finding]:
+    """The valve plate's film is small against its inner land width (Reynolds' thin-film assumption)."""
+    width = pump.valve_plate.land_radius_2 - pump.valve_plate.land_radius_1
+    yield from _thin("valve_plate.film_thickness", pump.valve_plate.film_thickness, width)
+
+
+def _thin(path: str, film: float, width: float) -> Iterator[Finding]:
+    if width > 0.0 and film > THIN_FILM * width:
+        yield CheckWarning(
+            path,
+            f"{length(film)} on a land of {length(width)}",
+            f"{length(THIN_FILM * width)} (1 % of the land: above it the film is no thin film)",
+            "check the unit: um, not mm?",
+        )
+
+
+GEOMETRY_CHECKS = (
+    swash_plate_cuts_every_bore,
+    displacement_is_that_of_the_geometry,
+    slippers_clear_each_other,
+    slipper_land_has_a_width,
+    slipper_is_not_lifted_off,
+    valve_plate_lands_are_in_order,
+    kidneys_lie_between_the_lands,
+    kidneys_leave_webs,
+    port_opening_fits_the_kidney,
+    bores_clear_each_other,
+    piston_stays_in_its_bore,
+    ports_open_in_order,
+    groove_is_smaller_than_the_kidney,
+    bearings_share_the_side_force,
+    piston_film_is_thin,
+    slipper_film_is_thin,
+    valve_plate_film_is_thin,
+)

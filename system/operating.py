@@ -1,0 +1,49 @@
+"""The operating point: what is asked of the pump, and the viscosity its oil then has."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from reynolds.oil import dynamic_viscosity
+from system.description import PumpDescription
+
+
+@dataclass(frozen=True)
+class OperatingPoint:
+    """One steady point. Speed in rad/s, pressures in Pa gauge, temperature in K, viscosity in Pa s."""
+
+    shaft_speed: float
+    delivery_pressure: float
+    inlet_pressure: float
+    case_pressure: float
+    displacement_ratio: float
+    temperature: float
+    viscosity: float
+
+
+def operating_point(
+    pump: PumpDescription,
+    *,
+    shaft_speed: float | None = None,
+    delivery_pressure: float | None = None,
+    inlet_pressure: float | None = None,
+    case_pressure: float | None = None,
+    displacement_ratio: float | None = None,
+    temperature: float | None = None,
+) -> OperatingPoint:
+    """Return the operating point of the description's [operating] table, with what is given in its place.
+
+    The viscosity is that of the pump's oil at the temperature, at case pressure. Raises ValueError where
+    the oil's law is void; `system.operating_checks.check_operating_point` holds the rest to reason.
+    """
+    stated = pump.operating
+    kelvin = stated.temperature if temperature is None else temperature
+    return OperatingPoint(
+        shaft_speed=stated.speed if shaft_speed is None else shaft_speed,
+        delivery_pressure=stated.pressure if delivery_pressure is None else delivery_pressure,
+        inlet_pressure=stated.inlet_pressure if inlet_pressure is None else inlet_pressure,
+        case_pressure=stated.case_pressure if case_pressure is None else case_pressure,
+        displacement_ratio=stated.displacement_ratio if displacement_ratio is None else displacement_ratio,
+        temperature=kelvin,
+        viscosity=dynamic_viscosity(pump.oil.fluid, kelvin),
+    )

@@ -1,0 +1,151 @@
+"""Checks of the operating point: can the pump be run there, and is it within its rating and its model?"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from reynolds.oil import walther
+from system.checks import CheckReport, CheckWarning, Finding, needs, pressure, run_checks
+from system.description import OperatingSection, PumpDescription
+from system.faults import Fault
+from system.operating import OperatingPoint
+from system.units import Dimension, format_quantity, to_absolute, to_gauge
+
+# Below this an oil has given off its dissolved air and its light fractions boil; a mineral oil itself boils below
+# 0.1 kPa at 50 degC. The model is one of liquid oil: assumption, order of magnitude.
+CAVITATION_PRESSURE_ABS = 5e3
+# What makers of axial piston pumps ask of a suction line, 0.8 bar absolute: below it chambers fill in part.
+FILLING_PRESSURE_ABS = 80e3
+
+_PRESSURES = ("pressure", "inlet_pressure", "case_pressure")
+
+
+def _above_cavitation(path: str, value: float) -> Iterator[Finding]:
+    if to_absolute(value) <= CAVITATION_PRESSURE_ABS:
+        yield Fault(
+            path,
+            f"{pressure(value)} gauge, {pressure(to_absolute(value))} absolute: the oil cavitates",
+            f"more than {pressure(to_gauge(CAVITATION_PRESSURE_ABS))} gauge "
+            f"({pressure(CAVITATION_PRESSURE_ABS)} absolute)",
+            "pressures are gauge (atmosphere = 0) unless the key ends in _abs",
+        )
+
+
+@needs("operating.pressure")
+def delivery_is_above_cavitation(pump: PumpDescription) -> Iterator[Finding]:
+    """Liquid oil at the delivery port."""
+    yield from _above_cavitation("operating.pressure", pump.operating.pressure)
+
+
+@needs("operating.inlet_pressure")
+def inlet_is_above_cavitation(pump: PumpDescription) -> Iterator[Finding]:
+    """Liquid oil at the inlet, and enough pressure there to fill the chambers."""
+    value = pump.operating.inlet_pressure
+    yield from _above_cavitation("operating.inlet_pressure", value)
+    if CAVITATION_PRESSURE_ABS < to_absolute(value) < FILLING_PRESSURE_ABS:
+        yield CheckWarning(
+            "operating.inlet_pressure",
+            f"{pressure(to_absolute(value))} absolute",
+            f"{pressure(FILLING_PRESSURE_ABS)} absolute (chambers may fill in part, which is not modelled)",
+            "raise the inlet pressure, or take flow as an upper bound",
+        )
+
+
+@needs("operating.case_pressure")
+def case_is_above_cavitation(pump: PumpDescription) -> Iterator[Finding]:
+    """Liquid oil in the case, where every film ends."""
+    yield from _above_cavitation("operating.case_pressure", pump.operating.case_pressure)
+
+
+@needs("operating.pressure", "operating.inlet_pressure")
+def pump_raises_pressure(pump: PumpDescription) -> Iterator[Finding]:
+    """The delivery pressure is above the inlet pressure: the machine pumps."""
+    delivery, inlet = pump.operating.pressure, pump.operating.inlet_pressure
+    if delivery <= inlet:
+        yield Fault(
+            "operating.pressure",
+            f"{pressure(delivery)} gauge",
+            f"more than inlet_pressure, {pressure(inlet)} gauge (motoring is not modelled)",
+        )
+
+
+@needs("operating.pressure", "pump.rated_pressure")
+def pressure_is_within_rating(pump: PumpDescription) -> Iterator[Finding]:
+    """The delivery pressure does not exceed the rated one."""
+    if pump.operating.pressure > pump.pump.rated_pressure:
+        yield CheckWarning(
+            "operating.pressure",
+            f"{pressure(pump.operating.pressure)} gauge",
+            f"rated_pressure, {pressure(pump.pump.rated_pressure)}",
+            "films and coefficients are extrapolated there",
+        )
+
+
+@needs("operating.speed", "pump.rated_speed")
+def speed_is_within_rating(pump: PumpDescription) -> Iterator[Finding]:
+    """The shaft turns, and not faster than rated."""
+    speed, rated = pump.operating.speed, pump.pump.rated_speed
+    shown = format_quantity(speed, Dimension.ANGULAR_SPEED, digits=4)
+    if not speed > 0.0:
+        yield Fault("operating.speed", shown, "more than 0 rpm")
+    elif speed > rated:
+        limit = format_quantity(rated, Dimension.ANGULAR_SPEED, digits=4)
+        yield CheckWarning(
+            "operating.speed", shown, f"rated_speed, {limit}", "films and coefficients are extrapolated there"
+        )
+
+
+@needs("operating.displacement_ratio")
+def displacement_ratio_is_possible(pump: PumpDescription) -> Iterator[Finding]:
+    """The displacement ratio is above 0 (no stroke, no pump) and at most 1 (full swash angle)."""
+    ratio = pump.operating.displacement_ratio
+    if not 0.0 < ratio <= 1.0:
+        yield Fault("operating.displacement_ratio", f"{ratio:g}", "more than 0 and at most 1 (full displacement)")
+
+
+@needs(
+    "oil.kinematic_viscosity_40C",
+    "oil.kinematic_viscosity_100C",
+    "operating.temperature",
+    "oil.density",
+    "oil.bulk_modulus",
+    "oil.specific_heat",
+)
+def oil_has_a_viscosity(pump: PumpDescription) -> Iterator[Finding]:
+    """The oil thins from 40 to 100 degC, and Walther's law holds at the operating temperature."""
+    temperature = pump.operating.temperature
+    try:
+        fluid = pump.oil.fluid
+    except ValueError as reason:
+        yield Fault("oil.kinematic_viscosity_100C", f"no oil: {reason}", "an oil that thins from 40 to 100 degC")
+        return
+    try:
+        walther(temperature, fluid)
+    except ValueError as reason:
+        shown = format_quantity(temperature, Dimension.TEMPERATURE, digits=4)
+        yield Fault("operating.temperature", shown, f"a temperature at which the oil's law holds: {reason}")
+
+
+OPERATING_CHECKS = (
+    delivery_is_above_cavitation,
+    inlet_is_above_cavitation,
+    case_is_above_cavitation,
+    pump_raises_pressure,
+    pressure_is_within_rating,
+    speed_is_within_rating,
+    displacement_ratio_is_possible,
+    oil_has_a_viscosity,
+)
+
+
+def check_operating_point(pump: PumpDescription, point: OperatingPoint) -> CheckReport:
+    """Return what is wrong with and doubtful about running the pump at a point, all at once."""
+    stated = OperatingSection.model_construct(
+        speed=point.shaft_speed,
+        pressure=point.delivery_pressure,
+        displacement_ratio=point.displacement_ratio,
+        temperature=point.temperature,
+        inlet_pressure=point.inlet_pressure,
+        case_pressure=point.case_pressure,
+    )
+    return run_checks(OPERATING_CHECKS, pump.model_copy(update={"operating": stated}))

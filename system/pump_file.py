@@ -1,0 +1,258 @@
+"""Pump files: TOML with units to a PumpDescription and back; every fault of a file at once."""
+
+from __future__ import annotations
+
+import json
+import re
+import tomllib
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass, field
+from importlib.resources import files
+from pathlib import Path
+from typing import Any
+
+from pydantic import ValidationError
+from pydantic.fields import FieldInfo
+
+from reynolds.oil import ISO_GRADES
+from system.checks import CheckReport, run_checks
+from system.description import FORMAT, PumpDescription, Section, dimension_of, section_models
+from system.faults import Fault, InputFaults, key_lines, nearest_choice
+from system.geometry_checks import GEOMETRY_CHECKS
+from system.operating_checks import OPERATING_CHECKS
+from system.units import Dimension, QuantityError, format_quantity, parse_quantity, to_gauge
+
+ABSOLUTE = "_abs"  # a pressure key that ends so is absolute
+_VISCOSITIES = ("kinematic_viscosity_40C", "kinematic_viscosity_100C")
+_BOUNDS = {"gt": "more than", "ge": "at least", "lt": "less than", "le": "at most"}
+
+
+def builtin_pumps() -> tuple[str, ...]:
+    """Return the names of the pumps that come with the program."""
+    names = (item.name for item in files("system").joinpath("pumps").iterdir())
+    return tuple(sorted(name.removesuffix(".toml") for name in names if name.endswith(".toml")))
+
+
+def load_pump(source: str | Path, overrides: Mapping[str, object] | None = None) -> PumpDescription:
+    """Return the description of a built-in pump (by name) or of a pump file (by path), in SI.
+
+    `overrides` puts values in place of the file's, as they would stand there: {"operating.speed": "1500 rpm"}.
+    Raises InputFaults with everything that is wrong: in the file's form, its units, its values and its
+    geometry. Doubtful values raise nothing; `check_pump` tells them.
+    """
+    label, text = _read(source)
+    tables = _parse(label, text)
+    lines = key_lines(text)
+    for path, value in (overrides or {}).items():
+        section, _, key = path.rpartition(".")
+        table = tables.setdefault(section, {}) if section else tables
+        if isinstance(table, dict):
+            table.pop(key + ABSOLUTE, None)
+            table[key] = value
+        lines.pop(path, None)
+    return _describe(label, tables, lines)
+
+
+def check_pump(pump: PumpDescription) -> CheckReport:
+    """Return what is impossible and what is doubtful about a description and its own operating point."""
+    return run_checks(GEOMETRY_CHECKS + OPERATING_CHECKS, pump)
+
+
+def resolved_toml(pump: PumpDescription) -> str:
+    """Return a pump file that loads to this very description: every value, with its unit, to the last bit."""
+    rows = [f"name = {json.dumps(pump.name, ensure_ascii=False)}", f"format = {pump.format}"]
+    for name, model in section_models():
+        rows += ["", f"[{name}]"]
+        section = getattr(pump, name)
+        for key, info in model.model_fields.items():
+            value = getattr(section, key)
+            if value is not None:
+                rows.append(f"{key} = {_toml_value(value, dimension_of(info))}")
+    return "\n".join(rows) + "\n"
+
+
+def _toml_value(value: float, dimension: Dimension | None) -> str:
+    return repr(value) if dimension is None else f'"{format_quantity(value, dimension)}"'
+
+
+def _read(source: str | Path) -> tuple[str, str]:
+    """Return what to call the source, and its text."""
+    name = str(source)
+    if name in builtin_pumps():
+        return f"built-in pump {name}", files("system").joinpath("pumps", f"{name}.toml").read_text("utf-8")
+    path = Path(source)
+    try:
+        return name, path.read_text("utf-8")
+    except FileNotFoundError:
+        raise InputFaults(name, [_not_there(path)]) from None
+    except (OSError, UnicodeDecodeError) as reason:
+        raise InputFaults(name, [Fault("file", f"cannot be read: {reason}", "a TOML file in UTF-8")]) from None
+
+
+def _not_there(path: Path) -> Fault:
+    """Return the fault of a name that is neither a built-in pump nor a file, with what comes nearest."""
+    builtin = builtin_pumps()
+    beside = [item.name for item in path.parent.glob("*.toml")] if path.parent.is_dir() else []
+    nearest = nearest_choice(str(path), builtin)
+    if not nearest and (like := nearest_choice(path.name, beside)):
+        nearest = str(path.parent / like)
+    return Fault(
+        "pump",
+        f"'{path}', which is no built-in pump and no file",
+        f"a built-in pump ({', '.join(builtin)}) or the path of a pump file (.toml)",
+        nearest,
+    )
+
+
+def _parse(label: str, text: str) -> dict[str, Any]:
+    """Return the tables of a TOML text of the known format."""
+    try:
+        tables = tomllib.loads(text)
+    except tomllib.TOMLDecodeError as reason:
+        at = re.search(r"at line (\d+)", str(reason))
+        line = int(at[1]) if at else len(text.splitlines())
+        raise InputFaults(label, [Fault("file", f"no TOML: {reason}", "TOML 1.0")], {"file": line}) from None
+    stated = tables.get("format")
+    if isinstance(stated, bool) or stated != FORMAT:
+        found = "no such key" if stated is None else repr(stated)
+        fault = Fault("format", found, f"format = {FORMAT}, the pump file format of this version")
+        raise InputFaults(label, [fault], key_lines(text))
+    return tables
+
+
+@dataclass
+class _Reading:
+    """What has been made of a file so far: its faults, the paths these tell of, and the paths to be trusted."""
+
+    faults: list[Fault] = field(default_factory=list)
+    told: set[str] = field(default_factory=set)
+    trusted: set[str] = field(default_factory=set)
+
+    def fault(self, path: str, found: str, expected: str, nearest: str = "") -> None:
+        self.faults.append(Fault(path, found, expected, nearest))
+        self.told.add(path)
+
+    def unknown(self, section: str, key: str, known: Sequence[str]) -> None:
+        """Tell of an unknown key; it stands for the known one it is spelt like, so that one slip is one fault."""
+        near = nearest_choice(key, known)
+        self.fault(f"{section}{key}", "unknown key", f"one of {', '.join(known)}", near)
+        self.told.add(f"{section}{near}")
+
+
+def _describe(label: str, tables: Mapping[str, Any], lines: dict[str, int]) -> PumpDescription:
+    """Return the description of the tables, or raise all their faults, those of the checks included."""
+    reading = _Reading()
+    name = tables.get("name")
+    known = list(PumpDescription.model_fields)
+    for key in tables:
+        if key not in known:
+            reading.unknown("", key, known)
+    if "name" not in reading.told and not (isinstance(name, str) and name.isprintable() and name):
+        reading.fault("name", "no such key" if name is None else repr(name), "the pump's name, one line of text")
+    sections: dict[str, Any] = {
+        key: _section(key, model, tables.get(key), reading) for key, model in section_models()
+    }
+    pump = PumpDescription.model_construct(name=name, format=FORMAT, **sections)
+    reading.faults += run_checks(GEOMETRY_CHECKS + OPERATING_CHECKS, pump, reading.trusted).faults
+    if reading.faults:
+        raise InputFaults(label, reading.faults, lines)
+    return pump
+
+
+def _section(name: str, model: type[Section], table: object, reading: _Reading) -> Section:
+    """Return one table as its model; with faults, one that holds the good values only."""
+    if not isinstance(table, dict):
+        if name not in reading.told:
+            found = "no such table" if table is None else repr(table)
+            reading.fault(name, found, f"a table [{name}] with {', '.join(_keys(name, model))}")
+        return model.model_construct()
+    values: dict[str, Any] = _values(name, model, table, reading)
+    try:
+        section = model.model_validate(values)
+    except ValidationError as invalid:
+        for error in invalid.errors():
+            key = str(error["loc"][0])
+            info, path = model.model_fields[key], f"{name}.{key}"
+            if error["type"] != "missing":
+                raw = table.get(key, table.get(key + ABSOLUTE))
+                reading.fault(path, str(raw), _bound(info, error.get("ctx", {})))
+            elif path not in reading.told:
+                reading.fault(path, "no such key", _wanted(info))
+        section = model.model_construct(**{k: v for k, v in values.items() if f"{name}.{k}" not in reading.told})
+    reading.trusted |= {f"{name}.{key}" for key in section.model_fields_set} - reading.told
+    return section
+
+
+def _values(name: str, model: type[Section], table: Mapping[str, object], reading: _Reading) -> dict[str, float]:
+    """Return the SI values of a table, and tell of every entry that gives none."""
+    values: dict[str, float] = {}
+    for written, raw in table.items():
+        path, key = f"{name}.{written}", written.removesuffix(ABSOLUTE)
+        info = model.model_fields.get(key)
+        absolute = key != written
+        if (name, written) == ("oil", "grade"):
+            values |= _grade_viscosities(raw, table, reading)
+        elif info is None or (absolute and dimension_of(info) is not Dimension.PRESSURE):
+            reading.unknown(f"{name}.", written, _keys(name, model))
+        elif absolute and key in table:
+            reading.fault(path, f"both {key} and {written}", "one of the two, gauge or absolute")
+        elif (value := _value(path, info, raw, reading)) is not None:
+            values[key] = to_gauge(value) if absolute else value
+        else:
+            reading.told.add(f"{name}.{key}")
+    return values
+
+
+def _keys(name: str, model: type[Section]) -> list[str]:
+    """Return the keys that a table may have."""
+    return [*model.model_fields, *(["grade"] if name == "oil" else [])]
+
+
+def _value(path: str, info: FieldInfo, raw: object, reading: _Reading) -> float | None:
+    """Return the SI value of one entry, or None with its fault told."""
+    dimension = dimension_of(info)
+    if dimension is not None:
+        try:
+            return parse_quantity(raw, dimension)
+        except QuantityError as reason:
+            reading.fault(path, reason.found, reason.expected, reason.nearest)
+            return None
+    if isinstance(raw, bool) or not isinstance(raw, (int, float)):
+        reading.fault(path, repr(raw), _wanted(info))
+        return None
+    return raw
+
+
+def _bound(info: FieldInfo, limits: Mapping[str, Any]) -> str:
+    """Return the bound that a value broke, in words and with its unit."""
+    dimension = dimension_of(info)
+    for short, words in _BOUNDS.items():
+        if short in limits:
+            bound = float(limits[short])
+            return (
+                f"{words} {bound:g}"
+                if dimension is None
+                else f"{words} {format_quantity(bound, dimension, digits=4)}"
+            )
+    return _wanted(info)
+
+
+def _wanted(info: FieldInfo) -> str:
+    """Return what a key holds, in words."""
+    dimension = dimension_of(info)
+    if dimension is not None:
+        return f"{dimension.noun} with its unit, such as '{dimension.example}'"
+    return "a whole number" if info.annotation is int else "a bare number (the value has no unit)"
+
+
+def _grade_viscosities(grade: object, table: Mapping[str, object], reading: _Reading) -> dict[str, float]:
+    """Return the two viscosities of an ISO grade in m2/s, or none with the fault told."""
+    if stated := [key for key in _VISCOSITIES if key in table]:
+        reading.fault("oil.grade", f"grade beside {' and '.join(stated)}", "the grade or the two viscosities")
+    elif not isinstance(grade, str) or grade not in ISO_GRADES:
+        expected = f"one of {', '.join(ISO_GRADES)}, or {' and '.join(_VISCOSITIES)} in its place"
+        reading.fault("oil.grade", repr(grade), expected, nearest_choice(str(grade), ISO_GRADES))
+    else:
+        return asdict(ISO_GRADES[grade])
+    reading.told |= {f"oil.{key}" for key in _VISCOSITIES}
+    return {}
