@@ -108,7 +108,7 @@ def ring(
     after = (j + 1) % around
     quads = np.vstack([i * around + j, (i + 1) * around + j, (i + 1) * around + after, i * around + after])
     used, quads = np.unique(quads, return_inverse=True)
-    mesh = skfem.MeshQuad(points[:, used], quads.reshape(4, -1))
+    mesh = skfem.MeshQuad(np.ascontiguousarray(points[:, used]), quads.reshape(4, -1))
     if cell is Cell.TRIANGLE:
         mesh = mesh.to_meshtri()
     return FilmMesh(_named(mesh, loop_names(mesh)))
@@ -180,7 +180,7 @@ def loop_names(mesh: skfem.Mesh) -> dict[str, NDArray[np.int64]]:
         k = int(np.argmin([np.linalg.norm(c) for c in centre]))
         named["inner"] = loops.pop(k)
         centre.pop(k)
-    order = np.argsort([np.arctan2(c[1], c[0]) % (2.0 * np.pi) for c in centre])
+    order = np.argsort([(np.arctan2(c[1], c[0]) + 1e-9) % (2.0 * np.pi) for c in centre])
     return named | {f"hole_{n}": loops[k] for n, k in enumerate(order)}
 
 

@@ -1,0 +1,224 @@
+"""The gap between slipper and swash plate: a sealing land around a pocket fed through the piston.
+
+Film plane: origin under the ball joint, x along the sliding velocity, y to its left seen from the slipper's
+back (the swash plate's inner normal is z). The frame does not turn. Boundaries: pocket, case.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from gaps.balance import find_equilibrium, into_disc, out_of_disc
+from gaps.result import SMALLEST_FILM, GapFilm, PositionSource, wall_power
+from reynolds.film import ZERO, Cavitation, FilmProblem, FilmSolution, Held, Pocket, film
+from reynolds.loads import loads
+from reynolds.mesh import Array, rename, ring
+from reynolds.solve import FilmSolver
+from reynolds.space import FilmSpace, film_space
+
+
+@dataclass(frozen=True)
+class SlipperGeometry:
+    """Land radii, and diameter and length of the orifice that feeds the pocket (m)."""
+
+    land_inner_radius: float
+    land_outer_radius: float
+    orifice_diameter: float
+    orifice_length: float
+
+
+@dataclass(frozen=True)
+class SlipperState:
+    """Instant of a slipper, SI: pressures Pa, viscosity Pa s, sliding speed m/s (along x), spin rad/s."""
+
+    chamber_pressure: float
+    case_pressure: float
+    cavitation_pressure: float
+    viscosity: float
+    sliding_speed: float
+    spin: float
+
+
+@dataclass(frozen=True)
+class SlipperLoad:
+    """What presses the slipper on: force N towards the plate, and the moments that the film must hold.
+
+    moment_x, moment_y (N m) are integrals of p y and of -p x over the film and pocket, pressures above case.
+    """
+
+    force: float
+    moment_x: float
+    moment_y: float
+
+
+@dataclass(frozen=True)
+class SlipperPosition:
+    """Film thickness under the ball joint (m) and the slopes dh/dx and dh/dy (rad)."""
+
+    film_thickness: float
+    slope_x: float
+    slope_y: float
+
+
+def hagen_poiseuille_conductance(diameter: float, length: float, viscosity: float) -> float:
+    """Laminar flow per pressure drop of a capillary, pi d^4/(128 mu l), m3/(s Pa); paper Eq. (16).
+
+    Valid for l/d > 3 or so and Re d/l << 64; a short orifice adds rho/2 (q/(Cd A))^2.
+    """
+    return float(np.pi * diameter**4 / (128.0 * viscosity * length))
+
+
+class SlipperGap:
+    """Films of one slipper on a ring mesh (radial, around); the pocket is one unknown fed by the orifice."""
+
+    def __init__(self, geometry: SlipperGeometry, cells: tuple[int, int] = (16, 64)) -> None:
+        self.geometry = geometry
+        # Geometric spacing: the pressure falls with the logarithm of the radius.
+        radii = np.geomspace(geometry.land_inner_radius, geometry.land_outer_radius, cells[0] + 1)
+        mesh = rename(ring(radii, cells[1]), {"inner": "pocket", "outer": "case"})
+        self._space = film_space(mesh, pockets=["pocket"])
+        self._solver = FilmSolver(self._space)
+        self._last: FilmSolution | None = None
+
+    @property
+    def pocket_area(self) -> float:
+        """Area under the pocket's pressure (m2)."""
+        return float(np.pi * self.geometry.land_inner_radius**2)
+
+    def thickness(self, space: FilmSpace, position: SlipperPosition) -> Array:
+        """h = h0 + slope_x x + slope_y y (m)."""
+        x, y = space.points
+        return position.film_thickness + position.slope_x * x + position.slope_y * y
+
+    def problem(self, state: SlipperState, position: SlipperPosition) -> FilmProblem:
+        """The film problem at a position, in the frame that moves with the slipper (film steady in it)."""
+        x, y = self._space.points
+        conductance = hagen_poiseuille_conductance(
+            self.geometry.orifice_diameter, self.geometry.orifice_length, state.viscosity
+        )
+
+        def feed(pressure: float) -> tuple[float, float]:
+            return conductance * (state.chamber_pressure - pressure), -conductance
+
+        return FilmProblem(
+            space=self._space,
+            film=film(
+                self.thickness(self._space, position),
+                state.viscosity,
+                velocity_moving=(-state.spin * y, state.spin * x),
+                velocity_fixed=(np.full((1, 1), -state.sliding_speed), ZERO),
+            ),
+            boundary={"pocket": Pocket(feed), "case": Held(state.case_pressure)},
+            cavitation=Cavitation.REYNOLDS,
+            cavitation_pressure=state.cavitation_pressure,
+        )
+
+    def solve(self, state: SlipperState, position: SlipperPosition) -> FilmSolution:
+        """The film at a position, warm from the last one."""
+        self._last = self._solver.solve(self.problem(state, position), self._last)
+        return self._last
+
+    def pocket_pressure(self, solution: FilmSolution) -> float:
+        """Pressure in the pocket (Pa)."""
+        return float(solution.pressure[self._space.edge_dofs["pocket"][0]])
+
+    def force(self, solution: FilmSolution, state: SlipperState) -> Array:
+        """Lift of film and pocket above case pressure and its moments: (F, Mx, My), N and N m."""
+        integrals = loads(solution)
+        area = float(self._space.area.sum())
+        lift = integrals.load - state.case_pressure * area
+        pocket = (self.pocket_pressure(solution) - state.case_pressure) * self.pocket_area
+        return np.array([lift + pocket, integrals.moment_x, integrals.moment_y])
+
+    def at(self, state: SlipperState, load: SlipperLoad, position: SlipperPosition) -> GapFilm:
+        """The gap at a given position; the film need not balance the load, and the result says how far."""
+        return self._report(state, load, position, PositionSource.GIVEN, "position given")
+
+    def balanced(
+        self,
+        state: SlipperState,
+        load: SlipperLoad,
+        given: SlipperPosition,
+        near: SlipperPosition | None = None,
+    ) -> GapFilm:
+        """The gap at the mean film and tilt where force and moments balance, else at `given`.
+
+        Quasi-static (no squeeze). `near` is tried first. Where no film of at least 1 um balances, the gap stands
+        at `given` and the verdict says why.
+        """
+        radius = self.geometry.land_outer_radius
+        if load.force <= 0.0:
+            verdict = f"the slipper is pulled off the plate ({-load.force:.0f} N held by the retainer)"
+            return self._report(state, load, given, PositionSource.GIVEN, verdict)
+        outer = np.array([load.force, load.moment_x, load.moment_y])
+        scales = load.force * np.array([1.0, radius, radius])
+
+        # Between the smallest film and a twentieth of the land's width (thin film) in the logarithm.
+        low, high = np.log(SMALLEST_FILM), np.log(0.05 * (radius - self.geometry.land_inner_radius))
+        middle, half = 0.5 * (low + high), 0.5 * (high - low)
+
+        def position(free: Array) -> SlipperPosition:
+            thickness = float(np.exp(middle + half * np.tanh(free[0])))
+            slope = (thickness - SMALLEST_FILM) / radius * into_disc(free[1:])
+            return SlipperPosition(thickness, float(slope[0]), float(slope[1]))
+
+        def free(at: SlipperPosition) -> Array:
+            room = at.film_thickness - SMALLEST_FILM
+            slope = np.clip(np.array([at.slope_x, at.slope_y]) * radius / room, -0.7, 0.7)
+            level = np.clip((np.log(at.film_thickness) - middle) / half, -0.99, 0.99)
+            return np.concatenate([[np.arctanh(level)], out_of_disc(slope)])
+
+        def imbalance(unknowns: Array) -> Array:
+            return (self.force(self.solve(state, position(unknowns)), state) - outer) / scales
+
+        starts = [free(given), free(SlipperPosition(3.0 * SMALLEST_FILM, 0.0, 0.0))]
+        if near is not None:
+            starts.insert(0, free(near))
+        answer = find_equilibrium(imbalance, starts)
+        if answer.found:
+            place = position(answer.unknowns)
+            return self._report(state, load, place, PositionSource.BALANCE, "force and moments balance")
+        verdict = (
+            f"no film of at least {SMALLEST_FILM * 1e6:.0f} um balances {load.force:.0f} N with moments "
+            f"({load.moment_x:.2f}, {load.moment_y:.2f}) N m (nearest miss {answer.rest:.1%})"
+        )
+        return self._report(state, load, given, PositionSource.GIVEN, verdict)
+
+    def conductance(self, state: SlipperState, position: SlipperPosition) -> float:
+        """Pressure flow from chamber through orifice and land per pressure difference, m3/(s Pa), at rest."""
+        problem = self.problem(state, position)
+        still = replace(problem.film, velocity_moving=(ZERO, ZERO), velocity_fixed=(ZERO, ZERO))
+        answer = self._solver.solve(
+            FilmProblem(problem.space, still, {"pocket": Held(1.0), "case": Held(0.0)}, Cavitation.NONE)
+        )
+        land = loads(answer).flow["case"]
+        orifice = hagen_poiseuille_conductance(
+            self.geometry.orifice_diameter, self.geometry.orifice_length, state.viscosity
+        )
+        return land * orifice / (land + orifice)
+
+    def _report(
+        self,
+        state: SlipperState,
+        load: SlipperLoad,
+        position: SlipperPosition,
+        source: PositionSource,
+        verdict: str,
+    ) -> GapFilm:
+        solution = self.solve(state, position)
+        integrals = loads(solution)
+        return GapFilm(
+            solution=solution,
+            loads=integrals,
+            source=source,
+            position=np.array([position.film_thickness, position.slope_x, position.slope_y]),
+            chamber_flow=-integrals.flow["pocket"],
+            leakage_flow=integrals.flow["case"],
+            conductance=self.conductance(state, position),
+            friction_power=wall_power(solution),
+            required_load=max(load.force, 0.0),
+            carried_load=float(self.force(solution, state)[0]),
+            verdict=verdict,
+        )

@@ -1,0 +1,223 @@
+"""The gap between cylinder block and valve plate: the whole ring with its kidneys.
+
+Film plane: the pump's x, y (x to the inner dead centre), which does not turn; the mesh turns with the block,
+whose kidneys are holes in it. Webs between kidneys that lie over a port of the valve plate are at that port's
+pressure and are no film. Boundaries: inner, outer (case), kidney_1 .. kidney_z in the order of the chambers,
+chamber k at shaft angle + (k - 1) pitch.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gaps.result import GapFilm, PositionSource, wall_power
+from reynolds.film import ZERO, Cavitation, FilmProblem, FilmSolution, Held, film
+from reynolds.loads import loads
+from reynolds.mesh import Array, rename, ring
+from reynolds.solve import FilmSolver
+from reynolds.space import film_space
+
+
+@dataclass(frozen=True)
+class ValvePlateGeometry:
+    """Land radii R1 < R2 < R3 < R4 (m), chambers, kidney arc (rad) and the ports' arcs (rad, from, to).
+
+    Ports are sectors of the valve plate between R2 and R3, in pump angle; kidneys are taken as sectors of the
+    same width (rounded ends are not modelled: their effect on the webs is under 0.1 of a web).
+    """
+
+    land_radii: tuple[float, float, float, float]
+    pistons: int
+    kidney_arc: float
+    suction_arc: tuple[float, float]
+    delivery_arc: tuple[float, float]
+
+
+@dataclass(frozen=True)
+class ValvePlateState:
+    """Instant of the block, SI: shaft angle rad, pressures Pa (chamber: one a kidney), speed rad/s."""
+
+    shaft_angle: float
+    chamber_pressure: Array
+    suction_pressure: float
+    delivery_pressure: float
+    case_pressure: float
+    cavitation_pressure: float
+    viscosity: float
+    shaft_speed: float
+
+
+@dataclass(frozen=True)
+class ValvePlatePosition:
+    """Film thickness on the shaft axis (m) and the block's slopes dh/dx and dh/dy (rad), fixed in space."""
+
+    film_thickness: float
+    slope_x: float
+    slope_y: float
+
+
+@dataclass(frozen=True)
+class ValvePlateFilm:
+    """The ring's film with what each chamber and port gives into it.
+
+    chamber_flows (z,), suction_flow and delivery_flow m3/s into the film; conductances (z,) m3/(s Pa) of each
+    kidney with everything else at rest and at zero pressure; separating_force N of film, kidneys and ports
+    above case pressure with its moments (N m, integrals of p y and of -p x).
+    """
+
+    gap: GapFilm
+    chamber_flows: Array
+    conductances: Array
+    suction_flow: float
+    delivery_flow: float
+    separating_force: float
+    separating_moment: tuple[float, float]
+
+
+class ValvePlateGap:
+    """Films of the ring; cells = (cells across a land, cells a kidney pitch).
+
+    `cells[1]` should put mesh lines on kidney and port edges (a multiple of 16 does for 30 deg in 40 deg).
+    """
+
+    def __init__(self, geometry: ValvePlateGeometry, cells: tuple[int, int] = (8, 32)) -> None:
+        self.geometry = geometry
+        r1, r2, r3, r4 = geometry.land_radii
+        land, web = cells[0], cells[0]
+        radii = np.concatenate(
+            [np.linspace(r1, r2, land + 1), np.linspace(r2, r3, web + 1)[1:], np.linspace(r3, r4, land + 1)[1:]]
+        )
+        around = cells[1] * geometry.pistons
+        middle = (np.arange(around) + 0.5) * 2.0 * np.pi / around
+        pitch = 2.0 * np.pi / geometry.pistons
+        in_kidney = np.abs((middle + 0.5 * pitch) % pitch - 0.5 * pitch) < 0.5 * geometry.kidney_arc
+        keep = np.ones((len(radii) - 1, around), dtype=bool)
+        keep[land : land + web, in_kidney] = False
+        mesh = ring(radii, around, keep=keep)
+        names = {f"hole_{k}": f"kidney_{k + 1}" for k in range(geometry.pistons)}
+        self._space = film_space(rename(mesh, names))
+        self._solver = FilmSolver(self._space)
+        self._last: FilmSolution | None = None
+        self._kidneys = [f"kidney_{k + 1}" for k in range(geometry.pistons)]
+        radius = np.hypot(*self._space.vertices.T)
+        between = (radius > r2 * (1.0 + 1e-9)) & (radius < r3 * (1.0 - 1e-9))
+        self._over_port = between | np.isclose(radius, r2) | np.isclose(radius, r3)
+
+    def problem(self, state: ValvePlateState, position: ValvePlatePosition) -> FilmProblem:
+        """The film problem at a shaft angle; raises FilmInputError where the block touches the plate."""
+        c, s = np.cos(state.shaft_angle), np.sin(state.shaft_angle)
+        space = self._space.moved(self._space.vertices @ np.array([[c, s], [-s, c]]))
+        x, y = space.points
+        boundary = {"inner": Held(state.case_pressure), "outer": Held(state.case_pressure)}
+        boundary |= {name: Held(float(p)) for name, p in zip(self._kidneys, state.chamber_pressure, strict=True)}
+        return FilmProblem(
+            space=space,
+            film=film(
+                position.film_thickness + position.slope_x * x + position.slope_y * y,
+                state.viscosity,
+                velocity_moving=(-state.shaft_speed * y, state.shaft_speed * x),
+            ),
+            boundary=boundary,
+            cavitation=Cavitation.REYNOLDS,
+            cavitation_pressure=state.cavitation_pressure,
+            held_nodes=self._port_nodes(space.vertices, state),
+        )
+
+    def at(self, state: ValvePlateState, position: ValvePlatePosition, pressing_force: float) -> ValvePlateFilm:
+        """The ring's film at a given position, and how much of the pressing force (N) it holds."""
+        solution = self._last = self._solver.solve(self.problem(state, position), self._last)
+        is_film = self._is_film(solution, state)
+        integrals = loads(solution, is_film)
+        chambers = np.array([-integrals.flow[name] for name in self._kidneys])
+        suction, delivery = self._port_flows(solution, state)
+        force, moment = self._separating(solution, state)
+        gap = GapFilm(
+            solution=solution,
+            loads=integrals,
+            source=PositionSource.GIVEN,
+            position=np.array([position.film_thickness, position.slope_x, position.slope_y]),
+            chamber_flow=float(chambers.sum()),
+            leakage_flow=integrals.flow["inner"] + integrals.flow["outer"],
+            conductance=0.0,
+            friction_power=wall_power(solution, is_film),
+            required_load=pressing_force,
+            carried_load=force,
+            verdict="position given",
+        )
+        conductances = self._conductances(solution, state)
+        total = replace(gap, conductance=float(conductances.sum()))
+        return ValvePlateFilm(total, chambers, conductances, suction, delivery, force, moment)
+
+    def _ports(self, state: ValvePlateState) -> list[tuple[tuple[float, float], float]]:
+        return [
+            (self.geometry.suction_arc, state.suction_pressure),
+            (self.geometry.delivery_arc, state.delivery_pressure),
+        ]
+
+    def _port_nodes(self, vertices: Array, state: ValvePlateState, *, at_rest: bool = False) -> Array:
+        """Pressure of the unknowns over a port (Pa, or 0 at rest), NaN elsewhere and on the kidneys' edges."""
+        nodes = np.full(self._space.size, np.nan)
+        for arc, pressure in self._ports(state):
+            nodes[self._vertices_in(vertices, arc)] = 0.0 if at_rest else pressure
+        for name in self._kidneys:
+            nodes[self._space.edge_dofs[name]] = np.nan
+        return nodes
+
+    def _vertices_in(self, vertices: Array, arc: tuple[float, float]) -> NDArray[np.int32]:
+        """Unknowns of the kidney ring that lie over a port, its edges included."""
+        angle = np.arctan2(vertices[:, 1], vertices[:, 0])
+        span = (angle - arc[0] + 1e-9) % (2.0 * np.pi)
+        return self._space.vertex_dofs[self._over_port & (span <= arc[1] - arc[0] + 2e-9)]
+
+    def _is_film(self, solution: FilmSolution, state: ValvePlateState) -> Array:
+        """1 for cells that shear a film, 0 for webs over a port, (cells, 1)."""
+        space = solution.problem.space
+        x, y = space.vertices[space.cells].mean(axis=1).T
+        radius, angle = np.hypot(x, y), np.arctan2(y, x)
+        in_ring = (radius > self.geometry.land_radii[1]) & (radius < self.geometry.land_radii[2])
+        over = np.zeros(len(x), dtype=bool)
+        for arc, _ in self._ports(state):
+            over |= (angle - arc[0]) % (2.0 * np.pi) < arc[1] - arc[0]
+        return np.where(in_ring & over, 0.0, 1.0)[:, None]
+
+    def _port_flows(self, solution: FilmSolution, state: ValvePlateState) -> tuple[float, float]:
+        """Flow from the suction and the delivery port into the film (m3/s), through webs that cross them."""
+        named = np.zeros(solution.problem.space.size, dtype=bool)
+        for nodes in solution.problem.space.edge_dofs.values():
+            named[nodes] = True
+        flows = []
+        for arc, _ in self._ports(state):
+            nodes = np.unique(self._vertices_in(solution.problem.space.vertices, arc))
+            flows.append(float(-solution.outflow[nodes[~named[nodes]]].sum()))
+        return flows[0], flows[1]
+
+    def _separating(self, solution: FilmSolution, state: ValvePlateState) -> tuple[float, tuple[float, float]]:
+        """Force between block and plate above case pressure: mesh integral plus kidneys."""
+        integrals = loads(solution)
+        _, r2, r3, _ = self.geometry.land_radii
+        above = np.asarray(state.chamber_pressure) - state.case_pressure
+        centre = state.shaft_angle + 2.0 * np.pi / self.geometry.pistons * np.arange(self.geometry.pistons)
+        area = 0.5 * self.geometry.kidney_arc * (r3**2 - r2**2)
+        lever = 2.0 * np.sin(0.5 * self.geometry.kidney_arc) * (r3**3 - r2**3) / 3.0
+        lift = integrals.load - state.case_pressure * float(solution.problem.space.area.sum())
+        return lift + float(above.sum()) * area, (
+            integrals.moment_x + float(np.sum(above * np.sin(centre))) * lever,
+            integrals.moment_y - float(np.sum(above * np.cos(centre))) * lever,
+        )
+
+    def _conductances(self, solution: FilmSolution, state: ValvePlateState) -> Array:
+        """d flow / d pressure of each kidney, the other edges at rest, m3/(s Pa)."""
+        problem = solution.problem
+        still = replace(problem.film, velocity_moving=(ZERO, ZERO))
+        ports = self._port_nodes(problem.space.vertices, state, at_rest=True)
+        found = []
+        for name in self._kidneys:
+            edges = {edge: Held(1.0 if edge == name else 0.0) for edge in problem.boundary}
+            answer = self._solver.solve(
+                FilmProblem(problem.space, still, edges, Cavitation.NONE, held_nodes=ports)
+            )
+            found.append(-loads(answer).flow[name])
+        return np.array(found)
