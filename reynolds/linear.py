@@ -7,6 +7,8 @@ direct solvers below about 1e5 unknowns; above, conjugate gradients with algebra
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import qdldl
 from scipy.sparse import csc_array, csc_matrix, csr_array, triu
@@ -23,12 +25,12 @@ class Factor:
 
     def __init__(self) -> None:
         self._direct: qdldl.Solver | None = None
-        self._multigrid: tuple[csr_array, object] | None = None
+        self._multigrid: tuple[csr_array, Any] | None = None
 
     def update(self, upper: csc_array) -> None:
         """Take the upper triangle of a symmetric positive definite matrix; the pattern never changes."""
         if upper.shape[0] > DIRECT_LIMIT:
-            self._multigrid = _multigrid(upper)
+            self._multigrid = multigrid(upper)
             return
         matrix = csc_matrix((upper.data, upper.indices, upper.indptr), shape=upper.shape)
         if self._direct is None:
@@ -46,19 +48,20 @@ class Factor:
         return _conjugate_gradients(*self._multigrid, load)
 
 
-def _multigrid(upper: csc_array) -> tuple[csr_array, object]:
+def multigrid(upper: csc_array, max_coarse: int = 10) -> tuple[csr_array, Any]:
+    """The full matrix of an upper triangle and its algebraic multigrid, no coarser than about `max_coarse`."""
     import pyamg
 
     full = csr_array(upper + triu(upper, 1).T)
     full.indices, full.indptr = full.indices.astype(np.int32), full.indptr.astype(np.int32)
     # The minimum norm keeps positive couplings of stretched quadrilaterals out of the strength graph.
     strength = ("classical", {"theta": 0.25, "norm": "min"})
-    return full, pyamg.ruge_stuben_solver(full, strength=strength)
+    return full, pyamg.ruge_stuben_solver(full, strength=strength, max_coarse=max_coarse)
 
 
-def _conjugate_gradients(matrix: csr_array, hierarchy: object, load: Array) -> Array:
+def _conjugate_gradients(matrix: csr_array, hierarchy: Any, load: Array) -> Array:
     history: list[float] = []
-    answer = hierarchy.solve(load, tol=ITERATIVE_TOLERANCE, accel="cg", maxiter=200, residuals=history)  # type: ignore[attr-defined]
+    answer = hierarchy.solve(load, tol=ITERATIVE_TOLERANCE, accel="cg", maxiter=200, residuals=history)
     reached = np.linalg.norm(load - matrix @ answer)
     if reached > 1e3 * ITERATIVE_TOLERANCE * np.linalg.norm(load):
         raise FilmNotConverged(

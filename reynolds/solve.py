@@ -2,7 +2,8 @@
 
 Each step solves the linearised balance for the change of pressure. Without cavitation and with linear feeds
 the first step is exact; the second would change nothing. Reynolds' condition is the complementarity
-p >= p_c, r >= 0, (p - p_c) r = 0 solved by a primal-dual active set (Hintermueller, Ito and Kunisch 2002).
+p >= p_c, r >= 0, (p - p_c) r = 0 solved by a primal-dual active set (Hintermueller, Ito and Kunisch 2002)
+that starts from coarser problems.
 """
 
 from __future__ import annotations
@@ -11,8 +12,10 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.sparse import csc_array
 
 from reynolds import kernels
+from reynolds.cascade import COARSEST, nested_cavity
 from reynolds.errors import FilmInputError, FilmNotConverged
 from reynolds.film import Cavitation, Film, FilmProblem, FilmSolution, Held, Pocket
 from reynolds.linear import Factor
@@ -54,11 +57,12 @@ class FilmSolver:
         pressure = setting.pressure.copy()
         if start is not None:
             pressure = np.where(setting.held, pressure, start.pressure)
-        cavity = np.zeros(space.size, dtype=bool)
-        if start is not None and problem.cavitation is Cavitation.REYNOLDS:
-            cavity = start.cavity & ~setting.held
-            pressure[cavity] = problem.cavitation_pressure
         stiffness = _stiffness(space, flows[0])
+        cavity = np.zeros(space.size, dtype=bool)
+        if problem.cavitation is Cavitation.REYNOLDS:
+            found = start.cavity if start is not None else _first_cavity(space, setting, stiffness, flows)
+            cavity = found & ~setting.held
+            pressure[cavity] = problem.cavitation_pressure
         for iteration in range(1, MAX_ITERATIONS + 1):
             pressure = self._step(space, pressure, setting, setting.held | cavity, stiffness, flows)
             balance, size = _balance(space, flows, pressure)
@@ -85,19 +89,40 @@ class FilmSolver:
         flows: FlowTerms,
     ) -> Array:
         """Newton step of the free unknowns; fixed ones stay at the pressure they have."""
-        balance, _ = _balance(space, flows, pressure)
-        gain = np.zeros(space.size)
-        for node, pocket in setting.pockets:
-            inflow, slope = pocket.feed(pressure[node])
-            balance[node] -= inflow
-            gain[node] = -slope
-        # Conductances are 1e-15 to 1e-9: scaled to order one they stay clear of any pivot threshold.
-        scale = stiffness.max()
-        data = np.empty_like(stiffness)
-        pattern = space.pattern
-        kernels.hold(pattern.indptr, pattern.indices, stiffness / scale, fixed, gain / scale, data)
-        self._factor.update(space.matrix(data))
-        return pressure + self._factor.solve(np.where(fixed, 0.0, -balance / scale))
+        matrix, load = _linearised(space, pressure, setting, fixed, stiffness, flows)
+        self._factor.update(matrix)
+        return pressure + self._factor.solve(load)
+
+
+def _linearised(
+    space: FilmSpace,
+    pressure: Array,
+    setting: _Setting,
+    fixed: NDArray[np.bool_],
+    stiffness: Array,
+    flows: FlowTerms,
+) -> tuple[csc_array, Array]:
+    """Upper triangle and right-hand side of the balance for the change of pressure, identity where fixed."""
+    balance, _ = _balance(space, flows, pressure)
+    gain = np.zeros(space.size)
+    for node, pocket in setting.pockets:
+        inflow, slope = pocket.feed(pressure[node])
+        balance[node] -= inflow
+        gain[node] = -slope
+    # Conductances are 1e-15 to 1e-9: scaled to order one they stay clear of any pivot threshold.
+    scale = stiffness.max()
+    data = np.empty_like(stiffness)
+    pattern = space.pattern
+    kernels.hold(pattern.indptr, pattern.indices, stiffness / scale, fixed, gain / scale, data)
+    return space.matrix(data), np.where(fixed, 0.0, -balance / scale)
+
+
+def _first_cavity(space: FilmSpace, setting: _Setting, stiffness: Array, flows: FlowTerms) -> NDArray[np.bool_]:
+    """Cavity to start from: none on a small mesh, else what coarser problems find."""
+    if space.size <= COARSEST:
+        return np.zeros(space.size, dtype=bool)
+    # Free unknowns of the spread pressures stand at cavitation pressure: the step from there is p - p_c.
+    return nested_cavity(*_linearised(space, setting.pressure, setting, setting.held, stiffness, flows))
 
 
 def _stiffness(space: FilmSpace, conductance: Array) -> Array:
