@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import math
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from difflib import get_close_matches
 
@@ -24,10 +25,12 @@ class Fault:
 class InputFaults(Exception):
     """All faults of one input at once. `source` is the file, the built-in name or the command line.
 
-    `lines` gives the line of a path in the file, where it is known.
+    `lines` gives the line of a path in the file, where it is known; None for what does not stand in the file.
     """
 
-    def __init__(self, source: str, faults: Sequence[Fault], lines: dict[str, int] | None = None) -> None:
+    def __init__(
+        self, source: str, faults: Sequence[Fault], lines: Mapping[str, int | None] | None = None
+    ) -> None:
         self.source = source
         self.faults = tuple(faults)
         self.lines = dict(lines or {})
@@ -36,14 +39,13 @@ class InputFaults(Exception):
     def __str__(self) -> str:
         """One block of text: the source, then each fault with its line, in the order of the file."""
         count = f"{len(self.faults)} fault" + ("s" if len(self.faults) != 1 else "")
-        last = max(self.lines.values(), default=0) + 1
-        ordered = sorted(self.faults, key=lambda fault: self._line(fault) or last)
+        ordered = sorted(self.faults, key=lambda fault: self._line(fault) or math.inf)
         return "\n".join([f"{self.source}: {count}", *(self._block(fault) for fault in ordered)])
 
     def _line(self, fault: Fault) -> int | None:
-        """Return the line of the path, or of the section that holds it."""
+        """Return the line of the path, or of the section that it is missing from."""
         section = fault.path.rpartition(".")[0]
-        return self.lines.get(fault.path) or self.lines.get(section)
+        return self.lines.get(fault.path, self.lines.get(section))
 
     def _block(self, fault: Fault) -> str:
         line = self._line(fault)

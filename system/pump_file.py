@@ -42,14 +42,14 @@ def load_pump(source: str | Path, overrides: Mapping[str, object] | None = None)
     """
     label, text = _read(source)
     tables = _parse(label, text)
-    lines = key_lines(text)
+    lines: dict[str, int | None] = {**key_lines(text)}
     for path, value in (overrides or {}).items():
         section, _, key = path.rpartition(".")
         table = tables.setdefault(section, {}) if section else tables
         if isinstance(table, dict):
             table.pop(key + ABSOLUTE, None)
             table[key] = value
-        lines.pop(path, None)
+        lines[path] = None
     return _describe(label, tables, lines)
 
 
@@ -139,7 +139,7 @@ class _Reading:
         self.told.add(f"{section}{near}")
 
 
-def _describe(label: str, tables: Mapping[str, Any], lines: dict[str, int]) -> PumpDescription:
+def _describe(label: str, tables: Mapping[str, Any], lines: Mapping[str, int | None]) -> PumpDescription:
     """Return the description of the tables, or raise all their faults, those of the checks included."""
     reading = _Reading()
     name = tables.get("name")
