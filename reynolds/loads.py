@@ -8,8 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from reynolds import kernels
-from reynolds.film import Film, FilmSolution, Pocket
+from reynolds.film import Cavitation, Film, FilmSolution, Pocket
 from reynolds.mesh import Array
+from reynolds.solve import flow_terms
 
 
 @dataclass(frozen=True)
@@ -97,10 +98,10 @@ def loads(solution: FilmSolution, weight: Array | None = None) -> Loads:
     x, y = space.points
     moving = [float(np.sum(t * rubbing)) for t in fields.shear_moving]
     fixed = [float(np.sum(t * rubbing)) for t in fields.shear_fixed]
-    flow = boundary_flows(solution)
+    flow, drawn = _edge_flows(solution)
     squeeze_flow = float(np.sum(film.squeeze * area))
-    cavity_flow = float(-solution.outflow[solution.cavity].sum()) if solution.cavity.any() else 0.0
-    out = float(solution.outflow[solution.held].sum()) + _pocket_flow(solution)
+    cavity_flow = -float(solution.outflow[solution.cavity].sum()) - drawn
+    out = float(solution.outflow[solution.held].sum()) - drawn + _pocket_flow(solution)
     throughput = max(
         float(np.abs(solution.outflow[solution.held]).sum()) + float(np.sum(np.abs(film.squeeze) * area)),
         1e-300,
@@ -130,19 +131,45 @@ def loads(solution: FilmSolution, weight: Array | None = None) -> Loads:
 def boundary_flows(solution: FilmSolution) -> dict[str, float]:
     """Flow through each named boundary (m3/s, positive out), from the consistent nodal residuals.
 
-    A corner's flow is divided between the held boundaries that meet there by the length of their facets. A
-    closed boundary's flow is zero by construction.
+    A corner's Poiseuille flow is divided between the held boundaries that meet there by their length, its
+    Couette flow by their direction. What a cavity that reaches the boundary draws is not a flow through the
+    boundary. A closed boundary's flow is zero by construction.
     """
+    return _edge_flows(solution)[0]
+
+
+def _edge_flows(solution: FilmSolution) -> tuple[dict[str, float], float]:
+    """Flow through each named boundary, and what Reynolds' condition draws (<= 0) where a cavity meets one."""
     space = solution.problem.space
-    named = [name for name in space.edge_dofs if name in solution.problem.boundary]
-    total = np.zeros(space.size)
-    for name in named:
-        total[space.edge_dofs[name]] += space.edge_share[name]
+    couette = _couette_through(solution)
+    length, rest = np.zeros(space.size), solution.outflow.copy()
+    for name, across in couette.items():
+        length[space.edge_dofs[name]] += space.edge_share[name]
+        rest[space.edge_dofs[name]] -= across
+    # At a boundary at cavitation pressure no pressure inside is lower, so that no Poiseuille flow can enter:
+    # what does in the nodal balance is the cavity's own supply in the last row of cells.
+    drawn = np.zeros(space.size)
+    if solution.problem.cavitation is Cavitation.REYNOLDS:
+        level = solution.held & (length > 0.0) & (solution.pressure <= solution.problem.cavitation_pressure)
+        drawn[level] = np.minimum(rest[level], 0.0)
     flows = dict.fromkeys(space.edge_dofs, 0.0)
-    for name in named:
+    for name, across in couette.items():
         nodes = space.edge_dofs[name]
-        flows[name] = float(np.sum(solution.outflow[nodes] * space.edge_share[name] / total[nodes]))
-    return flows
+        share = space.edge_share[name] / length[nodes]
+        flows[name] = float(np.sum(across + (rest - drawn)[nodes] * share))
+    return flows, float(drawn.sum())
+
+
+def _couette_through(solution: FilmSolution) -> dict[str, Array]:
+    """Couette flow (m3/s, positive out) at each unknown of each boundary with a condition."""
+    space = solution.problem.space
+    _, flux_x, flux_y, _ = flow_terms(solution.problem.film)
+    nodal = np.column_stack([space.to_unknowns(flux_x), space.to_unknowns(flux_y)])
+    return {
+        name: np.sum(nodal[space.edge_dofs[name]] * space.edge_normal[name], axis=1)
+        for name in space.edge_dofs
+        if name in solution.problem.boundary
+    }
 
 
 def _pocket_flow(solution: FilmSolution) -> float:

@@ -54,8 +54,8 @@ class FilmSpace:
     """Unknowns and geometry of a film mesh.
 
     vertices (n, 2) m, cells (cells, corners), dofs (cells, basis) into `size` unknowns; `edge_dofs` and
-    `edge_share` give a named boundary's unknowns and the length of its facets at each (m), by which a corner
-    shared by two boundaries divides its flow. `degree` is 1 (P1, Q1) or 2 (P2, Q2).
+    `facet_dofs` (2 | 3, facets) give a named boundary's unknowns, sorted, and those of each of its facets.
+    `degree` is 1 (P1, Q1) or 2 (P2, Q2).
     """
 
     film_mesh: FilmMesh
@@ -67,7 +67,7 @@ class FilmSpace:
     reference: Reference
     pattern: Pattern
     edge_dofs: Mapping[str, NDArray[np.int64]]
-    edge_share: Mapping[str, Array]
+    facet_dofs: Mapping[str, NDArray[np.int64]]
 
     @cached_property
     def area(self) -> Array:
@@ -81,6 +81,31 @@ class FilmSpace:
         """Coordinates of the quadrature points, (2, cells, points), m."""
         corners = self.vertices[self.cells]
         return np.moveaxis(np.einsum("qv,evd->eqd", self.reference.geometry_value, corners), 2, 0)
+
+    @cached_property
+    def edge_share(self) -> dict[str, Array]:
+        """Integral of each unknown's basis along each named boundary (m), in the order of edge_dofs."""
+        return {
+            name: self._along(name, np.hypot(*_tangent(self, self.film_mesh.mesh.boundaries[name])))
+            for name in self.edge_dofs
+        }
+
+    @cached_property
+    def edge_normal(self) -> dict[str, Array]:
+        """The same integral of basis times outward normal, (unknowns, 2) m; zero on a line inside the film."""
+        return {
+            name: np.column_stack(
+                [self._along(name, n) for n in _outward(self, self.film_mesh.mesh.boundaries[name])]
+            )
+            for name in self.edge_dofs
+        }
+
+    def _along(self, name: str, per_facet: Array) -> Array:
+        """Trapezium rule for a linear basis, Simpson's for a quadratic one: exact integrals of the basis."""
+        facets = self.facet_dofs[name]
+        weights = np.array([0.5, 0.5]) if len(facets) == 2 else np.array([1.0, 1.0, 4.0]) / 6.0
+        total = np.bincount(facets.ravel(), weights=np.outer(weights, per_facet).ravel(), minlength=self.size)
+        return np.asarray(total[self.edge_dofs[name]], dtype=float)
 
     @cached_property
     def vertex_dofs(self) -> NDArray[np.int32]:
@@ -107,13 +132,16 @@ class FilmSpace:
 
     def to_vertices(self, field: Array) -> Array:
         """Field at quadrature points -> vertices, exact for a linear field; jumps are averaged (plots)."""
-        full = np.broadcast_to(field, self.area.shape)
-        corner = full @ np.linalg.pinv(self.reference.geometry_value).T
-        total = np.zeros(len(self.vertices))
-        count = np.zeros(len(self.vertices))
-        np.add.at(total, self.cells, corner)
-        np.add.at(count, self.cells, 1.0)
-        return total / np.maximum(count, 1.0)
+        return self._average(field, self.reference.geometry_value, self.cells, len(self.vertices))
+
+    def to_unknowns(self, field: Array) -> Array:
+        """Field at quadrature points -> unknowns (size,), exact for a field of the space; jumps are averaged."""
+        return self._average(field, self.reference.value, self.dofs, self.size)
+
+    def _average(self, field: Array, basis: Array, numbers: NDArray[np.int32], size: int) -> Array:
+        local = np.broadcast_to(field, self.area.shape) @ np.linalg.pinv(basis).T
+        total = np.bincount(numbers.ravel(), weights=local.ravel(), minlength=size)
+        return total / np.maximum(np.bincount(numbers.ravel(), minlength=size), 1)
 
     def moved(self, vertices: Array) -> FilmSpace:
         """The same topology and pattern with other vertex coordinates (m)."""
@@ -137,7 +165,7 @@ def film_space(film_mesh: FilmMesh, *, degree: int = 1, pockets: Iterable[str] =
     tied = _tie(film_mesh, dofs, tuple(pockets))
     numbers, joined = np.unique(tied, return_inverse=True)
     cell_dofs = joined[dofs.element_dofs.T].astype(np.int32)
-    edge_dofs, edge_share = _edges(film_mesh, dofs, joined)
+    facet_dofs = _facet_dofs(film_mesh, dofs, joined)
     return FilmSpace(
         film_mesh=film_mesh,
         degree=degree,
@@ -147,8 +175,8 @@ def film_space(film_mesh: FilmMesh, *, degree: int = 1, pockets: Iterable[str] =
         size=len(numbers),
         reference=_reference(mesh, element, dofs.X, dofs.W),
         pattern=_pattern(cell_dofs, len(numbers)),
-        edge_dofs=edge_dofs,
-        edge_share=edge_share,
+        edge_dofs={name: np.unique(on) for name, on in facet_dofs.items()},
+        facet_dofs=facet_dofs,
     )
 
 
@@ -194,23 +222,34 @@ def _tie(film_mesh: FilmMesh, basis: skfem.Basis, pockets: tuple[str, ...]) -> N
     return leader
 
 
-def _edges(
+def _facet_dofs(
     film_mesh: FilmMesh, basis: skfem.Basis, joined: NDArray[np.int64]
-) -> tuple[dict[str, NDArray[np.int64]], dict[str, Array]]:
-    found: dict[str, NDArray[np.int64]] = {}
-    share: dict[str, Array] = {}
-    mesh = film_mesh.mesh
+) -> dict[str, NDArray[np.int64]]:
+    """Unknowns of the facets of each named boundary: both ends, and the middle of a quadratic one."""
+    found = {}
     for name in film_mesh.boundary_names:
-        facets = mesh.boundaries[name]
-        ends = mesh.p[:, mesh.facets[:, facets]]
-        length = np.sqrt(((ends[:, 0] - ends[:, 1]) ** 2).sum(axis=0))
-        on = basis.dofs.nodal_dofs[0][mesh.facets[:, facets]]
+        facets = film_mesh.mesh.boundaries[name]
+        on = basis.dofs.nodal_dofs[0][film_mesh.mesh.facets[:, facets]]
         if basis.dofs.facet_dofs.size:
             on = np.vstack([on, basis.dofs.facet_dofs[0][facets]])
-        total = np.bincount(joined[on].ravel(), weights=np.tile(length, len(on)), minlength=joined.max() + 1)
-        found[name] = np.flatnonzero(total)
-        share[name] = np.asarray(total[found[name]], dtype=float)
-    return found, share
+        found[name] = joined[on]
+    return found
+
+
+def _tangent(space: FilmSpace, facets: NDArray[np.int64]) -> Array:
+    first, second = space.film_mesh.mesh.facets[:, facets]
+    return np.asarray((space.vertices[second] - space.vertices[first]).T)
+
+
+def _outward(space: FilmSpace, facets: NDArray[np.int64]) -> Array:
+    """Outward normal times length of each facet, (2, facets) m; zero for a facet with film on both sides."""
+    mesh = space.film_mesh.mesh
+    tangent = _tangent(space, facets)
+    normal = np.stack([tangent[1], -tangent[0]])
+    inside = space.vertices[space.cells[mesh.f2t[0, facets]]].mean(axis=1)
+    away = (space.vertices[mesh.facets[0, facets]] - inside).T
+    towards = np.sign((normal * away).sum(axis=0))
+    return np.where(mesh.f2t[1, facets] < 0, normal * towards, 0.0)
 
 
 def _pattern(dofs: NDArray[np.int32], size: int) -> Pattern:
