@@ -1,0 +1,138 @@
+"""Kinematics of the conical-block swash plate machine: the paper's Eqs. (6)-(9), corrected.
+
+Shaft angle 0 is the inner dead centre (smallest chamber); 0 .. pi is suction. All laws are written with the
+scale R tan(gamma)/cos(beta) in place of the paper's (R/sin(beta)) t, t = tan(beta) tan(gamma): the same number,
+and finite for a cylindrical block (beta = 0). All are valid for t < 1 (the swash plane cuts every bore axis).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class SwashDrive:
+    """Geometry that moves the pistons: pitch_radius in m (ball centres at zero swash), angles in rad.
+
+    Raises ValueError when the swash plane no longer cuts every bore axis (tan(beta) tan(gamma) >= 1).
+    """
+
+    pitch_radius: float
+    bore_cone_angle: float
+    swash_angle: float
+
+    def __post_init__(self) -> None:
+        if not 0.0 <= self.cone_swash_product < 1.0:
+            raise ValueError(
+                f"swash angle {np.degrees(self.swash_angle):.3g} deg with bore cone angle "
+                f"{np.degrees(self.bore_cone_angle):.3g} deg: tan(cone) tan(swash) is "
+                f"{self.cone_swash_product:.3g}, expected 0 or more and below 1"
+            )
+
+    @property
+    def cone_swash_product(self) -> float:
+        """t = tan(beta) tan(gamma), dimensionless; zero for a cylindrical block."""
+        return float(np.tan(self.bore_cone_angle) * np.tan(self.swash_angle))
+
+    @property
+    def stroke_scale(self) -> float:
+        """R tan(gamma)/cos(beta) in m: half the stroke of the machine but for terms of order t^2."""
+        return float(self.pitch_radius * np.tan(self.swash_angle) / np.cos(self.bore_cone_angle))
+
+
+def piston_displacement(drive: SwashDrive, shaft_angle: Array | float) -> Array:
+    """Way of the piston out of the block from its inner dead centre, in m; paper Eq. (6).
+
+    Solves S = (R/sin b) t/(1+t) (1-cos phi)/(1+t cos phi); shape of `shaft_angle` (rad).
+    """
+    t = drive.cone_swash_product
+    c = np.cos(shaft_angle)
+    return np.asarray(drive.stroke_scale * (1.0 - c) / ((1.0 + t) * (1.0 + t * c)))
+
+
+def stroke(drive: SwashDrive) -> float:
+    """Full stroke in m, Eq. (6) at the outer dead centre: H = (R/sin b) 2t/(1-t^2)."""
+    return 2.0 * drive.stroke_scale / (1.0 - drive.cone_swash_product**2)
+
+
+def piston_velocity(drive: SwashDrive, shaft_angle: Array | float, shaft_speed: float) -> Array:
+    """Velocity of the piston along its bore in m/s, positive out of the block; paper Eq. (7).
+
+    Solves v = w (R/sin b) t sin phi/(1+t cos phi)^2; shaft_speed w in rad/s.
+    """
+    t = drive.cone_swash_product
+    return np.asarray(
+        shaft_speed * drive.stroke_scale * np.sin(shaft_angle) / (1.0 + t * np.cos(shaft_angle)) ** 2
+    )
+
+
+def piston_acceleration(drive: SwashDrive, shaft_angle: Array | float, shaft_speed: float) -> Array:
+    """Acceleration of the piston along its bore in m/s2 at constant shaft speed; paper Eq. (8), corrected.
+
+    Solves a = w^2 (R/sin b) [t^2 (1+sin^2 phi) + t cos phi]/(1+t cos phi)^3. The print has cos phi where the
+    derivative of Eq. (7) has t cos phi: 39 times too large at 5 deg cone and 16.2 deg swash.
+    """
+    t = drive.cone_swash_product
+    c, s = np.cos(shaft_angle), np.sin(shaft_angle)
+    return np.asarray(
+        shaft_speed**2 * drive.stroke_scale * (t * (1.0 + s**2) + c) / (1.0 + t * c) ** 3,
+    )
+
+
+def slipper_sliding_velocity(drive: SwashDrive, shaft_angle: Array | float, shaft_speed: float) -> Array:
+    """Velocity of the slipper's ball centre on the swash plate in m/s; paper Eq. (9), corrected.
+
+    Shape (2, ...): along the swash plate's steepest line (the one square to its tilt axis) and along the tilt
+    axis: v = R w (-sin phi/cos g, cos phi + t)/(1+t cos phi)^2. The printed Eq. (9) is 0.975 .. 1.079 times this
+    magnitude over a turn of the paper's pump.
+    """
+    t = drive.cone_swash_product
+    c, s = np.cos(shaft_angle), np.sin(shaft_angle)
+    scale = drive.pitch_radius * shaft_speed / (1.0 + t * c) ** 2
+    return np.stack([-scale * s / np.cos(drive.swash_angle), scale * (c + t)])
+
+
+def slipper_sliding_speed(drive: SwashDrive, shaft_angle: Array | float, shaft_speed: float) -> Array:
+    """Magnitude of `slipper_sliding_velocity` in m/s, shape of `shaft_angle`; paper Eq. (9), corrected."""
+    return np.hypot(*slipper_sliding_velocity(drive, shaft_angle, shaft_speed))
+
+
+def swash_angle_for_stroke(stroke_length: float, pitch_radius: float, bore_cone_angle: float) -> float:
+    """Swash angle in rad that gives a stroke in m: the positive root of H (1-t^2) = 2 R tan(g)/cos(b).
+
+    Written as tan g = H/(r + sqrt(r^2 + H^2 tan^2 b)), r = R/cos(b), which is exact for a cylindrical block.
+    """
+    radius = pitch_radius / np.cos(bore_cone_angle)
+    root = np.hypot(radius, stroke_length * np.tan(bore_cone_angle))
+    return float(np.arctan(stroke_length / (radius + root)))
+
+
+def drive_at_ratio(full: SwashDrive, displacement_ratio: float) -> SwashDrive:
+    """The same pump set to a fraction of its full displacement; `full` is the drive at its largest swash angle.
+
+    Displacement is proportional to the stroke, so the swash angle is the inverse of Eq. (6) at
+    `displacement_ratio` (0 .. 1) times the full stroke.
+    """
+    wanted = displacement_ratio * stroke(full)
+    angle = swash_angle_for_stroke(wanted, full.pitch_radius, full.bore_cone_angle)
+    return SwashDrive(full.pitch_radius, full.bore_cone_angle, angle)
+
+
+def stand_out(full: SwashDrive, drive: SwashDrive) -> float:
+    """How far the piston stands out at its inner dead centre beyond full displacement, in m: (H_max - H)/2.
+
+    The plate pivots on the shaft axis, so both dead centres draw towards mid stroke as it is set back. Exact for
+    a cylindrical block; with a cone the mid point itself moves by less than t H_max/2 (0.33 mm on REF90), left
+    out so that the dead volume is the linear one REF90 states.
+    """
+    return (stroke(full) - stroke(drive)) / 2.0
+
+
+def displacement(pistons: int, piston_area: float, stroke_length: float) -> float:
+    """Geometric displacement per revolution in m3: z Ap H."""
+    return pistons * piston_area * stroke_length
