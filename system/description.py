@@ -50,7 +50,7 @@ class Section(BaseModel):
 class PumpSection(Section):
     """[pump]: the rotating group as a whole."""
 
-    pistons: int = Field(ge=3)
+    pistons: int = Field(ge=3, le=99)
     displacement: Displacement | None = None  # checked against the geometry, Eq. (6)
     swash_angle_max: AcuteAngle
     bore_cone_angle: Annotated[float, Dimension.ANGLE, Field(ge=0.0, lt=math.pi / 2)]

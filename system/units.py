@@ -5,6 +5,7 @@ The unit registry of pint costs some 0.4 s, so it is made at the first quantity,
 
 from __future__ import annotations
 
+import math
 import re
 from dataclasses import dataclass
 from enum import Enum
@@ -16,6 +17,8 @@ if TYPE_CHECKING:
     import pint
 
 STANDARD_ATMOSPHERE = 101325.0  # Pa; gauge pressure = absolute pressure - this
+
+LARGEST = Fraction(10) ** 30  # in SI; with its inverse the range of sizes that machines have
 
 
 @dataclass(frozen=True)
@@ -87,7 +90,7 @@ def parse_quantity(text: object, dimension: Dimension) -> float:
     rpm, r/min, cm3, cm^3, cc/rev, mL/r, lpm, um, degC, cSt, mPa s and what pint knows are understood.
     Raises QuantityError for a bare number, a number that cannot be read, an unknown unit and a unit that
     measures something else; a turn or an angle is never left to be guessed ("90 cm3" is no displacement
-    per revolution and "35 Hz" no rotational speed).
+    per revolution and "35 Hz" no rotational speed). A size below 1e-30 or above 1e30 in SI is refused.
     """
     expected = f"{dimension.noun} with its unit, such as '{dimension.example}'"
     if isinstance(text, bool) or not isinstance(text, (str, int, float)):
@@ -103,26 +106,29 @@ def parse_quantity(text: object, dimension: Dimension) -> float:
         raise QuantityError(f"{_shown(text)}, a unit that is not known", expected)
     if not _measures(unit, dimension):
         raise QuantityError(f"{_shown(text)}, which is not {dimension.noun}", expected)
-    try:
-        return float((Fraction(number) * unit.factor + unit.offset) / _unit_of(dimension.si_unit).factor)
-    except OverflowError:
-        raise QuantityError(_shown(text), expected) from None
+    value = _in_si(number, unit, dimension)
+    if value != 0 and not 1 / LARGEST <= abs(value) <= LARGEST:
+        raise QuantityError(_shown(text), expected)
+    return float(value)
 
 
 def format_quantity(value: float, dimension: Dimension, digits: int | None = None) -> str:
     """Return an SI value as text with its unit, in the unit people read it in.
 
     With `digits` it is rounded to that many; without, `parse_quantity` gives back the same float to the
-    last bit (the SI unit is used where no shorter decimal does so).
+    last bit (the SI unit is used where no shorter decimal does so). Raises ValueError for a value that is
+    not finite.
     """
+    if not math.isfinite(value):
+        raise ValueError(f"{dimension.noun} of {value} {dimension.si_unit} cannot be shown")
     name = _reading_unit(value, dimension)
     shown = _in_unit(value, name, dimension)
     if digits is not None:
         return f"{_rounded(shown, digits)} {name}"
     for precision in range(1, 18):
-        text = f"{_rounded(shown, precision)} {name}"
-        if parse_quantity(text, dimension) == value:
-            return text
+        number = _rounded(shown, precision)
+        if float(_in_si(number, _unit_of(name), dimension)) == value:
+            return f"{number} {name}"
     return f"{value!r} {dimension.si_unit}"
 
 
@@ -141,7 +147,7 @@ def _registry() -> pint.UnitRegistry:
     """Return the one registry; its numbers are fractions, so that a unit adds no rounding of its own."""
     import pint
 
-    registry: pint.UnitRegistry = pint.UnitRegistry(non_int_type=Fraction)
+    registry: pint.UnitRegistry = pint.UnitRegistry(non_int_type=Fraction, on_redefinition="ignore")
     registry.define("@alias turn = rev = r")
     registry.define("lpm = liter / minute")
     registry.define("Nm = newton * meter")  # pint reads a count of textile yarn here
@@ -169,6 +175,11 @@ def _unit(text: str) -> _Unit | None:
         dimensionality=frozenset(unit.dimensionality.items()),
         counts_angle="degree" in names or any(word in name for name in names for word in _ANGLE_WORDS),
     )
+
+
+def _in_si(number: str, unit: _Unit, dimension: Dimension) -> Fraction:
+    """Return a decimal number of a unit in the SI unit of the dimension, without rounding."""
+    return (Fraction(number) * unit.factor + unit.offset) / _unit_of(dimension.si_unit).factor
 
 
 def _measures(unit: _Unit, dimension: Dimension) -> bool:
