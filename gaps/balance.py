@@ -32,8 +32,9 @@ class Equilibrium:
 def find_equilibrium(imbalance: Callable[[Array], Array], starts: Iterable[Array]) -> Equilibrium:
     """Solve imbalance(u) = 0 (relative forces and moments) from the given starts; the best answer.
 
-    Levenberg-Marquardt (Moré 1978) on unknowns that any real number is a valid position of. Stops at the first
-    start that reaches 1e-6. A start at which the film itself does not converge counts as a miss.
+    Levenberg-Marquardt (More 1978) on unknowns that any real number is a valid position of. Near an equilibrium
+    its steps shrink the imbalance manifold; where they gain less than 1e-5 there is none to be reached. Stops at
+    the first start that gets to 1e-6. A start at which the film itself does not converge counts as a miss.
     """
     best: Equilibrium | None = None
     spent = 0

@@ -140,7 +140,7 @@ class PistonGap:
         """The gap at the position where film force and moment balance the side force, else at `given`.
 
         Quasi-static: the position follows the load at once (no squeeze). `near` is tried first. Where no film
-        of at least 1 um balances, the gap stands at `given` and the verdict says why.
+        of at least SMALLEST_FILM balances, the gap stands at `given` and the verdict says why.
         """
         outer = self._outer(state, load)
         scale = max(float(np.hypot(*load.force)), 1.0)
@@ -163,10 +163,15 @@ class PistonGap:
                 self.solve(state, place), state, load, place, PositionSource.BALANCE, "force and moments balance"
             )
         verdict = (
-            f"no film of at least {SMALLEST_FILM * 1e6:.0f} um balances a side force of {scale:.0f} N acting "
+            f"no film of at least {SMALLEST_FILM * 1e6:.1f} um balances a side force of {scale:.0f} N acting "
             f"{load.arm * 1e3:.1f} mm outside the bore (nearest miss {answer.rest:.0%})"
         )
         return self._report(self.solve(state, given), state, load, given, PositionSource.GIVEN, verdict)
+
+    def again(self, before: GapFilm, state: PistonState, load: PistonLoad, given: Array) -> GapFilm:
+        """The gap at its given position, with the verdict of an earlier search that found no balance."""
+        solution = self.solve(state, given)
+        return self._report(solution, state, load, given, PositionSource.GIVEN, before.verdict)
 
     def _outer(self, state: PistonState, load: PistonLoad) -> Array:
         fx, fy = load.force

@@ -11,9 +11,9 @@ from reynolds.film import FilmSolution
 from reynolds.loads import Loads, point_fields
 from reynolds.mesh import Array
 
-# Below one micrometre the films of ground and lapped pump parts (Ra 0.1 to 0.4 um) are mixed: a smooth-wall
-# Reynolds solution is no longer valid there, so no balance is claimed with less.
-SMALLEST_FILM = 1e-6
+# Three times the composite roughness of ground and lapped pump parts (about 0.5 um): below a lambda ratio of 3 the
+# film is mixed and a smooth-wall Reynolds solution no longer valid, so no balance is claimed with less.
+SMALLEST_FILM = 1.5e-6
 
 
 class PositionSource(Enum):

@@ -1,7 +1,7 @@
 """The gap between slipper and swash plate: a sealing land around a pocket fed through the piston.
 
-Film plane: origin under the ball joint, x along the sliding velocity, y to its left seen from the slipper's
-back (the swash plate's inner normal is z). The frame does not turn. Boundaries: pocket, case.
+Film plane: origin under the ball joint, x along the sliding velocity, z the plate's normal away from the block,
+y = z cross x. The frame does not turn. Boundaries: pocket, case.
 """
 
 from __future__ import annotations
@@ -73,7 +73,7 @@ def hagen_poiseuille_conductance(diameter: float, length: float, viscosity: floa
 class SlipperGap:
     """Films of one slipper on a ring mesh (radial, around); the pocket is one unknown fed by the orifice."""
 
-    def __init__(self, geometry: SlipperGeometry, cells: tuple[int, int] = (16, 64)) -> None:
+    def __init__(self, geometry: SlipperGeometry, cells: tuple[int, int] = (12, 48)) -> None:
         self.geometry = geometry
         # Geometric spacing: the pressure falls with the logarithm of the radius.
         radii = np.geomspace(geometry.land_inner_radius, geometry.land_outer_radius, cells[0] + 1)
@@ -145,8 +145,8 @@ class SlipperGap:
     ) -> GapFilm:
         """The gap at the mean film and tilt where force and moments balance, else at `given`.
 
-        Quasi-static (no squeeze). `near` is tried first. Where no film of at least 1 um balances, the gap stands
-        at `given` and the verdict says why.
+        Quasi-static (no squeeze). `near` is tried first. Where no film of at least SMALLEST_FILM balances, the
+        gap stands at `given` and the verdict says why.
         """
         radius = self.geometry.land_outer_radius
         if load.force <= 0.0:
@@ -181,10 +181,14 @@ class SlipperGap:
             place = position(answer.unknowns)
             return self._report(state, load, place, PositionSource.BALANCE, "force and moments balance")
         verdict = (
-            f"no film of at least {SMALLEST_FILM * 1e6:.0f} um balances {load.force:.0f} N with moments "
+            f"no film of at least {SMALLEST_FILM * 1e6:.1f} um balances {load.force:.0f} N with moments "
             f"({load.moment_x:.2f}, {load.moment_y:.2f}) N m (nearest miss {answer.rest:.1%})"
         )
         return self._report(state, load, given, PositionSource.GIVEN, verdict)
+
+    def again(self, before: GapFilm, state: SlipperState, load: SlipperLoad, given: SlipperPosition) -> GapFilm:
+        """The gap at its given position, with the verdict of an earlier search that found no balance."""
+        return self._report(state, load, given, PositionSource.GIVEN, before.verdict)
 
     def conductance(self, state: SlipperState, position: SlipperPosition) -> float:
         """Pressure flow from chamber through orifice and land per pressure difference, m3/(s Pa), at rest."""
