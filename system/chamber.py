@@ -18,9 +18,10 @@ from system.ports import TURN, PortOpening, as_array, break_angles
 
 TOLERANCE = 1e-6
 """Largest local error of a step, of the port pressure difference; the closed revolution is good to about this."""
-PERIODICITY = 1e-7
+PERIODICITY = 1e-8
 """Largest change of the pressure at shaft angle 0 from one revolution to the next, of the pressure difference."""
 REVOLUTION_LIMIT = 60
+RUN_IN_NODES = 6
 
 
 @dataclass(frozen=True)
@@ -40,7 +41,7 @@ class LeakTable:
         shape = self.conductance.shape
         if len(shape) != 2 or shape[0] != 3 or shape[1] < 4 or self.carried_flow.shape != shape:
             raise ValueError(
-                f"leak table: found shapes {shape} and {self.carried_flow.shape}, expected (3, N) twice with N >= 4"
+                f"leak table: found shapes {shape} and {self.carried_flow.shape}, expected (3, N) with N >= 4"
             )
         if np.any(self.conductance < 0.0):
             raise ValueError(
@@ -67,6 +68,10 @@ class ChamberProblem:
     delivery_port: PortOpening
     suction_port: PortOpening
     leaks: LeakTable
+
+    def specific_volume(self, pressure: float) -> float:
+        """Volume of the oil at a pressure in Pa over its volume at zero gauge pressure."""
+        return float(kernel.oil_state(pressure, self.bulk_modulus)[0])
 
 
 @dataclass(frozen=True)
@@ -108,11 +113,11 @@ class Effort:
 class ChamberCycle:
     """One periodic revolution of one chamber.
 
-    Arrays over `shaft_angle` (N equidistant in [0, 2 pi), rad): pressure in Pa gauge, volume in m3, `flow` in m3/s
-    at chamber pressure, positive out. Per revolution: `outflow` in m3 at the density of zero gauge pressure,
-    `path_energy` in J (throttled in the ports; given off in the gaps, which includes `wall_work`), `wall_work` in J
-    (piston, slipper, valve plate: done by the moving walls on the oil they carry against the pressure, negative
-    sign of what the oil gives), `indicated_work` in J (-integral of p dV, done by the piston on the chamber).
+    Arrays over `shaft_angle` (N equidistant in [0, 2 pi), rad): pressure in Pa gauge, volume in m3, `flow` in
+    m3/s at chamber pressure, positive out. Per revolution: `outflow` in m3 at the density of zero gauge pressure;
+    `path_energy` in J, throttled in the ports and given off in the gaps; `carried_energy` in J (piston, slipper,
+    valve plate), the part of it that carried oil gives to the walls that carry it, which is not lost (negative:
+    the walls push the oil in); `indicated_work` in J, done by the piston on the chamber: -integral of p dV.
     """
 
     shaft_angle: Array
@@ -121,10 +126,15 @@ class ChamberCycle:
     flow: Paths
     outflow: Paths
     path_energy: Paths
-    wall_work: Array
+    carried_energy: Array
     indicated_work: float
     checks: ChamberChecks
     effort: Effort
+
+    @property
+    def cavitates(self) -> bool:
+        """Whether the chamber holds a cavity at any sampled shaft angle."""
+        return bool(np.min(self.pressure) < kernel.CAVITY_PRESSURE)
 
 
 def solve_cycle(problem: ChamberProblem, samples: int, tolerance: float = TOLERANCE) -> ChamberCycle:
@@ -132,34 +142,45 @@ def solve_cycle(problem: ChamberProblem, samples: int, tolerance: float = TOLERA
 
     Integrates Eq. (14) in its conservative form (see `chamber_kernel`) from break to break of the ports, turn by
     turn, until the pressure at shaft angle 0 repeats to PERIODICITY. Raises NotConverged when it does not within
-    REVOLUTION_LIMIT turns or when a step fails. Valid while the oil is liquid: see `cavitates` in `lumped`.
+    REVOLUTION_LIMIT turns or when a step fails. Where the pressure falls to
+    `chamber_kernel.CAVITY_PRESSURE` a cavity opens and fills again; the ports' and case's oil is always liquid.
     """
     chamber, table = _constants(problem), _spline_table(problem.leaks)
     nodes, sample_nodes = _nodes(problem, samples)
     pressures, rates = np.empty(nodes.size - 1), np.empty((nodes.size - 1, kernel.PATHS))
     totals = np.empty(2 * kernel.INTEGRALS)
     limit = PERIODICITY * _pressure_span(problem)
-    start, found = kernel.slaved_pressure(chamber, table, nodes[0])
-    if not found:
-        start = problem.inlet_pressure
-    for turn in range(1, REVOLUTION_LIMIT + 1):
+    start = _run_in(problem, chamber, table, nodes, tolerance)
+    turns, change = 0, np.inf
+    while abs(change) > limit:
+        if turns == REVOLUTION_LIMIT:
+            raise NotConverged(
+                f"chamber pressure: after {turns} revolutions it still changes by {abs(change):.3g} Pa per "
+                f"revolution, expected at most {limit:.3g} Pa; check that both ports open"
+            )
         drift, steps, refused, status = kernel.revolution(
             chamber, table, nodes, start, tolerance, pressures, rates, totals
         )
         if status != kernel.OK:
             raise NotConverged(_step_message(status, problem))
+        turns += 1
         change = float(pressures[-1] - start)
-        if abs(change) <= limit:
-            break
         start = float(pressures[-1])
-    else:
-        raise NotConverged(
-            f"chamber pressure: after {REVOLUTION_LIMIT} revolutions it still changes by {abs(change):.3g} Pa per "
-            f"revolution, expected at most {limit:.3g} Pa; check that both ports open"
-        )
     checks = _checks(problem, totals, drift, change)
-    effort = Effort(turn, steps, refused)
+    effort = Effort(turns, steps, refused)
     return _cycle(problem, effort, pressures[sample_nodes], rates[sample_nodes], totals, checks)
+
+
+def _run_in(problem: ChamberProblem, chamber: np.ndarray, table: Array, nodes: Array, tolerance: float) -> float:
+    """A pressure at nodes[0] that an open port has already made its own: most pumps are periodic from there on."""
+    before = nodes[-RUN_IN_NODES:] - TURN
+    start, found = kernel.slaved_pressure(chamber, table, before[0])
+    pressures, rates = np.empty(before.size - 1), np.empty((before.size - 1, kernel.PATHS))
+    totals = np.empty(2 * kernel.INTEGRALS)
+    if not found:
+        return problem.inlet_pressure
+    *_, status = kernel.revolution(chamber, table, before, start, tolerance, pressures, rates, totals)
+    return float(pressures[-1]) if status == kernel.OK else problem.inlet_pressure
 
 
 def _pressure_span(problem: ChamberProblem) -> float:
@@ -245,7 +266,7 @@ def _cycle(
 ) -> ChamberCycle:
     samples = pressure.size
     angle = TURN * np.arange(samples) / samples
-    specific = np.array([kernel.oil_state(p, problem.bulk_modulus)[0] for p in pressure])
+    specific = kernel.specific_volumes(pressure, problem.bulk_modulus)
     return ChamberCycle(
         shaft_angle=angle,
         pressure=pressure,
@@ -253,7 +274,7 @@ def _cycle(
         flow=Paths(*(mass_rates * problem.shaft_speed * specific[:, None]).T),
         outflow=Paths(*totals[:5]),
         path_energy=Paths(*totals[6:11]),
-        wall_work=totals[11:14],
+        carried_energy=totals[11:14],
         indicated_work=float(totals[5]),
         checks=checks,
         effort=effort,

@@ -1,13 +1,13 @@
 """Compiled integration of one chamber over shaft angle: oil, flows, one implicit step, one revolution.
 
-State: mass over reference density M = V/s(p) in m3, with s(p) the specific volume of the oil relative to zero gauge
-pressure, s = exp(-p/K) while it is liquid. Then dM/dphi = -sum(q)/(s w) is conservation of mass and, divided by M,
-the corrected Eq. (14). Every q > 0 leaves the chamber and is a volume at chamber pressure.
+State: mass over reference density M = V/s(p) in m3, with s(p) the specific volume of the oil relative to zero
+gauge pressure, s = exp(-p/K) while it is liquid. Then dM/dphi = -sum(q)/(s w) is conservation of mass and,
+divided by M, the corrected Eq. (14). Every q > 0 leaves the chamber and is a volume at chamber pressure.
 
-Method: ESDIRK4(3)6L[2]SA of Kennedy and Carpenter (2003), Applied Numerical Mathematics 44, p. 139: order 4 with an
-embedded order 3, L-stable, stiffly accurate, stage order 2 (a chamber open to its port is stiff, and methods of
-stage order 1 get its flow wrong by 0.5 % there). The integrals below are advanced with the same weights as M, so
-what enters the chamber leaves it to round-off whatever the step.
+Method: ESDIRK4(3)6L[2]SA of Kennedy and Carpenter (2003), Applied Numerical Mathematics 44, p. 139: order 4 with
+an embedded order 3, L-stable, stiffly accurate, stage order 2 (a chamber open to its port is stiff, and methods
+of stage order 1 get its flow wrong by 0.5 % there). The integrals below are advanced with the same weights as M,
+so what enters the chamber leaves it to round-off whatever the step.
 """
 
 from __future__ import annotations
@@ -72,8 +72,8 @@ NODES = np.array([0.0, 0.5, 83 / 250, 31 / 50, 17 / 20, 1.0])
 ERROR = WEIGHTS - EMBEDDED
 
 CAVITY_PRESSURE = 1e3 - 101325.0
-"""Gauge pressure in Pa at which a cavity opens (1 kPa absolute): oil bears no tension. Its vapour pressure is lower
-still, and dissolved air leaves it earlier; neither moves a chamber pressure that is shown in bar."""
+"""Gauge pressure in Pa at which a cavity opens (1 kPa absolute): oil bears no tension. Its vapour pressure is
+lower still, and dissolved air leaves it earlier; neither moves a chamber pressure that is shown in bar."""
 CAVITY_SOFTNESS = 1e3
 """Fall of the pressure in Pa below CAVITY_PRESSURE while the void grows to the oil's own volume."""
 
@@ -90,7 +90,7 @@ _f8, _vector, _matrix, _cubics = numba.f8, numba.f8[::1], numba.f8[:, ::1], numb
 
 @numba.njit(numba.types.UniTuple(_f8, 3)(_f8, _f8), cache=True)
 def oil_state(pressure, bulk_modulus):  # type: ignore[no-untyped-def]
-    """Specific volume s (relative), its compressibility -ds/dp in 1/Pa, and flow energy h = integral of s dp in Pa.
+    """Specific volume s (relative), its compressibility -ds/dp in 1/Pa, flow energy h = integral of s dp in Pa.
 
     Liquid of constant bulk modulus; below CAVITY_PRESSURE oil and cavity together, nearly at that pressure.
     """
@@ -102,6 +102,15 @@ def oil_state(pressure, bulk_modulus):  # type: ignore[no-untyped-def]
     compressibility = liquid / CAVITY_SOFTNESS
     energy = bulk_modulus * (1.0 - liquid) - below * (liquid + 0.5 * compressibility * below)
     return liquid + compressibility * below, compressibility, energy
+
+
+@numba.njit(_vector(_vector, _f8), cache=True)
+def specific_volumes(pressures, bulk_modulus):  # type: ignore[no-untyped-def]
+    """Specific volume of the oil at each pressure, relative to zero gauge pressure."""
+    out = np.empty_like(pressures)
+    for i in range(pressures.size):
+        out[i] = oil_state(pressures[i], bulk_modulus)[0]
+    return out
 
 
 @numba.njit(numba.types.UniTuple(_f8, 2)(_records, _f8), cache=True)
@@ -118,8 +127,10 @@ def volume(chamber, shaft_angle):  # type: ignore[no-untyped-def]
 
 @numba.njit(numba.void(_records, _cubics, _f8, _vector), cache=True)
 def openings(chamber, table, shaft_angle, out):  # type: ignore[no-untyped-def]
-    """What lets oil out at a shaft angle: conductances (0-2) and carried flows (3-5) of the gaps, from periodic
-    cubics on equal intervals of shaft angle; then both coefficients of the delivery (6, 7) and suction port (8, 9).
+    """What lets oil out at a shaft angle.
+
+    Conductances (0-2) and carried flows (3-5) of the gaps, from periodic cubics on equal intervals of shaft angle;
+    then both orifice coefficients of the delivery (6, 7) and of the suction port (8, 9).
     """
     c = chamber[0]
     count = table.shape[0]

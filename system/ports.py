@@ -69,6 +69,15 @@ def orifice(pressure_drop, conductance, critical_square):  # type: ignore[no-unt
     return scaled * pressure_drop, scaled * (1.0 - 0.5 * pressure_drop * pressure_drop / square)
 
 
+@numba.njit("f8[::1](f8[::1],f8[::1])", cache=True)
+def section_areas(shaft_angles, port):  # type: ignore[no-untyped-def]
+    """`section_area` at each shaft angle."""
+    out = np.empty_like(shaft_angles)
+    for i in range(shaft_angles.size):
+        out[i] = section_area(shaft_angles[i], port)
+    return out
+
+
 def as_array(port: PortOpening) -> Array:
     """The port as the flat array that the compiled functions read, fields in the order of `PortOpening`."""
     return np.array(
@@ -88,8 +97,7 @@ def as_array(port: PortOpening) -> Array:
 def opening_area(port: PortOpening, shaft_angle: Array | float) -> Array:
     """Opening area in m2 at shaft angles in rad (any number of turns); continuous, one bend per break angle."""
     angles = np.asarray(shaft_angle, dtype=float)
-    flat = as_array(port)
-    return np.array([section_area(float(x), flat) for x in angles.ravel()]).reshape(angles.shape)
+    return np.asarray(section_areas(angles.ravel(), as_array(port))).reshape(angles.shape)
 
 
 def break_angles(port: PortOpening) -> Array:

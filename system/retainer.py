@@ -108,5 +108,5 @@ def uniform_normal_force(spring: float, guide: BallGuide, swash_angle: float) ->
 
 
 def coulomb_power(friction_coefficient: float, normal_force_sum: float, sliding_speed: float) -> float:
-    """Loss of ball guide and retainer in W; paper Eqs. (24), (25) for an even normal force: f sum(F_n) mean|dV|."""
+    """Loss of ball guide and retainer in W; Eqs. (24), (25) for an even normal force: f sum(F_n) mean|dV|."""
     return friction_coefficient * normal_force_sum * sliding_speed

@@ -1,0 +1,199 @@
+"""From one chamber's cycle and the pair losses to the pump: flows, torque, powers. The same for every fidelity."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import Enum
+
+from system.bench import BenchReading, Efficiency, elastic_energy, iso_efficiency, paper_efficiency
+from system.chamber import ChamberCycle, ChamberProblem, LeakTable, Paths
+from system.kinematics import Array, stroke
+from system.operating import OperatingPoint
+from system.pairs import FrictionPairs, Pair, over_chambers
+from system.ports import TURN, opening_area
+
+
+class PointWarning(Enum):
+    """What a reader of the numbers must know; none of them makes a number void."""
+
+    CHAMBER_CAVITATES = (
+        "the chamber pressure falls to vacuum and a cavity opens: air release is not modelled and filling may "
+        "be worse; raise the inlet pressure, or let the ports overlap the dead centres less"
+    )
+
+
+@dataclass(frozen=True)
+class Gaps:
+    """One number for each of the three gaps."""
+
+    piston: float
+    slipper: float
+    valve_plate: float
+
+    @property
+    def total(self) -> float:
+        """All three together."""
+        return self.piston + self.slipper + self.valve_plate
+
+
+@dataclass(frozen=True)
+class PowerBalance:
+    """Where the shaft power goes, mean over a revolution, in W: the fields but `shaft` add up to it.
+
+    hydraulic: p Q summed over delivery, inlet (negative) and case; elastic: stored in the oil that leaves, less
+    that which enters (compression: a machine downstream can take it back); leakage: turned into heat in each gap
+    by the pressure; throttling_delivery, throttling_suction: in the ports; friction: the seven pairs.
+    """
+
+    shaft: float
+    hydraulic: float
+    elastic: float
+    leakage: Gaps
+    throttling_delivery: float
+    throttling_suction: float
+    friction: float
+
+    @property
+    def throttling(self) -> float:
+        """Both ports together."""
+        return self.throttling_delivery + self.throttling_suction
+
+    @property
+    def accounted(self) -> float:
+        """All that the shaft power goes into."""
+        return self.hydraulic + self.elastic + self.leakage.total + self.throttling + self.friction
+
+
+@dataclass(frozen=True)
+class PointChecks:
+    """Relative errors of a point; those of the chamber are in its cycle.
+
+    mass_balance_error of the delivered mass; energy_balance_error of the shaft power; quadrature_error: of the
+    friction power, estimated from every second shaft angle.
+    """
+
+    mass_balance_error: float
+    energy_balance_error: float
+    quadrature_error: float
+
+
+@dataclass(frozen=True)
+class PumpPoint:
+    """One operating point of a pump, periodic: SI, pressures gauge.
+
+    Per chamber, arrays over `cycle.shaft_angle`: `cycle`, `delivery_area`, `suction_area` in m2. Whole pump:
+    `delivery_flow_ripple` in m3/s over the same angles (volume at chamber pressure through the delivery port);
+    `leakage_flow` of each gap (mean over the revolution, all chambers, volume at case pressure); `bench`, what a
+    test bench reads; `geometric_displacement` and `derived_displacement` in m3 per revolution.
+    """
+
+    point: OperatingPoint
+    swash_angle: float
+    cycle: ChamberCycle
+    delivery_area: Array
+    suction_area: Array
+    delivery_flow_ripple: Array
+    leakage_flow: Gaps
+    leaks: LeakTable
+    pairs: FrictionPairs
+    bench: BenchReading
+    power: PowerBalance
+    geometric_displacement: float
+    derived_displacement: float
+    checks: PointChecks
+    warnings: tuple[PointWarning, ...]
+
+    @property
+    def paper_efficiency(self) -> Efficiency:
+        """The paper's Eqs. (3)-(5)."""
+        return paper_efficiency(self.bench)
+
+    @property
+    def iso_efficiency(self) -> Efficiency:
+        """ISO 4391/4409 with the derived displacement."""
+        return iso_efficiency(self.bench, self.derived_displacement)
+
+
+def assemble(
+    point: OperatingPoint,
+    problem: ChamberProblem,
+    cycle: ChamberCycle,
+    pairs: FrictionPairs,
+    pistons: int,
+    derived_displacement: float,
+) -> PumpPoint:
+    """The pump's flows, torque and powers from one chamber's periodic cycle and the friction of its pairs.
+
+    Shaft torque = (indicated power - power that carried oil gives to the moving walls + friction)/w. The second
+    term is the pull of the gap's pressure gradient on the piston: with it the torque, like the flow, belongs to
+    the mean of piston and bore area, and the energy balance closes.
+    """
+    rate = pistons * point.shaft_speed / TURN
+    power = _power_balance(point, problem, cycle, rate, pairs.power)
+    quadrature = sum(pairs.loss(pair).quadrature_error for pair in Pair)
+    return PumpPoint(
+        point=point,
+        swash_angle=problem.drive.swash_angle,
+        cycle=cycle,
+        delivery_area=opening_area(problem.delivery_port, cycle.shaft_angle),
+        suction_area=opening_area(problem.suction_port, cycle.shaft_angle),
+        delivery_flow_ripple=over_chambers(cycle.flow.delivery, pistons),
+        leakage_flow=_leakage_flow(problem, cycle.outflow, rate),
+        leaks=problem.leaks,
+        pairs=pairs,
+        bench=_reading(point, problem, cycle.outflow, rate, power.shaft),
+        power=power,
+        geometric_displacement=pistons * problem.piston_area * stroke(problem.drive),
+        derived_displacement=derived_displacement,
+        checks=PointChecks(
+            mass_balance_error=cycle.checks.mass_balance_error,
+            energy_balance_error=abs(power.shaft - power.accounted) / abs(power.shaft),
+            quadrature_error=quadrature / pairs.power,
+        ),
+        warnings=(PointWarning.CHAMBER_CAVITATES,) if cycle.cavitates else (),
+    )
+
+
+def _leakage_flow(problem: ChamberProblem, outflow: Paths, rate: float) -> Gaps:
+    scale = rate * problem.specific_volume(problem.case_pressure)
+    return Gaps(scale * float(outflow.piston), scale * float(outflow.slipper), scale * float(outflow.valve_plate))
+
+
+def _reading(
+    point: OperatingPoint, problem: ChamberProblem, outflow: Paths, rate: float, shaft_power: float
+) -> BenchReading:
+    return BenchReading(
+        shaft_speed=point.shaft_speed,
+        shaft_torque=shaft_power / point.shaft_speed,
+        delivery_pressure=point.delivery_pressure,
+        inlet_pressure=point.inlet_pressure,
+        drain_pressure=point.case_pressure,
+        delivery_flow=rate * float(outflow.delivery) * problem.specific_volume(point.delivery_pressure),
+        inlet_flow=-rate * float(outflow.suction) * problem.specific_volume(point.inlet_pressure),
+        drain_flow=_leakage_flow(problem, outflow, rate).total,
+    )
+
+
+def _power_balance(
+    point: OperatingPoint, problem: ChamberProblem, cycle: ChamberCycle, rate: float, friction: float
+) -> PowerBalance:
+    reading = _reading(point, problem, cycle.outflow, rate, 0.0)
+    ports = (
+        (reading.delivery_flow, point.delivery_pressure),
+        (-reading.inlet_flow, point.inlet_pressure),
+        (reading.drain_flow, point.case_pressure),
+    )
+    energy, carried = cycle.path_energy, cycle.carried_energy
+    return PowerBalance(
+        shaft=rate * (cycle.indicated_work - float(carried.sum())) + friction,
+        hydraulic=sum(flow * pressure for flow, pressure in ports),
+        elastic=sum(flow * elastic_energy(pressure, problem.bulk_modulus) for flow, pressure in ports),
+        leakage=Gaps(
+            rate * float(energy.piston - carried[0]),
+            rate * float(energy.slipper - carried[1]),
+            rate * float(energy.valve_plate - carried[2]),
+        ),
+        throttling_delivery=rate * float(energy.delivery),
+        throttling_suction=rate * float(energy.suction),
+        friction=friction,
+    )

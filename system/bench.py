@@ -1,0 +1,155 @@
+"""What a test bench makes of its readings: the paper's Eqs. (1)-(5), ISO 4391/4409, and an energy-exact split."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+
+@dataclass(frozen=True)
+class BenchReading:
+    """One steady reading: shaft_speed in rad/s, shaft_torque in N m, pressures in Pa gauge, flows in m3/s.
+
+    Each flow is the volume at its own port's pressure, positive in the pump's sense: delivery and drain out of it,
+    inlet into it.
+    """
+
+    shaft_speed: float
+    shaft_torque: float
+    delivery_pressure: float
+    inlet_pressure: float
+    drain_pressure: float
+    delivery_flow: float
+    inlet_flow: float
+    drain_flow: float
+
+    @property
+    def shaft_power(self) -> float:
+        """2 pi n T in W."""
+        return self.shaft_speed * self.shaft_torque
+
+
+@dataclass(frozen=True)
+class Efficiency:
+    """Overall, volumetric and hydromechanical efficiency, dimensionless."""
+
+    overall: float
+    volumetric: float
+    hydromechanical: float
+
+
+@dataclass(frozen=True)
+class LossSplit:
+    """The paper's two losses in W, Eqs. (1) and (2)."""
+
+    volumetric: float
+    hydromechanical: float
+
+    @property
+    def hydromechanical_share(self) -> float:
+        """Share of the hydromechanical in both losses, as in the paper's Fig. 3."""
+        return self.hydromechanical / (self.volumetric + self.hydromechanical)
+
+
+@dataclass(frozen=True)
+class EnergySplit:
+    """Where the shaft power goes, in W: these four add up to it exactly.
+
+    `hydraulic` is p Q summed over the ports; `elastic` the energy stored in the oil they pass, which a machine
+    downstream can take back; `leakage` what the drained oil gave up on its way; `hydromechanical` the rest.
+    """
+
+    hydraulic: float
+    elastic: float
+    leakage: float
+    hydromechanical: float
+
+
+def ideal_torque(displacement: float, pressure_difference: float) -> float:
+    """Torque in N m of a lossless pump: dp V/(2 pi), V in m3 per revolution, dp in Pa."""
+    return displacement * pressure_difference / (2.0 * np.pi)
+
+
+def ideal_flow(displacement: float, shaft_speed: float) -> float:
+    """Flow in m3/s of a lossless pump: n V, V in m3 per revolution, shaft_speed in rad/s."""
+    return displacement * shaft_speed / (2.0 * np.pi)
+
+
+def paper_losses(reading: BenchReading) -> LossSplit:
+    """The paper's Eqs. (1), (2) as printed.
+
+    Eq. (1) charges the compression flow Q_i - Q_o - Q_drain with the whole pressure difference, twice the elastic
+    energy that the delivered oil takes with it and may give back: it reads the volumetric loss too large and the
+    hydromechanical one too small by Q_o dp^2/(2K) each. `energy_split` keeps the two apart.
+    """
+    r = reading
+    drained = r.drain_flow * (r.delivery_pressure - r.drain_pressure)
+    compressed = (r.inlet_flow - r.delivery_flow - r.drain_flow) * (r.delivery_pressure - r.inlet_pressure)
+    volumetric = drained + compressed
+    given = r.shaft_power + r.inlet_pressure * r.inlet_flow - r.delivery_pressure * r.delivery_flow
+    return LossSplit(volumetric, given - volumetric)
+
+
+def paper_efficiency(reading: BenchReading) -> Efficiency:
+    """The paper's Eqs. (3)-(5) as printed.
+
+    Eq. (4), 1 - (Q_i - Q_o)/Q_i, compares flows at different pressures: it is not ISO 4409's. Raises ValueError
+    where a ratio is void: no shaft power, inlet or delivery flow.
+    """
+    r = reading
+    overall = _overall(r)
+    if not (r.inlet_flow > 0.0 and r.delivery_flow > 0.0):
+        raise ValueError(
+            f"inlet flow {r.inlet_flow:.3g} m3/s and delivery flow {r.delivery_flow:.3g} m3/s: expected both "
+            "above 0 for the paper's efficiencies"
+        )
+    volumetric = 1.0 - (r.inlet_flow - r.delivery_flow) / r.inlet_flow
+    return Efficiency(overall, volumetric, overall / volumetric)
+
+
+def iso_efficiency(reading: BenchReading, derived_displacement: float) -> Efficiency:
+    """Efficiencies of ISO 4391 as measured by ISO 4409, with the derived displacement V_i of ISO 8426 (m3/rev).
+
+    Overall (p2 q2 - p1 q1)/(2 pi n T), volumetric q2/(n V_i), hydromechanical (p2 - p1) V_i/(2 pi T). Their
+    product differs from the overall one by p1 (q1 - q2) over the shaft power. Raises ValueError without shaft
+    power.
+    """
+    r = reading
+    overall = _overall(r)
+    return Efficiency(
+        overall,
+        r.delivery_flow / ideal_flow(derived_displacement, r.shaft_speed),
+        ideal_torque(derived_displacement, r.delivery_pressure - r.inlet_pressure) / r.shaft_torque,
+    )
+
+
+def energy_split(reading: BenchReading, bulk_modulus: float) -> EnergySplit:
+    """Shaft power split without charging the compression energy that the delivered oil keeps.
+
+    With constant bulk modulus K (Pa) oil holds e(p) = K (exp(p/K) - 1) - p per volume, p^2/(2K) for p << K. Every
+    drained volume is taken to have been raised to the delivery pressure first, as in Eq. (1).
+    """
+    r = reading
+    ports = (
+        (r.delivery_flow, r.delivery_pressure),
+        (-r.inlet_flow, r.inlet_pressure),
+        (r.drain_flow, r.drain_pressure),
+    )
+    hydraulic = sum(flow * pressure for flow, pressure in ports)
+    elastic = sum(flow * elastic_energy(pressure, bulk_modulus) for flow, pressure in ports)
+    fall = r.delivery_pressure - r.drain_pressure
+    leakage = -r.drain_flow * bulk_modulus * float(np.expm1(-fall / bulk_modulus))
+    return EnergySplit(hydraulic, elastic, leakage, r.shaft_power - hydraulic - elastic - leakage)
+
+
+def elastic_energy(pressure: float, bulk_modulus: float) -> float:
+    """Elastic energy in J per m3 of oil at a gauge pressure: K (exp(p/K) - 1) - p, for constant bulk modulus."""
+    return float(bulk_modulus * np.expm1(pressure / bulk_modulus) - pressure)
+
+
+def _overall(reading: BenchReading) -> float:
+    r = reading
+    if not r.shaft_power > 0.0:
+        raise ValueError(f"shaft power {r.shaft_power:.3g} W: expected more than 0 for an efficiency")
+    return (r.delivery_flow * r.delivery_pressure - r.inlet_flow * r.inlet_pressure) / r.shaft_power

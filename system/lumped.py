@@ -1,0 +1,255 @@
+"""The lumped fidelity: films of given thickness, leakage by Eqs. (15)-(17), REF90's nominal losses."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from system import pairs
+from system.assembly import PumpPoint, assemble
+from system.chamber import TOLERANCE, ChamberCycle, ChamberProblem, LeakTable, solve_cycle
+from system.description import PumpDescription
+from system.kinematics import (
+    Array,
+    SwashDrive,
+    drive_at_ratio,
+    piston_acceleration,
+    piston_displacement,
+    piston_velocity,
+    slipper_sliding_speed,
+    stand_out,
+    stroke,
+)
+from system.leakage import (
+    piston_carried_flow,
+    piston_conductance,
+    slipper_conductance,
+    valve_plate_conductance,
+)
+from system.operating import OperatingPoint
+from system.pairs import FrictionPairs, PairLoss
+from system.ports import TURN, PortOpening
+from system.retainer import BallGuide, mean_sliding_speed, spring_force
+
+SAMPLES_PER_PITCH = 40
+"""Sampled shaft angles for each piston pitch: 1 deg on nine pistons; even, so the quadrature can be halved."""
+
+
+@dataclass(frozen=True)
+class PistonMotion:
+    """One piston over N equidistant shaft angles, SI: drive, way from inner dead centre, velocity, acceleration,
+    slipper sliding speed, engaged length and overhang of the ball.
+    """
+
+    drive: SwashDrive
+    shaft_angle: Array
+    velocity: Array
+    acceleration: Array
+    sliding_speed: Array
+    engaged_length: Array
+    overhang: Array
+
+
+def lumped_point(pump: PumpDescription, point: OperatingPoint, tolerance: float = TOLERANCE) -> PumpPoint:
+    """One periodic operating point of a pump with films of given thickness: REF90's nominal loss model.
+
+    Raises NotConverged when the chamber pressure does not become periodic. Valid for films thick against their
+    roughness at the viscosity of the case; what it leaves out is in `left_out_physics.md`.
+    """
+    motion = piston_motion(pump, point)
+    problem = chamber_problem(pump, point, motion, lumped_leaks(pump, point, motion))
+    cycle = solve_cycle(problem, motion.shaft_angle.size, tolerance)
+    losses = lumped_pairs(pump, point, motion, cycle)
+    return assemble(point, problem, cycle, losses, pump.pump.pistons, swept_displacement(pump, motion.drive))
+
+
+def piston_area(pump: PumpDescription) -> float:
+    """Cross section of a piston in m2."""
+    return np.pi / 4.0 * pump.pump.piston_diameter**2
+
+
+def full_drive(pump: PumpDescription) -> SwashDrive:
+    """The pump's drive at its largest swash angle."""
+    return SwashDrive(pump.pump.pitch_radius, pump.pump.bore_cone_angle, pump.pump.swash_angle_max)
+
+
+def swept_displacement(pump: PumpDescription, drive: SwashDrive) -> float:
+    """Derived displacement in m3 per revolution: what ISO 8426's extrapolation to no pressure difference finds.
+
+    z H (Ap + pi dp delta/2): the oil carried in the piston gap moves as if the piston had the mean of its own and
+    the bore's area, 2 delta/dp (0.14 % on REF90) more than the geometric displacement.
+    """
+    gap = np.pi * pump.pump.piston_diameter * pump.piston.radial_clearance / 2.0
+    return pump.pump.pistons * stroke(drive) * (piston_area(pump) + gap)
+
+
+def piston_motion(pump: PumpDescription, point: OperatingPoint) -> PistonMotion:
+    """Kinematics of one piston at the point's displacement ratio, at SAMPLES_PER_PITCH z shaft angles.
+
+    The piston stands out by (H_max - H)/2 more at reduced displacement; by that and its way S the engaged length
+    is shorter and the ball's overhang longer.
+    """
+    full = full_drive(pump)
+    drive = drive_at_ratio(full, point.displacement_ratio)
+    samples = SAMPLES_PER_PITCH * pump.pump.pistons
+    angle = TURN * np.arange(samples) / samples
+    out = stand_out(full, drive) + piston_displacement(drive, angle)
+    return PistonMotion(
+        drive=drive,
+        shaft_angle=angle,
+        velocity=piston_velocity(drive, angle, point.shaft_speed),
+        acceleration=piston_acceleration(drive, angle, point.shaft_speed),
+        sliding_speed=slipper_sliding_speed(drive, angle, point.shaft_speed),
+        engaged_length=pump.piston.engaged_length - out,
+        overhang=pump.piston.overhang + out,
+    )
+
+
+def lumped_leaks(pump: PumpDescription, point: OperatingPoint, motion: PistonMotion) -> LeakTable:
+    """Leakage of one chamber's gaps over shaft angle: paper Eqs. (15)-(17), viscosity at case temperature."""
+    p, s, v, mu = pump.piston, pump.slipper, pump.valve_plate, point.viscosity
+    diameter = pump.pump.piston_diameter
+    radii = (v.land_radius_1, v.land_radius_2, v.land_radius_3, v.land_radius_4)
+    slipper = slipper_conductance(
+        s.land_inner_radius, s.land_outer_radius, s.film_thickness, s.orifice_diameter, s.orifice_length, mu
+    )
+    plate = valve_plate_conductance(radii, v.film_thickness, pump.pump.pistons, mu)
+    ones = np.ones_like(motion.shaft_angle)
+    piston = piston_conductance(diameter, p.radial_clearance, motion.engaged_length, p.eccentricity_ratio, mu)
+    carried = piston_carried_flow(diameter, p.radial_clearance, motion.velocity)
+    return LeakTable(
+        conductance=np.stack([piston, slipper * ones, plate * ones]),
+        carried_flow=np.stack([carried, 0.0 * ones, 0.0 * ones]),
+    )
+
+
+def chamber_problem(
+    pump: PumpDescription, point: OperatingPoint, motion: PistonMotion, leaks: LeakTable
+) -> ChamberProblem:
+    """One chamber of the pump at the point, with gaps that leak as `leaks` says, whoever filled it."""
+    area = piston_area(pump)
+    return ChamberProblem(
+        drive=motion.drive,
+        shaft_speed=point.shaft_speed,
+        piston_area=area,
+        dead_volume=pump.pump.dead_volume + area * stand_out(full_drive(pump), motion.drive),
+        delivery_pressure=point.delivery_pressure,
+        inlet_pressure=point.inlet_pressure,
+        case_pressure=point.case_pressure,
+        bulk_modulus=pump.oil.bulk_modulus,
+        density=pump.oil.density,
+        kinematic_viscosity=point.viscosity / pump.oil.density,
+        flow_coefficient=pump.ports.flow_coefficient,
+        critical_reynolds=pump.ports.critical_reynolds,
+        delivery_port=port_opening(pump, np.pi),
+        suction_port=port_opening(pump, 0.0),
+        leaks=leaks,
+    )
+
+
+def port_opening(pump: PumpDescription, dead_centre: float) -> PortOpening:
+    """The valve plate's port that opens at a dead centre: shaft angle 0 for suction, pi for delivery."""
+    p = pump.ports
+    return PortOpening(
+        dead_centre=dead_centre,
+        groove_start=p.groove_start,
+        groove_end=p.groove_end,
+        kidney_full_start=p.kidney_full_start,
+        kidney_full_end=p.kidney_full_end,
+        kidney_end=p.kidney_end,
+        groove_area=p.groove_area,
+        kidney_area=p.kidney_area,
+    )
+
+
+def lumped_pairs(
+    pump: PumpDescription, point: OperatingPoint, motion: PistonMotion, cycle: ChamberCycle
+) -> FrictionPairs:
+    """REF90's nominal losses of the seven pairs at the pressures of a cycle (sampled at the motion's angles)."""
+    area = piston_area(pump)
+    mass = pump.piston.mass + pump.slipper.mass
+    axial = pairs.axial_force(cycle.pressure, point.case_pressure, area, mass, motion.acceleration)
+    side = pairs.side_force(axial, motion.drive.swash_angle)
+    side_sum = pairs.over_chambers(side, pump.pump.pistons)
+    pressure_sum = area * pairs.over_chambers(cycle.pressure - point.case_pressure, pump.pump.pistons)
+    bearings, friction = pump.bearings, pump.friction
+    front = pairs.bearing_coulomb(
+        friction.front_bearing, bearings.front_share, side_sum, point.shaft_speed, bearings.front_diameter
+    )
+    rear = pairs.bearing_coulomb(
+        friction.rear_bearing, bearings.rear_share, side_sum, point.shaft_speed, bearings.rear_diameter
+    )
+    none = np.zeros_like(axial)
+    return FrictionPairs(
+        piston_cylinder=_piston_cylinder(pump, point, motion, side),
+        slipper_swash_plate=_slipper_swash_plate(pump, point, motion, axial),
+        valve_plate_cylinder=_valve_plate_cylinder(pump, point, pressure_sum),
+        ball_guide_retainer=_ball_guide_retainer(pump, point, motion),
+        piston_slipper_socket=_piston_slipper_socket(pump, point, motion, axial),
+        front_bearing=PairLoss(1, front, none),
+        rear_bearing=PairLoss(1, rear, none),
+    )
+
+
+def _piston_cylinder(pump: PumpDescription, point: OperatingPoint, motion: PistonMotion, side: Array) -> PairLoss:
+    length, velocity = motion.engaged_length, motion.velocity
+    coulomb = pairs.piston_cylinder_coulomb(pump.friction.piston_cylinder, side, length, motion.overhang, velocity)
+    viscous = pairs.piston_cylinder_shear(
+        point.viscosity,
+        pump.pump.piston_diameter,
+        length,
+        velocity,
+        pump.piston.radial_clearance,
+        pump.piston.eccentricity_ratio,
+    )
+    return PairLoss(pump.pump.pistons, coulomb, viscous)
+
+
+def _slipper_swash_plate(
+    pump: PumpDescription, point: OperatingPoint, motion: PistonMotion, axial: Array
+) -> PairLoss:
+    s, speed = pump.slipper, motion.sliding_speed
+    coulomb = pairs.slipper_swash_plate_coulomb(
+        pump.friction.slipper_swash_plate, axial, motion.drive.swash_angle, speed
+    )
+    viscous = pairs.slipper_swash_plate_shear(
+        point.viscosity, s.land_inner_radius, s.land_outer_radius, speed, s.film_thickness
+    )
+    return PairLoss(pump.pump.pistons, coulomb, viscous)
+
+
+def _piston_slipper_socket(
+    pump: PumpDescription, point: OperatingPoint, motion: PistonMotion, axial: Array
+) -> PairLoss:
+    coulomb = pairs.piston_slipper_socket_coulomb(
+        pump.friction.piston_slipper_socket,
+        axial,
+        motion.drive.swash_angle,
+        pump.slipper.ball_joint_radius,
+        point.shaft_speed,
+    )
+    return PairLoss(pump.pump.pistons, coulomb, np.zeros_like(axial))
+
+
+def _valve_plate_cylinder(pump: PumpDescription, point: OperatingPoint, pressure_sum: Array) -> PairLoss:
+    v, radius = pump.valve_plate, pump.valve_plate.kidney_pitch_radius
+    clamping = pairs.clamping_force(pressure_sum, v.residual_clamping, block_spring(pump))
+    coulomb = pairs.valve_plate_coulomb(pump.friction.valve_plate_cylinder, clamping, point.shaft_speed, radius)
+    radii = (v.land_radius_1, v.land_radius_2, v.land_radius_3, v.land_radius_4)
+    shear = pairs.valve_plate_shear(point.viscosity, radii, point.shaft_speed, radius, v.film_thickness)
+    return PairLoss(1, coulomb, np.full_like(coulomb, shear))
+
+
+def _ball_guide_retainer(pump: PumpDescription, point: OperatingPoint, motion: PistonMotion) -> PairLoss:
+    guide = BallGuide(pump.ball_guide.radius, pump.ball_guide.contact_latitude)
+    speed = mean_sliding_speed(guide, motion.drive.swash_angle, point.shaft_speed)
+    friction = pump.friction.ball_guide_retainer
+    loss = pairs.ball_guide_coulomb(friction, block_spring(pump), guide.contact_latitude, speed)
+    return PairLoss(1, np.full_like(motion.shaft_angle, loss), np.zeros_like(motion.shaft_angle))
+
+
+def block_spring(pump: PumpDescription) -> float:
+    """Force of the block spring in N, paper Eq. (13)."""
+    guide = pump.ball_guide
+    return spring_force(guide.spring_preload, guide.spring_stiffness, guide.spring_compression)
