@@ -40,9 +40,7 @@ def find_equilibrium(imbalance: Callable[[Array], Array], starts: Iterable[Array
     spent = 0
     for start in starts:
         try:
-            fit = least_squares(
-                imbalance, start, method="lm", max_nfev=MAX_STEPS * (len(start) + 1), xtol=1e-12, ftol=1e-14
-            )
+            fit = least_squares(imbalance, start, method="lm", max_nfev=MAX_STEPS, ftol=1e-5, xtol=1e-9)
         except FilmNotConverged:
             continue
         spent += fit.nfev

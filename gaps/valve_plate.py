@@ -64,8 +64,9 @@ class ValvePlateFilm:
     """The ring's film with what each chamber and port gives into it.
 
     chamber_flows (z,), suction_flow and delivery_flow m3/s into the film; conductances (z,) m3/(s Pa) of each
-    kidney with everything else at rest and at zero pressure; separating_force N of film, kidneys and ports
-    above case pressure with its moments (N m, integrals of p y and of -p x).
+    kidney with everything else at rest and at zero pressure; carried_power W: what the flow dragged along by the
+    block takes from kidneys and ports, (flow - pressure flow) x (pressure - case pressure); separating_force N of
+    film, kidneys and ports above case pressure with its moments (N m, integrals of p y and of -p x).
     """
 
     gap: GapFilm
@@ -73,6 +74,7 @@ class ValvePlateFilm:
     conductances: Array
     suction_flow: float
     delivery_flow: float
+    carried_power: float
     separating_force: float
     separating_moment: tuple[float, float]
 
@@ -131,8 +133,11 @@ class ValvePlateGap:
         solution = self._last = self._solver.solve(self.problem(state, position), self._last)
         is_film = self._is_film(solution, state)
         integrals = loads(solution, is_film)
-        chambers = np.array([-integrals.flow[name] for name in self._kidneys])
-        suction, delivery = self._port_flows(solution, state)
+        given = self._inflows(solution, state)
+        still = self._inflows(self._at_rest(solution), state)
+        above = np.array([*state.chamber_pressure, state.suction_pressure, state.delivery_pressure])
+        carried = float((given - still) @ (above - state.case_pressure))
+        chambers = given[:-2]
         force, moment = self._separating(solution, state)
         gap = GapFilm(
             solution=solution,
@@ -149,7 +154,9 @@ class ValvePlateGap:
         )
         conductances = self._conductances(solution, state)
         total = replace(gap, conductance=float(conductances.sum()))
-        return ValvePlateFilm(total, chambers, conductances, suction, delivery, force, moment)
+        return ValvePlateFilm(
+            total, chambers, conductances, float(given[-2]), float(given[-1]), carried, force, moment
+        )
 
     def _ports(self, state: ValvePlateState) -> list[tuple[tuple[float, float], float]]:
         return [
@@ -183,16 +190,23 @@ class ValvePlateGap:
             over |= (angle - arc[0]) % (2.0 * np.pi) < arc[1] - arc[0]
         return np.where(in_ring & over, 0.0, 1.0)[:, None]
 
-    def _port_flows(self, solution: FilmSolution, state: ValvePlateState) -> tuple[float, float]:
-        """Flow from the suction and the delivery port into the film (m3/s), through webs that cross them."""
-        named = np.zeros(solution.problem.space.size, dtype=bool)
-        for nodes in solution.problem.space.edge_dofs.values():
+    def _inflows(self, solution: FilmSolution, state: ValvePlateState) -> Array:
+        """Flow into the film (m3/s) from each kidney, then from suction and delivery port (over webs)."""
+        space = solution.problem.space
+        flows = loads(solution).flow
+        named = np.zeros(space.size, dtype=bool)
+        for nodes in space.edge_dofs.values():
             named[nodes] = True
-        flows = []
+        inflows = [-flows[name] for name in self._kidneys]
         for arc, _ in self._ports(state):
-            nodes = np.unique(self._vertices_in(solution.problem.space.vertices, arc))
-            flows.append(float(-solution.outflow[nodes[~named[nodes]]].sum()))
-        return flows[0], flows[1]
+            nodes = np.unique(self._vertices_in(space.vertices, arc))
+            inflows.append(float(-solution.outflow[nodes[~named[nodes]]].sum()))
+        return np.array(inflows)
+
+    def _at_rest(self, solution: FilmSolution) -> FilmSolution:
+        """The same film and pressures with the block at rest: the pressure flow alone."""
+        film_at_rest = replace(solution.problem.film, velocity_moving=(ZERO, ZERO))
+        return self._solver.solve(replace(solution.problem, film=film_at_rest, cavitation=Cavitation.NONE))
 
     def _separating(self, solution: FilmSolution, state: ValvePlateState) -> tuple[float, tuple[float, float]]:
         """Force between block and plate above case pressure: mesh integral plus kidneys."""
