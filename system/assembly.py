@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from enum import Enum
 
 from system.bench import BenchReading, Efficiency, elastic_energy, iso_efficiency, paper_efficiency
-from system.chamber import ChamberCycle, ChamberProblem, LeakTable, Paths
+from system.chamber import ChamberCycle, ChamberProblem, LeakTable, Paths, flow_energy
 from system.kinematics import Array, stroke
 from system.operating import OperatingPoint
 from system.pairs import FrictionPairs, Pair, over_chambers
@@ -34,6 +34,24 @@ class Gaps:
     def total(self) -> float:
         """All three together."""
         return self.piston + self.slipper + self.valve_plate
+
+
+@dataclass(frozen=True)
+class GapExchange:
+    """What the gaps exchange beside one chamber's leakage, mean over the revolution.
+
+    carried: power in W that oil dragged along by moving walls gives them back, all chambers; delivery_draw,
+    suction_draw: flow in m3/s (at port pressure) that the valve plate's film takes from the ports themselves.
+    """
+
+    carried: Gaps
+    delivery_draw: float
+    suction_draw: float
+
+
+def chamber_exchange(cycle: ChamberCycle, rate: float) -> GapExchange:
+    """The exchange of gaps that know nothing but their own chamber; `rate` is chambers times turns per second."""
+    return GapExchange(Gaps(*(rate * float(work) for work in cycle.carried_energy)), 0.0, 0.0)
 
 
 @dataclass(frozen=True)
@@ -121,6 +139,7 @@ def assemble(
     pairs: FrictionPairs,
     pistons: int,
     derived_displacement: float,
+    exchange: GapExchange,
 ) -> PumpPoint:
     """The pump's flows, torque and powers from one chamber's periodic cycle and the friction of its pairs.
 
@@ -129,7 +148,7 @@ def assemble(
     the mean of piston and bore area, and the energy balance closes.
     """
     rate = pistons * point.shaft_speed / TURN
-    power = _power_balance(point, problem, cycle, rate, pairs.power)
+    power = _power_balance(point, problem, cycle, rate, pairs.power, exchange)
     quadrature = sum(pairs.loss(pair).quadrature_error for pair in Pair)
     return PumpPoint(
         point=point,
@@ -138,10 +157,10 @@ def assemble(
         delivery_area=opening_area(problem.delivery_port, cycle.shaft_angle),
         suction_area=opening_area(problem.suction_port, cycle.shaft_angle),
         delivery_flow_ripple=over_chambers(cycle.flow.delivery, pistons),
-        leakage_flow=_leakage_flow(problem, cycle.outflow, rate),
+        leakage_flow=_leakage_flow(problem, cycle.outflow, rate, exchange),
         leaks=problem.leaks,
         pairs=pairs,
-        bench=_reading(point, problem, cycle.outflow, rate, power.shaft),
+        bench=_reading(point, problem, cycle.outflow, rate, power.shaft, exchange),
         power=power,
         geometric_displacement=pistons * problem.piston_area * stroke(problem.drive),
         derived_displacement=derived_displacement,
@@ -154,44 +173,74 @@ def assemble(
     )
 
 
-def _leakage_flow(problem: ChamberProblem, outflow: Paths, rate: float) -> Gaps:
+def _leakage_flow(problem: ChamberProblem, outflow: Paths, rate: float, exchange: GapExchange) -> Gaps:
     scale = rate * problem.specific_volume(problem.case_pressure)
-    return Gaps(scale * float(outflow.piston), scale * float(outflow.slipper), scale * float(outflow.valve_plate))
+    draw = problem.specific_volume(problem.case_pressure) * sum(_port_draw(problem, exchange))
+    return Gaps(
+        scale * float(outflow.piston), scale * float(outflow.slipper), scale * float(outflow.valve_plate) + draw
+    )
+
+
+def _port_draw(problem: ChamberProblem, exchange: GapExchange) -> tuple[float, float]:
+    """What the valve plate's film takes from delivery and suction port, m3/s at zero gauge pressure."""
+    return (
+        exchange.delivery_draw / problem.specific_volume(problem.delivery_pressure),
+        exchange.suction_draw / problem.specific_volume(problem.inlet_pressure),
+    )
 
 
 def _reading(
-    point: OperatingPoint, problem: ChamberProblem, outflow: Paths, rate: float, shaft_power: float
+    point: OperatingPoint,
+    problem: ChamberProblem,
+    outflow: Paths,
+    rate: float,
+    shaft_power: float,
+    exchange: GapExchange,
 ) -> BenchReading:
+    delivered = rate * float(outflow.delivery) * problem.specific_volume(point.delivery_pressure)
+    drawn_in = -rate * float(outflow.suction) * problem.specific_volume(point.inlet_pressure)
     return BenchReading(
         shaft_speed=point.shaft_speed,
         shaft_torque=shaft_power / point.shaft_speed,
         delivery_pressure=point.delivery_pressure,
         inlet_pressure=point.inlet_pressure,
         drain_pressure=point.case_pressure,
-        delivery_flow=rate * float(outflow.delivery) * problem.specific_volume(point.delivery_pressure),
-        inlet_flow=-rate * float(outflow.suction) * problem.specific_volume(point.inlet_pressure),
-        drain_flow=_leakage_flow(problem, outflow, rate).total,
+        delivery_flow=delivered - exchange.delivery_draw,
+        inlet_flow=drawn_in + exchange.suction_draw,
+        drain_flow=_leakage_flow(problem, outflow, rate, exchange).total,
     )
 
 
 def _power_balance(
-    point: OperatingPoint, problem: ChamberProblem, cycle: ChamberCycle, rate: float, friction: float
+    point: OperatingPoint,
+    problem: ChamberProblem,
+    cycle: ChamberCycle,
+    rate: float,
+    friction: float,
+    exchange: GapExchange,
 ) -> PowerBalance:
-    reading = _reading(point, problem, cycle.outflow, rate, 0.0)
+    reading = _reading(point, problem, cycle.outflow, rate, 0.0, exchange)
     ports = (
         (reading.delivery_flow, point.delivery_pressure),
         (-reading.inlet_flow, point.inlet_pressure),
         (reading.drain_flow, point.case_pressure),
     )
-    energy, carried = cycle.path_energy, cycle.carried_energy
+    energy, carried = cycle.path_energy, exchange.carried
+    modulus = problem.bulk_modulus
+    from_ports = sum(
+        draw * float(flow_energy(pressure, modulus) - flow_energy(point.case_pressure, modulus))
+        for draw, pressure in zip(
+            _port_draw(problem, exchange), (point.delivery_pressure, point.inlet_pressure), strict=True
+        )
+    )
     return PowerBalance(
-        shaft=rate * (cycle.indicated_work - float(carried.sum())) + friction,
+        shaft=rate * cycle.indicated_work - carried.total + friction,
         hydraulic=sum(flow * pressure for flow, pressure in ports),
-        elastic=sum(flow * elastic_energy(pressure, problem.bulk_modulus) for flow, pressure in ports),
+        elastic=sum(flow * elastic_energy(pressure, modulus) for flow, pressure in ports),
         leakage=Gaps(
-            rate * float(energy.piston - carried[0]),
-            rate * float(energy.slipper - carried[1]),
-            rate * float(energy.valve_plate - carried[2]),
+            rate * float(energy.piston) - carried.piston,
+            rate * float(energy.slipper) - carried.slipper,
+            rate * float(energy.valve_plate) + from_ports - carried.valve_plate,
         ),
         throttling_delivery=rate * float(energy.delivery),
         throttling_suction=rate * float(energy.suction),

@@ -79,9 +79,9 @@ def ideal_flow(displacement: float, shaft_speed: float) -> float:
 def paper_losses(reading: BenchReading) -> LossSplit:
     """The paper's Eqs. (1), (2) as printed.
 
-    Eq. (1) charges the compression flow Q_i - Q_o - Q_drain with the whole pressure difference, twice the elastic
-    energy that the delivered oil takes with it and may give back: it reads the volumetric loss too large and the
-    hydromechanical one too small by Q_o dp^2/(2K) each. `energy_split` keeps the two apart.
+    Eq. (1) charges the compression flow Q_i - Q_o - Q_drain with the whole pressure difference, Q_o dp^2/K: twice
+    the elastic energy (at no inlet pressure) that the delivered oil takes with it and may give back. What is
+    charged too much is missing in Eq. (2). `energy_split` keeps the three apart.
     """
     r = reading
     drained = r.drain_flow * (r.delivery_pressure - r.drain_pressure)

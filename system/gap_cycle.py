@@ -11,6 +11,7 @@ from gaps.piston import PistonGap
 from gaps.result import GapFilm, PositionSource
 from gaps.slipper import SlipperGap, SlipperPosition
 from gaps.valve_plate import ValvePlateFilm, ValvePlateGap
+from system.chamber_kernel import CAVITY_PRESSURE
 from system.instants import (
     Rotor,
     piston_geometry,
@@ -80,6 +81,8 @@ class GapFilms:
         `before`, a cycle at a nearby pressure, gives the start of each balance; a position that had no balance
         there is not searched again unless its pressure has changed by more than a thousandth.
         """
+        # A chamber that cavitates stands within a kilopascal of the cavity's pressure; the films take it as that.
+        chamber_pressure = np.maximum(chamber_pressure, CAVITY_PRESSURE)
         pistons: list[GapFilm] = []
         slippers: list[GapFilm] = []
         count = len(shaft_angle)

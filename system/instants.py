@@ -9,6 +9,7 @@ import numpy as np
 from gaps.piston import PistonGeometry, PistonLoad, PistonState, eccentric
 from gaps.slipper import SlipperGeometry, SlipperLoad, SlipperPosition, SlipperState
 from gaps.valve_plate import ValvePlateGeometry, ValvePlatePosition, ValvePlateState
+from system import pairs
 from system.chamber_kernel import CAVITY_PRESSURE
 from system.description import PumpDescription
 from system.kinematics import (
@@ -21,8 +22,8 @@ from system.kinematics import (
     slipper_sliding_velocity,
     stand_out,
 )
+from system.lumped import block_spring, full_drive, piston_area
 from system.operating import OperatingPoint
-from system.retainer import spring_force
 
 
 @dataclass(frozen=True)
@@ -34,21 +35,10 @@ class Rotor:
     full: SwashDrive
     drive: SwashDrive
 
-    @property
-    def piston_area(self) -> float:
-        """Piston area (m2)."""
-        return 0.25 * np.pi * self.pump.pump.piston_diameter**2
-
-    @property
-    def spring(self) -> float:
-        """Force of the block's spring (N), Eq. (13)."""
-        guide = self.pump.ball_guide
-        return spring_force(guide.spring_preload, guide.spring_stiffness, guide.spring_compression)
-
 
 def rotor(pump: PumpDescription, point: OperatingPoint) -> Rotor:
     """The rotating group of a pump at an operating point."""
-    full = SwashDrive(pump.pump.pitch_radius, pump.pump.bore_cone_angle, pump.pump.swash_angle_max)
+    full = full_drive(pump)
     return Rotor(pump, point, full, drive_at_ratio(full, point.displacement_ratio))
 
 
@@ -60,8 +50,11 @@ def travel(rotor: Rotor, shaft_angle: float) -> float:
 def axial_force(rotor: Rotor, shaft_angle: float, chamber_pressure: float) -> float:
     """Fa = Ap (p - p_case) - m a (N) on piston with slipper, towards the swash plate."""
     mass = rotor.pump.piston.mass + rotor.pump.slipper.mass
-    acceleration = float(piston_acceleration(rotor.drive, shaft_angle, rotor.point.shaft_speed))
-    return rotor.piston_area * (chamber_pressure - rotor.point.case_pressure) - mass * acceleration
+    acceleration = piston_acceleration(rotor.drive, shaft_angle, rotor.point.shaft_speed)
+    area = piston_area(rotor.pump)
+    return float(
+        pairs.axial_force(np.asarray(chamber_pressure), rotor.point.case_pressure, area, mass, acceleration)
+    )
 
 
 def piston_geometry(pump: PumpDescription) -> PistonGeometry:
@@ -136,7 +129,7 @@ def slipper_instant(
         sliding_speed=float(np.hypot(*velocity)),
         spin=pump.slipper.spin_ratio * point.shaft_speed,
     )
-    press = (axial_force(rotor, shaft_angle, chamber_pressure) + rotor.spring / pump.pump.pistons) / np.cos(
+    press = (axial_force(rotor, shaft_angle, chamber_pressure) + block_spring(pump) / pump.pump.pistons) / np.cos(
         drive.swash_angle
     )
     load = SlipperLoad(float(press), float(held @ left), -float(held @ forward))
@@ -183,5 +176,5 @@ def valve_plate_instant(
     part = pump.valve_plate
     given = ValvePlatePosition(part.film_thickness, np.tan(part.tilt_x), np.tan(part.tilt_y))
     above = np.sum(np.asarray(chamber_pressure) - point.case_pressure)
-    press = rotor.piston_area * float(above) * np.cos(pump.pump.bore_cone_angle) + rotor.spring
+    press = piston_area(pump) * float(above) * np.cos(pump.pump.bore_cone_angle) + block_spring(pump)
     return state, given, press

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from system import pairs
-from system.assembly import PumpPoint, assemble
+from system.assembly import PumpPoint, assemble, chamber_exchange
 from system.chamber import TOLERANCE, ChamberCycle, ChamberProblem, LeakTable, solve_cycle
 from system.description import PumpDescription
 from system.kinematics import (
@@ -61,7 +61,9 @@ def lumped_point(pump: PumpDescription, point: OperatingPoint, tolerance: float 
     problem = chamber_problem(pump, point, motion, lumped_leaks(pump, point, motion))
     cycle = solve_cycle(problem, motion.shaft_angle.size, tolerance)
     losses = lumped_pairs(pump, point, motion, cycle)
-    return assemble(point, problem, cycle, losses, pump.pump.pistons, swept_displacement(pump, motion.drive))
+    exchange = chamber_exchange(cycle, pump.pump.pistons * point.shaft_speed / TURN)
+    derived = swept_displacement(pump, motion.drive)
+    return assemble(point, problem, cycle, losses, pump.pump.pistons, derived, exchange)
 
 
 def piston_area(pump: PumpDescription) -> float:

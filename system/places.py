@@ -12,6 +12,7 @@ import numpy as np
 from gaps.frames import Frame
 from system.instants import Rotor, travel
 from system.kinematics import slipper_sliding_velocity
+from system.lumped import piston_area
 
 
 def bore_frame(rotor: Rotor, shaft_angle: float) -> Frame:
@@ -46,6 +47,6 @@ def slipper_frame(rotor: Rotor, shaft_angle: float) -> Frame:
 def _ball_height(rotor: Rotor, shaft_angle: float) -> float:
     """Height of the ball centre over the valve plate (m): dead space, guide and overhang along the bore."""
     pump = rotor.pump
-    dead = pump.pump.dead_volume / rotor.piston_area
+    dead = pump.pump.dead_volume / piston_area(pump)
     reach = dead + pump.piston.engaged_length + pump.piston.overhang + travel(rotor, shaft_angle)
     return float(reach * np.cos(pump.pump.bore_cone_angle))

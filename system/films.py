@@ -1,0 +1,149 @@
+"""The films fidelity: leakage and viscous friction of the three gaps from film solves over the revolution.
+
+Chamber pressure and films are solved in turn until the pressure of the whole revolution repeats. Coulomb losses
+are those of the lumped fidelity: a smooth rigid film knows no contact.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from system.assembly import GapExchange, Gaps, PumpPoint, assemble
+from system.chamber import ChamberCycle, LeakTable, solve_cycle
+from system.description import PumpDescription
+from system.errors import NotConverged
+from system.gap_cycle import GapCycle, GapFilms, Report, silent
+from system.instants import Rotor, rotor
+from system.kinematics import Array
+from system.lumped import (
+    SAMPLES_PER_PITCH,
+    chamber_problem,
+    lumped_pairs,
+    lumped_point,
+    piston_motion,
+    swept_displacement,
+)
+from system.operating import OperatingPoint
+from system.pairs import FrictionPairs
+from system.ports import TURN
+
+POSITIONS_PER_PITCH = 4
+"""Block angles a piston pitch at which films are solved: 10 deg on nine pistons; divides SAMPLES_PER_PITCH."""
+TOLERANCE = 1e-6
+"""Largest change of the chamber pressure between two rounds, of delivery minus inlet pressure."""
+ROUND_LIMIT = 12
+
+
+@dataclass(frozen=True)
+class FilmsPoint:
+    """One coupled operating point: the pump, its films over the revolution, and the evidence of convergence.
+
+    rounds of films and chamber; pressure_change: the last round's largest, Pa; sampling_error: change of the
+    gaps' mean leakage (relative) when every second film angle is left out.
+    """
+
+    rotor: Rotor
+    pump_point: PumpPoint
+    gaps: GapCycle
+    rounds: int
+    pressure_change: float
+    sampling_error: float
+
+
+def films_point(
+    pump: PumpDescription,
+    point: OperatingPoint,
+    *,
+    positions_per_pitch: int = POSITIONS_PER_PITCH,
+    report: Report = silent,
+) -> FilmsPoint:
+    """One periodic operating point with films solved over the revolution.
+
+    Raises NotConverged when chamber pressure and films do not settle within ROUND_LIMIT rounds, ValueError when
+    `positions_per_pitch` does not divide SAMPLES_PER_PITCH. Films are rigid, isothermal, quasi-static.
+    """
+    if SAMPLES_PER_PITCH % positions_per_pitch:
+        raise ValueError(
+            f"positions per pitch: found {positions_per_pitch}, expected a divisor of {SAMPLES_PER_PITCH}"
+        )
+    group, motion = rotor(pump, point), piston_motion(pump, point)
+    every = SAMPLES_PER_PITCH // positions_per_pitch
+    cycle = lumped_point(pump, point).cycle
+    films, gaps, rounds = GapFilms(group), None, 0
+    limit = TOLERANCE * (abs(point.delivery_pressure - point.inlet_pressure) + 1e5)
+    while rounds < ROUND_LIMIT:
+        rounds += 1
+        gaps = films.cycle(cycle.shaft_angle[::every], cycle.pressure[::every], gaps, report)
+        problem = chamber_problem(pump, point, motion, leak_table(gaps, point.case_pressure))
+        before, cycle = cycle, solve_cycle(problem, motion.shaft_angle.size)
+        change = float(np.max(np.abs(cycle.pressure - before.pressure)))
+        if change <= limit:
+            break
+    else:
+        raise NotConverged(
+            f"films and chamber pressure: after {ROUND_LIMIT} rounds the pressure still changes by {change:.3g} "
+            f"Pa, expected at most {limit:.3g} Pa; try the lumped fidelity, or more film angles"
+        )
+    exchange = gap_exchange(gaps, cycle, pump.pump.pistons, point)
+    losses = with_film_shear(lumped_pairs(pump, point, motion, cycle), gaps, point.case_pressure)
+    derived = swept_displacement(pump, motion.drive)
+    pump_point = assemble(point, problem, cycle, losses, pump.pump.pistons, derived, exchange)
+    return FilmsPoint(group, pump_point, gaps, rounds, change, _sampling_error(gaps))
+
+
+def leak_table(gaps: GapCycle, case_pressure: float) -> LeakTable:
+    """Flow out of one chamber into each gap as G (p - p_case) + C, exact at the pressures of `gaps`."""
+    return LeakTable(gaps.conductance, gaps.flow - gaps.conductance * (gaps.chamber_pressure - case_pressure))
+
+
+def gap_exchange(gaps: GapCycle, cycle: ChamberCycle, pistons: int, point: OperatingPoint) -> GapExchange:
+    """Power of the oil that moving walls drag along, and what the valve plate's film takes from the ports."""
+    rate = pistons * point.shaft_speed / TURN
+    piston, slipper = rate * cycle.carried_energy[:2]
+    plate = float(np.mean([film.carried_power for film in gaps.valve_plate]))
+    return GapExchange(
+        carried=Gaps(float(piston), float(slipper), plate),
+        delivery_draw=float(np.mean([film.delivery_flow for film in gaps.valve_plate])),
+        suction_draw=float(np.mean([film.suction_flow for film in gaps.valve_plate])),
+    )
+
+
+def film_shear(gaps: GapCycle, case_pressure: float) -> tuple[Array, Array, Array]:
+    """Viscous loss (W) of one piston (N,), one slipper (N,) and the ring (N/z,).
+
+    Power of the walls plus what the oil they drag along gives back, P + C (p - p_case): the film's dissipation
+    less that of its pressure flow, which is leakage loss.
+    """
+    carried = leak_table(gaps, case_pressure).carried_flow * (gaps.chamber_pressure - case_pressure)
+    piston = np.array([film.friction_power for film in gaps.piston]) + carried[0]
+    slipper = np.array([film.friction_power for film in gaps.slipper]) + carried[1]
+    ring = np.array([film.gap.friction_power + film.carried_power for film in gaps.valve_plate])
+    return piston, slipper, ring
+
+
+def with_film_shear(losses: FrictionPairs, gaps: GapCycle, case_pressure: float) -> FrictionPairs:
+    """The pairs with the viscous part of the three gaps' pairs from the films, between film angles linear.
+
+    Linear between equidistant angles keeps the mean of the film solves exactly.
+    """
+    piston, slipper, ring = film_shear(gaps, case_pressure)
+    samples = losses.piston_cylinder.viscous.size
+    ring_turn = np.tile(ring, len(gaps.shaft_angle) // len(ring))
+    return replace(
+        losses,
+        piston_cylinder=replace(losses.piston_cylinder, viscous=_refine(piston, samples)),
+        slipper_swash_plate=replace(losses.slipper_swash_plate, viscous=_refine(slipper, samples)),
+        valve_plate_cylinder=replace(losses.valve_plate_cylinder, viscous=_refine(ring_turn, samples)),
+    )
+
+
+def _refine(periodic: Array, samples: int) -> Array:
+    turns = np.arange(samples) / samples
+    return np.interp(turns, np.arange(periodic.size) / periodic.size, periodic, period=1.0)
+
+
+def _sampling_error(gaps: GapCycle) -> float:
+    flow = gaps.flow.sum(axis=0)
+    return float(abs(flow.mean() - flow[::2].mean()) / abs(flow.mean()))
