@@ -1,0 +1,69 @@
+"""The command: threads, exit codes and the last word on every error. Imports nothing heavy."""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Sequence
+from types import TracebackType
+
+EXIT_BAD_INPUT = 2
+EXIT_NOT_CONVERGED = 3
+EXIT_INTERRUPTED = 130
+_THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS")
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run a command and return its exit code: 0, 2 bad input, 3 not converged, 130 interrupted.
+
+    An error of the program itself ends it with 1 and a line that says so; `--debug` shows the traceback.
+    """
+    words = list(sys.argv[1:] if arguments is None else arguments)
+    if "--debug" in words:
+        words.remove("--debug")
+    elif arguments is None:
+        sys.excepthook = _internal_error
+    for name in _THREADS:  # films are small: threads cost more than they give, and two runs share the cores
+        os.environ.setdefault(name, "1")
+    from reynolds.errors import FilmInputError, FilmNotConverged
+    from swashfilm.cli import run_command
+    from swashfilm.run_folder import Interrupted
+    from system.errors import NotConverged
+    from system.faults import InputFaults
+
+    try:
+        return run_command(words)
+    except (InputFaults, FilmInputError) as reason:
+        return _end(str(reason), EXIT_BAD_INPUT)
+    except (FilmNotConverged, NotConverged) as reason:
+        return _end(f"not converged: {reason}\nNo result was written.", EXIT_NOT_CONVERGED)
+    except Interrupted as stop:
+        kept = f"what was done is kept in {stop.kept}" if stop.kept else "nothing was kept"
+        again = " ".join(["swashfilm", *words])
+        return _end(f"interrupted: {kept}. The same command starts anew: {again}", EXIT_INTERRUPTED)
+    except KeyboardInterrupt:
+        return _end("interrupted: nothing was written", EXIT_INTERRUPTED)
+    except BrokenPipeError:  # the reader of our output has gone, as in `swashfilm ... | head`
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 1
+
+
+def _end(message: str, code: int) -> int:
+    sys.stderr.write(f"swashfilm: {message}\n")
+    return code
+
+
+def _internal_error(kind: type[BaseException], error: BaseException, trace: TracebackType | None) -> None:
+    where = trace
+    while where is not None and where.tb_next is not None:
+        where = where.tb_next
+    place = f" ({where.tb_frame.f_code.co_filename}:{where.tb_lineno})" if where else ""
+    sys.stderr.write(
+        f"swashfilm: internal error, not yours: {kind.__name__}: {error}{place}\n"
+        "Please report it to whom you have Swashfilm from, with the command, its input file and the output of\n"
+        "`swashfilm doctor`. The same command with --debug shows the whole traceback.\n"
+    )
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,257 @@
+"""The command line: what the commands are called, what they take, and what they print.
+
+argparse, because the help must stand within 0.3 s; a command's own imports wait until it runs.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+from collections.abc import Sequence
+from enum import Enum
+from pathlib import Path
+from typing import Any, NoReturn
+
+from swashfilm.terminal import show, show_table
+from system.faults import Fault, InputFaults, nearest_choice
+
+COMMAND_LINE = "command line"
+_OVERRIDES = {
+    "--speed": ("operating.speed", "2100rpm", "shaft speed"),
+    "--pressure": ("operating.pressure", "350bar", "delivery pressure, gauge"),
+    "--displacement": ("operating.displacement_ratio", "1.0", "share of the full displacement"),
+    "--temperature": ("operating.temperature", "50degC", "temperature of the oil in the case"),
+    "--inlet-pressure": ("operating.inlet_pressure", "25bar", "pressure at the inlet, gauge"),
+    "--case-pressure": ("operating.case_pressure", "1.5bar", "pressure in the case, gauge"),
+}
+
+
+class Fidelity(Enum):
+    """How the films of a pump are had: given thickness, or solved over the revolution."""
+
+    LUMPED = "lumped"
+    FILMS = "films"
+
+
+def run_command(words: Sequence[str]) -> int:
+    """Run the command that the words name and return its exit code; raises what its parts raise.
+
+    Words that are no command of ours raise InputFaults, every one that is not known at once.
+    """
+    parser = build_parser()
+    _check_command(parser, words)
+    options, unknown = parser.parse_known_args(list(words))
+    if unknown:
+        raise InputFaults(COMMAND_LINE, [_unknown(parser, options.command, word) for word in unknown])
+    if options.command is None:
+        parser.print_help()
+        return 0
+    return int(_COMMANDS[options.command](options))
+
+
+class _Parser(argparse.ArgumentParser):
+    """An argument parser that raises its complaint as a fault."""
+
+    def error(self, message: str) -> NoReturn:
+        what, _, rest = message.partition(": ")
+        path = what.removeprefix("argument ") if rest else self.prog
+        hint = (
+            f"a value that starts with - is written {path.split('/')[-1]}=VALUE"
+            if "expected one" in message
+            else ""
+        )
+        raise InputFaults(COMMAND_LINE, [Fault(path, rest or message, f"see {self.prog} --help", hint)])
+
+
+class _Version(argparse.Action):
+    """Print the version, which is looked up only now."""
+
+    def __call__(self, parser: argparse.ArgumentParser, *_: Any) -> None:
+        from importlib.metadata import version
+
+        show(f"swashfilm {version('swashfilm')}")
+        parser.exit()
+
+
+def build_parser() -> argparse.ArgumentParser:
+    """The parser of all commands."""
+    parser = _Parser(
+        prog="swashfilm",
+        description="Lubrication gaps and losses of swash-plate axial piston pumps.",
+        epilog="Every command has its own --help. --debug shows the traceback of an internal error.",
+        allow_abbrev=False,
+    )
+    parser.add_argument("--version", action=_Version, nargs=0, help="print the version and end")
+    commands = parser.add_subparsers(dest="command", metavar="COMMAND", parser_class=_Parser)
+    run = _command(commands, "run", "one operating point of a pump: three gaps, chambers, losses")
+    run.add_argument("pump", nargs="?", default="ref90", metavar="PUMP", help="built-in name (ref90) or pump file")
+    for option, (_, example, what) in _OVERRIDES.items():
+        run.add_argument(option, metavar=example, help=f"{what}; the pump's own where left out")
+    run.add_argument(
+        "--fidelity",
+        choices=[fidelity.value for fidelity in Fidelity],
+        default=Fidelity.FILMS.value,
+        help="films of given thickness, or films solved over the revolution (default)",
+    )
+    _output(run)
+    film = _command(commands, "film", "one film: a free one or a gap of a pump")
+    film.add_argument("case", type=Path, metavar="CASE.toml", help="the film case")
+    _output(film)
+    report = _command(commands, "report", "make the report of a run folder anew")
+    report.add_argument("folder", type=Path, metavar="DIR", help="the run folder")
+    check = _command(commands, "check", "validate a pump file or film case without running it")
+    check.add_argument("file", metavar="FILE", help="pump file, film case or built-in pump")
+    _command(commands, "doctor", "what this machine offers: packages, caches, graphics")
+    return parser
+
+
+def _command(commands: Any, name: str, what: str) -> argparse.ArgumentParser:
+    added: argparse.ArgumentParser = commands.add_parser(
+        name, help=what, description=what.capitalize() + ".", allow_abbrev=False
+    )
+    return added
+
+
+def _output(command: argparse.ArgumentParser) -> None:
+    command.add_argument(
+        "-o", dest="output", type=Path, metavar="DIR", help="run folder (default runs/NAME-N, N fresh)"
+    )
+
+
+def _check_command(parser: argparse.ArgumentParser, words: Sequence[str]) -> None:
+    name = next((word for word in words if not word.startswith("-")), None)
+    if name is not None and not words[0].startswith("-") and name not in _COMMANDS:
+        fault = Fault("command", f"'{name}'", f"one of {', '.join(_COMMANDS)}", nearest_choice(name, _COMMANDS))
+        raise InputFaults(COMMAND_LINE, [fault])
+
+
+def _unknown(parser: argparse.ArgumentParser, command: str | None, word: str) -> Fault:
+    """The fault of a word that no option or argument takes."""
+    options = [*_OVERRIDES, "--fidelity", "-o", "--help"] if command == "run" else ["-o", "--help"]
+    if command not in ("run", "film"):
+        options = ["--help"] if command else ["--help", "--version"]
+    kind = "unknown option" if word.startswith("-") else "a word too many"
+    name = word.partition("=")[0]
+    return Fault(name, kind, f"one of {', '.join(options)}", nearest_choice(name, options))
+
+
+def _run(options: argparse.Namespace) -> int:
+    from swashfilm.pump_run import run_pump
+    from swashfilm.run_folder import final_folder, run_folder
+    from system.pump_file import check_pump, load_pump
+
+    stated, faults = _overrides(options)
+    try:
+        pump = load_pump(options.pump, stated)
+    except InputFaults as reason:
+        raise _at_options(reason, stated, faults) from None
+    if faults:
+        raise InputFaults(COMMAND_LINE, faults)
+    for warning in check_pump(pump).warnings:
+        show(f"warning: {warning}")
+    with run_folder(pump.name, options.output) as folder:
+        run_pump(pump, options.pump, Fidelity(options.fidelity), folder)
+    show(f"results in {final_folder(folder)}")
+    return 0
+
+
+def _overrides(options: argparse.Namespace) -> tuple[dict[str, object], list[Fault]]:
+    """What the options put in place of the pump's own operating point, as a pump file would have it."""
+    stated: dict[str, object] = {}
+    faults = []
+    for option, (path, example, what) in _OVERRIDES.items():
+        text = getattr(options, option[2:].replace("-", "_"))
+        if text is None:
+            continue
+        stated[path] = text
+        if option == "--displacement":
+            try:
+                stated[path] = float(text)
+            except ValueError:
+                faults.append(Fault(option, repr(text), f"{what}, a bare number such as {example}"))
+                del stated[path]
+    return stated, faults
+
+
+def _at_options(reason: InputFaults, stated: dict[str, object], faults: list[Fault]) -> InputFaults:
+    """The faults of a pump, those of overridden values told at their options."""
+    option_of = {path: option for option, (path, _, _) in _OVERRIDES.items() if path in stated}
+    moved = [Fault(option_of.get(f.path, f.path), f.found, f.expected, f.nearest) for f in reason.faults]
+    all_ours = all(fault.path in _OVERRIDES for fault in moved)
+    return InputFaults(COMMAND_LINE if all_ours else reason.source, [*faults, *moved], reason.lines)
+
+
+def _film(options: argparse.Namespace) -> int:
+    from swashfilm.film_case import load_case
+    from swashfilm.film_page import summary_rows
+    from swashfilm.film_study import run_case
+    from swashfilm.progress import progress
+    from swashfilm.run_folder import final_folder, run_folder
+
+    case = load_case(options.case)
+    with run_folder(case.name, options.output) as folder, progress(3, f"film {case.name}") as report:
+        summary = run_case(case, folder, report)
+    show_table(f"Film {case.name}", summary_rows(summary))
+    for warning in summary["warnings"]:
+        show(f"warning: {warning['name']}: {warning['text']}")
+    show(f"results in {final_folder(folder)}")
+    return 0
+
+
+def _report(options: argparse.Namespace) -> int:
+    summary = options.folder / "summary.json"
+    try:
+        kind = json.loads(summary.read_text("utf-8"))["kind"]
+    except FileNotFoundError:
+        fault = Fault("DIR", f"no {summary}", "the folder of a finished run")
+        raise InputFaults(COMMAND_LINE, [fault]) from None
+    except (OSError, ValueError, KeyError, TypeError) as reason:
+        fault = Fault("summary.json", f"cannot be read: {reason!r}", "the summary that a run wrote")
+        raise InputFaults(str(options.folder), [fault]) from None
+    if kind != "film":
+        raise InputFaults(str(options.folder), [Fault("summary.json", f"kind {kind!r}", "'film'")])
+    from swashfilm.film_page import write_film_page
+
+    show(f"report in {write_film_page(options.folder)}")
+    return 0
+
+
+def _check(options: argparse.Namespace) -> int:
+    from swashfilm.case_table import read_toml
+    from system.pump_file import builtin_pumps, check_pump, load_pump, resolved_toml
+
+    is_pump = options.file in builtin_pumps()
+    if not is_pump:
+        _, tables = read_toml(Path(options.file))
+        is_pump = "pump" in tables and isinstance(tables["pump"], dict)
+        if not is_pump and not {"film", "gap"} & set(tables):
+            fault = Fault(
+                "file", f"tables {', '.join(tables) or 'none'}", "a pump file ([pump]) or a film case ([film])"
+            )
+            raise InputFaults(options.file, [fault])
+    if is_pump:
+        pump = load_pump(options.file)
+        show(resolved_toml(pump))
+        for warning in check_pump(pump).warnings:
+            show(f"warning: {warning}")
+    else:
+        from swashfilm.film_case import load_case
+
+        show(load_case(Path(options.file)).resolved)
+    show(f"{options.file}: ok")
+    return 0
+
+
+def _doctor(options: argparse.Namespace) -> int:
+    from swashfilm.doctor import examine, is_well
+
+    findings = examine()
+    show_table("Doctor", [(finding.what, finding.text) for finding in findings])
+    for finding in findings:
+        if finding.remedy:
+            sys.stderr.write(f"{finding.what}: {finding.remedy}\n")
+    return 0 if is_well(findings) else 1
+
+
+_COMMANDS = {"run": _run, "film": _film, "report": _report, "check": _check, "doctor": _doctor}

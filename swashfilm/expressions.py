@@ -1,0 +1,176 @@
+"""Formulas of case files: arithmetic of x and y, checked and evaluated without Python's own eval.
+
+A formula is parsed once into a tree of which only arithmetic, comparisons, listed functions and listed names
+are taken; everything else is an ExpressionError that says where.
+"""
+
+from __future__ import annotations
+
+import ast
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from system.faults import nearest_choice
+
+Array = NDArray[np.float64]
+_Evaluate = Callable[[Mapping[str, Array]], Array]
+
+LONGEST = 2000  # characters
+VARIABLES = ("x", "y")
+CONSTANTS = {"pi": math.pi}
+FUNCTIONS: dict[str, tuple[Callable[..., Array], int]] = {
+    "sin": (np.sin, 1), "cos": (np.cos, 1), "tan": (np.tan, 1),
+    "asin": (np.arcsin, 1), "acos": (np.arccos, 1), "atan": (np.arctan, 1), "atan2": (np.arctan2, 2),
+    "sinh": (np.sinh, 1), "cosh": (np.cosh, 1), "tanh": (np.tanh, 1),
+    "exp": (np.exp, 1), "log": (np.log, 1), "log10": (np.log10, 1), "sqrt": (np.sqrt, 1),
+    "abs": (np.abs, 1), "floor": (np.floor, 1), "sign": (np.sign, 1), "hypot": (np.hypot, 2),
+    "min": (np.minimum, 2), "max": (np.maximum, 2), "where": (np.where, 3),
+}  # fmt: skip
+_BINARY = {
+    ast.Add: np.add, ast.Sub: np.subtract, ast.Mult: np.multiply, ast.Div: np.divide, ast.Pow: np.float_power,
+}  # fmt: skip
+_UNARY = {ast.USub: np.negative, ast.UAdd: np.positive, ast.Not: np.logical_not}
+_COMPARE = {ast.Lt: np.less, ast.LtE: np.less_equal, ast.Gt: np.greater, ast.GtE: np.greater_equal}
+_JOIN = {ast.And: np.logical_and, ast.Or: np.logical_or}
+
+
+class ExpressionError(ValueError):
+    """A formula that cannot be taken: what was found and where, what was expected, the nearest valid choice."""
+
+    def __init__(self, found: str, expected: str, nearest: str = "") -> None:
+        super().__init__(f"{found}; expected {expected}")
+        self.found, self.expected, self.nearest = found, expected, nearest
+
+
+@dataclass(frozen=True)
+class Expression:
+    """A checked formula of x and y (m); calling it gives its value, of the shape of x and y."""
+
+    text: str
+    evaluate: _Evaluate = field(repr=False, compare=False)
+
+    def __call__(self, x: Array, y: Array) -> Array:
+        """The formula at these places, float, shape of x; not finite where it has no value (1/0, sqrt(-1))."""
+        with np.errstate(all="ignore"):
+            value = self.evaluate({"x": x, "y": y})
+        return np.array(np.broadcast_to(value, np.shape(x)), dtype=float)
+
+
+def parse_expression(text: str) -> Expression:
+    """The formula that `text` writes: numbers, x, y, pi, + - * / **, < <= > >=, and or not, FUNCTIONS.
+
+    Raises ExpressionError for a slip of syntax (with its column), an unknown name (with the nearest known one)
+    and anything that is no arithmetic.
+    """
+    if len(text) > LONGEST:
+        raise ExpressionError(f"{len(text)} characters", f"a formula of at most {LONGEST} characters")
+    try:
+        tree = ast.parse(text.strip(), mode="eval")
+        formula = Expression(text.strip(), _compile(tree.body))
+        formula(np.ones(1), np.ones(1))
+    except SyntaxError as slip:
+        column = f" at column {slip.offset}" if slip.offset else ""
+        raise ExpressionError(f"'{text}', a slip of syntax{column}", "a formula of x and y") from None
+    except (RecursionError, MemoryError):
+        raise ExpressionError("a formula nested too deep", "a simpler formula") from None
+    except ValueError as reason:
+        if isinstance(reason, ExpressionError):
+            raise ExpressionError(f"'{text}': {reason.found}", reason.expected, reason.nearest) from None
+        raise ExpressionError(f"{text!r} ({reason})", "a formula of x and y") from None
+    return formula
+
+
+def _compile(node: ast.expr) -> _Evaluate:
+    """The function that evaluates a node; raises ExpressionError for a node that is no arithmetic."""
+    match node:
+        case ast.Constant(value=bool()):
+            pass
+        case ast.Constant(value=int() | float() as number):
+            return _constant(number, node)
+        case ast.Name(id=name):
+            return _named(name, node)
+        case ast.BinOp(left=left, op=sign, right=right) if type(sign) in _BINARY:
+            return _call(_BINARY[type(sign)], [left, right])
+        case ast.BinOp(op=ast.BitXor()):
+            raise ExpressionError(f"^{_at(node)}", "** for a power", "**")
+        case ast.UnaryOp(op=sign, operand=operand) if type(sign) in _UNARY:
+            return _call(_UNARY[type(sign)], [operand])
+        case ast.BoolOp(op=sign, values=values):
+            parts = [_compile(value) for value in values]
+            join = _JOIN[type(sign)]
+            return lambda names: join.reduce(np.broadcast_arrays(*(part(names) for part in parts)))
+        case ast.Compare(left=left, ops=operators, comparators=others):
+            return _comparison(node, left, operators, others)
+        case ast.Call(func=ast.Name(id=name), args=arguments, keywords=[]):
+            return _function(name, arguments, node)
+        case _:
+            pass
+    raise ExpressionError(
+        f"'{ast.unparse(node)}'{_at(node)}, which is no arithmetic", f"numbers, {_known_names()}, + - * / **"
+    )
+
+
+def _constant(number: float, node: ast.expr) -> _Evaluate:
+    try:
+        value = np.asarray(float(number))
+    except OverflowError:
+        raise ExpressionError(f"a number beyond 1e308{_at(node)}", "a number that a computer holds") from None
+    return lambda names: value
+
+
+def _named(name: str, node: ast.expr) -> _Evaluate:
+    if name in VARIABLES:
+        return lambda names: names[name]
+    if name in CONSTANTS:
+        value = np.asarray(CONSTANTS[name])
+        return lambda names: value
+    if name == "t":
+        raise ExpressionError(f"time t{_at(node)}", "a formula of x and y (this version solves steady films)")
+    raise ExpressionError(
+        f"unknown name {name}{_at(node)}", _known_names(), nearest_choice(name, (*FUNCTIONS, *CONSTANTS))
+    )
+
+
+def _function(name: str, arguments: list[ast.expr], node: ast.expr) -> _Evaluate:
+    if name not in FUNCTIONS:
+        raise ExpressionError(
+            f"unknown function {name}{_at(node)}", ", ".join(FUNCTIONS), nearest_choice(name, FUNCTIONS)
+        )
+    function, count = FUNCTIONS[name]
+    if len(arguments) != count:
+        raise ExpressionError(f"{len(arguments)} arguments of {name}{_at(node)}", f"{count}")
+    return _call(function, arguments)
+
+
+def _call(function: Callable[..., Array], arguments: list[ast.expr]) -> _Evaluate:
+    parts = [_compile(argument) for argument in arguments]
+    return lambda names: function(*(part(names) for part in parts))
+
+
+def _comparison(
+    node: ast.Compare, left: ast.expr, operators: list[ast.cmpop], others: list[ast.expr]
+) -> _Evaluate:
+    """A chain such as 0 < x <= 1: every link holds."""
+    if not all(type(operator) in _COMPARE for operator in operators):
+        raise ExpressionError(f"'{ast.unparse(node)}'{_at(node)}", "one of < <= > >=")
+    links = [_COMPARE[type(operator)] for operator in operators]
+    parts = [_compile(part) for part in (left, *others)]
+
+    def holds(names: Mapping[str, Array]) -> Array:
+        values = [part(names) for part in parts]
+        held = [link(a, b) for link, a, b in zip(links, values, values[1:], strict=False)]
+        return np.logical_and.reduce(np.broadcast_arrays(*held))
+
+    return holds
+
+
+def _known_names() -> str:
+    return f"{', '.join((*VARIABLES, *CONSTANTS))} and the functions {', '.join(FUNCTIONS)}"
+
+
+def _at(node: ast.expr) -> str:
+    return f" at column {node.col_offset + 1}"

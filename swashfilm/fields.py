@@ -1,0 +1,183 @@
+"""Fields of a case file: a quantity, a formula of x and y, or data that the mesh file brings along."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+
+from reynolds.errors import FilmInputError
+from reynolds.mesh import Array, FilmMesh
+from reynolds.space import FilmSpace
+from swashfilm.expressions import CONSTANTS, VARIABLES, Expression, ExpressionError, parse_expression
+from system.faults import nearest_choice
+from system.units import Dimension, QuantityError, format_quantity, parse_quantity
+
+_WITH_UNIT = re.compile(r"[+-]?(?>(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*[A-Za-zµμ°].*")
+_NAME = re.compile(r"[^\W\d]\w*")
+
+
+@dataclass(frozen=True)
+class MeshData:
+    """Scalar data of a mesh file by name: at points (vertices,) and in cells (cells,), SI by agreement."""
+
+    point: Mapping[str, Array] = field(default_factory=dict)
+    cell: Mapping[str, Array] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Uniform:
+    """The same value everywhere, SI."""
+
+    value: float
+    dimension: Dimension
+
+    def sample(self, space: FilmSpace) -> Array:
+        """(1, 1)."""
+        return space.sample(self.value)
+
+    def __str__(self) -> str:
+        """As a case file writes it."""
+        return format_quantity(self.value, self.dimension)
+
+
+@dataclass(frozen=True)
+class Formula:
+    """A formula of x and y, SI; a jump within a cell is blurred over that cell, along cell edges it is exact."""
+
+    expression: Expression
+
+    def sample(self, space: FilmSpace) -> Array:
+        """At the quadrature points, (cells, points)."""
+        return space.sample(self.expression)
+
+    def __str__(self) -> str:
+        """As a case file writes it."""
+        return self.expression.text
+
+
+@dataclass(frozen=True)
+class PointData:
+    """Continuous data of the mesh file's points, SI."""
+
+    name: str
+    values: Array = field(repr=False)
+
+    def sample(self, space: FilmSpace) -> Array:
+        """Interpolated to the quadrature points, (cells, points)."""
+        return space.sample_vertices(self.values)
+
+    def __str__(self) -> str:
+        """As a case file writes it."""
+        return self.name
+
+
+@dataclass(frozen=True)
+class CellData:
+    """Data of the mesh file's cells, which jumps between cells, SI."""
+
+    name: str
+    values: Array = field(repr=False)
+
+    def sample(self, space: FilmSpace) -> Array:
+        """(cells, 1)."""
+        return space.sample_cells(self.values)
+
+    def __str__(self) -> str:
+        """As a case file writes it."""
+        return self.name
+
+
+Field = Uniform | Formula | PointData | CellData
+
+
+def read_field(raw: object, dimension: Dimension, data: MeshData) -> Field:
+    """The field that an entry of a case file means.
+
+    A number with a unit is a quantity, a name of the mesh file's data that data, everything else a formula
+    whose value is in the SI unit of `dimension`. Raises QuantityError with what was found and expected.
+    """
+    expected = (
+        f"{dimension.noun} with its unit, such as '{dimension.example}', a formula of x and y in "
+        f"{dimension.si_unit} (text in quotes), or the name of data in the mesh file"
+    )
+    if isinstance(raw, bool) or not isinstance(raw, str):
+        nearest = f'"{raw} {dimension.si_unit}"' if isinstance(raw, (int, float)) else ""
+        raise QuantityError(repr(raw), expected, nearest)
+    text = raw.strip()
+    if not text:
+        raise QuantityError("empty text", expected)
+    if text in data.point and text in data.cell:
+        raise QuantityError(
+            f"'{text}', which is point data and cell data of the mesh file", "data of one kind", "rename one"
+        )
+    if text in data.point:
+        return PointData(text, data.point[text])
+    if text in data.cell:
+        return CellData(text, data.cell[text])
+    if _WITH_UNIT.fullmatch(text):
+        return Uniform(parse_quantity(text, dimension), dimension)
+    if may_be_data(text):
+        raise _no_such_data(text, data)
+    try:
+        return Formula(parse_expression(text))
+    except ExpressionError as reason:
+        raise QuantityError(reason.found, reason.expected, reason.nearest) from None
+
+
+def may_be_data(raw: object) -> bool:
+    """True for a text that can only be the name of data in a mesh file."""
+    return (
+        isinstance(raw, str) and bool(_NAME.fullmatch(raw.strip())) and raw.strip() not in (*VARIABLES, *CONSTANTS)
+    )
+
+
+def mesh_data(path: Path, film_mesh: FilmMesh) -> MeshData:
+    """The scalar data of a mesh file that `reynolds.mesh.mesh_from_file` has read.
+
+    Raises FilmInputError where the file holds points that no cell uses: its point data could not be told apart.
+    """
+    import meshio
+
+    raw = meshio.read(path)
+    mesh = film_mesh.mesh
+    kind = "triangle" if mesh.t.shape[0] == 3 else "quad"
+    if len(raw.points) != mesh.p.shape[1] and raw.point_data:
+        raise FilmInputError(
+            "mesh",
+            f"{path}: {len(raw.points)} points, of which {mesh.p.shape[1]} belong to cells",
+            "a mesh file without loose points",
+        )
+    blocks = [index for index, block in enumerate(raw.cells) if block.type == kind]
+    return MeshData(
+        {name: scalar for name, values in raw.point_data.items() if (scalar := _scalar(values)) is not None},
+        {
+            name: scalar
+            for name, parts in raw.cell_data.items()
+            if (scalar := _scalar(np.concatenate([parts[index] for index in blocks]))) is not None
+        },
+    )
+
+
+def _scalar(values: Array) -> Array | None:
+    flat = np.asarray(values)
+    if flat.ndim == 2 and flat.shape[1] == 1:
+        flat = flat[:, 0]
+    return flat.astype(float) if flat.ndim == 1 and np.issubdtype(flat.dtype, np.number) else None
+
+
+def _no_such_data(name: str, data: MeshData) -> QuantityError:
+    names = [*data.point, *data.cell]
+    known = (*VARIABLES, *CONSTANTS)
+    if not names:
+        return QuantityError(
+            f"unknown name {name}", f"{', '.join(known)}, or data of the mesh (this mesh has none)"
+        )
+    return QuantityError(
+        f"'{name}', no data of the mesh file",
+        f"point data ({', '.join(data.point) or 'none'}) or cell data ({', '.join(data.cell) or 'none'}) of it",
+        nearest_choice(name, names),
+    )

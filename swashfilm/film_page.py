@@ -1,0 +1,100 @@
+"""The page of one film: report.html with its picture and its numbers, made from the run folder's own files."""
+
+from __future__ import annotations
+
+import base64
+import io
+import json
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from system.faults import Fault, InputFaults
+
+if TYPE_CHECKING:
+    import xarray
+
+UNITS = {"_m3_per_s": "m3/s", "_Nm": "N m", "_Pa": "Pa", "_N": "N", "_W": "W", "_m": "m", "_seconds": "s"}
+
+
+def write_film_page(folder: Path) -> Path:
+    """Write report.html of a film's run folder from its summary.json, resolved.toml and results.nc.
+
+    The page is one file that needs no other. Raises InputFaults where one of the three is not there.
+    """
+    from jinja2 import Environment, PackageLoader
+
+    missing = [name for name in ("summary.json", "resolved.toml", "results.nc") if not (folder / name).is_file()]
+    if missing:
+        raise InputFaults(str(folder), [Fault(name, "no such file", "a film's run folder") for name in missing])
+    summary = json.loads((folder / "summary.json").read_text("utf-8"))
+    template = Environment(loader=PackageLoader("swashfilm"), autoescape=True).get_template("film.html.jinja")
+    page = template.render(
+        name=summary["name"],
+        picture=base64.b64encode(film_picture(folder / "results.nc")).decode("ascii"),
+        rows=list(summary_rows(summary)),
+        warnings=summary["warnings"],
+        case=(folder / "resolved.toml").read_text("utf-8"),
+    )
+    path = folder / "report.html"
+    path.write_text(page, encoding="utf-8")
+    return path
+
+
+def summary_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
+    """(what, value with its unit) of every number of a film's summary, in its order."""
+    for key, value in summary.items():
+        if key in ("format", "kind", "name", "warnings"):
+            continue
+        name, unit = key, ""
+        for ending, symbol in UNITS.items():
+            if key.endswith(ending):
+                name, unit = ("solve" if ending == "_seconds" else key.removesuffix(ending)), symbol
+                break
+        words = name.replace("_", " ")
+        if isinstance(value, dict):
+            for part, number in value.items():
+                yield f"{words}, {part}", f"{number:.6g} {unit}".strip()
+        elif isinstance(value, list):
+            yield words, f"({', '.join(f'{number:.6g}' for number in value)}) {unit}".strip()
+        elif isinstance(value, float):
+            yield words, f"{value:.6g} {unit}".strip()
+        else:
+            yield words, f"{value} {unit}".strip()
+
+
+def film_picture(results: Path) -> bytes:
+    """Maps of film pressure (MPa) and film thickness (um) over the film plane (mm), as a PNG."""
+    import xarray
+    from matplotlib.figure import Figure
+
+    with xarray.open_dataset(results, engine="scipy") as fields:
+        fields.load()
+    figure = Figure(figsize=(10.0, 4.2), layout="constrained")
+    left, right = figure.subplots(1, 2)
+    _map(left, fields, fields["film_pressure"].values * 1e-6, "film pressure / MPa", "viridis")
+    _map(right, fields, fields["film_thickness_cell"].values * 1e6, "film thickness / um", "cividis")
+    picture = io.BytesIO()
+    figure.savefig(picture, format="png", dpi=130)
+    return picture.getvalue()
+
+
+def _map(axes: Any, fields: xarray.Dataset, values: np.ndarray, label: str, colours: str) -> None:
+    """Draw a field of vertices (smooth) or of cells (flat) over the film plane."""
+    from matplotlib.tri import Triangulation
+
+    x, y = fields["x"].values * 1e3, fields["y"].values * 1e3
+    cells = fields["cells"].values
+    quads = cells.shape[1] == 4
+    triangles = np.concatenate([cells[:, [0, 1, 2]], cells[:, [0, 2, 3]]]) if quads else cells
+    mesh = Triangulation(x, y, triangles)
+    if len(values) == len(x):
+        drawn = axes.tripcolor(mesh, values, shading="gouraud", cmap=colours)
+    else:
+        drawn = axes.tripcolor(mesh, facecolors=np.tile(values, 2 if quads else 1), cmap=colours)
+    axes.set(xlabel="x / mm", ylabel="y / mm", title=label)
+    if np.ptp(x) < 5.0 * np.ptp(y) and np.ptp(y) < 5.0 * np.ptp(x):
+        axes.set_aspect("equal")
+    axes.figure.colorbar(drawn, ax=axes)

@@ -1,0 +1,164 @@
+"""One film study: solve a case, and leave its fields, its summary and its picture in a run folder."""
+
+from __future__ import annotations
+
+import time
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from gaps.result import GapFilm
+from reynolds.export import write_vtu
+from reynolds.film import Cavitation, FilmSolution
+from reynolds.loads import Loads, loads, point_fields
+from reynolds.solve import FilmSolver
+from swashfilm.film_case import FilmCase
+from swashfilm.gap_case import GapCase
+from swashfilm.gap_study import gap_summary, gap_warnings, solve_gap, true_place
+from swashfilm.progress import Report
+from swashfilm.run_folder import write_json
+
+if TYPE_CHECKING:
+    import xarray
+
+LARGEST_CAVITY_FLOW = 0.01  # of the throughput; Reynolds' condition makes or swallows oil in a cavity
+_STAGES = 3
+
+
+@dataclass(frozen=True)
+class FilmStudy:
+    """A solved case: its solution and integrals, the gap it is of (None: a free film), and the seconds it took."""
+
+    name: str
+    solution: FilmSolution
+    loads: Loads
+    gap: GapFilm | None
+    solve_seconds: float
+
+
+def solve_case(case: FilmCase | GapCase) -> FilmStudy:
+    """Solve a case; raises FilmNotConverged rather than give a number that is none."""
+    began = time.perf_counter()
+    if isinstance(case, GapCase):
+        film = solve_gap(case)
+        return FilmStudy(case.name, film.solution, film.loads, film, time.perf_counter() - began)
+    solution = FilmSolver(case.problem.space).solve(case.problem)
+    seconds = time.perf_counter() - began
+    return FilmStudy(case.name, solution, loads(solution), None, seconds)
+
+
+def run_case(case: FilmCase | GapCase, folder: Path, report: Report) -> dict[str, Any]:
+    """Solve a case and write input.toml, resolved.toml, film.vtu, results.nc, summary.json and report.html.
+
+    Returns the summary. Raises FilmNotConverged; then only the two TOML files are there.
+    """
+    (folder / "input.toml").write_text(case.text, encoding="utf-8")
+    (folder / "resolved.toml").write_text(case.resolved, encoding="utf-8")
+    report(0, _STAGES, "solving")
+    study = solve_case(case)
+    report(1, _STAGES, "writing fields")
+    summary = film_summary(study)
+    place = true_place(case) if isinstance(case, GapCase) else None
+    write_vtu(folder / "film.vtu", study.solution, place)
+    film_dataset(study).to_netcdf(folder / "results.nc", engine="scipy", format="NETCDF3_64BIT")
+    write_json(folder / "summary.json", summary)
+    report(2, _STAGES, "drawing")
+    from swashfilm.film_page import write_film_page
+
+    write_film_page(folder)
+    report(_STAGES, _STAGES, "done")
+    return summary
+
+
+def film_summary(study: FilmStudy) -> dict[str, Any]:
+    """Every headline number of a film in SI, the unit in the key, and the solver's own checks.
+
+    Forces and moments as `reynolds.loads.Loads` has them; leakage_flow is all that leaves the film.
+    """
+    solution, integrals = study.solution, study.loads
+    return {
+        "format": 1,
+        "kind": "film",
+        "name": study.name,
+        "load_N": integrals.load,
+        "moment_x_Nm": integrals.moment_x,
+        "moment_y_Nm": integrals.moment_y,
+        "pressure_max_Pa": integrals.pressure_max,
+        "pressure_max_at_m": list(integrals.pressure_max_at),
+        "film_thickness_min_m": integrals.film_thickness_min,
+        "flow_m3_per_s": dict(integrals.flow),
+        "leakage_flow_m3_per_s": sum(max(flow, 0.0) for flow in integrals.flow.values()),
+        "friction_force_moving_N": list(integrals.friction_moving),
+        "friction_force_fixed_N": list(integrals.friction_fixed),
+        "friction_torque_moving_Nm": integrals.friction_torque_moving,
+        "dissipation_W": integrals.dissipation,
+        "cavitated_area_fraction": integrals.cavitated_area_fraction,
+        "cavity_flow_m3_per_s": integrals.cavity_flow,
+        "mass_balance_error": integrals.mass_balance_error,
+        "energy_balance_error": integrals.energy_balance_error,
+        "imbalance": solution.imbalance,
+        "dofs": solution.problem.space.size,
+        "iterations": solution.iterations,
+        "solve_seconds": study.solve_seconds,
+        **(gap_summary(study.gap) if study.gap else {}),
+        "warnings": film_warnings(study),
+    }
+
+
+def film_warnings(study: FilmStudy) -> list[dict[str, str]]:
+    """What to doubt about a film that was solved: name and text of each warning."""
+    problem, integrals = study.solution.problem, study.loads
+    found = [] if study.gap is None else gap_warnings(study.gap)
+    through = max(sum(max(sign * flow, 0.0) for flow in integrals.flow.values()) for sign in (1.0, -1.0))
+    share = abs(integrals.cavity_flow) / through if through > 0.0 else np.inf * abs(integrals.cavity_flow)
+    if integrals.cavity_flow != 0.0 and share > LARGEST_CAVITY_FLOW:
+        verb = "makes" if integrals.cavity_flow > 0.0 else "swallows"
+        found.append(
+            {
+                "name": "cavity_does_not_conserve_mass",
+                "text": f"Reynolds' condition {verb} oil in the cavity, {share:.2%} of the throughput "
+                f"(limit {LARGEST_CAVITY_FLOW:.0%}): trust the load, not the flows",
+            }
+        )
+    lowest = float(study.solution.pressure.min())
+    if problem.cavitation is Cavitation.NONE and lowest < problem.cavitation_pressure:
+        found.append(
+            {
+                "name": "pressure_below_cavitation",
+                "text": f"the film is pulled down to {lowest:.4g} Pa, below its cavitation pressure "
+                f"{problem.cavitation_pressure:.4g} Pa: oil would cavitate; choose cavitation = 'reynolds'",
+            }
+        )
+    return found
+
+
+def film_dataset(study: FilmStudy) -> xarray.Dataset:
+    """Fields over vertices and cells with their units; `cells` (cell, corner) are numbers of vertices from 0."""
+    import xarray
+
+    space = study.solution.problem.space
+    thickness = np.broadcast_to(study.solution.problem.film.thickness, space.area.shape)
+    cell_area = space.area.sum(axis=1)
+    shear = point_fields(study.solution).shear_moving
+
+    def mean(field: np.ndarray) -> np.ndarray:
+        return (np.broadcast_to(field, space.area.shape) * space.area).sum(axis=1) / cell_area
+
+    pressure = study.solution.pressure[space.vertex_dofs]
+    return xarray.Dataset(
+        {
+            "film_pressure": ("vertex", pressure, {"units": "Pa"}),
+            "film_thickness": ("vertex", space.to_vertices(thickness), {"units": "m"}),
+            "film_thickness_cell": ("cell", mean(thickness), {"units": "m"}),
+            "wall_shear_x": ("cell", mean(shear[0]), {"units": "Pa", "wall": "moving"}),
+            "wall_shear_y": ("cell", mean(shear[1]), {"units": "Pa", "wall": "moving"}),
+            "cells": (("cell", "corner"), space.cells),
+        },
+        coords={
+            "x": ("vertex", space.vertices[:, 0], {"units": "m"}),
+            "y": ("vertex", space.vertices[:, 1], {"units": "m"}),
+        },
+        attrs={"name": study.name, "kind": "film"},
+    )

@@ -1,0 +1,291 @@
+"""A pump gap as a film case: `gap` and `pump` in place of mesh and formulas, with a position or a load."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from enum import Enum
+from pathlib import Path
+
+import numpy as np
+
+from gaps.piston import PistonGap, PistonLoad, PistonState, eccentric
+from gaps.slipper import SlipperGap, SlipperLoad, SlipperPosition, SlipperState
+from gaps.valve_plate import ValvePlateGap, ValvePlatePosition, ValvePlateState
+from reynolds.errors import FilmInputError
+from reynolds.mesh import Array
+from swashfilm.case_table import Table, quoted
+from system.faults import Fault, InputFaults
+from system.instants import (
+    Rotor,
+    piston_geometry,
+    piston_instant,
+    rotor,
+    slipper_geometry,
+    slipper_instant,
+    valve_plate_geometry,
+    valve_plate_instant,
+)
+from system.operating import operating_point
+from system.pump_file import builtin_pumps, load_pump
+from system.units import Dimension, format_quantity
+
+FORMAT = 1
+
+
+class Gap(Enum):
+    """The three gaps of a pump."""
+
+    PISTON = "piston"
+    SLIPPER = "slipper"
+    VALVE_PLATE = "valve_plate"
+
+
+@dataclass(frozen=True)
+class PistonInstant:
+    """A piston's film at one instant; balanced against the load, or at the position where that is stated."""
+
+    state: PistonState
+    load: PistonLoad
+    position: Array
+    balance: bool
+
+
+@dataclass(frozen=True)
+class SlipperInstant:
+    """A slipper's film at one instant; balanced against the load, or at the position where that is stated."""
+
+    state: SlipperState
+    load: SlipperLoad
+    position: SlipperPosition
+    balance: bool
+
+
+@dataclass(frozen=True)
+class ValvePlateInstant:
+    """The ring's film at one shaft angle and a position; `pressing_force` (N) is what it ought to hold."""
+
+    state: ValvePlateState
+    pressing_force: float
+    position: ValvePlatePosition
+
+
+Instant = PistonInstant | SlipperInstant | ValvePlateInstant
+
+
+@dataclass(frozen=True)
+class GapCase:
+    """A gap case, validated: its name, the file's text, the same resolved, the rotor and the instant (SI)."""
+
+    name: str
+    text: str
+    resolved: str
+    gap: Gap
+    rotor: Rotor
+    shaft_angle: float
+    chamber_pressure: Array
+    instant: Instant
+
+
+def read_gap_case(name: str, text: str, top: Table, film: Table, folder: Path) -> GapCase | None:
+    """The gap case of a file whose [film] table names a gap; None with its faults told in the tables' list.
+
+    What the file leaves out comes from the pump: operating point, chamber pressure of the port that the chamber
+    is at, load from the pump's motion, position from the balance with that load (piston and slipper) or as the
+    description gives it (valve plate).
+    """
+    gap = film.choice("gap", Gap)
+    parts = _rotor(top, film, folder)
+    shaft_angle = film.quantity("shaft_angle", Dimension.ANGLE, 0.0)
+    position, load = top.table("position"), top.table("load")
+    if position and load:
+        top.fault("load", "a load beside a position", "one of the two")
+    if gap is None or parts is None or shaft_angle is None:
+        return None
+    pressures = _chamber_pressure(film, gap, parts, shaft_angle)
+    if pressures is None:
+        return None
+    read = {Gap.PISTON: _piston, Gap.SLIPPER: _slipper, Gap.VALVE_PLATE: _valve_plate}[gap]
+    instant = read(parts, shaft_angle, pressures, position, load)
+    for table in (film, position, load):
+        if table and table is not top:
+            table.close()
+    if instant is None or not _film_is_possible(top, parts, instant):
+        return None
+    case = GapCase(name, text, "", gap, parts, shaft_angle, pressures, instant)
+    source = str(film.values["pump"])
+    return replace(case, resolved=_resolved(case, source if source in builtin_pumps() else str(folder / source)))
+
+
+def _rotor(top: Table, film: Table, folder: Path) -> Rotor | None:
+    source = film.get("pump")
+    operating = top.table("operating")
+    if not isinstance(source, str):
+        found = "no such key" if source is None else repr(source)
+        film.fault("pump", found, f"a built-in pump ({', '.join(builtin_pumps())}) or a pump file beside the case")
+        return None
+    overrides = {f"operating.{key}": value for key, value in operating.values.items()} if operating else {}
+    try:
+        pump = load_pump(source if source in builtin_pumps() else folder / source, overrides)
+    except InputFaults as reason:
+        for fault in reason.faults:
+            here = fault.path.startswith("operating.") or fault.path == "pump"
+            path = f"film.{fault.path}" if fault.path == "pump" else fault.path
+            where = path if here else f"film.pump ({fault.path})"
+            top.faults.append(Fault(where, fault.found, fault.expected, fault.nearest))
+        return None
+    return rotor(pump, operating_point(pump))
+
+
+def _chamber_pressure(film: Table, gap: Gap, parts: Rotor, shaft_angle: float) -> Array | None:
+    """Chamber pressures (Pa): one, or one of each chamber for the valve plate; by port where none is stated."""
+    count = parts.pump.pump.pistons if gap is Gap.VALVE_PLATE else 1
+    angle = (shaft_angle + 2.0 * np.pi / parts.pump.pump.pistons * np.arange(count)) % (2.0 * np.pi)
+    raw = film.get("chamber_pressure")
+    if raw is None:
+        return np.where(angle < np.pi, parts.point.inlet_pressure, parts.point.delivery_pressure)
+    listed = raw if isinstance(raw, list) else [raw]
+    if len(listed) != count:
+        film.fault("chamber_pressure", f"{len(listed)} pressures", f"{count}, one of each chamber")
+        return None
+    names = [f"chamber_pressure[{k}]" for k in range(count)] if count > 1 else ["chamber_pressure"]
+    reader = Table(film.path, dict(zip(names, listed, strict=True)), film.faults)
+    values = [reader.quantity(name, Dimension.PRESSURE) for name in names]
+    return None if None in values else np.array(values, dtype=float)
+
+
+def _piston(
+    parts: Rotor, angle: float, pressure: Array, position: Table | None, load: Table | None
+) -> PistonInstant | None:
+    state, pressed, given = piston_instant(parts, angle, float(pressure[0]))
+    if load:
+        force = load.pair("force", Dimension.FORCE)
+        arm = load.quantity("arm", Dimension.LENGTH, pressed.arm)
+        if force is None or arm is None:
+            return None
+        pressed = PistonLoad(force, arm)
+    if position and "eccentricity_ratio" in position.values:
+        ratio = position.number("eccentricity_ratio")
+        if ratio is None:
+            return None
+        given = eccentric(piston_geometry(parts.pump), ratio, pressed.force)
+    elif position:
+        ends = [position.pair(f"eccentricity_{end}", Dimension.LENGTH) for end in ("chamber", "case")]
+        if None in ends:
+            return None
+        given = np.array(ends, dtype=float).ravel()
+    return PistonInstant(state, pressed, given, balance=position is None)
+
+
+def _slipper(
+    parts: Rotor, angle: float, pressure: Array, position: Table | None, load: Table | None
+) -> SlipperInstant | None:
+    state, pressed, given = slipper_instant(parts, angle, float(pressure[0]))
+    if load:
+        force = load.quantity("force", Dimension.FORCE)
+        moment_x = load.quantity("moment_x", Dimension.TORQUE, 0.0)
+        moment_y = load.quantity("moment_y", Dimension.TORQUE, 0.0)
+        if force is None or moment_x is None or moment_y is None:
+            return None
+        pressed = SlipperLoad(force, moment_x, moment_y)
+    if position:
+        stated = _tilted(position)
+        if stated is None:
+            return None
+        given = SlipperPosition(*stated)
+    return SlipperInstant(state, pressed, given, balance=position is None)
+
+
+def _valve_plate(
+    parts: Rotor, angle: float, pressure: Array, position: Table | None, load: Table | None
+) -> ValvePlateInstant | None:
+    state, given, pressing_force = valve_plate_instant(parts, angle, pressure)
+    if load:
+        load.fault("force", "a load on the valve plate", "a [position]: this version does not balance the block")
+        return None
+    if position:
+        stated = _tilted(position)
+        if stated is None:
+            return None
+        given = ValvePlatePosition(*stated)
+    return ValvePlateInstant(state, pressing_force, given)
+
+
+def _tilted(position: Table) -> tuple[float, float, float] | None:
+    """Film thickness (m) at the origin and the slopes dh/dx, dh/dy (rad)."""
+    thickness = position.positive("film_thickness", Dimension.LENGTH)
+    slope_x = position.quantity("slope_x", Dimension.ANGLE, 0.0)
+    slope_y = position.quantity("slope_y", Dimension.ANGLE, 0.0)
+    if thickness is None or slope_x is None or slope_y is None:
+        return None
+    return thickness, float(np.tan(slope_x)), float(np.tan(slope_y))
+
+
+def _film_is_possible(top: Table, parts: Rotor, instant: Instant) -> bool:
+    """False, with the fault told, where the parts touch at the stated position."""
+    try:
+        match instant:
+            case PistonInstant(state, _, position, _):
+                PistonGap(piston_geometry(parts.pump)).problem(state, position)
+            case SlipperInstant(state, _, position, _):
+                SlipperGap(slipper_geometry(parts.pump)).problem(state, position)
+            case ValvePlateInstant(state, _, position):
+                ValvePlateGap(valve_plate_geometry(parts.pump)).problem(state, position)
+    except FilmInputError as reason:
+        top.fault("position", f"{reason.where}: {reason.found}", f"{reason.expected}: parts that do not touch")
+        return False
+    return True
+
+
+def _resolved(case: GapCase, source: str) -> str:
+    """A case file that gives this very case: operating point, pressures, and the position or the load."""
+    point, angle = case.rotor.point, format_quantity(case.shaft_angle, Dimension.ANGLE)
+    pressures = [quoted(format_quantity(value, Dimension.PRESSURE)) for value in case.chamber_pressure]
+    stated = pressures[0] if len(pressures) == 1 else f"[{', '.join(pressures)}]"
+    rows = [
+        f"format = {FORMAT}", "", "[film]", f'gap = "{case.gap.value}"', f"pump = {quoted(source)}",
+        f'shaft_angle = "{angle}"', f"chamber_pressure = {stated}", "", "[operating]",
+    ]  # fmt: skip
+    for key, value, dimension in (
+        ("speed", point.shaft_speed, Dimension.ANGULAR_SPEED),
+        ("pressure", point.delivery_pressure, Dimension.PRESSURE),
+        ("inlet_pressure", point.inlet_pressure, Dimension.PRESSURE),
+        ("case_pressure", point.case_pressure, Dimension.PRESSURE),
+        ("temperature", point.temperature, Dimension.TEMPERATURE),
+    ):
+        rows.append(f'{key} = "{format_quantity(value, dimension)}"')
+    rows += [f"displacement_ratio = {point.displacement_ratio!r}", "", *_instant_rows(case.instant)]
+    return "\n".join(rows) + "\n"
+
+
+def _instant_rows(instant: Instant) -> list[str]:
+    def shown(value: float, dimension: Dimension) -> str:
+        return quoted(format_quantity(float(value), dimension))
+
+    def both(x: float, y: float, dimension: Dimension) -> str:
+        return f"[{shown(x, dimension)}, {shown(y, dimension)}]"
+
+    match instant:
+        case PistonInstant(_, load, _, True):
+            force = both(*load.force, Dimension.FORCE)
+            return ["[load]", f"force = {force}", f"arm = {shown(load.arm, Dimension.LENGTH)}"]
+        case PistonInstant(_, _, at, False):
+            ends = (("chamber", at[:2]), ("case", at[2:]))
+            return [
+                "[position]",
+                *(f"eccentricity_{end} = {both(x, y, Dimension.LENGTH)}" for end, (x, y) in ends),
+            ]
+        case SlipperInstant(_, load, _, True):
+            moments = (("moment_x", load.moment_x), ("moment_y", load.moment_y))
+            return [
+                "[load]",
+                f"force = {shown(load.force, Dimension.FORCE)}",
+                *(f"{key} = {shown(value, Dimension.TORQUE)}" for key, value in moments),
+            ]
+        case SlipperInstant(position=at) | ValvePlateInstant(position=at):
+            slopes = (("slope_x", at.slope_x), ("slope_y", at.slope_y))
+            return [
+                "[position]",
+                f"film_thickness = {shown(at.film_thickness, Dimension.LENGTH)}",
+                *(f"{key} = {shown(np.arctan(slope), Dimension.ANGLE)}" for key, slope in slopes),
+            ]
+    raise AssertionError(instant)

@@ -1,0 +1,58 @@
+"""Progress of a long computation: a bar with the remaining time on a terminal, plain lines in a log."""
+
+from __future__ import annotations
+
+import sys
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import TextIO
+
+Report = Callable[[int, int, str], None]
+"""What a computation calls as it goes: (steps done, steps in all, what it is at)."""
+
+LINE_EVERY = 5.0  # s between two lines in a log
+
+
+@contextmanager
+def progress(total: int, label: str, stream: TextIO | None = None) -> Iterator[Report]:
+    """A callback that shows how far `label` has come, on the standard error unless `stream` says otherwise.
+
+    The computation may correct the total as it goes. The remaining time is that of the steps so far,
+    extrapolated; before the first step it is not known and not shown.
+    """
+    out = sys.stderr if stream is None else stream
+    if not out.isatty():
+        yield _lines(label, out)
+        return
+    from rich.console import Console
+    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
+
+    time_left = TimeRemainingColumn(elapsed_when_finished=True)
+    words = (TextColumn("{task.description}"), TextColumn("{task.fields[what]}"))
+    columns = (words[0], BarColumn(), MofNCompleteColumn(), time_left, words[1])
+    with Progress(*columns, console=Console(file=out), transient=True) as bar:
+        task = bar.add_task(label, total=total, what="")
+
+        def show(done: int, steps: int, what: str) -> None:
+            bar.update(task, completed=done, total=steps, what=what)
+
+        yield show
+
+
+def _lines(label: str, out: TextIO) -> Report:
+    """Report as lines: the first, the last, and one every few seconds between."""
+    began = time.monotonic()
+    shown = -LINE_EVERY
+
+    def show(done: int, steps: int, what: str) -> None:
+        nonlocal shown
+        spent = time.monotonic() - began
+        if spent - shown < LINE_EVERY and done < steps:
+            return
+        shown = spent
+        ahead = f", {spent / done * (steps - done):.0f} s to go" if 0 < done < steps else ""
+        out.write(f"{label}: {done}/{steps} {what} ({spent:.1f} s{ahead})\n")
+        out.flush()
+
+    return show

@@ -1,0 +1,99 @@
+"""Run folders: a fresh one for every run, nothing overwritten, what a break left clearly marked.
+
+A run writes into `<folder>.partial`, which takes its true name when the run is complete.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from itertools import count
+from pathlib import Path
+from typing import Any
+
+from system.faults import Fault, InputFaults
+
+RUNS = Path("runs")
+
+
+class Interrupted(KeyboardInterrupt):
+    """Ctrl-C during a run: `kept` is the folder with what was done, None where there is nothing to keep."""
+
+    def __init__(self, kept: Path | None) -> None:
+        super().__init__(kept)
+        self.kept = kept
+
+
+@contextmanager
+def run_folder(name: str, wanted: Path | None = None) -> Iterator[Path]:
+    """A folder to write a run's files into; afterwards they lie in `wanted`, or in `runs/<name>-<n>`, n fresh.
+
+    Left by an error, nothing stays; left by Ctrl-C, the `.partial` folder stays if it holds results, and
+    Interrupted tells where. Raises InputFaults for a `wanted` that holds files or cannot be made.
+    """
+    final, partial = _claim(name, wanted)
+    try:
+        yield partial
+        if final.is_dir():
+            final.rmdir()  # empty: `_claim` refused any other
+        partial.rename(final)
+    except KeyboardInterrupt:
+        if any(path.suffix != ".toml" for path in partial.iterdir()):
+            raise Interrupted(partial) from None
+        shutil.rmtree(partial)
+        raise Interrupted(None) from None
+    except BaseException:
+        shutil.rmtree(partial)
+        raise
+
+
+def final_folder(partial: Path) -> Path:
+    """The name that a folder under work gets when its run is complete."""
+    return partial.with_name(partial.name.partition(".partial")[0])
+
+
+def write_json(path: Path, values: Mapping[str, Any]) -> None:
+    """Write values as JSON; raises ValueError for a number that is none (nan, inf), which no summary may hold."""
+    path.write_text(json.dumps(values, indent=2, allow_nan=False) + "\n", encoding="utf-8")
+
+
+def _claim(name: str, wanted: Path | None) -> tuple[Path, Path]:
+    """The final folder and its partial one, which exists from now on and is nobody else's."""
+    try:
+        if wanted is not None:
+            _refuse_filled(wanted)
+            wanted.parent.mkdir(parents=True, exist_ok=True)
+            for number in count(1):
+                partial = wanted.with_name(f"{wanted.name}.partial{'' if number == 1 else f'-{number}'}")
+                if _made(partial):
+                    return wanted, partial
+        RUNS.mkdir(exist_ok=True)
+        for number in count(1):
+            final = RUNS / f"{name}-{number}"
+            if not final.exists() and _made(partial := RUNS / f"{name}-{number}.partial"):
+                return final, partial
+    except OSError as reason:
+        fault = Fault("-o", f"{reason.filename}: {reason.strerror}", "a folder that can be made and written")
+        raise InputFaults("command line", [fault]) from None
+    raise AssertionError("count() does not end")
+
+
+def _refuse_filled(wanted: Path) -> None:
+    if wanted.is_dir() and not any(wanted.iterdir()):
+        return
+    if os.path.lexists(wanted):
+        found = "a folder that holds files" if wanted.is_dir() else "a file"
+        free = next(path for n in count(2) if not (path := wanted.with_name(f"{wanted.name}-{n}")).exists())
+        fault = Fault("-o", f"{wanted}, {found}", "a new or an empty folder: nothing is overwritten", f"-o {free}")
+        raise InputFaults("command line", [fault])
+
+
+def _made(folder: Path) -> bool:
+    try:
+        folder.mkdir()
+    except FileExistsError:
+        return False
+    return True
