@@ -6,10 +6,14 @@ A mesh from a file keeps its own names; edges that carry none are named after wh
 
 from __future__ import annotations
 
+import contextlib
+import io
+import zlib
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from enum import Enum
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import skfem
@@ -123,13 +127,9 @@ def mesh_from_file(path: Path) -> FilmMesh:
     """
     if not path.is_file():
         raise FilmInputError("mesh", f"no file {path}", "an existing mesh file in a format that meshio reads")
-    import meshio
     from skfem.io.meshio import from_meshio
 
-    try:
-        raw = meshio.read(path)
-    except (meshio.ReadError, KeyError, ValueError, UnicodeDecodeError) as reason:
-        raise FilmInputError("mesh", f"{path} cannot be read ({reason})", "a file that meshio reads") from reason
+    raw = _read(path)
     kinds = {block.type for block in raw.cells}
     if not kinds & {"triangle", "quad"}:
         raise FilmInputError("mesh", f"{path} holds {', '.join(sorted(kinds))}", "triangle or quad cells")
@@ -142,6 +142,20 @@ def mesh_from_file(path: Path) -> FilmMesh:
     mesh = from_meshio(raw)
     own = {name: np.asarray(facets) for name, facets in (mesh.boundaries or {}).items()}
     return FilmMesh(_named(mesh, {**box_names(mesh), **loop_names(mesh), **own}))
+
+
+def _read(path: Path) -> Any:
+    """meshio's reader, whose faults (it prints, exits, or fails inside a format) become one kind of error."""
+    import meshio
+
+    faults = (meshio.ReadError, SystemExit, LookupError, ValueError, AssertionError, EOFError, OSError, zlib.error)
+    said = io.StringIO()
+    try:
+        with contextlib.redirect_stdout(said), contextlib.redirect_stderr(said):
+            return meshio.read(path)
+    except faults as fault:
+        reason = " ".join(said.getvalue().split()) or str(fault) or type(fault).__name__
+        raise FilmInputError("mesh", f"{path} cannot be read ({reason})", "a file that meshio reads") from fault
 
 
 def box_names(mesh: skfem.Mesh) -> dict[str, NDArray[np.int64]]:
