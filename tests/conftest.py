@@ -1,0 +1,216 @@
+"""What every test may ask for: a row of the validation page, a mesh refinement, the shared material."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+ROOT = Path(__file__).resolve().parents[1]
+PAGE_COMMAND = "python -m pytest --validation-page docs/validation.md"
+SAFETY = 1.25  # Roache 1994: order observed on three meshes
+FRONT_SAFETY = 3.0  # Roache 1994: order assumed
+
+
+@dataclass(frozen=True)
+class Row:
+    """One line of the validation page."""
+
+    chapter: str
+    case: str
+    source: str
+    quantity: str
+    unit: str
+    expected: float
+    obtained: float
+    tolerance: float
+    order: float | None
+    note: str
+    missed: str
+
+
+@dataclass(frozen=True)
+class Refinement:
+    """A quantity on meshes that are each `ratio` times finer than the one before, coarsest first."""
+
+    values: tuple[float, ...]
+    expected_order: float
+    ratio: float = 2.0
+
+    @property
+    def finest(self) -> float:
+        return self.values[-1]
+
+    @property
+    def order(self) -> float | None:
+        """Order of convergence observed on the three finest meshes; None where only round-off is left."""
+        before, after = np.diff(self.values)[-2:]
+        if abs(after) < 1e-10 * max(abs(self.finest), 1e-300):
+            return None
+        return float(np.log(abs(before / after)) / np.log(self.ratio))
+
+    def tolerance(self, rounding: float = 0.0) -> float:
+        """Error the finest mesh may have (grid convergence index, Roache 1994), plus the reference's rounding.
+
+        Asserts first that the value does converge, no slower than half an order below the expected order.
+        No exact value enters, so a solver that converges to something else fails.
+        """
+        if self.order is not None:
+            assert self.order > self.expected_order - 0.5, f"order {self.order:.2f} of {self.values}"
+        step = abs(self.values[-1] - self.values[-2])
+        return SAFETY * step / (self.ratio**self.expected_order - 1.0) + rounding + self._round_off
+
+    def front_tolerance(self, rounding: float = 0.0) -> float:
+        """The same for a film with a cavity, whose front moves by whole cells so that the order scatters.
+
+        The step is the larger of the last one and what the one before it promises; the safety is Roache's for
+        an order that is not observed.
+        """
+        factor = self.ratio**self.expected_order
+        before, after = np.abs(np.diff(self.values)[-2:])
+        step = max(after, before / factor)
+        return float(FRONT_SAFETY * step / (factor - 1.0) + rounding + self._round_off)
+
+    @property
+    def _round_off(self) -> float:
+        return 1e-9 * abs(self.finest)
+
+
+def pytest_addoption(parser: pytest.Parser) -> None:
+    parser.addoption("--validation-page", type=Path, help="write the validation rows of this run to FILE")
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    config.stash[ROWS] = []
+
+
+ROWS = pytest.StashKey[list[Row]]()
+
+
+def pytest_sessionfinish(session: pytest.Session, exitstatus: int) -> None:
+    page = session.config.getoption("validation_page")
+    if page is None:
+        return
+    if hasattr(session.config, "workerinput") or session.config.getoption("numprocesses", None):
+        raise pytest.UsageError("--validation-page needs one process: leave out -n")
+    if exitstatus == pytest.ExitCode.OK:
+        page.write_text(validation_page(session.config.stash[ROWS]), encoding="utf-8")
+
+
+@pytest.fixture
+def validation(request: pytest.FixtureRequest) -> Callable[..., None]:
+    """validation(*, case, source, quantity, unit, expected, obtained, tolerance=None,
+    relative_tolerance=None, order=None, note="", missed="")
+
+    Records one row of docs/validation.md and asserts |obtained - expected| <= tolerance (in `unit`) or
+    <= relative_tolerance |expected|: give exactly one of the two. `case` is a literal string (a test compares
+    the literals in the tests with the committed page); what varies goes into `quantity`. `order` is the
+    observed order of convergence. `missed="reason"` records an out-of-tolerance result openly instead of
+    failing, for a claim that physics contradicts, and fails if the claim is met after all. The chapter is the
+    first line of the test module's docstring.
+    """
+    chapter = (request.module.__doc__ or "").strip().splitlines()[0].rstrip(".")
+    rows = request.config.stash[ROWS]
+
+    def record(
+        *,
+        case: str,
+        source: str,
+        quantity: str,
+        unit: str,
+        expected: float,
+        obtained: float,
+        tolerance: float | None = None,
+        relative_tolerance: float | None = None,
+        order: float | None = None,
+        note: str = "",
+        missed: str = "",
+    ) -> None:
+        if (tolerance is None) == (relative_tolerance is None):
+            raise ValueError("validation: give either tolerance or relative_tolerance")
+        allowed = abs(expected) * relative_tolerance if tolerance is None else tolerance
+        row = Row(
+            chapter,
+            case,
+            source,
+            quantity,
+            unit,
+            float(expected),
+            float(obtained),
+            float(allowed),
+            order,
+            note,
+            missed,
+        )
+        rows.append(row)
+        met = abs(row.obtained - row.expected) <= row.tolerance
+        assert met != bool(missed), (
+            f"{case}, {quantity}: obtained {obtained:.9g} {unit}, expected {expected:.9g} +- {allowed:.3g}"
+        )
+
+    return record
+
+
+@pytest.fixture
+def refine() -> Callable[..., Refinement]:
+    """refine(solve, meshes, order): solve(n) -> value or tuple of values on each mesh size n.
+
+    Gives a Refinement, or a tuple of them, one per value.
+    """
+
+    def run(
+        solve: Callable[[int], float | tuple[float, ...]], meshes: Sequence[int], order: float = 2.0
+    ) -> Refinement | tuple[Refinement, ...]:
+        results = [solve(n) for n in meshes]
+        ratio = meshes[-1] / meshes[-2]
+        if not isinstance(results[0], tuple):
+            return Refinement(tuple(results), order, ratio)
+        return tuple(Refinement(column, order, ratio) for column in zip(*results, strict=True))
+
+    return run
+
+
+@pytest.fixture(scope="session")
+def shared() -> Path:
+    """The project's shared reference material beside the checkout; skips where there is none."""
+    folder = ROOT.parent / "shared"
+    if not (folder / "physics").is_dir():
+        pytest.skip(f"no shared reference material at {folder}")
+    return folder
+
+
+def validation_page(rows: Sequence[Row]) -> str:
+    """The page as Markdown: one table per chapter, in the order of the tests."""
+    lines = [
+        "# Validation",
+        "",
+        f"Written by `{PAGE_COMMAND}`; do not edit. Every line is asserted by a test: the result may differ from the",
+        "expected value by no more than the tolerance, which is the discretisation error of the finest mesh estimated",
+        "from the refinement (grid convergence index, Roache 1994: safety 1.25, and 3 for a film with a cavity) plus",
+        "the rounding of the reference. `order` is the observed order of convergence under mesh refinement.",
+    ]
+    for chapter in dict.fromkeys(row.chapter for row in rows):
+        lines += ["", f"## {chapter}", "", HEADER, RULE]
+        lines += [_line(row) for row in rows if row.chapter == chapter]
+    missed = [row for row in rows if row.missed]
+    if missed:
+        lines += ["", "## Missed", ""]
+        lines += [f"- {row.case}, {row.quantity}: {row.missed}" for row in missed]
+    return "\n".join(lines) + "\n"
+
+
+HEADER = "| case | quantity | unit | expected | obtained | difference | tolerance | order | source | note |"
+RULE = "|---|---|---|---|---|---|---|---|---|---|"
+
+
+def _line(row: Row) -> str:
+    order = "" if row.order is None else f"{row.order:.1f}"
+    note = f"{row.note}; MISSED, see below".lstrip("; ") if row.missed else row.note
+    cells = [
+        row.case, row.quantity, row.unit, f"{row.expected:.7g}", f"{row.obtained:.7g}",
+        f"{row.obtained - row.expected:.1e}", f"{row.tolerance:.1e}", order, row.source, note,
+    ]  # fmt: skip
+    return "| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |"
