@@ -13,7 +13,7 @@ import numpy as np
 
 from system import chamber_kernel as kernel
 from system.errors import NotConverged
-from system.kinematics import Array, SwashDrive, piston_displacement
+from system.kinematics import Array, SwashDrive, piston_displacement, stroke
 from system.ports import TURN, PortOpening, as_array, break_angles
 
 TOLERANCE = 1e-6
@@ -89,9 +89,10 @@ class Paths:
 class ChamberChecks:
     """How well one periodic revolution was solved.
 
-    mass_balance_error: net outflow plus change of content, of the delivered mass; energy_balance_error: indicated
-    work minus all it went into, of the indicated work (not imposed, so a measure of the whole integration);
-    work_error: the embedded method's own estimate for the indicated work, relative; periodicity_error in Pa.
+    mass_balance_error: net outflow plus change of content, of the swept volume; energy_balance_error: indicated
+    work minus all it went into (not imposed, so a measure of the whole integration) and work_error: the embedded
+    method's own estimate for the indicated work, both of the ideal work, swept volume times (pressure difference
+    + 1 bar); periodicity_error in Pa.
     """
 
     mass_balance_error: float
@@ -240,10 +241,12 @@ def _checks(problem: ChamberProblem, totals: Array, drift: float, change: float)
     case = problem.case_pressure
     outside = np.array([problem.delivery_pressure, problem.inlet_pressure, case, case, case])
     carried_away = outflow @ flow_energy(outside, problem.bulk_modulus)
+    swept = problem.piston_area * stroke(problem.drive)
+    ideal_work = swept * _pressure_span(problem)
     return ChamberChecks(
-        mass_balance_error=float(abs(outflow.sum() + drift) / np.abs(outflow).max()),
-        energy_balance_error=float(abs(work - energy.sum() - carried_away) / abs(work)),
-        work_error=float(abs(totals[kernel.INTEGRALS + 5] / work)),
+        mass_balance_error=float(abs(outflow.sum() + drift) / swept),
+        energy_balance_error=float(abs(work - energy.sum() - carried_away) / ideal_work),
+        work_error=float(abs(totals[kernel.INTEGRALS + 5]) / ideal_work),
         periodicity_error=abs(change),
     )
 

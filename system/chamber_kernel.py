@@ -165,7 +165,8 @@ def stage_pressure(chamber, guess, content, mass, weight, ways, flows):  # type:
     """Pressure with V = s(p) mass - weight sum(q), the stiffness ratio of that equation, and whether it was found.
 
     `weight` is gamma times the step over the shaft speed; `flows` holds the path flows at the pressure returned.
-    The equation rises strictly with p, so Newton inside a shrinking bracket cannot fail.
+    The equation rises strictly with p wherever anything depends on p at all, so Newton inside a shrinking bracket
+    finds its one root.
     """
     bulk = chamber[0].bulk_modulus
     low, high, pressure = -np.inf, np.inf, guess
@@ -179,6 +180,8 @@ def stage_pressure(chamber, guess, content, mass, weight, ways, flows):  # type:
             low = pressure
         stiff = weight * slope
         soft = mass * compressibility
+        if soft + stiff <= 0.0:
+            break
         change = rest / (soft + stiff)
         new = pressure - min(max(change, -0.1 * bulk), 0.1 * bulk)
         close = abs(change) <= NEWTON_TOLERANCE * bulk

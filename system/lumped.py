@@ -19,7 +19,6 @@ from system.kinematics import (
     piston_velocity,
     slipper_sliding_speed,
     stand_out,
-    stroke,
 )
 from system.leakage import (
     piston_carried_flow,
@@ -77,13 +76,17 @@ def full_drive(pump: PumpDescription) -> SwashDrive:
 
 
 def swept_displacement(pump: PumpDescription, drive: SwashDrive) -> float:
-    """Derived displacement in m3 per revolution: what ISO 8426's extrapolation to no pressure difference finds.
+    """Derived displacement in m3 per revolution: what ISO 8426's extrapolation to no load and slow turning finds.
 
-    z H (Ap + pi dp delta/2): the oil carried in the piston gap moves as if the piston had the mean of its own and
-    the bore's area, 2 delta/dp (0.14 % on REF90) more than the geometric displacement.
+    z (Ap + pi dp delta/2) (S at which the suction port shuts - S at which the delivery port shuts). Oil taken in
+    after the suction port shut comes back out of the delivery port, so less than the stroke counts (1.5 % on
+    REF90); oil carried in the piston gap moves as if the piston had the mean of its own and the bore's area
+    (+ 2 delta/dp, 0.14 %).
     """
-    gap = np.pi * pump.pump.piston_diameter * pump.piston.radial_clearance / 2.0
-    return pump.pump.pistons * stroke(drive) * (piston_area(pump) + gap)
+    area = piston_area(pump) + np.pi * pump.pump.piston_diameter * pump.piston.radial_clearance / 2.0
+    shuts = pump.ports.kidney_end + np.array([0.0, np.pi])
+    suction, delivery = piston_displacement(drive, shuts)
+    return float(pump.pump.pistons * area * (suction - delivery))
 
 
 def piston_motion(pump: PumpDescription, point: OperatingPoint) -> PistonMotion:
