@@ -48,11 +48,11 @@ def surface_points(space: FilmSpace, place: Callable[[Array], Array] | None = No
     return place(flat) if place else np.column_stack([flat, np.zeros(len(flat))])
 
 
-def write_pvd(path: Path, entries: Iterable[tuple[float, str]]) -> None:
-    """Write a ParaView collection: (shaft angle in degrees or time in s, file name beside the PVD)."""
+def write_pvd(path: Path, entries: Iterable[tuple[float, int, str]]) -> None:
+    """Write a ParaView collection: (shaft angle in degrees or time in s, part, file name beside the PVD)."""
     rows = "\n".join(
-        f'    <DataSet timestep="{stamp:.9g}" group="" part="0" file={quoteattr(name)}/>'
-        for stamp, name in entries
+        f'    <DataSet timestep="{stamp:.9g}" group="" part="{part}" file={quoteattr(name)}/>'
+        for stamp, part, name in entries
     )
     path.write_text(
         '<?xml version="1.0"?>\n<VTKFile type="Collection" version="0.1" byte_order="LittleEndian">\n'

@@ -9,10 +9,10 @@ import argparse
 import json
 import sys
 from collections.abc import Sequence
-from enum import Enum
 from pathlib import Path
 from typing import Any, NoReturn
 
+from swashfilm.fidelity import Fidelity
 from swashfilm.terminal import show, show_table
 from system.faults import Fault, InputFaults, nearest_choice
 
@@ -25,13 +25,6 @@ _OVERRIDES = {
     "--inlet-pressure": ("operating.inlet_pressure", "25bar", "pressure at the inlet, gauge"),
     "--case-pressure": ("operating.case_pressure", "1.5bar", "pressure in the case, gauge"),
 }
-
-
-class Fidelity(Enum):
-    """How the films of a pump are had: given thickness, or solved over the revolution."""
-
-    LUMPED = "lumped"
-    FILMS = "films"
 
 
 def run_command(words: Sequence[str]) -> int:

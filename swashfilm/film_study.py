@@ -95,7 +95,7 @@ def film_summary(study: FilmStudy) -> dict[str, Any]:
         "friction_torque_moving_Nm": integrals.friction_torque_moving,
         "dissipation_W": integrals.dissipation,
         "cavitated_area_fraction": integrals.cavitated_area_fraction,
-        "cavity_flow_m3_per_s": integrals.cavity_flow,
+        "cavity_flow_m3_per_s": integrals.cavity_flow + 0.0,  # no negative zero
         "mass_balance_error": integrals.mass_balance_error,
         "energy_balance_error": integrals.energy_balance_error,
         "imbalance": solution.imbalance,
@@ -119,7 +119,7 @@ def film_warnings(study: FilmStudy) -> list[dict[str, str]]:
             {
                 "name": "cavity_does_not_conserve_mass",
                 "text": f"Reynolds' condition {verb} oil in the cavity, {share:.2%} of the throughput "
-                f"(limit {LARGEST_CAVITY_FLOW:.0%}): trust the load, not the flows",
+                f"(limit {LARGEST_CAVITY_FLOW:.0%}): what enters is not what leaves",
             }
         )
     lowest = float(study.solution.pressure.min())

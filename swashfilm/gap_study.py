@@ -49,7 +49,7 @@ def gap_summary(film: GapFilm) -> dict[str, Any]:
     return {
         "position_source": film.source.value,
         "position_verdict": film.verdict,
-        "position_m_or_rad": [float(value) for value in film.position],
+        "position_m_or_rad": [float(value) + 0.0 for value in film.position],
         "required_load_N": film.required_load,
         "carried_load_N": film.carried_load,
         "film_thickness_mean_m": film.film_thickness_mean,

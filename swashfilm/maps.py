@@ -1,0 +1,33 @@
+"""Maps of a film's fields over its plane."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+
+def draw_map(
+    axes: Any,
+    place: tuple[np.ndarray, np.ndarray],
+    cells: np.ndarray,
+    values: np.ndarray,
+    title: str,
+    labels: tuple[str, str] = ("x / mm", "y / mm"),
+    colours: str = "viridis",
+) -> None:
+    """Draw a field of vertices (smooth) or cells (flat) over `place` with a colour bar; texts carry the units."""
+    from matplotlib.tri import Triangulation
+
+    x, y = place
+    quads = cells.shape[1] == 4
+    triangles = np.concatenate([cells[:, [0, 1, 2]], cells[:, [0, 2, 3]]]) if quads else cells
+    mesh = Triangulation(x, y, triangles)
+    if len(values) == len(x):
+        drawn = axes.tripcolor(mesh, values, shading="gouraud", cmap=colours)
+    else:
+        drawn = axes.tripcolor(mesh, facecolors=np.tile(values, 2 if quads else 1), cmap=colours)
+    axes.set(xlabel=labels[0], ylabel=labels[1], title=title)
+    if labels == ("x / mm", "y / mm") and np.ptp(x) < 5.0 * np.ptp(y) and np.ptp(y) < 5.0 * np.ptp(x):
+        axes.set_aspect("equal")
+    axes.figure.colorbar(drawn, ax=axes)

@@ -1,0 +1,57 @@
+"""The films of a pump for ParaView: surfaces in their true place, series over the shaft angle."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from gaps.frames import PUMP_FRAME
+from reynolds.export import write_pvd, write_vtu
+from swashfilm.pump_data import GAPS
+from system.films import FilmsPoint
+from system.places import bore_frame, slipper_frame
+
+FIELDS = "fields"
+
+
+def write_fields(folder: Path, films: FilmsPoint) -> None:
+    """Write fields/*.vtu and, beside them, piston.pvd, slipper.pvd, valve_plate.pvd and pump.pvd.
+
+    A gap's PVD follows one piston or slipper, or the ring, over the turn (time = shaft angle in degrees);
+    pump.pvd shows all of them at once. Nine pistons are one piston shifted, so that their files are shared.
+    """
+    place = folder / FIELDS
+    place.mkdir()
+    radius = 0.5 * films.rotor.pump.pump.piston_diameter
+    angles = films.gaps.shaft_angle
+    for k, film in enumerate(films.gaps.piston):
+        bore = bore_frame(films.rotor, angles[k])
+        write_vtu(place / vtu_name("piston", k), film.solution, lambda p, bore=bore: bore.cylinder(p, radius))
+    for k, film in enumerate(films.gaps.slipper):
+        write_vtu(place / vtu_name("slipper", k), film.solution, slipper_frame(films.rotor, angles[k]).plane)
+    for k, ring in enumerate(films.gaps.valve_plate):
+        write_vtu(place / vtu_name("valve_plate", k), ring.gap.solution, PUMP_FRAME.plane)
+    _write_series(folder, films)
+
+
+def vtu_name(gap: str, k: int) -> str:
+    """File name of a gap's film at its k-th angle."""
+    return f"{gap}_{k:03d}.vtu"
+
+
+def _write_series(folder: Path, films: FilmsPoint) -> None:
+    count, positions = len(films.gaps.shaft_angle), len(films.gaps.valve_plate)
+    degrees = np.degrees(films.gaps.shaft_angle)
+    names = {
+        gap: [f"{FIELDS}/{vtu_name(gap, k % positions if gap == 'valve_plate' else k)}" for k in range(count)]
+        for gap in GAPS
+    }
+    for gap in GAPS:
+        write_pvd(folder / f"{gap}.pvd", [(degrees[k], 0, names[gap][k]) for k in range(count)])
+    whole = []
+    for k in range(count):
+        chambers = [(k + shift) % count for shift in range(0, count, positions)]
+        parts = [names["valve_plate"][k], *(names[gap][j] for gap in ("piston", "slipper") for j in chambers)]
+        whole += [(degrees[k], part, name) for part, name in enumerate(parts)]
+    write_pvd(folder / "pump.pvd", whole)

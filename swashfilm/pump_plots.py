@@ -1,0 +1,137 @@
+"""Pictures of an operating point, drawn from results.nc and summary.json alone."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from swashfilm.maps import draw_map
+from swashfilm.pump_data import GAPS, PICTURED_TURN
+from swashfilm.pump_summary import ABBREVIATION
+from system.pairs import Pair
+
+if TYPE_CHECKING:
+    import xarray
+    from matplotlib.figure import Figure
+
+LPM = 6e4
+"""L/min for one m3/s."""
+TITLES = {"piston": "piston-cylinder", "slipper": "slipper-swash plate", "valve_plate": "valve plate-cylinder"}
+
+
+def loss_bar(summary: Mapping[str, Any]) -> bytes:
+    """Losses of the seven pairs (W) as one stacked bar each for Coulomb and viscous, share written on it."""
+    figure = _figure(8.4, 3.4)
+    axes = figure.subplots()
+    names = [f"{ABBREVIATION[pair]}" for pair in Pair]
+    losses = [summary["pair_loss"][pair.value] for pair in Pair]
+    coulomb, viscous = ([loss[part] for loss in losses] for part in ("coulomb_W", "viscous_W"))
+    axes.barh(names, coulomb, color="#8c5a3c", label="Coulomb")
+    axes.barh(names, viscous, left=coulomb, color="#3c7a8c", label="viscous")
+    for row, loss in enumerate(losses):
+        axes.text(loss["total_W"], row, f"  {loss['total_W']:.0f} W, {loss['share']:.1%}", va="center")
+    axes.invert_yaxis()
+    axes.set(xlabel="loss / W", xlim=(0.0, 1.25 * max(loss["total_W"] for loss in losses)))
+    axes.legend(loc="lower right")
+    return _png(figure)
+
+
+def chamber_plot(data: xarray.Dataset, summary: Mapping[str, Any]) -> bytes:
+    """Chamber pressure (MPa) and port openings (mm2) over the shaft angle, the dead-centre regions enlarged."""
+    figure = _figure(10.0, 5.6)
+    wide, near = figure.subplots(2, 1)
+    angle = np.degrees(data["shaft_angle"].values)
+    pressure = data["chamber_pressure"].values * 1e-6
+    openings = [data[name].values * 1e6 for name in ("suction_area", "delivery_area")]
+    for axes in (wide, near):
+        areas = axes.twinx()
+        for opening, colour, name in zip(openings, ("#5b9a5b", "#b8862b"), ("suction", "delivery"), strict=True):
+            areas.fill_between(angle, opening, color=colour, alpha=0.22, label=f"{name} opening", step=None)
+        axes.plot(angle, pressure, color="#1c2328", label="chamber pressure")
+        axes.set(ylabel="pressure, gauge / MPa", xlim=(0, 360))
+        areas.set(ylabel="opening / mm2", ylim=(0, None))
+        axes.set_zorder(areas.get_zorder() + 1)
+        axes.patch.set_visible(False)
+    handles = [*wide.get_legend_handles_labels()[0], *areas.get_legend_handles_labels()[0]]
+    wide.legend(handles=handles, loc="upper left")
+    near.set(
+        xlabel="shaft angle from inner dead centre / deg", xlim=(160, 220), title="around the outer dead centre"
+    )
+    inlet = summary["operating_point"]["inlet_pressure_Pa"] * 1e-6
+    near.set_ylim(min(-0.5, inlet - 3.0), 1.08 * pressure.max())
+    return _png(figure)
+
+
+def flow_plot(data: xarray.Dataset) -> bytes:
+    """Delivery flow of the pump and leakage of one chamber's gaps (L/min) over the shaft angle."""
+    figure = _figure(10.0, 3.4)
+    left, right = figure.subplots(1, 2)
+    angle = np.degrees(data["shaft_angle"].values)
+    left.plot(angle, data["pump_delivery_flow"].values * LPM, color="#1c2328")
+    left.set(xlabel="shaft angle / deg", ylabel="delivery flow / L/min", xlim=(0, 360), title="pump, at its port")
+    for gap in GAPS:
+        right.plot(angle, data[f"{gap}_leakage"].values * LPM, label=TITLES[gap])
+    right.set(xlabel="shaft angle / deg", ylabel="flow out of one chamber / L/min", xlim=(0, 360), title="gaps")
+    right.legend()
+    return _png(figure)
+
+
+def gap_maps(data: xarray.Dataset) -> dict[str, bytes]:
+    """Film pressure (MPa) and film thickness (um) of each gap at the pictured angle, by the gap's name."""
+    return {gap: _gap_map(data, gap) for gap in GAPS if f"{gap}_film_pressure" in data}
+
+
+def film_series(data: xarray.Dataset) -> bytes:
+    """Minimum film, carried share of the load and friction of one piston and one slipper over the turn."""
+    figure = _figure(10.0, 3.4)
+    left, middle, right = figure.subplots(1, 3)
+    for gap in ("piston", "slipper"):
+        angle = np.degrees(data[f"{gap}_angle"].values)
+        film = data[f"{gap}_film_thickness_min"].values * 1e6
+        balanced = data[f"{gap}_balanced"].values > 0.5
+        (line,) = left.plot(angle, film, label=gap)
+        left.plot(angle[balanced], film[balanced], "o", color=line.get_color())
+        required = data[f"{gap}_required_load"].values
+        carried = np.full_like(required, np.nan)
+        np.divide(data[f"{gap}_carried_load"].values, required, out=carried, where=required > 0.0)
+        middle.plot(angle, np.clip(100.0 * carried, 0.0, 200.0), label=gap)
+        right.plot(angle, data[f"{gap}_friction_power"].values, label=gap)
+    left.set(ylabel="minimum film / um", title="dots: from balance", ylim=(0, None))
+    middle.set(ylabel="load carried / %", title="cut at 200 %")
+    right.set(ylabel="power of the walls / W", title="one piston, one slipper")
+    for axes in (left, middle, right):
+        axes.set(xlabel="shaft angle / deg", xlim=(0, 360))
+        axes.legend()
+    return _png(figure)
+
+
+def _gap_map(data: xarray.Dataset, gap: str) -> bytes:
+    angles = data[f"{gap}_angle"].values
+    k = round(PICTURED_TURN * data.sizes["piston_angle"]) % len(angles)
+    x, y = (data[f"{gap}_{axis}"].values[k] * 1e3 for axis in ("x", "y"))
+    labels = ("x / mm", "y / mm")
+    if gap == "piston":
+        # Cells across the seam would be drawn around the whole film.
+        x, labels = 360.0 * x / x.max(), ("angle from the inner dead centre's side / deg", "from the chamber / mm")
+    cells = data[f"{gap}_cells"].values
+    figure = _figure(10.0, 3.9)
+    left, right = figure.subplots(1, 2)
+    pressure, thickness = (data[f"{gap}_{name}"].values[k] for name in ("film_pressure", "film_thickness"))
+    draw_map(left, (x, y), cells, pressure * 1e-6, "film pressure / MPa", labels)
+    draw_map(right, (x, y), cells, thickness * 1e6, "film thickness / um", labels, "cividis")
+    return _png(figure)
+
+
+def _figure(width: float, height: float) -> Figure:
+    from matplotlib.figure import Figure
+
+    return Figure(figsize=(width, height), layout="constrained")
+
+
+def _png(figure: Figure) -> bytes:
+    picture = io.BytesIO()
+    figure.savefig(picture, format="png", dpi=110)
+    return picture.getvalue()

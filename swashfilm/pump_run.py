@@ -1,0 +1,81 @@
+"""One operating point of a pump, from description to run folder."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from swashfilm.fidelity import Fidelity
+from swashfilm.picture3d import draw
+from swashfilm.progress import Report
+from swashfilm.pump_data import GAPS, PICTURED_TURN, films_dataset, point_dataset, write_tables
+from swashfilm.pump_fields import FIELDS, vtu_name, write_fields
+from swashfilm.pump_summary import pump_summary
+from swashfilm.run_folder import write_json
+from system.assembly import PumpPoint
+from system.description import PumpDescription
+from system.films import FilmsPoint, films_point
+from system.lumped import lumped_point
+from system.operating import operating_point
+from system.pump_file import check_pump, resolved_toml
+
+
+def run_pump(
+    pump: PumpDescription, given: str, fidelity: Fidelity, folder: Path, report: Report
+) -> dict[str, Any]:
+    """Run a pump at its operating point and fill a run folder; return the summary.
+
+    Writes input.toml (`given`, as it came) and resolved.toml first, then summary.json, tables, results.nc, fields
+    for ParaView, 3D pictures where this machine can draw them, and report.html. Raises NotConverged and
+    FilmNotConverged rather than give a number that is none.
+    """
+    (folder / "input.toml").write_text(given, encoding="utf-8")
+    (folder / "resolved.toml").write_text(resolved_toml(pump), encoding="utf-8")
+    point = operating_point(pump)
+    films = films_point(pump, point, report=report) if fidelity is Fidelity.FILMS else None
+    result = films.pump_point if films else lumped_point(pump, point)
+    warnings = [str(warning) for warning in check_pump(pump).warnings]
+    warnings += [f"{warning.name.lower()}: {warning.value}" for warning in result.warnings]
+    data = point_dataset(result, pump.name)
+    if films:
+        data = data.merge(films_dataset(films))
+        write_fields(folder, films)
+        warnings += draw_gaps(folder, films)
+    data.to_netcdf(folder / "results.nc", engine="h5netcdf")
+    write_tables(folder, data)
+    summary = pump_summary(pump, result, films, warnings)
+    write_pair_table(folder / "pairs.csv", result, summary)
+    write_json(folder / "summary.json", summary)
+    from swashfilm.pump_page import write_pump_page
+
+    write_pump_page(folder)
+    return summary
+
+
+def draw_gaps(folder: Path, films: FilmsPoint) -> list[str]:
+    """Draw each gap and the whole pump in 3D (piston.png .. pump.png); return why a picture is missing."""
+    count, positions = len(films.gaps.shaft_angle), len(films.gaps.valve_plate)
+    k = round(PICTURED_TURN * count)
+    chambers = [(k + shift) % count for shift in range(0, count, positions)]
+    one = {"piston": k, "slipper": k, "valve_plate": k % positions}
+    wanted = {gap: [folder / FIELDS / vtu_name(gap, one[gap])] for gap in GAPS}
+    wanted["pump"] = wanted["valve_plate"] + [
+        folder / FIELDS / vtu_name(gap, j) for gap in ("piston", "slipper") for j in chambers
+    ]
+    for name, paths in wanted.items():
+        picture = draw(paths, folder / f"{name}.png")
+        if picture.path is None:
+            return [picture.reason]
+    return []
+
+
+def write_pair_table(path: Path, point: PumpPoint, summary: dict[str, Any]) -> None:
+    """Write the loss of the seven pairs as CSV, units in the head."""
+    lines = ["pair,count [1],coulomb [W],viscous [W],total [W],share [%]"]
+    for name, loss in summary["pair_loss"].items():
+        count = getattr(point.pairs, name).count
+        lines.append(
+            f"{name},{count},{loss['coulomb_W']:.6g},{loss['viscous_W']:.6g},{loss['total_W']:.6g},"
+            f"{100.0 * loss['share']:.4g}"
+        )
+    path.write_text("\n".join(lines) + "\n", encoding="utf-8")

@@ -1,0 +1,175 @@
+"""summary.json of an operating point: every headline number in SI, its unit in the key, and the checks."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import asdict
+from typing import Any
+
+import numpy as np
+
+from gaps.result import GapFilm, PositionSource
+from swashfilm.fidelity import Fidelity
+from swashfilm.pump_data import gap_films
+from system.assembly import PumpPoint
+from system.bench import ideal_flow, ideal_torque, paper_losses
+from system.description import PumpDescription
+from system.films import FilmsPoint
+from system.pairs import Pair
+
+ABBREVIATION = {
+    Pair.PISTON_CYLINDER: "PCP",
+    Pair.SLIPPER_SWASH_PLATE: "SSP",
+    Pair.VALVE_PLATE_CYLINDER: "VCP",
+    Pair.BALL_GUIDE_RETAINER: "BRP",
+    Pair.PISTON_SLIPPER_SOCKET: "PSP",
+    Pair.FRONT_BEARING: "FB",
+    Pair.REAR_BEARING: "RB",
+}
+
+
+def pump_summary(
+    pump: PumpDescription, point: PumpPoint, films: FilmsPoint | None, warnings: Sequence[str]
+) -> dict[str, Any]:
+    """The summary of an operating point; `films` is None in the lumped fidelity."""
+    return {
+        "format": 1,
+        "kind": "pump",
+        "name": pump.name,
+        "fidelity": (Fidelity.FILMS if films else Fidelity.LUMPED).value,
+        "operating_point": _operating_point(point),
+        "displacement": {
+            "geometric_m3_per_rev": point.geometric_displacement,
+            "derived_m3_per_rev": point.derived_displacement,
+        },
+        "flow": {
+            "delivery_m3_per_s": point.bench.delivery_flow,
+            "inlet_m3_per_s": point.bench.inlet_flow,
+            "case_m3_per_s": point.bench.drain_flow,
+            "geometric_m3_per_s": ideal_flow(point.geometric_displacement, point.point.shaft_speed),
+        },
+        "leakage": {f"{gap}_m3_per_s": flow for gap, flow in asdict(point.leakage_flow).items()},
+        "torque": {
+            "shaft_Nm": point.bench.shaft_torque,
+            "ideal_delivery_Nm": ideal_torque(point.geometric_displacement, point.point.delivery_pressure),
+            "ideal_difference_Nm": ideal_torque(
+                point.geometric_displacement, point.point.delivery_pressure - point.point.inlet_pressure
+            ),
+        },
+        "efficiency": {
+            "paper": asdict(point.paper_efficiency),
+            "iso_4409": asdict(point.iso_efficiency),
+        },
+        "paper_loss": {f"{name}_W": value for name, value in asdict(paper_losses(point.bench)).items()},
+        "pair_loss": {pair.value: _pair(point, pair) for pair in Pair},
+        "power_balance": _power(point),
+        "gaps": {gap: gap_report(series) for gap, series in gap_films(films).items()} if films else {},
+        "checks": _checks(point, films),
+        "warnings": list(warnings),
+    }
+
+
+def gap_report(series: Sequence[GapFilm]) -> dict[str, Any]:
+    """What a gap did over the turn: where its position comes from, film, load, leakage and friction.
+
+    Film thicknesses of a balance stand apart from those at the given position, which are no result; a load that
+    no film carries at some angle is told as such.
+    """
+    balanced = [film for film in series if film.source is PositionSource.BALANCE]
+    given = [film for film in series if film.source is PositionSource.GIVEN]
+    report: dict[str, Any] = {
+        "angles_balanced": len(balanced),
+        "angles_given": len(given),
+        "film_thickness_balanced_mean_m": None,
+        "film_thickness_balanced_min_m": None,
+        "film_thickness_given_mean_m": None,
+        "carried_fraction_given_min": None,
+        "carried_fraction_given_max": None,
+        "friction_power_mean_W": float(np.mean([film.friction_power for film in series])),
+        "leakage_flow_mean_m3_per_s": float(np.mean([film.leakage_flow for film in series])),
+        "pressure_max_Pa": max(film.loads.pressure_max for film in series),
+        "mass_balance_error_max": max(film.loads.mass_balance_error for film in series),
+        "energy_balance_error_max": max(film.loads.energy_balance_error for film in series),
+        "unknowns": series[0].solution.problem.space.size,
+        "statement": gap_statement(series),
+    }
+    if balanced:
+        report["film_thickness_balanced_mean_m"] = float(np.mean([film.film_thickness_mean for film in balanced]))
+        report["film_thickness_balanced_min_m"] = min(film.loads.film_thickness_min for film in balanced)
+    if given:
+        fractions = [film.carried_fraction for film in given]
+        report["film_thickness_given_mean_m"] = float(np.mean([film.film_thickness_mean for film in given]))
+        report["carried_fraction_given_min"], report["carried_fraction_given_max"] = min(fractions), max(fractions)
+    return report
+
+
+def gap_statement(series: Sequence[GapFilm]) -> str:
+    """In words: how many angles balance, and the worst of those that do not."""
+    given = [film for film in series if film.source is PositionSource.GIVEN]
+    count = len(series)
+    if not given:
+        return f"force and moments balance at all {count} angles"
+    worst = min(given, key=lambda film: film.carried_fraction)
+    return (
+        f"position from balance at {count - len(given)} of {count} angles, given by the description at "
+        f"{len(given)}; there the film carries {worst.carried_fraction:.1%} of {worst.required_load:.0f} N at "
+        f"the worst ({worst.verdict})"
+    )
+
+
+def _operating_point(point: PumpPoint) -> dict[str, float]:
+    p = point.point
+    return {
+        "shaft_speed_rad_per_s": p.shaft_speed,
+        "delivery_pressure_Pa": p.delivery_pressure,
+        "inlet_pressure_Pa": p.inlet_pressure,
+        "case_pressure_Pa": p.case_pressure,
+        "displacement_ratio": p.displacement_ratio,
+        "swash_angle_rad": point.swash_angle,
+        "temperature_K": p.temperature,
+        "viscosity_Pa_s": p.viscosity,
+    }
+
+
+def _pair(point: PumpPoint, pair: Pair) -> dict[str, float]:
+    loss = point.pairs.loss(pair)
+    return {
+        "coulomb_W": loss.mean_coulomb,
+        "viscous_W": loss.mean_viscous,
+        "total_W": loss.mean,
+        "share": point.pairs.share(pair),
+    }
+
+
+def _power(point: PumpPoint) -> dict[str, float]:
+    power = point.power
+    parts = {f"leakage_{gap}_W": value for gap, value in asdict(power.leakage).items()}
+    return {
+        "shaft_W": power.shaft,
+        "hydraulic_W": power.hydraulic,
+        "elastic_W": power.elastic,
+        **parts,
+        "throttling_delivery_W": power.throttling_delivery,
+        "throttling_suction_W": power.throttling_suction,
+        "friction_W": power.friction,
+    }
+
+
+def _checks(point: PumpPoint, films: FilmsPoint | None) -> dict[str, float]:
+    cycle = point.cycle
+    checks = {
+        "mass_balance_error": point.checks.mass_balance_error,
+        "energy_balance_error": point.checks.energy_balance_error,
+        "quadrature_error": point.checks.quadrature_error,
+        "chamber_work_error": cycle.checks.work_error,
+        "chamber_periodicity_error_Pa": cycle.checks.periodicity_error,
+        "chamber_revolutions": cycle.effort.revolutions,
+        "chamber_steps": cycle.effort.steps,
+    }
+    if films:
+        checks |= {
+            "coupling_rounds": films.rounds,
+            "coupling_pressure_change_Pa": films.pressure_change,
+            "film_angle_sampling_error": films.sampling_error,
+        }
+    return checks
