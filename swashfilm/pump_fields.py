@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -26,8 +27,8 @@ def write_fields(folder: Path, films: FilmsPoint) -> None:
     radius = 0.5 * films.rotor.pump.pump.piston_diameter
     angles = films.gaps.shaft_angle
     for k, film in enumerate(films.gaps.piston):
-        bore = bore_frame(films.rotor, angles[k])
-        write_vtu(place / vtu_name("piston", k), film.solution, lambda p, bore=bore: bore.cylinder(p, radius))
+        on_bore = partial(bore_frame(films.rotor, angles[k]).cylinder, radius=radius)
+        write_vtu(place / vtu_name("piston", k), film.solution, on_bore)
     for k, film in enumerate(films.gaps.slipper):
         write_vtu(place / vtu_name("slipper", k), film.solution, slipper_frame(films.rotor, angles[k]).plane)
     for k, ring in enumerate(films.gaps.valve_plate):

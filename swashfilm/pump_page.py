@@ -91,7 +91,7 @@ def efficiency_rows(summary: Mapping[str, Any]) -> Rows:
 
 def pair_rows(summary: Mapping[str, Any]) -> Rows:
     """(pair, abbreviation, Coulomb, viscous, total, share) of the seven friction pairs and their sum."""
-    rows = []
+    rows: Rows = []
     for pair in Pair:
         loss = summary["pair_loss"][pair.value]
         numbers = (f"{loss[key]:.1f} W" for key in ("coulomb_W", "viscous_W", "total_W"))
@@ -115,7 +115,7 @@ def power_rows(summary: Mapping[str, Any]) -> Rows:
 
 def gap_rows(summary: Mapping[str, Any]) -> Rows:
     """(gap, film from balance, film given, statement): no thickness is shown as a result that was only given."""
-    rows = []
+    rows: Rows = []
     for gap, report in summary["gaps"].items():
         rows.append(
             (
@@ -132,7 +132,7 @@ def gap_rows(summary: Mapping[str, Any]) -> Rows:
 
 def check_rows(summary: Mapping[str, Any]) -> Rows:
     """(check, value): balances, convergence and effort of the solvers, those of the gaps included."""
-    rows = [(key.replace("_", " "), f"{value:.3g}") for key, value in summary["checks"].items()]
+    rows: Rows = [(key.replace("_", " "), f"{value:.3g}") for key, value in summary["checks"].items()]
     for gap, report in summary["gaps"].items():
         for key in ("mass_balance_error_max", "energy_balance_error_max", "unknowns"):
             rows.append((f"{TITLES[gap]} film, {key.replace('_', ' ')}", f"{report[key]:.3g}"))

@@ -109,7 +109,7 @@ def gap_statement(series: Sequence[GapFilm]) -> str:
     count = len(series)
     if not given:
         return f"force and moments balance at all {count} angles"
-    worst = min(given, key=lambda film: film.carried_fraction)
+    worst = max(given, key=lambda film: abs(film.required_load - film.carried_load))
     return (
         f"position from balance at {count - len(given)} of {count} angles, given by the description at "
         f"{len(given)}; there the film carries {worst.carried_fraction:.1%} of {worst.required_load:.0f} N at "

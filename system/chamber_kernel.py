@@ -89,7 +89,7 @@ _f8, _vector, _matrix, _cubics = numba.f8, numba.f8[::1], numba.f8[:, ::1], numb
 
 
 @numba.njit(numba.types.UniTuple(_f8, 3)(_f8, _f8), cache=True)
-def oil_state(pressure, bulk_modulus):  # type: ignore[no-untyped-def]
+def oil_state(pressure, bulk_modulus):
     """Specific volume s (relative), its compressibility -ds/dp in 1/Pa, flow energy h = integral of s dp in Pa.
 
     Liquid of constant bulk modulus; below CAVITY_PRESSURE oil and cavity together, nearly at that pressure.
@@ -105,7 +105,7 @@ def oil_state(pressure, bulk_modulus):  # type: ignore[no-untyped-def]
 
 
 @numba.njit(_vector(_vector, _f8), cache=True)
-def specific_volumes(pressures, bulk_modulus):  # type: ignore[no-untyped-def]
+def specific_volumes(pressures, bulk_modulus):
     """Specific volume of the oil at each pressure, relative to zero gauge pressure."""
     out = np.empty_like(pressures)
     for i in range(pressures.size):
@@ -114,7 +114,7 @@ def specific_volumes(pressures, bulk_modulus):  # type: ignore[no-untyped-def]
 
 
 @numba.njit(numba.types.UniTuple(_f8, 2)(_records, _f8), cache=True)
-def volume(chamber, shaft_angle):  # type: ignore[no-untyped-def]
+def volume(chamber, shaft_angle):
     """Chamber volume V0 + Ap S in m3 and dV/dphi in m3/rad; Eqs. (18), (6), (7)."""
     c = chamber[0]
     t = c.cone_swash_product
@@ -126,7 +126,7 @@ def volume(chamber, shaft_angle):  # type: ignore[no-untyped-def]
 
 
 @numba.njit(numba.void(_records, _cubics, _f8, _vector), cache=True)
-def openings(chamber, table, shaft_angle, out):  # type: ignore[no-untyped-def]
+def openings(chamber, table, shaft_angle, out):
     """What lets oil out at a shaft angle.
 
     Conductances (0-2) and carried flows (3-5) of the gaps, from periodic cubics on equal intervals of shaft angle;
@@ -147,7 +147,7 @@ def openings(chamber, table, shaft_angle, out):  # type: ignore[no-untyped-def]
 
 
 @numba.njit(numba.types.UniTuple(_f8, 2)(_records, _f8, _vector, _vector), cache=True)
-def outflows(chamber, pressure, ways, flows):  # type: ignore[no-untyped-def]
+def outflows(chamber, pressure, ways, flows):
     """Fill the volume flows in m3/s of the five paths; return their sum and its slope in m3/(s Pa)."""
     c = chamber[0]
     flows[0], slope_delivery = orifice(pressure - c.delivery_pressure, ways[6], ways[7])
@@ -161,7 +161,7 @@ def outflows(chamber, pressure, ways, flows):  # type: ignore[no-untyped-def]
 
 
 @numba.njit(numba.types.Tuple((_f8, _f8, numba.b1))(_records, _f8, _f8, _f8, _f8, _vector, _vector), cache=True)
-def stage_pressure(chamber, guess, content, mass, weight, ways, flows):  # type: ignore[no-untyped-def]
+def stage_pressure(chamber, guess, content, mass, weight, ways, flows):
     """Pressure with V = s(p) mass - weight sum(q), the stiffness ratio of that equation, and whether it was found.
 
     `weight` is gamma times the step over the shaft speed; `flows` holds the path flows at the pressure returned.
@@ -195,7 +195,7 @@ def stage_pressure(chamber, guess, content, mass, weight, ways, flows):  # type:
 
 
 @numba.njit(numba.void(_records, _f8, _f8, _vector, _vector, _vector), cache=True)
-def integral_rates(chamber, pressure, swell, ways, flows, out):  # type: ignore[no-untyped-def]
+def integral_rates(chamber, pressure, swell, ways, flows, out):
     """Rates per radian of the integrals, in the order of INTEGRALS; `swell` is dV/dphi.
 
     The energy left in a path is its mass flow times h(p) - h(p_outside): what throttling and leaking turn into
@@ -218,7 +218,7 @@ def integral_rates(chamber, pressure, swell, ways, flows, out):  # type: ignore[
 @numba.njit(
     numba.types.Tuple((_f8, _f8, _f8, numba.b1))(_records, _cubics, _f8, _f8, _f8, _f8, _matrix), cache=True
 )
-def step(chamber, table, shaft_angle, length, mass, pressure, rates):  # type: ignore[no-untyped-def]
+def step(chamber, table, shaft_angle, length, mass, pressure, rates):
     """One step: new mass, new pressure, error of the mass (filtered for stiffness), success.
 
     `rates` (STAGES x INTEGRALS) brings the rates at the start in its first row and holds every stage's after; the
@@ -250,7 +250,7 @@ def step(chamber, table, shaft_angle, length, mass, pressure, rates):  # type: i
 
 
 @numba.njit(numba.void(_records, _cubics, _f8, _f8, _vector), cache=True)
-def rates_at(chamber, table, shaft_angle, pressure, out):  # type: ignore[no-untyped-def]
+def rates_at(chamber, table, shaft_angle, pressure, out):
     """Rates of the integrals at a shaft angle and pressure: the first row that `step` needs."""
     ways, flows = np.empty(10), np.empty(PATHS)
     openings(chamber, table, shaft_angle, ways)
@@ -259,7 +259,7 @@ def rates_at(chamber, table, shaft_angle, pressure, out):  # type: ignore[no-unt
 
 
 @numba.njit(numba.types.Tuple((_f8, numba.b1))(_records, _cubics, _f8), cache=True)
-def slaved_pressure(chamber, table, shaft_angle):  # type: ignore[no-untyped-def]
+def slaved_pressure(chamber, table, shaft_angle):
     """Pressure at which the outflow just equals the displacement, and whether there is one.
 
     What an open port forces on the chamber whatever it did before: where a revolution is best begun.
@@ -278,7 +278,7 @@ def slaved_pressure(chamber, table, shaft_angle):  # type: ignore[no-untyped-def
     ),
     cache=True,
 )
-def revolution(chamber, table, nodes, pressure, tolerance, pressures, path_rates, totals):  # type: ignore[no-untyped-def]
+def revolution(chamber, table, nodes, pressure, tolerance, pressures, path_rates, totals):
     """One turn from a pressure at nodes[0]: mass at the end less that at the start, steps taken, refused, status.
 
     Steps end on every node (ascending shaft angles over one turn, breaks of the ports among them). `pressures` and
