@@ -11,10 +11,11 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import csc_array, csr_array, triu
 
-from reynolds.linear import DIRECT_LIMIT, Factor, multigrid
+from reynolds.linear import Factor, multigrid
 from reynolds.mesh import Array
 
 COARSEST = 200  # unknowns: below this a cold start takes no more than a few steps
+FINEST = 20_000  # unknowns: above this a coarse problem costs more than the steps that it saves
 MAX_STEPS = 20  # per level: a guess that has not settled is still a guess
 
 
@@ -31,7 +32,7 @@ def nested_cavity(upper: csc_array, load: Array) -> NDArray[np.bool_]:
         loads.append(level.P.T @ loads[-1])
     answer = np.ones(len(loads[-1]))
     for k in range(len(levels) - 1, 0, -1):
-        if len(answer) <= DIRECT_LIMIT:
+        if len(answer) <= FINEST:
             answer = _active_set(csr_array(levels[k].A), loads[k], answer <= 0.0)
         answer = levels[k - 1].P @ answer
     return answer <= 0.0

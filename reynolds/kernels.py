@@ -67,6 +67,21 @@ def stiffness(vertices, cells, dofs, slots, gradient, geometry_gradient, weights
 
 
 @njit(**_FAST)
+def find_slots(indptr, indices, row, column, slots):
+    """Fill slots[cell, entry] with where (row, column) stands in sorted CSC indices, by bisection."""
+    for e in range(row.shape[0]):
+        for k in range(row.shape[1]):
+            low, high = indptr[column[e, k]], indptr[column[e, k] + 1]
+            while low < high:
+                middle = (low + high) // 2
+                if indices[middle] < row[e, k]:
+                    low = middle + 1
+                else:
+                    high = middle
+            slots[e, k] = low
+
+
+@njit(**_FAST)
 def residual(
     vertices, cells, dofs, value, gradient, geometry_gradient, weights,
     conductance, flux_x, flux_y, source, pressure, out, size,

@@ -57,7 +57,7 @@ class FilmSolver:
         pressure = setting.pressure.copy()
         if start is not None:
             pressure = np.where(setting.held, pressure, start.pressure)
-        stiffness = _stiffness(space, flows[0])
+        stiffness = assemble(space, flows[0])
         cavity = np.zeros(space.size, dtype=bool)
         if problem.cavitation is Cavitation.REYNOLDS:
             found = start.cavity if start is not None else _first_cavity(space, setting, stiffness, flows)
@@ -125,7 +125,11 @@ def _first_cavity(space: FilmSpace, setting: _Setting, stiffness: Array, flows: 
     return nested_cavity(*_linearised(space, setting.pressure, setting, setting.held, stiffness, flows))
 
 
-def _stiffness(space: FilmSpace, conductance: Array) -> Array:
+def assemble(space: FilmSpace, conductance: Array) -> Array:
+    """Entries of int h^3/(12 mu) grad p . grad f, upper triangle in the space's pattern (m3/(s Pa)).
+
+    `conductance` (cells | 1, points | 1) is h^3/(12 mu), m3/(Pa s).
+    """
     reference = space.reference
     data = np.empty(len(space.pattern.indices))
     kernels.stiffness(

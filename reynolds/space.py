@@ -12,7 +12,7 @@ from functools import cached_property
 import numpy as np
 import skfem
 from numpy.typing import NDArray
-from scipy.sparse import csc_array
+from scipy.sparse import coo_array, csc_array
 from scipy.spatial import cKDTree
 
 from reynolds import kernels
@@ -161,10 +161,11 @@ def film_space(film_mesh: FilmMesh, *, degree: int = 1, pockets: Iterable[str] =
     """
     mesh = film_mesh.mesh
     element, order = _ELEMENTS[type(mesh), degree]
-    dofs = skfem.Basis(mesh, element, intorder=order, disable_doflocs=False)
+    # The numbering is what is wanted: the basis itself is tabulated in one element only.
+    dofs = skfem.Basis(mesh, element, intorder=order, elements=np.array([0]))
     tied = _tie(film_mesh, dofs, tuple(pockets))
     numbers, joined = np.unique(tied, return_inverse=True)
-    cell_dofs = joined[dofs.element_dofs.T].astype(np.int32)
+    cell_dofs = joined[dofs.dofs.element_dofs.T].astype(np.int32)
     facet_dofs = _facet_dofs(film_mesh, dofs, joined)
     return FilmSpace(
         film_mesh=film_mesh,
@@ -254,9 +255,11 @@ def _outward(space: FilmSpace, facets: NDArray[np.int64]) -> Array:
 
 def _pattern(dofs: NDArray[np.int32], size: int) -> Pattern:
     rows, columns = np.triu_indices(dofs.shape[1])
-    a, b = dofs[:, rows].astype(np.int64), dofs[:, columns].astype(np.int64)
-    key = (np.maximum(a, b) * size + np.minimum(a, b)).ravel()
-    unique, slot = np.unique(key, return_inverse=True)
-    column, row = np.divmod(unique, size)
-    indptr = np.concatenate([[0], np.cumsum(np.bincount(column, minlength=size))])
-    return Pattern(indptr.astype(np.int32), row.astype(np.int32), slot.reshape(len(dofs), -1).astype(np.int32))
+    a, b = dofs[:, rows], dofs[:, columns]
+    row, column = np.minimum(a, b), np.maximum(a, b)
+    entries = coo_array((np.ones(row.size, dtype=bool), (row.ravel(), column.ravel())), shape=(size, size)).tocsc()
+    entries.sum_duplicates()
+    indptr, indices = entries.indptr.astype(np.int32), entries.indices.astype(np.int32)
+    slots = np.empty(row.shape, dtype=np.int32)
+    kernels.find_slots(indptr, indices, row, column, slots)
+    return Pattern(indptr, indices, slots)
