@@ -8,7 +8,7 @@ from __future__ import annotations
 import argparse
 import json
 import sys
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, NoReturn
 
@@ -36,7 +36,9 @@ def run_command(words: Sequence[str]) -> int:
     _check_command(parser, words)
     options, unknown = parser.parse_known_args(list(words))
     if unknown:
-        raise InputFaults(COMMAND_LINE, [_unknown(parser, options.command, word) for word in unknown])
+        # A word after an unknown option is most likely its value: no fault of its own.
+        told = [word for word in unknown if word.startswith("-")] or unknown
+        raise InputFaults(COMMAND_LINE, [_unknown(options.command, word) for word in told])
     if options.command is None:
         parser.print_help()
         return 0
@@ -48,13 +50,14 @@ class _Parser(argparse.ArgumentParser):
 
     def error(self, message: str) -> NoReturn:
         what, _, rest = message.partition(": ")
-        path = what.removeprefix("argument ") if rest else self.prog
-        hint = (
-            f"a value that starts with - is written {path.split('/')[-1]}=VALUE"
-            if "expected one" in message
-            else ""
-        )
-        raise InputFaults(COMMAND_LINE, [Fault(path, rest or message, f"see {self.prog} --help", hint)])
+        if what == "the following arguments are required":
+            fault = Fault(rest, "nothing", f"see {self.prog} --help")
+        elif "expected one argument" in rest:
+            name = what.removeprefix("argument ").split("/")[-1]
+            fault = Fault(name, "no value", "a value", f"one that starts with - is written {name}=VALUE")
+        else:
+            fault = Fault(what.removeprefix("argument "), rest or message, f"see {self.prog} --help")
+        raise InputFaults(COMMAND_LINE, [fault])
 
 
 class _Version(argparse.Action):
@@ -108,7 +111,7 @@ def _command(commands: Any, name: str, what: str) -> argparse.ArgumentParser:
 
 def _output(command: argparse.ArgumentParser) -> None:
     command.add_argument(
-        "-o", dest="output", type=Path, metavar="DIR", help="run folder (default runs/NAME-N, N fresh)"
+        "-o", "--output", dest="output", type=Path, metavar="DIR", help="run folder (default runs/NAME-N, N fresh)"
     )
 
 
@@ -119,9 +122,13 @@ def _check_command(parser: argparse.ArgumentParser, words: Sequence[str]) -> Non
         raise InputFaults(COMMAND_LINE, [fault])
 
 
-def _unknown(parser: argparse.ArgumentParser, command: str | None, word: str) -> Fault:
+def _unknown(command: str | None, word: str) -> Fault:
     """The fault of a word that no option or argument takes."""
-    options = [*_OVERRIDES, "--fidelity", "-o", "--help"] if command == "run" else ["-o", "--help"]
+    options = (
+        [*_OVERRIDES, "--fidelity", "-o", "--output", "--help"]
+        if command == "run"
+        else ["-o", "--output", "--help"]
+    )
     if command not in ("run", "film"):
         options = ["--help"] if command else ["--help", "--version"]
     kind = "unknown option" if word.startswith("-") else "a word too many"
@@ -130,9 +137,7 @@ def _unknown(parser: argparse.ArgumentParser, command: str | None, word: str) ->
 
 
 def _run(options: argparse.Namespace) -> int:
-    from swashfilm.pump_run import run_pump
-    from swashfilm.run_folder import final_folder, run_folder
-    from system.pump_file import check_pump, load_pump
+    from system.pump_file import load_pump
 
     stated, faults = _overrides(options)
     try:
@@ -141,12 +146,30 @@ def _run(options: argparse.Namespace) -> int:
         raise _at_options(reason, stated, faults) from None
     if faults:
         raise InputFaults(COMMAND_LINE, faults)
-    for warning in check_pump(pump).warnings:
+    from swashfilm.progress import progress
+    from swashfilm.pump_page import headline_rows
+    from swashfilm.pump_run import run_pump
+    from swashfilm.run_folder import final_folder, run_folder
+
+    given = _given_text(options.pump, stated)
+    with run_folder(pump.name, options.output) as folder, progress(1, f"run {pump.name}") as report:
+        summary = run_pump(pump, given, Fidelity(options.fidelity), folder, report)
+    show_table(f"Pump {pump.name}", headline_rows(summary))
+    for warning in summary["warnings"]:
         show(f"warning: {warning}")
-    with run_folder(pump.name, options.output) as folder:
-        run_pump(pump, options.pump, Fidelity(options.fidelity), folder)
     show(f"results in {final_folder(folder)}")
     return 0
+
+
+def _given_text(pump: str, stated: Mapping[str, object]) -> str:
+    """The pump file as given, under comments that tell what the command line put in place of its entries."""
+    from importlib.resources import files
+
+    from system.pump_file import builtin_pumps
+
+    built_in = files("system").joinpath("pumps", f"{pump}.toml")
+    text = built_in.read_text("utf-8") if pump in builtin_pumps() else Path(pump).read_text("utf-8")
+    return "".join(f"# command line: {path} = {value}\n" for path, value in stated.items()) + text
 
 
 def _overrides(options: argparse.Namespace) -> tuple[dict[str, object], list[Fault]]:
@@ -202,11 +225,13 @@ def _report(options: argparse.Namespace) -> int:
     except (OSError, ValueError, KeyError, TypeError) as reason:
         fault = Fault("summary.json", f"cannot be read: {reason!r}", "the summary that a run wrote")
         raise InputFaults(str(options.folder), [fault]) from None
-    if kind != "film":
-        raise InputFaults(str(options.folder), [Fault("summary.json", f"kind {kind!r}", "'film'")])
-    from swashfilm.film_page import write_film_page
-
-    show(f"report in {write_film_page(options.folder)}")
+    if kind == "film":
+        from swashfilm.film_page import write_film_page as write_page
+    elif kind == "pump":
+        from swashfilm.pump_page import write_pump_page as write_page
+    else:
+        raise InputFaults(str(options.folder), [Fault("summary.json", f"kind {kind!r}", "'film' or 'pump'")])
+    show(f"report in {write_page(options.folder)}")
     return 0
 
 

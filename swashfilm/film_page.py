@@ -70,7 +70,7 @@ def film_picture(results: Path) -> bytes:
     import xarray
     from matplotlib.figure import Figure
 
-    with xarray.open_dataset(results, engine="scipy") as fields:
+    with xarray.open_dataset(results, engine="h5netcdf") as fields:
         fields.load()
     figure = Figure(figsize=(10.0, 4.2), layout="constrained")
     left, right = figure.subplots(1, 2)

@@ -62,7 +62,7 @@ def run_case(case: FilmCase | GapCase, folder: Path, report: Report) -> dict[str
     summary = film_summary(study)
     place = true_place(case) if isinstance(case, GapCase) else None
     write_vtu(folder / "film.vtu", study.solution, place)
-    film_dataset(study).to_netcdf(folder / "results.nc", engine="scipy", format="NETCDF3_64BIT")
+    film_dataset(study).to_netcdf(folder / "results.nc", engine="h5netcdf")
     write_json(folder / "summary.json", summary)
     report(2, _STAGES, "drawing")
     from swashfilm.film_page import write_film_page

@@ -1,0 +1,257 @@
+"""Film case files: what they mean, that they round-trip, and every fault they can hold."""
+
+from pathlib import Path
+
+import meshio
+import numpy as np
+import pytest
+
+from reynolds.film import Cavitation
+from swashfilm.film_case import FilmCase, load_case
+from swashfilm.film_study import film_summary, solve_case
+from swashfilm.gap_case import GapCase
+from system.faults import InputFaults
+
+MESH = '{ kind = "rectangle", size = ["10 mm", "10 mm"], cells = [8, 4] }'
+GOOD = f"""
+format = 1
+[film]
+mesh = {MESH}
+thickness = "10 um"
+viscosity = "30 mPa s"
+[boundary]
+left = {{ pressure = "1 bar" }}
+"""
+
+
+@pytest.fixture
+def write(tmp_path):
+    def written(text: str, name: str = "case.toml") -> Path:
+        path = tmp_path / name
+        path.write_text(text, encoding="utf-8")
+        return path
+
+    return written
+
+
+def faults_of(path: Path) -> InputFaults:
+    with pytest.raises(InputFaults) as refused:
+        load_case(path)
+    return refused.value
+
+
+def test_what_a_case_leaves_out_is_filled_in_and_told(write):
+    case = load_case(write(GOOD))
+    assert isinstance(case, FilmCase)
+    assert case.problem.cavitation is Cavitation.REYNOLDS
+    assert case.problem.film.thickness.item() == 1e-5
+    for line in ('cavitation = "reynolds"', 'squeeze = "0 m/s"', "order = 1", 'periodic = "none"'):
+        assert line in case.resolved
+
+
+def test_a_resolved_case_is_the_same_case(write):
+    for number, text in enumerate(
+        [
+            GOOD,
+            GOOD.replace('"10 um"', '"1e-5*(2-x/0.01)"').replace("[8, 4]", '[8, 4], periodic = "y"'),
+            GOOD.replace('viscosity = "30 mPa s"', 'cavitation = "none"\norder = 2\nviscosity = "0.03 + y"'),
+        ]
+    ):  # fmt: skip
+        first = load_case(write(text))
+        again = load_case(write(first.resolved, f"again{number}.toml"))
+        assert again.resolved == first.resolved
+        for one, two in zip(vars(first.problem.film).values(), vars(again.problem.film).values(), strict=True):
+            np.testing.assert_array_equal(one, two)
+
+
+def test_an_oil_gives_the_viscosity_of_its_grade_at_its_temperature(write):
+    oil = '[oil]\ngrade = "ISO VG 46"\ndensity = "860 kg/m3"\ntemperature = "50 degC"\n'
+    case = load_case(write(GOOD.replace('viscosity = "30 mPa s"\n', "") + oil))
+    assert case.problem.film.viscosity.item() == pytest.approx(25.8e-3, rel=2e-3)  # REF90
+
+
+def test_data_of_a_mesh_file_are_fields_by_name(write, tmp_path):
+    points = np.array([[0, 0], [1, 0], [2, 0], [0, 1], [1, 1], [2, 1]]) * 1e-3
+    meshio.write_points_cells(
+        tmp_path / "two.vtu",
+        np.column_stack([points, np.zeros(6)]),
+        [("quad", np.array([[0, 1, 4, 3], [1, 2, 5, 4]]))],
+        point_data={"mu": np.linspace(0.01, 0.06, 6)},
+        cell_data={"h": [np.array([1e-5, 2e-5])]},
+    )
+    text = GOOD.replace(MESH, '"two.vtu"')
+    case = load_case(write(text.replace('"10 um"', '"h"').replace('"30 mPa s"', '"mu"')))
+    np.testing.assert_array_equal(case.problem.film.thickness, [[1e-5], [2e-5]])
+    assert case.problem.film.viscosity.mean() == pytest.approx(0.035)
+    assert faults_of(write(text.replace('"10 um"', '"hh"'))).faults[0].nearest == "h"
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "path", "words"),
+    [
+        ("format = 1", "", "format", ["format = 1"]),
+        ("format = 1", "format = 2", "format", ["2", "format = 1"]),
+        ("[film]", "[flim]", "film", ["no such table"]),
+        ("thickness", "thikness", "film.thikness", ["unknown key", "thickness"]),
+        ("thickness", "thikness", "film.thickness", ["no such key"]),
+        ('"10 um"', "1e-5", "film.thickness", ["1e-05", "with its unit", '"1e-05 m"']),
+        ('"10 um"', '"10 bar"', "film.thickness", ["not a length"]),
+        ('"10 um"', '"10 umm"', "film.thickness", ["not known"]),
+        ('"10 um"', '"-10 um"', "film.thickness", ["above zero", "x ="]),
+        ('"10 um"', '"1e-5*(x-0.005)"', "film.thickness", ["-5e-08 at x = 0 m", "above zero"]),
+        ('"10 um"', '"1e-3*x"', "film.thickness", ["is 0 at x = 0 m"]),
+        ('"10 um"', '"1e-7/x"', "film.thickness", ["is inf at x = 0 m"]),
+        ('"10 um"', '"1e-5*sine(x)"', "film.thickness", ["unknown function sine", "column"]),
+        ('"10 um"', '"1e-5*(2-x"', "film.thickness", ["slip of syntax", "column"]),
+        ('"10 um"', '"gap"', "film.thickness", ["unknown name gap", "has none"]),
+        ('"30 mPa s"', '"30 mm"', "film.viscosity", ["not a dynamic viscosity"]),
+        ('"30 mPa s"', '"0 Pa s"', "film.viscosity", ["above zero"]),
+        ('viscosity = "30 mPa s"', "", "film.viscosity", ["[oil]"]),
+        ("[boundary]", 'velocity = "1 m/s"\n[boundary]', "film.velocity", ["two velocities"]),
+        ("[boundary]", 'velocity = ["1 m", "0 m/s"]\n[boundary]', "film.velocity[0]", ["not a velocity"]),
+        ("[boundary]", 'cavitation = "jfo"\n[boundary]', "film.cavitation", ["does not have", "'reynolds' or"]),
+        ("[boundary]", 'cavitation = "reynold"\n[boundary]', "film.cavitation", ["reynolds"]),
+        ("[boundary]", "order = 2\n[boundary]", "film.order", ["full films", "default"]),
+        ("[boundary]", "order = 3\n[boundary]", "film.order", ["1 (linear", "2 (quadratic"]),
+        (
+            "[boundary]", 'cavitation_pressure = "2 bar"\n[boundary]', "boundary.left.pressure",
+            ["cavitation pressure", "200 kPa"],
+        ),
+        ("left =", "lefd =", "boundary.lefd", ["no boundary of this mesh", "bottom, left, right, top", "left"]),
+        ('left = { pressure = "1 bar" }', "", "boundary", ["no pressure given anywhere", "left"]),
+        ('{ pressure = "1 bar" }', '"1 bar"', "boundary.left", ["a table"]),
+        ("pressure = ", "presure = ", "boundary.left.presure", ["unknown key", "pressure"]),
+        ('"1 bar" }', '"1 bar", film_fraction = 0.5 }', "boundary.left.film_fraction", ["full films only"]),
+        ("cells = [8, 4]", "cells = [8, 0]", "film.mesh.cells", ["[8, 0]", "whole numbers"]),
+        ("cells = [8, 4]", "cells = [8.0, 4]", "film.mesh.cells", ["whole numbers"]),
+        ("cells = [8, 4]", "cells = [100000, 100000]", "film.mesh.cells", ["at most"]),
+        ("cells = [8, 4]", 'cells = [8, 4], cell = "triangel"', "film.mesh.cell", ["triangle"]),
+        ("cells = [8, 4]", 'cells = [8, 4], periodic = "x"', "boundary.left", ["periodic seam"]),
+        ('"rectangle"', '"rectangel"', "film.mesh.kind", ["rectangle"]),
+        ('["10 mm", "10 mm"]', '["10 mm", "-10 mm"]', "film.mesh.size", ["above zero"]),
+        ('["10 mm", "10 mm"]', '["10 mm"]', "film.mesh.size", ["along x and y"]),
+        (MESH, '"no.vtu"', "film.mesh", ["no file", "no.vtu"]),
+        ("[boundary]", "[time]\nend = '1 s'\n[boundary]", "time", ["no transient films"]),
+        ("[boundary]", "[study]\n[boundary]", "study", ["no series"]),
+        ("[boundary]", "[oil]\n[boundary]", "film.viscosity", ["one of the two"]),
+        ('viscosity = "30 mPa s"', '[oil]\ngrade = "ISO VG 45"', "oil.grade", ["ISO VG 46"]),
+        ('viscosity = "30 mPa s"', '[oil]\ngrade = "ISO VG 46"', "oil.density", ["a density"]),
+        (
+            'viscosity = "30 mPa s"',
+            '[oil]\ngrade = "ISO VG 46"\ndensity = "860 kg/m3"\ntemperature = "300 degC"',
+            "oil.temperature", ["Walther"],
+        ),
+    ],
+)  # fmt: skip
+def test_a_fault_says_where_what_and_what_instead(write, old, new, path, words):
+    assert old in GOOD
+    faults = faults_of(write(GOOD.replace(old, new)))
+    told = [fault for fault in faults.faults if fault.path == path]
+    assert told, str(faults)
+    for word in words:
+        assert word in f"{told[0].found} {told[0].expected} {told[0].nearest}", str(faults)
+
+
+def test_all_faults_come_at_once_with_their_lines(write):
+    text = GOOD.replace("10 um", "10 bar").replace("30 mPa s", "1/(").replace("left", "lefd")
+    faults = faults_of(write(text))
+    assert {fault.path for fault in faults.faults} == {"film.thickness", "film.viscosity", "boundary.lefd"}
+    assert "film.thickness (line 5)" in str(faults)
+    assert "boundary.lefd (line 8)" in str(faults)
+
+
+def test_a_file_that_is_no_case_says_so(write, tmp_path):
+    (tmp_path / "folder.toml").mkdir()
+    (tmp_path / "bytes.toml").write_bytes(b"\xff\xfe\x00")
+    write(GOOD)
+    assert faults_of(tmp_path / "cace.toml").faults[0].nearest.endswith("case.toml")
+    assert "line 2" in str(faults_of(write("format = 1\n[film\n", "broken.toml")))
+    for name in ("folder.toml", "bytes.toml"):
+        assert "cannot be read" in str(faults_of(tmp_path / name))
+
+
+GAP = """
+format = 1
+[film]
+gap = "slipper"
+pump = "ref90"
+shaft_angle = "270 deg"
+[position]
+film_thickness = "10 um"
+"""
+
+
+@pytest.mark.parametrize(
+    ("gap", "tail"),
+    [
+        ("slipper", ""),
+        ("slipper", '[load]\nforce = "5 kN"\nmoment_x = "1 N m"\n'),
+        ("slipper", '[position]\nfilm_thickness = "9 um"\nslope_x = "0.01 deg"\n'),
+        ("piston", '[position]\neccentricity_chamber = ["3 um", "1 um"]\neccentricity_case = ["-3 um", "0 um"]\n'),
+        ("piston", '[load]\nforce = ["1 kN", "0 N"]\narm = "20 mm"\n[operating]\ntemperature = "70 degC"\n'),
+        ("valve_plate", '[position]\nfilm_thickness = "9 um"\nslope_y = "0.01 deg"\n'),
+    ],
+)  # fmt: skip
+def test_a_resolved_gap_case_is_the_same_case(write, gap, tail):
+    text = GAP.partition("[position]")[0].replace("slipper", gap) + tail
+    first = load_case(write(text))
+    assert isinstance(first, GapCase)
+    again = load_case(write(first.resolved, "again.toml"))
+    assert again.resolved == first.resolved
+    np.testing.assert_array_equal(again.chamber_pressure, first.chamber_pressure)
+    assert repr(again.instant) == repr(first.instant)
+
+
+def test_gap_and_pump_may_stand_on_top(write):
+    text = GAP.replace("[film]\n", "")
+    assert load_case(write(text)).resolved == load_case(write(GAP, "b.toml")).resolved
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "path", "words"),
+    [
+        ('"slipper"', '"sliper"', "film.gap", ["slipper"]),
+        ('"ref90"', '"ref9"', "film.pump", ["ref90"]),
+        ('pump = "ref90"', "", "film.pump", ["no such key", "ref90"]),
+        ('"270 deg"', '"270"', "film.shaft_angle", ["unit"]),
+        ("[position]", "[load]\nforce = '1 N'\n[position]", "load", ["one of the two"]),
+        ("film_thickness", "film_thicknes", "position.film_thickness", ["no such key"]),
+        ('"10 um"', '"-10 um"', "position.film_thickness", ["above zero"]),
+        ('"10 um"', '"10 um"\nslope_x = "10 deg"', "position", ["do not touch"]),
+        ("[position]", "[operating]\nspeed = '2100'\n[position]", "operating.speed", ["unit"]),
+        ("[position]", "[operating]\nsped = '2100 rpm'\n[position]", "operating.sped", ["unknown key", "speed"]),
+        ("[position]", "chamber_pressure = ['1 bar', '2 bar']\n[position]", "film.chamber_pressure", ["2 press"]),
+        ("[position]", "thickness = '1 um'\n[position]", "film.thickness", ["unknown key"]),
+    ],
+)  # fmt: skip
+def test_a_fault_of_a_gap_case_says_where(write, old, new, path, words):
+    assert old in GAP
+    faults = faults_of(write(GAP.replace(old, new)))
+    told = [fault for fault in faults.faults if fault.path == path]
+    assert told, str(faults)
+    for word in words:
+        assert word in f"{told[0].found} {told[0].expected} {told[0].nearest}", str(faults)
+
+
+def test_a_pump_file_stands_beside_the_case(write):
+    from importlib.resources import files
+
+    write(
+        files("system").joinpath("pumps", "ref90.toml").read_text("utf-8").replace("0.9 mm", "1.1 mm"), "my.toml"
+    )
+    case = load_case(write(GAP.replace('"ref90"', '"my.toml"')))
+    assert case.rotor.pump.slipper.orifice_diameter == 1.1e-3
+
+
+def test_a_parallel_slipper_leaks_what_orifice_and_land_let_through(write):
+    """Paper Eq. (16): capillary and land in series; the ring of the mesh is a 64-gon, its area 0.16 % short."""
+    case = load_case(write(GAP))
+    summary = film_summary(solve_case(case))
+    pump, point = case.rotor.pump, case.rotor.point
+    radii = np.log(pump.slipper.land_outer_radius / pump.slipper.land_inner_radius)
+    land = np.pi * (10e-6) ** 3 / (6 * point.viscosity * radii)
+    orifice = np.pi * pump.slipper.orifice_diameter**4 / (128 * point.viscosity * pump.slipper.orifice_length)
+    drop = point.delivery_pressure - point.case_pressure
+    expected = drop * land * orifice / (land + orifice)
+    assert summary["flow_m3_per_s"]["case"] == pytest.approx(expected, rel=2e-3)
+    assert summary["position_source"] == "given"
