@@ -14,7 +14,7 @@ import numpy as np
 from gaps.balance import find_equilibrium, into_disc, out_of_disc
 from gaps.result import SMALLEST_FILM, GapFilm, PositionSource, wall_power
 from reynolds.film import ZERO, Cavitation, FilmProblem, FilmSolution, Held, film
-from reynolds.loads import loads, point_fields
+from reynolds.loads import boundary_flows, evaluate, loads
 from reynolds.mesh import Array, Cell, rectangle, rename
 from reynolds.solve import FilmSolver
 from reynolds.space import FilmSpace, film_space
@@ -119,7 +119,7 @@ class PistonGap:
         space = solution.problem.space
         x, y = space.points
         angle = 2.0 * x / self.geometry.diameter
-        weighted = -point_fields(solution).pressure * space.area
+        weighted = -evaluate(solution, solution.pressure)[0] * space.area
         lever = y - 0.5 * space.vertices[:, 1].max()
         return np.array(
             [
@@ -185,7 +185,7 @@ class PistonGap:
         answer = self._solver.solve(
             FilmProblem(problem.space, still, {"chamber": Held(1.0), "case": Held(0.0)}, Cavitation.NONE)
         )
-        return loads(answer).flow["case"]
+        return boundary_flows(answer)["case"]
 
     def _report(
         self,

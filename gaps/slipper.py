@@ -13,7 +13,7 @@ import numpy as np
 from gaps.balance import find_equilibrium, into_disc, out_of_disc
 from gaps.result import SMALLEST_FILM, GapFilm, PositionSource, wall_power
 from reynolds.film import ZERO, Cavitation, FilmProblem, FilmSolution, Held, Pocket, film
-from reynolds.loads import loads
+from reynolds.loads import boundary_flows, loads, pressure_integrals
 from reynolds.mesh import Array, rename, ring
 from reynolds.solve import FilmSolver
 from reynolds.space import FilmSpace, film_space
@@ -126,11 +126,10 @@ class SlipperGap:
 
     def force(self, solution: FilmSolution, state: SlipperState) -> Array:
         """Lift of film and pocket above case pressure and its moments: (F, Mx, My), N and N m."""
-        integrals = loads(solution)
-        area = float(self._space.area.sum())
-        lift = integrals.load - state.case_pressure * area
+        load, moment_x, moment_y = pressure_integrals(solution)
+        lift = load - state.case_pressure * float(self._space.area.sum())
         pocket = (self.pocket_pressure(solution) - state.case_pressure) * self.pocket_area
-        return np.array([lift + pocket, integrals.moment_x, integrals.moment_y])
+        return np.array([lift + pocket, moment_x, moment_y])
 
     def at(self, state: SlipperState, load: SlipperLoad, position: SlipperPosition) -> GapFilm:
         """The gap at a given position; the film need not balance the load, and the result says how far."""
@@ -197,7 +196,7 @@ class SlipperGap:
         answer = self._solver.solve(
             FilmProblem(problem.space, still, {"pocket": Held(1.0), "case": Held(0.0)}, Cavitation.NONE)
         )
-        land = loads(answer).flow["case"]
+        land = boundary_flows(answer)["case"]
         orifice = hagen_poiseuille_conductance(
             self.geometry.orifice_diameter, self.geometry.orifice_length, state.viscosity
         )

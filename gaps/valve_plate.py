@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from gaps.result import GapFilm, PositionSource, wall_power
 from reynolds.film import ZERO, Cavitation, FilmProblem, FilmSolution, Held, film
-from reynolds.loads import loads
+from reynolds.loads import boundary_flows, loads, pressure_integrals
 from reynolds.mesh import Array, rename, ring
 from reynolds.solve import FilmSolver
 from reynolds.space import film_space
@@ -193,7 +193,7 @@ class ValvePlateGap:
     def _inflows(self, solution: FilmSolution, state: ValvePlateState) -> Array:
         """Flow into the film (m3/s) from each kidney, then from suction and delivery port (over webs)."""
         space = solution.problem.space
-        flows = loads(solution).flow
+        flows = boundary_flows(solution)
         named = np.zeros(space.size, dtype=bool)
         for nodes in space.edge_dofs.values():
             named[nodes] = True
@@ -210,16 +210,16 @@ class ValvePlateGap:
 
     def _separating(self, solution: FilmSolution, state: ValvePlateState) -> tuple[float, tuple[float, float]]:
         """Force between block and plate above case pressure: mesh integral plus kidneys."""
-        integrals = loads(solution)
+        load, moment_x, moment_y = pressure_integrals(solution)
         _, r2, r3, _ = self.geometry.land_radii
         above = np.asarray(state.chamber_pressure) - state.case_pressure
         centre = state.shaft_angle + 2.0 * np.pi / self.geometry.pistons * np.arange(self.geometry.pistons)
         area = 0.5 * self.geometry.kidney_arc * (r3**2 - r2**2)
         lever = 2.0 * np.sin(0.5 * self.geometry.kidney_arc) * (r3**3 - r2**3) / 3.0
-        lift = integrals.load - state.case_pressure * float(solution.problem.space.area.sum())
+        lift = load - state.case_pressure * float(solution.problem.space.area.sum())
         return lift + float(above.sum()) * area, (
-            integrals.moment_x + float(np.sum(above * np.sin(centre))) * lever,
-            integrals.moment_y - float(np.sum(above * np.cos(centre))) * lever,
+            moment_x + float(np.sum(above * np.sin(centre))) * lever,
+            moment_y - float(np.sum(above * np.cos(centre))) * lever,
         )
 
     def _conductances(self, solution: FilmSolution, state: ValvePlateState) -> Array:
@@ -233,5 +233,5 @@ class ValvePlateGap:
             answer = self._solver.solve(
                 FilmProblem(problem.space, still, edges, Cavitation.NONE, held_nodes=ports)
             )
-            found.append(-loads(answer).flow[name])
+            found.append(-boundary_flows(answer)[name])
         return np.array(found)

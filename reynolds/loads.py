@@ -107,10 +107,11 @@ def loads(solution: FilmSolution, weight: Array | None = None) -> Loads:
         1e-300,
     )
     peak = int(np.argmax(solution.pressure))
+    load, moment_x, moment_y = pressure_integrals(solution)
     return Loads(
-        load=float(np.sum(fields.pressure * area)),
-        moment_x=float(np.sum(fields.pressure * y * area)),
-        moment_y=float(-np.sum(fields.pressure * x * area)),
+        load=load,
+        moment_x=moment_x,
+        moment_y=moment_y,
         pressure_max=float(solution.pressure[peak]),
         pressure_max_at=_place(solution, peak),
         film_thickness_min=float(space.to_vertices(film.thickness).min()),
@@ -126,6 +127,14 @@ def loads(solution: FilmSolution, weight: Array | None = None) -> Loads:
         mass_balance_error=abs(out + squeeze_flow - cavity_flow) / throughput,
         energy_balance_error=_energy_error(solution, fields),
     )
+
+
+def pressure_integrals(solution: FilmSolution) -> tuple[float, float, float]:
+    """Load (N) and moments about x and y (N m): integrals of p, of p y and of -p x over the film."""
+    space = solution.problem.space
+    weighted = evaluate(solution, solution.pressure)[0] * space.area
+    x, y = space.points
+    return float(weighted.sum()), float(np.sum(weighted * y)), -float(np.sum(weighted * x))
 
 
 def boundary_flows(solution: FilmSolution) -> dict[str, float]:
