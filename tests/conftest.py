@@ -187,10 +187,12 @@ def validation_page(rows: Sequence[Row]) -> str:
     lines = [
         "# Validation",
         "",
-        f"Written by `{PAGE_COMMAND}`; do not edit. Every line is asserted by a test: the result may differ from the",
-        "expected value by no more than the tolerance, which is the discretisation error of the finest mesh estimated",
-        "from the refinement (grid convergence index, Roache 1994: safety 1.25, and 3 for a film with a cavity) plus",
-        "the rounding of the reference. `order` is the observed order of convergence under mesh refinement.",
+        f"Written by `{PAGE_COMMAND}`; do not edit.",
+        "Every line is asserted by a test: the result may differ from the expected value by no more than the",
+        "tolerance. Of a film under mesh refinement that is the error of the finest mesh estimated from the",
+        "refinement alone (grid convergence index, Roache 1994: safety 1.25, and 3 where a cavity's front or a",
+        "largest nodal value makes the order scatter), plus the rounding of the reference; `order` is the order",
+        "of convergence observed.",
     ]
     for chapter in dict.fromkeys(row.chapter for row in rows):
         lines += ["", f"## {chapter}", "", HEADER, RULE]

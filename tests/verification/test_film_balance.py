@@ -27,7 +27,7 @@ SPACES = {
 
 
 def _random_film(space: FilmSpace, seed: int, jump: float) -> Film:
-    """A tilted film with steps of `jump` in thickness, both walls turning about any centre, moving and squeezing."""
+    """A tilted film with steps of `jump` in thickness, squeezed, both walls turning about any centre."""
     rng = np.random.default_rng(seed)
     x, y = space.points
     tilt = rng.uniform(-0.4, 0.4, 2)

@@ -53,7 +53,7 @@ def test_complementarity(cell, eccentricity):
 
 @pytest.mark.parametrize("cell", list(Cell))
 def test_any_start_gives_the_same_film(cell):
-    """From another film's cavity, from none and from coarser problems: one solution (Hintermueller et al. 2002)."""
+    """From another film's cavity, from none and from coarser problems: there is one solution."""
     space, boundary = _journal(cell, 64)
     solver = FilmSolver(space)
     problem = _problem(space, boundary, 0.7)

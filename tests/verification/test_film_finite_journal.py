@@ -108,6 +108,10 @@ def _rotating(aspect: float, eccentricity: float, n: int) -> Bearing:
     )
 
 
+def _refinement(values: tuple[float, ...]) -> str:
+    return f"{'/'.join(map(str, MESHES))} cells: {', '.join(f'{value:.6g}' for value in values)}"
+
+
 @pytest.mark.parametrize("row", TABLE, ids=lambda row: f"{row.aspect:g}-{row.eccentricity:g}")
 def test_rotating(row, validation, refine):
     def solve(n: int) -> tuple[float, ...]:
@@ -126,6 +130,7 @@ def test_rotating(row, validation, refine):
             expected=expected,
             obtained=found.finest,
             tolerance=found.front_tolerance(rounding),
+            note=_refinement(found.values) if name in ("so", "side_flow") else "",
         )
 
 
@@ -163,4 +168,5 @@ def test_squeezed(aspect, eccentricity, so, rounding, validation, refine):
         expected=so,
         obtained=found.finest,
         tolerance=found.front_tolerance(rounding),
+        note=_refinement(found.values),
     )
