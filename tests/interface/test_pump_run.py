@@ -1,0 +1,147 @@
+"""`swashfilm run`: the folder it leaves, in both fidelities."""
+
+import json
+import re
+
+import numpy as np
+import pandas
+import pytest
+import pyvista
+import xarray
+
+from swashfilm.__main__ import main
+
+TURN = 2.0 * np.pi
+
+
+@pytest.fixture(scope="module")
+def lumped(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("lumped") / "run"
+    assert main(["run", "ref90", "--fidelity", "lumped", "--pressure", "20 MPa", "-o", str(folder)]) == 0
+    return folder
+
+
+@pytest.fixture(scope="module")
+def films(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("films") / "run"
+    assert main(["run", "ref90", "--speed", "1500 rpm", "-o", str(folder)]) == 0
+    return folder
+
+
+def summary(folder):
+    return json.loads((folder / "summary.json").read_text("utf-8"))
+
+
+def test_lumped_folder_holds_what_the_contract_says(lumped):
+    names = {path.name for path in lumped.iterdir()}
+    assert names >= {
+        "input.toml", "resolved.toml", "summary.json", "results.nc", "revolution.csv", "pairs.csv", "report.html",
+    }  # fmt: skip
+    found = summary(lumped)
+    assert found["kind"] == "pump"
+    assert found["fidelity"] == "lumped"
+    assert found["operating_point"]["delivery_pressure_Pa"] == pytest.approx(20e6)
+    assert found["checks"]["mass_balance_error"] < 1e-6
+    assert found["gaps"] == {}
+
+
+def test_every_headline_number_carries_its_unit(lumped):
+    units = re.compile(r"_(Pa|Pa_s|W|K|Nm|rad|m|m3_per_s|m3_per_rev|rad_per_s)$")
+    bare = re.compile(
+        r"(^format$|ratio$|share$|error$|error_max$|overall|volumetric|hydromechanical|revolutions|steps|rounds"
+        r"|fraction|angles|unknowns)"
+    )
+
+    def walk(values):
+        for key, value in values.items():
+            if isinstance(value, dict):
+                walk(value)
+            elif isinstance(value, (int, float)):
+                assert units.search(key) or bare.search(key), key
+
+    walk(summary(lumped))
+
+
+def test_tables_carry_units_and_agree_with_the_summary(lumped):
+    revolution = pandas.read_csv(lumped / "revolution.csv")
+    assert "shaft_angle [deg]" in revolution.columns
+    assert "chamber_pressure [Pa]" in revolution.columns
+    assert len(revolution) == 360
+    pairs = pandas.read_csv(lumped / "pairs.csv").set_index("pair")
+    for name, loss in summary(lumped)["pair_loss"].items():
+        assert pairs.loc[name, "total [W]"] == pytest.approx(loss["total_W"], rel=1e-5)
+    assert pairs["share [%]"].sum() == pytest.approx(100.0, abs=0.01)
+
+
+def test_results_carry_units(lumped):
+    with xarray.open_dataset(lumped / "results.nc", engine="h5netcdf") as data:
+        assert all("units" in data[name].attrs for name in data.data_vars)
+
+
+def test_report_is_one_self_contained_file(lumped):
+    page = (lumped / "report.html").read_text("utf-8")
+    assert set(re.findall(r'(?:src|href)="(.{5})', page)) == {"data:"}
+    for words in ("ISO 4391/4409", "Losses of the seven friction pairs", "Chamber pressure and port openings"):
+        assert words in page
+
+
+def test_report_is_made_anew_from_the_folder(lumped):
+    before = (lumped / "report.html").read_text("utf-8")
+    (lumped / "report.html").unlink()
+    assert main(["report", str(lumped)]) == 0
+    assert (lumped / "report.html").read_text("utf-8") == before
+
+
+def test_resolved_pump_runs_to_the_same_numbers(lumped, tmp_path):
+    again = tmp_path / "again"
+    assert main(["run", str(lumped / "resolved.toml"), "--fidelity", "lumped", "-o", str(again)]) == 0
+    assert summary(again)["torque"] == pytest.approx(summary(lumped)["torque"], rel=1e-9)
+
+
+@pytest.mark.slow
+def test_films_summary_says_where_each_position_comes_from(films):
+    gaps = summary(films)["gaps"]
+    assert set(gaps) == {"piston", "slipper", "valve_plate"}
+    for report in gaps.values():
+        assert report["mass_balance_error_max"] < 1e-9
+        assert report["energy_balance_error_max"] < 1e-9
+        if not report["angles_balanced"]:
+            assert report["film_thickness_balanced_mean_m"] is None
+        assert "angles" in report["statement"]
+
+
+@pytest.mark.slow
+def test_films_balances_close(films):
+    checks = summary(films)["checks"]
+    assert checks["mass_balance_error"] < 1e-6
+    assert checks["energy_balance_error"] < 1e-5
+
+
+@pytest.mark.slow
+def test_paraview_series_lie_in_their_true_place(films):
+    whole = pyvista.get_reader(str(films / "pump.pvd"))
+    assert len(whole.time_values) == 36
+    assert whole.time_values[9] == pytest.approx(90.0)
+    whole.set_active_time_value(90.0)
+    assert len(whole.read()) == 19  # the ring, nine pistons, nine slippers
+    piston = pyvista.read(films / "fields" / "piston_009.vtu")
+    centred = piston.points - piston.points.mean(axis=0)
+    axis = np.linalg.svd(centred, full_matrices=False)[2]
+    cone = np.radians(5.0)
+    # At 90 deg the bore lies in the y, z plane, leaning outward by the cone angle.
+    direction = max(np.abs(row @ [0.0, np.sin(cone), np.cos(cone)]) for row in axis)
+    assert direction == pytest.approx(1.0, abs=2e-3)
+    ring = pyvista.read(films / "fields" / "valve_plate_000.vtu")
+    assert np.ptp(ring.points[:, 2]) == 0.0
+    assert np.hypot(*ring.points[:, :2].T).max() == pytest.approx(45.7e-3, rel=1e-6)
+    for name in ("film_pressure", "film_thickness"):
+        assert name in piston.point_data
+    assert "wall_shear" in piston.cell_data
+
+
+@pytest.mark.slow
+def test_films_report_shows_the_gaps(films):
+    page = (films / "report.html").read_text("utf-8")
+    assert "The three gaps" in page
+    assert page.count("data:image/png") >= 7
+    assert "load_not_carried" in page
