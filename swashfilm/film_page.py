@@ -7,14 +7,12 @@ import io
 import json
 from collections.abc import Iterator, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
+from swashfilm.maps import draw_map
 from system.faults import Fault, InputFaults
-
-if TYPE_CHECKING:
-    import xarray
 
 UNITS = {"_m3_per_s": "m3/s", "_Nm": "N m", "_Pa": "Pa", "_N": "N", "_W": "W", "_m": "m", "_seconds": "s"}
 
@@ -72,29 +70,14 @@ def film_picture(results: Path) -> bytes:
 
     with xarray.open_dataset(results, engine="h5netcdf") as fields:
         fields.load()
-    figure = Figure(figsize=(10.0, 4.2), layout="constrained")
-    left, right = figure.subplots(1, 2)
-    _map(left, fields, fields["film_pressure"].values * 1e-6, "film pressure / MPa", "viridis")
-    _map(right, fields, fields["film_thickness_cell"].values * 1e6, "film thickness / um", "cividis")
+    place = (fields["x"].values * 1e3, fields["y"].values * 1e3)
+    wide = np.ptp(place[0]) > 1.7 * np.ptp(place[1])
+    figure = Figure(figsize=(8.0, 7.0) if wide else (10.0, 4.2), layout="constrained")
+    one, two = figure.subplots(2, 1) if wide else figure.subplots(1, 2)
+    cells = fields["cells"].values
+    draw_map(one, place, cells, fields["film_pressure"].values * 1e-6, "film pressure / MPa")
+    thickness = fields["film_thickness_cell"].values * 1e6
+    draw_map(two, place, cells, thickness, "film thickness / um", colours="cividis")
     picture = io.BytesIO()
     figure.savefig(picture, format="png", dpi=130)
     return picture.getvalue()
-
-
-def _map(axes: Any, fields: xarray.Dataset, values: np.ndarray, label: str, colours: str) -> None:
-    """Draw a field of vertices (smooth) or of cells (flat) over the film plane."""
-    from matplotlib.tri import Triangulation
-
-    x, y = fields["x"].values * 1e3, fields["y"].values * 1e3
-    cells = fields["cells"].values
-    quads = cells.shape[1] == 4
-    triangles = np.concatenate([cells[:, [0, 1, 2]], cells[:, [0, 2, 3]]]) if quads else cells
-    mesh = Triangulation(x, y, triangles)
-    if len(values) == len(x):
-        drawn = axes.tripcolor(mesh, values, shading="gouraud", cmap=colours)
-    else:
-        drawn = axes.tripcolor(mesh, facecolors=np.tile(values, 2 if quads else 1), cmap=colours)
-    axes.set(xlabel="x / mm", ylabel="y / mm", title=label)
-    if np.ptp(x) < 5.0 * np.ptp(y) and np.ptp(y) < 5.0 * np.ptp(x):
-        axes.set_aspect("equal")
-    axes.figure.colorbar(drawn, ax=axes)

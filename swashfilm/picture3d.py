@@ -82,7 +82,11 @@ def _draw_here(picture: Path, field: Field, films: Sequence[Path]) -> None:
     for number, mesh in enumerate(meshes):
         plotter.add_mesh(
             mesh, scalars=field.name, clim=(lowest, highest), cmap="viridis", show_scalar_bar=number == 0,
-            scalar_bar_args={"title": title, "vertical": True, "fmt": "%.3g", "color": "black"},
+            lighting=False,  # a shadow would be read as a value
+            scalar_bar_args={
+                "title": title, "vertical": True, "fmt": "%.3g", "color": "black", "title_font_size": 18,
+                "label_font_size": 16, "position_x": 0.8, "position_y": 0.2, "height": 0.6, "width": 0.08,
+            },
         )  # fmt: skip
     plotter.background_color = "white"
     plotter.add_axes(color="black")

@@ -18,8 +18,8 @@ LINE_EVERY = 5.0  # s between two lines in a log
 def progress(total: int, label: str, stream: TextIO | None = None) -> Iterator[Report]:
     """A callback that shows how far `label` has come, on the standard error unless `stream` says otherwise.
 
-    The computation may correct the total as it goes. The remaining time is that of the steps so far,
-    extrapolated; before the first step it is not known and not shown.
+    The computation may correct the total as it goes, and start again from a lower step (a new round). The
+    remaining time is that of the steps so far in this round, extrapolated; before the first it is not shown.
     """
     out = sys.stderr if stream is None else stream
     if not out.isatty():
@@ -35,6 +35,8 @@ def progress(total: int, label: str, stream: TextIO | None = None) -> Iterator[R
         task = bar.add_task(label, total=total, what="")
 
         def show(done: int, steps: int, what: str) -> None:
+            if done < bar.tasks[task].completed:
+                bar.reset(task)
             bar.update(task, completed=done, total=steps, what=what)
 
         yield show
@@ -42,17 +44,21 @@ def progress(total: int, label: str, stream: TextIO | None = None) -> Iterator[R
 
 def _lines(label: str, out: TextIO) -> Report:
     """Report as lines: the first, the last, and one every few seconds between."""
-    began = time.monotonic()
-    shown = -LINE_EVERY
+    began = round_began = time.monotonic()
+    shown = began - LINE_EVERY
+    last = 0
 
     def show(done: int, steps: int, what: str) -> None:
-        nonlocal shown
-        spent = time.monotonic() - began
-        if spent - shown < LINE_EVERY and done < steps:
+        nonlocal shown, last, round_began
+        now = time.monotonic()
+        if done < last:
+            round_began = now
+        last = done
+        if now - shown < LINE_EVERY and done < steps:
             return
-        shown = spent
-        ahead = f", {spent / done * (steps - done):.0f} s to go" if 0 < done < steps else ""
-        out.write(f"{label}: {done}/{steps} {what} ({spent:.1f} s{ahead})\n")
+        shown = now
+        ahead = f", {(now - round_began) / done * (steps - done):.0f} s to go" if 0 < done < steps else ""
+        out.write(f"{label}: {done}/{steps} {what} ({now - began:.1f} s{ahead})\n")
         out.flush()
 
     return show

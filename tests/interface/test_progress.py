@@ -1,0 +1,50 @@
+"""Progress: lines with the remaining time in a log, a bar on a terminal."""
+
+import io
+import itertools
+import re
+
+import pytest
+
+from swashfilm import progress as module
+from swashfilm.progress import progress
+
+
+@pytest.fixture
+def clock(monkeypatch):
+    """A clock that goes on by two seconds whenever it is asked."""
+    ticks = itertools.count(100.0, 2.0)
+    monkeypatch.setattr(module.time, "monotonic", lambda: next(ticks))
+
+
+def test_a_log_gets_the_first_line_the_last_and_one_every_few_seconds(clock):
+    log = io.StringIO()
+    with progress(5, "work", log) as step:
+        for done in range(6):
+            step(done, 5, "films")
+    assert log.getvalue().splitlines() == [
+        "work: 0/5 films (2.0 s)",
+        "work: 3/5 films (8.0 s, 5 s to go)",
+        "work: 5/5 films (12.0 s)",
+    ]
+
+
+def test_a_new_round_is_timed_from_its_own_beginning(clock):
+    log = io.StringIO()
+    with progress(10, "work", log) as step:
+        for done in (1, 9, 10, 1, 2, 3, 4):
+            step(done, 10, "films")
+    assert log.getvalue().splitlines()[-1] == "work: 3/10 films (12.0 s, 9 s to go)"
+
+
+def test_a_terminal_gets_a_bar():
+    class Terminal(io.StringIO):
+        def isatty(self) -> bool:
+            return True
+
+    screen = Terminal()
+    with progress(2, "work", screen) as step:
+        step(1, 2, "films")
+        step(0, 4, "again")
+        step(4, 4, "done")
+    assert re.search(r"work.*/4", screen.getvalue(), re.DOTALL)
