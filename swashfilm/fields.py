@@ -138,18 +138,17 @@ def may_be_data(raw: object) -> bool:
 def mesh_data(path: Path, film_mesh: FilmMesh) -> MeshData:
     """The scalar data of a mesh file that `reynolds.mesh.mesh_from_file` has read.
 
-    Raises FilmInputError where the file holds points that no cell uses: its point data could not be told apart.
+    Raises FilmInputError where the file holds points in no cell: they are no part of a film.
     """
     import meshio
 
     raw = meshio.read(path)
     mesh = film_mesh.mesh
     kind = "triangle" if mesh.t.shape[0] == 3 else "quad"
-    if len(raw.points) != mesh.p.shape[1] and raw.point_data:
+    loose = len(raw.points) - len(np.unique(mesh.t))
+    if loose:
         raise FilmInputError(
-            "mesh",
-            f"{path}: {len(raw.points)} points, of which {mesh.p.shape[1]} belong to cells",
-            "a mesh file without loose points",
+            "mesh", f"{path}: {loose} points in no cell", "points of cells only (gmsh: SaveAll = 0)"
         )
     blocks = [index for index, block in enumerate(raw.cells) if block.type == kind]
     return MeshData(

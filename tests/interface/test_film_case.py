@@ -86,6 +86,22 @@ def test_data_of_a_mesh_file_are_fields_by_name(write, tmp_path):
     assert faults_of(write(text.replace('"10 um"', '"hh"'))).faults[0].nearest == "h"
 
 
+def test_a_mesh_file_with_loose_points_is_refused(write, tmp_path):
+    points = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [5, 5, 0]]) * 1e-3
+    meshio.write_points_cells(tmp_path / "loose.vtu", points, [("triangle", np.array([[0, 1, 2]]))])
+    faults = faults_of(write(GOOD.replace(MESH, '"loose.vtu"')))
+    assert "1 points in no cell" in str(faults)
+
+
+def test_an_edge_of_two_names_has_one_pressure(write, tmp_path):
+    points = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]) * 1e-3
+    meshio.write_points_cells(tmp_path / "one.vtu", points, [("quad", np.array([[0, 1, 2, 3]]))])
+    text = GOOD.replace(MESH, '"one.vtu"')
+    assert isinstance(load_case(write(text + 'outer = { pressure = "1 bar" }')), FilmCase)
+    faults = faults_of(write(text + 'outer = { pressure = "2 bar" }'))
+    assert "shares edges with left" in str(faults)
+
+
 @pytest.mark.parametrize(
     ("old", "new", "path", "words"),
     [
