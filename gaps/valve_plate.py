@@ -2,7 +2,8 @@
 
 Film plane: the pump's x, y (x to the inner dead centre), which does not turn; the mesh turns with the block,
 whose kidneys are holes in it. Webs between kidneys that lie over a port of the valve plate are at that port's
-pressure and are no film. Boundaries: inner, outer (case), kidney_1 .. kidney_z in the order of the chambers,
+pressure and are no film: what flows between kidney and port there is the port's own flow, and not counted here.
+Boundaries: inner, outer (case), kidney_1 .. kidney_z in the order of the chambers,
 chamber k at shaft angle + (k - 1) pitch.
 """
 
@@ -18,7 +19,9 @@ from reynolds.film import ZERO, Cavitation, FilmProblem, FilmSolution, Held, fil
 from reynolds.loads import boundary_flows, loads, pressure_integrals
 from reynolds.mesh import Array, rename, ring
 from reynolds.solve import FilmSolver
-from reynolds.space import film_space
+from reynolds.space import FilmSpace, film_space
+
+SEALED = 1e9  # viscosity of a web over a port, in oil's: the film passes nothing there
 
 
 @dataclass(frozen=True)
@@ -82,45 +85,35 @@ class ValvePlateFilm:
 class ValvePlateGap:
     """Films of the ring; cells = (cells across a land, cells a kidney pitch).
 
-    `cells[1]` should put mesh lines on kidney and port edges (a multiple of 16 does for 30 deg in 40 deg).
+    Mesh lines lie on the kidneys' edges; a port's edge is taken at the next mesh line inside it, so `cells[1]`
+    should put one there (a multiple of 16 does for REF90 at the film angles).
     """
 
     def __init__(self, geometry: ValvePlateGeometry, cells: tuple[int, int] = (8, 32)) -> None:
         self.geometry = geometry
-        r1, r2, r3, r4 = geometry.land_radii
-        land, web = cells[0], cells[0]
-        radii = np.concatenate(
-            [np.linspace(r1, r2, land + 1), np.linspace(r2, r3, web + 1)[1:], np.linspace(r3, r4, land + 1)[1:]]
-        )
-        around = cells[1] * geometry.pistons
-        middle = (np.arange(around) + 0.5) * 2.0 * np.pi / around
-        pitch = 2.0 * np.pi / geometry.pistons
-        in_kidney = np.abs((middle + 0.5 * pitch) % pitch - 0.5 * pitch) < 0.5 * geometry.kidney_arc
-        keep = np.ones((len(radii) - 1, around), dtype=bool)
-        keep[land : land + web, in_kidney] = False
-        mesh = ring(radii, around, keep=keep)
-        names = {f"hole_{k}": f"kidney_{k + 1}" for k in range(geometry.pistons)}
-        self._space = film_space(rename(mesh, names))
+        self._space = _ring_space(geometry, cells)
         self._solver = FilmSolver(self._space)
         self._last: FilmSolution | None = None
         self._kidneys = [f"kidney_{k + 1}" for k in range(geometry.pistons)]
+        _, r2, r3, _ = geometry.land_radii
         radius = np.hypot(*self._space.vertices.T)
-        between = (radius > r2 * (1.0 + 1e-9)) & (radius < r3 * (1.0 - 1e-9))
-        self._over_port = between | np.isclose(radius, r2) | np.isclose(radius, r3)
+        self._in_kidney_ring = (radius > r2 * (1.0 - 1e-9)) & (radius < r3 * (1.0 + 1e-9))
 
     def problem(self, state: ValvePlateState, position: ValvePlatePosition) -> FilmProblem:
         """The film problem at a shaft angle; raises FilmInputError where the block touches the plate."""
         c, s = np.cos(state.shaft_angle), np.sin(state.shaft_angle)
         space = self._space.moved(self._space.vertices @ np.array([[c, s], [-s, c]]))
         x, y = space.points
+        port = self._over_port(space, state)
+        speed = np.where(port, 0.0, state.shaft_speed)
         boundary = {"inner": Held(state.case_pressure), "outer": Held(state.case_pressure)}
         boundary |= {name: Held(float(p)) for name, p in zip(self._kidneys, state.chamber_pressure, strict=True)}
         return FilmProblem(
             space=space,
             film=film(
                 position.film_thickness + position.slope_x * x + position.slope_y * y,
-                state.viscosity,
-                velocity_moving=(-state.shaft_speed * y, state.shaft_speed * x),
+                np.where(port, SEALED * state.viscosity, state.viscosity),
+                velocity_moving=(-speed * y, speed * x),
             ),
             boundary=boundary,
             cavitation=Cavitation.REYNOLDS,
@@ -131,7 +124,7 @@ class ValvePlateGap:
     def at(self, state: ValvePlateState, position: ValvePlatePosition, pressing_force: float) -> ValvePlateFilm:
         """The ring's film at a given position, and how much of the pressing force (N) it holds."""
         solution = self._last = self._solver.solve(self.problem(state, position), self._last)
-        is_film = self._is_film(solution, state)
+        is_film = np.where(self._over_port(solution.problem.space, state), 0.0, 1.0)
         integrals = loads(solution, is_film)
         given = self._inflows(solution, state)
         still = self._inflows(self._at_rest(solution), state)
@@ -168,30 +161,28 @@ class ValvePlateGap:
         """Pressure of the unknowns over a port (Pa, or 0 at rest), NaN elsewhere and on the kidneys' edges."""
         nodes = np.full(self._space.size, np.nan)
         for arc, pressure in self._ports(state):
-            nodes[self._vertices_in(vertices, arc)] = 0.0 if at_rest else pressure
+            nodes[self._nodes_in(vertices, arc)] = 0.0 if at_rest else pressure
         for name in self._kidneys:
             nodes[self._space.edge_dofs[name]] = np.nan
         return nodes
 
-    def _vertices_in(self, vertices: Array, arc: tuple[float, float]) -> NDArray[np.int32]:
-        """Unknowns of the kidney ring that lie over a port, its edges included."""
+    def _vertices_in(self, vertices: Array, arc: tuple[float, float]) -> NDArray[np.bool_]:
+        """Vertices of the kidney ring that lie over a port, its edges included."""
         angle = np.arctan2(vertices[:, 1], vertices[:, 0])
         span = (angle - arc[0] + 1e-9) % (2.0 * np.pi)
-        return self._space.vertex_dofs[self._over_port & (span <= arc[1] - arc[0] + 2e-9)]
+        return self._in_kidney_ring & (span <= arc[1] - arc[0] + 2e-9)
 
-    def _is_film(self, solution: FilmSolution, state: ValvePlateState) -> Array:
-        """1 for cells that shear a film, 0 for webs over a port, (cells, 1)."""
-        space = solution.problem.space
-        x, y = space.vertices[space.cells].mean(axis=1).T
-        radius, angle = np.hypot(x, y), np.arctan2(y, x)
-        in_ring = (radius > self.geometry.land_radii[1]) & (radius < self.geometry.land_radii[2])
-        over = np.zeros(len(x), dtype=bool)
-        for arc, _ in self._ports(state):
-            over |= (angle - arc[0]) % (2.0 * np.pi) < arc[1] - arc[0]
-        return np.where(in_ring & over, 0.0, 1.0)[:, None]
+    def _nodes_in(self, vertices: Array, arc: tuple[float, float]) -> NDArray[np.signedinteger]:
+        """Unknowns over a port, those of kidneys included."""
+        return np.unique(self._space.vertex_dofs[self._vertices_in(vertices, arc)])
+
+    def _over_port(self, space: FilmSpace, state: ValvePlateState) -> NDArray[np.bool_]:
+        """Cells that lie over a port with all their corners, (cells, 1)."""
+        over = [self._vertices_in(space.vertices, arc)[space.cells].all(axis=1) for arc, _ in self._ports(state)]
+        return np.any(over, axis=0)[:, None]
 
     def _inflows(self, solution: FilmSolution, state: ValvePlateState) -> Array:
-        """Flow into the film (m3/s) from each kidney, then from suction and delivery port (over webs)."""
+        """Flow into the film (m3/s) from each kidney, then from suction and delivery port (at their edges)."""
         space = solution.problem.space
         flows = boundary_flows(solution)
         named = np.zeros(space.size, dtype=bool)
@@ -199,7 +190,7 @@ class ValvePlateGap:
             named[nodes] = True
         inflows = [-flows[name] for name in self._kidneys]
         for arc, _ in self._ports(state):
-            nodes = np.unique(self._vertices_in(space.vertices, arc))
+            nodes = self._nodes_in(space.vertices, arc)
             inflows.append(float(-solution.outflow[nodes[~named[nodes]]].sum()))
         return np.array(inflows)
 
@@ -235,3 +226,24 @@ class ValvePlateGap:
             )
             found.append(-boundary_flows(answer)[name])
         return np.array(found)
+
+
+def _ring_space(geometry: ValvePlateGeometry, cells: tuple[int, int]) -> FilmSpace:
+    """The ring at shaft angle 0 with kidneys left out, kidney_1 about angle 0; lines on the kidneys' edges."""
+    r1, r2, r3, r4 = geometry.land_radii
+    land, per_pitch = cells
+    lines = [np.linspace(a, b, land + 1) for a, b in ((r1, r2), (r2, r3), (r3, r4))]
+    pitch = 2.0 * np.pi / geometry.pistons
+    per_kidney = min(max(round(per_pitch * geometry.kidney_arc / pitch), 1), per_pitch - 1)
+    around = per_pitch * geometry.pistons
+    keep = np.ones((3 * land, around), dtype=bool)
+    keep[land : 2 * land, np.arange(around) % per_pitch < per_kidney] = False
+    mesh = ring(np.concatenate([lines[0], lines[1][1:], lines[2][1:]]), around, keep=keep)
+    names = {f"hole_{k}": f"kidney_{k + 1}" for k in range(geometry.pistons)}
+    space = film_space(rename(mesh, names))
+    # Equal sectors become kidney and web of their own widths, the first kidney's middle at angle 0.
+    x, y = space.vertices.T
+    column = np.round(np.arctan2(y, x) / (2.0 * np.pi) * around) % around
+    within = np.interp(column % per_pitch, [0, per_kidney, per_pitch], [0.0, geometry.kidney_arc, pitch])
+    angle = column // per_pitch * pitch + within - 0.5 * geometry.kidney_arc
+    return space.moved(np.hypot(x, y)[:, None] * np.column_stack([np.cos(angle), np.sin(angle)]))
