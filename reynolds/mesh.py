@@ -139,6 +139,11 @@ def mesh_from_file(path: Path) -> FilmMesh:
         if np.ptp(raw.points[:, 2]) > 1e-9 * np.ptp(raw.points[:, :2], axis=0).max():
             raise FilmInputError("mesh", f"{path} is not plane (z varies)", "an unwrapped film, z constant")
         raw.points = np.ascontiguousarray(raw.points[:, :2])
+    used = np.concatenate([block.data.ravel() for block in raw.cells if block.type in ("triangle", "quad")])
+    if loose := len(raw.points) - len(np.unique(used)):
+        raise FilmInputError(
+            "mesh", f"{path}: {loose} points in no cell", "points of cells only (gmsh: SaveAll = 0)"
+        )
     mesh = from_meshio(raw)
     own = {name: np.asarray(facets) for name, facets in (mesh.boundaries or {}).items()}
     return FilmMesh(_named(mesh, {**box_names(mesh), **loop_names(mesh), **own}))

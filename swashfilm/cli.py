@@ -10,11 +10,14 @@ import json
 import sys
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any, NoReturn
+from typing import TYPE_CHECKING, Any, NoReturn
 
 from swashfilm.fidelity import Fidelity
 from swashfilm.terminal import show, show_table
 from system.faults import Fault, InputFaults, nearest_choice
+
+if TYPE_CHECKING:
+    from system.description import PumpDescription
 
 COMMAND_LINE = "command line"
 _OVERRIDES = {
@@ -38,7 +41,10 @@ def run_command(words: Sequence[str]) -> int:
     if unknown:
         # A word after an unknown option is most likely its value: no fault of its own.
         told = [word for word in unknown if word.startswith("-")] or unknown
-        raise InputFaults(COMMAND_LINE, [_unknown(options.command, word) for word in told])
+        faults = [_unknown(options.command, word) for word in told]
+        raise InputFaults(
+            COMMAND_LINE, faults + (_pump_faults(options, words) if options.command == "run" else [])
+        )
     if options.command is None:
         parser.print_help()
         return 0
@@ -136,7 +142,8 @@ def _unknown(command: str | None, word: str) -> Fault:
     return Fault(name, kind, f"one of {', '.join(options)}", nearest_choice(name, options))
 
 
-def _run(options: argparse.Namespace) -> int:
+def _pump(options: argparse.Namespace) -> PumpDescription:
+    """The pump that a command line means; raises InputFaults with what is wrong in file and options together."""
     from system.pump_file import load_pump
 
     stated, faults = _overrides(options)
@@ -146,6 +153,24 @@ def _run(options: argparse.Namespace) -> int:
         raise _at_options(reason, stated, faults) from None
     if faults:
         raise InputFaults(COMMAND_LINE, faults)
+    return pump
+
+
+def _pump_faults(options: argparse.Namespace, words: Sequence[str]) -> list[Fault]:
+    """What is wrong with the pump and its options, beside options that are not known."""
+    before = words[words.index(options.pump) - 1] if options.pump in words else ""
+    if before.startswith("-"):
+        options.pump = "ref90"  # the word was the value of an unknown option
+    try:
+        _pump(options)
+    except InputFaults as reason:
+        return list(reason.faults)
+    return []
+
+
+def _run(options: argparse.Namespace) -> int:
+    pump = _pump(options)
+    stated, _ = _overrides(options)
     from swashfilm.progress import progress
     from swashfilm.pump_page import headline_rows
     from swashfilm.pump_run import run_pump

@@ -112,9 +112,9 @@ def _graphics() -> list[Finding]:
     with tempfile.TemporaryDirectory() as folder:
         film = Path(folder, "film.vtu")
         film.write_text(_TRIANGLE, encoding="utf-8")
-        picture = draw([film], Path(folder, "film.png"))
-    drawn = "drawn" if picture.path else picture.reason.removesuffix(f"; {REMEDY}")
+        pictures = draw({Path(folder, "film.png"): [film]})
+    drawn = "drawn" if pictures.paths else pictures.reason.removesuffix(f"; {REMEDY}")
     return [
         Finding("graphics libraries", ", ".join(libraries) or "none"),
-        Finding("3D picture", drawn, "" if picture.path else f"{REMEDY} (runs do without the picture)"),
+        Finding("3D picture", drawn, "" if pictures.paths else f"{REMEDY} (runs do without the picture)"),
     ]

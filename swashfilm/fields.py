@@ -9,7 +9,6 @@ from pathlib import Path
 
 import numpy as np
 
-from reynolds.errors import FilmInputError
 from reynolds.mesh import Array, FilmMesh
 from reynolds.space import FilmSpace
 from swashfilm.expressions import CONSTANTS, VARIABLES, Expression, ExpressionError, parse_expression
@@ -136,20 +135,12 @@ def may_be_data(raw: object) -> bool:
 
 
 def mesh_data(path: Path, film_mesh: FilmMesh) -> MeshData:
-    """The scalar data of a mesh file that `reynolds.mesh.mesh_from_file` has read.
-
-    Raises FilmInputError where the file holds points in no cell: they are no part of a film.
-    """
+    """The scalar data of a mesh file that `reynolds.mesh.mesh_from_file` has read."""
     import meshio
 
     raw = meshio.read(path)
     mesh = film_mesh.mesh
     kind = "triangle" if mesh.t.shape[0] == 3 else "quad"
-    loose = len(raw.points) - len(np.unique(mesh.t))
-    if loose:
-        raise FilmInputError(
-            "mesh", f"{path}: {loose} points in no cell", "points of cells only (gmsh: SaveAll = 0)"
-        )
     blocks = [index for index, block in enumerate(raw.cells) if block.type == kind]
     return MeshData(
         {name: scalar for name, values in raw.point_data.items() if (scalar := _scalar(values)) is not None},

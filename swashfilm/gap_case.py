@@ -74,7 +74,10 @@ Instant = PistonInstant | SlipperInstant | ValvePlateInstant
 
 @dataclass(frozen=True)
 class GapCase:
-    """A gap case, validated: its name, the file's text, the same resolved, the rotor and the instant (SI)."""
+    """A gap case, validated: its name, the file's text, the same resolved, the rotor and the instant (SI).
+
+    `load_is_stated`: the file itself gives the load, rather than the pump's motion.
+    """
 
     name: str
     text: str
@@ -84,6 +87,7 @@ class GapCase:
     shaft_angle: float
     chamber_pressure: Array
     instant: Instant
+    load_is_stated: bool
 
 
 def read_gap_case(name: str, text: str, top: Table, film: Table, folder: Path) -> GapCase | None:
@@ -111,7 +115,7 @@ def read_gap_case(name: str, text: str, top: Table, film: Table, folder: Path) -
             table.close()
     if instant is None or not _film_is_possible(top, parts, instant):
         return None
-    case = GapCase(name, text, "", gap, parts, shaft_angle, pressures, instant)
+    case = GapCase(name, text, "", gap, parts, shaft_angle, pressures, instant, load is not None)
     source = str(film.values["pump"])
     return replace(case, resolved=_resolved(case, source if source in builtin_pumps() else str(folder / source)))
 
@@ -253,8 +257,16 @@ def _resolved(case: GapCase, source: str) -> str:
         ("temperature", point.temperature, Dimension.TEMPERATURE),
     ):
         rows.append(f'{key} = "{format_quantity(value, dimension)}"')
-    rows += [f"displacement_ratio = {point.displacement_ratio!r}", "", *_instant_rows(case.instant)]
+    rows += [f"displacement_ratio = {point.displacement_ratio!r}", "", *_stated_rows(case)]
     return "\n".join(rows) + "\n"
+
+
+def _stated_rows(case: GapCase) -> list[str]:
+    """Position or load; the pump's own load as a remark, since stating it would demand that a film carries it."""
+    rows = _instant_rows(case.instant)
+    if case.load_is_stated or rows[0] == "[position]":
+        return rows
+    return ["# balanced against the pump's own load:", *(f"# {row}" for row in rows)]
 
 
 def _instant_rows(instant: Instant) -> list[str]:

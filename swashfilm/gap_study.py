@@ -11,6 +11,7 @@ from gaps.piston import PistonGap
 from gaps.result import GapFilm, PositionSource
 from gaps.slipper import SlipperGap
 from gaps.valve_plate import ValvePlateGap
+from reynolds.errors import FilmNotConverged
 from reynolds.mesh import Array
 from swashfilm.gap_case import Gap, GapCase, PistonInstant, SlipperInstant, ValvePlateInstant
 from system.instants import piston_geometry, slipper_geometry, valve_plate_geometry
@@ -20,7 +21,17 @@ CARRIED_WITHIN = 1e-3  # of the load, at a position that was given
 
 
 def solve_gap(case: GapCase) -> GapFilm:
-    """The gap's film; where no film balances the load it stands at the pump's given position and says so."""
+    """The gap's film; where none balances the pump's own load it stands at the pump's position and says so.
+
+    Raises FilmNotConverged where the case itself states the load and no film balances it: that is no film.
+    """
+    film = _solved(case)
+    if case.load_is_stated and film.source is PositionSource.GIVEN:
+        raise FilmNotConverged(film.verdict, "a smaller load, or a [position] in place of [load]")
+    return film
+
+
+def _solved(case: GapCase) -> GapFilm:
     pump = case.rotor.pump
     match case.instant:
         case PistonInstant(state, load, position, balance):

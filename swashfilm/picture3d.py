@@ -6,11 +6,12 @@ that costs the picture and nothing else. The child is this module run as a progr
 
 from __future__ import annotations
 
+import json
 import os
 import signal
 import subprocess
 import sys
-from collections.abc import Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -32,39 +33,42 @@ THICKNESS = Field("film_thickness", 1e6, "um")
 
 
 @dataclass(frozen=True)
-class Picture:
-    """What became of a picture: its file, or None and why not, with what to do."""
+class Pictures:
+    """What became of the pictures: their files, or none and why not, with what to do."""
 
-    path: Path | None
+    paths: tuple[Path, ...]
     reason: str
 
 
 def draw(
-    films: Sequence[Path],
-    picture: Path,
+    drawings: Mapping[Path, Sequence[Path]],
     field: Field = PRESSURE,
     *,
     patience: float = PATIENCE,
     child: Sequence[str] = (sys.executable, "-m", "swashfilm.picture3d"),
-) -> Picture:
-    """Draw VTU films into a PNG, coloured by a field with its unit; never fails but by telling so.
+) -> Pictures:
+    """Draw PNGs, each of some VTU films, coloured by a field with its unit; never fails but by telling so.
 
-    Afterwards the picture is there, or `reason` says why not: the child died (no graphics libraries), took
+    Afterwards all pictures are there, or none and `reason` says why: the child died (no graphics libraries), took
     longer than `patience` s, or could not read the files. `child` is the program that draws.
     """
-    words = [*child, str(picture), field.name, repr(field.factor), field.unit, *map(str, films)]
+    jobs = json.dumps({str(picture): [str(film) for film in films] for picture, films in drawings.items()})
+    words = [*child, field.name, repr(field.factor), field.unit, jobs]
     try:
         done = subprocess.run(words, capture_output=True, text=True, timeout=patience, check=False)
     except subprocess.TimeoutExpired:
-        return Picture(None, f"no 3D picture: drawing took longer than {patience:g} s; {REMEDY}")
-    if done.returncode == 0 and picture.is_file():
-        return Picture(picture, "")
-    picture.unlink(missing_ok=True)
+        return _none(drawings, f"drawing took longer than {patience:g} s")
+    if done.returncode == 0 and all(picture.is_file() for picture in drawings):
+        return Pictures(tuple(drawings), "")
     if done.returncode < 0:
-        died = signal.Signals(-done.returncode).name
-        return Picture(None, f"no 3D picture: the drawing process died ({died}); {REMEDY}")
-    last = (done.stderr.strip().splitlines() or ["no message"])[-1]
-    return Picture(None, f"no 3D picture: {last}; {REMEDY}")
+        return _none(drawings, f"the drawing process died ({signal.Signals(-done.returncode).name})")
+    return _none(drawings, (done.stderr.strip().splitlines() or ["no message"])[-1])
+
+
+def _none(drawings: Iterable[Path], why: str) -> Pictures:
+    for picture in drawings:
+        picture.unlink(missing_ok=True)
+    return Pictures((), f"no 3D picture: {why}; {REMEDY}")
 
 
 def _draw_here(picture: Path, field: Field, films: Sequence[Path]) -> None:
@@ -85,19 +89,21 @@ def _draw_here(picture: Path, field: Field, films: Sequence[Path]) -> None:
             lighting=False,  # a shadow would be read as a value
             scalar_bar_args={
                 "title": title, "vertical": True, "fmt": "%.3g", "color": "black", "title_font_size": 18,
-                "label_font_size": 16, "position_x": 0.8, "position_y": 0.2, "height": 0.6, "width": 0.08,
+                "label_font_size": 16, "position_x": 0.72, "position_y": 0.2, "height": 0.6, "width": 0.08,
             },
         )  # fmt: skip
     plotter.background_color = "white"
     plotter.add_axes(color="black")
     plotter.view_isometric()
     plotter.screenshot(str(picture))
+    plotter.close()
 
 
 def _main(words: Sequence[str]) -> None:
-    picture, name, factor, unit, *films = words
+    name, factor, unit, jobs = words
     os.environ.setdefault("PYVISTA_OFF_SCREEN", "true")
-    _draw_here(Path(picture), Field(name, float(factor), unit), [Path(film) for film in films])
+    for picture, films in json.loads(jobs).items():
+        _draw_here(Path(picture), Field(name, float(factor), unit), [Path(film) for film in films])
 
 
 if __name__ == "__main__":

@@ -73,15 +73,12 @@ def draw_gaps(folder: Path, films: FilmsPoint) -> list[str]:
     k = round(PICTURED_TURN * count)
     chambers = [(k + shift) % count for shift in range(0, count, positions)]
     one = {"piston": k, "slipper": k, "valve_plate": k % positions}
-    wanted = {gap: [folder / FIELDS / vtu_name(gap, one[gap])] for gap in GAPS}
-    wanted["pump"] = wanted["valve_plate"] + [
+    drawings = {folder / f"{gap}.png": [folder / FIELDS / vtu_name(gap, one[gap])] for gap in GAPS}
+    drawings[folder / "pump.png"] = drawings[folder / "valve_plate.png"] + [
         folder / FIELDS / vtu_name(gap, j) for gap in ("piston", "slipper") for j in chambers
     ]
-    for name, paths in wanted.items():
-        picture = draw(paths, folder / f"{name}.png")
-        if picture.path is None:
-            return [picture.reason]
-    return []
+    reason = draw(drawings).reason
+    return [reason] if reason else []
 
 
 def write_pair_table(path: Path, point: PumpPoint, summary: dict[str, Any]) -> None:

@@ -74,6 +74,10 @@ def test_the_version_is_that_of_the_package(capsys):
 @pytest.mark.parametrize(
     ("words", "told"),
     [
+        (
+            ["run", "--speed", "2100", "--presure", "1bar", "--displacement", "1.2"],
+            ["3 faults", "--speed", "'2100 rpm'", "--presure", "--displacement", "at most 1"],
+        ),
         (["rnu"], ["'rnu'", "run, film", "try:      run"]),
         (["run", "--sped", "2100rpm"], ["--sped", "unknown option", "try:      --speed"]),
         (["run", "--sped", "1rpm", "--presure", "1bar"], ["2 faults", "--speed", "--pressure"]),

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from reynolds.film import Cavitation
+from swashfilm.__main__ import main
 from swashfilm.film_case import FilmCase, load_case
 from swashfilm.film_study import film_summary, solve_case
 from swashfilm.gap_case import GapCase
@@ -271,3 +272,14 @@ def test_a_parallel_slipper_leaks_what_orifice_and_land_let_through(write):
     expected = drop * land * orifice / (land + orifice)
     assert summary["flow_m3_per_s"]["case"] == pytest.approx(expected, rel=2e-3)
     assert summary["position_source"] == "given"
+
+
+def test_a_stated_load_that_no_film_balances_is_no_number(tmp_path, capsys):
+    case = tmp_path / "slipper.toml"
+    case.write_text(
+        'format = 1\n[film]\ngap = "slipper"\npump = "ref90"\nchamber_pressure = "50 bar"\n'
+        '[load]\nforce = "13000 N"\n'
+    )
+    assert main(["film", str(case), "-o", str(tmp_path / "run")]) == 3
+    assert "no film of at least 1.5 um balances 13000 N" in capsys.readouterr().err
+    assert not (tmp_path / "run").exists()

@@ -27,34 +27,39 @@ def child(program: str) -> list[str]:
 
 def test_a_picture_is_drawn_or_missed_for_a_reason_with_its_remedy(film, tmp_path):
     """Both are right: a machine without graphics libraries has no picture."""
-    picture = draw([film, film], tmp_path / "film.png", THICKNESS)
-    if picture.path is None:
-        assert "libegl1" in picture.reason
+    wanted = {tmp_path / "one.png": [film], tmp_path / "two.png": [film, film]}
+    pictures = draw(wanted, THICKNESS)
+    if not pictures.paths:
+        assert "libegl1" in pictures.reason
     else:
-        assert picture.path.read_bytes().startswith(b"\x89PNG")
-        assert picture.reason == ""
+        assert pictures.paths == tuple(wanted)
+        assert all(path.read_bytes().startswith(b"\x89PNG") for path in wanted)
+        assert pictures.reason == ""
 
 
 def test_a_child_that_dies_is_told_with_its_signal_and_remedy(film, tmp_path):
-    half = "import os, signal, sys; open(sys.argv[1], 'wb').write(b'half'); os.kill(os.getpid(), signal.SIGSEGV)"
-    picture = draw([film], tmp_path / "film.png", child=child(half))
-    assert picture.path is None
+    half = (
+        "import json, os, signal, sys; open(list(json.loads(sys.argv[-1]))[0], 'wb').write(b'half'); "
+        "os.kill(os.getpid(), signal.SIGSEGV)"
+    )
+    picture = draw({tmp_path / "film.png": [film]}, child=child(half))
+    assert picture.paths == ()
     for word in ("SIGSEGV", "libegl1", "libgl1-mesa-dri"):
         assert word in picture.reason
     assert not (tmp_path / "film.png").exists()
 
 
 def test_a_child_that_hangs_is_ended(film, tmp_path):
-    picture = draw([film], tmp_path / "film.png", patience=0.5, child=child("import time; time.sleep(60)"))
-    assert picture.path is None
+    picture = draw({tmp_path / "film.png": [film]}, patience=0.5, child=child("import time; time.sleep(60)"))
+    assert picture.paths == ()
     assert "longer than 0.5 s" in picture.reason
 
 
 def test_a_child_that_fails_is_quoted(film, tmp_path):
-    picture = draw([film], tmp_path / "film.png", child=child("raise SystemExit('no such field')"))
-    assert picture.path is None
+    picture = draw({tmp_path / "film.png": [film]}, child=child("raise SystemExit('no such field')"))
+    assert picture.paths == ()
     assert "no such field" in picture.reason
 
 
 def test_a_child_that_ends_well_without_a_picture_is_no_success(film, tmp_path):
-    assert draw([film], tmp_path / "film.png", child=child("pass")).path is None
+    assert draw({tmp_path / "film.png": [film]}, child=child("pass")).paths == ()
