@@ -1,0 +1,128 @@
+"""Places of the films in the pump: rigid geometry that the frames must keep."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from gaps.frames import PUMP_FRAME, Frame
+from gaps.piston import PistonGap
+from gaps.slipper import SlipperGap
+from system.instants import (
+    Rotor,
+    piston_geometry,
+    piston_instant,
+    rotor,
+    slipper_geometry,
+    slipper_instant,
+    travel,
+)
+from system.kinematics import piston_displacement, stroke
+from system.operating import operating_point
+from system.places import bore_frame, slipper_frame
+from system.pump_file import load_pump
+
+ANGLES = np.radians([0.0, 35.0, 90.0, 180.0, 250.0, 345.0])
+PUMPS = ["ref90", str(Path(__file__).resolve().parents[2] / "examples/pumps/cylindrical_block.toml")]
+
+
+def group(pump: str, ratio: float) -> Rotor:
+    description = load_pump(pump)
+    return rotor(description, operating_point(description, displacement_ratio=ratio))
+
+
+def plate_normal(parts: Rotor) -> np.ndarray:
+    gamma = parts.drive.swash_angle
+    return np.array([np.sin(gamma), 0.0, np.cos(gamma)])
+
+
+def ball(parts: Rotor, angle: float) -> np.ndarray:
+    """Ball centre from the piston's frame: engaged length and overhang of the instant along the bore."""
+    frame, part = bore_frame(parts, angle), parts.pump.piston
+    out = travel(parts, angle)
+    return frame.origin + (part.engaged_length - out + part.overhang + out) * frame.z
+
+
+@pytest.mark.parametrize("angle", ANGLES)
+@pytest.mark.parametrize("frame_of", [bore_frame, slipper_frame])
+def test_frames_are_right_handed(frame_of, angle):
+    frame: Frame = frame_of(group("ref90", 0.6), angle)
+    axes = np.array([frame.x, frame.y, frame.z])
+    assert axes @ axes.T == pytest.approx(np.eye(3), abs=1e-14)
+    assert np.linalg.det(axes) == pytest.approx(1.0)
+
+
+@pytest.mark.parametrize("pump", PUMPS)
+@pytest.mark.parametrize("ratio", [1.0, 0.3])
+def test_ball_stays_on_the_swash_plane(pump, ratio):
+    """The height of the ball comes from the piston's way; the plane it must lie in from the swash angle alone."""
+    parts = group(pump, ratio)
+    height = [ball(parts, angle) @ plate_normal(parts) for angle in ANGLES]
+    assert height == pytest.approx([height[0]] * len(ANGLES), abs=1e-9)
+
+
+@pytest.mark.parametrize("pump", PUMPS)
+def test_ball_moves_along_its_bore(pump):
+    """Against the block, whose bore stands at the cone angle, the ball moves by the piston's displacement."""
+    parts = group(pump, 1.0)
+    for angle in ANGLES:
+        way = ball(parts, angle) - _turn(angle) @ ball(parts, 0.0)
+        axis = bore_frame(parts, angle).z
+        assert np.cross(way, axis) == pytest.approx(np.zeros(3), abs=1e-12)
+        assert way @ axis == pytest.approx(float(piston_displacement(parts.drive, angle)), abs=1e-12)
+    assert (ball(parts, np.pi) - _turn(np.pi) @ ball(parts, 0.0))[2] < stroke(parts.drive) + 1e-12
+
+
+def _turn(angle: float) -> np.ndarray:
+    c, s = np.cos(angle), np.sin(angle)
+    return np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
+
+
+@pytest.mark.parametrize("angle", ANGLES)
+def test_slipper_film_lies_in_the_plate(angle):
+    """Film points lie in one plane parallel to the swash plane, beyond the balls, about the ball's foot."""
+    parts = group("ref90", 1.0)
+    state, _, given = slipper_instant(parts, angle, 1e6)
+    space = SlipperGap(slipper_geometry(parts.pump), (2, 12)).problem(state, given).space
+    points = slipper_frame(parts, angle).plane(space.vertices)
+    normal, centre = plate_normal(parts), ball(parts, angle)
+    beyond = (points - centre) @ normal
+    assert beyond == pytest.approx(np.full(len(points), parts.pump.slipper.centre_of_mass_to_ball), abs=1e-12)
+    foot = centre + beyond[0] * normal
+    away = np.linalg.norm(points - foot, axis=1)
+    assert away.min() == pytest.approx(parts.pump.slipper.land_inner_radius)
+    assert away.max() == pytest.approx(parts.pump.slipper.land_outer_radius)
+
+
+@pytest.mark.parametrize("angle", ANGLES)
+def test_slipper_slides_along_its_x(angle):
+    """Finite difference of the ball's place; the film's x must point there."""
+    parts, step = group("ref90", 1.0), 1e-5
+    way = ball(parts, angle + step) - ball(parts, angle - step)
+    assert slipper_frame(parts, angle).x == pytest.approx(way / np.linalg.norm(way), abs=1e-8)
+
+
+@pytest.mark.parametrize("angle", ANGLES)
+def test_piston_film_is_a_cylinder_about_the_bore(angle):
+    parts = group("ref90", 1.0)
+    frame, radius = bore_frame(parts, angle), parts.pump.pump.piston_diameter / 2
+    state, load, _ = piston_instant(parts, angle, 1e6)
+    space = PistonGap(piston_geometry(parts.pump), (12, 2)).problem(state, np.zeros(4)).space
+    points = frame.cylinder(space.vertices, radius)
+    along = (points - ball(parts, angle)) @ frame.z
+    across = points - ball(parts, angle) - along[:, None] * frame.z
+    assert np.linalg.norm(across, axis=1) == pytest.approx(np.full(len(points), radius))
+    assert along.max() == pytest.approx(-load.arm)  # the case's end, an overhang short of the ball
+    assert np.ptp(along) == pytest.approx(state.engaged_length)
+    # Angle 0 lies on the inner dead centre's side.
+    assert frame.x[0] > 0.99 * np.linalg.norm(frame.x)
+    assert frame.z[2] == pytest.approx(np.cos(parts.pump.pump.bore_cone_angle))
+
+
+def test_valve_plate_lies_at_zero_height():
+    flat = np.array([[30e-3, 0.0], [0.0, 30e-3], [-10e-3, 20e-3]])
+    points = PUMP_FRAME.plane(flat)
+    assert points[:, 2] == pytest.approx(np.zeros(3))
+    assert points[:, :2] == pytest.approx(flat)
