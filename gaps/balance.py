@@ -30,6 +30,12 @@ class Equilibrium:
     found: bool
     evaluations: int
 
+    @property
+    def miss(self) -> str:
+        """The rest in words, in per cent of the load."""
+        percent = 100.0 * self.rest
+        return f"nearest miss {percent:{'.1f' if percent >= 0.1 else '.1g'}} % of the load"
+
 
 class _AtTheWall(Exception):
     """The search left what is possible: the film is as thin as it may be, and still does not balance."""

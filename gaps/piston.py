@@ -164,7 +164,7 @@ class PistonGap:
             )
         verdict = (
             f"no film of at least {SMALLEST_FILM * 1e6:.1f} um balances a side force of {scale:.0f} N acting "
-            f"{load.arm * 1e3:.1f} mm outside the bore (nearest miss {answer.rest:.0%})"
+            f"{load.arm * 1e3:.1f} mm outside the bore ({answer.miss})"
         )
         return self._report(self.solve(state, given), state, load, given, PositionSource.GIVEN, verdict)
 

@@ -181,7 +181,7 @@ class SlipperGap:
             return self._report(state, load, place, PositionSource.BALANCE, "force and moments balance")
         verdict = (
             f"no film of at least {SMALLEST_FILM * 1e6:.1f} um balances {load.force:.0f} N with moments "
-            f"({load.moment_x:.2f}, {load.moment_y:.2f}) N m (nearest miss {answer.rest:.1%})"
+            f"({load.moment_x:.2f}, {load.moment_y:.2f}) N m ({answer.miss})"
         )
         return self._report(state, load, given, PositionSource.GIVEN, verdict)
 

@@ -39,7 +39,7 @@ def run_pump(
     films = films_point(pump, point, report=report) if fidelity is Fidelity.FILMS else None
     result = films.pump_point if films else lumped_point(pump, point)
     warnings = [str(warning) for warning in check_pump(pump).warnings]
-    warnings += [f"{warning.name.lower()}: {warning.value}" for warning in result.warnings]
+    warnings += [str(remark) for remark in result.warnings]
     warnings += uncarried_loads(films) if films else []
     data = point_dataset(result, pump.name)
     if films:

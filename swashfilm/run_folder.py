@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import shutil
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
@@ -71,6 +72,7 @@ def _claim(name: str, wanted: Path | None) -> tuple[Path, Path]:
                 if _made(partial):
                     return wanted, partial
         RUNS.mkdir(exist_ok=True)
+        name = re.sub(r"[^\w.-]+", "-", name).strip("-.") or "run"
         for number in count(1):
             final = RUNS / f"{name}-{number}"
             if not final.exists() and _made(partial := RUNS / f"{name}-{number}.partial"):

@@ -2,24 +2,43 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from enum import Enum
 
+import numpy as np
+
 from system.bench import BenchReading, Efficiency, elastic_energy, iso_efficiency, paper_efficiency
 from system.chamber import ChamberCycle, ChamberProblem, LeakTable, Paths, flow_energy
+from system.chamber_kernel import CAVITY_PRESSURE
 from system.kinematics import Array, stroke
 from system.operating import OperatingPoint
 from system.pairs import FrictionPairs, Pair, over_chambers
 from system.ports import TURN, opening_area
+from system.units import STANDARD_ATMOSPHERE
 
 
 class PointWarning(Enum):
     """What a reader of the numbers must know; none of them makes a number void."""
 
-    CHAMBER_CAVITATES = (
-        "the chamber pressure falls to vacuum and a cavity opens: air release is not modelled and filling may "
-        "be worse; raise the inlet pressure, or let the ports overlap the dead centres less"
-    )
+    CHAMBER_CAVITATES = "chamber_cavitates"
+    CHAMBER_OVERPRESSURE = "chamber_overpressure"
+
+
+@dataclass(frozen=True)
+class Remark:
+    """A warning of a point with its number, limit and remedy."""
+
+    warning: PointWarning
+    text: str
+
+    def __str__(self) -> str:
+        """Name and text."""
+        return f"{self.warning.value}: {self.text}"
+
+
+OVERPRESSURE = 1.1
+"""Chamber peak over the higher port pressure (both absolute) from which trapped oil is told."""
 
 
 @dataclass(frozen=True)
@@ -119,7 +138,7 @@ class PumpPoint:
     geometric_displacement: float
     derived_displacement: float
     checks: PointChecks
-    warnings: tuple[PointWarning, ...]
+    warnings: tuple[Remark, ...]
 
     @property
     def paper_efficiency(self) -> Efficiency:
@@ -169,8 +188,30 @@ def assemble(
             energy_balance_error=abs(power.shaft - power.accounted) / abs(power.shaft),
             quadrature_error=quadrature / pairs.power,
         ),
-        warnings=(PointWarning.CHAMBER_CAVITATES,) if cycle.cavitates else (),
+        warnings=tuple(_remarks(point, cycle)),
     )
+
+
+def _remarks(point: OperatingPoint, cycle: ChamberCycle) -> Iterator[Remark]:
+    degrees = np.degrees(cycle.shaft_angle)
+    if cycle.cavitates:
+        low = degrees[cycle.pressure <= CAVITY_PRESSURE]
+        yield Remark(
+            PointWarning.CHAMBER_CAVITATES,
+            f"a cavity opens in the chamber (vacuum at {low.size} of {degrees.size} sampled shaft angles, from "
+            f"{low.min():.0f} to {low.max():.0f} deg): a starved inlet, or both ports shut while the piston moves "
+            "out; air release is not modelled; raise the inlet pressure, or let the ports change over sooner",
+        )
+    highest = max(point.delivery_pressure, point.inlet_pressure)
+    limit = OVERPRESSURE * (highest + STANDARD_ATMOSPHERE) - STANDARD_ATMOSPHERE
+    peak = int(np.argmax(cycle.pressure))
+    if cycle.pressure[peak] > limit:
+        yield Remark(
+            PointWarning.CHAMBER_OVERPRESSURE,
+            f"the chamber peaks at {cycle.pressure[peak] * 1e-6:.1f} MPa at {degrees[peak]:.0f} deg (limit "
+            f"{limit * 1e-6:.1f} MPa, {OVERPRESSURE - 1.0:.0%} over the port): both ports shut while the piston "
+            "moves in; let the port shut later, or the relief groove of the next begin earlier",
+        )
 
 
 def _leakage_flow(problem: ChamberProblem, outflow: Paths, rate: float, exchange: GapExchange) -> Gaps:

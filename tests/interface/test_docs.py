@@ -221,7 +221,7 @@ def test_run_folder_files_are_documented(tmp_path):
 
 def test_warnings_are_explained(films):
     explained = _code_words(ROOT / "docs" / "wrong_results.md")
-    assert {warning.name.lower() for warning in PointWarning} <= explained
+    assert {warning.value for warning in PointWarning} <= explained
     film = films.gaps.valve_plate[0].gap
     assert {warning["name"] for warning in gap_warnings(film)} <= explained
     sources = "".join(
