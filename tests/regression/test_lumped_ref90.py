@@ -59,7 +59,7 @@ def test_ideal_values(validation, rated):
 
 
 def test_quoted_leakage_of_rigid_parallel_films(validation, rated):
-    # Half the chambers at 35 MPa above the case, the quoted figures' own viscosity unknown within 1.5 %.
+    # Half the chambers at 35 MPa above the case; the quoted figures are rounded to a unit of their last digit.
     chambers, rise = PUMP.pump.pistons / 2, 35e6
     slipper, plate = rated.leaks.conductance[1:, 0]
     quoted = piston_conductance(22e-3, 15e-6, 45e-3, 0.8, rated.point.viscosity)
@@ -68,15 +68,19 @@ def test_quoted_leakage_of_rigid_parallel_films(validation, rated):
         ("slipper", 0.363, slipper, ""),
         ("valve plate", 0.155, plate, ""),
     ):
+        obtained = float(conductance) * chambers * rise * 6e4
+        assert obtained == pytest.approx(expected, rel=0.0125)
         validation(
             case="REF90 quoted leakage of rigid parallel films, 35 MPa, 50 degC",
             source=SHEET,
             quantity=gap,
             unit="L/min",
             expected=expected,
-            obtained=float(conductance) * chambers * rise * 6e4,
-            relative_tolerance=0.015,
+            obtained=obtained,
+            tolerance=0.0005,
             note=note,
+            missed="all three quoted figures are 1.0 to 1.2 % above the closed forms (15)-(17) at the sheet's own "
+            "25.78 mPa s, half of the chambers under 35 MPa; the sheet does not say where that comes from",
         )
 
 
@@ -186,8 +190,10 @@ def test_ball_guide_loss_does_not_know_the_pressure(validation):
         unit="%",
         expected=10.0,
         obtained=100 * run(5e6).pairs.share(Pair.BALL_GUIDE_RETAINER),
-        tolerance=3.0,
-        note="paper: nearly 10",
+        tolerance=0.5,
+        note="paper: nearly 10; 9.5 % at 1000 r/min",
+        missed="with REF90's nominal films and coefficients the other pairs lose more at 5 MPa and 2100 r/min than "
+        "the paper's Coulomb-only pairs, which carry no shear that grows with the square of speed",
     )
 
 
