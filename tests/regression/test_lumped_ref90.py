@@ -192,8 +192,8 @@ def test_ball_guide_loss_does_not_know_the_pressure(validation):
         obtained=100 * run(5e6).pairs.share(Pair.BALL_GUIDE_RETAINER),
         tolerance=0.5,
         note="paper: nearly 10; 9.5 % at 1000 r/min",
-        missed="with REF90's nominal films and coefficients the other pairs lose more at 5 MPa and 2100 r/min than "
-        "the paper's Coulomb-only pairs, which carry no shear that grows with the square of speed",
+        missed="with REF90's nominal films and coefficients the other pairs lose more at 5 MPa and 2100 r/min "
+        "than the paper's Coulomb-only pairs, which carry no shear that grows with the square of speed",
     )
 
 
