@@ -172,7 +172,7 @@ def _run(options: argparse.Namespace) -> int:
     pump = _pump(options)
     stated, _ = _overrides(options)
     from swashfilm.progress import progress
-    from swashfilm.pump_page import headline_rows
+    from swashfilm.pump_page import efficiency_rows, headline_rows, pair_rows
     from swashfilm.pump_run import run_pump
     from swashfilm.run_folder import final_folder, run_folder
 
@@ -180,6 +180,8 @@ def _run(options: argparse.Namespace) -> int:
     with run_folder(pump.name, options.output) as folder, progress(1, f"run {pump.name}") as report:
         summary = run_pump(pump, given, Fidelity(options.fidelity), folder, report)
     show_table(f"Pump {pump.name}", headline_rows(summary))
+    show_table("Efficiencies: paper's Eqs. (3)-(5), ISO 4391/4409", efficiency_rows(summary))
+    show_table("Friction pairs: Coulomb, viscous, total, share", pair_rows(summary))
     for warning in summary["warnings"]:
         show(f"warning: {warning}")
     show(f"results in {final_folder(folder)}")

@@ -25,6 +25,7 @@ def show_table(title: str, rows: Iterable[Sequence[str]]) -> None:
         Console().print(table)
         return
     show(title)
-    width = max((len(row[0]) for row in listed), default=0)
+    columns = max((len(row) for row in listed), default=0)
+    widths = [max(len(row[k]) for row in listed if len(row) > k) for k in range(columns)]
     for row in listed:
-        show(f"  {row[0]:<{width}}  {'  '.join(row[1:])}")
+        show("  " + "  ".join(f"{cell:<{width}}" for cell, width in zip(row, widths, strict=False)).rstrip())
