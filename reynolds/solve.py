@@ -66,7 +66,7 @@ class FilmSolver:
         for iteration in range(1, MAX_ITERATIONS + 1):
             pressure = self._step(space, pressure, setting, setting.held | cavity, stiffness, flows)
             balance, size = _balance(space, flows, pressure)
-            new_cavity = _cavity(problem, pressure, balance, cavity, setting)
+            new_cavity = _cavity(problem, pressure, balance, size, cavity, setting)
             settled = bool(np.array_equal(new_cavity, cavity))
             pressure[new_cavity] = problem.cavitation_pressure
             imbalance = _imbalance(balance, size, setting, cavity, pressure)
@@ -190,12 +190,18 @@ def _spread(problem: FilmProblem) -> _Setting:
 
 
 def _cavity(
-    problem: FilmProblem, pressure: Array, balance: Array, cavity: NDArray[np.bool_], setting: _Setting
+    problem: FilmProblem,
+    pressure: Array,
+    balance: Array,
+    size: Array,
+    cavity: NDArray[np.bool_],
+    setting: _Setting,
 ) -> NDArray[np.bool_]:
     if problem.cavitation is Cavitation.NONE:
         return cavity
     enters = ~cavity & (pressure < problem.cavitation_pressure)
-    stays = cavity & (balance > 0.0)
+    # A node that nothing drives (balance zero but for round-off) would otherwise enter and leave for ever.
+    stays = cavity & (balance > -TOLERANCE * size)
     return (enters | stays) & ~setting.held
 
 
@@ -205,8 +211,8 @@ def _imbalance(
     free = ~(setting.held | cavity)
     rest = balance.copy()
     for node, pocket in setting.pockets:
-        inflow = pocket.feed(pressure[node])[0]
+        inflow, slope = pocket.feed(pressure[node])
         rest[node] -= inflow
-        size[node] += abs(inflow)
+        size[node] += abs(inflow) + kernels.ROUNDING * abs(slope * pressure[node])
     scale = np.where(size > 0.0, size, 1.0)
     return float(np.max(np.abs(rest[free]) / scale[free], initial=0.0))

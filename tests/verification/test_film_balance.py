@@ -174,3 +174,16 @@ def test_similar_films(length, thickness, viscosity, speed):
     drag = viscosity * speed * length**2 / thickness
     assert other.friction_moving[0] == pytest.approx(drag * one.friction_moving[0], rel=1e-9)
     assert other.flow["right"] == pytest.approx(speed * thickness * length * one.flow["right"], rel=1e-8)
+
+
+@pytest.mark.parametrize("cell", list(Cell))
+@pytest.mark.parametrize("cavitation", list(Cavitation))
+@pytest.mark.parametrize("level", [0.0, 3e7])
+def test_a_film_at_one_pressure_everywhere_stays_there(cell, cavitation, level):
+    # Nothing flows: what is left of the balance is round-off of cancelling terms, not of flows.
+    space = film_space(rectangle((1e-2, 2e-2), (17, 9), cell=cell))
+    oil = film(space.sample(lambda x, y: 1e-5 * (1.0 + 50.0 * x)), 0.03)
+    edges = {name: Held(level) for name in space.film_mesh.boundary_names}
+    solution = FilmSolver(space).solve(FilmProblem(space, oil, edges, cavitation))
+    assert np.ptp(solution.pressure) <= 1e-12 * level
+    assert max(map(abs, loads(solution).flow.values())) < 1e-20
