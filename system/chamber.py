@@ -115,10 +115,11 @@ class ChamberCycle:
     """One periodic revolution of one chamber.
 
     Arrays over `shaft_angle` (N equidistant in [0, 2 pi), rad): pressure in Pa gauge, volume in m3, `flow` in
-    m3/s at chamber pressure, positive out. Per revolution: `outflow` in m3 at the density of zero gauge pressure;
-    `path_energy` in J, throttled in the ports and given off in the gaps; `carried_energy` in J (piston, slipper,
-    valve plate), the part of it that carried oil gives to the walls that carry it, which is not lost (negative:
-    the walls push the oil in); `indicated_work` in J, done by the piston on the chamber: -integral of p dV.
+    m3/s of liquid at chamber pressure, positive out. Per revolution: `outflow` in m3 at the density of zero gauge
+    pressure; `path_energy` in J, throttled in the ports and given off in the gaps; `carried_energy` in J (piston,
+    slipper, valve plate), the part of it that carried oil gives to the walls that carry it, which is not lost
+    (negative: the walls push the oil in); `indicated_work` in J, done by the piston on the chamber: -integral of
+    p dV.
     """
 
     shaft_angle: Array
@@ -269,12 +270,12 @@ def _cycle(
 ) -> ChamberCycle:
     samples = pressure.size
     angle = TURN * np.arange(samples) / samples
-    specific = kernel.specific_volumes(pressure, problem.bulk_modulus)
+    liquid = np.exp(-np.maximum(pressure, kernel.CAVITY_PRESSURE) / problem.bulk_modulus)
     return ChamberCycle(
         shaft_angle=angle,
         pressure=pressure,
         volume=problem.dead_volume + problem.piston_area * piston_displacement(problem.drive, angle),
-        flow=Paths(*(mass_rates * problem.shaft_speed * specific[:, None]).T),
+        flow=Paths(*(mass_rates * problem.shaft_speed * liquid[:, None]).T),
         outflow=Paths(*totals[:5]),
         path_energy=Paths(*totals[6:11]),
         carried_energy=totals[11:14],

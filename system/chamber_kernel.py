@@ -2,7 +2,8 @@
 
 State: mass over reference density M = V/s(p) in m3, with s(p) the specific volume of the oil relative to zero
 gauge pressure, s = exp(-p/K) while it is liquid. Then dM/dphi = -sum(q)/(s w) is conservation of mass and,
-divided by M, the corrected Eq. (14). Every q > 0 leaves the chamber and is a volume at chamber pressure.
+divided by M, the corrected Eq. (14). Every q > 0 leaves the chamber and is a volume of liquid at chamber pressure:
+beside a cavity too it is liquid that passes ports and gaps, so its mass is q over the s of the liquid.
 
 Method: ESDIRK4(3)6L[2]SA of Kennedy and Carpenter (2003), Applied Numerical Mathematics 44, p. 139: order 4 with
 an embedded order 3, L-stable, stiffly accurate, stage order 2 (a chamber open to its port is stiff, and methods
@@ -104,13 +105,10 @@ def oil_state(pressure, bulk_modulus):
     return liquid + compressibility * below, compressibility, energy
 
 
-@numba.njit(_vector(_vector, _f8), cache=True)
-def specific_volumes(pressures, bulk_modulus):
-    """Specific volume of the oil at each pressure, relative to zero gauge pressure."""
-    out = np.empty_like(pressures)
-    for i in range(pressures.size):
-        out[i] = oil_state(pressures[i], bulk_modulus)[0]
-    return out
+@numba.njit(_f8(_f8, _f8), cache=True)
+def liquid_volume(pressure, bulk_modulus):
+    """Specific volume (relative) of what passes ports and gaps: liquid, also beside a cavity in the chamber."""
+    return np.exp(-max(pressure, CAVITY_PRESSURE) / bulk_modulus)
 
 
 @numba.njit(numba.types.UniTuple(_f8, 2)(_records, _f8), cache=True)
@@ -162,7 +160,7 @@ def outflows(chamber, pressure, ways, flows):
 
 @numba.njit(numba.types.Tuple((_f8, _f8, numba.b1))(_records, _f8, _f8, _f8, _f8, _vector, _vector), cache=True)
 def stage_pressure(chamber, guess, content, mass, weight, ways, flows):
-    """Pressure with V = s(p) mass - weight sum(q), the stiffness ratio of that equation, and whether it was found.
+    """Pressure with V = s(p) (mass - weight sum(q)/s_liquid(p)), its stiffness ratio, and whether it was found.
 
     `weight` is gamma times the step over the shaft speed; `flows` holds the path flows at the pressure returned.
     The equation rises strictly with p wherever anything depends on p at all, so Newton inside a shrinking bracket
@@ -173,13 +171,16 @@ def stage_pressure(chamber, guess, content, mass, weight, ways, flows):
     for _ in range(NEWTON_LIMIT):
         total, slope = outflows(chamber, pressure, ways, flows)
         specific, compressibility, _h = oil_state(pressure, bulk)
-        rest = content - mass * specific + weight * total
+        mixed = specific / liquid_volume(pressure, bulk)  # 1 but where a cavity is open
+        rest = content - mass * specific + weight * total * mixed
         if rest > 0.0:
             high = pressure
         else:
             low = pressure
-        stiff = weight * slope
+        stiff = weight * slope * mixed
         soft = mass * compressibility
+        if mixed > 1.0:
+            soft -= weight * total * mixed * compressibility / specific
         if soft + stiff <= 0.0:
             break
         change = rest / (soft + stiff)
@@ -202,9 +203,9 @@ def integral_rates(chamber, pressure, swell, ways, flows, out):
     heat. Walls that carry oil do the same work on the carried part, kept apart because it is not a loss.
     """
     c = chamber[0]
-    specific, _, energy = oil_state(pressure, c.bulk_modulus)
+    energy = oil_state(pressure, c.bulk_modulus)[2]
     case = energy - oil_state(c.case_pressure, c.bulk_modulus)[2]
-    per_radian = 1.0 / (specific * c.shaft_speed)
+    per_radian = 1.0 / (liquid_volume(pressure, c.bulk_modulus) * c.shaft_speed)
     for path in range(PATHS):
         out[path] = flows[path] * per_radian
         out[6 + path] = out[path] * case

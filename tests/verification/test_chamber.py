@@ -206,6 +206,28 @@ def test_oil_bears_no_tension_and_the_cavity_keeps_its_mass():
     assert not solve_cycle(pump(20e6, 0.13), 360).cavitates
 
 
+def test_a_starved_chamber_takes_in_what_its_orifice_passes():
+    """A port of 20 mm2 at 3600 r/min: liquid comes in whatever void stands behind it (0.2 %: angles of 1 deg)."""
+    narrow = replace(SHUT, groove_area=4e-6, kidney_area=20e-6)
+    problem = replace(
+        pump(20e6, 1.0, 377.0),
+        inlet_pressure=0.0,
+        case_pressure=0.0,
+        suction_port=narrow,
+        delivery_port=replace(narrow, dead_centre=np.pi),
+    )
+    cycle = solve_cycle(problem, 360)
+    void = cycle.pressure < kernel.CAVITY_PRESSURE
+    assert void.mean() > 0.4  # so that the void's share of the volume matters
+    law = (problem.flow_coefficient, problem.density, problem.kinematic_viscosity, problem.critical_reynolds)
+    areas = opening_area(problem.suction_port, cycle.shaft_angle)
+    taken = [orifice_flow(-p, area, *law) for p, area in zip(cycle.pressure, areas, strict=True)]
+    density = np.exp(np.maximum(cycle.pressure, kernel.CAVITY_PRESSURE) / problem.bulk_modulus)
+    assert -cycle.outflow.suction == pytest.approx(
+        np.mean(density * taken) * 2 * np.pi / problem.shaft_speed, rel=2e-3
+    )
+
+
 def test_leak_spline_is_periodic_and_fourth_order():
     def worst(columns: int) -> float:
         angle = 2 * np.pi * np.arange(columns) / columns
