@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from gaps.balance import find_equilibrium, into_disc, out_of_disc
+from gaps.balance import find_equilibrium, into_disc, start_towards
 from gaps.result import SMALLEST_FILM, GapFilm, PositionSource, wall_power
 from reynolds.film import ZERO, Cavitation, FilmProblem, FilmSolution, Held, film
 from reynolds.loads import boundary_flows, evaluate, loads
@@ -146,6 +146,9 @@ class PistonGap:
         scale = max(float(np.hypot(*load.force)), 1.0)
         scales = scale * np.array([1.0, 1.0, 0.5 * state.engaged_length, 0.5 * state.engaged_length])
         reach = self.geometry.radial_clearance - SMALLEST_FILM
+        if reach <= 0.0:
+            verdict = f"the clearance leaves no room for a film of {SMALLEST_FILM * 1e6:.1f} um all round"
+            return self._report(self.solve(state, given), state, load, given, PositionSource.GIVEN, verdict)
 
         def position(free: Array) -> Array:
             return reach * np.concatenate([into_disc(free[:2]), into_disc(free[2:])])
@@ -153,9 +156,9 @@ class PistonGap:
         def imbalance(free: Array) -> Array:
             return (self.force(self.solve(state, position(free))) + outer) / scales
 
-        starts = [np.concatenate([out_of_disc(e / reach) for e in (given[:2], given[2:])]), np.full(4, 1e-3)]
+        starts = [np.concatenate([start_towards(e / reach) for e in (given[:2], given[2:])]), np.full(4, 1e-3)]
         if near is not None:
-            starts.insert(0, np.concatenate([out_of_disc(e / reach) for e in (near[:2], near[2:])]))
+            starts.insert(0, np.concatenate([start_towards(e / reach) for e in (near[:2], near[2:])]))
         answer = find_equilibrium(imbalance, starts)
         if answer.found:
             place = position(answer.unknowns)

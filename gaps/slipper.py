@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from gaps.balance import find_equilibrium, into_disc, out_of_disc
+from gaps.balance import START_WITHIN, find_equilibrium, into_disc, start_towards
 from gaps.result import SMALLEST_FILM, GapFilm, PositionSource, wall_power
 from reynolds.film import ZERO, Cavitation, FilmProblem, FilmSolution, Held, Pocket, film
 from reynolds.loads import boundary_flows, loads, pressure_integrals
@@ -68,6 +68,20 @@ def hagen_poiseuille_conductance(diameter: float, length: float, viscosity: floa
     Valid for l/d > 3 or so and Re d/l << 64; a short orifice adds rho/2 (q/(Cd A))^2.
     """
     return float(np.pi * diameter**4 / (128.0 * viscosity * length))
+
+
+def hydrostatic_film(geometry: SlipperGeometry, state: SlipperState, force: float) -> float:
+    """Film thickness (m) at which a parallel slipper carries a force by its pocket; 0 where no pocket can.
+
+    Lift pi (r2^2 - r1^2)/(2 ln(r2/r1)) p gives the pocket's pressure p above case; orifice and land, in series,
+    pass the same flow: pi h^3 p/(6 mu ln(r2/r1)) = G_orifice (p_chamber - p_case - p).
+    """
+    inner, outer = geometry.land_inner_radius, geometry.land_outer_radius
+    log = np.log(outer / inner)
+    pocket = force * 2.0 * log / (np.pi * (outer**2 - inner**2))
+    left = max(state.chamber_pressure - state.case_pressure - pocket, 0.0)
+    orifice = hagen_poiseuille_conductance(geometry.orifice_diameter, geometry.orifice_length, state.viscosity)
+    return float(np.cbrt(6.0 * state.viscosity * log * orifice * left / (np.pi * pocket)))
 
 
 class SlipperGap:
@@ -164,15 +178,16 @@ class SlipperGap:
             return SlipperPosition(thickness, float(slope[0]), float(slope[1]))
 
         def free(at: SlipperPosition) -> Array:
-            room = at.film_thickness - SMALLEST_FILM
-            slope = np.clip(np.array([at.slope_x, at.slope_y]) * radius / room, -0.7, 0.7)
-            level = np.clip((np.log(at.film_thickness) - middle) / half, -0.99, 0.99)
-            return np.concatenate([[np.arctanh(level)], out_of_disc(slope)])
+            level = np.clip((np.log(at.film_thickness) - middle) / half, -START_WITHIN, START_WITHIN)
+            room = np.exp(middle + half * level) - SMALLEST_FILM
+            slope = np.array([at.slope_x, at.slope_y]) * radius / room
+            return np.concatenate([[np.arctanh(level)], start_towards(slope)])
 
         def imbalance(unknowns: Array) -> Array:
             return (self.force(self.solve(state, position(unknowns)), state) - outer) / scales
 
-        starts = [free(given), free(SlipperPosition(3.0 * SMALLEST_FILM, 0.0, 0.0))]
+        floating = max(hydrostatic_film(self.geometry, state, load.force), 3.0 * SMALLEST_FILM)
+        starts = [free(given), free(SlipperPosition(floating, 0.0, 0.0))]
         if near is not None:
             starts.insert(0, free(near))
         answer = find_equilibrium(imbalance, starts)
