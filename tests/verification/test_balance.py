@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from gaps.balance import TOLERANCE, find_equilibrium, into_disc, out_of_disc
+from gaps.balance import START_WITHIN, TOLERANCE, find_equilibrium, into_disc, out_of_disc, start_towards
 from reynolds.errors import FilmNotConverged
 
 
@@ -65,3 +65,12 @@ def test_disc_holds_the_plane(free):
     assert inside @ inside < 1.0
     assert inside[0] * free[1] == pytest.approx(inside[1] * free[0])
     assert out_of_disc(inside) == pytest.approx(np.array(free), rel=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("wanted", "reached"), [(0.0, 0.0), (0.6, 0.6), (1.0, START_WITHIN), (30.0, START_WITHIN)]
+)
+def test_start_is_drawn_into_the_disc(wanted, reached):
+    """A start is the wanted place where that is possible, else a finite one in its direction near the wall."""
+    direction = np.array([0.8, -0.6])
+    assert into_disc(start_towards(wanted * direction)) == pytest.approx(reached * direction)

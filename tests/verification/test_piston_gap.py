@@ -275,3 +275,20 @@ def test_load_that_no_film_carries():
     assert "4000 N" in answer.verdict
     assert answer.required_load == pytest.approx(4000.0)
     assert answer.carried_fraction != pytest.approx(1.0, abs=0.01)
+
+
+@pytest.mark.parametrize("ratio", [0.91, 0.97])
+def test_given_position_at_the_wall_is_a_start_like_any_other(ratio, carried):
+    """A given position that leaves less than the smallest film does not keep the balance from being found."""
+    given = eccentric(GEOMETRY, ratio, LOAD.force)
+    assert (1.0 - ratio) * CLEARANCE < SMALLEST_FILM
+    found = PistonGap(GEOMETRY).balanced(RUNNING, LOAD, given)
+    assert found.source is PositionSource.BALANCE
+    assert found.position == pytest.approx(carried.position, abs=1e-3 * CLEARANCE)
+
+
+def test_clearance_without_room_for_a_film():
+    tight = PistonGeometry(diameter=22e-3, radial_clearance=SMALLEST_FILM)
+    film = PistonGap(tight).balanced(state(), PistonLoad((10.0, 0.0), 0.0), eccentric(tight, 0.5, (1.0, 0.0)))
+    assert film.source is PositionSource.GIVEN
+    assert "no room" in film.verdict

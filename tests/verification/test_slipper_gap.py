@@ -11,7 +11,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from gaps.result import GapFilm, PositionSource
+from gaps.result import SMALLEST_FILM, GapFilm, PositionSource
 from gaps.slipper import (
     SlipperGap,
     SlipperGeometry,
@@ -194,6 +194,15 @@ def test_overbalanced_slipper_floats(validation, refine):
         tolerance=found.tolerance(),
         order=found.order,
     )
+
+
+@pytest.mark.parametrize("thickness", [0.5 * SMALLEST_FILM, SMALLEST_FILM, 1e-3])
+def test_given_film_out_of_range_is_a_start_like_any_other(thickness):
+    """A given film too thin or too thick for a balance, and tilted, does not keep the balance from being found."""
+    given = SlipperPosition(thickness, 0.2 * thickness / OUTER, -0.1 * thickness / OUTER)
+    film = gap(8).balanced(AT_REST, SlipperLoad(OVERBALANCED, 0.0, 0.0), given)
+    assert film.source is PositionSource.BALANCE
+    assert film.position[0] == pytest.approx(balanced_thickness(OVERBALANCED), rel=0.01)
 
 
 def _tilted_by(moment_x: float, moment_y: float, n: int = 16) -> GapFilm:
