@@ -81,10 +81,10 @@ def headline_rows(summary: Mapping[str, Any]) -> Rows:
 
 
 def efficiency_rows(summary: Mapping[str, Any]) -> Rows:
-    """(efficiency, paper's in %, ISO's in %)."""
-    paper, iso = (summary["efficiency"][key] for key in ("paper", "iso_4409"))
+    """(efficiency, paper's in %, ISO's in %); none where the machine does not pump."""
+    norms = [summary["efficiency"][key] for key in ("paper", "iso_4409")]
     return [
-        (f"{name} efficiency", f"{100 * paper[name]:.2f} %", f"{100 * iso[name]:.2f} %")
+        (f"{name} efficiency", *("none" if norm[name] is None else f"{100 * norm[name]:.2f} %" for norm in norms))
         for name in ("overall", "volumetric", "hydromechanical")
     ]
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import asdict
+from dataclasses import asdict, fields
 from typing import Any
 
 import numpy as np
@@ -12,7 +12,7 @@ from gaps.result import GapFilm, PositionSource
 from swashfilm.fidelity import Fidelity
 from swashfilm.pump_data import gap_films
 from system.assembly import PumpPoint
-from system.bench import ideal_flow, ideal_torque, paper_losses
+from system.bench import Efficiency, ideal_flow, ideal_torque, paper_losses
 from system.description import PumpDescription
 from system.films import FilmsPoint
 from system.pairs import Pair
@@ -57,8 +57,8 @@ def pump_summary(
             ),
         },
         "efficiency": {
-            "paper": asdict(point.paper_efficiency),
-            "iso_4409": asdict(point.iso_efficiency),
+            "paper": _efficiency(point.paper_efficiency),
+            "iso_4409": _efficiency(point.iso_efficiency),
         },
         "paper_loss": {f"{name}_W": value for name, value in asdict(paper_losses(point.bench)).items()},
         "pair_loss": {pair.value: _pair(point, pair) for pair in Pair},
@@ -115,6 +115,11 @@ def gap_statement(series: Sequence[GapFilm]) -> str:
         f"{len(given)}; there the film carries {worst.carried_fraction:.1%} of {worst.required_load:.0f} N at "
         f"the worst ({worst.verdict})"
     )
+
+
+def _efficiency(found: Efficiency | None) -> dict[str, float | None]:
+    """The three efficiencies, null where there is none."""
+    return {part.name: getattr(found, part.name) if found else None for part in fields(Efficiency)}
 
 
 def _operating_point(point: PumpPoint) -> dict[str, float]:

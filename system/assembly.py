@@ -23,6 +23,7 @@ class PointWarning(Enum):
 
     CHAMBER_CAVITATES = "chamber_cavitates"
     CHAMBER_OVERPRESSURE = "chamber_overpressure"
+    NO_DELIVERY = "no_delivery"
 
 
 @dataclass(frozen=True)
@@ -141,14 +142,14 @@ class PumpPoint:
     warnings: tuple[Remark, ...]
 
     @property
-    def paper_efficiency(self) -> Efficiency:
-        """The paper's Eqs. (3)-(5)."""
-        return paper_efficiency(self.bench)
+    def paper_efficiency(self) -> Efficiency | None:
+        """The paper's Eqs. (3)-(5); None where the machine does not pump (warning `no_delivery`)."""
+        return paper_efficiency(self.bench) if pumps(self.bench) else None
 
     @property
-    def iso_efficiency(self) -> Efficiency:
-        """ISO 4391/4409 with the derived displacement."""
-        return iso_efficiency(self.bench, self.derived_displacement)
+    def iso_efficiency(self) -> Efficiency | None:
+        """ISO 4391/4409 with the derived displacement; None where the machine does not pump."""
+        return iso_efficiency(self.bench, self.derived_displacement) if pumps(self.bench) else None
 
 
 def assemble(
@@ -168,6 +169,7 @@ def assemble(
     """
     rate = pistons * point.shaft_speed / TURN
     power = _power_balance(point, problem, cycle, rate, pairs.power, exchange)
+    reading = _reading(point, problem, cycle.outflow, rate, power.shaft, exchange)
     quadrature = sum(pairs.loss(pair).quadrature_error for pair in Pair)
     return PumpPoint(
         point=point,
@@ -179,7 +181,7 @@ def assemble(
         leakage_flow=_leakage_flow(problem, cycle.outflow, rate, exchange),
         leaks=problem.leaks,
         pairs=pairs,
-        bench=_reading(point, problem, cycle.outflow, rate, power.shaft, exchange),
+        bench=reading,
         power=power,
         geometric_displacement=pistons * problem.piston_area * stroke(problem.drive),
         derived_displacement=derived_displacement,
@@ -188,11 +190,23 @@ def assemble(
             energy_balance_error=abs(power.shaft - power.accounted) / abs(power.shaft),
             quadrature_error=quadrature / pairs.power,
         ),
-        warnings=tuple(_remarks(point, cycle)),
+        warnings=tuple(_remarks(point, cycle, reading)),
     )
 
 
-def _remarks(point: OperatingPoint, cycle: ChamberCycle) -> Iterator[Remark]:
+def pumps(reading: BenchReading) -> bool:
+    """Whether shaft power goes in and oil goes from inlet to delivery: elsewhere an efficiency is void."""
+    return reading.shaft_power > 0.0 and reading.inlet_flow > 0.0 and reading.delivery_flow > 0.0
+
+
+def _remarks(point: OperatingPoint, cycle: ChamberCycle, reading: BenchReading) -> Iterator[Remark]:
+    if not pumps(reading):
+        yield Remark(
+            PointWarning.NO_DELIVERY,
+            f"delivery flow {reading.delivery_flow * 6e4:.3g} L/min, inlet flow {reading.inlet_flow * 6e4:.3g} "
+            f"L/min, shaft power {reading.shaft_power:.3g} W (limit: all above 0): leakage takes more than the "
+            "pistons move, efficiencies are void; raise speed or displacement, lower pressure or temperature",
+        )
     degrees = np.degrees(cycle.shaft_angle)
     if cycle.cavitates:
         low = degrees[cycle.pressure <= CAVITY_PRESSURE]

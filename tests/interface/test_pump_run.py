@@ -92,6 +92,18 @@ def test_report_is_made_anew_from_the_folder(lumped):
     assert (lumped / "report.html").read_text("utf-8") == before
 
 
+def test_a_pump_that_delivers_nothing_has_no_efficiency(tmp_path, capsys):
+    """Hot, slow and nearly at zero stroke the gaps take more than the pistons move."""
+    folder = tmp_path / "run"
+    point = ["--speed", "100rpm", "--displacement", "0.05", "--temperature", "120degC"]
+    assert main(["run", "ref90", "--fidelity", "lumped", *point, "-o", str(folder)]) == 0
+    found = summary(folder)
+    assert found["flow"]["delivery_m3_per_s"] < 0.0
+    assert all(value is None for norm in found["efficiency"].values() for value in norm.values())
+    assert any(warning.startswith("no_delivery") for warning in found["warnings"])
+    assert "overall efficiency          none" in capsys.readouterr().out
+
+
 def test_resolved_pump_runs_to_the_same_numbers(lumped, tmp_path):
     again = tmp_path / "again"
     assert main(["run", str(lumped / "resolved.toml"), "--fidelity", "lumped", "-o", str(again)]) == 0
