@@ -14,6 +14,8 @@ from reynolds.mesh import Array
 # Three times the composite roughness of ground and lapped pump parts (about 0.5 um): below a lambda ratio of 3 the
 # film is mixed and a smooth-wall Reynolds solution no longer valid, so no balance is claimed with less.
 SMALLEST_FILM = 1.5e-6
+LOAD_TOLERANCE = 1e-3
+"""Of the required load: what a film at a given position may miss of it and still count as holding it."""
 
 
 class PositionSource(Enum):
@@ -50,6 +52,11 @@ class GapFilm:
     def carried_fraction(self) -> float:
         """Share of the required load that the film carries; 1 where nothing is required."""
         return self.carried_load / self.required_load if self.required_load > 0.0 else 1.0
+
+    @property
+    def holds_its_load(self) -> bool:
+        """Whether film and load balance: as found, or at a given position by chance, to LOAD_TOLERANCE."""
+        return self.source is PositionSource.BALANCE or abs(self.carried_fraction - 1.0) < LOAD_TOLERANCE
 
     @property
     def film_thickness_mean(self) -> float:

@@ -43,6 +43,11 @@ class Loads:
     mass_balance_error: float
     energy_balance_error: float
 
+    @property
+    def throughput(self) -> float:
+        """The larger of what enters and what leaves through the named boundaries, m3/s."""
+        return max(sum(max(sign * flow, 0.0) for flow in self.flow.values()) for sign in (1.0, -1.0))
+
 
 @dataclass(frozen=True)
 class PointFields:

@@ -111,7 +111,7 @@ def film_warnings(study: FilmStudy) -> list[dict[str, str]]:
     """What to doubt about a film that was solved: name and text of each warning."""
     problem, integrals = study.solution.problem, study.loads
     found = [] if study.gap is None else gap_warnings(study.gap)
-    through = max(sum(max(sign * flow, 0.0) for flow in integrals.flow.values()) for sign in (1.0, -1.0))
+    through = integrals.throughput
     share = abs(integrals.cavity_flow) / through if through > 0.0 else np.inf * abs(integrals.cavity_flow)
     if integrals.cavity_flow != 0.0 and share > LARGEST_CAVITY_FLOW:
         verb = "makes" if integrals.cavity_flow > 0.0 else "swallows"

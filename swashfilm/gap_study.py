@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-import numpy as np
-
+from gaps.frames import PUMP_FRAME
 from gaps.piston import PistonGap
 from gaps.result import GapFilm, PositionSource
 from gaps.slipper import SlipperGap
@@ -16,8 +15,6 @@ from reynolds.mesh import Array
 from swashfilm.gap_case import Gap, GapCase, PistonInstant, SlipperInstant, ValvePlateInstant
 from system.instants import piston_geometry, slipper_geometry, valve_plate_geometry
 from system.places import bore_frame, slipper_frame
-
-CARRIED_WITHIN = 1e-3  # of the load, at a position that was given
 
 
 def solve_gap(case: GapCase) -> GapFilm:
@@ -52,7 +49,7 @@ def true_place(case: GapCase) -> Callable[[Array], Array]:
         return lambda points: frame.cylinder(points, radius)
     if case.gap is Gap.SLIPPER:
         return slipper_frame(case.rotor, case.shaft_angle).plane
-    return lambda points: np.column_stack([points, np.zeros(len(points))])
+    return PUMP_FRAME.plane
 
 
 def gap_summary(film: GapFilm) -> dict[str, Any]:
@@ -72,7 +69,7 @@ def gap_summary(film: GapFilm) -> dict[str, Any]:
 
 def gap_warnings(film: GapFilm) -> list[dict[str, str]]:
     """A load that the film at the given position does not carry: name and text."""
-    if film.source is PositionSource.BALANCE or abs(film.carried_fraction - 1.0) < CARRIED_WITHIN:
+    if film.holds_its_load:
         return []
     text = f"the film carries {film.carried_load:.0f} N of {film.required_load:.0f} N ({film.verdict})"
     return [{"name": "load_not_carried", "text": text}]

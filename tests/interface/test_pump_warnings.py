@@ -1,0 +1,40 @@
+"""What `swashfilm run` tells a reader to doubt about the films of the three gaps."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from gaps.piston import PistonGap, PistonGeometry, PistonLoad, PistonState
+from swashfilm.pump_run import cavity_flows, uncarried_loads
+
+EMPTY = PistonLoad((0.0, 0.0), 0.0)
+
+
+def film(pressure, load=EMPTY):
+    """A spinning piston at half its clearance with one pressure (Pa) at both ends."""
+    state = PistonState(40e-3, pressure, pressure, -1e5, 0.03, 0.0, 220.0, 220.0)
+    return PistonGap(PistonGeometry(22e-3, 15e-6), (24, 6)).at(state, load, np.array([7.5e-6, 0.0, 7.5e-6, 0.0]))
+
+
+def films(piston, other):
+    """The part of a FilmsPoint that is looked at: `piston` in the piston gap, `other` in the two others."""
+    ring = SimpleNamespace(gap=other)
+    return SimpleNamespace(gaps=SimpleNamespace(piston=(piston,), slipper=(other,), valve_plate=(ring,)))
+
+
+def test_oil_that_a_cavity_makes_is_told():
+    dry, flooded = film(0.0), film(100e6)
+    assert dry.loads.cavity_flow > 0.01 * dry.loads.throughput
+    assert flooded.loads.cavity_flow == 0.0
+    told = cavity_flows(films(dry, flooded))
+    assert len(told) == 1
+    assert told[0].startswith("cavity_does_not_conserve_mass: piston: ")
+    assert "makes oil" in told[0]
+
+
+@pytest.mark.parametrize(("share", "count"), [(0.5, 1), (1.0, 0), (2.0, 1)])
+def test_a_load_that_is_not_the_films_is_told_whether_larger_or_smaller(share, count):
+    held = film(100e6, PistonLoad((0.0, 1.0), 0.0)).carried_load
+    told = uncarried_loads(films(film(100e6, PistonLoad((0.0, share * held), 0.0)), film(100e6)))
+    assert len(told) == count
