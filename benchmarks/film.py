@@ -1,7 +1,7 @@
 """How long a film takes: the finite journal bearing (L/D 1, eccentricity ratio 0.6), beside plain scikit-fem.
 
     python benchmarks/film.py          about 1e4, 1e5 and 1e6 unknowns; a few minutes
-    python benchmarks/film.py --quick  without scikit-fem and spsolve at 1e6 unknowns: a minute less, several GB less
+    python benchmarks/film.py --quick  without scikit-fem and spsolve at 1e6 unknowns: minutes and GB less
 
 One thread. Each time is the least of the repeats, after compilation. `set-up` builds unknowns and sparsity
 pattern, once per mesh; `solve` is all that one film takes after that, its assembly and every step of the active
