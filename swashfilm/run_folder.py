@@ -53,7 +53,7 @@ def run_folder(name: str, wanted: Path | None = None) -> Iterator[Path]:
 
 def final_folder(partial: Path) -> Path:
     """The name that a folder under work gets when its run is complete."""
-    return partial.with_name(partial.name.partition(".partial")[0])
+    return partial.with_name(partial.name.rpartition(".partial")[0])
 
 
 def write_json(path: Path, values: Mapping[str, Any]) -> None:
@@ -84,6 +84,9 @@ def _claim(name: str, wanted: Path | None) -> tuple[Path, Path]:
 
 
 def _refuse_filled(wanted: Path) -> None:
+    if wanted.name in ("", ".."):
+        fault = Fault("-o", f"'{wanted}', which is no name", "the name of a new or an empty folder")
+        raise InputFaults("command line", [fault])
     if wanted.is_dir() and not any(wanted.iterdir()):
         return
     if os.path.lexists(wanted):

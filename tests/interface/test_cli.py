@@ -94,6 +94,8 @@ def test_the_version_is_that_of_the_package(capsys):
         (["run", "--fidelity", "film"], ["--fidelity", "'lumped', 'films'"]),
         (["run", "ref9"], ["ref9", "ref90"]),
         (["run", "-o", "pad.toml"], ["-o", "pad.toml", "a file", "nothing is overwritten", "pad.toml-2"]),
+        (["run", "-o", "."], ["-o", "'.'", "the name of a new or an empty folder"]),
+        (["run", "-o", "/"], ["-o", "'/'", "the name of a new or an empty folder"]),
         (["film"], ["CASE.toml", "film --help"]),
         (["film", "pda.toml"], ["no such file", "pad.toml"]),
         (["check", "none.toml"], ["no such file"]),
@@ -151,6 +153,8 @@ def test_every_run_gets_a_folder_of_its_own_and_none_is_overwritten(capsys):
     Path("empty").mkdir()
     assert main(["film", "pad.toml", "-o", "empty"]) == 0
     assert not list(Path().rglob("*.partial*"))
+    assert main(["film", "pad.toml", "-o", "half.partial"]) == 0
+    assert "results in half.partial" in capsys.readouterr().out
 
 
 @pytest.mark.skipif(not hasattr(os, "geteuid") or os.geteuid() == 0, reason="root may write everywhere")
