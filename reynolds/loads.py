@@ -10,7 +10,7 @@ import numpy as np
 from reynolds import kernels
 from reynolds.film import Cavitation, Film, FilmSolution, Pocket
 from reynolds.mesh import Array
-from reynolds.solve import flow_terms
+from reynolds.solve import flow_balance, flow_terms
 
 
 @dataclass(frozen=True)
@@ -21,8 +21,9 @@ class Loads:
     friction_moving, friction_fixed N: force of the oil on each wall (x, y); friction_torque_* N m about the
     origin; dissipation W; flow m3/s by boundary name, positive out of the film; squeeze_flow m3/s = integral
     of dh/dt; cavity_flow m3/s that Reynolds' condition makes the cavity supply (+) or swallow (-), zero in a
-    full film; cavitated_area_fraction; mass_balance_error = |out + squeeze - cavity| / throughput;
-    energy_balance_error relative to the dissipation.
+    full film; cavitated_area_fraction; mass_balance_error = |out + squeeze - cavity|, relative to the flow
+    through the boundaries or the flows within the film, whichever are larger; energy_balance_error likewise
+    relative to the dissipation, the walls' or the flows' power.
     """
 
     load: float
@@ -107,10 +108,8 @@ def loads(solution: FilmSolution, weight: Array | None = None) -> Loads:
     squeeze_flow = float(np.sum(film.squeeze * area))
     cavity_flow = -float(solution.outflow[solution.cavity].sum()) - drawn
     out = float(solution.outflow[solution.held].sum()) - drawn + _pocket_flow(solution)
-    throughput = max(
-        float(np.abs(solution.outflow[solution.held]).sum()) + float(np.sum(np.abs(film.squeeze) * area)),
-        1e-300,
-    )
+    _, within = flow_balance(space, flow_terms(film), solution.pressure)
+    through = float(np.abs(solution.outflow[solution.held]).sum()) + float(np.sum(np.abs(film.squeeze) * area))
     peak = int(np.argmax(solution.pressure))
     load, moment_x, moment_y = pressure_integrals(solution)
     return Loads(
@@ -129,8 +128,8 @@ def loads(solution: FilmSolution, weight: Array | None = None) -> Loads:
         squeeze_flow=squeeze_flow,
         cavity_flow=cavity_flow,
         cavitated_area_fraction=_cavitated_fraction(solution),
-        mass_balance_error=abs(out + squeeze_flow - cavity_flow) / throughput,
-        energy_balance_error=_energy_error(solution, fields),
+        mass_balance_error=abs(out + squeeze_flow - cavity_flow) / max(through, _root_sum(within)),
+        energy_balance_error=_energy_error(solution, fields, within),
     )
 
 
@@ -206,7 +205,12 @@ def _dissipation_density(film: Film, fields: PointFields) -> Array:
     return film.thickness**3 / (12.0 * film.viscosity) * gradient + film.viscosity * slip / film.thickness
 
 
-def _energy_error(solution: FilmSolution, fields: PointFields) -> float:
+def _root_sum(within: Array) -> float:
+    """Root of the sum of squares: over a mesh of n x n unknowns, each with 1/n of the flow, about the flow."""
+    return max(float(np.linalg.norm(within)), 1e-300)
+
+
+def _energy_error(solution: FilmSolution, fields: PointFields, within: Array) -> float:
     """Shear work of the walls + flow work at boundaries and cavity - squeeze work, against dissipation."""
     film, area = solution.problem.film, solution.problem.space.area
     walls = -sum(
@@ -218,7 +222,8 @@ def _energy_error(solution: FilmSolution, fields: PointFields) -> float:
     flow = -float(np.sum(solution.outflow * solution.pressure))
     squeeze = float(np.sum(fields.pressure * film.squeeze * area))
     spent = float(np.sum(_dissipation_density(film, fields) * area))
-    return abs(walls + flow - squeeze - spent) / max(spent, abs(walls), abs(flow), 1e-300)
+    scale = max(spent, abs(walls), abs(flow), _root_sum(within * solution.pressure))
+    return abs(walls + flow - squeeze - spent) / scale
 
 
 def _cavitated_fraction(solution: FilmSolution) -> float:

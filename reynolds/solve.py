@@ -65,7 +65,7 @@ class FilmSolver:
             pressure[cavity] = problem.cavitation_pressure
         for iteration in range(1, MAX_ITERATIONS + 1):
             pressure = self._step(space, pressure, setting, setting.held | cavity, stiffness, flows)
-            balance, size = _balance(space, flows, pressure)
+            balance, size = flow_balance(space, flows, pressure)
             new_cavity = _cavity(problem, pressure, balance, size, cavity, setting)
             settled = bool(np.array_equal(new_cavity, cavity))
             pressure[new_cavity] = problem.cavitation_pressure
@@ -103,7 +103,7 @@ def _linearised(
     flows: FlowTerms,
 ) -> tuple[csc_array, Array]:
     """Upper triangle and right-hand side of the balance for the change of pressure, identity where fixed."""
-    balance, _ = _balance(space, flows, pressure)
+    balance, _ = flow_balance(space, flows, pressure)
     gain = np.zeros(space.size)
     for node, pocket in setting.pockets:
         inflow, slope = pocket.feed(pressure[node])
@@ -150,7 +150,8 @@ def flow_terms(film: Film) -> FlowTerms:
     return h**3 / (12.0 * film.viscosity), h * mean_x, h * mean_y, film.squeeze
 
 
-def _balance(space: FilmSpace, flows: FlowTerms, pressure: Array) -> tuple[Array, Array]:
+def flow_balance(space: FilmSpace, flows: FlowTerms, pressure: Array) -> tuple[Array, Array]:
+    """Flow balance of every unknown (size,) m3/s, and the size of the flows that meet there (see `kernels`)."""
     out, size = np.empty(space.size), np.empty(space.size)
     reference = space.reference
     kernels.residual(
