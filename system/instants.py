@@ -67,8 +67,10 @@ def piston_instant(
 ) -> tuple[PistonState, PistonLoad, Array]:
     """State, side force and given position of the piston; the plate pushes it away from inner dead centre.
 
-    Side force Fa tan(gamma) at the ball. Left out: centrifugal force of the piston (its centre of mass is not in
-    the description) and the ball joint's friction moment.
+    Side force Fa tan(gamma) at the ball, REF90's nominal law: exact for a cylindrical block. With a cone plate
+    and bore stand at gamma -+ beta to each other at inner and outer dead centre; the exact force is then -+ 32 %
+    off on REF90, with a part along y. Left out: centrifugal force of the piston (its centre of mass is not in the
+    description) and the ball joint's friction moment.
     """
     pump, point, out = rotor.pump, rotor.point, travel(rotor, shaft_angle)
     state = PistonState(
