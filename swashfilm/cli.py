@@ -28,6 +28,7 @@ _OVERRIDES = {
     "--inlet-pressure": ("operating.inlet_pressure", "25bar", "pressure at the inlet, gauge"),
     "--case-pressure": ("operating.case_pressure", "1.5bar", "pressure in the case, gauge"),
 }
+_FIDELITIES = [fidelity.value for fidelity in Fidelity]
 
 
 def run_command(words: Sequence[str]) -> int:
@@ -92,7 +93,7 @@ def build_parser() -> argparse.ArgumentParser:
         run.add_argument(option, metavar=example, help=f"{what}; the pump's own where left out")
     run.add_argument(
         "--fidelity",
-        choices=[fidelity.value for fidelity in Fidelity],
+        metavar=f"{{{','.join(_FIDELITIES)}}}",
         default=Fidelity.FILMS.value,
         help="films of given thickness, or films solved over the revolution (default)",
     )
@@ -147,6 +148,9 @@ def _pump(options: argparse.Namespace) -> PumpDescription:
     from system.pump_file import load_pump
 
     stated, faults = _overrides(options)
+    if options.fidelity not in _FIDELITIES:
+        nearest = nearest_choice(options.fidelity, _FIDELITIES)
+        faults.append(Fault("--fidelity", repr(options.fidelity), f"one of {', '.join(_FIDELITIES)}", nearest))
     try:
         pump = load_pump(options.pump, stated)
     except InputFaults as reason:

@@ -1,7 +1,8 @@
 """Named checks of a pump description: what cannot be, and what is doubtful, each with number, limit and remedy.
 
 One check is one function. It says which values it needs, so that it runs on every description in which these
-could be read, however much else is wrong. `system.geometry_checks` and `system.operating_checks` hold them.
+could be read, however much else is wrong. `system.geometry_checks`, `system.film_checks` and
+`system.operating_checks` hold them.
 """
 
 from __future__ import annotations

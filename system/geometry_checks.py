@@ -1,4 +1,4 @@
-"""Checks of the geometry: does the pump described fit together, and are its films films?"""
+"""Checks of the geometry: does the pump described fit together?"""
 
 from __future__ import annotations
 
@@ -16,7 +16,6 @@ from system.units import Dimension, format_quantity
 
 DISPLACEMENT_TOLERANCE = 0.01
 ROUNDING = 1e-9  # relative; two lengths of a drawing that meet exactly do not overlap
-THIN_FILM = 0.01  # film thickness / land width; above it Reynolds' equation loses percents
 
 _CONE = ("pump.bore_cone_angle", "pump.swash_angle_max")
 _DRIVE = ("pump.pitch_radius", *_CONE)
@@ -283,36 +282,6 @@ def bearings_share_the_side_force(pump: PumpDescription) -> Iterator[Finding]:
         )
 
 
-@needs("piston.radial_clearance", "piston.engaged_length")
-def piston_film_is_thin(pump: PumpDescription) -> Iterator[Finding]:
-    """The piston's clearance is small against its engaged length (Reynolds' thin-film assumption)."""
-    yield from _thin("piston.radial_clearance", pump.piston.radial_clearance, pump.piston.engaged_length)
-
-
-@needs("slipper.film_thickness", "slipper.land_inner_radius", "slipper.land_outer_radius")
-def slipper_film_is_thin(pump: PumpDescription) -> Iterator[Finding]:
-    """The slipper's film is small against its land width (Reynolds' thin-film assumption)."""
-    width = pump.slipper.land_outer_radius - pump.slipper.land_inner_radius
-    yield from _thin("slipper.film_thickness", pump.slipper.film_thickness, width)
-
-
-@needs("valve_plate.film_thickness", "valve_plate.land_radius_1", "valve_plate.land_radius_2")
-def valve_plate_film_is_thin(pump: PumpDescription) -> Iterator[Finding]:
-    """The valve plate's film is small against its inner land width (Reynolds' thin-film assumption)."""
-    width = pump.valve_plate.land_radius_2 - pump.valve_plate.land_radius_1
-    yield from _thin("valve_plate.film_thickness", pump.valve_plate.film_thickness, width)
-
-
-def _thin(path: str, film: float, width: float) -> Iterator[Finding]:
-    if width > 0.0 and film > THIN_FILM * width:
-        yield CheckWarning(
-            path,
-            f"{length(film)} on a land of {length(width)}",
-            f"{length(THIN_FILM * width)} (1 % of the land: above it the film is no thin film)",
-            "check the unit: um, not mm?",
-        )
-
-
 GEOMETRY_CHECKS = (
     swash_plate_cuts_every_bore,
     displacement_is_that_of_the_geometry,
@@ -328,7 +297,4 @@ GEOMETRY_CHECKS = (
     ports_open_in_order,
     groove_is_smaller_than_the_kidney,
     bearings_share_the_side_force,
-    piston_film_is_thin,
-    slipper_film_is_thin,
-    valve_plate_film_is_thin,
 )

@@ -18,11 +18,13 @@ from reynolds.oil import ISO_GRADES
 from system.checks import CheckReport, run_checks
 from system.description import FORMAT, PumpDescription, Section, dimension_of, section_models
 from system.faults import Fault, InputFaults, key_lines, nearest_choice
+from system.film_checks import FILM_CHECKS
 from system.geometry_checks import GEOMETRY_CHECKS
 from system.operating_checks import OPERATING_CHECKS
 from system.units import Dimension, QuantityError, format_quantity, parse_quantity, to_gauge
 
 ABSOLUTE = "_abs"  # a pressure key that ends so is absolute
+_CHECKS = GEOMETRY_CHECKS + FILM_CHECKS + OPERATING_CHECKS
 _VISCOSITIES = ("kinematic_viscosity_40C", "kinematic_viscosity_100C")
 _BOUNDS = {"gt": "more than", "ge": "at least", "lt": "less than", "le": "at most"}
 
@@ -55,7 +57,7 @@ def load_pump(source: str | Path, overrides: Mapping[str, object] | None = None)
 
 def check_pump(pump: PumpDescription) -> CheckReport:
     """Return what is impossible and what is doubtful about a description and its own operating point."""
-    return run_checks(GEOMETRY_CHECKS + OPERATING_CHECKS, pump)
+    return run_checks(_CHECKS, pump)
 
 
 def resolved_toml(pump: PumpDescription) -> str:
@@ -153,7 +155,7 @@ def _describe(label: str, tables: Mapping[str, Any], lines: Mapping[str, int | N
         key: _section(key, model, tables.get(key), reading) for key, model in section_models()
     }
     pump = PumpDescription.model_construct(name=name, format=FORMAT, **sections)
-    reading.faults += run_checks(GEOMETRY_CHECKS + OPERATING_CHECKS, pump, reading.trusted).faults
+    reading.faults += run_checks(_CHECKS, pump, reading.trusted).faults
     if reading.faults:
         raise InputFaults(label, reading.faults, lines)
     return pump
