@@ -11,10 +11,11 @@ import numpy as np
 from system.checks import CheckWarning, Finding, angle, length, needs
 from system.description import PumpDescription
 from system.faults import Fault
-from system.kinematics import SwashDrive, displacement, stroke
+from system.kinematics import SwashDrive, ball_radius, displacement, stroke
 from system.units import Dimension, format_quantity
 
 DISPLACEMENT_TOLERANCE = 0.01
+PORT_TOLERANCE = math.radians(1.0)
 ROUNDING = 1e-9  # relative; two lengths of a drawing that meet exactly do not overlap
 
 _CONE = ("pump.bore_cone_angle", "pump.swash_angle_max")
@@ -93,7 +94,7 @@ def _ball_pitch(drive: SwashDrive, pistons: int) -> float:
 
 def _ball_centre(drive: SwashDrive, phi: np.ndarray) -> np.ndarray:
     """Return ball centres in the plane of the swash plate in m, shape (2, n): bore axes cut by that plane."""
-    radius = drive.pitch_radius / (1.0 + drive.cone_swash_product * np.cos(phi))
+    radius = ball_radius(drive, phi)
     return np.stack([radius * np.cos(phi) / math.cos(drive.swash_angle), radius * np.sin(phi)])
 
 
@@ -257,6 +258,31 @@ def ports_open_in_order(pump: PumpDescription) -> Iterator[Finding]:
         )
 
 
+@needs("valve_plate.kidney_arc", *(f"ports.{name}" for name in _PORT_ANGLES))
+def ports_belong_to_the_kidney(pump: PumpDescription) -> Iterator[Finding]:
+    """A kidney opens and shuts over its own arc, and that leaves a port between."""
+    arc, ports = pump.valve_plate.kidney_arc, pump.ports
+    if ports.kidney_end - ports.groove_end <= arc:
+        yield Fault(
+            "ports.kidney_end",
+            f"{angle(ports.kidney_end)} for a kidney of {angle(arc)} that opens at {angle(ports.groove_end)}",
+            f"more than {angle(ports.groove_end + arc)} (groove_end + kidney_arc), so that a port is left",
+        )
+        return
+    for key, follows in (
+        ("kidney_full_start", ports.groove_end + arc),
+        ("kidney_full_end", ports.kidney_end - arc),
+    ):
+        stated = getattr(ports, key)
+        if abs(stated - follows) > PORT_TOLERANCE:
+            yield CheckWarning(
+                f"ports.{key}",
+                f"{angle(stated)}, where the kidney's arc of {angle(arc)} gives {angle(follows)}",
+                f"{angle(PORT_TOLERANCE)} apart (the film's ports follow groove_end and kidney_end)",
+                f"{key} = '{angle(follows)}', or another kidney_arc",
+            )
+
+
 @needs("ports.groove_area", "ports.kidney_area")
 def groove_is_smaller_than_the_kidney(pump: PumpDescription) -> Iterator[Finding]:
     """The relief groove opens less than the kidney does."""
@@ -295,6 +321,7 @@ GEOMETRY_CHECKS = (
     bores_clear_each_other,
     piston_stays_in_its_bore,
     ports_open_in_order,
+    ports_belong_to_the_kidney,
     groove_is_smaller_than_the_kidney,
     bearings_share_the_side_force,
 )

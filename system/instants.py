@@ -12,6 +12,7 @@ from gaps.valve_plate import ValvePlateGeometry, ValvePlatePosition, ValvePlateS
 from system import pairs
 from system.chamber_kernel import CAVITY_PRESSURE
 from system.description import PumpDescription
+from system.directions import plate_force, side_force
 from system.kinematics import (
     Array,
     SwashDrive,
@@ -19,6 +20,7 @@ from system.kinematics import (
     piston_acceleration,
     piston_displacement,
     piston_velocity,
+    slipper_acceleration,
     slipper_sliding_velocity,
     stand_out,
 )
@@ -67,9 +69,8 @@ def piston_instant(
 ) -> tuple[PistonState, PistonLoad, Array]:
     """State, side force and given position of the piston; the plate pushes it away from inner dead centre.
 
-    Side force Fa tan(gamma) at the ball, REF90's nominal law: exact for a cylindrical block. With a cone plate
-    and bore stand at gamma -+ beta to each other at inner and outer dead centre; the exact force is then -+ 32 %
-    off on REF90, with a part along y. Left out: centrifugal force of the piston (its centre of mass is not in the
+    The plate's exact force across the bore at the ball (`directions.side_force`; the nominal pair losses keep
+    REF90's |Fa| tan(gamma)). Left out: centrifugal force of the piston (its centre of mass is not in the
     description) and the ball joint's friction moment.
     """
     pump, point, out = rotor.pump, rotor.point, travel(rotor, shaft_angle)
@@ -83,8 +84,8 @@ def piston_instant(
         piston_spin=(1.0 + pump.piston.spin_ratio) * point.shaft_speed,
         bore_spin=point.shaft_speed,
     )
-    side = -axial_force(rotor, shaft_angle, chamber_pressure) * np.tan(rotor.drive.swash_angle)
-    load = PistonLoad((float(side), 0.0), pump.piston.overhang + out)
+    x, y = side_force(rotor.drive, shaft_angle, axial_force(rotor, shaft_angle, chamber_pressure))
+    load = PistonLoad((float(x), float(y)), pump.piston.overhang + out)
     return state, load, eccentric(piston_geometry(pump), pump.piston.eccentricity_ratio, load.force)
 
 
@@ -96,26 +97,14 @@ def slipper_geometry(pump: PumpDescription) -> SlipperGeometry:
     )
 
 
-def slipper_acceleration(drive: SwashDrive, shaft_angle: float, shaft_speed: float) -> Array:
-    """Acceleration (2,) m/s2 of the ball centre in the swash plate's plane: time derivative of Eq. (9), corrected.
-
-    Axes as in `slipper_sliding_velocity`. P = R (cos phi/cos g, sin phi)/(1 + t cos phi) twice derived.
-    """
-    t, c, s = drive.cone_swash_product, np.cos(shaft_angle), np.sin(shaft_angle)
-    n = 1.0 + t * c
-    along = -(c / n**2 + 2.0 * t * s**2 / n**3) / np.cos(drive.swash_angle)
-    across = -s / n**2 + 2.0 * t * s * (c + t) / n**3
-    return drive.pitch_radius * shaft_speed**2 * np.array([along, across])
-
-
 def slipper_instant(
     rotor: Rotor, shaft_angle: float, chamber_pressure: float
 ) -> tuple[SlipperState, SlipperLoad, SlipperPosition]:
     """State, load and given position of the slipper, x along its sliding velocity.
 
-    Force Fa/cos(gamma) plus its share of the spring; the film holds the moment of the slipper's centrifugal force
-    about the ball joint. Left out: friction on the land (the ball's height above it is not in the description)
-    and the ball joint's friction moment.
+    The plate's normal force plus a share of the spring; the film holds the moment of the slipper's centrifugal
+    force about the ball joint. Left out: friction on the land (the ball's height above it is not in the
+    description) and the ball joint's friction moment.
     """
     pump, point, drive = rotor.pump, rotor.point, rotor.drive
     velocity = slipper_sliding_velocity(drive, shaft_angle, point.shaft_speed)
@@ -131,9 +120,8 @@ def slipper_instant(
         sliding_speed=float(np.hypot(*velocity)),
         spin=pump.slipper.spin_ratio * point.shaft_speed,
     )
-    press = (axial_force(rotor, shaft_angle, chamber_pressure) + block_spring(pump) / pump.pump.pistons) / np.cos(
-        drive.swash_angle
-    )
+    spring = block_spring(pump) / (pump.pump.pistons * np.cos(drive.swash_angle))
+    press = plate_force(drive, shaft_angle, axial_force(rotor, shaft_angle, chamber_pressure)) + spring
     load = SlipperLoad(float(press), float(held @ left), -float(held @ forward))
     # Outward is to the right of the motion.
     given = SlipperPosition(

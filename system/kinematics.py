@@ -102,6 +102,23 @@ def slipper_sliding_speed(drive: SwashDrive, shaft_angle: Array | float, shaft_s
     return np.hypot(*slipper_sliding_velocity(drive, shaft_angle, shaft_speed))
 
 
+def slipper_acceleration(drive: SwashDrive, shaft_angle: float, shaft_speed: float) -> Array:
+    """Acceleration (2,) m/s2 of the ball centre in the swash plate's plane: time derivative of Eq. (9), corrected.
+
+    Axes as in `slipper_sliding_velocity`. P = R (cos phi/cos g, sin phi)/(1 + t cos phi) twice derived.
+    """
+    t, c, s = drive.cone_swash_product, np.cos(shaft_angle), np.sin(shaft_angle)
+    n = 1.0 + t * c
+    along = -(c / n**2 + 2.0 * t * s**2 / n**3) / np.cos(drive.swash_angle)
+    across = -s / n**2 + 2.0 * t * s * (c + t) / n**3
+    return drive.pitch_radius * shaft_speed**2 * np.array([along, across])
+
+
+def ball_radius(drive: SwashDrive, shaft_angle: Array | float) -> Array:
+    """Distance of a ball centre from the shaft axis in m: R/(1 + t cos phi), plate and bore axis cutting there."""
+    return np.asarray(drive.pitch_radius / (1.0 + drive.cone_swash_product * np.cos(shaft_angle)))
+
+
 def swash_angle_for_stroke(stroke_length: float, pitch_radius: float, bore_cone_angle: float) -> float:
     """Swash angle in rad that gives a stroke in m: the positive root of H (1-t^2) = 2 R tan(g)/cos(b).
 

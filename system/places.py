@@ -10,38 +10,34 @@ from __future__ import annotations
 import numpy as np
 
 from gaps.frames import Frame
+from system.directions import bore_axis, bore_sides, plate_axes
 from system.instants import Rotor, travel
-from system.kinematics import slipper_sliding_velocity
+from system.kinematics import Array, ball_radius, slipper_sliding_velocity
 from system.lumped import piston_area
 
 
 def bore_frame(rotor: Rotor, shaft_angle: float) -> Frame:
     """Frame of the piston film: origin on the bore axis at the chamber's end of the engaged length."""
-    pump = rotor.pump.pump
-    beta = pump.bore_cone_angle
-    radial = np.array([np.cos(shaft_angle), np.sin(shaft_angle), 0.0])
-    axis = np.sin(beta) * radial + np.array([0.0, 0.0, np.cos(beta)])
-    ball = pump.pitch_radius / (1.0 + rotor.drive.cone_swash_product * np.cos(shaft_angle)) * radial
-    ball = ball + np.array([0.0, 0.0, _ball_height(rotor, shaft_angle)])
+    axis = bore_axis(rotor.drive, shaft_angle)
     reach = rotor.pump.piston.engaged_length + rotor.pump.piston.overhang
-    side = np.array([1.0, 0.0, 0.0]) - axis[0] * axis
-    side /= np.linalg.norm(side)
-    return Frame(ball - reach * axis, side, np.cross(axis, side), axis)
+    x, y = bore_sides(rotor.drive, shaft_angle)
+    return Frame(_ball_centre(rotor, shaft_angle) - reach * axis, x, y, axis)
 
 
 def slipper_frame(rotor: Rotor, shaft_angle: float) -> Frame:
     """Frame of the slipper film: origin under the ball centre on the swash plate, x along the sliding velocity."""
-    gamma = rotor.drive.swash_angle
-    steepest = np.array([np.cos(gamma), 0.0, -np.sin(gamma)])
-    normal = np.array([np.sin(gamma), 0.0, np.cos(gamma)])
-    across = np.array([0.0, 1.0, 0.0])
+    steepest, across, normal = plate_axes(rotor.drive)
     velocity = slipper_sliding_velocity(rotor.drive, shaft_angle, rotor.point.shaft_speed)
     forward = (velocity[0] * steepest + velocity[1] * across) / np.hypot(*velocity)
-    radius = rotor.pump.pump.pitch_radius / (1.0 + rotor.drive.cone_swash_product * np.cos(shaft_angle))
-    ball = np.array([radius * np.cos(shaft_angle), radius * np.sin(shaft_angle), _ball_height(rotor, shaft_angle)])
     # The sliding face lies beyond the ball by about the distance of the slipper's centre of mass.
-    face = ball + rotor.pump.slipper.centre_of_mass_to_ball * normal
+    face = _ball_centre(rotor, shaft_angle) + rotor.pump.slipper.centre_of_mass_to_ball * normal
     return Frame(face, forward, np.cross(normal, forward), normal)
+
+
+def _ball_centre(rotor: Rotor, shaft_angle: float) -> Array:
+    radius = float(ball_radius(rotor.drive, shaft_angle))
+    height = _ball_height(rotor, shaft_angle)
+    return np.array([radius * np.cos(shaft_angle), radius * np.sin(shaft_angle), height])
 
 
 def _ball_height(rotor: Rotor, shaft_angle: float) -> float:

@@ -29,10 +29,10 @@ def test_held_numbers(rated, validation):
     """Tolerances: what doubling the film angles moves each number by."""
     point, leakage, pairs = rated.pump_point, rated.pump_point.leakage_flow, rated.pump_point.pairs
     for quantity, unit, expected, obtained, tolerance in (
-        ("leakage, pistons", "L/min", 0.3536, leakage.piston * 6e4, 0.002),
+        ("leakage, pistons", "L/min", 0.3527, leakage.piston * 6e4, 0.002),
         ("leakage, slippers", "L/min", 0.3937, leakage.slipper * 6e4, 0.001),
         ("leakage, valve plate", "L/min", 0.1665, leakage.valve_plate * 6e4, 0.001),
-        ("viscous loss, pistons", "W", 277.2, pairs.piston_cylinder.mean_viscous, 0.01),
+        ("viscous loss, pistons", "W", 277.8, pairs.piston_cylinder.mean_viscous, 0.01),
         ("viscous loss, slippers", "W", 956.3, pairs.slipper_swash_plate.mean_viscous, 0.001),
         ("viscous loss, valve plate", "W", 558.3, pairs.valve_plate_cylinder.mean_viscous, 0.001),
         ("shaft torque", "N m", 512.67, point.bench.shaft_torque, 0.001),
@@ -92,7 +92,9 @@ def test_which_films_carry(rated):
     assert pistons[~delivers].sum() >= 10
     assert all(film.source is PositionSource.GIVEN for film in gaps.slipper)
     carried = np.array([film.carried_fraction for film in gaps.slipper])[delivers]
-    assert 0.9 < carried.min() <= carried.max() < 0.96
+    # The balance ratio of 0.955 refers to Fa/cos(16.2 deg); plate and bore stand 11.2 to 21.2 deg to each other.
+    nearest, farthest = (0.955 * np.cos(np.radians(g)) / np.cos(np.radians(16.2)) for g in (11.2, 21.2))
+    assert farthest - 0.03 < carried.min() <= carried.max() < nearest + 0.001  # inertia and spring take the rest
     ring = [film.gap.carried_fraction for film in gaps.valve_plate]
     assert np.mean(ring) == pytest.approx(0.933, abs=0.03)  # the sheet's balance, less the block's own webs
 
