@@ -40,6 +40,7 @@ def write_pump_page(folder: Path) -> Path:
         summary=summary,
         headline=headline_rows(summary),
         efficiencies=efficiency_rows(summary),
+        bench=bench_rows(summary),
         pairs=pair_rows(summary),
         power=power_rows(summary),
         gaps=gap_rows(summary),
@@ -86,6 +87,16 @@ def efficiency_rows(summary: Mapping[str, Any]) -> Rows:
     return [
         (f"{name} efficiency", *("none" if norm[name] is None else f"{100 * norm[name]:.2f} %" for norm in norms))
         for name in ("overall", "volumetric", "hydromechanical")
+    ]
+
+
+def bench_rows(summary: Mapping[str, Any]) -> Rows:
+    """(loss, by the paper's Eqs. (1), (2), by the split that leaves the oil its compression energy)."""
+    paper, exact = summary["paper_loss"], summary["bench_split"]
+    return [
+        ("volumetric", f"{paper['volumetric_W']:.1f} W", f"{exact['leakage_W']:.1f} W"),
+        ("hydromechanical", f"{paper['hydromechanical_W']:.1f} W", f"{exact['hydromechanical_W']:.1f} W"),
+        ("stored in the oil", "counted as volumetric", f"{exact['elastic_W']:.1f} W"),
     ]
 
 

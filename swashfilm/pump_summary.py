@@ -12,7 +12,7 @@ from gaps.result import GapFilm, PositionSource
 from swashfilm.fidelity import Fidelity
 from swashfilm.pump_data import gap_films
 from system.assembly import PumpPoint
-from system.bench import Efficiency, ideal_flow, ideal_torque, paper_losses
+from system.bench import Efficiency, energy_split, ideal_flow, ideal_torque, paper_losses
 from system.description import PumpDescription
 from system.films import FilmsPoint
 from system.pairs import Pair
@@ -32,6 +32,8 @@ def pump_summary(
     pump: PumpDescription, point: PumpPoint, films: FilmsPoint | None, warnings: Sequence[str]
 ) -> dict[str, Any]:
     """The summary of an operating point; `films` is None in the lumped fidelity."""
+    losses = paper_losses(point.bench)
+    split = energy_split(point.bench, pump.oil.bulk_modulus)
     return {
         "format": 1,
         "kind": "pump",
@@ -60,7 +62,11 @@ def pump_summary(
             "paper": _efficiency(point.paper_efficiency),
             "iso_4409": _efficiency(point.iso_efficiency),
         },
-        "paper_loss": {f"{name}_W": value for name, value in asdict(paper_losses(point.bench)).items()},
+        "paper_loss": {
+            **{f"{name}_W": value for name, value in asdict(losses).items()},
+            "hydromechanical_share": losses.hydromechanical_share,
+        },
+        "bench_split": {f"{name}_W": value for name, value in asdict(split).items()},
         "pair_loss": {pair.value: _pair(point, pair) for pair in Pair},
         "power_balance": _power(point),
         "gaps": {gap: gap_report(series) for gap, series in gap_films(films).items()} if films else {},

@@ -105,8 +105,3 @@ def uniform_normal_force(spring: float, guide: BallGuide, swash_angle: float) ->
     Eq. (23) alone does not fix the distribution. An even one gives sum F_n = F_s/(sin(l) cos(g)).
     """
     return float(spring / (np.sin(guide.contact_latitude) * np.cos(swash_angle)))
-
-
-def coulomb_power(friction_coefficient: float, normal_force_sum: float, sliding_speed: float) -> float:
-    """Loss of ball guide and retainer in W; Eqs. (24), (25) for an even normal force: f sum(F_n) mean|dV|."""
-    return friction_coefficient * normal_force_sum * sliding_speed

@@ -8,7 +8,6 @@ from system.retainer import (
     RetainerMotion,
     azimuth_rate_ratio,
     contact_point,
-    coulomb_power,
     mean_sliding_speed,
     relative_locus,
     relative_velocity,
@@ -98,4 +97,3 @@ def test_uniform_normal_force_balances_the_spring():
     inward = -contact_point(GUIDE, SWASH, psi) / GUIDE.radius
     each = uniform_normal_force(spring, GUIDE, SWASH) / count
     assert -(each * inward[0]).sum() == pytest.approx(spring, rel=1e-12)
-    assert coulomb_power(0.12, 2000.0, 1.0) == pytest.approx(240.0)
