@@ -89,12 +89,13 @@ def _draw_here(picture: Path, field: Field, films: Sequence[Path]) -> None:
             lighting=False,  # a shadow would be read as a value
             scalar_bar_args={
                 "title": title, "vertical": True, "fmt": "%.3g", "color": "black", "title_font_size": 18,
-                "label_font_size": 16, "position_x": 0.72, "position_y": 0.2, "height": 0.6, "width": 0.08,
+                "label_font_size": 16, "position_x": 0.82, "position_y": 0.2, "height": 0.6, "width": 0.08,
             },
         )  # fmt: skip
     plotter.background_color = "white"
     plotter.add_axes(color="black")
     plotter.view_isometric()
+    plotter.camera.zoom(0.8)  # room for the scale beside the films
     plotter.screenshot(str(picture))
     plotter.close()
 

@@ -46,14 +46,20 @@ def write_pump_page(folder: Path) -> Path:
         gaps=gap_rows(summary),
         checks=check_rows(summary),
         pictures=_pictures(data, summary),
-        gap_maps={TITLES[gap]: _inline(png) for gap, png in pump_plots.gap_maps(data).items()},
-        pictured_angle=f"{360 * pump_plots.PICTURED_TURN:.0f}",
+        gap_maps={map_caption(data, gap): _inline(png) for gap, png in pump_plots.gap_maps(data).items()},
         solid=[(name.replace("_", " "), _inline(path.read_bytes())) for name, path in _drawn(folder)],
         resolved=(folder / "resolved.toml").read_text("utf-8"),
     )
     path = folder / "report.html"
     path.write_text(page, encoding="utf-8")
     return path
+
+
+def map_caption(data: Any, gap: str) -> str:
+    """Title of a gap's maps and the shaft angle they stand at; the ring repeats after each pitch."""
+    angle = np.degrees(data[f"{gap}_angle"].values[pump_plots.pictured(data, gap)])
+    whose = "block" if gap == "valve_plate" else "shaft"
+    return f"{TITLES[gap]} at {whose} angle {angle:.0f} deg"
 
 
 def headline_rows(summary: Mapping[str, Any]) -> Rows:

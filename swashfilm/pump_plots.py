@@ -108,9 +108,13 @@ def film_series(data: xarray.Dataset) -> bytes:
     return _png(figure)
 
 
+def pictured(data: xarray.Dataset, gap: str) -> int:
+    """Index of a gap's film at PICTURED_TURN; the ring's angles cover one pitch and repeat."""
+    return round(PICTURED_TURN * data.sizes["piston_angle"]) % data.sizes[f"{gap}_angle"]
+
+
 def _gap_map(data: xarray.Dataset, gap: str) -> bytes:
-    angles = data[f"{gap}_angle"].values
-    k = round(PICTURED_TURN * data.sizes["piston_angle"]) % len(angles)
+    k = pictured(data, gap)
     x, y = (data[f"{gap}_{axis}"].values[k] * 1e3 for axis in ("x", "y"))
     labels = ("x / mm", "y / mm")
     if gap == "piston":
