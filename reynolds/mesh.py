@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import contextlib
 import io
+import struct
 import zlib
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
@@ -22,6 +23,7 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
 from reynolds.errors import FilmInputError
+from reynolds.mesh_check import mesh_faults
 
 Array = NDArray[np.float64]
 
@@ -123,13 +125,14 @@ def mesh_from_file(path: Path) -> FilmMesh:
 
     Names come from gmsh physical groups or scikit-fem tags; edges lying on the bounding box are named left,
     right, bottom, top, and closed edge loops outer, inner (or hole_0, ... if several), where the file has not
-    given that name to something else. Raises FilmInputError for a file that is absent or holds no such mesh.
+    given that name to something else. Raises FilmInputError for a file that is absent or holds no such mesh,
+    and for cells that no film is computed on (`mesh_check`).
     """
     if not path.is_file():
         raise FilmInputError("mesh", f"no file {path}", "an existing mesh file in a format that meshio reads")
     from skfem.io.meshio import from_meshio
 
-    raw = _read(path)
+    raw = read_mesh_file(path)
     kinds = {block.type for block in raw.cells}
     if not kinds & {"triangle", "quad"}:
         raise FilmInputError("mesh", f"{path} holds {', '.join(sorted(kinds))}", "triangle or quad cells")
@@ -139,21 +142,47 @@ def mesh_from_file(path: Path) -> FilmMesh:
         if np.ptp(raw.points[:, 2]) > 1e-9 * np.ptp(raw.points[:, :2], axis=0).max():
             raise FilmInputError("mesh", f"{path} is not plane (z varies)", "an unwrapped film, z constant")
         raw.points = np.ascontiguousarray(raw.points[:, :2])
-    used = np.concatenate([block.data.ravel() for block in raw.cells if block.type in ("triangle", "quad")])
-    if loose := len(raw.points) - len(np.unique(used)):
-        raise FilmInputError(
-            "mesh", f"{path}: {loose} points in no cell", "points of cells only (gmsh: SaveAll = 0)"
-        )
+    cells = np.concatenate([block.data for block in raw.cells if block.type in ("triangle", "quad")])
+    if faults := mesh_faults(raw.points[:, :2], cells):
+        raise FilmInputError("mesh", f"{path}: {'; '.join(faults)}", "cells side by side that share their points")
     mesh = from_meshio(raw)
     own = {name: np.asarray(facets) for name, facets in (mesh.boundaries or {}).items()}
+    if raw.field_data and "gmsh:physical" in raw.cell_data and not raw.cell_sets:
+        own = _physical_lines(raw, mesh)
     return FilmMesh(_named(mesh, {**box_names(mesh), **loop_names(mesh), **own}))
 
 
-def _read(path: Path) -> Any:
-    """meshio's reader, whose faults (it prints, exits, or fails inside a format) become one kind of error."""
+def _physical_lines(raw: Any, mesh: skfem.Mesh) -> dict[str, NDArray[np.int64]]:
+    """Facets of each named physical line of a gmsh 2.2 file, inner ones too.
+
+    scikit-fem reads these files by tag alone; gmsh counts the tags of lines and of surfaces apart.
+    """
+    names = {int(tag): name for name, (tag, dimension) in raw.field_data.items() if dimension == 1}
+    facet_of = {tuple(ends): number for number, ends in enumerate(np.sort(mesh.facets.T, axis=1).tolist())}
+    found: dict[str, list[int]] = {}
+    blocks = zip(raw.cells, raw.cell_data["gmsh:physical"], strict=True)
+    for block, tags in ((block, tags) for block, tags in blocks if block.type == "line"):
+        for ends, tag in zip(np.sort(block.data, axis=1).tolist(), tags, strict=True):
+            if int(tag) in names and tuple(ends) in facet_of:
+                found.setdefault(names[int(tag)], []).append(facet_of[tuple(ends)])
+    return {name: np.unique(facets) for name, facets in found.items()}
+
+
+def read_mesh_file(path: Path) -> Any:
+    """The meshio.Mesh of a file, as it is; raises FilmInputError for one that cannot be read, and prints nothing.
+
+    meshio's readers print, exit, or fail inside a format: all that becomes one kind of error.
+    """
     import meshio
 
-    faults = (meshio.ReadError, SystemExit, LookupError, ValueError, AssertionError, EOFError, OSError, zlib.error)
+    if path.stat().st_size == 0:  # some readers wait for ever for a line of it
+        raise FilmInputError("mesh", f"{path} is empty", "a file that meshio reads")
+    # Its readers fail by whatever line a broken file trips them on, or for want of a package.
+    faults = (
+        meshio.ReadError, SystemExit, ArithmeticError, AssertionError, AttributeError, EOFError, ImportError,
+        LookupError, NameError, OSError, RuntimeError, SyntaxError, TypeError, ValueError, struct.error,
+        zlib.error,
+    )  # fmt: skip
     said = io.StringIO()
     try:
         with contextlib.redirect_stdout(said), contextlib.redirect_stderr(said):
