@@ -8,7 +8,7 @@ from xml.sax.saxutils import quoteattr
 
 import numpy as np
 
-from reynolds.film import FilmSolution
+from reynolds.film import FilmSolution, vertex_thickness
 from reynolds.loads import point_fields
 from reynolds.mesh import Array
 from reynolds.space import FilmSpace
@@ -33,7 +33,7 @@ def write_vtu(path: Path, solution: FilmSolution, place: Callable[[Array], Array
         [("triangle" if space.cells.shape[1] == 3 else "quad", space.cells)],
         point_data={
             "film_pressure": solution.pressure[space.vertex_dofs],
-            "film_thickness": space.to_vertices(thickness),
+            "film_thickness": vertex_thickness(solution.problem),
         },
         cell_data={
             "film_thickness_cell": [(thickness * space.area).sum(axis=1) / cell_area],

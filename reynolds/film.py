@@ -57,6 +57,8 @@ class Film:
 
     Each array is (cells | 1, points | 1): a length of one means "everywhere". SI: thickness m, viscosity Pa s,
     wall velocities m/s (moving and fixed wall, x and y), squeeze = dh/dt at a fixed place, m/s.
+    `thickness_at_vertices` (vertices,) m, for pictures and the least film: where it is not known it is
+    extrapolated from the quadrature points, which is exact for a smooth film and void for a step within a cell.
     Validity: thin (h much less than its length), laminar, inertia-free (rho U h^2/(mu L) << 1).
     """
 
@@ -65,13 +67,14 @@ class Film:
     velocity_moving: tuple[Array, Array]
     velocity_fixed: tuple[Array, Array]
     squeeze: Array
+    thickness_at_vertices: Array | None = None
 
 
 ZERO = np.zeros((1, 1))
 
 
 def film(
-    thickness: Array,
+    thickness: float | Array,
     viscosity: float | Array,
     *,
     velocity_moving: tuple[Array, Array] = (ZERO, ZERO),
@@ -79,7 +82,7 @@ def film(
     squeeze: Array = ZERO,
 ) -> Film:
     """A film with its fields checked: raises FilmInputError where thickness or viscosity is not positive."""
-    mu = np.atleast_2d(np.asarray(viscosity, dtype=float))
+    thickness, mu = (np.atleast_2d(np.asarray(field, dtype=float)) for field in (thickness, viscosity))
     for name, values, unit in (("film thickness", thickness, "m"), ("viscosity", mu, "Pa s")):
         if not np.all(np.isfinite(values)) or values.min() <= 0.0:
             raise FilmInputError(name, f"minimum {values.min():.4g} {unit}", "positive everywhere")
@@ -92,6 +95,7 @@ class FilmProblem:
 
     `held_nodes` (size,) may hold further unknowns at a pressure: NaN where the film is free (regions of the
     film plane that lie under a port). Pressures in Pa on one common reference, gauge or absolute.
+    Raises FilmInputError for a field that is not of the space, or of which a value is no number.
     """
 
     space: FilmSpace
@@ -100,6 +104,28 @@ class FilmProblem:
     cavitation: Cavitation = Cavitation.NONE
     cavitation_pressure: float = 0.0
     held_nodes: Array | None = None
+
+    def __post_init__(self) -> None:
+        cells, points = self.space.area.shape
+        oil = self.film
+        for name, field_values in (
+            ("film thickness", oil.thickness), ("viscosity", oil.viscosity), ("squeeze", oil.squeeze),
+            ("moving wall, x", oil.velocity_moving[0]), ("moving wall, y", oil.velocity_moving[1]),
+            ("fixed wall, x", oil.velocity_fixed[0]), ("fixed wall, y", oil.velocity_fixed[1]),
+        ):  # fmt: skip
+            # The compiled loops trust these shapes: another one would read beside the array.
+            shape = np.shape(field_values)
+            if len(shape) != 2 or shape[0] not in (1, cells) or shape[1] not in (1, points):
+                expected = f"(1 or {cells} cells, 1 or {points} points), as `space.sample` gives it"
+                raise FilmInputError(name, f"an array of shape {shape}", expected)
+            if not np.isfinite(field_values).all():
+                raise FilmInputError(name, "a value that is not finite", "numbers")
+
+
+def vertex_thickness(problem: FilmProblem) -> Array:
+    """Film thickness at the vertices (vertices,) m: as known, else extrapolated; jumps are averaged (plots)."""
+    known = problem.film.thickness_at_vertices
+    return problem.space.to_vertices(problem.film.thickness) if known is None else known
 
 
 @dataclass(frozen=True)

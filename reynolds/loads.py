@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from reynolds import kernels
-from reynolds.film import Cavitation, Film, FilmSolution, Pocket
+from reynolds.film import Cavitation, Film, FilmSolution, Pocket, vertex_thickness
 from reynolds.mesh import Array
 from reynolds.solve import flow_balance, flow_terms
 
@@ -118,7 +118,7 @@ def loads(solution: FilmSolution, weight: Array | None = None) -> Loads:
         moment_y=moment_y,
         pressure_max=float(solution.pressure[peak]),
         pressure_max_at=_place(solution, peak),
-        film_thickness_min=float(space.to_vertices(film.thickness).min()),
+        film_thickness_min=float(min(vertex_thickness(solution.problem).min(), film.thickness.min())),
         friction_moving=(moving[0], moving[1]),
         friction_fixed=(fixed[0], fixed[1]),
         friction_torque_moving=_torque(fields.shear_moving, x, y, rubbing),

@@ -24,6 +24,7 @@ from reynolds.space import FilmSpace
 
 MAX_ITERATIONS = 100
 TOLERANCE = 1e-9
+SMALLEST_CONDUCTANCE = 1e-250  # m3/(Pa s): products of less are no longer numbers of full precision
 
 
 @dataclass(frozen=True)
@@ -46,14 +47,15 @@ class FilmSolver:
         """The pressure field of `problem`; `start` warms pressures and cavity.
 
         Afterwards every free unknown's flow balance holds to 1e-9 of the flows meeting there. Raises
-        FilmInputError if no pressure level is given or a boundary lies below cavitation pressure, and
-        FilmNotConverged when the active set does not settle.
+        FilmInputError as `check_pressures` does, and FilmNotConverged when the active set does not settle.
         """
         space = problem.space
         if space.pattern is not self._pattern:
             raise FilmInputError("space", "another mesh", "the space of this solver, moved or not")
         setting = _spread(problem)
-        flows = flow_terms(problem.film)
+        with np.errstate(over="ignore"):  # told of in words
+            flows = flow_terms(problem.film)
+        _check_conductance(flows[0])
         pressure = setting.pressure.copy()
         if start is not None:
             pressure = np.where(setting.held, pressure, start.pressure)
@@ -150,6 +152,12 @@ def flow_terms(film: Film) -> FlowTerms:
     return h**3 / (12.0 * film.viscosity), h * mean_x, h * mean_y, film.squeeze
 
 
+def _check_conductance(conductance: Array) -> None:
+    if conductance.min() < SMALLEST_CONDUCTANCE or not np.isfinite(conductance).all():
+        found = f"h^3/(12 mu) from {conductance.min():.3g} to {conductance.max():.3g} m3/(Pa s)"
+        raise FilmInputError("film", found, f"finite and at least {SMALLEST_CONDUCTANCE:g}")
+
+
 def flow_balance(space: FilmSpace, flows: FlowTerms, pressure: Array) -> tuple[Array, Array]:
     """Flow balance of every unknown (size,) m3/s, and the size of the flows that meet there (see `kernels`)."""
     out, size = np.empty(space.size), np.empty(space.size)
@@ -159,6 +167,15 @@ def flow_balance(space: FilmSpace, flows: FlowTerms, pressure: Array) -> tuple[A
         reference.geometry_gradient, reference.weights, *flows, pressure, out, size,
     )  # fmt: skip
     return out, size
+
+
+def check_pressures(problem: FilmProblem) -> None:
+    """Raise FilmInputError where no pressure is solved for.
+
+    That is where a boundary is not of the mesh, where a piece of the film has no pressure level, or where a
+    boundary lies below cavitation pressure.
+    """
+    _spread(problem)
 
 
 def _spread(problem: FilmProblem) -> _Setting:
@@ -181,8 +198,13 @@ def _spread(problem: FilmProblem) -> _Setting:
     if problem.held_nodes is not None:
         more = ~np.isnan(problem.held_nodes)
         pressure[more], held[more] = problem.held_nodes[more], True
-    if not held.any() and not any(pocket.feed(level)[1] < 0.0 for _, pocket in pockets):
-        raise FilmInputError("boundary", "no pressure given anywhere", "at least one boundary with a pressure")
+    if not np.isfinite(pressure).all():
+        raise FilmInputError("boundary", "a pressure that is not finite", "a number of Pa")
+    fed = held.copy()
+    fed[[node for node, pocket in pockets if pocket.feed(level)[1] < 0.0]] = True
+    if dry := space.pattern.pieces_without(fed):
+        where = f"in {dry} of {space.pattern.pieces[0]} separate pieces of the film" if fed.any() else "anywhere"
+        raise FilmInputError("boundary", f"no pressure given {where}", "a boundary with a pressure at each piece")
     if problem.cavitation is Cavitation.REYNOLDS and (low := pressure[held].min(initial=np.inf)) < level:
         raise FilmInputError(
             "boundary", f"pressure {low:.4g} Pa", f"at least the cavitation pressure {level:.4g} Pa"

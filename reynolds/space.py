@@ -13,6 +13,7 @@ import numpy as np
 import skfem
 from numpy.typing import NDArray
 from scipy.sparse import coo_array, csc_array
+from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
 from reynolds import kernels
@@ -47,6 +48,21 @@ class Pattern:
     indptr: NDArray[np.int32]
     indices: NDArray[np.int32]
     slots: NDArray[np.int32]  # (cells, basis (basis + 1) / 2)
+
+    @cached_property
+    def pieces(self) -> tuple[int, NDArray[np.int32]]:
+        """How many pieces the film falls into, and the piece of each unknown (size,)."""
+        size = len(self.indptr) - 1
+        graph = csc_array((np.ones(len(self.indices), dtype=bool), self.indices, self.indptr), shape=(size, size))
+        count, piece = connected_components(graph, directed=False)
+        return int(count), piece
+
+    def pieces_without(self, marked: NDArray[np.bool_]) -> int:
+        """Number of pieces of the film in which no unknown is marked."""
+        count, piece = self.pieces
+        reached = np.zeros(count, dtype=bool)
+        reached[piece[marked]] = True
+        return int(np.count_nonzero(~reached))
 
 
 @dataclass(frozen=True)

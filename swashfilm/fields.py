@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from reynolds.mesh import Array, FilmMesh
+from reynolds.mesh import Array, FilmMesh, read_mesh_file
 from reynolds.space import FilmSpace
 from swashfilm.expressions import CONSTANTS, VARIABLES, Expression, ExpressionError, parse_expression
 from system.faults import nearest_choice
@@ -38,6 +38,10 @@ class Uniform:
         """(1, 1)."""
         return space.sample(self.value)
 
+    def at_vertices(self, space: FilmSpace) -> Array | None:
+        """The value, (vertices,)."""
+        return np.full(len(space.vertices), self.value)
+
     def __str__(self) -> str:
         """As a case file writes it."""
         return format_quantity(self.value, self.dimension)
@@ -52,6 +56,10 @@ class Formula:
     def sample(self, space: FilmSpace) -> Array:
         """At the quadrature points, (cells, points)."""
         return space.sample(self.expression)
+
+    def at_vertices(self, space: FilmSpace) -> Array | None:
+        """At the vertices, (vertices,)."""
+        return self.expression(*space.vertices.T)
 
     def __str__(self) -> str:
         """As a case file writes it."""
@@ -69,6 +77,10 @@ class PointData:
         """Interpolated to the quadrature points, (cells, points)."""
         return space.sample_vertices(self.values)
 
+    def at_vertices(self, space: FilmSpace) -> Array | None:
+        """As the file has it, (vertices,)."""
+        return self.values
+
     def __str__(self) -> str:
         """As a case file writes it."""
         return self.name
@@ -84,6 +96,10 @@ class CellData:
     def sample(self, space: FilmSpace) -> Array:
         """(cells, 1)."""
         return space.sample_cells(self.values)
+
+    def at_vertices(self, space: FilmSpace) -> Array | None:
+        """None: it has no one value where cells meet."""
+        return None
 
     def __str__(self) -> str:
         """As a case file writes it."""
@@ -136,9 +152,7 @@ def may_be_data(raw: object) -> bool:
 
 def mesh_data(path: Path, film_mesh: FilmMesh) -> MeshData:
     """The scalar data of a mesh file that `reynolds.mesh.mesh_from_file` has read."""
-    import meshio
-
-    raw = meshio.read(path)
+    raw = read_mesh_file(path)
     mesh = film_mesh.mesh
     kind = "triangle" if mesh.t.shape[0] == 3 else "quad"
     blocks = [index for index, block in enumerate(raw.cells) if block.type == kind]

@@ -9,11 +9,13 @@ from typing import Any
 
 import numpy as np
 
+from reynolds.errors import FilmInputError
 from reynolds.film import Cavitation, Film, FilmProblem, Held
 from reynolds.mesh import Array
+from reynolds.solve import check_pressures
 from reynolds.space import FilmSpace, film_space
 from swashfilm.case_table import Table, fault_lines, read_toml
-from swashfilm.fields import Field, Formula, MeshData, may_be_data, read_field
+from swashfilm.fields import Field, MeshData, may_be_data, read_field
 from swashfilm.gap_case import FORMAT, GapCase, read_gap_case
 from swashfilm.mesh_case import CaseMesh, read_mesh
 from swashfilm.oil_case import read_oil
@@ -69,6 +71,11 @@ def load_case(path: Path) -> FilmCase | GapCase:
 def _free_film(path: Path, text: str, top: Table, film: Table) -> FilmCase | None:
     read = _read(top, film, path.parent)
     problem = _problem(film, read)
+    if problem and not top.faults:
+        try:
+            check_pressures(problem)
+        except FilmInputError as reason:
+            top.fault(reason.where, reason.found, reason.expected)
     return None if top.faults or problem is None else FilmCase(path.stem, text, _resolved(read), problem)
 
 
@@ -240,9 +247,10 @@ def _problem(film: Table, read: _Film) -> FilmProblem | None:
     if read.cavitation is None or read.cavitation_pressure is None:
         return None
     still = np.zeros((1, 1))
+    corners = read.thickness.at_vertices(space) if read.thickness else None
     return FilmProblem(
         space=space,
-        film=Film(thickness, viscosity, (u, v), (still, still), squeeze),
+        film=Film(thickness, viscosity, (u, v), (still, still), squeeze, corners),
         boundary={name: Held(pressure) for name, pressure in read.boundary.items()},
         cavitation=read.cavitation,
         cavitation_pressure=read.cavitation_pressure,
@@ -258,8 +266,7 @@ def _sampled(
     values = field.sample(space)
     x, y = (np.broadcast_to(part, space.area.shape) for part in space.points)
     full = np.broadcast_to(values, space.area.shape)
-    if isinstance(field, Formula):  # the corners too: a formula may end at zero right at the edge
-        corners = field.expression(*space.vertices.T)
+    if (corners := field.at_vertices(space)) is not None:  # a film may end at zero right at the edge
         x, y = (np.append(part, space.vertices[:, axis]) for axis, part in enumerate((x, y)))
         full = np.append(full, corners)
     bad = ~np.isfinite(full) | ((full <= 0.0) if positive else np.zeros(full.shape, dtype=bool))

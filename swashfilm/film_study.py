@@ -11,7 +11,7 @@ import numpy as np
 
 from gaps.result import GapFilm
 from reynolds.export import write_vtu
-from reynolds.film import Cavitation, FilmSolution
+from reynolds.film import Cavitation, FilmSolution, vertex_thickness
 from reynolds.loads import Loads, loads, point_fields
 from reynolds.solve import FilmSolver
 from swashfilm.film_case import FilmCase
@@ -150,7 +150,7 @@ def film_dataset(study: FilmStudy) -> xarray.Dataset:
     return xarray.Dataset(
         {
             "film_pressure": ("vertex", pressure, {"units": "Pa"}),
-            "film_thickness": ("vertex", space.to_vertices(thickness), {"units": "m"}),
+            "film_thickness": ("vertex", vertex_thickness(study.solution.problem), {"units": "m"}),
             "film_thickness_cell": ("cell", mean(thickness), {"units": "m"}),
             "wall_shear_x": ("cell", mean(shear[0]), {"units": "Pa", "wall": "moving"}),
             "wall_shear_y": ("cell", mean(shear[1]), {"units": "Pa", "wall": "moving"}),

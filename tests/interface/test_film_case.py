@@ -94,6 +94,28 @@ def test_a_mesh_file_with_loose_points_is_refused(write, tmp_path):
     assert "1 points in no cell" in str(faults)
 
 
+def test_data_that_end_at_zero_in_a_point_are_no_film(write, tmp_path):
+    points = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]) * 1e-3
+    ends = {"h": np.array([1e-5, 0.0, 0.0, 1e-5])}
+    meshio.write_points_cells(tmp_path / "one.vtu", points, [("quad", np.array([[0, 1, 2, 3]]))], point_data=ends)
+    faults = faults_of(write(GOOD.replace(MESH, '"one.vtu"').replace('"10 um"', '"h"')))
+    assert "'h' is 0 at x = 0.001 m" in str(faults)
+
+
+def test_a_step_within_cells_keeps_its_least_film(write):
+    formula = "where(x < 0.0047, 30e-6, 1e-6)"
+    summary = film_summary(solve_case(load_case(write(GOOD.replace("10 um", formula)))))
+    assert summary["film_thickness_min_m"] == 1e-6
+
+
+def test_a_piece_of_film_without_a_pressure_is_a_fault(write, tmp_path):
+    points = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]) * 1e-3
+    both = np.vstack([points, points + np.array([2e-3, 0.0, 0.0])])
+    meshio.write_points_cells(tmp_path / "two.vtu", both, [("quad", np.array([[0, 1, 2, 3], [4, 5, 6, 7]]))])
+    faults = faults_of(write(GOOD.replace(MESH, '"two.vtu"')))
+    assert "1 of 2 separate pieces" in str(faults)
+
+
 def test_an_edge_of_two_names_has_one_pressure(write, tmp_path):
     points = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]) * 1e-3
     meshio.write_points_cells(tmp_path / "one.vtu", points, [("quad", np.array([[0, 1, 2, 3]]))])
