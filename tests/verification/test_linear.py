@@ -1,0 +1,53 @@
+"""The linear solves of a film: multigrid above its size, and the direct solver where that stalls."""
+
+import numpy as np
+import pytest
+from scipy.sparse import csc_array, triu
+
+from reynolds import linear
+from reynolds.film import ZERO, Cavitation, FilmProblem, Held, film
+from reynolds.loads import loads
+from reynolds.mesh import Cell, rectangle
+from reynolds.solve import FilmSolver
+from reynolds.space import film_space
+
+
+def laplacian(n: int) -> csc_array:
+    full = np.diag(np.full(n, 2.0)) - np.diag(np.ones(n - 1), 1) - np.diag(np.ones(n - 1), -1)
+    return csc_array(triu(csc_array(full)))
+
+
+@pytest.mark.parametrize("limit", [10, 10_000])
+def test_both_solvers_solve(limit, monkeypatch):
+    monkeypatch.setattr(linear, "DIRECT_LIMIT", limit)
+    factor = linear.Factor()
+    for scale in (1.0, 3.0):  # the second time with the pattern kept
+        factor.update(scale * laplacian(200))
+        # Two point loads on a string: linear between them, by hand.
+        load = np.zeros(200)
+        load[99] = scale
+        expected = np.minimum(np.arange(1, 201) * 101.0, 100.0 * (201.0 - np.arange(1, 201))) / 201.0
+        np.testing.assert_allclose(factor.solve(load), expected, rtol=1e-8)
+
+
+def test_a_stalled_multigrid_hands_over_to_the_direct_solver(monkeypatch):
+    monkeypatch.setattr(linear, "DIRECT_LIMIT", 10)
+    monkeypatch.setattr(linear, "ITERATIVE_TOLERANCE", 1e-30)  # beyond what conjugate gradients can reach
+    factor = linear.Factor()
+    factor.update(laplacian(300))
+    load = np.random.default_rng(1).standard_normal(300)
+    full = (laplacian(300) + triu(laplacian(300), 1).T).toarray()
+    np.testing.assert_allclose(full @ factor.solve(load), load, atol=1e-9)
+
+
+@pytest.mark.slow
+def test_a_deep_pocket_on_a_large_mesh_is_solved():
+    space = film_space(rectangle((1e-2, 1e-2), (260, 260), cell=Cell.QUADRILATERAL))
+    assert space.size > linear.DIRECT_LIMIT
+    x, y = space.points
+    inside = (np.abs(x - 5e-3) < 2e-3) & (np.abs(y - 5e-3) < 2e-3)
+    oil = film(np.where(inside, 5e-3, 1e-5), 0.03, velocity_moving=(np.ones((1, 1)), ZERO))
+    edges = {"left": Held(1e6), "right": Held(0.0)}
+    solution = FilmSolver(space).solve(FilmProblem(space, oil, edges, Cavitation.NONE))
+    assert loads(solution).mass_balance_error < 1e-9
+    assert loads(solution).energy_balance_error < 1e-9
