@@ -262,7 +262,12 @@ def _report(options: argparse.Namespace) -> int:
         from swashfilm.pump_page import write_pump_page as write_page
     else:
         raise InputFaults(str(options.folder), [Fault("summary.json", f"kind {kind!r}", "'film' or 'pump'")])
-    show(f"report in {write_page(options.folder)}")
+    try:
+        page = write_page(options.folder)
+    except (KeyError, OSError) as reason:
+        expected = "the files of a finished run of this version, in a folder that can be written"
+        raise InputFaults(str(options.folder), [Fault("DIR", repr(reason), expected)]) from None
+    show(f"report in {page}")
     return 0
 
 

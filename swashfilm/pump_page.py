@@ -56,10 +56,12 @@ def write_pump_page(folder: Path) -> Path:
 
 
 def map_caption(data: Any, gap: str) -> str:
-    """Title of a gap's maps and the shaft angle they stand at; the ring repeats after each pitch."""
-    angle = np.degrees(data[f"{gap}_angle"].values[pump_plots.pictured(data, gap)])
+    """Title of a gap's maps, the shaft angle and the position they stand at; the ring repeats after each pitch."""
+    k = pump_plots.pictured(data, gap)
+    angle = np.degrees(data[f"{gap}_angle"].values[k])
+    source = "from balance" if data[f"{gap}_balanced"].values[k] else "given"
     whose = "block" if gap == "valve_plate" else "shaft"
-    return f"{TITLES[gap]} at {whose} angle {angle:.0f} deg"
+    return f"{TITLES[gap]} at {whose} angle {angle:.0f} deg, position {source}"
 
 
 def headline_rows(summary: Mapping[str, Any]) -> Rows:

@@ -2,6 +2,7 @@
 
 import json
 import re
+import shutil
 
 import numpy as np
 import pandas
@@ -92,6 +93,14 @@ def test_report_is_made_anew_from_the_folder(lumped):
     assert (lumped / "report.html").read_text("utf-8") == before
 
 
+def test_a_folder_that_is_not_whole_is_bad_input(lumped, tmp_path, capsys):
+    for name, text in (("summary.json", '{"kind": "pump"}'), ("results.nc", "cut off")):
+        broken = shutil.copytree(lumped, tmp_path / name)
+        (broken / name).write_text(text, "utf-8")
+        assert main(["report", str(broken)]) == 2
+        assert "files of a finished run of this version" in capsys.readouterr().err
+
+
 def test_a_pump_that_delivers_nothing_has_no_efficiency(tmp_path, capsys):
     """Hot, slow and nearly at zero stroke the gaps take more than the pistons move."""
     folder = tmp_path / "run"
@@ -154,6 +163,7 @@ def test_paraview_series_lie_in_their_true_place(films):
 @pytest.mark.slow
 def test_films_report_shows_the_gaps(films):
     page = (films / "report.html").read_text("utf-8")
+    assert "slipper-swash plate at shaft angle 270 deg, position given" in page
     assert "The three gaps" in page
     assert page.count("data:image/png") >= 7
     assert "load_not_carried" in page
