@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 import tomllib
 from collections.abc import Iterable, Mapping
@@ -130,7 +131,7 @@ class Table:
         raw = self.get(key)
         if raw is None and default is not None:
             return default
-        if isinstance(raw, bool) or not isinstance(raw, (int, float)):
+        if isinstance(raw, bool) or not isinstance(raw, (int, float)) or not math.isfinite(raw):
             self.fault(key, "no such key" if raw is None else repr(raw), "a bare number (it has no unit)")
             return None
         return float(raw)

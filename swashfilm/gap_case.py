@@ -8,10 +8,9 @@ from pathlib import Path
 
 import numpy as np
 
-from gaps.piston import PistonGap, PistonLoad, PistonState, eccentric
-from gaps.slipper import SlipperGap, SlipperLoad, SlipperPosition, SlipperState
-from gaps.valve_plate import ValvePlateGap, ValvePlatePosition, ValvePlateState
-from reynolds.errors import FilmInputError
+from gaps.piston import PistonLoad, PistonState, eccentric
+from gaps.slipper import SlipperLoad, SlipperPosition, SlipperState
+from gaps.valve_plate import ValvePlatePosition, ValvePlateState
 from reynolds.mesh import Array
 from swashfilm.case_table import Table, quoted
 from system.faults import Fault, InputFaults
@@ -103,19 +102,23 @@ def read_gap_case(name: str, text: str, top: Table, film: Table, folder: Path) -
     position, load = top.table("position"), top.table("load")
     if position and load:
         top.fault("load", "a load beside a position", "one of the two")
-    if gap is None or parts is None or shaft_angle is None:
+        load = None
+    if gap is None:
+        film.get("chamber_pressure")
+        film.close()
         return None
-    pressures = _chamber_pressure(film, gap, parts, shaft_angle)
-    if pressures is None:
-        return None
+    # After a fault the built-in pump stands in, so that the rest of the file is read for its faults too.
+    known = parts or rotor(load_pump("ref90"), operating_point(load_pump("ref90")))
+    angle = shaft_angle or 0.0
+    pressures = _chamber_pressure(film, gap, known, angle, count_pistons=parts is not None)
     read = {Gap.PISTON: _piston, Gap.SLIPPER: _slipper, Gap.VALVE_PLATE: _valve_plate}[gap]
-    instant = read(parts, shaft_angle, pressures, position, load)
+    instant = read(known, angle, pressures, position, load)
     for table in (film, position, load):
         if table and table is not top:
             table.close()
-    if instant is None or not _film_is_possible(top, parts, instant):
+    if parts is None or instant is None or not _is_possible(top, film, parts, pressures, instant):
         return None
-    case = GapCase(name, text, "", gap, parts, shaft_angle, pressures, instant, load is not None)
+    case = GapCase(name, text, "", gap, parts, angle, pressures, instant, load is not None)
     source = str(film.values["pump"])
     return replace(case, resolved=_resolved(case, source if source in builtin_pumps() else str(folder / source)))
 
@@ -140,21 +143,26 @@ def _rotor(top: Table, film: Table, folder: Path) -> Rotor | None:
     return rotor(pump, operating_point(pump))
 
 
-def _chamber_pressure(film: Table, gap: Gap, parts: Rotor, shaft_angle: float) -> Array | None:
-    """Chamber pressures (Pa): one, or one of each chamber for the valve plate; by port where none is stated."""
+def _chamber_pressure(film: Table, gap: Gap, parts: Rotor, angle: float, *, count_pistons: bool) -> Array:
+    """Chamber pressures (Pa): one, or one of each chamber for the valve plate; by port where none is stated.
+
+    Faults are told; then the pressures are those of the ports. `count_pistons`: the number of pistons is known.
+    """
     count = parts.pump.pump.pistons if gap is Gap.VALVE_PLATE else 1
-    angle = (shaft_angle + 2.0 * np.pi / parts.pump.pump.pistons * np.arange(count)) % (2.0 * np.pi)
+    angles = (angle + 2.0 * np.pi / parts.pump.pump.pistons * np.arange(count)) % (2.0 * np.pi)
+    of_ports = np.where(angles < np.pi, parts.point.inlet_pressure, parts.point.delivery_pressure)
     raw = film.get("chamber_pressure")
     if raw is None:
-        return np.where(angle < np.pi, parts.point.inlet_pressure, parts.point.delivery_pressure)
+        return of_ports
     listed = raw if isinstance(raw, list) else [raw]
-    if len(listed) != count:
+    if len(listed) != count and count_pistons:
         film.fault("chamber_pressure", f"{len(listed)} pressures", f"{count}, one of each chamber")
-        return None
-    names = [f"chamber_pressure[{k}]" for k in range(count)] if count > 1 else ["chamber_pressure"]
+        return of_ports
+    many = len(listed) > 1
+    names = [f"chamber_pressure[{k}]" if many else "chamber_pressure" for k in range(len(listed))]
     reader = Table(film.path, dict(zip(names, listed, strict=True)), film.faults)
     values = [reader.quantity(name, Dimension.PRESSURE) for name in names]
-    return None if None in values else np.array(values, dtype=float)
+    return of_ports if None in values or len(values) != count else np.array(values, dtype=float)
 
 
 def _piston(
@@ -204,6 +212,8 @@ def _valve_plate(
 ) -> ValvePlateInstant | None:
     state, given, pressing_force = valve_plate_instant(parts, angle, pressure)
     if load:
+        for key in load.values:
+            load.get(key)
         load.fault("force", "a load on the valve plate", "a [position]: this version does not balance the block")
         return None
     if position:
@@ -224,20 +234,30 @@ def _tilted(position: Table) -> tuple[float, float, float] | None:
     return thickness, float(np.tan(slope_x)), float(np.tan(slope_y))
 
 
-def _film_is_possible(top: Table, parts: Rotor, instant: Instant) -> bool:
-    """False, with the fault told, where the parts touch at the stated position."""
-    try:
-        match instant:
-            case PistonInstant(state, _, position, _):
-                PistonGap(piston_geometry(parts.pump)).problem(state, position)
-            case SlipperInstant(state, _, position, _):
-                SlipperGap(slipper_geometry(parts.pump)).problem(state, position)
-            case ValvePlateInstant(state, _, position):
-                ValvePlateGap(valve_plate_geometry(parts.pump)).problem(state, position)
-    except FilmInputError as reason:
-        top.fault("position", f"{reason.where}: {reason.found}", f"{reason.expected}: parts that do not touch")
-        return False
-    return True
+def _is_possible(top: Table, film: Table, parts: Rotor, pressures: Array, instant: Instant) -> bool:
+    """False, with the faults told, where the parts touch or a chamber is below the pressure of a cavity."""
+    least, lowest = _least_film(parts, instant), instant.state.cavitation_pressure
+    if touching := not least > 0.0:
+        found = f"a least film thickness of {least:.4g} m"
+        top.fault("position", found, "positive everywhere: parts that do not touch")
+    if below := bool(pressures.min() < lowest):
+        found = format_quantity(float(pressures.min()), Dimension.PRESSURE)
+        least_pressure = format_quantity(lowest, Dimension.PRESSURE)
+        film.fault("chamber_pressure", found, f"at least {least_pressure}, at which a cavity opens")
+    return not touching and not below
+
+
+def _least_film(parts: Rotor, instant: Instant) -> float:
+    """Least film thickness (m) at the position: of a tilted plane at the outer edge, of a piston at an end."""
+    match instant:
+        case PistonInstant(position=ends):
+            clearance = piston_geometry(parts.pump).radial_clearance
+            return float(clearance - max(np.hypot(*ends[:2]), np.hypot(*ends[2:])))
+        case SlipperInstant(position=at):
+            radius = slipper_geometry(parts.pump).land_outer_radius
+        case ValvePlateInstant(position=at):
+            radius = valve_plate_geometry(parts.pump).land_radii[3]
+    return float(at.film_thickness - radius * np.hypot(at.slope_x, at.slope_y))
 
 
 def _resolved(case: GapCase, source: str) -> str:

@@ -272,6 +272,44 @@ def test_a_fault_of_a_gap_case_says_where(write, old, new, path, words):
         assert word in f"{told[0].found} {told[0].expected} {told[0].nearest}", str(faults)
 
 
+@pytest.mark.parametrize(
+    ("gap", "position"),
+    [
+        ("piston", "eccentricity_ratio = 1.0"),
+        ("piston", 'eccentricity_chamber = ["0 um", "-15.1 um"]\neccentricity_case = ["0 um", "0 um"]'),
+        ("slipper", 'film_thickness = "10 um"\nslope_y = "0.000715 rad"'),  # 14 mm: 10.01 um
+        ("valve_plate", 'film_thickness = "8 um"\nslope_x = "-0.000176 rad"'),  # 45.7 mm: 8.04 um
+    ],
+)
+def test_parts_that_touch_between_the_points_of_the_mesh_do_touch(write, gap, position):
+    text = GAP.partition("[position]")[0].replace("slipper", gap) + "[position]\n" + position
+    assert "do not touch" in str(faults_of(write(text)))
+
+
+def test_a_gap_case_tells_all_its_faults_at_once(write):
+    text = (
+        GAP.replace('"10 um"', '"10"').replace('"270 deg"', '"270"').replace("[position]", "speed = 3\n[position]")
+    )
+    text += 'slope = "1 deg"\n[operating]\nspeed = "2100"\n'
+    assert {fault.path for fault in faults_of(write(text)).faults} == {
+        "operating.speed", "film.shaft_angle", "film.speed", "position.film_thickness", "position.slope",
+    }  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("gap", "pressure"), [("piston", "'-2 bar'"), ("slipper", "'-1.01 bar'"), ("valve_plate", str(["-2 bar"] * 9))]
+)
+def test_a_chamber_below_the_pressure_of_a_cavity_is_a_fault(write, gap, pressure):
+    text = GAP.partition("[position]")[0].replace("slipper", gap) + f"chamber_pressure = {pressure}\n"
+    (fault,) = faults_of(write(text)).faults
+    assert fault.path == "film.chamber_pressure"
+
+
+def test_a_load_on_the_valve_plate_is_one_fault(write):
+    text = GAP.partition("[position]")[0].replace("slipper", "valve_plate") + "[load]\nforce = '1 N'\n"
+    assert [fault.path for fault in faults_of(write(text)).faults] == ["load.force"]
+
+
 def test_a_pump_file_stands_beside_the_case(write):
     from importlib.resources import files
 
