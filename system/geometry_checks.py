@@ -106,6 +106,16 @@ def slipper_land_has_a_width(pump: PumpDescription) -> Iterator[Finding]:
         yield Fault("slipper.land_inner_radius", length(inner), f"less than land_outer_radius, {length(outer)}")
 
 
+@needs("slipper.orifice_diameter", "slipper.land_inner_radius")
+def orifice_opens_into_the_pocket(pump: PumpDescription) -> Iterator[Finding]:
+    """The orifice is narrower than the pocket that it feeds."""
+    orifice, pocket = pump.slipper.orifice_diameter, 2 * pump.slipper.land_inner_radius
+    if orifice >= pocket:
+        yield Fault(
+            "slipper.orifice_diameter", length(orifice), f"less than the pocket's diameter, {length(pocket)}"
+        )
+
+
 @needs("pump.piston_diameter", "slipper.land_inner_radius", "slipper.land_outer_radius")
 def slipper_is_not_lifted_off(pump: PumpDescription) -> Iterator[Finding]:
     """The hydrostatic force of a parallel slipper at full pocket pressure stays below the piston force."""
@@ -313,6 +323,7 @@ GEOMETRY_CHECKS = (
     displacement_is_that_of_the_geometry,
     slippers_clear_each_other,
     slipper_land_has_a_width,
+    orifice_opens_into_the_pocket,
     slipper_is_not_lifted_off,
     valve_plate_lands_are_in_order,
     kidneys_lie_between_the_lands,

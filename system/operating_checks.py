@@ -16,6 +16,8 @@ from system.units import Dimension, format_quantity, to_absolute, to_gauge
 CAVITATION_PRESSURE_ABS = 5e3
 # What makers of axial piston pumps ask of a suction line, 0.8 bar absolute: below it chambers fill in part.
 FILLING_PRESSURE_ABS = 80e3
+# Of its volume; a mineral oil (1.4 to 2 GPa, stiffer as it is pressed) is not pressed so far by any pump.
+LARGE_COMPRESSION = 0.1
 
 _PRESSURES = ("pressure", "inlet_pressure", "case_pressure")
 
@@ -81,6 +83,20 @@ def pressure_is_within_rating(pump: PumpDescription) -> Iterator[Finding]:
         )
 
 
+@needs("operating.pressure", "oil.bulk_modulus")
+def oil_is_little_compressed(pump: PumpDescription) -> Iterator[Finding]:
+    """The delivery pressure is small against the bulk modulus, which is taken as constant."""
+    ratio = pump.operating.pressure / pump.oil.bulk_modulus
+    if ratio > LARGE_COMPRESSION:
+        yield CheckWarning(
+            "oil.bulk_modulus",
+            f"{format_quantity(pump.oil.bulk_modulus, Dimension.MODULUS, digits=4)}, {1.0 / ratio:.3g} times the "
+            f"delivery pressure of {pressure(pump.operating.pressure)}",
+            f"{1.0 / LARGE_COMPRESSION:g} times (oil pressed by a tenth: its modulus is no constant there)",
+            "check the unit: GPa, not MPa?",
+        )
+
+
 @needs("operating.speed", "pump.rated_speed")
 def speed_is_within_rating(pump: PumpDescription) -> Iterator[Finding]:
     """The shaft turns, and not faster than rated."""
@@ -132,6 +148,7 @@ OPERATING_CHECKS = (
     case_is_above_cavitation,
     pump_raises_pressure,
     pressure_is_within_rating,
+    oil_is_little_compressed,
     speed_is_within_rating,
     displacement_ratio_is_possible,
     oil_has_a_viscosity,

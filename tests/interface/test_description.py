@@ -228,6 +228,7 @@ def test_a_folder_is_no_file(tmp_path):
         ("slipper.land_outer_radius", 'land_outer_radius = "15.2 mm"', "less than 15.03 mm"),
         ("pump.displacement", 'displacement = "80 cm3/rev"', "89.86 cm3/rev within 1 %"),
         ("slipper.land_inner_radius", 'land_inner_radius = "14 mm"', "less than land_outer_radius, 14 mm"),
+        ("slipper.orifice_diameter", 'orifice_diameter = "17 mm"', "less than the pocket's diameter, 16.4 mm"),
         ("valve_plate.land_radius_2", 'land_radius_2 = "20 mm"', "more than land_radius_1, 26.5 mm"),
         ("valve_plate.kidney_width", 'kidney_width = "9.2 mm"', "between land_radius_2, 31.5 mm"),
         ("valve_plate.kidney_arc", 'kidney_arc = "41 deg"', "less than 40 deg"),
@@ -340,6 +341,7 @@ def test_a_check_waits_for_values_it_can_trust(faults_of):
         ({"operating.inlet_pressure": "-0.3 bar"}, "operating.inlet_pressure"),
         ({"operating.pressure": "400 bar"}, "operating.pressure"),
         ({"operating.speed": "2500 rpm"}, "operating.speed"),
+        ({"oil.bulk_modulus": "1.6 MPa"}, "oil.bulk_modulus"),
         ({"slipper.land_inner_radius": "8.6 mm"}, "slipper.land_outer_radius"),
     ],
 )
