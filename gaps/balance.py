@@ -39,6 +39,8 @@ class Equilibrium:
         """The rest in words, in per cent of the load, and whether the search was cut short."""
         percent = 100.0 * self.rest
         limit = f", a search cut short after {MAX_STEPS} steps" if self.cut_short else ""
+        if percent > 100.0:
+            return f"nothing near it was found{limit}"
         return f"nearest miss {percent:{'.1f' if percent >= 0.1 else '.1g'}} % of the load{limit}"
 
 

@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     import xarray
 
 LARGEST_CAVITY_FLOW = 0.01  # of the throughput; Reynolds' condition makes or swallows oil in a cavity
+LARGEST_THICKNESS_RATIO = 0.05  # of the film's extent; beyond, flow across the film counts
 _STAGES = 3
 
 
@@ -122,6 +123,15 @@ def film_warnings(study: FilmStudy) -> list[dict[str, str]]:
                 f"(limit {LARGEST_CAVITY_FLOW:.0%}): what enters is not what leaves",
             }
         )
+    thick = _thickness_ratio(study.solution)
+    if thick > LARGEST_THICKNESS_RATIO:
+        found.append(
+            {
+                "name": "film_not_thin",
+                "text": f"the mean film is {thick:.2g} of the film's extent (limit {LARGEST_THICKNESS_RATIO:.2g} "
+                "for Reynolds' equation): millimetres for micrometres, or a mesh not in metres?",
+            }
+        )
     lowest = float(study.solution.pressure.min())
     if problem.cavitation is Cavitation.NONE and lowest < problem.cavitation_pressure:
         found.append(
@@ -132,6 +142,13 @@ def film_warnings(study: FilmStudy) -> list[dict[str, str]]:
             }
         )
     return found
+
+
+def _thickness_ratio(solution: FilmSolution) -> float:
+    """Mean film thickness over the root of the film's area."""
+    area = solution.problem.space.area
+    total = float(area.sum())
+    return float(np.sum(solution.problem.film.thickness * area)) / total**1.5
 
 
 def film_dataset(study: FilmStudy) -> xarray.Dataset:

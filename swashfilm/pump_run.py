@@ -6,12 +6,12 @@ from pathlib import Path
 from typing import Any
 
 from swashfilm.fidelity import Fidelity
-from swashfilm.film_study import LARGEST_CAVITY_FLOW
 from swashfilm.picture3d import draw
 from swashfilm.progress import Report
-from swashfilm.pump_data import GAPS, PICTURED_TURN, films_dataset, gap_films, point_dataset, write_tables
+from swashfilm.pump_data import GAPS, PICTURED_TURN, films_dataset, point_dataset, write_tables
 from swashfilm.pump_fields import FIELDS, vtu_name, write_fields
-from swashfilm.pump_summary import gap_statement, pump_summary
+from swashfilm.pump_summary import pump_summary
+from swashfilm.pump_warnings import films_warnings
 from swashfilm.run_folder import write_json
 from system.assembly import PumpPoint
 from system.description import PumpDescription
@@ -37,7 +37,7 @@ def run_pump(
     result = films.pump_point if films else lumped_point(pump, point)
     warnings = [str(warning) for warning in check_pump(pump).warnings]
     warnings += [str(remark) for remark in result.warnings]
-    warnings += uncarried_loads(films) + cavity_flows(films) if films else []
+    warnings += films_warnings(films) if films else []
     data = point_dataset(result, pump.name)
     if films:
         data = data.merge(films_dataset(films))
@@ -52,32 +52,6 @@ def run_pump(
 
     write_pump_page(folder)
     return summary
-
-
-def uncarried_loads(films: FilmsPoint) -> list[str]:
-    """A warning for each gap whose film, at some angle, does not hold its load at the position given."""
-    return [
-        f"load_not_carried: {gap.replace('_', ' ')}: {gap_statement(series)}; contact or what this model leaves "
-        "out (squeeze, elasticity, shape of wear) makes up the difference"
-        for gap, series in gap_films(films).items()
-        if not all(film.holds_its_load for film in series)
-    ]
-
-
-def cavity_flows(films: FilmsPoint) -> list[str]:
-    """A warning for each gap in whose cavities Reynolds' condition makes or swallows more than it may."""
-    found = []
-    for gap, series in gap_films(films).items():
-        made = sum(film.loads.cavity_flow for film in series)
-        share = abs(made) / sum(film.loads.throughput for film in series)
-        if share > LARGEST_CAVITY_FLOW:
-            verb = "makes" if made > 0.0 else "swallows"
-            found.append(
-                f"cavity_does_not_conserve_mass: {gap.replace('_', ' ')}: over the turn Reynolds' condition "
-                f"{verb} oil in the film's cavities, {share:.1%} of the throughput (limit "
-                f"{LARGEST_CAVITY_FLOW:.0%}); the pump's leakage is what enters the film from chambers and ports"
-            )
-    return found
 
 
 def draw_gaps(folder: Path, films: FilmsPoint) -> list[str]:

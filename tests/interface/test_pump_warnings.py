@@ -6,7 +6,15 @@ import numpy as np
 import pytest
 
 from gaps.piston import PistonGap, PistonGeometry, PistonLoad, PistonState
-from swashfilm.pump_run import cavity_flows, uncarried_loads
+from swashfilm.pump_warnings import (
+    cavity_flows,
+    coarse_angles,
+    impossible_pressures,
+    turbulent_orifice,
+    uncarried_loads,
+)
+from system.operating import operating_point
+from system.pump_file import load_pump
 
 EMPTY = PistonLoad((0.0, 0.0), 0.0)
 
@@ -38,3 +46,30 @@ def test_a_load_that_is_not_the_films_is_told_whether_larger_or_smaller(share, c
     held = film(100e6, PistonLoad((0.0, 1.0), 0.0)).carried_load
     told = uncarried_loads(films(film(100e6, PistonLoad((0.0, share * held), 0.0)), film(100e6)))
     assert len(told) == count
+
+
+def test_pressures_that_no_wall_would_stand_are_told():
+    told = impossible_pressures(films(film(150e6), film(50e6)))
+    assert len(told) == 1
+    assert told[0].startswith("film_pressure_beyond_rigid: piston: film pressure up to 1")
+    assert "limit 100 MPa" in told[0]
+
+
+@pytest.mark.parametrize(("flow", "count"), [(1e-6, 0), (4e-4, 1)])
+def test_an_orifice_beyond_its_capillary_law_is_told(flow, count):
+    # REF90's bore of 0.9 mm at 35 MPa: 4e-4 m3/s is 629 m/s, far beyond any laminar flow.
+    pump = load_pump("ref90")
+    point = SimpleNamespace(
+        rotor=SimpleNamespace(pump=pump, point=operating_point(pump)),
+        gaps=SimpleNamespace(slipper=(SimpleNamespace(chamber_flow=flow),), chamber_pressure=np.array([35e6])),
+    )
+    told = turbulent_orifice(point)
+    assert len(told) == count
+    assert all("orifice_not_a_capillary" in text and "m/s" in text for text in told)
+
+
+@pytest.mark.parametrize(("error", "count"), [(0.005, 0), (0.3, 1)])
+def test_too_few_film_angles_are_told(error, count):
+    told = coarse_angles(SimpleNamespace(sampling_error=error))
+    assert len(told) == count
+    assert all("30.0%" in text for text in told)
