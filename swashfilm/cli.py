@@ -151,6 +151,7 @@ def _pump(options: argparse.Namespace) -> PumpDescription:
     if options.fidelity not in _FIDELITIES:
         nearest = nearest_choice(options.fidelity, _FIDELITIES)
         faults.append(Fault("--fidelity", repr(options.fidelity), f"one of {', '.join(_FIDELITIES)}", nearest))
+    _expect(options.pump, "pump", "film", "film")
     try:
         pump = load_pump(options.pump, stated)
     except InputFaults as reason:
@@ -158,6 +159,18 @@ def _pump(options: argparse.Namespace) -> PumpDescription:
     if faults:
         raise InputFaults(COMMAND_LINE, faults)
     return pump
+
+
+def _expect(path: str | Path, wanted: str, other: str, command: str) -> None:
+    """Raise InputFaults for a file of the other kind, with the command that takes it."""
+    from swashfilm.case_table import read_toml
+
+    if not Path(path).is_file():
+        return
+    _, tables = read_toml(Path(path))
+    if isinstance(tables.get(other), dict) and not {wanted, "gap"} & set(tables):
+        fault = Fault("file", f"a file with [{other}]", f"a file with [{wanted}]", f"swashfilm {command} {path}")
+        raise InputFaults(str(path), [fault])
 
 
 def _pump_faults(options: argparse.Namespace, words: Sequence[str]) -> list[Fault]:
@@ -236,6 +249,7 @@ def _film(options: argparse.Namespace) -> int:
     from swashfilm.progress import progress
     from swashfilm.run_folder import final_folder, run_folder
 
+    _expect(options.case, "film", "pump", "run")
     case = load_case(options.case)
     with run_folder(case.name, options.output) as folder, progress(3, f"film {case.name}") as report:
         summary = run_case(case, folder, report)

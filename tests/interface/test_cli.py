@@ -14,6 +14,7 @@ import xarray
 from reynolds.errors import FilmNotConverged
 from swashfilm import film_study
 from swashfilm.__main__ import main
+from system.pump_file import load_pump, resolved_toml
 
 ROOT = Path(__file__).resolve().parents[2]
 EXAMPLES = ROOT / "examples" / "films"
@@ -74,6 +75,7 @@ def test_the_version_is_that_of_the_package(capsys):
 @pytest.mark.parametrize(
     ("words", "told"),
     [
+        (["run", "pad.toml"], ["1 fault", "a file with [film]", "swashfilm film pad.toml"]),
         (
             ["run", "--speed", "2100", "--presure", "1bar", "--displacement", "1.2"],
             ["3 faults", "--speed", "'2100 rpm'", "--presure", "--displacement", "at most 1"],
@@ -350,3 +352,12 @@ def test_examples_of_gaps_tell_their_position_and_its_source(gap):
     }
     assert set(summary["flow_m3_per_s"]) == names[gap]
     assert "load_not_carried" in {warning["name"] for warning in summary["warnings"]}
+
+
+def test_a_pump_file_is_no_film_case(tmp_path, capsys):
+    pump = tmp_path / "pump.toml"
+    pump.write_text(resolved_toml(load_pump("ref90")), encoding="utf-8")
+    assert main(["film", str(pump)]) == 2
+    told = capsys.readouterr().err
+    assert "1 fault" in told
+    assert f"swashfilm run {pump}" in told
