@@ -52,12 +52,6 @@ class FilmMesh:
         sewn = {name for pair in self.seams for name in pair}
         return tuple(sorted(set(self.mesh.boundaries or {}) - sewn))
 
-    @property
-    def edge_length(self) -> float:
-        """Longest edge of the mesh (m): the h of a convergence study."""
-        ends = self.mesh.p[:, self.mesh.facets]
-        return float(np.sqrt(((ends[:, 0] - ends[:, 1]) ** 2).sum(axis=0)).max())
-
 
 def rectangle(
     size: tuple[float, float],

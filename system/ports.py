@@ -51,13 +51,23 @@ def section_area(shaft_angle, port):  # type: ignore[no-untyped-def]
     return 0.0
 
 
+@numba.njit("f8(f8,f8,f8,f8,f8)", cache=True)
+def critical_pressure_drop(area, flow_coefficient, density, kinematic_viscosity, critical_reynolds):  # type: ignore[no-untyped-def]
+    """Pressure drop in Pa at which an orifice of given area in m2 turns from laminar to turbulent.
+
+    dp_cr = rho/2 (Re_cr nu/(Cd d_h))^2 with d_h = sqrt(4 A/pi). Source: Borutzky, Barnard, Thoma (2002), "An
+    orifice flow model for laminar and turbulent conditions", Simulation Modelling Practice and Theory 10.
+    """
+    diameter = np.sqrt(4.0 * area / np.pi)
+    return 0.5 * density * (critical_reynolds * kinematic_viscosity / (flow_coefficient * diameter)) ** 2
+
+
 @numba.njit("UniTuple(f8,2)(f8,f8,f8,f8,f8)", cache=True)
 def orifice_coefficients(area, flow_coefficient, density, kinematic_viscosity, critical_reynolds):  # type: ignore[no-untyped-def]
     """Cd A sqrt(2/rho) and the square of the critical pressure drop. For use inside compiled code."""
     if area <= 0.0:
         return 0.0, 1.0
-    root = critical_reynolds * kinematic_viscosity / flow_coefficient
-    critical_drop = 0.5 * density * root * root * np.pi / (4.0 * area)
+    critical_drop = critical_pressure_drop(area, flow_coefficient, density, kinematic_viscosity, critical_reynolds)
     return flow_coefficient * area * np.sqrt(2.0 / density), critical_drop * critical_drop
 
 
@@ -106,18 +116,6 @@ def break_angles(port: PortOpening) -> Array:
         [port.groove_start, port.groove_end, port.kidney_full_start, port.kidney_full_end, port.kidney_end]
     )
     return np.sort((port.dead_centre + own) % TURN)
-
-
-def critical_pressure_drop(
-    area: float, flow_coefficient: float, density: float, kinematic_viscosity: float, critical_reynolds: float
-) -> float:
-    """Pressure drop in Pa at which an orifice turns from laminar to turbulent.
-
-    dp_cr = rho/2 (Re_cr nu/(Cd d_h))^2 with d_h = sqrt(4 A/pi). Source: Borutzky, Barnard, Thoma (2002), "An
-    orifice flow model for laminar and turbulent conditions", Simulation Modelling Practice and Theory 10.
-    """
-    diameter = np.sqrt(4.0 * area / np.pi)
-    return float(0.5 * density * (critical_reynolds * kinematic_viscosity / (flow_coefficient * diameter)) ** 2)
 
 
 def orifice_flow(
