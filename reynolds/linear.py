@@ -1,4 +1,4 @@
-"""Symmetric positive definite solves with one sparsity pattern.
+"""Linear solves with one sparsity pattern: symmetric positive definite (`Factor`) and general (`GeneralFactor`).
 
 QDLDL (Stellato et al. 2020) keeps its symbolic part between calls and is the fastest of the freely licensed
 direct solvers below about 1e5 unknowns; above, conjugate gradients with algebraic multigrid
@@ -8,16 +8,21 @@ does it after all, slowly.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 import qdldl
-from scipy.sparse import csc_array, csc_matrix, csr_array, triu
+from numpy.typing import NDArray
+from scipy.sparse import coo_array, csc_array, csc_matrix, csr_array, triu
+from scipy.sparse.linalg import SuperLU, splu
 
+from reynolds.errors import FilmNotConverged
 from reynolds.mesh import Array
 
 DIRECT_LIMIT = 60_000
 ITERATIVE_TOLERANCE = 1e-11
+GENERAL_TOLERANCE = 1e-10  # residual over load beyond which an elimination without pivots is done again with them
 
 
 class Factor:
@@ -74,3 +79,102 @@ def _conjugate_gradients(matrix: csr_array, hierarchy: Any, load: Array) -> tupl
     answer = hierarchy.solve(load, tol=ITERATIVE_TOLERANCE, accel="cg", maxiter=200)
     reached = float(np.linalg.norm(load - matrix @ answer))
     return answer, reached <= 1e3 * ITERATIVE_TOLERANCE * float(np.linalg.norm(load))
+
+
+class GeneralFactor:
+    """A matrix of symmetric pattern and any values, factorised: `update`, then `solve` any number of times.
+
+    Made for the mass-conserving film, whose columns are symmetric in the film and upwind transport in the
+    cavity: pivots on the diagonal do, and where they do not the elimination is done again with pivots.
+    """
+
+    def __init__(self) -> None:
+        self._full: _FullPattern | None = None
+        self._matrix: csc_array | None = None
+        self._scale: tuple[Array, Array] | None = None
+        self._lu: SuperLU | None = None
+
+    def update(self, upper: csc_array, lower: Array) -> None:
+        """Take the upper triangle with its diagonal, and the mirrored entries.
+
+        lower[k] is the entry (j, i) where upper.data[k] is (i, j); on the diagonal it is not looked at. The
+        pattern never changes. Raises FilmNotConverged for a row or column of zeros.
+        """
+        if self._full is None:
+            self._full = _full_pattern(upper)
+        entries = np.concatenate([upper.data, lower])[self._full.source]
+        matrix = csc_array((entries, self._full.indices, self._full.indptr), shape=upper.shape)
+        columns = _largest(np.abs(entries), self._full.column, upper.shape[0])
+        entries = np.abs(entries) / columns[self._full.column]
+        rows = _largest(entries, self._full.indices, upper.shape[0])
+        self._scale = 1.0 / rows, 1.0 / columns
+        entries = matrix.data * self._scale[0][matrix.indices] * self._scale[1][self._full.column]
+        self._matrix = csc_array((entries, matrix.indices, matrix.indptr), shape=upper.shape)
+        self._lu = _eliminate(self._matrix, threshold=1e-3)
+
+    def solve(self, load: Array) -> Array:
+        """x with A x = load, (n,), refined once. Raises FilmNotConverged where the matrix is singular."""
+        assert self._matrix is not None
+        assert self._scale is not None
+        rows, columns = self._scale
+        scaled = rows * load
+        answer, good = _refined(self._lu, self._matrix, scaled)
+        if not good:
+            self._lu = _eliminate(self._matrix, threshold=1.0)
+            answer, good = _refined(self._lu, self._matrix, scaled)
+        if not good:
+            raise FilmNotConverged("the linearised film balance is singular", "a boundary that holds a pressure")
+        return columns * answer
+
+
+@dataclass(frozen=True)
+class _FullPattern:
+    """Both triangles by columns; `source` places each entry in (upper data, lower data)."""
+
+    indptr: NDArray[np.int32]
+    indices: NDArray[np.int32]
+    column: NDArray[np.int32]
+    source: NDArray[np.int64]
+
+
+def _full_pattern(upper: csc_array) -> _FullPattern:
+    size, count = upper.shape[0], len(upper.indices)
+    column = np.repeat(np.arange(size, dtype=np.int32), np.diff(upper.indptr))
+    off = np.flatnonzero(upper.indices != column)
+    row = np.concatenate([upper.indices, column[off]])
+    number = np.concatenate([np.arange(count), count + off])
+    full = coo_array((number + 1, (row, np.concatenate([column, upper.indices[off]]))), shape=upper.shape).tocsc()
+    full.sort_indices()
+    indptr, indices = full.indptr.astype(np.int32), full.indices.astype(np.int32)
+    return _FullPattern(
+        indptr, indices, np.repeat(np.arange(size, dtype=np.int32), np.diff(indptr)), full.data - 1
+    )
+
+
+def _largest(values: Array, place: NDArray[np.int32], size: int) -> Array:
+    """Largest value at each place, (size,)."""
+    found = np.zeros(size)
+    np.maximum.at(found, place, values)
+    if not found.all():
+        raise FilmNotConverged("a film balance that nothing enters", "a boundary that holds a pressure")
+    return found
+
+
+def _eliminate(matrix: csc_array, threshold: float) -> SuperLU | None:
+    """SuperLU (Li 2005); None where a pivot vanishes."""
+    options = {"SymmetricMode": threshold < 1.0, "Equil": False}
+    order = "MMD_AT_PLUS_A" if threshold < 1.0 else "COLAMD"
+    try:
+        return splu(matrix, permc_spec=order, diag_pivot_thresh=threshold, options=options)
+    except RuntimeError:  # "Factor is exactly singular"
+        return None
+
+
+def _refined(lu: SuperLU | None, matrix: csc_array, load: Array) -> tuple[Array, bool]:
+    """Solution after one step of refinement, and whether its residual is small."""
+    if lu is None:
+        return load, False
+    answer = lu.solve(load)
+    answer += lu.solve(load - matrix @ answer)
+    left = float(np.linalg.norm(load - matrix @ answer))
+    return answer, left <= GENERAL_TOLERANCE * float(np.linalg.norm(load))

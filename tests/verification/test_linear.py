@@ -51,3 +51,33 @@ def test_a_deep_pocket_on_a_large_mesh_is_solved():
     solution = FilmSolver(space).solve(FilmProblem(space, oil, edges, Cavitation.NONE))
     assert loads(solution).mass_balance_error < 1e-9
     assert loads(solution).energy_balance_error < 1e-9
+
+
+def upwind(n: int, seed: int = 3) -> tuple[csc_array, np.ndarray, np.ndarray]:
+    """A film of n x n cells with a cavity: symmetric columns in the film, upwind transport in the cavity.
+
+    Upper triangle, mirrored entries, and the dense matrix.
+    """
+    space = film_space(rectangle((1.0, 1.0), (n, n), cell=Cell.QUADRILATERAL))
+    full = np.zeros((space.size, space.size))
+    for cell in space.dofs:
+        full[np.ix_(cell, cell)] += (
+            np.array([[4, -1, -2, -1], [-1, 4, -1, -2], [-2, -1, 4, -1], [-1, -2, -1, 4]]) / 6
+        )
+    cavity = np.random.default_rng(seed).random(space.size) < 0.4
+    flow = np.where(full < 0.0, np.triu(np.ones_like(full), 1), 0.0)  # to higher numbers only, an M-matrix
+    transport = np.diag(flow.sum(axis=0) + 1e-3) - flow.T
+    matrix = np.where(cavity, 1e4 * transport, full + 1e-3 * np.eye(space.size))
+    pattern = space.pattern
+    column = np.repeat(np.arange(space.size), np.diff(pattern.indptr))
+    lower = matrix[column, pattern.indices]
+    return space.matrix(matrix[pattern.indices, column]), lower, matrix
+
+
+def test_a_general_matrix_is_solved():
+    factor = linear.GeneralFactor()
+    for seed in (3, 4):  # the second time with the pattern kept
+        upper, lower, matrix = upwind(12, seed)
+        load = np.random.default_rng(1).standard_normal(upper.shape[0])
+        factor.update(upper, lower)
+        np.testing.assert_allclose(matrix @ factor.solve(load), load, atol=1e-10)
