@@ -29,7 +29,8 @@ from skfem.helpers import dot, grad
 from reynolds.film import ZERO, Cavitation, FilmProblem, Held, film
 from reynolds.loads import point_fields
 from reynolds.mesh import Cell, FilmMesh, rectangle
-from reynolds.solve import FilmSolver, assemble, flow_terms
+from reynolds.balance import stiffness
+from reynolds.solve import FilmSolver
 from reynolds.space import FilmSpace, film_space
 
 ECCENTRICITY = 0.6

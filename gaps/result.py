@@ -62,7 +62,7 @@ class GapFilm:
     def film_thickness_mean(self) -> float:
         """Area mean of the film thickness (m)."""
         area = self.solution.problem.space.area
-        return float(np.sum(self.solution.problem.film.thickness * area) / np.sum(area))
+        return float(np.sum(self.solution.film.thickness * area) / np.sum(area))
 
 
 def wall_power(solution: FilmSolution, weight: Array | None = None) -> float:
@@ -70,7 +70,7 @@ def wall_power(solution: FilmSolution, weight: Array | None = None) -> float:
 
     `weight` leaves regions out that are no film, as in `reynolds.loads.loads`.
     """
-    film = solution.problem.film
+    film = solution.film
     fields = point_fields(solution)
     area = solution.problem.space.area if weight is None else solution.problem.space.area * weight
     stresses = (*fields.shear_moving, *fields.shear_fixed)

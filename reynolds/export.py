@@ -24,7 +24,7 @@ def write_vtu(path: Path, solution: FilmSolution, place: Callable[[Array], Array
 
     space = solution.problem.space
     fields = point_fields(solution)
-    thickness = np.broadcast_to(solution.problem.film.thickness, space.area.shape)
+    thickness = np.broadcast_to(solution.film.thickness, space.area.shape)
     shear = np.stack([np.broadcast_to(t, space.area.shape) for t in fields.shear_moving])
     cell_area = space.area.sum(axis=1)
     meshio.write_points_cells(
@@ -33,7 +33,7 @@ def write_vtu(path: Path, solution: FilmSolution, place: Callable[[Array], Array
         [("triangle" if space.cells.shape[1] == 3 else "quad", space.cells)],
         point_data={
             "film_pressure": solution.pressure[space.vertex_dofs],
-            "film_thickness": vertex_thickness(solution.problem),
+            "film_thickness": vertex_thickness(solution),
         },
         cell_data={
             "film_thickness_cell": [(thickness * space.area).sum(axis=1) / cell_area],

@@ -14,22 +14,34 @@ import numpy as np
 from numpy.typing import NDArray
 
 from reynolds.errors import FilmInputError
+from reynolds.fluid import CONSTANT, Fluid
 from reynolds.mesh import Array
 from reynolds.space import FilmSpace
+from reynolds.walls import Walls
 
 
 class Cavitation(Enum):
-    """What a film does that cannot be pulled: none (negative pressure stands) or Reynolds' condition."""
+    """What a film does that cannot be pulled.
+
+    NONE: negative pressure stands. REYNOLDS: pressure and its gradient vanish where the film ruptures; makes and
+    swallows oil in the cavity. JFO (Jakobsson and Floberg 1957, Olsson 1965): the cavity is filled in part, by a
+    film fraction that is carried along, and mass is conserved where the film ruptures and where it reforms.
+    """
 
     NONE = "none"
     REYNOLDS = "reynolds"
+    JFO = "jfo"
 
 
 @dataclass(frozen=True)
 class Held:
-    """Boundary at a given pressure (Pa)."""
+    """Boundary at a given pressure (Pa), with the film fraction (0 .. 1) of what it may send in.
+
+    Less than one, a starved supply, goes with the cavitation pressure, since a film filled in part bears none.
+    """
 
     pressure: float
+    film_fraction: float = 1.0
 
 
 @dataclass(frozen=True)
@@ -51,6 +63,10 @@ def no_feed(pressure: float) -> tuple[float, float]:
 Boundary = Held | Pocket
 
 
+ZERO = np.zeros((1, 1))
+HALF = np.full((1, 1), 0.5)
+
+
 @dataclass(frozen=True)
 class Film:
     """Film thickness, oil and motion at the quadrature points of a space.
@@ -59,6 +75,10 @@ class Film:
     wall velocities m/s (moving and fixed wall, x and y), squeeze = dh/dt at a fixed place, m/s.
     `thickness_at_vertices` (vertices,) m, for pictures and the least film: where it is not known it is
     extrapolated from the quadrature points, which is exact for a smooth film and void for a step within a cell.
+    Where viscosity varies across the film (Dowson 1962), `viscosity` is that of pressure flow,
+    `couette_viscosity` (Pa s; None: the same) that of sliding, and `moving_share` w the moving wall's share:
+    mean velocity w U_moving + (1 - w) U_fixed, shear of the pressure gradient w h grad p on the moving wall and
+    (1 - w) h grad p on the fixed one.
     Validity: thin (h much less than its length), laminar, inertia-free (rho U h^2/(mu L) << 1).
     """
 
@@ -68,9 +88,22 @@ class Film:
     velocity_fixed: tuple[Array, Array]
     squeeze: Array
     thickness_at_vertices: Array | None = None
+    couette_viscosity: Array | None = None
+    moving_share: Array = field(default_factory=lambda: HALF)
 
+    @property
+    def sliding_viscosity(self) -> Array:
+        """Viscosity of the stress of sliding, mu (U1 - U2)/h (Pa s)."""
+        return self.viscosity if self.couette_viscosity is None else self.couette_viscosity
 
-ZERO = np.zeros((1, 1))
+    @property
+    def mean_velocity(self) -> tuple[Array, Array]:
+        """Velocity with which the walls carry the film along, w U_moving + (1 - w) U_fixed (m/s)."""
+        w = self.moving_share
+        x, y = (
+            w * one + (1.0 - w) * two for one, two in zip(self.velocity_moving, self.velocity_fixed, strict=True)
+        )
+        return x, y
 
 
 def film(
@@ -90,20 +123,33 @@ def film(
 
 
 @dataclass(frozen=True)
+class Storage:
+    """What each unknown held one time step ago, (size,) m3 at reference density, and the step (s)."""
+
+    held_before: Array
+    step: float
+
+
+@dataclass(frozen=True)
 class FilmProblem:
     """One film with its boundary conditions; a named boundary that is left out is closed (no flow).
 
     `held_nodes` (size,) may hold further unknowns at a pressure: NaN where the film is free (regions of the
-    film plane that lie under a port). Pressures in Pa on one common reference, gauge or absolute.
+    film plane that lie under a port). `fluid` gives viscosity and density over pressure, `walls` how far the walls
+    give way. With `storage` the film is one step of a transient: the change of
+    what it holds takes the place of `film.squeeze`. Pressures in Pa on one common reference, gauge or absolute.
     Raises FilmInputError for a field that is not of the space, or of which a value is no number.
     """
 
     space: FilmSpace
     film: Film
     boundary: Mapping[str, Boundary]
-    cavitation: Cavitation = Cavitation.NONE
+    cavitation: Cavitation = Cavitation.JFO
     cavitation_pressure: float = 0.0
     held_nodes: Array | None = None
+    fluid: Fluid = CONSTANT
+    walls: Walls | None = None
+    storage: Storage | None = None
 
     def __post_init__(self) -> None:
         cells, points = self.space.area.shape
@@ -112,6 +158,7 @@ class FilmProblem:
             ("film thickness", oil.thickness), ("viscosity", oil.viscosity), ("squeeze", oil.squeeze),
             ("moving wall, x", oil.velocity_moving[0]), ("moving wall, y", oil.velocity_moving[1]),
             ("fixed wall, x", oil.velocity_fixed[0]), ("fixed wall, y", oil.velocity_fixed[1]),
+            ("sliding viscosity", oil.sliding_viscosity), ("moving wall's share", oil.moving_share),
         ):  # fmt: skip
             # The compiled loops trust these shapes: another one would read beside the array.
             shape = np.shape(field_values)
@@ -122,24 +169,36 @@ class FilmProblem:
                 raise FilmInputError(name, "a value that is not finite", "numbers")
 
 
-def vertex_thickness(problem: FilmProblem) -> Array:
+def vertex_thickness(solution: FilmSolution) -> Array:
     """Film thickness at the vertices (vertices,) m: as known, else extrapolated; jumps are averaged (plots)."""
-    known = problem.film.thickness_at_vertices
-    return problem.space.to_vertices(problem.film.thickness) if known is None else known
+    given = solution.problem.film
+    if given.thickness_at_vertices is None:
+        return solution.problem.space.to_vertices(solution.film.thickness)
+    return given.thickness_at_vertices + solution.opening
 
 
 @dataclass(frozen=True)
 class FilmSolution:
     """A pressure field and its quality.
 
-    pressure (size,) Pa; outflow: nodal residual fluxes (size,), m3/s, positive out of the film at held nodes
-    and pockets; cavity marks unknowns at cavitation pressure; `imbalance` is the largest residual of a free
-    unknown relative to the flows that meet there (round-off when converged).
+    pressure (size,) Pa; film_fraction (size,), 1 in the film; film: as it is under this pressure, with the walls'
+    opening (vertices,) m in its thickness and the oil's law in its viscosity; flux: what the walls carry along,
+    m2/s at the quadrature points of a full film. Of each unknown (size,), at reference density: outflow, m3/s
+    out of the film at held nodes and pockets; holds, its oil in m3, and swallowed, the rate of that in m3/s;
+    meeting: magnitudes of the flows that meet there, m3/s. `cavity` marks unknowns at cavitation pressure;
+    `imbalance` is the largest residual of a free unknown relative to `meeting` (round-off when converged).
     """
 
     problem: FilmProblem = field(repr=False)
     pressure: Array
+    film_fraction: Array
+    film: Film = field(repr=False)
+    opening: Array
+    flux: tuple[Array, Array] = field(repr=False)
     outflow: Array
+    holds: Array
+    swallowed: Array
+    meeting: Array
     held: NDArray[np.bool_]
     cavity: NDArray[np.bool_]
     imbalance: float

@@ -2,9 +2,10 @@
 
 Weak form of the Reynolds equation (Reynolds 1886): for every test function f
 
-    int h^3/(12 mu) grad p . grad f  -  int h U . grad f  +  int dh/dt f  =  - contour int q_n f
+    int r h^3/(12 mu) grad p . grad f - int theta r h U . grad f + int d(theta r h)/dt f = - contour int q_n f
 
-with U the mean velocity of the two walls and q_n the flow leaving through the edge. Fields stand at the
+with U the mean velocity of the two walls, theta the film fraction, r the density ratio and q_n the flow that
+leaves through the edge; theta and r are nodal, and their product is called filling. Fields stand at the
 quadrature points as (cells | 1, points | 1) arrays: a length of one means "the same everywhere".
 Geometry is recomputed from the vertices in the loop, which is cheaper than reading it from memory and lets
 a mesh move without rebuilding anything.
@@ -45,16 +46,18 @@ def measure(vertices, cells, geometry_gradient, weights, area):
 
 
 @njit(**_FAST)
-def stiffness(vertices, cells, dofs, slots, gradient, geometry_gradient, weights, conductance, data):
-    """Add int c grad p . grad f to the upper triangle; data follows the fixed pattern through slots."""
+def stiffness(vertices, cells, dofs, slots, gradient, geometry_gradient, weights, along_x, along_y, data):
+    """Add int (kx, ky) grad p . grad f to the upper triangle; data follows the fixed pattern through slots."""
     nb = dofs.shape[1]
-    se, sq = int(conductance.shape[0] > 1), int(conductance.shape[1] > 1)
+    xe, xq = int(along_x.shape[0] > 1), int(along_x.shape[1] > 1)
+    ye, yq = int(along_y.shape[0] > 1), int(along_y.shape[1] > 1)
     gx, gy = np.empty(nb), np.empty(nb)
     data[:] = 0.0
     for e in range(cells.shape[0]):
         for q in range(weights.shape[0]):
             det, ixx, ixy, iyx, iyy = _inverse_map(vertices, cells[e], geometry_gradient, q)
-            w = weights[q] * abs(det) * conductance[e * se, q * sq]
+            w = weights[q] * abs(det)
+            wx, wy = w * along_x[e * xe, q * xq], w * along_y[e * ye, q * yq]
             for i in range(nb):
                 rx, ry = gradient[q, i, 0], gradient[q, i, 1]
                 gx[i] = ixx * rx + ixy * ry
@@ -62,12 +65,86 @@ def stiffness(vertices, cells, dofs, slots, gradient, geometry_gradient, weights
             k = 0
             for i in range(nb):
                 for j in range(i, nb):
-                    value = w * (gx[i] * gx[j] + gy[i] * gy[j])
+                    value = wx * gx[i] * gx[j] + wy * gy[i] * gy[j]
                     # Two local nodes tied to one unknown (seam, pocket) meet on its diagonal twice.
                     if i != j and dofs[e, i] == dofs[e, j]:
                         value *= 2.0
                     data[slots[e, k]] += value
                     k += 1
+
+
+@njit(**_FAST)
+def convection(
+    vertices, cells, dofs, slots, value, gradient, geometry_gradient, weights, flux_x, flux_y, upper, lower
+):  # fmt: skip
+    """C_ij = - int f_j (flux_x, flux_y) . grad f_i: upper[slot] takes C_ij for i <= j, lower[slot] the mirror C_ji."""
+    nb = dofs.shape[1]
+    xe, xq = int(flux_x.shape[0] > 1), int(flux_x.shape[1] > 1)
+    ye, yq = int(flux_y.shape[0] > 1), int(flux_y.shape[1] > 1)
+    along = np.empty(nb)
+    upper[:] = 0.0
+    lower[:] = 0.0
+    for e in range(cells.shape[0]):
+        for q in range(weights.shape[0]):
+            det, ixx, ixy, iyx, iyy = _inverse_map(vertices, cells[e], geometry_gradient, q)
+            w = weights[q] * abs(det)
+            wx, wy = w * flux_x[e * xe, q * xq], w * flux_y[e * ye, q * yq]
+            for i in range(nb):
+                rx, ry = gradient[q, i, 0], gradient[q, i, 1]
+                along[i] = wx * (ixx * rx + ixy * ry) + wy * (iyx * rx + iyy * ry)
+            k = 0
+            for i in range(nb):
+                for j in range(i, nb):
+                    here, mirrored = -value[q, j] * along[i], -value[q, i] * along[j]
+                    one, two = dofs[e, i], dofs[e, j]
+                    if i == j:
+                        upper[slots[e, k]] += here
+                    elif one == two:
+                        upper[slots[e, k]] += here + mirrored
+                    elif one < two:
+                        upper[slots[e, k]] += here
+                        lower[slots[e, k]] += mirrored
+                    else:
+                        upper[slots[e, k]] += mirrored
+                        lower[slots[e, k]] += here
+                    k += 1
+
+
+@njit(**_FAST)
+def upwinding(indptr, indices, upper, lower, diffusion):
+    """The least diffusion D, symmetric with rows of sum zero, for which C + D couples nothing positively."""
+    diffusion[:] = 0.0
+    for j in range(indptr.shape[0] - 1):
+        diagonal_j = indptr[j + 1] - 1
+        for k in range(indptr[j], diagonal_j):
+            d = max(0.0, upper[k], lower[k])
+            diffusion[k] = -d
+            diffusion[diagonal_j] += d
+            diffusion[indptr[indices[k] + 1] - 1] += d
+
+
+@njit(**_FAST)
+def multiply(indptr, indices, upper, lower, vector, out):
+    """out += A vector, with A's upper triangle by columns and the mirror of each entry in lower."""
+    for j in range(indptr.shape[0] - 1):
+        last = indptr[j + 1] - 1
+        out[j] += upper[last] * vector[j]
+        for k in range(indptr[j], last):
+            i = indices[k]
+            out[i] += upper[k] * vector[j]
+            out[j] += lower[k] * vector[i]
+
+
+@njit(**_FAST)
+def lump(dofs, value, area, field, out):
+    """out[i] = int field f_i, with area[cell, q] the weights of the quadrature."""
+    fe, fq = int(field.shape[0] > 1), int(field.shape[1] > 1)
+    out[:] = 0.0
+    for e in range(dofs.shape[0]):
+        for q in range(area.shape[1]):
+            w = area[e, q] * field[e * fe, q * fq]
+            for i in range(dofs.shape[1]):
+                out[dofs[e, i]] += w * value[q, i]
 
 
 @njit(**_FAST)
@@ -88,18 +165,18 @@ def find_slots(indptr, indices, row, column, slots):
 @njit(**_FAST)
 def residual(
     vertices, cells, dofs, value, gradient, geometry_gradient, weights,
-    conductance, flux_x, flux_y, source, pressure, out, size,
+    along_x, along_y, flux_x, flux_y, pressure, filling, out, size,
 ):  # fmt: skip
-    """out[i] = int c grad p . grad f_i - int (flux_x, flux_y) . grad f_i + int source f_i  (m3/s).
+    """out[i] = int (kx, ky) grad p . grad f_i - int filling (flux_x, flux_y) . grad f_i  (m3/s).
 
     size[i] sums the magnitudes of the terms, and ROUNDING of what cancels within them where the pressure is
     uniform: the scale against which out is round-off.
     """
     nb = dofs.shape[1]
-    ce, cq = int(conductance.shape[0] > 1), int(conductance.shape[1] > 1)
+    ae, aq = int(along_x.shape[0] > 1), int(along_x.shape[1] > 1)
+    be, bq = int(along_y.shape[0] > 1), int(along_y.shape[1] > 1)
     xe, xq = int(flux_x.shape[0] > 1), int(flux_x.shape[1] > 1)
     ye, yq = int(flux_y.shape[0] > 1), int(flux_y.shape[1] > 1)
-    se, sq = int(source.shape[0] > 1), int(source.shape[1] > 1)
     gx, gy = np.empty(nb), np.empty(nb)
     out[:] = 0.0
     size[:] = 0.0
@@ -107,7 +184,7 @@ def residual(
         for q in range(weights.shape[0]):
             det, ixx, ixy, iyx, iyy = _inverse_map(vertices, cells[e], geometry_gradient, q)
             w = weights[q] * abs(det)
-            px = py = ax = ay = 0.0
+            px = py = ax = ay = full = 0.0
             for i in range(nb):
                 rx, ry = gradient[q, i, 0], gradient[q, i, 1]
                 gx[i] = ixx * rx + ixy * ry
@@ -117,18 +194,17 @@ def residual(
                 py += p * gy[i]
                 ax += abs(p * gx[i])
                 ay += abs(p * gy[i])
-            c = conductance[e * ce, q * cq]
-            px, py = c * px, c * py
-            ax, ay = ROUNDING * c * ax, ROUNDING * c * ay
-            fx, fy = flux_x[e * xe, q * xq], flux_y[e * ye, q * yq]
-            s = source[e * se, q * sq]
+                full += filling[dofs[e, i]] * value[q, i]
+            cx, cy = along_x[e * ae, q * aq], along_y[e * be, q * bq]
+            px, py = cx * px, cy * py
+            ax, ay = ROUNDING * cx * ax, ROUNDING * cy * ay
+            fx, fy = full * flux_x[e * xe, q * xq], full * flux_y[e * ye, q * yq]
             for i in range(nb):
                 poiseuille = w * (px * gx[i] + py * gy[i])
                 couette = w * (fx * gx[i] + fy * gy[i])
-                squeeze = w * s * value[q, i]
-                out[dofs[e, i]] += poiseuille - couette + squeeze
+                out[dofs[e, i]] += poiseuille - couette
                 lost = w * (ax * abs(gx[i]) + ay * abs(gy[i]))
-                size[dofs[e, i]] += abs(poiseuille) + abs(couette) + abs(squeeze) + lost
+                size[dofs[e, i]] += abs(poiseuille) + abs(couette) + lost
 
 
 @njit(**_FAST)
@@ -163,3 +239,31 @@ def hold(indptr, indices, data, held, gain, data_out):
                 data_out[k] = 1.0 if held[j] else data[k] + gain[j]
             else:
                 data_out[k] = 0.0 if held[i] or held[j] else data[k]
+
+
+@njit(**_FAST)
+def choose_columns(
+    indptr, indices, p_upper, p_lower, f_upper, f_lower, p_gain, f_gain, held, cavity, scale, upper, lower
+):  # fmt: skip
+    """Newton's matrix: each unknown is a pressure (in the film) or, by `scale`, a film fraction (in the cavity).
+
+    p_* and f_* are the balance's slopes by nodal pressure and by nodal film fraction, p_gain and f_gain what
+    their diagonals carry besides; held unknowns get identity rows and columns.
+    """
+    for j in range(indptr.shape[0] - 1):
+        last = indptr[j + 1] - 1
+        for k in range(indptr[j], last):
+            i = indices[k]
+            if held[i] or held[j]:
+                upper[k] = 0.0
+                lower[k] = 0.0
+            else:
+                upper[k] = scale * f_upper[k] if cavity[j] else p_upper[k]
+                lower[k] = scale * f_lower[k] if cavity[i] else p_lower[k]
+        if held[j]:
+            upper[last] = 1.0
+        elif cavity[j]:
+            upper[last] = scale * (f_upper[last] + f_gain[j])
+        else:
+            upper[last] = p_upper[last] + p_gain[j]
+        lower[last] = upper[last]

@@ -8,9 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from reynolds import kernels
-from reynolds.film import Cavitation, Film, FilmSolution, Pocket, vertex_thickness
+from reynolds.film import Cavitation, FilmSolution, Pocket, vertex_thickness
 from reynolds.mesh import Array
-from reynolds.solve import flow_balance, flow_terms
+from reynolds.transport import at_points
 
 
 @dataclass(frozen=True)
@@ -63,19 +63,21 @@ class PointFields:
 def point_fields(solution: FilmSolution) -> PointFields:
     """Pressure, gradient and wall shear of a solution at the quadrature points, (cells, points) each.
 
-    Stress of the oil on the moving wall: -h/2 grad p - mu (U1 - U2)/h, on the fixed wall
-    -h/2 grad p + mu (U1 - U2)/h (parabolic plus linear profile). A cavity under Reynolds' condition is taken
-    as full of oil: that condition knows no film fraction.
+    Stress of the oil on the moving wall: -w h grad p - mu (U1 - U2)/h, on the fixed wall
+    -(1 - w) h grad p + mu (U1 - U2)/h; w = 1/2 where viscosity does not vary across the film (parabolic plus
+    linear profile). In a cavity oil fills the film fraction of the width and shears there alone (JFO); Reynolds'
+    condition knows no film fraction and takes it as full.
     """
     at, at_x, at_y = evaluate(solution, solution.pressure)
-    film = solution.problem.film
-    half = 0.5 * film.thickness
+    film = solution.film
+    filled = at_points(solution.problem.space, solution.film_fraction)
+    one, two = (filled * share * film.thickness for share in (film.moving_share, 1.0 - film.moving_share))
     drag = [
-        film.viscosity * (one - two) / film.thickness
-        for one, two in zip(film.velocity_moving, film.velocity_fixed, strict=True)
+        filled * film.sliding_viscosity * (moving - fixed) / film.thickness
+        for moving, fixed in zip(film.velocity_moving, film.velocity_fixed, strict=True)
     ]
-    moving = (-half * at_x - drag[0], -half * at_y - drag[1])
-    fixed = (-half * at_x + drag[0], -half * at_y + drag[1])
+    moving = (-one * at_x - drag[0], -one * at_y - drag[1])
+    fixed = (-two * at_x + drag[0], -two * at_y + drag[1])
     return PointFields(at, (at_x, at_y), moving, fixed)
 
 
@@ -97,7 +99,7 @@ def loads(solution: FilmSolution, weight: Array | None = None) -> Loads:
     `weight` (cells | 1, points | 1) leaves regions out of friction and dissipation (0 where the film is no
     film but a port); pressure integrals and flows count the whole mesh.
     """
-    space, film = solution.problem.space, solution.problem.film
+    space, film = solution.problem.space, solution.film
     fields = point_fields(solution)
     area = space.area
     rubbing = area if weight is None else area * weight
@@ -105,11 +107,11 @@ def loads(solution: FilmSolution, weight: Array | None = None) -> Loads:
     moving = [float(np.sum(t * rubbing)) for t in fields.shear_moving]
     fixed = [float(np.sum(t * rubbing)) for t in fields.shear_fixed]
     flow, drawn = _edge_flows(solution)
-    squeeze_flow = float(np.sum(film.squeeze * area))
-    cavity_flow = -float(solution.outflow[solution.cavity].sum()) - drawn
+    squeeze_flow = float(solution.swallowed.sum())
+    made = solution.problem.cavitation is Cavitation.REYNOLDS
+    cavity_flow = -float(solution.outflow[solution.cavity].sum()) - drawn if made else 0.0
     out = float(solution.outflow[solution.held].sum()) - drawn + _pocket_flow(solution)
-    _, within = flow_balance(space, flow_terms(film), solution.pressure)
-    through = float(np.abs(solution.outflow[solution.held]).sum()) + float(np.sum(np.abs(film.squeeze) * area))
+    through = float(np.abs(solution.outflow[solution.held]).sum()) + float(np.abs(solution.swallowed).sum())
     peak = int(np.argmax(solution.pressure))
     load, moment_x, moment_y = pressure_integrals(solution)
     return Loads(
@@ -118,18 +120,18 @@ def loads(solution: FilmSolution, weight: Array | None = None) -> Loads:
         moment_y=moment_y,
         pressure_max=float(solution.pressure[peak]),
         pressure_max_at=_place(solution, peak),
-        film_thickness_min=float(min(vertex_thickness(solution.problem).min(), film.thickness.min())),
+        film_thickness_min=float(min(vertex_thickness(solution).min(), film.thickness.min())),
         friction_moving=(moving[0], moving[1]),
         friction_fixed=(fixed[0], fixed[1]),
         friction_torque_moving=_torque(fields.shear_moving, x, y, rubbing),
         friction_torque_fixed=_torque(fields.shear_fixed, x, y, rubbing),
-        dissipation=float(np.sum(_dissipation_density(film, fields) * rubbing)),
+        dissipation=float(np.sum(_dissipation_density(solution, fields) * rubbing)),
         flow=flow,
         squeeze_flow=squeeze_flow,
         cavity_flow=cavity_flow,
         cavitated_area_fraction=_cavitated_fraction(solution),
-        mass_balance_error=abs(out + squeeze_flow - cavity_flow) / max(through, _root_sum(within)),
-        energy_balance_error=_energy_error(solution, fields, within),
+        mass_balance_error=abs(out + squeeze_flow - cavity_flow) / max(through, _root_sum(solution.meeting)),
+        energy_balance_error=_energy_error(solution, fields),
     )
 
 
@@ -176,8 +178,7 @@ def _edge_flows(solution: FilmSolution) -> tuple[dict[str, float], float]:
 def _couette_through(solution: FilmSolution) -> dict[str, Array]:
     """Couette flow (m3/s, positive out) at each unknown of each boundary with a condition."""
     space = solution.problem.space
-    _, flux_x, flux_y, _ = flow_terms(solution.problem.film)
-    nodal = np.column_stack([space.to_unknowns(flux_x), space.to_unknowns(flux_y)])
+    nodal = solution.film_fraction[:, None] * np.column_stack([space.to_unknowns(f) for f in solution.flux])
     return {
         name: np.sum(nodal[space.edge_dofs[name]] * space.edge_normal[name], axis=1)
         for name in space.edge_dofs
@@ -198,11 +199,15 @@ def _torque(shear: tuple[Array, Array], x: Array, y: Array, area: Array) -> floa
     return float(np.sum((x * shear[1] - y * shear[0]) * area))
 
 
-def _dissipation_density(film: Film, fields: PointFields) -> Array:
-    """h^3/(12 mu) |grad p|^2 + mu |U1 - U2|^2 / h (W/m2)."""
+def _dissipation_density(solution: FilmSolution, fields: PointFields) -> Array:
+    """h^3/(12 mu) |grad p|^2 + mu |U1 - U2|^2 / h (W/m2), the latter where oil fills the film."""
+    film = solution.film
     slip = sum((a - b) ** 2 for a, b in zip(film.velocity_moving, film.velocity_fixed, strict=True))
     gradient = fields.gradient[0] ** 2 + fields.gradient[1] ** 2
-    return film.thickness**3 / (12.0 * film.viscosity) * gradient + film.viscosity * slip / film.thickness
+    filled = at_points(solution.problem.space, solution.film_fraction)
+    return film.thickness**3 / (12.0 * film.viscosity) * gradient + (
+        filled * film.sliding_viscosity * slip / film.thickness
+    )
 
 
 def _root_sum(within: Array) -> float:
@@ -210,9 +215,9 @@ def _root_sum(within: Array) -> float:
     return max(float(np.linalg.norm(within)), 1e-300)
 
 
-def _energy_error(solution: FilmSolution, fields: PointFields, within: Array) -> float:
+def _energy_error(solution: FilmSolution, fields: PointFields) -> float:
     """Shear work of the walls + flow work at boundaries and cavity - squeeze work, against dissipation."""
-    film, area = solution.problem.film, solution.problem.space.area
+    film, area = solution.film, solution.problem.space.area
     walls = -sum(
         float(np.sum((m * u1 + f * u2) * area))
         for m, f, u1, u2 in zip(
@@ -220,9 +225,9 @@ def _energy_error(solution: FilmSolution, fields: PointFields, within: Array) ->
         )
     )
     flow = -float(np.sum(solution.outflow * solution.pressure))
-    squeeze = float(np.sum(fields.pressure * film.squeeze * area))
-    spent = float(np.sum(_dissipation_density(film, fields) * area))
-    scale = max(spent, abs(walls), abs(flow), _root_sum(within * solution.pressure))
+    squeeze = float(np.sum(solution.pressure * solution.swallowed))
+    spent = float(np.sum(_dissipation_density(solution, fields) * area))
+    scale = max(spent, abs(walls), abs(flow), _root_sum(solution.meeting * solution.pressure))
     return abs(walls + flow - squeeze - spent) / scale
 
 

@@ -1,39 +1,54 @@
-"""Pressure of a film: Newton on the flow balance of every unknown.
+"""The film equation solved: Newton's method on every unknown's flow balance, an active set for the cavity.
 
-Each step solves the linearised balance for the change of pressure. Without cavitation and with linear feeds
-the first step is exact; the second would change nothing. Reynolds' condition is the complementarity
-p >= p_c, r >= 0, (p - p_c) r = 0 solved by a primal-dual active set (Hintermueller, Ito and Kunisch 2002)
-that starts from coarser problems.
+Each unknown is a pressure where the film is full and, under JFO, a film fraction where it is not. Each step solves
+the linearised balance; for a full film of constant viscosity between rigid walls the first step is exact. The set
+of cavitated unknowns follows the primal-dual active set method (Hintermueller, Ito and Kunisch 2002): Reynolds'
+condition is p >= p_c, R >= 0, (p - p_c) R = 0; JFO is p >= p_c, theta <= 1, (p - p_c)(1 - theta) = 0, R = 0.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import csc_array
+from scipy.sparse import csc_array, issparse
 
 from reynolds import kernels
+from reynolds.balance import (
+    Operators,
+    State,
+    by_opening,
+    flow_balance,
+    full_matrix,
+    holds,
+    operators,
+    slopes,
+    swallowed,
+)
 from reynolds.cascade import COARSEST, nested_cavity
 from reynolds.errors import FilmInputError, FilmNotConverged
-from reynolds.film import Cavitation, Film, FilmProblem, FilmSolution, Held, Pocket
-from reynolds.linear import Factor
+from reynolds.film import Cavitation, FilmProblem, FilmSolution
+from reynolds.fluid import CONSTANT
+from reynolds.linear import Factor, GeneralFactor
 from reynolds.mesh import Array
+from reynolds.setting import Setting, spread
 from reynolds.space import FilmSpace
 
 MAX_ITERATIONS = 100
 TOLERANCE = 1e-9
-SMALLEST_CONDUCTANCE = 1e-250  # m3/(Pa s): products of less are no longer numbers of full precision
+LEAST_LEFT = 0.2  # of the film that a step between compliant walls may leave
 
 
 @dataclass(frozen=True)
-class _Setting:
-    """Boundary conditions spread over the unknowns."""
+class _Iterate:
+    """A state, its cavity, and the balance there."""
 
-    pressure: Array
-    held: NDArray[np.bool_]
-    pockets: tuple[tuple[int, Pocket], ...]
+    state: State
+    cavity: NDArray[np.bool_]
+    parts: Operators
+    balance: Array
+    size: Array
 
 
 class FilmSolver:
@@ -42,200 +57,223 @@ class FilmSolver:
     def __init__(self, space: FilmSpace) -> None:
         self._pattern = space.pattern
         self._factor = Factor()
+        self._general = GeneralFactor()
 
     def solve(self, problem: FilmProblem, start: FilmSolution | None = None) -> FilmSolution:
-        """The pressure field of `problem`; `start` warms pressures and cavity.
+        """The film of `problem`; `start` warms pressures, film fractions and cavity.
 
         Afterwards every free unknown's flow balance holds to 1e-9 of the flows meeting there. Raises
         FilmInputError as `check_pressures` does, and FilmNotConverged when the active set does not settle.
         """
-        space = problem.space
-        if space.pattern is not self._pattern:
+        if problem.space.pattern is not self._pattern:
             raise FilmInputError("space", "another mesh", "the space of this solver, moved or not")
-        setting = _spread(problem)
-        with np.errstate(over="ignore"):  # told of in words
-            flows = flow_terms(problem.film)
-        _check_conductance(flows[0])
-        pressure = setting.pressure.copy()
-        if start is not None:
-            pressure = np.where(setting.held, pressure, start.pressure)
-        stiffness = assemble(space, flows[0])
-        cavity = np.zeros(space.size, dtype=bool)
-        if problem.cavitation is Cavitation.REYNOLDS:
-            found = start.cavity if start is not None else _first_cavity(space, setting, stiffness, flows)
-            cavity = found & ~setting.held
-            pressure[cavity] = problem.cavitation_pressure
+        setting = spread(problem)
+        at = self._begin(problem, setting, start)
         for iteration in range(1, MAX_ITERATIONS + 1):
-            pressure = self._step(space, pressure, setting, setting.held | cavity, stiffness, flows)
-            balance, size = flow_balance(space, flows, pressure)
-            new_cavity = _cavity(problem, pressure, balance, size, cavity, setting)
-            settled = bool(np.array_equal(new_cavity, cavity))
-            pressure[new_cavity] = problem.cavitation_pressure
-            imbalance = _imbalance(balance, size, setting, cavity, pressure)
+            state = self._step(problem, setting, at)
+            parts = at.parts if _is_linear(problem) else operators(problem, state)
+            balance, size = flow_balance(problem, parts, state)
+            cavity = _cavity(problem, setting, replace(at, state=state, parts=parts, balance=balance, size=size))
+            settled = bool(np.array_equal(cavity, at.cavity))
+            _check_degree(problem, cavity)
+            state = _projected(problem, setting, state, cavity)
+            at = _Iterate(state, cavity, parts, *flow_balance(problem, parts, state))
+            imbalance = _imbalance(problem, setting, at)
             if settled and imbalance < TOLERANCE:
-                return FilmSolution(problem, pressure, -balance, setting.held, cavity, imbalance, iteration)
-            cavity = new_cavity
+                return _solution(problem, setting, at, imbalance, iteration)
         raise FilmNotConverged(
             f"film pressure not settled after {MAX_ITERATIONS} iterations (imbalance {imbalance:.2g}, "
-            f"{int(cavity.sum())} of {space.size} unknowns cavitated)",
+            f"{int(at.cavity.sum())} of {problem.space.size} unknowns cavitated)",
             "a finer or more regular (Delaunay) mesh, or triangles instead of stretched quadrilaterals",
         )
 
-    def _step(
-        self,
-        space: FilmSpace,
-        pressure: Array,
-        setting: _Setting,
-        fixed: NDArray[np.bool_],
-        stiffness: Array,
-        flows: FlowTerms,
-    ) -> Array:
-        """Newton step of the free unknowns; fixed ones stay at the pressure they have."""
-        matrix, load = _linearised(space, pressure, setting, fixed, stiffness, flows)
-        self._factor.update(matrix)
-        return pressure + self._factor.solve(load)
+    def _begin(self, problem: FilmProblem, setting: Setting, start: FilmSolution | None) -> _Iterate:
+        space = problem.space
+        pressure, fraction = setting.pressure, setting.film_fraction
+        cavity = np.zeros(space.size, dtype=bool)
+        if start is not None:
+            pressure = np.where(setting.held, pressure, start.pressure)
+            fraction = np.where(setting.held, fraction, start.film_fraction)
+            cavity = start.cavity & ~setting.held & (problem.cavitation is not Cavitation.NONE)
+        state = _opened(problem, pressure, fraction)
+        parts = operators(problem, state)
+        balance, size = flow_balance(problem, parts, state)
+        if start is None and problem.cavitation is not Cavitation.NONE and space.size > COARSEST:
+            at = _Iterate(state, cavity, parts, balance, size)
+            # Free unknowns of the spread pressures stand at cavitation pressure: the step from there is p - p_c.
+            cavity = nested_cavity(*_symmetric_step(problem, setting, at, setting.held)) & ~setting.held
+        state = _projected(problem, setting, state, cavity)
+        return _Iterate(state, cavity, parts, *flow_balance(problem, parts, state))
 
-
-def _linearised(
-    space: FilmSpace,
-    pressure: Array,
-    setting: _Setting,
-    fixed: NDArray[np.bool_],
-    stiffness: Array,
-    flows: FlowTerms,
-) -> tuple[csc_array, Array]:
-    """Upper triangle and right-hand side of the balance for the change of pressure, identity where fixed."""
-    balance, _ = flow_balance(space, flows, pressure)
-    gain = np.zeros(space.size)
-    for node, pocket in setting.pockets:
-        inflow, slope = pocket.feed(pressure[node])
-        balance[node] -= inflow
-        gain[node] = -slope
-    # Conductances are 1e-15 to 1e-9: scaled to order one they stay clear of any pivot threshold.
-    scale = stiffness.max()
-    data = np.empty_like(stiffness)
-    pattern = space.pattern
-    kernels.hold(pattern.indptr, pattern.indices, stiffness / scale, fixed, gain / scale, data)
-    return space.matrix(data), np.where(fixed, 0.0, -balance / scale)
-
-
-def _first_cavity(space: FilmSpace, setting: _Setting, stiffness: Array, flows: FlowTerms) -> NDArray[np.bool_]:
-    """Cavity to start from: none on a small mesh, else what coarser problems find."""
-    if space.size <= COARSEST:
-        return np.zeros(space.size, dtype=bool)
-    # Free unknowns of the spread pressures stand at cavitation pressure: the step from there is p - p_c.
-    return nested_cavity(*_linearised(space, setting.pressure, setting, setting.held, stiffness, flows))
-
-
-def assemble(space: FilmSpace, conductance: Array) -> Array:
-    """Entries of int h^3/(12 mu) grad p . grad f, upper triangle in the space's pattern (m3/(s Pa)).
-
-    `conductance` (cells | 1, points | 1) is h^3/(12 mu), m3/(Pa s).
-    """
-    reference = space.reference
-    data = np.empty(len(space.pattern.indices))
-    kernels.stiffness(
-        space.vertices, space.cells, space.dofs, space.pattern.slots, reference.gradient,
-        reference.geometry_gradient, reference.weights, conductance, data,
-    )  # fmt: skip
-    return data
-
-
-FlowTerms = tuple[Array, Array, Array, Array]
-
-
-def flow_terms(film: Film) -> FlowTerms:
-    """Conductance h^3/(12 mu), Couette flow h (U1 + U2)/2 in x and y, and squeeze, at quadrature points."""
-    h = film.thickness
-    mean_x = 0.5 * (film.velocity_moving[0] + film.velocity_fixed[0])
-    mean_y = 0.5 * (film.velocity_moving[1] + film.velocity_fixed[1])
-    return h**3 / (12.0 * film.viscosity), h * mean_x, h * mean_y, film.squeeze
-
-
-def _check_conductance(conductance: Array) -> None:
-    if conductance.min() < SMALLEST_CONDUCTANCE or not np.isfinite(conductance).all():
-        found = f"h^3/(12 mu) from {conductance.min():.3g} to {conductance.max():.3g} m3/(Pa s)"
-        raise FilmInputError("film", found, f"finite and at least {SMALLEST_CONDUCTANCE:g}")
-
-
-def flow_balance(space: FilmSpace, flows: FlowTerms, pressure: Array) -> tuple[Array, Array]:
-    """Flow balance of every unknown (size,) m3/s, and the size of the flows that meet there (see `kernels`)."""
-    out, size = np.empty(space.size), np.empty(space.size)
-    reference = space.reference
-    kernels.residual(
-        space.vertices, space.cells, space.dofs, reference.value, reference.gradient,
-        reference.geometry_gradient, reference.weights, *flows, pressure, out, size,
-    )  # fmt: skip
-    return out, size
-
-
-def check_pressures(problem: FilmProblem) -> None:
-    """Raise FilmInputError where no pressure is solved for.
-
-    That is where a boundary is not of the mesh, where a piece of the film has no pressure level, or where a
-    boundary lies below cavitation pressure.
-    """
-    _spread(problem)
-
-
-def _spread(problem: FilmProblem) -> _Setting:
-    space = problem.space
-    names = space.film_mesh.boundary_names
-    level = problem.cavitation_pressure if problem.cavitation is Cavitation.REYNOLDS else 0.0
-    pressure = np.full(space.size, level)
-    held = np.zeros(space.size, dtype=bool)
-    pockets = []
-    for name, condition in problem.boundary.items():
-        if name not in space.edge_dofs:
-            raise FilmInputError(f"boundary {name}", "no boundary of this mesh", f"one of {', '.join(names)}")
-        nodes = space.edge_dofs[name]
-        if isinstance(condition, Held):
-            pressure[nodes], held[nodes] = condition.pressure, True
-        elif len(nodes) == 1:
-            pockets.append((int(nodes[0]), condition))
+    def _step(self, problem: FilmProblem, setting: Setting, at: _Iterate) -> State:
+        """The state after one Newton step of the free unknowns; held ones stay as they are."""
+        carried = problem.cavitation is Cavitation.JFO and bool(at.cavity.any())
+        if _is_linear(problem) and not carried:
+            matrix, load = _symmetric_step(problem, setting, at, setting.held | at.cavity)
+            self._factor.update(matrix)
+            return replace(at.state, pressure=at.state.pressure + self._factor.solve(load))
+        upper, lower, load, scale = _general_step(problem, setting, at)
+        if problem.walls is None:
+            self._general.update(problem.space.matrix(upper), lower)
+            change = self._general.solve(load)
         else:
-            raise FilmInputError(f"boundary {name}", "a pocket on separate nodes", "film_space(pockets=...)")
-    if problem.held_nodes is not None:
-        more = ~np.isnan(problem.held_nodes)
-        pressure[more], held[more] = problem.held_nodes[more], True
-    if not np.isfinite(pressure).all():
-        raise FilmInputError("boundary", "a pressure that is not finite", "a number of Pa")
-    fed = held.copy()
-    fed[[node for node, pocket in pockets if pocket.feed(level)[1] < 0.0]] = True
-    if dry := space.pattern.pieces_without(fed):
-        where = f"in {dry} of {space.pattern.pieces[0]} separate pieces of the film" if fed.any() else "anywhere"
-        raise FilmInputError("boundary", f"no pressure given {where}", "a boundary with a pressure at each piece")
-    if problem.cavitation is Cavitation.REYNOLDS and (low := pressure[held].min(initial=np.inf)) < level:
+            change = _compliant_step(problem, setting, at, upper, lower, load)
+        return _taken(problem, at, change, scale)
+
+
+def _is_linear(problem: FilmProblem) -> bool:
+    return problem.fluid is CONSTANT and problem.walls is None
+
+
+def _check_degree(problem: FilmProblem, cavity: NDArray[np.bool_]) -> None:
+    if problem.space.degree > 1 and cavity.any():
         raise FilmInputError(
-            "boundary", f"pressure {low:.4g} Pa", f"at least the cavitation pressure {level:.4g} Pa"
+            "film_space", "quadratic pressure in a film that cavitates", "degree 1, or a film without cavitation"
         )
-    return _Setting(pressure, held, tuple(pockets))
 
 
-def _cavity(
-    problem: FilmProblem,
-    pressure: Array,
-    balance: Array,
-    size: Array,
-    cavity: NDArray[np.bool_],
-    setting: _Setting,
-) -> NDArray[np.bool_]:
+def _opened(problem: FilmProblem, pressure: Array, fraction: Array) -> State:
+    opening = np.zeros(len(problem.space.vertices)) if problem.walls is None else problem.walls.matrix @ pressure
+    return State(pressure, fraction, opening)
+
+
+def _symmetric_step(
+    problem: FilmProblem, setting: Setting, at: _Iterate, fixed: NDArray[np.bool_]
+) -> tuple[csc_array, Array]:
+    """Upper triangle and right-hand side for the change of pressure, identity where fixed."""
+    rest, gain = _with_pockets(setting, at)
+    # Conductances are 1e-15 to 1e-9: scaled to order one they stay clear of any pivot threshold.
+    scale = at.parts.stiffness.max()
+    data = np.empty_like(at.parts.stiffness)
+    pattern = problem.space.pattern
+    kernels.hold(pattern.indptr, pattern.indices, at.parts.stiffness / scale, fixed, gain / scale, data)
+    return problem.space.matrix(data), np.where(fixed, 0.0, -rest / scale)
+
+
+def _general_step(problem: FilmProblem, setting: Setting, at: _Iterate) -> tuple[Array, Array, Array, float]:
+    """Upper triangle, mirror and right-hand side for the change of pressure or, in the cavity, film fraction.
+
+    Scaled to order one; the last value turns an unknown of the cavity into a film fraction.
+    """
+    rest, gain = _with_pockets(setting, at)
+    by = slopes(problem, at.parts, at.state)
+    f_upper, f_lower, f_gain = by.by_fraction
+    p_upper, p_lower, p_gain = by.by_pressure
+    unit = float(np.abs(at.parts.stiffness).max())
+    largest = max(float(np.abs(f_upper).max()), float(np.abs(f_gain).max()))
+    scale = unit / largest if largest > 0.0 else 1.0
+    # Where nothing carries a cavity along, its film fraction stays as it is.
+    f_gain = f_gain + NOTHING * (largest if largest > 0.0 else unit)
+    upper, lower = np.empty_like(p_upper), np.empty_like(p_upper)
+    pattern = problem.space.pattern
+    kernels.choose_columns(
+        pattern.indptr, pattern.indices, p_upper / unit, p_lower / unit, f_upper / unit, f_lower / unit,
+        (p_gain + gain) / unit, f_gain / unit, setting.held, at.cavity, scale, upper, lower,
+    )  # fmt: skip
+    return upper, lower, np.where(setting.held, 0.0, -rest / unit), scale
+
+
+NOTHING = 1e-12  # of the largest flow
+
+
+def _with_pockets(setting: Setting, at: _Iterate) -> tuple[Array, Array]:
+    """The balance less what pockets are fed, and what their feeds add to the diagonal."""
+    rest, gain = at.balance.copy(), np.zeros(len(at.balance))
+    for node, pocket in setting.pockets:
+        inflow, slope = pocket.feed(at.state.pressure[node])
+        rest[node] -= inflow
+        gain[node] = -slope
+    return rest, gain
+
+
+def _compliant_step(
+    problem: FilmProblem, setting: Setting, at: _Iterate, upper: Array, lower: Array, load: Array
+) -> Array:
+    """The same step where each pressure opens the film everywhere: dR/dp + dR/dh dh/dp."""
+    assert problem.walls is not None
+    compliance = problem.walls.matrix
+    rigid = full_matrix(problem.space, upper, lower)
+    free = (~setting.held).astype(float)
+    pressures = free * ~at.cavity
+    slope = by_opening(problem, at.parts, at.state) * (free / np.abs(at.parts.stiffness).max())[:, None]
+    if issparse(compliance):
+        from scipy.sparse.linalg import spsolve
+
+        return np.asarray(spsolve(csc_array(rigid + slope @ (compliance * pressures[None, :])), load))
+    return np.asarray(np.linalg.solve(rigid.toarray() + slope @ (compliance * pressures[None, :]), load))
+
+
+def _taken(problem: FilmProblem, at: _Iterate, change: Array, scale: float) -> State:
+    """The state after a step, shortened where it would press compliant walls together."""
+    share = 1.0
+    while True:
+        pressure = at.state.pressure + share * np.where(at.cavity, 0.0, change)
+        fraction = at.state.film_fraction + share * np.where(at.cavity, scale * change, 0.0)
+        state = _opened(problem, pressure, fraction)
+        if problem.walls is None:
+            return state
+        given = problem.space.sample_vertices(state.opening) + problem.film.thickness
+        if (given > LEAST_LEFT * at.parts.transport.film.thickness).all():
+            return state
+        share *= 0.5
+
+
+def _cavity(problem: FilmProblem, setting: Setting, at: _Iterate) -> NDArray[np.bool_]:
+    """The unknowns that belong to the cavity by the state that a step led to."""
+    level = problem.cavitation_pressure
     if problem.cavitation is Cavitation.NONE:
-        return cavity
-    enters = ~cavity & (pressure < problem.cavitation_pressure)
-    # A node that nothing drives (balance zero but for round-off) would otherwise enter and leave for ever.
-    stays = cavity & (balance > -TOLERANCE * size)
+        return at.cavity
+    enters = ~at.cavity & (at.state.pressure < level)
+    if problem.cavitation is Cavitation.REYNOLDS:
+        # A node that nothing drives (balance zero but for round-off) would otherwise enter and leave for ever.
+        stays = at.cavity & (at.balance > -TOLERANCE * at.size)
+    else:
+        # A node that nothing drives has no pressure of its own but for round-off.
+        diagonal = at.parts.stiffness[problem.space.pattern.indptr[1:] - 1]
+        enters = ~at.cavity & ((at.state.pressure - level) * diagonal < -TOLERANCE * at.size)
+        stays = at.cavity & (at.state.film_fraction < 1.0 + TOLERANCE) & (at.state.film_fraction > -TOLERANCE)
     return (enters | stays) & ~setting.held
 
 
-def _imbalance(
-    balance: Array, size: Array, setting: _Setting, cavity: NDArray[np.bool_], pressure: Array
-) -> float:
-    free = ~(setting.held | cavity)
-    rest = balance.copy()
-    for node, pocket in setting.pockets:
-        inflow, slope = pocket.feed(pressure[node])
-        rest[node] -= inflow
-        size[node] += abs(inflow) + kernels.ROUNDING * abs(slope * pressure[node])
+def _projected(problem: FilmProblem, setting: Setting, state: State, cavity: NDArray[np.bool_]) -> State:
+    """The state with cavitation pressure in the cavity and a full film elsewhere."""
+    level = problem.cavitation_pressure
+    pressure = np.where(cavity, level, state.pressure)
+    if problem.cavitation is not Cavitation.NONE:
+        pressure = np.maximum(pressure, level)
+    fraction = np.where(cavity | setting.held, np.clip(state.film_fraction, 0.0, 1.0), 1.0)
+    if problem.cavitation is not Cavitation.JFO:
+        fraction = np.ones_like(fraction)
+    return _opened(problem, pressure, fraction)
+
+
+def _imbalance(problem: FilmProblem, setting: Setting, at: _Iterate) -> float:
+    """Largest residual of a free unknown over the flows that meet there."""
+    free = ~setting.held
+    if problem.cavitation is Cavitation.REYNOLDS:
+        free &= ~at.cavity
+    rest, slope = _with_pockets(setting, at)
+    size = at.size + np.abs(at.balance - rest) + kernels.ROUNDING * np.abs(slope * at.state.pressure)
     scale = np.where(size > 0.0, size, 1.0)
     return float(np.max(np.abs(rest[free]) / scale[free], initial=0.0))
+
+
+def _solution(
+    problem: FilmProblem, setting: Setting, at: _Iterate, imbalance: float, iterations: int
+) -> FilmSolution:
+    return FilmSolution(
+        problem=problem,
+        pressure=at.state.pressure,
+        film_fraction=at.state.film_fraction,
+        film=at.parts.transport.film,
+        opening=at.state.opening,
+        flux=at.parts.transport.flux,
+        outflow=-at.balance,
+        holds=holds(problem, at.parts, at.state),
+        swallowed=swallowed(problem, at.parts, at.state),
+        meeting=at.size,
+        held=setting.held,
+        cavity=at.cavity,
+        imbalance=imbalance,
+        iterations=iterations,
+    )

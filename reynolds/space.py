@@ -50,6 +50,11 @@ class Pattern:
     slots: NDArray[np.int32]  # (cells, basis (basis + 1) / 2)
 
     @cached_property
+    def columns(self) -> NDArray[np.int32]:
+        """Column of each entry (entries,)."""
+        return np.repeat(np.arange(len(self.indptr) - 1, dtype=np.int32), np.diff(self.indptr))
+
+    @cached_property
     def pieces(self) -> tuple[int, NDArray[np.int32]]:
         """How many pieces the film falls into, and the piece of each unknown (size,)."""
         size = len(self.indptr) - 1

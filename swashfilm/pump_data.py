@@ -97,7 +97,7 @@ def _fields(gap: str, angle: str, series: Sequence[GapFilm]) -> dict[str, tuple[
     nodes = (angle, f"{gap}_vertex")
     pressure = [film.solution.pressure[space.vertex_dofs] for film, space in zip(series, spaces, strict=True)]
     thickness = [
-        space.to_vertices(film.solution.problem.film.thickness) for film, space in zip(series, spaces, strict=True)
+        space.to_vertices(film.solution.film.thickness) for film, space in zip(series, spaces, strict=True)
     ]
     return {
         f"{gap}_x": (nodes, np.array([space.vertices[:, 0] for space in spaces]), {"units": "m"}),

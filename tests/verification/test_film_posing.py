@@ -10,7 +10,8 @@ from reynolds.errors import FilmInputError
 from reynolds.film import ZERO, Cavitation, Film, FilmProblem, Held, film
 from reynolds.loads import loads
 from reynolds.mesh import FilmMesh, rectangle
-from reynolds.solve import FilmSolver, check_pressures
+from reynolds.setting import check_pressures
+from reynolds.solve import FilmSolver
 from reynolds.space import film_space
 
 SPACE = film_space(rectangle((0.01, 0.01), (6, 6)))

@@ -1,0 +1,227 @@
+"""The flow balance of every unknown of a film, and its slopes for Newton's method.
+
+At unknown i, with nodal pressure p, film fraction theta and density ratio r,
+
+    R_i = sum_j K_ij p_j + sum_j C_ij theta_j r_j + sum_j D_ij theta_j r_c + d(theta_i r_i M_i)/dt
+
+K is the conductance, C the walls' carrying, M the lumped content. D, the least diffusion that makes C + D an
+upwind scheme (Kuzmin and Turek 2002), vanishes where the film is full, since its rows sum to zero: the full film
+keeps its order of accuracy, a cavity is carried along without overshoot, and columns that sum to zero conserve
+mass to round-off.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.sparse import coo_array, csc_array, csr_array
+
+from reynolds import kernels
+from reynolds.film import Cavitation, FilmProblem
+from reynolds.fluid import CONSTANT
+from reynolds.mesh import Array
+from reynolds.space import FilmSpace
+from reynolds.transport import Transport, at_points, lumped, transport
+
+
+@dataclass(frozen=True)
+class State:
+    """A film on the way to its solution: nodal pressure (size,) Pa, film fraction (size,), opening (vertices,) m."""
+
+    pressure: Array
+    film_fraction: Array
+    opening: Array
+
+
+@dataclass(frozen=True)
+class Operators:
+    """K, C and D of the balance on the space's pattern (upper triangle; C's mirror beside it) and lumped integrals.
+
+    content (size,) m3 = integral of the content; rate (size,) m3/s: what a full film swallows as the content
+    changes: the squeeze, or content over the time step.
+    """
+
+    transport: Transport
+    stiffness: Array
+    convection: tuple[Array, Array] | None
+    diffusion: Array | None
+    content: Array
+    rate: Array
+
+
+def operators(problem: FilmProblem, state: State) -> Operators:
+    """The balance's operators at a state; they are constant for a constant fluid between rigid walls."""
+    space = problem.space
+    terms = transport(problem, state.pressure, state.opening)
+    content = lumped(space, terms.content)
+    rate = lumped(space, terms.squeeze) if problem.storage is None else content / problem.storage.step
+    carried = diffusion = None
+    if problem.cavitation is Cavitation.JFO or problem.fluid is not CONSTANT:
+        carried = convection(space, terms.flux)
+        diffusion = np.empty_like(carried[0])
+        kernels.upwinding(space.pattern.indptr, space.pattern.indices, *carried, diffusion)
+    return Operators(terms, stiffness(space, terms.conductance), carried, diffusion, content, rate)
+
+
+def stiffness(space: FilmSpace, conductance: tuple[Array, Array]) -> Array:
+    """Entries of int k grad p . grad f, upper triangle in the space's pattern (m3/(s Pa)).
+
+    `conductance` is h^3/(12 mu) along x and y, (cells | 1, points | 1) each, m3/(Pa s).
+    """
+    reference = space.reference
+    data = np.empty(len(space.pattern.indices))
+    kernels.stiffness(
+        space.vertices, space.cells, space.dofs, space.pattern.slots, reference.gradient,
+        reference.geometry_gradient, reference.weights, *conductance, data,
+    )  # fmt: skip
+    return data
+
+
+def convection(space: FilmSpace, flux: tuple[Array, Array]) -> tuple[Array, Array]:
+    """Entries C_ij = -int f_j flux . grad f_i of the upper triangle and, slot by slot, their mirrors C_ji."""
+    reference = space.reference
+    upper, lower = (np.empty(len(space.pattern.indices)) for _ in range(2))
+    kernels.convection(
+        space.vertices, space.cells, space.dofs, space.pattern.slots, reference.value, reference.gradient,
+        reference.geometry_gradient, reference.weights, *flux, upper, lower,
+    )  # fmt: skip
+    return upper, lower
+
+
+def density(problem: FilmProblem, pressure: Array) -> tuple[Array, Array]:
+    """Density ratio of the unknowns and its slope by pressure (1/Pa), (size,) each."""
+    return problem.fluid.density(pressure)
+
+
+def holds(problem: FilmProblem, parts: Operators, state: State) -> Array:
+    """Oil of each unknown, m3 at reference density, (size,)."""
+    return parts.content * state.film_fraction * density(problem, state.pressure)[0]
+
+
+def flow_balance(problem: FilmProblem, parts: Operators, state: State) -> tuple[Array, Array]:
+    """R (size,) m3/s, and the size of the flows that meet at each unknown (see `kernels.residual`)."""
+    space, terms = problem.space, parts.transport
+    filling = state.film_fraction * density(problem, state.pressure)[0]
+    out, size = np.empty(space.size), np.empty(space.size)
+    reference = space.reference
+    kernels.residual(
+        space.vertices, space.cells, space.dofs, reference.value, reference.gradient,
+        reference.geometry_gradient, reference.weights, *terms.conductance, *terms.flux,
+        state.pressure, filling, out, size,
+    )  # fmt: skip
+    if parts.diffusion is not None and (state.film_fraction < 1.0).any():
+        pattern = space.pattern
+        carried = cavity_density(problem) * state.film_fraction
+        kernels.multiply(pattern.indptr, pattern.indices, parts.diffusion, parts.diffusion, carried, out)
+    out += swallowed(problem, parts, state)
+    size += np.abs(parts.rate * filling)
+    return out, size
+
+
+def swallowed(problem: FilmProblem, parts: Operators, state: State) -> Array:
+    """Rate at which each unknown's oil grows, m3/s at reference density, (size,)."""
+    rate = parts.rate * state.film_fraction * density(problem, state.pressure)[0]
+    return rate if problem.storage is None else rate - problem.storage.held_before / problem.storage.step
+
+
+def cavity_density(problem: FilmProblem) -> float:
+    """Density ratio at the cavitation pressure."""
+    return float(density(problem, np.array([problem.cavitation_pressure]))[0][0])
+
+
+@dataclass(frozen=True)
+class Slopes:
+    """dR by nodal pressure and by nodal film fraction (upper, mirror, addition to the diagonal)."""
+
+    by_pressure: tuple[Array, Array, Array]
+    by_fraction: tuple[Array, Array, Array]
+
+
+def slopes(problem: FilmProblem, parts: Operators, state: State) -> Slopes:
+    """Slopes of the balance between rigid walls; `parts` must hold C and D.
+
+    That the diffusion D changes with the pressure is left out: it does so only where walls give way.
+    """
+    assert parts.convection is not None
+    assert parts.diffusion is not None
+    space, terms = problem.space, parts.transport
+    ratio, ratio_slope = density(problem, state.pressure)
+    row, column = space.pattern.indices, space.pattern.columns
+    c_upper, c_lower = parts.convection
+    p_upper = p_lower = parts.stiffness
+    if problem.fluid is not CONSTANT:
+        along_x, along_y = gradient_at_points(space, state.pressure)
+        k_x, k_y = terms.conductance
+        changed = convection(space, (-k_x * terms.by_pressure * along_x, -k_y * terms.by_pressure * along_y))
+        filled = state.film_fraction * ratio_slope
+        p_upper = parts.stiffness + changed[0] + c_upper * filled[column]
+        p_lower = parts.stiffness + changed[1] + c_lower * filled[row]
+    level = cavity_density(problem)
+    f_upper = c_upper * ratio[column] + level * parts.diffusion
+    f_lower = c_lower * ratio[row] + level * parts.diffusion
+    return Slopes(
+        (p_upper, p_lower, parts.rate * state.film_fraction * ratio_slope), (f_upper, f_lower, parts.rate * ratio)
+    )
+
+
+def gradient_at_points(space: FilmSpace, nodal: Array) -> tuple[Array, Array]:
+    """Gradient of a nodal field (size,) at the quadrature points, (cells, points) along x and y."""
+    reference = space.reference
+    out = tuple(np.empty(space.area.shape) for _ in range(3))
+    kernels.evaluate(
+        space.vertices, space.cells, space.dofs, reference.value, reference.gradient,
+        reference.geometry_gradient, reference.weights, nodal, *out,
+    )  # fmt: skip
+    return out[1], out[2]
+
+
+def by_opening(problem: FilmProblem, parts: Operators, state: State) -> csr_array:
+    """dR by the opening at each vertex, (size, vertices) m2/s."""
+    space, terms = problem.space, parts.transport
+    along_x, along_y = gradient_at_points(space, state.pressure)
+    filling = state.film_fraction * density(problem, state.pressure)[0]
+    full = at_points(space, filling)
+    carry = [
+        k * terms.by_thickness * slope - full * flux
+        for k, slope, flux in zip(terms.conductance, (along_x, along_y), terms.flux_by_thickness, strict=True)
+    ]
+    local = np.einsum(
+        "eqd,eqid,qv->eiv",
+        np.stack(carry, axis=-1) * space.area[:, :, None], _gradients(space), space.reference.geometry_value,
+        optimize=True,
+    )  # fmt: skip
+    if problem.storage is not None:
+        per_second = terms.content_by_thickness * space.area / problem.storage.step
+        held = filling[space.dofs]
+        local += np.einsum(
+            "eq,qi,qv,ei->eiv", np.broadcast_to(per_second, space.area.shape), space.reference.value,
+            space.reference.geometry_value, held, optimize=True,
+        )  # fmt: skip
+    rows = np.broadcast_to(space.dofs[:, :, None], local.shape)
+    columns = np.broadcast_to(space.cells[:, None, :], local.shape)
+    return csr_array(
+        coo_array((local.ravel(), (rows.ravel(), columns.ravel())), shape=(space.size, len(space.vertices)))
+    )
+
+
+def _gradients(space: FilmSpace) -> Array:
+    """Gradient of each basis at the quadrature points, (cells, points, basis, 2) 1/m."""
+    corners = space.vertices[space.cells]
+    jacobian = np.einsum("evd,qvg->eqdg", corners, space.reference.geometry_gradient)
+    return np.asarray(np.einsum("qig,eqgd->eqid", space.reference.gradient, np.linalg.inv(jacobian)))
+
+
+def full_matrix(space: FilmSpace, upper: Array, lower: Array) -> csc_array:
+    """The operator whose upper triangle and mirrored entries stand in the pattern's order."""
+    row, column = space.pattern.indices, space.pattern.columns
+    off = row != column
+    return csc_array(
+        coo_array(
+            (
+                np.concatenate([upper, lower[off]]),
+                (np.concatenate([row, column[off]]), np.concatenate([column, row[off]])),
+            ),
+            shape=(space.size, space.size),
+        )
+    )

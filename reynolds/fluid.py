@@ -1,0 +1,37 @@
+"""How the oil of a film answers to pressure: viscosity and density, each with its slope for Newton's method."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from reynolds.mesh import Array
+
+ViscosityLaw = Callable[[Array, Array], tuple[Array, Array]]
+"""(pressure Pa, viscosity Pa s at the reference pressure) -> viscosity Pa s and its slope by pressure, Pa s/Pa."""
+
+DensityLaw = Callable[[Array], tuple[Array, Array]]
+"""Pressure Pa -> density over that at the reference pressure, and its slope, 1/Pa."""
+
+
+def isoviscous(pressure: Array, viscosity: Array) -> tuple[Array, Array]:
+    """A viscosity that pressure does not change."""
+    return viscosity, np.zeros((1, 1))
+
+
+def incompressible(pressure: Array) -> tuple[Array, Array]:
+    """A density that pressure does not change: ratio one."""
+    return np.ones_like(pressure), np.zeros_like(pressure)
+
+
+@dataclass(frozen=True)
+class Fluid:
+    """Laws of the oil in pressure; flows of a film are volumes at the reference density (ratio one)."""
+
+    viscosity: ViscosityLaw = isoviscous
+    density: DensityLaw = incompressible
+
+
+CONSTANT = Fluid()
