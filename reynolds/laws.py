@@ -1,0 +1,38 @@
+"""What every law of the oil and of the walls gives: a value and its slope; and how it refuses.
+
+The film solver is a Newton method, so that a law without its derivative is of no use to it.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from reynolds.errors import FilmInputError
+from reynolds.mesh import Array
+
+
+class Tangent(NamedTuple):
+    """A law's value and its derivative with respect to the law's first argument, arrays of one shape."""
+
+    value: Array
+    slope: Array
+
+
+def within(where: str, found: ArrayLike, lowest: float, highest: float, unit: str, remedy: str = "") -> Array:
+    """The values as an array, all of them in [lowest, highest]: else FilmInputError, which a NaN raises too."""
+    values = np.asarray(found, dtype=float)
+    if not np.all((values >= lowest) & (values <= highest)):
+        span = f"{np.min(values):.6g} .. {np.max(values):.6g} {unit}"
+        advice = f"; {remedy}" if remedy else ""
+        raise FilmInputError(where, span, f"{lowest:.6g} .. {highest:.6g} {unit}{advice}")
+    return values
+
+
+def require_positive(where: str, **values: float) -> None:
+    """Every value is a finite number above zero: else FilmInputError with its name."""
+    for name, value in values.items():
+        if not (np.isfinite(value) and value > 0.0):
+            raise FilmInputError(f"{where}, {name}", f"{value:g}", "a positive number, SI")
