@@ -58,8 +58,8 @@ class Surface:
     @property
     def variance_shares(self) -> tuple[float, float]:
         """V1 (moving wall) and V2 (fixed wall), of sum one."""
-        moving = (self.roughness_moving / self.composite_roughness) ** 2
-        return moving, 1.0 - moving
+        moving, fixed = self.roughness_moving**2, self.roughness_fixed**2
+        return moving / (moving + fixed), fixed / (moving + fixed)
 
     @property
     def lowest_ratio(self) -> float:
@@ -170,9 +170,10 @@ def _directed(
     factor: Callable[[ArrayLike, float], Tangent], surface: Surface, ratio: Array, weights: tuple[float, float]
 ) -> Directional:
     """Weighted sum of both walls' factors along and across the lay, turned to x and y; slopes over h."""
-    along, across = (
-        _weighted(factor, ratio, weights, tuple(gamma**sign for gamma in surface.peklenik)) for sign in (1, -1)
-    )
+    along = _weighted(factor, ratio, weights, surface.peklenik)
+    isotropic = surface.peklenik == (1.0, 1.0)
+    inverse = (1.0 / surface.peklenik_moving, 1.0 / surface.peklenik_fixed)
+    across = along if isotropic else _weighted(factor, ratio, weights, inverse)
     cosine, sine = np.cos(surface.lay_direction), np.sin(surface.lay_direction)
     parts = ((cosine**2, sine**2), (cosine * sine, -cosine * sine), (sine**2, cosine**2))
     sigma = surface.composite_roughness
@@ -186,7 +187,7 @@ def _weighted(
     factor: Callable[[ArrayLike, float], Tangent],
     ratio: Array,
     weights: tuple[float, float],
-    peklenik: tuple[float, ...],
+    peklenik: tuple[float, float],
 ) -> Tangent:
     """Sum over the walls; walls of one Peklenik number are evaluated once, a smooth wall not at all."""
     if peklenik[0] == peklenik[1]:
