@@ -15,29 +15,25 @@ import argparse
 import os
 import platform
 import sys
-import time
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 import skfem
+from journal_case import ECCENTRICITY, ROUND, THREADS, least, rows
 from rich.console import Console
 from rich.table import Table
 from scipy.sparse.linalg import spsolve
 from skfem.helpers import dot, grad
 
+from reynolds.balance import stiffness
 from reynolds.film import ZERO, Cavitation, FilmProblem, Held, film
 from reynolds.loads import point_fields
 from reynolds.mesh import Cell, FilmMesh, rectangle
-from reynolds.balance import stiffness
 from reynolds.solve import FilmSolver
 from reynolds.space import FilmSpace, film_space
 
-ECCENTRICITY = 0.6
-ROUND = 2.0 * np.pi
-CELLS = (160, 500, 1600)  # round the bearing; 0.4 of it over the half-width
+CELLS = (160, 500, 1600)  # round the bearing
 SPSOLVE_LIMIT = 300_000
-THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS")
 
 
 @dataclass(frozen=True)
@@ -56,7 +52,7 @@ class Timing:
 
 def journal_mesh(n: int) -> FilmMesh:
     """Half of the bearing, radius one: x round it from the largest film, y from midplane to side."""
-    return rectangle((ROUND, 1.0), (n, int(0.4 * n)), cell=Cell.QUADRILATERAL)
+    return rectangle((ROUND, 1.0), (n, rows(n)), cell=Cell.QUADRILATERAL)
 
 
 def journal(space: FilmSpace, cavitation: Cavitation) -> FilmProblem:
@@ -64,16 +60,6 @@ def journal(space: FilmSpace, cavitation: Cavitation) -> FilmProblem:
     thickness = space.sample(lambda x, y: 1.0 + ECCENTRICITY * np.cos(x))
     posed = film(thickness, 1.0, velocity_moving=(np.ones((1, 1)), ZERO))
     return FilmProblem(space, posed, {name: Held(0.0) for name in ("left", "right", "top")}, cavitation)
-
-
-def least(action: Callable[[], object], repeats: int) -> float:
-    """Smallest wall time of the repeats, s."""
-    times = []
-    for _ in range(repeats):
-        begin = time.perf_counter()
-        action()
-        times.append(time.perf_counter() - begin)
-    return min(times)
 
 
 def sommerfeld_number(pressure: np.ndarray, angle: np.ndarray, area: np.ndarray) -> float:
@@ -98,13 +84,14 @@ def time_swashfilm(n: int, cavitation: Cavitation, verified: float, repeats: int
     setup = least(lambda: film_space(mesh), repeats)
     space = film_space(mesh)
     problem = journal(space, cavitation)
+    conductance = problem.film.thickness**3 / (12.0 * problem.film.viscosity)
     solution = FilmSolver(space).solve(problem)
     load = sommerfeld_number(point_fields(solution).pressure, space.points[0], space.area)
     return Timing(
         f"reynolds, {'full film' if cavitation is Cavitation.NONE else 'with rupture'}",
         space.size,
         setup,
-        least(lambda: assemble(space, flow_terms(problem.film)[0]), repeats),
+        least(lambda: stiffness(space, (conductance, conductance)), repeats),
         least(lambda: FilmSolver(space).solve(problem), repeats),
         solution.iterations,
         load,
@@ -113,12 +100,14 @@ def time_swashfilm(n: int, cavitation: Cavitation, verified: float, repeats: int
 
 
 @skfem.BilinearForm
-def _poiseuille(p, f, w):
+def poiseuille(p, f, w):
+    """int h^3/12 grad p . grad f."""
     return (1.0 + ECCENTRICITY * np.cos(w.x[0])) ** 3 / 12.0 * dot(grad(p), grad(f))
 
 
 @skfem.LinearForm
-def _couette(f, w):
+def couette(f, w):
+    """int h/2 df/dx."""
     return 0.5 * (1.0 + ECCENTRICITY * np.cos(w.x[0])) * grad(f)[0]
 
 
@@ -130,14 +119,14 @@ def time_scikit_fem(n: int, verified: float, repeats: int) -> Timing:
         return skfem.Basis(mesh, skfem.ElementQuad1(), intorder=3)
 
     made = basis()
-    matrix, load = _poiseuille.assemble(made), _couette.assemble(made)
+    matrix, load = poiseuille.assemble(made), couette.assemble(made)
     held = made.get_dofs(["left", "right", "top"])
     pressure = skfem.solve(*skfem.condense(matrix, load, D=held), solver=spsolve)
     return Timing(
         "scikit-fem + spsolve, full film",
         made.N,
         least(basis, repeats),
-        assembly := least(lambda: (_poiseuille.assemble(made), _couette.assemble(made)), repeats),
+        assembly := least(lambda: (poiseuille.assemble(made), couette.assemble(made)), repeats),
         assembly + least(lambda: skfem.solve(*skfem.condense(matrix, load, D=held), solver=spsolve), repeats),
         1,
         sommerfeld_number(made.interpolate(pressure).value, made.global_coordinates().value[0], made.dx),
@@ -175,7 +164,7 @@ def main() -> None:
     timings = []
     for n in CELLS:
         repeats = 5 if n < 300 else 3 if n < 1000 else 1
-        for cavitation in Cavitation:
+        for cavitation in verified:
             timings.append(time_swashfilm(n, cavitation, verified[cavitation], repeats))
         if everything or timings[-1].unknowns < SPSOLVE_LIMIT:
             timings.append(time_scikit_fem(n, verified[Cavitation.NONE], repeats))

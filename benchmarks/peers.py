@@ -1,0 +1,278 @@
+"""This solver beside its peers on one film: the finite journal bearing of `journal_case.py`, full film.
+
+    python benchmarks/peers.py                            about 1e2, 1e3, 1e4 and 1e5 unknowns; a few minutes
+    python benchmarks/peers.py --quick                    up to about 1e4
+    python benchmarks/peers.py --page docs/benchmarks.md  writes the page too
+
+Each peer is a script in `benchmarks/peers`, run on one thread as a process of its own, once per mesh; `peer.py`
+there says what is timed. A peer that is not installed is named with the way to install it, and left out.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import math
+import os
+import platform
+import shutil
+import subprocess
+import sys
+from collections.abc import Sequence
+from dataclasses import dataclass
+from datetime import date
+from pathlib import Path
+
+from journal_case import ECCENTRICITY, THREADS, rows
+from journal_series import force
+from rich.console import Console
+from rich.table import Table
+
+HERE = Path(__file__).resolve().parent
+ROSS = HERE.parent / "build" / "peers" / "ross"
+CELLS = {1: (16, 50, 160, 500), 2: (8, 26, 80, 250)}  # round the bearing: as many unknowns with either order
+SIZES = ("1e2", "1e3", "1e4", "1e5")
+REPEATS = (60, 40, 15, 5)
+ERRORS = (1e-3, 1e-4)
+TIMEOUT = 600.0
+
+
+@dataclass(frozen=True)
+class Peer:
+    """A solver as its users run it: elements, program and script, Python module it needs (FreeFEM none)."""
+
+    name: str
+    elements: str
+    degree: int
+    program: str
+    script: str
+    module: str
+    method: str
+    install: str
+
+
+@dataclass(frozen=True)
+class Measured:
+    """One peer on one mesh; `size` is the place of the mesh in CELLS."""
+
+    peer: Peer
+    size: int
+    version: str
+    unknowns: int
+    solve_s: float
+    load: float
+    attitude_deg: float
+
+
+def _peers() -> tuple[Peer, ...]:
+    debian, own = "/usr/bin/python3", sys.executable
+    dolfinx, freefem = "apt-get install python3-dolfinx", "apt-get install freefem++"
+    found = []
+    for degree in (1, 2):
+        quads, triangles = f"Q{degree}", f"P{degree}"
+        found += [
+            Peer("this solver", quads, degree, own, "run_swashfilm.py", "reynolds", "", "make install"),
+            Peer("scikit-fem + spsolve", quads, degree, own, "run_scikit_fem.py", "skfem", "", "make install"),
+            Peer("dolfinx, Cholesky", quads, degree, debian, "run_dolfinx.py", "dolfinx", "direct", dolfinx),
+            Peer("dolfinx, CG + GAMG", quads, degree, debian, "run_dolfinx.py", "dolfinx", "multigrid", dolfinx),
+        ]
+        for method in ("UMFPACK", "CHOLMOD"):
+            name = f"FreeFEM, {method}"
+            found.append(Peer(name, triangles, degree, "FreeFem++-nw", "run_freefem.edp", "", method, freefem))
+    folder = ROSS.relative_to(HERE.parent)
+    ross = f'python3 -m venv {folder} && {folder}/bin/pip install ross-rotordynamics "plotly<6"'
+    found.append(Peer("ROSS FluidFlow", "FD", 1, str(ROSS / "bin" / "python"), "run_ross.py", "ross", "", ross))
+    return tuple(found)
+
+
+def grid(peer: Peer, size: int) -> tuple[int, int] | None:
+    """Cells round and across the bearing; None where ROSS cannot, whose matrix is dense."""
+    if peer.module == "ross":
+        return ((16, 4), (64, 16), (200, 50), None)[size]  # the whole width, four times as fine round it
+    cells = CELLS[peer.degree][size]
+    return cells, rows(cells)
+
+
+def installed(peer: Peer) -> bool:
+    """Whether the peer's program is there, and the module that it needs."""
+    if shutil.which(peer.program) is None:
+        return False
+    probe = f"import importlib.util, sys; sys.exit(importlib.util.find_spec({peer.module!r}) is None)"
+    return not peer.module or subprocess.run([peer.program, "-c", probe], check=False).returncode == 0
+
+
+def measure(peer: Peer, size: int) -> Measured | str:
+    """The peer's line for one mesh, or in words why there is none."""
+    mesh = grid(peer, size)
+    if mesh is None:
+        return "its matrix is dense: 80 GB"
+    arguments = {
+        "degree": peer.degree, "cells": mesh[0], "rows": mesh[1], "repeats": REPEATS[size],
+        "eccentricity": ECCENTRICITY, "method": peer.method or "default",
+    }  # fmt: skip
+    quiet = [] if peer.module else ["-v", "0"]
+    command = [peer.program, *quiet, str(HERE / "peers" / peer.script)]
+    command += [text for name, value in arguments.items() for text in (f"-{name}", str(value))]
+    alone = os.environ | dict.fromkeys(THREADS, "1") | {"PYTHONPATH": str(HERE)}
+    try:
+        run = subprocess.run(command, env=alone, capture_output=True, text=True, timeout=TIMEOUT, check=False)
+    except subprocess.TimeoutExpired:
+        return f"not done after {TIMEOUT:.0f} s"
+    lines = [line for line in run.stdout.splitlines() if line.startswith('{"')]
+    if run.returncode != 0 or not lines:
+        said = (run.stderr.strip() or run.stdout.strip() or "nothing").splitlines()[-1]
+        return f"failed (exit {run.returncode}): {said}"
+    return Measured(peer, size, **json.loads(lines[-1]))
+
+
+def error(row: Measured, load: float) -> float:
+    """Relative error of the load."""
+    return abs(row.load / load - 1.0)
+
+
+def time_to(target: float, rows: Sequence[Measured], load: float) -> tuple[str, float]:
+    """Seconds to a relative error of the load: between two meshes, a power law of the error.
+
+    With a sign: "<" where the coarsest mesh is better already, "never" (and the best error) where none is.
+    """
+    errors = [error(row, load) for row in rows]
+    first = next((i for i, found in enumerate(errors) if found <= target), None)
+    if first is None:
+        return "never", min(errors)
+    if first == 0:
+        return "<", rows[0].solve_s
+    share = math.log(target / errors[first - 1]) / math.log(errors[first] / errors[first - 1])
+    return "", rows[first - 1].solve_s * (rows[first].solve_s / rows[first - 1].solve_s) ** share
+
+
+Lines = list[tuple[str, ...]]
+MESHES = ("solver", "elements", "unknowns", "time / ms", "x this solver", "load", "error / %", "attitude / deg")
+EQUAL = ("solver", "elements", *(f"{what}{100 * e:g} %{unit}" for e in ERRORS for what, unit in
+         (("time to ", " / ms"), ("x this solver, ", ""))))  # fmt: skip
+
+
+def _ms(seconds: float) -> str:
+    """Milliseconds to three digits, without an exponent."""
+    return f"{1e3 * seconds:.3g}" if seconds < 1.0 else f"{1e3 * seconds:.0f}"
+
+
+def mesh_lines(measured: Sequence[Measured], load: float) -> Lines:
+    """One line per peer and mesh; the ratio is to this solver with the same order and number of unknowns."""
+    own = {(row.peer.degree, row.size): row.solve_s for row in measured if row.peer.module == "reynolds"}
+    lines: Lines = []
+    for row in measured:
+        base = own.get((row.peer.degree, row.size))
+        lines.append((
+            row.peer.name, row.peer.elements, str(row.unknowns), _ms(row.solve_s),
+            "" if base is None else f"{row.solve_s / base:.2g}", f"{row.load:.6f}",
+            f"{100 * (row.load / load - 1.0):+.2g}", f"{row.attitude_deg:.3f}",
+        ))  # fmt: skip
+    return lines
+
+
+def equal_lines(measured: Sequence[Measured], load: float) -> Lines:
+    """One line per peer: time to each error, and its ratio to this solver with the same order of elements."""
+    groups = {
+        peer: [row for row in measured if row.peer == peer] for peer in dict.fromkeys(r.peer for r in measured)
+    }
+    own = {peer.degree: group for peer, group in groups.items() if peer.module == "reynolds"}
+    lines: Lines = []
+    for peer, group in groups.items():
+        cells = [peer.name, peer.elements]
+        for target in ERRORS:
+            sign, found = time_to(target, group, load)
+            own_sign, base = time_to(target, own[peer.degree], load) if peer.degree in own else ("never", 0.0)
+            if sign == "never":
+                cells += [f"not reached, best {100 * found:.2g} %", ""]
+            else:
+                comparable = own_sign == sign
+                cells += [f"{sign} {_ms(found)}".strip(), f"{found / base:.2g}" if comparable else ""]
+        lines.append(tuple(cells))
+    return lines
+
+
+def shown(title: str, head: Sequence[str], lines: Lines) -> Table:
+    """Lines as a table for the terminal."""
+    table = Table(title=title)
+    for i, name in enumerate(head):
+        table.add_column(name, justify="left" if i < 2 else "right", no_wrap=i < 2)
+    for before, line in zip([("",), *lines], lines, strict=False):
+        if before[:2] != line[:2] and len(head) == len(MESHES) and before != ("",):
+            table.add_section()
+        table.add_row(*line)
+    return table
+
+
+def markdown(head: Sequence[str], lines: Lines) -> str:
+    """Lines as a table of Markdown."""
+    rule = "|" + "|".join("---" if i < 2 else "---:" for i in range(len(head))) + "|"
+    return "\n".join(["| " + " | ".join(head) + " |", rule, *("| " + " | ".join(line) + " |" for line in lines)])
+
+
+def machine() -> str:
+    """Processor, cores and Python of this machine."""
+    cpuinfo = Path("/proc/cpuinfo")
+    lines = cpuinfo.read_text(encoding="utf-8").splitlines() if cpuinfo.exists() else []
+    model = next(
+        (line.split(":")[1].strip() for line in lines if line.startswith("model name")), platform.machine()
+    )
+    return f"{model}, {os.cpu_count()} cores, {platform.system()}, Python {platform.python_version()}"
+
+
+def page(measured: Sequence[Measured], left_out: Sequence[str], load: float, attitude: float) -> str:
+    """docs/benchmarks.md."""
+    versions = dict.fromkeys(f"{row.peer.name.split(',')[0].split(' +')[0]} {row.version}" for row in measured)
+    text = (HERE / "peers" / "page.md").read_text(encoding="utf-8")
+    return text.format(
+        date=date.today().isoformat(),
+        machine=machine(),
+        busy=f"{os.getloadavg()[0]:.1f}",
+        versions=", ".join(versions),
+        load=f"{load:.6f}",
+        attitude=f"{attitude:.3f}",
+        meshes=markdown(MESHES, mesh_lines(measured, load)),
+        equal=markdown(EQUAL, equal_lines(measured, load)),
+        left_out="\n".join(f"- {line}" for line in left_out) or "- nothing",
+    )
+
+
+def run_all(console: Console, sizes: Sequence[int]) -> tuple[list[Measured], list[str]]:
+    """Every peer on every mesh, and what was left out and why."""
+    measured: list[Measured] = []
+    left_out: list[str] = []
+    for peer in _peers():
+        if not installed(peer):
+            left_out.append(f"{peer.name} {peer.elements}: not installed; to install it: `{peer.install}`")
+            continue
+        for size in sizes:
+            with console.status(f"{peer.name} {peer.elements}, {SIZES[size]} unknowns"):
+                found = measure(peer, size)
+            if isinstance(found, str):
+                left_out.append(f"{peer.name} {peer.elements}, {SIZES[size]} unknowns: {found}")
+            else:
+                measured.append(found)
+    return measured, left_out
+
+
+def main() -> None:
+    """Run the peers, print both tables, write the page where asked to."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--quick", action="store_true", help="no mesh of 1e5 unknowns")
+    parser.add_argument("--page", type=Path, help="write the results to this file")
+    asked = parser.parse_args()
+    console = Console(width=140)
+    along, across = force()
+    load, attitude = math.hypot(along, across), math.degrees(math.atan2(across, -along))
+    measured, left_out = run_all(console, range(3 if asked.quick else 4))
+    console.print(shown("Assembly and solve of one film, one thread", MESHES, mesh_lines(measured, load)))
+    console.print(shown("At equal error of the load", EQUAL, equal_lines(measured, load)))
+    console.print(f"verified: load {load:.6f}, attitude {attitude:.3f} deg (series, without finite elements)")
+    console.print(machine())
+    for line in left_out:
+        console.print(f"left out: {line}")
+    if asked.page is not None:
+        asked.page.write_text(page(measured, left_out, load, attitude), encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()

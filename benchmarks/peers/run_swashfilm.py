@@ -1,0 +1,30 @@
+"""This solver: its default for the mesh, chosen by itself."""
+
+from __future__ import annotations
+
+from importlib.metadata import version
+
+import numpy as np
+from film import journal, journal_mesh
+from peer import asked, least, report
+
+from reynolds.film import Cavitation
+from reynolds.loads import point_fields
+from reynolds.solve import FilmSolver
+from reynolds.space import film_space
+
+case = asked()
+space = film_space(journal_mesh(case.cells), degree=case.degree)
+solver = FilmSolver(space)
+solution = solver.solve(journal(space, Cavitation.NONE))
+solve = least(lambda: solver.solve(journal(space, Cavitation.NONE)), case.repeats)
+
+carried = 2.0 * np.maximum(point_fields(solution).pressure, 0.0) * space.area
+angle = space.points[0]
+report(
+    version("swashfilm"),
+    space.size,
+    solve,
+    float(np.sum(carried * np.cos(angle))),
+    float(np.sum(carried * np.sin(angle))),
+)
