@@ -100,6 +100,10 @@ def build_parser() -> argparse.ArgumentParser:
     _output(run)
     film = _command(commands, "film", "one film: a free one or a gap of a pump")
     film.add_argument("case", type=Path, metavar="CASE.toml", help="the film case")
+    film.add_argument(
+        "--refine", metavar="N", help="solve on N meshes, each twice finer, and tell order and limit"
+    )
+    film.add_argument("--csv", action="store_true", help="write the fields as a table too, fields.csv")
     _output(film)
     report = _command(commands, "report", "make the report of a run folder anew")
     report.add_argument("folder", type=Path, metavar="DIR", help="the run folder")
@@ -131,11 +135,8 @@ def _check_command(parser: argparse.ArgumentParser, words: Sequence[str]) -> Non
 
 def _unknown(command: str | None, word: str) -> Fault:
     """The fault of a word that no option or argument takes."""
-    options = (
-        [*_OVERRIDES, "--fidelity", "-o", "--output", "--help"]
-        if command == "run"
-        else ["-o", "--output", "--help"]
-    )
+    options = ["-o", "--output", "--help"]
+    options = [*_OVERRIDES, "--fidelity", *options] if command == "run" else ["--refine", "--csv", *options]
     if command not in ("run", "film"):
         options = ["--help"] if command else ["--help", "--version"]
     kind = "unknown option" if word.startswith("-") else "a word too many"
@@ -245,19 +246,33 @@ def _at_options(reason: InputFaults, stated: dict[str, object], faults: list[Fau
 def _film(options: argparse.Namespace) -> int:
     from swashfilm.film_case import load_case
     from swashfilm.film_page import summary_rows
-    from swashfilm.film_study import run_case
+    from swashfilm.film_refine import refinement_head, refinement_rows
+    from swashfilm.film_run import check_refinable, run_case
     from swashfilm.progress import progress
     from swashfilm.run_folder import final_folder, run_folder
 
     _expect(options.case, "film", "pump", "run")
+    meshes = _meshes(options.refine)
     case = load_case(options.case)
+    if meshes > 1:
+        check_refinable(case, meshes)
     with run_folder(case.name, options.output) as folder, progress(3, f"film {case.name}") as report:
-        summary = run_case(case, folder, report)
+        summary = run_case(case, folder, report, meshes=meshes, as_table=options.csv)
     show_table(f"Film {case.name}", summary_rows(summary))
+    if found := summary.get("refinement"):
+        show_table("On finer meshes", [refinement_head(found), *refinement_rows(found)])
     for warning in summary["warnings"]:
         show(f"warning: {warning['name']}: {warning['text']}")
     show(f"results in {final_folder(folder)}")
     return 0
+
+
+def _meshes(refine: str | None) -> int:
+    if refine is None:
+        return 1
+    if refine not in ("2", "3", "4", "5"):
+        raise InputFaults(COMMAND_LINE, [Fault("--refine", repr(refine), "a number of meshes, 2 to 5")])
+    return int(refine)
 
 
 def _report(options: argparse.Namespace) -> int:

@@ -1,4 +1,4 @@
-"""Formulas of case files: arithmetic of x and y, checked and evaluated without Python's own eval.
+"""Formulas of case files: arithmetic of x, y and the time t, checked and evaluated without Python's own eval.
 
 A formula is parsed once into a tree of which only arithmetic, comparisons, listed functions and listed names
 are taken; everything else is an ExpressionError that says where.
@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import ast
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -20,7 +20,8 @@ Array = NDArray[np.float64]
 _Evaluate = Callable[[Mapping[str, Array]], Array]
 
 LONGEST = 2000  # characters
-VARIABLES = ("x", "y")
+PLACE = ("x", "y")
+IN_TIME = (*PLACE, "t")
 CONSTANTS = {"pi": math.pi}
 FUNCTIONS: dict[str, tuple[Callable[..., Array], int]] = {
     "sin": (np.sin, 1), "cos": (np.cos, 1), "tan": (np.tan, 1),
@@ -48,20 +49,20 @@ class ExpressionError(ValueError):
 
 @dataclass(frozen=True)
 class Expression:
-    """A checked formula of x and y (m); calling it gives its value, of the shape of x and y."""
+    """A checked formula of x and y (m) and t (s); calling it gives its value, of the shape of x and y."""
 
     text: str
     evaluate: _Evaluate = field(repr=False, compare=False)
 
-    def __call__(self, x: Array, y: Array) -> Array:
+    def __call__(self, x: Array, y: Array, t: float = 0.0) -> Array:
         """The formula at these places, float, shape of x; not finite where it has no value (1/0, sqrt(-1))."""
         with np.errstate(all="ignore"):
-            value = self.evaluate({"x": x, "y": y})
+            value = self.evaluate({"x": x, "y": y, "t": np.asarray(t)})
         return np.array(np.broadcast_to(value, np.shape(x)), dtype=float)
 
 
-def parse_expression(text: str) -> Expression:
-    """The formula that `text` writes: numbers, x, y, pi, + - * / **, < <= > >=, and or not, FUNCTIONS.
+def parse_expression(text: str, variables: Sequence[str] = PLACE) -> Expression:
+    """The formula that `text` writes: numbers, the variables, pi, + - * / **, < <= > >=, and or not, FUNCTIONS.
 
     Raises ExpressionError for a slip of syntax (with its column), an unknown name (with the nearest known one)
     and anything that is no arithmetic.
@@ -70,18 +71,41 @@ def parse_expression(text: str) -> Expression:
         raise ExpressionError(f"{len(text)} characters", f"a formula of at most {LONGEST} characters")
     try:
         tree = ast.parse(text.strip(), mode="eval")
+        _check_names(tree, variables)
         formula = Expression(text.strip(), _compile(tree.body))
         formula(np.ones(1), np.ones(1))
     except SyntaxError as slip:
         column = f" at column {slip.offset}" if slip.offset else ""
-        raise ExpressionError(f"'{text}', a slip of syntax{column}", "a formula of x and y") from None
+        raise ExpressionError(
+            f"'{text}', a slip of syntax{column}", f"a formula of {_listed(variables)}"
+        ) from None
     except (RecursionError, MemoryError):
         raise ExpressionError("a formula nested too deep", "a simpler formula") from None
     except ValueError as reason:
         if isinstance(reason, ExpressionError):
             raise ExpressionError(f"'{text}': {reason.found}", reason.expected, reason.nearest) from None
-        raise ExpressionError(f"{text!r} ({reason})", "a formula of x and y") from None
+        raise ExpressionError(f"{text!r} ({reason})", f"a formula of {_listed(variables)}") from None
     return formula
+
+
+def _check_names(tree: ast.Expression, variables: Sequence[str]) -> None:
+    """Raise ExpressionError for a name that is no variable, constant or function."""
+    called = {id(node.func) for node in ast.walk(tree) if isinstance(node, ast.Call)}
+    for node in ast.walk(tree):
+        if not isinstance(node, ast.Name) or id(node) in called or node.id in (*variables, *CONSTANTS):
+            continue
+        if node.id in IN_TIME:
+            expected = f"a formula of {_listed(variables)}" + (
+                " (t needs a table [time])" if node.id == "t" else ""
+            )
+            raise ExpressionError(f"{node.id}{_at(node)}", expected)
+        known = f"{', '.join((*variables, *CONSTANTS))} and the functions {', '.join(FUNCTIONS)}"
+        nearest = nearest_choice(node.id, (*FUNCTIONS, *CONSTANTS))
+        raise ExpressionError(f"unknown name {node.id}{_at(node)}", known, nearest)
+
+
+def _listed(names: Sequence[str]) -> str:
+    return names[0] if len(names) == 1 else f"{', '.join(names[:-1])} and {names[-1]}"
 
 
 def _compile(node: ast.expr) -> _Evaluate:
@@ -92,7 +116,7 @@ def _compile(node: ast.expr) -> _Evaluate:
         case ast.Constant(value=int() | float() as number):
             return _constant(number, node)
         case ast.Name(id=name):
-            return _named(name, node)
+            return _named(name)
         case ast.BinOp(left=left, op=sign, right=right) if type(sign) in _BINARY:
             return _call(_BINARY[type(sign)], [left, right])
         case ast.BinOp(op=ast.BitXor()):
@@ -110,7 +134,8 @@ def _compile(node: ast.expr) -> _Evaluate:
         case _:
             pass
     raise ExpressionError(
-        f"'{ast.unparse(node)}'{_at(node)}, which is no arithmetic", f"numbers, {_known_names()}, + - * / **"
+        f"'{ast.unparse(node)}'{_at(node)}, which is no arithmetic",
+        f"numbers, variables, {', '.join(CONSTANTS)}, the functions {', '.join(FUNCTIONS)}, + - * / **",
     )
 
 
@@ -122,17 +147,11 @@ def _constant(number: float, node: ast.expr) -> _Evaluate:
     return lambda names: value
 
 
-def _named(name: str, node: ast.expr) -> _Evaluate:
-    if name in VARIABLES:
-        return lambda names: names[name]
+def _named(name: str) -> _Evaluate:
     if name in CONSTANTS:
         value = np.asarray(CONSTANTS[name])
         return lambda names: value
-    if name == "t":
-        raise ExpressionError(f"time t{_at(node)}", "a formula of x and y (this version solves steady films)")
-    raise ExpressionError(
-        f"unknown name {name}{_at(node)}", _known_names(), nearest_choice(name, (*FUNCTIONS, *CONSTANTS))
-    )
+    return lambda names: names[name]
 
 
 def _function(name: str, arguments: list[ast.expr], node: ast.expr) -> _Evaluate:
@@ -166,10 +185,6 @@ def _comparison(
         return np.logical_and.reduce(np.broadcast_arrays(*held))
 
     return holds
-
-
-def _known_names() -> str:
-    return f"{', '.join((*VARIABLES, *CONSTANTS))} and the functions {', '.join(FUNCTIONS)}"
 
 
 def _at(node: ast.expr) -> str:

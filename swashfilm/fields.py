@@ -1,17 +1,18 @@
-"""Fields of a case file: a quantity, a formula of x and y, or data that the mesh file brings along."""
+"""Fields of a case file: a quantity, a formula of x, y and t, or data that the mesh file brings along."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
 
 from reynolds.mesh import Array, FilmMesh, read_mesh_file
+from reynolds.mesh_refine import RefinedMesh
 from reynolds.space import FilmSpace
-from swashfilm.expressions import CONSTANTS, VARIABLES, Expression, ExpressionError, parse_expression
+from swashfilm.expressions import CONSTANTS, IN_TIME, PLACE, Expression, ExpressionError, parse_expression
 from system.faults import nearest_choice
 from system.units import Dimension, QuantityError, format_quantity, parse_quantity
 
@@ -26,6 +27,13 @@ class MeshData:
     point: Mapping[str, Array] = field(default_factory=dict)
     cell: Mapping[str, Array] = field(default_factory=dict)
 
+    def refined(self, finer: RefinedMesh) -> MeshData:
+        """The same data on a finer mesh: interpolated at points, inherited by cells."""
+        return MeshData(
+            {name: finer.point_data(values) for name, values in self.point.items()},
+            {name: finer.cell_data(values) for name, values in self.cell.items()},
+        )
+
 
 @dataclass(frozen=True)
 class Uniform:
@@ -34,13 +42,17 @@ class Uniform:
     value: float
     dimension: Dimension
 
-    def sample(self, space: FilmSpace) -> Array:
+    def sample(self, space: FilmSpace, t: float = 0.0) -> Array:
         """(1, 1)."""
         return space.sample(self.value)
 
-    def at_vertices(self, space: FilmSpace) -> Array | None:
+    def at_vertices(self, space: FilmSpace, t: float = 0.0) -> Array | None:
         """The value, (vertices,)."""
         return np.full(len(space.vertices), self.value)
+
+    def on(self, data: MeshData) -> Uniform:
+        """The same on any mesh."""
+        return self
 
     def __str__(self) -> str:
         """As a case file writes it."""
@@ -49,17 +61,21 @@ class Uniform:
 
 @dataclass(frozen=True)
 class Formula:
-    """A formula of x and y, SI; a jump within a cell is blurred over that cell, along cell edges it is exact."""
+    """A formula of x, y and t, SI; a jump within a cell is blurred over that cell, along cell edges exact."""
 
     expression: Expression
 
-    def sample(self, space: FilmSpace) -> Array:
+    def sample(self, space: FilmSpace, t: float = 0.0) -> Array:
         """At the quadrature points, (cells, points)."""
-        return space.sample(self.expression)
+        return space.sample(lambda x, y: self.expression(x, y, t))
 
-    def at_vertices(self, space: FilmSpace) -> Array | None:
+    def at_vertices(self, space: FilmSpace, t: float = 0.0) -> Array | None:
         """At the vertices, (vertices,)."""
-        return self.expression(*space.vertices.T)
+        return self.expression(*space.vertices.T, t)
+
+    def on(self, data: MeshData) -> Formula:
+        """The same on any mesh."""
+        return self
 
     def __str__(self) -> str:
         """As a case file writes it."""
@@ -73,13 +89,17 @@ class PointData:
     name: str
     values: Array = field(repr=False)
 
-    def sample(self, space: FilmSpace) -> Array:
+    def sample(self, space: FilmSpace, t: float = 0.0) -> Array:
         """Interpolated to the quadrature points, (cells, points)."""
         return space.sample_vertices(self.values)
 
-    def at_vertices(self, space: FilmSpace) -> Array | None:
+    def at_vertices(self, space: FilmSpace, t: float = 0.0) -> Array | None:
         """As the file has it, (vertices,)."""
         return self.values
+
+    def on(self, data: MeshData) -> PointData:
+        """The same name's data on another mesh."""
+        return PointData(self.name, data.point[self.name])
 
     def __str__(self) -> str:
         """As a case file writes it."""
@@ -93,13 +113,17 @@ class CellData:
     name: str
     values: Array = field(repr=False)
 
-    def sample(self, space: FilmSpace) -> Array:
+    def sample(self, space: FilmSpace, t: float = 0.0) -> Array:
         """(cells, 1)."""
         return space.sample_cells(self.values)
 
-    def at_vertices(self, space: FilmSpace) -> Array | None:
+    def at_vertices(self, space: FilmSpace, t: float = 0.0) -> Array | None:
         """None: it has no one value where cells meet."""
         return None
+
+    def on(self, data: MeshData) -> CellData:
+        """The same name's data on another mesh."""
+        return CellData(self.name, data.cell[self.name])
 
     def __str__(self) -> str:
         """As a case file writes it."""
@@ -109,14 +133,14 @@ class CellData:
 Field = Uniform | Formula | PointData | CellData
 
 
-def read_field(raw: object, dimension: Dimension, data: MeshData) -> Field:
+def read_field(raw: object, dimension: Dimension, data: MeshData, variables: Sequence[str] = PLACE) -> Field:
     """The field that an entry of a case file means.
 
-    A number with a unit is a quantity, a name of the mesh file's data that data, everything else a formula
-    whose value is in the SI unit of `dimension`. Raises QuantityError with what was found and expected.
+    A number with a unit is a quantity, a name of the mesh file's data that data, everything else a formula of
+    `variables` whose value is in the SI unit of `dimension`. Raises QuantityError: what was found and expected.
     """
     expected = (
-        f"{dimension.noun} with its unit, such as '{dimension.example}', a formula of x and y in "
+        f"{dimension.noun} with its unit, such as '{dimension.example}', a formula of {', '.join(variables)} in "
         f"{dimension.si_unit} (text in quotes), or the name of data in the mesh file"
     )
     if isinstance(raw, bool) or not isinstance(raw, str):
@@ -138,7 +162,7 @@ def read_field(raw: object, dimension: Dimension, data: MeshData) -> Field:
     if may_be_data(text):
         raise _no_such_data(text, data)
     try:
-        return Formula(parse_expression(text))
+        return Formula(parse_expression(text, variables))
     except ExpressionError as reason:
         raise QuantityError(reason.found, reason.expected, reason.nearest) from None
 
@@ -146,7 +170,7 @@ def read_field(raw: object, dimension: Dimension, data: MeshData) -> Field:
 def may_be_data(raw: object) -> bool:
     """True for a text that can only be the name of data in a mesh file."""
     return (
-        isinstance(raw, str) and bool(_NAME.fullmatch(raw.strip())) and raw.strip() not in (*VARIABLES, *CONSTANTS)
+        isinstance(raw, str) and bool(_NAME.fullmatch(raw.strip())) and raw.strip() not in (*IN_TIME, *CONSTANTS)
     )
 
 
@@ -175,7 +199,7 @@ def _scalar(values: Array) -> Array | None:
 
 def _no_such_data(name: str, data: MeshData) -> QuantityError:
     names = [*data.point, *data.cell]
-    known = (*VARIABLES, *CONSTANTS)
+    known = (*PLACE, *CONSTANTS)
     if not names:
         return QuantityError(
             f"unknown name {name}", f"{', '.join(known)}, or data of the mesh (this mesh has none)"

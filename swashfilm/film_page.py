@@ -11,10 +11,10 @@ from typing import Any
 
 import numpy as np
 
+from swashfilm.film_refine import refinement_head, refinement_rows
+from swashfilm.headline import named
 from swashfilm.maps import draw_map
 from system.faults import Fault, InputFaults
-
-UNITS = {"_m3_per_s": "m3/s", "_Nm": "N m", "_Pa": "Pa", "_N": "N", "_W": "W", "_m": "m", "_seconds": "s"}
 
 
 def write_film_page(folder: Path) -> Path:
@@ -34,6 +34,9 @@ def write_film_page(folder: Path) -> Path:
         picture=base64.b64encode(film_picture(folder / "results.nc")).decode("ascii"),
         rows=list(summary_rows(summary)),
         warnings=summary["warnings"],
+        refinement=[refinement_head(found), *refinement_rows(found)]
+        if (found := summary.get("refinement"))
+        else [],
         case=(folder / "resolved.toml").read_text("utf-8"),
     )
     path = folder / "report.html"
@@ -44,14 +47,9 @@ def write_film_page(folder: Path) -> Path:
 def summary_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
     """(what, value with its unit) of every number of a film's summary, in its order."""
     for key, value in summary.items():
-        if key in ("format", "kind", "name", "warnings"):
+        if key in ("format", "kind", "name", "warnings", "refinement"):
             continue
-        name, unit = key, ""
-        for ending, symbol in UNITS.items():
-            if key.endswith(ending):
-                name, unit = ("solve" if ending == "_seconds" else key.removesuffix(ending)), symbol
-                break
-        words = name.replace("_", " ")
+        words, unit = named(key)
         if isinstance(value, dict):
             for part, number in value.items():
                 yield f"{words}, {part}", f"{number:.6g} {unit}".strip()

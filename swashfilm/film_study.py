@@ -1,31 +1,26 @@
-"""One film study: solve a case, and leave its fields, its summary and its picture in a run folder."""
+"""One film study: a case solved, its summary, its warnings and its fields."""
 
 from __future__ import annotations
 
 import time
 from dataclasses import dataclass
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from gaps.result import GapFilm
-from reynolds.export import write_vtu
 from reynolds.film import Cavitation, FilmSolution, vertex_thickness
 from reynolds.loads import Loads, loads, point_fields
 from reynolds.solve import FilmSolver
 from swashfilm.film_case import FilmCase
 from swashfilm.gap_case import GapCase
-from swashfilm.gap_study import gap_summary, gap_warnings, solve_gap, true_place
-from swashfilm.progress import Report
-from swashfilm.run_folder import write_json
+from swashfilm.gap_study import gap_summary, gap_warnings, solve_gap
 
 if TYPE_CHECKING:
     import xarray
 
 LARGEST_CAVITY_FLOW = 0.01  # of the throughput; Reynolds' condition makes or swallows oil in a cavity
 LARGEST_THICKNESS_RATIO = 0.05  # of the film's extent; beyond, flow across the film counts
-_STAGES = 3
 
 
 @dataclass(frozen=True)
@@ -48,29 +43,6 @@ def solve_case(case: FilmCase | GapCase) -> FilmStudy:
     solution = FilmSolver(case.problem.space).solve(case.problem)
     seconds = time.perf_counter() - began
     return FilmStudy(case.name, solution, loads(solution), None, seconds)
-
-
-def run_case(case: FilmCase | GapCase, folder: Path, report: Report) -> dict[str, Any]:
-    """Solve a case and write input.toml, resolved.toml, film.vtu, results.nc, summary.json and report.html.
-
-    Returns the summary. Raises FilmNotConverged; then only the two TOML files are there.
-    """
-    (folder / "input.toml").write_text(case.text, encoding="utf-8")
-    (folder / "resolved.toml").write_text(case.resolved, encoding="utf-8")
-    report(0, _STAGES, "solving")
-    study = solve_case(case)
-    report(1, _STAGES, "writing fields")
-    summary = film_summary(study)
-    place = true_place(case) if isinstance(case, GapCase) else None
-    write_vtu(folder / "film.vtu", study.solution, place)
-    film_dataset(study).to_netcdf(folder / "results.nc", engine="h5netcdf")
-    write_json(folder / "summary.json", summary)
-    report(2, _STAGES, "drawing")
-    from swashfilm.film_page import write_film_page
-
-    write_film_page(folder)
-    report(_STAGES, _STAGES, "done")
-    return summary
 
 
 def film_summary(study: FilmStudy) -> dict[str, Any]:
@@ -148,7 +120,7 @@ def _thickness_ratio(solution: FilmSolution) -> float:
     """Mean film thickness over the root of the film's area."""
     area = solution.problem.space.area
     total = float(area.sum())
-    return float(np.sum(solution.problem.film.thickness * area)) / total**1.5
+    return float(np.sum(solution.film.thickness * area)) / total**1.5
 
 
 def film_dataset(study: FilmStudy) -> xarray.Dataset:
@@ -156,7 +128,7 @@ def film_dataset(study: FilmStudy) -> xarray.Dataset:
     import xarray
 
     space = study.solution.problem.space
-    thickness = np.broadcast_to(study.solution.problem.film.thickness, space.area.shape)
+    thickness = np.broadcast_to(study.solution.film.thickness, space.area.shape)
     cell_area = space.area.sum(axis=1)
     shear = point_fields(study.solution).shear_moving
 
@@ -167,7 +139,7 @@ def film_dataset(study: FilmStudy) -> xarray.Dataset:
     return xarray.Dataset(
         {
             "film_pressure": ("vertex", pressure, {"units": "Pa"}),
-            "film_thickness": ("vertex", vertex_thickness(study.solution.problem), {"units": "m"}),
+            "film_thickness": ("vertex", vertex_thickness(study.solution), {"units": "m"}),
             "film_thickness_cell": ("cell", mean(thickness), {"units": "m"}),
             "wall_shear_x": ("cell", mean(shear[0]), {"units": "Pa", "wall": "moving"}),
             "wall_shear_y": ("cell", mean(shear[1]), {"units": "Pa", "wall": "moving"}),

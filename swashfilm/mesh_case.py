@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from enum import Enum
 from pathlib import Path
 
 from reynolds.errors import FilmInputError
 from reynolds.mesh import Cell, FilmMesh, annulus, mesh_from_file, rectangle
+from reynolds.mesh_refine import refine_mesh
 from swashfilm.case_table import Table, quoted
 from swashfilm.fields import MeshData, mesh_data
 from system.units import Dimension, format_quantity
 
 MOST_CELLS = 10_000_000  # some 10 GB of memory
+Cells = tuple[int, int]
 
 
 class Shape(Enum):
@@ -32,11 +35,12 @@ class Periodic(Enum):
 
 @dataclass(frozen=True)
 class CaseMesh:
-    """A mesh, the data that it brings along, and how a case file writes it."""
+    """A mesh, the data that it brings along, how a case file writes it, and how to make it twice finer."""
 
     film_mesh: FilmMesh
     data: MeshData
     text: str
+    finer: Callable[[], CaseMesh]
 
 
 def read_mesh(film: Table, folder: Path) -> CaseMesh | None:
@@ -64,7 +68,22 @@ def _from_file(film: Table, raw: str, folder: Path) -> CaseMesh | None:
     except FilmInputError as reason:
         film.fault("mesh", reason.found, reason.expected)
         return None
-    return CaseMesh(film_mesh, data, quoted(str(path.resolve())))
+    return _of_file(film_mesh, data, quoted(str(path.resolve())))
+
+
+def _of_file(film_mesh: FilmMesh, data: MeshData, text: str) -> CaseMesh:
+    def finer() -> CaseMesh:
+        refined = refine_mesh(film_mesh)
+        return _of_file(refined.film_mesh, data.refined(refined), text)
+
+    return CaseMesh(film_mesh, data, text, finer)
+
+
+def _built_in(build: Callable[[Cells], FilmMesh], text: Callable[[Cells], str], cells: Cells) -> CaseMesh:
+    def finer() -> CaseMesh:
+        return _built_in(build, text, (2 * cells[0], 2 * cells[1]))
+
+    return CaseMesh(build(cells), MeshData(), text(cells), finer)
 
 
 def _rectangle(table: Table) -> CaseMesh | None:
@@ -78,20 +97,16 @@ def _rectangle(table: Table) -> CaseMesh | None:
         return None
     if size is None or origin is None or cells is None or cell is None or periodic is None:
         return None
-    mesh = rectangle(
-        size,
+    seams = {f"periodic_{way.value}": periodic is way for way in (Periodic.X, Periodic.Y)}
+    return _built_in(
+        lambda count: rectangle(size, count, origin=origin, cell=cell, **seams),
+        lambda count: (
+            f'{{ kind = "rectangle", size = [{_length(size[0])}, {_length(size[1])}], '
+            f"origin = [{_length(origin[0])}, {_length(origin[1])}], cells = {list(count)}, "
+            f'cell = "{cell.value}", periodic = "{periodic.value}" }}'
+        ),
         cells,
-        origin=origin,
-        cell=cell,
-        periodic_x=periodic is Periodic.X,
-        periodic_y=periodic is Periodic.Y,
     )
-    text = (
-        f'{{ kind = "rectangle", size = [{_length(size[0])}, {_length(size[1])}], '
-        f"origin = [{_length(origin[0])}, {_length(origin[1])}], cells = {list(cells)}, "
-        f'cell = "{cell.value}", periodic = "{periodic.value}" }}'
-    )
-    return CaseMesh(mesh, MeshData(), text)
 
 
 def _annulus(table: Table) -> CaseMesh | None:
@@ -108,14 +123,17 @@ def _annulus(table: Table) -> CaseMesh | None:
             f"more than inner_radius, {format_quantity(inner, Dimension.LENGTH, digits=4)}",
         )
         return None
-    text = (
-        f'{{ kind = "annulus", inner_radius = {_length(inner)}, outer_radius = {_length(outer)}, '
-        f'cells = {list(cells)}, cell = "{cell.value}" }}'
+    return _built_in(
+        lambda count: annulus(inner, outer, count, cell=cell),
+        lambda count: (
+            f'{{ kind = "annulus", inner_radius = {_length(inner)}, outer_radius = {_length(outer)}, '
+            f'cells = {list(count)}, cell = "{cell.value}" }}'
+        ),
+        cells,
     )
-    return CaseMesh(annulus(inner, outer, cells, cell=cell), MeshData(), text)
 
 
-def _cells(table: Table, least_around: int = 1) -> tuple[int, int] | None:
+def _cells(table: Table, least_around: int = 1) -> Cells | None:
     raw = table.get("cells")
     wanted = f"two whole numbers from 1 on (the second from {least_around}), such as [24, 96]"
     if not isinstance(raw, list) or len(raw) != 2 or any(type(count) is not int for count in raw):

@@ -12,7 +12,7 @@ import pytest
 import xarray
 
 from reynolds.errors import FilmNotConverged
-from swashfilm import film_study
+from swashfilm import film_run
 from swashfilm.__main__ import main
 from system.pump_file import load_pump, resolved_toml
 
@@ -118,9 +118,11 @@ def test_a_film_leaves_a_run_folder_with_everything_in_it(capsys):
     assert main(["film", "pad.toml"]) == 0
     folder = Path("runs/pad-1")
     files = {path.name for path in folder.iterdir()}
-    assert files == {"input.toml", "resolved.toml", "summary.json", "film.vtu", "results.nc", "report.html"}
+    assert files == {
+        "input.toml", "resolved.toml", "summary.json", "film.vtu", "film.pvd", "results.nc", "report.html",
+    }  # fmt: skip
     assert (folder / "input.toml").read_text("utf-8") == CASE
-    assert 'cavitation = "reynolds"' in (folder / "resolved.toml").read_text("utf-8")
+    assert 'cavitation = "jfo"' in (folder / "resolved.toml").read_text("utf-8")
     summary = summary_of(folder)
     contract = {
         "load_N", "moment_x_Nm", "moment_y_Nm", "pressure_max_Pa", "pressure_max_at_m", "film_thickness_min_m",
@@ -170,7 +172,7 @@ def test_a_film_that_does_not_converge_ends_with_3_and_leaves_no_number(monkeypa
     def stall(case):
         raise FilmNotConverged("film pressure not settled", "a finer mesh")
 
-    monkeypatch.setattr(film_study, "solve_case", stall)
+    monkeypatch.setattr(film_run, "solve_case", stall)
     assert main(["film", "pad.toml"]) == 3
     text = capsys.readouterr().err
     assert "not converged" in text
@@ -183,7 +185,7 @@ def test_ctrl_c_ends_with_130_and_keeps_what_is_done(monkeypatch, capsys):
         raise KeyboardInterrupt
 
     with monkeypatch.context() as during:
-        during.setattr(film_study, "film_dataset", stopped)
+        during.setattr(film_run, "film_dataset", stopped)
         assert main(["film", "pad.toml"]) == 130
     text = capsys.readouterr().err
     assert "runs/pad-1.partial" in text
@@ -197,7 +199,7 @@ def test_ctrl_c_before_anything_is_done_leaves_nothing(monkeypatch, capsys):
     def stopped(case):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(film_study, "solve_case", stopped)
+    monkeypatch.setattr(film_run, "solve_case", stopped)
     assert main(["film", "pad.toml"]) == 130
     assert "nothing was kept" in capsys.readouterr().err
     assert not list(Path("runs").iterdir())

@@ -12,7 +12,8 @@ import pytest
 from swashfilm.cli import build_parser, run_command
 from swashfilm.fidelity import Fidelity
 from swashfilm.film_case import load_case
-from swashfilm.film_study import film_dataset, film_summary, run_case, solve_case
+from swashfilm.film_run import run_case
+from swashfilm.film_study import film_dataset, film_summary, solve_case
 from swashfilm.gap_case import Gap
 from swashfilm.gap_study import gap_warnings
 from swashfilm.pump_data import films_dataset, point_dataset

@@ -44,9 +44,9 @@ def faults_of(path: Path) -> InputFaults:
 def test_what_a_case_leaves_out_is_filled_in_and_told(write):
     case = load_case(write(GOOD))
     assert isinstance(case, FilmCase)
-    assert case.problem.cavitation is Cavitation.REYNOLDS
+    assert case.problem.cavitation is Cavitation.JFO
     assert case.problem.film.thickness.item() == 1e-5
-    for line in ('cavitation = "reynolds"', 'squeeze = "0 m/s"', "order = 1", 'periodic = "none"'):
+    for line in ('cavitation = "jfo"', 'squeeze = "0 m/s"', "order = 1", 'periodic = "none"'):
         assert line in case.resolved
 
 
@@ -148,7 +148,7 @@ def test_an_edge_of_two_names_has_one_pressure(write, tmp_path):
         ('viscosity = "30 mPa s"', "", "film.viscosity", ["[oil]"]),
         ("[boundary]", 'velocity = "1 m/s"\n[boundary]', "film.velocity", ["two velocities"]),
         ("[boundary]", 'velocity = ["1 m", "0 m/s"]\n[boundary]', "film.velocity[0]", ["not a velocity"]),
-        ("[boundary]", 'cavitation = "jfo"\n[boundary]', "film.cavitation", ["does not have", "'reynolds' or"]),
+        ("[boundary]", 'velocity_fixed = ["1 m", "0 m/s"]\n[boundary]', "film.velocity_fixed[0]", ["a velocity"]),
         ("[boundary]", 'cavitation = "reynold"\n[boundary]', "film.cavitation", ["reynolds"]),
         ("[boundary]", "order = 2\n[boundary]", "film.order", ["full films", "default"]),
         ("[boundary]", "order = 3\n[boundary]", "film.order", ["1 (linear", "2 (quadratic"]),
@@ -160,7 +160,13 @@ def test_an_edge_of_two_names_has_one_pressure(write, tmp_path):
         ('left = { pressure = "1 bar" }', "", "boundary", ["no pressure given anywhere", "left"]),
         ('{ pressure = "1 bar" }', '"1 bar"', "boundary.left", ["a table"]),
         ("pressure = ", "presure = ", "boundary.left.presure", ["unknown key", "pressure"]),
-        ('"1 bar" }', '"1 bar", film_fraction = 0.5 }', "boundary.left.film_fraction", ["full films only"]),
+        ('"1 bar" }', '"1 bar", film_fraction = 0.5 }', "boundary.left.pressure", ["100 kPa", "full film"]),
+        ('"1 bar" }', '"1 bar", film_fraction = 0 }', "boundary.left.film_fraction", ["above 0", "at most 1"]),
+        ('"1 bar" }', '"1 bar", film_fraction = 1.1 }', "boundary.left.film_fraction", ["above 0", "at most 1"]),
+        (
+            "[boundary]", "cavitation = 'reynolds'\n[boundary]\nright = { film_fraction = 0.5 }",
+            "boundary.right.film_fraction", ["0.5 with cavitation = 'reynolds'", "'jfo'"],
+        ),
         ("cells = [8, 4]", "cells = [8, 0]", "film.mesh.cells", ["[8, 0]", "whole numbers"]),
         ("cells = [8, 4]", "cells = [8.0, 4]", "film.mesh.cells", ["whole numbers"]),
         ("cells = [8, 4]", "cells = [100000, 100000]", "film.mesh.cells", ["at most"]),

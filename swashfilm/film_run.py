@@ -1,0 +1,64 @@
+"""One film run: solve a case, and leave its fields, its summary and its page in a run folder."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from reynolds.export import write_pvd, write_vtu
+from swashfilm.film_case import FilmCase
+from swashfilm.film_refine import check_refinement, refine_study, refinement_summary, write_refinement
+from swashfilm.film_study import film_dataset, film_summary, solve_case
+from swashfilm.gap_case import GapCase
+from swashfilm.gap_study import true_place
+from swashfilm.progress import Report
+from swashfilm.run_folder import write_json
+from system.faults import Fault, InputFaults
+
+_STAGES = 3
+
+
+def run_case(
+    case: FilmCase | GapCase, folder: Path, report: Report, *, meshes: int = 1, as_table: bool = False
+) -> dict[str, Any]:
+    """Solve a case and write input.toml, resolved.toml, film.vtu, film.pvd, results.nc, summary.json, report.html.
+
+    With more than one of `meshes` the case is solved on finer ones too, and refinement.csv tells what its numbers
+    tend to; fields and numbers stay those of the case's own mesh. `as_table`: fields.csv, the fields at the
+    vertices. Returns the summary. Raises FilmNotConverged; then only the two TOML files are there.
+    """
+    if meshes > 1:
+        check_refinable(case, meshes)
+    (folder / "input.toml").write_text(case.text, encoding="utf-8")
+    (folder / "resolved.toml").write_text(case.resolved, encoding="utf-8")
+    stages = _STAGES + meshes - 1
+    report(0, stages, "solving")
+    study = solve_case(case)
+    summary = film_summary(study)
+    if meshes > 1 and isinstance(case, FilmCase):
+        found = refine_study(case, study, meshes, lambda done, _, what: report(done, stages, what))
+        summary["refinement"] = refinement_summary(found)
+        write_refinement(folder / "refinement.csv", found)
+    report(stages - 2, stages, "writing fields")
+    place = true_place(case) if isinstance(case, GapCase) else None
+    write_vtu(folder / "film.vtu", study.solution, place)
+    write_pvd(folder / "film.pvd", [(0.0, 0, "film.vtu")])
+    fields = film_dataset(study)
+    fields.to_netcdf(folder / "results.nc", engine="h5netcdf")
+    if as_table:
+        fields.drop_dims(["cell", "corner"]).to_dataframe().to_csv(folder / "fields.csv", index=False)
+    write_json(folder / "summary.json", summary)
+    report(stages - 1, stages, "drawing")
+    from swashfilm.film_page import write_film_page
+
+    write_film_page(folder)
+    report(stages, stages, "done")
+    return summary
+
+
+def check_refinable(case: FilmCase | GapCase, meshes: int) -> None:
+    """Raise InputFaults for a case that cannot be solved on so many meshes."""
+    if isinstance(case, GapCase):
+        fault = Fault("--refine", "a gap of a pump, whose mesh is not the case's", "a free film")
+        raise InputFaults("command line", [fault])
+    check_refinement(case, meshes)

@@ -1,0 +1,157 @@
+"""Mesh convergence: what is told of numbers on finer meshes, and that finer meshes are the same film."""
+
+import csv
+import json
+from pathlib import Path
+
+import meshio
+import numpy as np
+import pytest
+
+from reynolds.mesh import Cell, annulus, mesh_from_file, rectangle
+from reynolds.mesh_check import mesh_faults
+from reynolds.mesh_refine import refine_mesh
+from swashfilm.__main__ import main
+from swashfilm.convergence import Verdict, convergence
+
+SLIDER = """
+format = 1
+[film]
+mesh = { kind = "rectangle", size = ["10 mm", "10 mm"], cells = [16, 2], periodic = "y" }
+thickness = "1e-5*(2 - x/0.01)"
+velocity = ["1 m/s", "0 m/s"]
+viscosity = "30 mPa s"
+[boundary]
+left = { pressure = "0 bar" }
+right = { pressure = "0 bar" }
+"""
+LOAD = 0.15888308 * 0.03 * 0.01**2 / 1e-5**2 * 0.01  # verification cases 3.1: n = 2
+
+
+@pytest.mark.parametrize("order", [1.0, 2.0])
+def test_a_power_law_gives_its_order_and_its_limit(order):
+    found = convergence([5.0 + 0.3 * 2.0 ** (-order * k) for k in range(4)], (1.0, 2.0), 5.0)
+    assert found.verdict is Verdict.CONVERGING
+    assert found.order == pytest.approx(order)
+    assert found.extrapolated == pytest.approx(5.0)
+    assert found.error == pytest.approx(1.25 * 0.3 * 2.0 ** (-3 * order))
+
+
+@pytest.mark.parametrize(
+    ("values", "verdict", "order"),
+    [
+        ([1.0, 1.0, 1.0], Verdict.CONVERGED, None),
+        ([1.0, 2.0, 2.1], Verdict.DOUBTFUL, pytest.approx(3.32, abs=0.01)),
+        ([1.0, 1.5, 1.2], Verdict.OSCILLATING, pytest.approx(0.74, abs=0.01)),
+        ([1.0, 1.5, 1.5], Verdict.OSCILLATING, None),
+        ([1.0, 1.1, 1.2], Verdict.NONE, None),
+        ([1.0, 1.0, 1.2], Verdict.NONE, None),
+        ([1.0, 1.1, 0.9], Verdict.NONE, None),
+        ([1.0, 1.1], Verdict.ASSUMED, None),
+    ],
+)
+def test_what_does_not_converge_as_expected_says_so(values, verdict, order):
+    found = convergence(values, (2.0, 2.0), 1.0)
+    assert (found.verdict, found.order) == (verdict, order)
+    if verdict is Verdict.NONE:
+        assert found.extrapolated is None
+        assert found.error is None
+    else:
+        assert abs(found.extrapolated - values[-1]) <= found.error
+
+
+def test_a_doubtful_order_costs_the_larger_safety():
+    assert convergence([1.0, 2.0, 2.1], (2.0, 2.0), 1.0).error == pytest.approx(3.0 * 0.1 / 3.0)
+    assert convergence([1.0, 1.3], (2.0, 2.0), 1.0).error == pytest.approx(3.0 * 0.3 / 3.0)
+
+
+@pytest.mark.parametrize("cell", list(Cell))
+@pytest.mark.parametrize("build", [rectangle, annulus])
+def test_a_finer_mesh_keeps_area_names_and_data(cell, build):
+    coarse = build((2.0, 1.0), (3, 2), cell=cell) if build is rectangle else build(1.0, 2.0, (2, 8), cell=cell)
+    finer = refine_mesh(coarse)
+    fine = finer.film_mesh
+    assert fine.boundary_names == coarse.boundary_names
+    assert not mesh_faults(fine.mesh.p.T, fine.mesh.t.T)
+    for name in coarse.boundary_names:
+        ends = [mesh.p[:, mesh.facets[:, mesh.boundaries[name]]] for mesh in (coarse.mesh, fine.mesh)]
+        lengths = [np.hypot(*(end[:, 1] - end[:, 0])) for end in ends]
+        assert lengths[1].sum() == pytest.approx(lengths[0].sum())
+        assert len(lengths[1]) == 2 * len(lengths[0])
+    centres = coarse.mesh.p[:, coarse.mesh.t].mean(axis=1)
+    children = fine.mesh.p[:, fine.mesh.t].mean(axis=1).reshape(2, 4, -1).mean(axis=1)
+    np.testing.assert_allclose(children, centres, atol=0.05 if build is annulus else 1e-12)
+    x, y = fine.mesh.p
+    np.testing.assert_allclose(
+        finer.point_data(3.0 * coarse.mesh.p[0] - coarse.mesh.p[1]), 3.0 * x - y, atol=1e-12
+    )
+    assert len(finer.cell_data(np.arange(coarse.mesh.nelements))) == fine.mesh.nelements
+
+
+def test_a_slider_on_three_meshes_tends_to_the_closed_form(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    Path("slider.toml").write_text(SLIDER, encoding="utf-8")
+    assert main(["film", "slider.toml", "--refine", "3", "-o", "run"]) == 0
+    summary = json.loads(Path("run/summary.json").read_text("utf-8"))
+    found = summary["refinement"]["numbers"]["load_N"]
+    assert found["values"][0] == summary["load_N"]
+    assert found["order"] == pytest.approx(2.0, abs=0.05)
+    assert abs(found["extrapolated"] - LOAD) <= found["error"]
+    with open("run/refinement.csv", encoding="utf-8") as file:
+        rows = {row["number"]: row for row in csv.DictReader(file)}
+    assert rows["load"]["unit"] == "N"
+    assert float(rows["load"]["limit"]) == found["extrapolated"]
+    assert "converges as expected" in capsys.readouterr().out
+    assert "Finer meshes" in Path("run/report.html").read_text("utf-8")
+
+
+def test_data_of_a_mesh_file_go_along(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    mesh = rectangle((0.01, 0.01), (10, 2), cell=Cell.QUADRILATERAL).mesh
+    inlet = mesh.p[0, mesh.t].mean(axis=0) < 0.007
+    meshio.write_points_cells(
+        "step.vtu",
+        np.column_stack([mesh.p.T, np.zeros(mesh.nvertices)]),
+        [("quad", mesh.t.T)],
+        point_data={"mu": np.full(mesh.nvertices, 0.03)},
+        cell_data={"h": [np.where(inlet, 2e-5, 1e-5)]},
+    )
+    assert mesh_from_file(Path("step.vtu")).boundary_names
+    text = SLIDER.partition("[film]")[0] + (
+        '[film]\nmesh = "step.vtu"\nthickness = "h"\nviscosity = "mu"\nvelocity = ["1 m/s", "0 m/s"]\n[boundary]\n'
+        'left = { pressure = "0 bar" }\nright = { pressure = "0 bar" }\n'
+    )
+    Path("step.toml").write_text(text, encoding="utf-8")
+    assert main(["film", "step.toml", "--refine", "2", "-o", "run"]) == 0
+    found = json.loads(Path("run/summary.json").read_text("utf-8"))["refinement"]["numbers"]["load_N"]
+    assert found["values"] == pytest.approx(
+        [60.9677, 60.9677], rel=1e-5
+    )  # Rayleigh's step is exact on either mesh
+    assert found["verdict"] == "converged to round-off"
+
+
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        (["--refine", "1"], ["--refine", "'1'", "2 to 5"]),
+        (["--refine", "three"], ["--refine", "2 to 5"]),
+        (["--refin", "3"], ["--refin", "try:      --refine"]),
+    ],
+)
+def test_a_wrong_number_of_meshes_is_told(words, told, tmp_path, capsys):
+    path = tmp_path / "slider.toml"
+    path.write_text(SLIDER, encoding="utf-8")
+    assert main(["film", str(path), *words]) == 2
+    text = capsys.readouterr().err
+    for word in told:
+        assert word in text, text
+
+
+def test_what_cannot_be_refined_is_told(tmp_path, capsys):
+    path = tmp_path / "gap.toml"
+    path.write_text('format = 1\n[film]\ngap = "slipper"\npump = "ref90"\n', encoding="utf-8")
+    assert main(["film", str(path), "--refine", "2"]) == 2
+    assert "a free film" in capsys.readouterr().err
+    path.write_text(SLIDER.replace("[16, 2]", "[400, 200]"), encoding="utf-8")
+    assert main(["film", str(path), "--refine", "5"]) == 2
+    assert "at most 10000000 cells" in capsys.readouterr().err
