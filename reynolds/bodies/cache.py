@@ -1,0 +1,105 @@
+"""Arrays kept on disk under a hash of what they were computed from.
+
+Folder: the argument, else SWASHFILM_CACHE, else XDG_CACHE_HOME/swashfilm, else ~/.cache/swashfilm.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import logging
+import os
+import tempfile
+import zipfile
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from enum import Enum
+from pathlib import Path
+
+import numpy as np
+
+from reynolds.errors import FilmInputError
+from reynolds.mesh import Array
+
+FORMAT = "swashfilm bodies 1"  # raised when the same input gives other arrays
+LOG = logging.getLogger(__name__)
+
+
+class Origin(Enum):
+    """Where arrays came from; recomputed: the file kept of them was broken."""
+
+    COMPUTED = "computed"
+    CACHE = "cache"
+    RECOMPUTED = "recomputed"
+
+
+@dataclass(frozen=True)
+class Kept:
+    """Arrays by name, and where they came from."""
+
+    arrays: Mapping[str, Array]
+    origin: Origin
+
+
+def cache_folder(folder: Path | None = None) -> Path:
+    """The folder that results are kept in; it need not exist."""
+    if folder is not None:
+        return folder
+    if own := os.environ.get("SWASHFILM_CACHE"):
+        return Path(own)
+    base = os.environ.get("XDG_CACHE_HOME")
+    return (Path(base) if base else Path.home() / ".cache") / "swashfilm"
+
+
+def content_key(*parts: object) -> str:
+    """Hash of arrays by dtype, shape and values, and of anything else by its repr (data of frozen dataclasses)."""
+    digest = hashlib.sha256(FORMAT.encode())
+    for part in parts:
+        if isinstance(part, np.ndarray):
+            digest.update(f"{part.dtype.str}{part.shape}".encode())
+            digest.update(np.ascontiguousarray(part).tobytes())
+        else:
+            digest.update(repr(part).encode())
+        digest.update(b"\0")
+    return digest.hexdigest()
+
+
+def kept(key: str, compute: Callable[[], Mapping[str, Array]], folder: Path | None = None) -> Kept:
+    """The arrays of `compute`, from the cache where they are there.
+
+    Afterwards they are there: written beside and moved into place, so that no reader meets half a file. A broken
+    file is computed anew, which the origin and the log tell. Raises FilmInputError where the folder cannot be
+    written.
+    """
+    place = cache_folder(folder) / f"{key}.npz"
+    found = _read(place) if place.is_file() else None
+    if found is not None:
+        return Kept(found, Origin.CACHE)
+    origin = Origin.RECOMPUTED if place.is_file() else Origin.COMPUTED
+    arrays = dict(compute())
+    try:
+        _write(place, arrays)
+    except OSError as fault:
+        expected = "a folder to write in (SWASHFILM_CACHE names another)"
+        raise FilmInputError("cache of bodies", f"{place.parent}: {fault.strerror}", expected) from fault
+    return Kept(arrays, origin)
+
+
+def _read(place: Path) -> dict[str, Array] | None:
+    try:
+        with np.load(place, allow_pickle=False) as stored:
+            return {name: stored[name] for name in stored.files}
+    except (OSError, ValueError, EOFError, KeyError, zipfile.BadZipFile) as fault:
+        LOG.warning("%s is broken (%s): computed anew", place, fault)
+        return None
+
+
+def _write(place: Path, arrays: Mapping[str, Array]) -> None:
+    place.parent.mkdir(parents=True, exist_ok=True)
+    handle, name = tempfile.mkstemp(dir=place.parent, suffix=".partial")
+    try:
+        with os.fdopen(handle, "wb") as file:
+            np.savez(file, **arrays)  # type: ignore[arg-type]
+        os.replace(name, place)
+    except BaseException:
+        Path(name).unlink(missing_ok=True)
+        raise

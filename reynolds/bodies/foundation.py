@@ -1,0 +1,88 @@
+"""Walls that give way without a mesh of their own, and the sum of two walls."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.sparse import coo_array, csr_array, issparse
+
+from reynolds.bodies.elasticity import Elastic
+from reynolds.errors import FilmInputError
+from reynolds.mesh import Array
+from reynolds.space import FilmSpace
+from reynolds.walls import Walls
+
+
+@dataclass(frozen=True)
+class Compliance:
+    """Opening at the film's vertices by unit pressure at each unknown, (vertices, size) m/Pa."""
+
+    matrix: Array | csr_array
+
+
+def winkler(space: FilmSpace, stiffness: float) -> Compliance:
+    """Springs side by side, opening = p/k with k in Pa/m (Winkler 1867): a thin soft layer on a rigid wall.
+
+    Validity: layer much thinner than the pressure field is long. Raises FilmInputError unless k > 0.
+    """
+    if not (np.isfinite(stiffness) and stiffness > 0.0):
+        raise FilmInputError("stiffness of the wall", f"{stiffness:.4g} Pa/m", "above zero")
+    count = len(space.vertices)
+    entries = (np.full(count, 1.0 / stiffness), (np.arange(count), space.vertex_dofs))
+    return Compliance(csr_array(coo_array(entries, shape=(count, space.size))))
+
+
+def half_space(space: FilmSpace, elastic: Elastic) -> Compliance:
+    """A wall as deep as it is wide without end: Boussinesq's influence of each cell's mean pressure.
+
+        opening(x) = (1 - nu^2)/(pi E) sum over cells of mean p times integral over the cell of dA/|x - x'|
+
+    Love's (1929) integral of a rectangle, and likewise of any convex cell; symmetric in mean square up to the
+    error of the mesh. Validity: plane film, much smaller than the body; rigid motion is not removed (the
+    reference is the body far away). Raises FilmInputError for a film with seams: an unrolled cylinder is no plane.
+    """
+    if space.film_mesh.seams:
+        raise FilmInputError("half-space", "a film sewn at a seam", "a plane film (an unrolled one takes a body)")
+    count = space.dofs.shape[0]
+    mean = space.area @ space.reference.value / space.area.sum(axis=1)[:, None]
+    rows = np.repeat(np.arange(count), space.dofs.shape[1])
+    average = csr_array(coo_array((mean.ravel(), (rows, space.dofs.ravel())), shape=(count, space.size)))
+    factor = (1.0 - elastic.poisson_ratio**2) / (np.pi * elastic.youngs_modulus)
+    influence = factor * polygon_potential(space.vertices, space.vertices[space.cells])
+    return Compliance(np.asarray((average.T @ influence.T).T))
+
+
+def polygon_potential(points: Array, corners: Array) -> Array:
+    """Integral of dA/|x - x'| over each convex polygon (cells, corners, 2) seen from points (n, 2), (n, cells) m.
+
+    Sum over the edges of d [asinh(t2/d) - asinh(t1/d)], d the distance to the edge's line, t along it; an edge in
+    line with the point gives nothing. Of a rectangle it is Love's (1929) formula.
+    """
+    total = np.zeros((len(points), len(corners)))
+    ahead = np.roll(corners, -1, axis=1)
+    turn = np.sign(_cross(ahead[:, 0] - corners[:, 0], corners[:, 2] - corners[:, 0]))
+    for start, end in zip(corners.swapaxes(0, 1), ahead.swapaxes(0, 1), strict=True):
+        length = np.linalg.norm(end - start, axis=1)
+        along = (end - start) / length[:, None]
+        to_start = start[None] - points[:, None]
+        distance = turn * _cross(to_start, along[None])
+        first = (to_start * along[None]).sum(axis=2)
+        clear = np.abs(distance) > 1e-12 * length
+        safe = np.where(clear, np.abs(distance), 1.0)
+        angle = np.arcsinh((first + length) / safe) - np.arcsinh(first / safe)
+        total += np.where(clear, distance * angle, 0.0)
+    return total
+
+
+def both(first: Walls, second: Walls) -> Compliance:
+    """Both walls of one film: their openings add up."""
+    one, two = first.matrix, second.matrix
+    if issparse(one) and issparse(two):
+        return Compliance(csr_array(one + two))
+    dense = [np.asarray(part.toarray() if isinstance(part, csr_array) else part) for part in (one, two)]
+    return Compliance(dense[0] + dense[1])
+
+
+def _cross(one: Array, two: Array) -> Array:
+    return one[..., 0] * two[..., 1] - one[..., 1] * two[..., 0]

@@ -1,0 +1,183 @@
+"""A body under a film: what its loaded face does, as operators on the film's own unknowns.
+
+Signs: positive opens the film. Everything expensive is done once per body and face and kept (`cache`); the film's
+mesh may change freely after that.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from reynolds.bodies.body_mesh import BodyMesh
+from reynolds.bodies.body_space import BodySpace, Face, body_space
+from reynolds.bodies.cache import Origin, content_key, kept
+from reynolds.bodies.chart import Chart, face_normals
+from reynolds.bodies.conduction import Surroundings, Thermal, face_expansion, face_temperature, heated_body
+from reynolds.bodies.elasticity import (
+    Elastic,
+    centrifugal_forces,
+    face_compliance,
+    face_opening,
+    pressure_forces,
+    structure,
+)
+from reynolds.bodies.supports import Supports
+from reynolds.bodies.transfer import Transfer, transfer
+from reynolds.errors import FilmInputError
+from reynolds.mesh import Array
+from reynolds.space import FilmSpace
+
+
+@dataclass(frozen=True)
+class Body:
+    """An elastic body, its supports, the face that is under the film, and where the film's plane lies on it.
+
+    Name a face no larger than the film needs: its nodes are the size of the operator kept, n^2 numbers.
+    """
+
+    mesh: BodyMesh
+    elastic: Elastic
+    supports: Supports
+    face: str
+    chart: Chart
+
+
+@dataclass(frozen=True)
+class FacePressure:
+    """Load case: a uniform pressure (Pa) on a face, such as a chamber on the end of its bore."""
+
+    face: str
+    pressure: float
+
+
+@dataclass(frozen=True)
+class Spin:
+    """Load case: turning at `speed` (rad/s) about a line along z through `axis` (x, y) m; density in kg/m3."""
+
+    density: float
+    speed: float
+    axis: tuple[float, float] = (0.0, 0.0)
+
+
+@dataclass(frozen=True)
+class BodyWall:
+    """Opening = matrix (vertices, size) m/Pa @ nodal film pressure; and whether it came from the cache."""
+
+    matrix: Array
+    origin: Origin
+
+
+@dataclass(frozen=True)
+class FilmResponse:
+    """At the film's vertices: reference (vertices,) + matrix (vertices, vertices) @ flux into the body (W/m2)."""
+
+    reference: Array
+    matrix: Array
+
+
+@dataclass(frozen=True)
+class HeatedWall:
+    """Wall temperature (scale of the surroundings) and opening (m) by the film's heat flux into the body."""
+
+    temperature: FilmResponse
+    opening: FilmResponse
+    origin: Origin
+
+
+def body_wall(
+    body: Body, film: FilmSpace, *, pockets: Mapping[str, str] | None = None, folder: Path | None = None
+) -> BodyWall:
+    """The elastic wall of a film: opening = matrix @ pressure, symmetric in mean square (module `transfer`).
+
+    `pockets` names, for a pocket of the film, the body's face that its pressure fills: it has no film cells of its
+    own. Raises FilmInputError where the face does not lie under the film, or for a name that is not there.
+    """
+    space = body_space(body.mesh)
+    face = space.face(body.face)
+    normals = face_normals(body.chart, face.places)
+
+    def compute() -> dict[str, Array]:
+        return {"compliance": face_compliance(structure(space, body.elastic, body.supports), face, normals)}
+
+    found = kept(_key("compliance", body), compute, folder)
+    meeting = transfer(film, face, body.chart)
+    matrix = meeting.opening_by_force(found.arrays["compliance"])
+    for name, filled in (pockets or {}).items():
+        if name not in film.edge_dofs or len(film.edge_dofs[name]) != 1:
+            raise FilmInputError(f"pocket {name}", "no such pocket of the film", "a boundary that is one unknown")
+        nodal = _load_case(body, space, face, FacePressure(filled, 1.0), folder)
+        matrix[:, film.edge_dofs[name][0]] += meeting.opening(nodal)
+    return BodyWall(matrix, found.origin)
+
+
+def load_opening(body: Body, film: FilmSpace, load: FacePressure | Spin, *, folder: Path | None = None) -> Array:
+    """Opening (vertices,) m by a load case apart from the film's pressure; linear in pressure and in speed^2."""
+    space = body_space(body.mesh)
+    face = space.face(body.face)
+    return transfer(film, face, body.chart).opening(_load_case(body, space, face, load, folder))
+
+
+def heated_wall(
+    body: Body, film: FilmSpace, thermal: Thermal, surroundings: Surroundings, *, folder: Path | None = None
+) -> HeatedWall:
+    """The wall's temperature and thermal opening by the film's heat flux at its vertices (steady, linear).
+
+    opening is measured from the body at its unstrained temperature. Raises FilmInputError where no heat can leave.
+    """
+    space = body_space(body.mesh)
+    face = space.face(body.face)
+    normals = face_normals(body.chart, face.places)
+
+    def compute() -> dict[str, Array]:
+        heated = heated_body(space, thermal, surroundings)
+        warm = face_temperature(heated, face)
+        grown = face_expansion(heated, structure(space, body.elastic, body.supports), face, normals)
+        return {
+            "temperature": warm.reference, "resistance": warm.matrix,
+            "opening": grown.reference, "expansion": grown.matrix,
+        }  # fmt: skip
+
+    found = kept(_key("heat", body, thermal, sorted(surroundings.items())), compute, folder)
+    nodal, meeting = found.arrays, transfer(film, face, body.chart)
+    return HeatedWall(
+        _on_film(meeting, meeting.temperature, nodal["temperature"], nodal["resistance"]),
+        _on_film(meeting, meeting.opening, nodal["opening"], nodal["expansion"]),
+        found.origin,
+    )
+
+
+def _on_film(meeting: Transfer, back: Callable[[Array], Array], reference: Array, matrix: Array) -> FilmResponse:
+    """A response of the face nodes to heat at them, as one of the film's vertices to flux there."""
+    return FilmResponse(back(reference), back((meeting.heat.T @ matrix.T).T))
+
+
+def _load_case(body: Body, space: BodySpace, face: Face, load: FacePressure | Spin, folder: Path | None) -> Array:
+    def compute() -> dict[str, Array]:
+        if isinstance(load, FacePressure):
+            forces = pressure_forces(space, space.face(load.face), load.pressure)
+        else:
+            forces = centrifugal_forces(space, load.density, load.speed, load.axis)
+        normals = face_normals(body.chart, face.places)
+        held = structure(space, body.elastic, body.supports)
+        return {"opening": face_opening(held, face, normals, forces)}
+
+    return kept(_key("load", body, load), compute, folder).arrays["opening"]
+
+
+def _key(*parts: object) -> str:
+    """Content of a body and of what was asked of it."""
+    spelled: list[object] = []
+    for part in parts:
+        if not isinstance(part, Body):
+            spelled.append(part)
+            continue
+        mesh = part.mesh.mesh
+        spelled += [part.mesh.axisymmetric, type(mesh).__name__, mesh.doflocs, mesh.t]
+        spelled += [part.elastic, part.supports, part.face, part.chart]
+        for name in part.mesh.face_names:
+            spelled += [name, np.asarray(mesh.boundaries[name])]
+    return content_key(*spelled)
