@@ -6,6 +6,8 @@ film must reproduce: Dowson's integrals, conduction, its own convergence with th
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 
@@ -126,7 +128,7 @@ def test_levels_converge(validation):
     """Errors of the largest temperature fall by orders with each two levels (spectral)."""
     exact = np.log1p(THINNING * VISCOSITY * SPEED**2 / CONDUCTIVITY / 8.0)
     errors = [abs(_nahme(count)[1] - exact) for count in (2, 4, 6, 8)]
-    assert all(after < 0.05 * before for before, after in zip(errors[:-1], errors[1:], strict=True)), errors
+    assert all(after < 0.05 * before for before, after in pairwise(errors)), errors
     validation(
         case="Nahme Couette flow, Na = 0.642857",
         source="Nahme 1940, closed form",

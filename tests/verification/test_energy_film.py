@@ -208,7 +208,7 @@ def test_journal_with_cavity(cavitation):
     assert found.film.cavity.any()
     assert found.heat.energy_balance_error < BALANCE
     assert found.heat.dissipation == pytest.approx(loads(found.film).dissipation, rel=1e-12)
-    # Under JFO mass is conserved and nothing is stored; Reynolds' cavity makes and swallows oil at its temperature.
+    # Under JFO nothing is stored; Reynolds' cavity makes and swallows oil, at the temperature there.
     if cavitation is Cavitation.JFO:
         assert abs(found.heat.stored) < 1e-8 * found.heat.dissipation
     assert found.heat.temperature.min() > 300.0
