@@ -100,7 +100,7 @@ def test_iso_grade_of_another_program(validation):
 
 
 def test_vogel_from_three_walther_points(validation):
-    """Exact at its three points; between them two laws of one oil, within 1 % of each other (a grade spans 10 %)."""
+    """Exact at its three points; between them within 1 % of each other, where a grade spans 10 %."""
     at = (293.15, 333.15, 373.15)
     vogel = vogel_of(VG46, at)
     for kelvin in at:
