@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import sys
 from collections.abc import Sequence
+from pathlib import Path
 from types import TracebackType
 
 EXIT_BAD_INPUT = 2
@@ -40,12 +41,23 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except Interrupted as stop:
         kept = f"what was done is kept in {stop.kept}" if stop.kept else "nothing was kept"
         again = " ".join(["swashfilm", *words])
+        if stop.kept and (stop.kept / "points").is_dir():
+            return _end(f"interrupted: {kept}. To go on: {_resuming(words, stop.kept)}", EXIT_INTERRUPTED)
         return _end(f"interrupted: {kept}. The same command starts anew: {again}", EXIT_INTERRUPTED)
     except KeyboardInterrupt:
         return _end("interrupted: nothing was written", EXIT_INTERRUPTED)
     except BrokenPipeError:  # the reader of our output has gone, as in `swashfilm ... | head`
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 1
+
+
+def _resuming(words: list[str], kept: Path) -> str:
+    """The command that goes on with the points of a study that are kept."""
+    before = [word for word in words if not word.startswith("--resume=")]
+    if "--resume" in before:
+        at = before.index("--resume")
+        before[at : at + 2] = []
+    return " ".join(["swashfilm", *before, "--resume", str(kept)])
 
 
 def _end(message: str, code: int) -> int:

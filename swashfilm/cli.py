@@ -17,6 +17,7 @@ from swashfilm.terminal import show, show_table
 from system.faults import Fault, InputFaults, nearest_choice
 
 if TYPE_CHECKING:
+    from swashfilm.study_case import StudyCase
     from system.description import PumpDescription
 
 COMMAND_LINE = "command line"
@@ -28,6 +29,8 @@ _OVERRIDES = {
     "--inlet-pressure": ("operating.inlet_pressure", "25bar", "pressure at the inlet, gauge"),
     "--case-pressure": ("operating.case_pressure", "1.5bar", "pressure in the case, gauge"),
 }
+_FILM_OPTIONS = ["--refine", "--csv", "--resume", "--workers"]
+EXIT_NOT_CONVERGED = 3
 _FIDELITIES = [fidelity.value for fidelity in Fidelity]
 
 
@@ -103,6 +106,10 @@ def build_parser() -> argparse.ArgumentParser:
     film.add_argument(
         "--refine", metavar="N", help="solve on N meshes, each twice finer, and tell order and limit"
     )
+    film.add_argument(
+        "--resume", type=Path, metavar="DIR", help="of a study: take finished points from this folder"
+    )
+    film.add_argument("--workers", metavar="N", help="of a study: processes that solve points side by side (1)")
     film.add_argument("--csv", action="store_true", help="write the fields as a table too, fields.csv")
     _output(film)
     report = _command(commands, "report", "make the report of a run folder anew")
@@ -136,7 +143,7 @@ def _check_command(parser: argparse.ArgumentParser, words: Sequence[str]) -> Non
 def _unknown(command: str | None, word: str) -> Fault:
     """The fault of a word that no option or argument takes."""
     options = ["-o", "--output", "--help"]
-    options = [*_OVERRIDES, "--fidelity", *options] if command == "run" else ["--refine", "--csv", *options]
+    options = [*_OVERRIDES, "--fidelity", *options] if command == "run" else [*_FILM_OPTIONS, *options]
     if command not in ("run", "film"):
         options = ["--help"] if command else ["--help", "--version"]
     kind = "unknown option" if word.startswith("-") else "a word too many"
@@ -244,16 +251,20 @@ def _at_options(reason: InputFaults, stated: dict[str, object], faults: list[Fau
 
 
 def _film(options: argparse.Namespace) -> int:
-    from swashfilm.film_case import load_case
     from swashfilm.film_page import summary_rows
     from swashfilm.film_refine import refinement_head, refinement_rows
     from swashfilm.film_run import check_refinable, run_case
     from swashfilm.progress import progress
     from swashfilm.run_folder import final_folder, run_folder
+    from swashfilm.study_case import StudyCase, load_film
 
     _expect(options.case, "film", "pump", "run")
-    meshes = _meshes(options.refine)
-    case = load_case(options.case)
+    meshes = _count("--refine", options.refine, "a number of meshes", 2, 5)
+    workers = _count("--workers", options.workers, "a number of processes", 1, 64)
+    case = load_film(options.case)
+    _check_options(options, study=isinstance(case, StudyCase))
+    if isinstance(case, StudyCase):
+        return _study(case, options, workers)
     if meshes > 1:
         check_refinable(case, meshes)
     with run_folder(case.name, options.output) as folder, progress(3, f"film {case.name}") as report:
@@ -267,12 +278,47 @@ def _film(options: argparse.Namespace) -> int:
     return 0
 
 
-def _meshes(refine: str | None) -> int:
-    if refine is None:
+def _study(study: StudyCase, options: argparse.Namespace, workers: int) -> int:
+    from swashfilm.progress import progress
+    from swashfilm.run_folder import final_folder, run_folder
+    from swashfilm.series_page import failed_rows, run_study, span_rows
+
+    label = f"study {study.name}"
+    with run_folder(study.name, options.output) as folder, progress(len(study.points), label) as report:
+        summary = run_study(study, folder, report, resumed=options.resume, workers=workers)
+    head = ("", "least", "at", "largest", "at")
+    show_table(
+        f"Study {study.name}: {summary['solved']} of {summary['points']} points", [head, *span_rows(summary)]
+    )
+    if summary["failed"]:
+        show_table("Points without a result", failed_rows(summary))
+    for warning in summary["warnings"]:
+        show(f"warning: {warning['name']}: {warning['text']}")
+    show(f"results in {final_folder(folder)}")
+    return 0 if summary["solved"] else EXIT_NOT_CONVERGED
+
+
+def _check_options(options: argparse.Namespace, *, study: bool) -> None:
+    """Raise InputFaults for options that are not for this kind of case."""
+    unfit = {"--refine": options.refine, "--csv": options.csv or None}
+    kind, other = "a study", "a single film"
+    if not study:
+        unfit, kind, other = (
+            {"--resume": options.resume, "--workers": options.workers},
+            other,
+            "a case with [study]",
+        )
+    faults = [Fault(name, f"an option beside {kind}", other) for name, given in unfit.items() if given is not None]
+    if faults:
+        raise InputFaults(COMMAND_LINE, faults)
+
+
+def _count(option: str, text: str | None, what: str, least: int, most: int) -> int:
+    if text is None:
         return 1
-    if refine not in ("2", "3", "4", "5"):
-        raise InputFaults(COMMAND_LINE, [Fault("--refine", repr(refine), "a number of meshes, 2 to 5")])
-    return int(refine)
+    if not (text.isdecimal() and least <= int(text) <= most):
+        raise InputFaults(COMMAND_LINE, [Fault(option, repr(text), f"{what}, {least} to {most}")])
+    return int(text)
 
 
 def _report(options: argparse.Namespace) -> int:
@@ -287,10 +333,14 @@ def _report(options: argparse.Namespace) -> int:
         raise InputFaults(str(options.folder), [fault]) from None
     if kind == "film":
         from swashfilm.film_page import write_film_page as write_page
+    elif kind == "film_study":
+        from swashfilm.series_page import write_study_page as write_page
     elif kind == "pump":
         from swashfilm.pump_page import write_pump_page as write_page
     else:
-        raise InputFaults(str(options.folder), [Fault("summary.json", f"kind {kind!r}", "'film' or 'pump'")])
+        raise InputFaults(
+            str(options.folder), [Fault("summary.json", f"kind {kind!r}", "'film', 'film_study' or 'pump'")]
+        )
     try:
         page = write_page(options.folder)
     except (KeyError, OSError) as reason:
@@ -319,9 +369,13 @@ def _check(options: argparse.Namespace) -> int:
         for warning in check_pump(pump).warnings:
             show(f"warning: {warning}")
     else:
-        from swashfilm.film_case import load_case
+        from swashfilm.study_case import StudyCase, load_film
 
-        show(load_case(Path(options.file)).resolved)
+        case = load_film(Path(options.file))
+        if isinstance(case, StudyCase):
+            show(f"a study of {len(case.points)} points")
+            case = case.case(case.points[0])
+        show(case.resolved)
     show(f"{options.file}: ok")
     return 0
 

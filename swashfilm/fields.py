@@ -71,7 +71,8 @@ class Formula:
 
     def at_vertices(self, space: FilmSpace, t: float = 0.0) -> Array | None:
         """At the vertices, (vertices,)."""
-        return self.expression(*space.vertices.T, t)
+        x, y = space.vertices.T
+        return self.expression(x, y, t)
 
     def on(self, data: MeshData) -> Formula:
         """The same on any mesh."""

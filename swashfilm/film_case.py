@@ -71,9 +71,10 @@ def _check_format(top: Table) -> None:
     if type(stated) is not int or stated != FORMAT:
         found = "no such key" if stated is None else repr(stated)
         top.fault("format", found, f"format = {FORMAT}, the case format of this version")
-    for later, what in (("time", "transient films"), ("study", "series of cases")):
-        if top.get(later) is not None:
-            top.fault(later, f"a table [{later}]", f"no such table: this version has no {what}")
+    if top.get("time") is not None:
+        top.fault("time", "a table [time]", "no such table: this version has no transient films")
+    if top.get("study") is not None:
+        top.fault("study", "a table [study]", "a single case; `swashfilm film` runs studies")
 
 
 def _free_film(path: Path, text: str, top: Table, film: Table) -> FilmCase | None:

@@ -67,6 +67,7 @@ def film_summary(study: FilmStudy) -> dict[str, Any]:
         "friction_force_fixed_N": list(integrals.friction_fixed),
         "friction_torque_moving_Nm": integrals.friction_torque_moving,
         "dissipation_W": integrals.dissipation,
+        **_stribeck(solution, integrals),
         "cavitated_area_fraction": integrals.cavitated_area_fraction,
         "cavity_flow_m3_per_s": integrals.cavity_flow + 0.0,  # no negative zero
         "mass_balance_error": integrals.mass_balance_error,
@@ -77,6 +78,30 @@ def film_summary(study: FilmStudy) -> dict[str, Any]:
         "solve_seconds": study.solve_seconds,
         **(gap_summary(study.gap) if study.gap else {}),
         "warnings": film_warnings(study),
+    }
+
+
+def _stribeck(solution: FilmSolution, integrals: Loads) -> dict[str, float | None]:
+    """Friction coefficient and Hersey number mu U/p_mean (m); none where nothing slides or no load is carried.
+
+    The friction is the walls' power over their mean sliding speed, so that it is one of turning films too; mu and
+    U are means over the film, p_mean is the load over its area.
+    """
+    film, area = solution.film, solution.problem.space.area
+    fields = point_fields(solution)
+    (u1, v1), (u2, v2) = film.velocity_moving, film.velocity_fixed
+    total = float(area.sum())
+    speed = float(np.sum(np.hypot(u1 - u2, v1 - v2) * area)) / total
+    if speed == 0.0 or not integrals.load > 0.0:
+        return {"friction_coefficient": None, "hersey_number_m": None}
+    power = sum(
+        float(np.sum(shear * velocity * area))
+        for shear, velocity in zip((*fields.shear_moving, *fields.shear_fixed), (u1, v1, u2, v2), strict=True)
+    )
+    viscosity = float(np.sum(film.viscosity * area)) / total
+    return {
+        "friction_coefficient": abs(power) / (speed * integrals.load),
+        "hersey_number_m": viscosity * speed * total / integrals.load,
     }
 
 

@@ -1,0 +1,256 @@
+"""The [study] table of a film case: which keys vary over what, and the cases that come of it."""
+
+from __future__ import annotations
+
+import copy
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from enum import Enum
+from itertools import product
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from swashfilm.case_table import Table, fault_lines, quoted, read_toml
+from swashfilm.film_case import FilmCase, read_case
+from swashfilm.gap_case import GapCase
+from system.faults import Fault, InputFaults, nearest_choice
+from system.units import Dimension, QuantityError, format_quantity, parse_quantity
+
+MOST_POINTS = 10_000
+_RANGE = ("from", "to", "points", "spacing")
+_STEP = re.compile(r"([^\[\].]+)(?:\[(\d+)\])?")
+Point = tuple[int, ...]
+
+
+class Combine(Enum):
+    """How several keys vary: every value of one with every value of the others, or all in step."""
+
+    ALL = "all"
+    TOGETHER = "together"
+
+
+class Spacing(Enum):
+    """Steps of a range: of equal difference or of equal ratio."""
+
+    LINEAR = "linear"
+    LOG = "log"
+
+
+@dataclass(frozen=True)
+class Axis:
+    """One varied key: its values as a case writes them and, where these are numbers, as SI with their unit."""
+
+    key: str
+    values: tuple[Any, ...]
+    numbers: tuple[float, ...] | None
+    unit: str
+
+    @property
+    def labels(self) -> tuple[str, ...]:
+        """The values as text."""
+        return tuple(str(value) for value in self.values)
+
+
+@dataclass(frozen=True)
+class StudyCase:
+    """A study: the case's tables without [study], the varied keys, and how they combine.
+
+    `path` and `text` are those of the file.
+    """
+
+    name: str
+    path: Path
+    text: str
+    tables: Mapping[str, Any]
+    axes: tuple[Axis, ...]
+    combine: Combine
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """Number of points along each direction of the study: one a key, or one for all in step."""
+        lengths = tuple(len(axis.values) for axis in self.axes)
+        return lengths if self.combine is Combine.ALL else lengths[:1]
+
+    @property
+    def points(self) -> list[Point]:
+        """Index of each point's value of each key; the last key varies fastest."""
+        if self.combine is Combine.TOGETHER:
+            return [(k,) * len(self.axes) for k in range(self.shape[0])]
+        return list(product(*(range(len(axis.values)) for axis in self.axes)))
+
+    def values(self, point: Point) -> dict[str, Any]:
+        """The varied keys of a point and their values as a case writes them."""
+        return {axis.key: axis.values[k] for axis, k in zip(self.axes, point, strict=True)}
+
+    def case(self, point: Point) -> FilmCase | GapCase:
+        """The case of a point; raises InputFaults with what is wrong with it."""
+        tables = copy.deepcopy(dict(self.tables))
+        for key, value in self.values(point).items():
+            _put(tables, key, value)
+        text = "".join(f"# study: {key} = {value}\n" for key, value in self.values(point).items()) + self.text
+        return read_case(self.path, text, tables)
+
+
+def load_film(path: Path) -> FilmCase | GapCase | StudyCase:
+    """What a film case file holds: a film, a pump gap, or a study of one. Raises InputFaults with every fault."""
+    text, tables = read_toml(path)
+    return read_study(path, text, tables) if "study" in tables else read_case(path, text, tables)
+
+
+def read_study(path: Path, text: str, tables: Mapping[str, Any]) -> StudyCase:
+    """The study of a file with a table [study].
+
+    Raises InputFaults for faults of the table, for a key that no case has, and where not one of the points makes
+    a case; a single point with a fault is no fault of the study.
+    """
+    table = Table("study", tables["study"] if isinstance(tables["study"], dict) else {}, [])
+    if not isinstance(tables["study"], dict):
+        table.faults.append(Fault("study", repr(tables["study"]), "a table [study]"))
+    combine = table.choice("combine", Combine, Combine.ALL)
+    axes = [_axis(table, key) for key in table.values if key != "combine"]
+    if not axes and not table.faults:
+        table.faults.append(Fault("study", "no key that varies", '"film.KEY" = [...] or { from, to, points }'))
+    base = {key: value for key, value in tables.items() if key != "study"}
+    found = [axis for axis in axes if axis]
+    study = StudyCase(path.stem, path, text, base, tuple(found), combine or Combine.ALL)
+    if not table.faults:
+        _check_size(table, study)
+    if not table.faults:
+        table.faults += _case_faults(study)
+    if table.faults:
+        raise InputFaults(str(path), table.faults, fault_lines(text, table.faults))
+    return study
+
+
+def _axis(table: Table, key: str) -> Axis | None:
+    raw = table.get(key)
+    if not all(_STEP.fullmatch(step) for step in key.split(".")) or "." not in key:
+        table.faults.append(
+            Fault(_named(key), f"'{key}'", 'a key of the case in quotes, such as "film.thickness"')
+        )
+        return None
+    if isinstance(raw, list) and raw:
+        return _listed(key, raw)
+    if isinstance(raw, dict):
+        return _ranged(Table(_named(key), raw, table.faults), key)
+    expected = "a list of values, or a range { from, to, points }"
+    table.faults.append(Fault(_named(key), repr(raw), expected))
+    return None
+
+
+def _listed(key: str, values: Sequence[Any]) -> Axis:
+    """Values as they are; numbers where all are bare numbers or quantities of one dimension."""
+    if all(isinstance(value, (int, float)) and not isinstance(value, bool) for value in values):
+        return Axis(key, tuple(values), tuple(float(value) for value in values), "")
+    dimension = _dimension(values)
+    if dimension is None:
+        return Axis(key, tuple(values), None, "")
+    numbers = tuple(parse_quantity(value, dimension) for value in values)
+    return Axis(key, tuple(values), numbers, dimension.si_unit)
+
+
+def _ranged(table: Table, key: str) -> Axis | None:
+    ends = [table.get(end) for end in _RANGE[:2]]
+    points, spacing = table.get("points"), table.choice("spacing", Spacing, Spacing.LINEAR)
+    table.close()
+    if type(points) is not int or not 2 <= points <= MOST_POINTS:
+        table.fault(
+            "points", "no such key" if points is None else repr(points), f"a whole number, 2 to {MOST_POINTS}"
+        )
+        return None
+    plain = all(isinstance(end, (int, float)) and not isinstance(end, bool) for end in ends)
+    dimension = None if plain else _dimension(ends)
+    if not plain and dimension is None:
+        found = f"from {ends[0]!r} to {ends[1]!r}"
+        table.faults.append(Fault(table.path, found, "two quantities of one kind, or two bare numbers"))
+        return None
+    low, high = (float(end) if dimension is None else parse_quantity(end, dimension) for end in ends)
+    if spacing is Spacing.LOG and min(low, high) <= 0.0:
+        table.fault("spacing", "'log' over a range that is not above zero", "'linear', or two ends above zero")
+        return None
+    if spacing is None:
+        return None
+    steps = (np.geomspace if spacing is Spacing.LOG else np.linspace)(low, high, points)
+    numbers = [float(f"{step:.12g}") for step in steps]
+    if dimension is None:
+        return Axis(key, tuple(numbers), tuple(numbers), "")
+    texts = [format_quantity(number, dimension, digits=12) for number in numbers]
+    return Axis(key, tuple(texts), tuple(parse_quantity(text, dimension) for text in texts), dimension.si_unit)
+
+
+def _dimension(values: Sequence[Any]) -> Dimension | None:
+    """The first dimension that all the texts are quantities of."""
+    for dimension in Dimension:
+        try:
+            for value in values:
+                parse_quantity(value if isinstance(value, str) else None, dimension)
+        except QuantityError:
+            continue
+        return dimension
+    return None
+
+
+def _check_size(table: Table, study: StudyCase) -> None:
+    lengths = {axis.key: len(axis.values) for axis in study.axes}
+    if study.combine is Combine.TOGETHER and len(set(lengths.values())) > 1:
+        found = ", ".join(f"{count} of {key}" for key, count in lengths.items())
+        table.faults.append(Fault("study.combine", f"'together' with {found}", "as many values of each key"))
+    elif (count := int(np.prod(study.shape))) > MOST_POINTS:
+        table.faults.append(Fault("study", f"{count} points", f"at most {MOST_POINTS}"))
+
+
+def _case_faults(study: StudyCase) -> list[Fault]:
+    """Faults of the first point, where a varied key is unknown or where no point at all makes a case."""
+    first: list[Fault] = []
+    for point in study.points:
+        try:
+            study.case(point)
+        except InputFaults as reason:
+            told = [_at_study(fault, study) for fault in reason.faults]
+            first = first or told
+            if any(fault.found == "unknown key" and fault.path.startswith("study.") for fault in told):
+                return told
+            continue
+        return []
+    return first
+
+
+def _at_study(fault: Fault, study: StudyCase) -> Fault:
+    """A fault of a varied key told at the study's key."""
+    for axis in study.axes:
+        if axis.key == fault.path:
+            near = fault.nearest
+            if fault.found == "unknown key" and near:
+                near = f'"{axis.key.rpartition(".")[0]}.{near}"'
+            return replace(fault, path=_named(axis.key), nearest=near)
+        head, _, rest = axis.key.partition(".")
+        if fault.path == head and head not in study.tables:
+            near = nearest_choice(head, list(study.tables))
+            nearest = f'"{near}.{rest}"' if near else ""
+            return Fault(_named(axis.key), "unknown key", fault.expected, nearest)
+    return fault
+
+
+def _put(tables: dict[str, Any], key: str, value: Any) -> None:
+    """Set a dotted key, `film.velocity[0]` too, making the tables on the way to it."""
+    at: Any = tables
+    steps = [match.groups() for step in key.split(".") if (match := _STEP.fullmatch(step))]
+    for name, _ in steps[:-1]:
+        if not isinstance(at.get(name), dict):
+            at[name] = {}
+        at = at[name]
+    name, index = steps[-1]
+    if index is None:
+        at[name] = value
+    elif isinstance(at.get(name), list) and int(index) < len(at[name]):
+        at[name][int(index)] = value
+    else:
+        # Filled up so that the reader of the key says what is missing.
+        at[name] = [None] * int(index) + [value]
+
+
+def _named(key: str) -> str:
+    return f"study.{quoted(key)}"
