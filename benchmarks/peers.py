@@ -219,13 +219,27 @@ def machine() -> str:
     return f"{model}, {os.cpu_count()} cores, {platform.system()}, Python {platform.python_version()}"
 
 
-def page(measured: Sequence[Measured], left_out: Sequence[str], load: float, attitude: float) -> str:
-    """docs/benchmarks.md."""
+def code() -> str:
+    """Commit of this checkout, and whether files of the solver differ from it."""
+
+    def git(*words: str) -> str | None:
+        run = subprocess.run(["git", *words], cwd=HERE, capture_output=True, text=True, check=False)
+        return run.stdout.strip() if run.returncode == 0 else None
+
+    if shutil.which("git") is None or (commit := git("rev-parse", "--short", "HEAD")) is None:
+        return "no checkout"
+    changed = git("status", "--porcelain", "--", str(HERE.parent / "reynolds"))
+    return f"{commit}, with uncommitted changes in reynolds: provisional" if changed else commit
+
+
+def page(measured: Sequence[Measured], left_out: Sequence[str], load: float, attitude: float, state: str) -> str:
+    """docs/benchmarks.md; `state` is the code before the run."""
     versions = dict.fromkeys(f"{row.peer.name.split(',')[0].split(' +')[0]} {row.version}" for row in measured)
     text = (HERE / "peers" / "page.md").read_text(encoding="utf-8")
     return text.format(
         date=date.today().isoformat(),
         machine=machine(),
+        code=state,
         busy=f"{os.getloadavg()[0]:.1f}",
         versions=", ".join(versions),
         load=f"{load:.6f}",
@@ -263,15 +277,16 @@ def main() -> None:
     console = Console(width=140)
     along, across = force()
     load, attitude = math.hypot(along, across), math.degrees(math.atan2(across, -along))
+    state = code()
     measured, left_out = run_all(console, range(3 if asked.quick else 4))
     console.print(shown("Assembly and solve of one film, one thread", MESHES, mesh_lines(measured, load)))
     console.print(shown("At equal error of the load", EQUAL, equal_lines(measured, load)))
     console.print(f"verified: load {load:.6f}, attitude {attitude:.3f} deg (series, without finite elements)")
-    console.print(machine())
+    console.print(f"{machine()}; code {state}")
     for line in left_out:
         console.print(f"left out: {line}")
     if asked.page is not None:
-        asked.page.write_text(page(measured, left_out, load, attitude), encoding="utf-8")
+        asked.page.write_text(page(measured, left_out, load, attitude, state), encoding="utf-8")
 
 
 if __name__ == "__main__":

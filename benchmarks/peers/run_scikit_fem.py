@@ -8,7 +8,7 @@ from film import couette, journal_mesh, poiseuille
 from peer import asked, least, report
 from scipy.sparse.linalg import spsolve
 
-ELEMENT = {1: (skfem.ElementQuad1(), 3), 2: (skfem.ElementQuad2(), 5)}  # with the same quadrature as reynolds
+ELEMENT = {1: (skfem.ElementQuad1(), 3), 2: (skfem.ElementQuad2(), 5)}  # quadrature that keeps the order
 
 case = asked()
 element, order = ELEMENT[case.degree]
