@@ -58,6 +58,12 @@ class Dimension(Enum):
     VELOCITY = ("a velocity", "m/s", ("m/s", "mm/s", "um/s"), "2.9 m/s")
     VOLUME_FLOW = ("a volume flow", "m3/s", ("L/min", "mL/min"), "188 L/min")
     TIME = ("a time", "s", ("s", "ms"), "20 ms")
+    PRESSURE_COEFFICIENT = ("a pressure coefficient", "1/Pa", ("1/GPa",), "20 1/GPa")
+    TEMPERATURE_COEFFICIENT = ("a temperature coefficient", "1/K", ("1/K",), "0.03 1/K")
+    CONDUCTIVITY = ("a thermal conductivity", "W/(m K)", ("W/(m K)",), "0.13 W/(m K)")
+    HEAT_TRANSFER = ("a heat transfer coefficient", "W/(m2 K)", ("W/(m2 K)",), "80 W/(m2 K)")
+    FOUNDATION = ("a stiffness per area", "Pa/m", ("GPa/m",), "1e13 Pa/m")
+    AREAL_DENSITY = ("a number per area", "1/m2", ("1/mm2",), "2e10 1/m2")
 
     def __init__(self, noun: str, si_unit: str, reading_units: tuple[str, ...], example: str) -> None:
         self.noun = noun
@@ -81,7 +87,7 @@ _ANGLE_WORDS = ("radian", "turn", "revolution", "arcminute", "arcsecond", "grade
 _POWER = re.compile(r"(?<=[A-Za-zµμ])(?:\^|\*\*)?(-?\d)")
 _FACTOR = r"[A-Za-zµμ°]+[A-Za-z]*(?:(?:\^|\*\*)?-?\d|[²³])?"
 _PRODUCT = rf"{_FACTOR}(?:\s*[*·. ]\s*{_FACTOR})*"
-_UNIT_TEXT = re.compile(rf"{_PRODUCT}(?:\s*/\s*(?:{_FACTOR}|\(\s*{_PRODUCT}\s*\)))*")
+_UNIT_TEXT = re.compile(rf"(?:1(?=\s*/)|{_PRODUCT})(?:\s*/\s*(?:{_FACTOR}|\(\s*{_PRODUCT}\s*\)))*")
 
 
 def parse_quantity(text: object, dimension: Dimension) -> float:
