@@ -18,7 +18,7 @@ import numpy as np
 from scipy.sparse import coo_array, csc_array, csr_array
 
 from reynolds import kernels
-from reynolds.film import Cavitation, FilmProblem
+from reynolds.film import FilmProblem
 from reynolds.fluid import CONSTANT
 from reynolds.mesh import Array
 from reynolds.space import FilmSpace
@@ -27,7 +27,7 @@ from reynolds.transport import Transport, at_points, lumped, transport
 
 @dataclass(frozen=True)
 class State:
-    """A film on the way to its solution: nodal pressure (size,) Pa, film fraction (size,), opening (vertices,) m."""
+    """A film on the way to its solution: pressure (size,) Pa, film fraction (size,), opening (vertices,) m."""
 
     pressure: Array
     film_fraction: Array
@@ -36,7 +36,7 @@ class State:
 
 @dataclass(frozen=True)
 class Operators:
-    """K, C and D of the balance on the space's pattern (upper triangle; C's mirror beside it) and lumped integrals.
+    """K, C and D of the balance on the space's pattern (upper triangle, C's mirror beside it), lumped integrals.
 
     content (size,) m3 = integral of the content; rate (size,) m3/s: what a full film swallows as the content
     changes: the squeeze, or content over the time step.
@@ -44,8 +44,8 @@ class Operators:
 
     transport: Transport
     stiffness: Array
-    convection: tuple[Array, Array] | None
-    diffusion: Array | None
+    convection: tuple[Array, Array]
+    diffusion: Array
     content: Array
     rate: Array
 
@@ -56,11 +56,9 @@ def operators(problem: FilmProblem, state: State) -> Operators:
     terms = transport(problem, state.pressure, state.opening)
     content = lumped(space, terms.content)
     rate = lumped(space, terms.squeeze) if problem.storage is None else content / problem.storage.step
-    carried = diffusion = None
-    if problem.cavitation is Cavitation.JFO or problem.fluid is not CONSTANT:
-        carried = convection(space, terms.flux)
-        diffusion = np.empty_like(carried[0])
-        kernels.upwinding(space.pattern.indptr, space.pattern.indices, *carried, diffusion)
+    carried = convection(space, terms.flux)
+    diffusion = np.empty_like(carried[0])
+    kernels.upwinding(space.pattern.indptr, space.pattern.indices, *carried, diffusion)
     return Operators(terms, stiffness(space, terms.conductance), carried, diffusion, content, rate)
 
 
@@ -72,19 +70,31 @@ def stiffness(space: FilmSpace, conductance: tuple[Array, Array]) -> Array:
     reference = space.reference
     data = np.empty(len(space.pattern.indices))
     kernels.stiffness(
-        space.vertices, space.cells, space.dofs, space.pattern.slots, reference.gradient,
-        reference.geometry_gradient, reference.weights, *conductance, data,
+        space.vertices, space.cells, space.dofs, space.pattern.slots, reference.steep_gradient,
+        reference.steep_geometry, reference.weights, *conductance, data,
     )  # fmt: skip
     return data
 
 
-def convection(space: FilmSpace, flux: tuple[Array, Array]) -> tuple[Array, Array]:
-    """Entries C_ij = -int f_j flux . grad f_i of the upper triangle and, slot by slot, their mirrors C_ji."""
+def positive_share(space: FilmSpace, stiffness: Array) -> float:
+    """Share of couplings of the wrong sign, which let a pressure overshoot: of cells with obtuse angles."""
+    off = space.pattern.indices != space.pattern.columns
+    return float(np.mean(stiffness[off] > 1e-9 * np.abs(stiffness[off]).max(initial=0.0))) if off.any() else 0.0
+
+
+def convection(space: FilmSpace, flux: tuple[Array, Array], *, steep: bool = False) -> tuple[Array, Array]:
+    """Entries C_ij = -int f_j flux . grad f_i of the upper triangle and, slot by slot, their mirrors C_ji.
+
+    `steep` takes the gradients of the conductance: for a flux that pressure drives.
+    """
     reference = space.reference
+    tables = (reference.gradient, reference.geometry_gradient)
+    if steep:
+        tables = (reference.steep_gradient, reference.steep_geometry)
     upper, lower = (np.empty(len(space.pattern.indices)) for _ in range(2))
     kernels.convection(
-        space.vertices, space.cells, space.dofs, space.pattern.slots, reference.value, reference.gradient,
-        reference.geometry_gradient, reference.weights, *flux, upper, lower,
+        space.vertices, space.cells, space.dofs, space.pattern.slots, reference.value, *tables,
+        reference.weights, *flux, upper, lower,
     )  # fmt: skip
     return upper, lower
 
@@ -101,19 +111,13 @@ def holds(problem: FilmProblem, parts: Operators, state: State) -> Array:
 
 def flow_balance(problem: FilmProblem, parts: Operators, state: State) -> tuple[Array, Array]:
     """R (size,) m3/s, and the size of the flows that meet at each unknown (see `kernels.residual`)."""
-    space, terms = problem.space, parts.transport
+    pattern = problem.space.pattern
     filling = state.film_fraction * density(problem, state.pressure)[0]
-    out, size = np.empty(space.size), np.empty(space.size)
-    reference = space.reference
-    kernels.residual(
-        space.vertices, space.cells, space.dofs, reference.value, reference.gradient,
-        reference.geometry_gradient, reference.weights, *terms.conductance, *terms.flux,
-        state.pressure, filling, out, size,
-    )  # fmt: skip
-    if parts.diffusion is not None and (state.film_fraction < 1.0).any():
-        pattern = space.pattern
-        carried = cavity_density(problem) * state.film_fraction
-        kernels.multiply(pattern.indptr, pattern.indices, parts.diffusion, parts.diffusion, carried, out)
+    out, size = np.zeros(problem.space.size), np.zeros(problem.space.size)
+    kernels.exchange(pattern.indptr, pattern.indices, parts.stiffness, state.pressure, out, size)
+    kernels.carry(pattern.indptr, pattern.indices, *parts.convection, filling, out, size)
+    carried = cavity_density(problem) * state.film_fraction
+    kernels.exchange(pattern.indptr, pattern.indices, parts.diffusion, carried, out, size)
     out += swallowed(problem, parts, state)
     size += np.abs(parts.rate * filling)
     return out, size
@@ -121,7 +125,8 @@ def flow_balance(problem: FilmProblem, parts: Operators, state: State) -> tuple[
 
 def swallowed(problem: FilmProblem, parts: Operators, state: State) -> Array:
     """Rate at which each unknown's oil grows, m3/s at reference density, (size,)."""
-    rate = parts.rate * state.film_fraction * density(problem, state.pressure)[0]
+    filled = state.film_fraction if problem.storage else np.where(parts.rate > 0.0, state.film_fraction, 1.0)
+    rate = parts.rate * filled * density(problem, state.pressure)[0]
     return rate if problem.storage is None else rate - problem.storage.held_before / problem.storage.step
 
 
@@ -139,21 +144,21 @@ class Slopes:
 
 
 def slopes(problem: FilmProblem, parts: Operators, state: State) -> Slopes:
-    """Slopes of the balance between rigid walls; `parts` must hold C and D.
+    """Slopes of the balance between rigid walls.
 
     That the diffusion D changes with the pressure is left out: it does so only where walls give way.
     """
-    assert parts.convection is not None
-    assert parts.diffusion is not None
     space, terms = problem.space, parts.transport
     ratio, ratio_slope = density(problem, state.pressure)
     row, column = space.pattern.indices, space.pattern.columns
     c_upper, c_lower = parts.convection
     p_upper = p_lower = parts.stiffness
     if problem.fluid is not CONSTANT:
-        along_x, along_y = gradient_at_points(space, state.pressure)
-        k_x, k_y = terms.conductance
-        changed = convection(space, (-k_x * terms.by_pressure * along_x, -k_y * terms.by_pressure * along_y))
+        driven = [
+            -k * terms.by_pressure * along
+            for k, along in zip(terms.conductance, steep_gradient(space, state.pressure), strict=True)
+        ]
+        changed = convection(space, (driven[0], driven[1]), steep=True)
         filled = state.film_fraction * ratio_slope
         p_upper = parts.stiffness + changed[0] + c_upper * filled[column]
         p_lower = parts.stiffness + changed[1] + c_lower * filled[row]
@@ -161,42 +166,38 @@ def slopes(problem: FilmProblem, parts: Operators, state: State) -> Slopes:
     f_upper = c_upper * ratio[column] + level * parts.diffusion
     f_lower = c_lower * ratio[row] + level * parts.diffusion
     return Slopes(
-        (p_upper, p_lower, parts.rate * state.film_fraction * ratio_slope), (f_upper, f_lower, parts.rate * ratio)
+        (p_upper, p_lower, parts.rate * state.film_fraction * ratio_slope),
+        (f_upper, f_lower, np.maximum(parts.rate, 0.0) * ratio),
     )
 
 
-def gradient_at_points(space: FilmSpace, nodal: Array) -> tuple[Array, Array]:
-    """Gradient of a nodal field (size,) at the quadrature points, (cells, points) along x and y."""
+def steep_gradient(space: FilmSpace, nodal: Array) -> tuple[Array, Array]:
+    """Gradient of a nodal field (size,) as the conductance has it, (cells, points) along x and y."""
     reference = space.reference
     out = tuple(np.empty(space.area.shape) for _ in range(3))
     kernels.evaluate(
-        space.vertices, space.cells, space.dofs, reference.value, reference.gradient,
-        reference.geometry_gradient, reference.weights, nodal, *out,
+        space.vertices, space.cells, space.dofs, reference.value, reference.steep_gradient,
+        reference.steep_geometry, reference.weights, nodal, *out,
     )  # fmt: skip
     return out[1], out[2]
 
 
 def by_opening(problem: FilmProblem, parts: Operators, state: State) -> csr_array:
     """dR by the opening at each vertex, (size, vertices) m2/s."""
-    space, terms = problem.space, parts.transport
-    along_x, along_y = gradient_at_points(space, state.pressure)
+    space, terms, reference = problem.space, parts.transport, problem.space.reference
     filling = state.film_fraction * density(problem, state.pressure)[0]
-    full = at_points(space, filling)
-    carry = [
-        k * terms.by_thickness * slope - full * flux
-        for k, slope, flux in zip(terms.conductance, (along_x, along_y), terms.flux_by_thickness, strict=True)
+    driven = [
+        k * terms.by_thickness * along
+        for k, along in zip(terms.conductance, steep_gradient(space, state.pressure), strict=True)
     ]
-    local = np.einsum(
-        "eqd,eqid,qv->eiv",
-        np.stack(carry, axis=-1) * space.area[:, :, None], _gradients(space), space.reference.geometry_value,
-        optimize=True,
-    )  # fmt: skip
+    carried = [-at_points(space, filling) * flux for flux in terms.flux_by_thickness]
+    local = _tested(space, driven, reference.steep_gradient, reference.steep_geometry, space.steep_area)
+    local += _tested(space, carried, reference.gradient, reference.geometry_gradient, space.area)
     if problem.storage is not None:
-        per_second = terms.content_by_thickness * space.area / problem.storage.step
-        held = filling[space.dofs]
+        per_second = np.broadcast_to(terms.content_by_thickness / problem.storage.step, space.area.shape)
         local += np.einsum(
-            "eq,qi,qv,ei->eiv", np.broadcast_to(per_second, space.area.shape), space.reference.value,
-            space.reference.geometry_value, held, optimize=True,
+            "eq,qi,qv,ei->eiv", per_second * space.area, reference.value, reference.geometry_value,
+            filling[space.dofs], optimize=True,
         )  # fmt: skip
     rows = np.broadcast_to(space.dofs[:, :, None], local.shape)
     columns = np.broadcast_to(space.cells[:, None, :], local.shape)
@@ -205,11 +206,13 @@ def by_opening(problem: FilmProblem, parts: Operators, state: State) -> csr_arra
     )
 
 
-def _gradients(space: FilmSpace) -> Array:
-    """Gradient of each basis at the quadrature points, (cells, points, basis, 2) 1/m."""
-    corners = space.vertices[space.cells]
-    jacobian = np.einsum("evd,qvg->eqdg", corners, space.reference.geometry_gradient)
-    return np.asarray(np.einsum("qig,eqgd->eqid", space.reference.gradient, np.linalg.inv(jacobian)))
+def _tested(space: FilmSpace, flux: list[Array], gradient: Array, geometry: Array, area: Array) -> Array:
+    """int f_v flux . grad f_i with f_v the basis of the cell's corners, (cells, basis, corners)."""
+    jacobian = np.einsum("evd,qvg->eqdg", space.vertices[space.cells], geometry)
+    slopes = np.einsum("qig,eqgd->eqid", gradient, np.linalg.inv(jacobian))
+    weighted = np.stack([np.broadcast_to(part, area.shape) * area for part in flux], axis=-1)
+    corner = space.reference.geometry_value
+    return np.asarray(np.einsum("eqd,eqid,qv->eiv", weighted, slopes, corner, optimize=True))
 
 
 def full_matrix(space: FilmSpace, upper: Array, lower: Array) -> csc_array:

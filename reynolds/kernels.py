@@ -18,7 +18,7 @@ _FAST = {"cache": True, "fastmath": False, "error_model": "numpy"}
 
 
 ROUNDING = 1e-6
-"""Weight in `size` of what cancels in a uniform pressure: with the solver's 1e-9, some units in the last place."""
+"""Weight of what cancels in a nearly uniform pressure: with the solver's 1e-9, some units in the last place."""
 
 
 @njit(inline="always")
@@ -77,7 +77,7 @@ def stiffness(vertices, cells, dofs, slots, gradient, geometry_gradient, weights
 def convection(
     vertices, cells, dofs, slots, value, gradient, geometry_gradient, weights, flux_x, flux_y, upper, lower
 ):  # fmt: skip
-    """C_ij = - int f_j (flux_x, flux_y) . grad f_i: upper[slot] takes C_ij for i <= j, lower[slot] the mirror C_ji."""
+    """C_ij = - int f_j (flux_x, flux_y) . grad f_i: upper[slot] takes C_ij for i <= j, lower[slot] its mirror."""
     nb = dofs.shape[1]
     xe, xq = int(flux_x.shape[0] > 1), int(flux_x.shape[1] > 1)
     ye, yq = int(flux_y.shape[0] > 1), int(flux_y.shape[1] > 1)
@@ -124,15 +124,36 @@ def upwinding(indptr, indices, upper, lower, diffusion):
 
 
 @njit(**_FAST)
-def multiply(indptr, indices, upper, lower, vector, out):
-    """out += A vector, with A's upper triangle by columns and the mirror of each entry in lower."""
+def exchange(indptr, indices, coupling, level, out, size):
+    """out_i += sum_j A_ij (level_j - level_i): A's rows sum to zero: nothing flows at one level everywhere.
+
+    coupling is the upper triangle of the symmetric A. size adds up the magnitudes, and ROUNDING of what cancels
+    in them: the scale against which out is round-off.
+    """
+    for j in range(indptr.shape[0] - 1):
+        for k in range(indptr[j], indptr[j + 1] - 1):
+            i = indices[k]
+            flow = coupling[k] * (level[j] - level[i])
+            lost = abs(flow) + ROUNDING * abs(coupling[k]) * (abs(level[i]) + abs(level[j]))
+            out[i] += flow
+            out[j] -= flow
+            size[i] += lost
+            size[j] += lost
+
+
+@njit(**_FAST)
+def carry(indptr, indices, upper, lower, filling, out, size):
+    """out += A filling, A's upper triangle by columns and the mirror of each entry in lower; size as above."""
     for j in range(indptr.shape[0] - 1):
         last = indptr[j + 1] - 1
-        out[j] += upper[last] * vector[j]
+        out[j] += upper[last] * filling[j]
+        size[j] += abs(upper[last] * filling[j])
         for k in range(indptr[j], last):
             i = indices[k]
-            out[i] += upper[k] * vector[j]
-            out[j] += lower[k] * vector[i]
+            out[i] += upper[k] * filling[j]
+            out[j] += lower[k] * filling[i]
+            size[i] += abs(upper[k] * filling[j])
+            size[j] += abs(lower[k] * filling[i])
 
 
 @njit(**_FAST)
@@ -160,51 +181,6 @@ def find_slots(indptr, indices, row, column, slots):
                 else:
                     high = middle
             slots[e, k] = low
-
-
-@njit(**_FAST)
-def residual(
-    vertices, cells, dofs, value, gradient, geometry_gradient, weights,
-    along_x, along_y, flux_x, flux_y, pressure, filling, out, size,
-):  # fmt: skip
-    """out[i] = int (kx, ky) grad p . grad f_i - int filling (flux_x, flux_y) . grad f_i  (m3/s).
-
-    size[i] sums the magnitudes of the terms, and ROUNDING of what cancels within them where the pressure is
-    uniform: the scale against which out is round-off.
-    """
-    nb = dofs.shape[1]
-    ae, aq = int(along_x.shape[0] > 1), int(along_x.shape[1] > 1)
-    be, bq = int(along_y.shape[0] > 1), int(along_y.shape[1] > 1)
-    xe, xq = int(flux_x.shape[0] > 1), int(flux_x.shape[1] > 1)
-    ye, yq = int(flux_y.shape[0] > 1), int(flux_y.shape[1] > 1)
-    gx, gy = np.empty(nb), np.empty(nb)
-    out[:] = 0.0
-    size[:] = 0.0
-    for e in range(cells.shape[0]):
-        for q in range(weights.shape[0]):
-            det, ixx, ixy, iyx, iyy = _inverse_map(vertices, cells[e], geometry_gradient, q)
-            w = weights[q] * abs(det)
-            px = py = ax = ay = full = 0.0
-            for i in range(nb):
-                rx, ry = gradient[q, i, 0], gradient[q, i, 1]
-                gx[i] = ixx * rx + ixy * ry
-                gy[i] = iyx * rx + iyy * ry
-                p = pressure[dofs[e, i]]
-                px += p * gx[i]
-                py += p * gy[i]
-                ax += abs(p * gx[i])
-                ay += abs(p * gy[i])
-                full += filling[dofs[e, i]] * value[q, i]
-            cx, cy = along_x[e * ae, q * aq], along_y[e * be, q * bq]
-            px, py = cx * px, cy * py
-            ax, ay = ROUNDING * cx * ax, ROUNDING * cy * ay
-            fx, fy = full * flux_x[e * xe, q * xq], full * flux_y[e * ye, q * yq]
-            for i in range(nb):
-                poiseuille = w * (px * gx[i] + py * gy[i])
-                couette = w * (fx * gx[i] + fy * gy[i])
-                out[dofs[e, i]] += poiseuille - couette
-                lost = w * (ax * abs(gx[i]) + ay * abs(gy[i]))
-                size[dofs[e, i]] += abs(poiseuille) + abs(couette) + lost
 
 
 @njit(**_FAST)

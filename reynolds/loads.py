@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from reynolds import kernels
+from reynolds.balance import steep_gradient
 from reynolds.film import Cavitation, FilmSolution, Pocket, vertex_thickness
 from reynolds.mesh import Array
 from reynolds.transport import at_points
@@ -125,7 +126,7 @@ def loads(solution: FilmSolution, weight: Array | None = None) -> Loads:
         friction_fixed=(fixed[0], fixed[1]),
         friction_torque_moving=_torque(fields.shear_moving, x, y, rubbing),
         friction_torque_fixed=_torque(fields.shear_fixed, x, y, rubbing),
-        dissipation=float(np.sum(_dissipation_density(solution, fields) * rubbing)),
+        dissipation=_dissipation(solution, weight),
         flow=flow,
         squeeze_flow=squeeze_flow,
         cavity_flow=cavity_flow,
@@ -199,15 +200,22 @@ def _torque(shear: tuple[Array, Array], x: Array, y: Array, area: Array) -> floa
     return float(np.sum((x * shear[1] - y * shear[0]) * area))
 
 
-def _dissipation_density(solution: FilmSolution, fields: PointFields) -> Array:
-    """h^3/(12 mu) |grad p|^2 + mu |U1 - U2|^2 / h (W/m2), the latter where oil fills the film."""
-    film = solution.film
+def dissipated(solution: FilmSolution) -> tuple[Array, Array]:
+    """Heat at each quadrature point, (cells, points) W: of the flow that pressure drives, and of sliding.
+
+    h^3/(12 mu) |grad p|^2 and mu |U1 - U2|^2 / h, the latter where oil fills the film, times the area element.
+    """
+    film, space = solution.film, solution.problem.space
     slip = sum((a - b) ** 2 for a, b in zip(film.velocity_moving, film.velocity_fixed, strict=True))
-    gradient = fields.gradient[0] ** 2 + fields.gradient[1] ** 2
-    filled = at_points(solution.problem.space, solution.film_fraction)
-    return film.thickness**3 / (12.0 * film.viscosity) * gradient + (
-        filled * film.sliding_viscosity * slip / film.thickness
-    )
+    along_x, along_y = steep_gradient(space, solution.pressure)
+    driven = film.thickness**3 / (12.0 * film.viscosity) * (along_x**2 + along_y**2)
+    sliding = at_points(space, solution.film_fraction) * film.sliding_viscosity * slip / film.thickness
+    return driven * space.steep_area, sliding * space.area
+
+
+def _dissipation(solution: FilmSolution, weight: Array | None = None) -> float:
+    driven, sliding = dissipated(solution)
+    return float(np.sum((driven + sliding) * (1.0 if weight is None else weight)))
 
 
 def _root_sum(within: Array) -> float:
@@ -226,7 +234,7 @@ def _energy_error(solution: FilmSolution, fields: PointFields) -> float:
     )
     flow = -float(np.sum(solution.outflow * solution.pressure))
     squeeze = float(np.sum(solution.pressure * solution.swallowed))
-    spent = float(np.sum(_dissipation_density(solution, fields) * area))
+    spent = _dissipation(solution)
     scale = max(spent, abs(walls), abs(flow), _root_sum(solution.meeting * solution.pressure))
     return abs(walls + flow - squeeze - spent) / scale
 

@@ -23,6 +23,7 @@ from reynolds.balance import (
     full_matrix,
     holds,
     operators,
+    positive_share,
     slopes,
     swallowed,
 )
@@ -36,14 +37,22 @@ from reynolds.setting import Setting, spread
 from reynolds.space import FilmSpace
 
 MAX_ITERATIONS = 100
+FULL_STEPS = 15  # then, or as soon as a cavity comes back, each step must bring the balance nearer to zero
 TOLERANCE = 1e-9
-LEAST_LEFT = 0.2  # of the film that a step between compliant walls may leave
+MOST_HALVINGS = 10
+LEAST_GAIN = 1e-4  # of the balance, by a full step
+NOTHING = 1e-12  # of the largest flow
 
 
 @dataclass(frozen=True)
 class _Iterate:
-    """A state, its cavity, and the balance there."""
+    """A state, its cavity and the balance there.
 
+    `signed` (size,) Pa tells the two apart: pressure above cavitation pressure where it is positive, else what
+    the cavity lacks of a full film, in pressures (see `_signed`).
+    """
+
+    signed: Array
     state: State
     cavity: NDArray[np.bool_]
     parts: Operators
@@ -63,29 +72,26 @@ class FilmSolver:
         """The film of `problem`; `start` warms pressures, film fractions and cavity.
 
         Afterwards every free unknown's flow balance holds to 1e-9 of the flows meeting there. Raises
-        FilmInputError as `check_pressures` does, and FilmNotConverged when the active set does not settle.
+        FilmInputError as `check_pressures` does, and FilmNotConverged when that is not reached.
         """
         if problem.space.pattern is not self._pattern:
             raise FilmInputError("space", "another mesh", "the space of this solver, moved or not")
         setting = spread(problem)
         at = self._begin(problem, setting, start)
+        seen = {at.cavity.tobytes()}
+        cycles = False
         for iteration in range(1, MAX_ITERATIONS + 1):
-            state = self._step(problem, setting, at)
-            parts = at.parts if _is_linear(problem) else operators(problem, state)
-            balance, size = flow_balance(problem, parts, state)
-            cavity = _cavity(problem, setting, replace(at, state=state, parts=parts, balance=balance, size=size))
-            settled = bool(np.array_equal(cavity, at.cavity))
-            _check_degree(problem, cavity)
-            state = _projected(problem, setting, state, cavity)
-            at = _Iterate(state, cavity, parts, *flow_balance(problem, parts, state))
+            signed = self._step(problem, setting, at)
+            new = _shortened(problem, setting, at, signed) if cycles else _at(problem, setting, at, signed)
+            settled, at = bool(np.array_equal(new.cavity, at.cavity)), new
+            _check_degree(problem, at.cavity)
             imbalance = _imbalance(problem, setting, at)
-            if settled and imbalance < TOLERANCE:
+            # Under JFO a signed unknown next to zero may change sides for ever: either side is the solution.
+            if (settled or problem.cavitation is Cavitation.JFO) and imbalance < TOLERANCE:
                 return _solution(problem, setting, at, imbalance, iteration)
-        raise FilmNotConverged(
-            f"film pressure not settled after {MAX_ITERATIONS} iterations (imbalance {imbalance:.2g}, "
-            f"{int(at.cavity.sum())} of {problem.space.size} unknowns cavitated)",
-            "a finer or more regular (Delaunay) mesh, or triangles instead of stretched quadrilaterals",
-        )
+            cycles |= iteration >= FULL_STEPS or (not settled and at.cavity.tobytes() in seen)
+            seen.add(at.cavity.tobytes())
+        raise _not_settled(problem, at, imbalance)
 
     def _begin(self, problem: FilmProblem, setting: Setting, start: FilmSolution | None) -> _Iterate:
         space = problem.space
@@ -95,30 +101,41 @@ class FilmSolver:
             pressure = np.where(setting.held, pressure, start.pressure)
             fraction = np.where(setting.held, fraction, start.film_fraction)
             cavity = start.cavity & ~setting.held & (problem.cavitation is not Cavitation.NONE)
-        state = _opened(problem, pressure, fraction)
-        parts = operators(problem, state)
-        balance, size = flow_balance(problem, parts, state)
+        at = _iterate(problem, _opened(problem, pressure, fraction), cavity)
         if start is None and problem.cavitation is not Cavitation.NONE and space.size > COARSEST:
-            at = _Iterate(state, cavity, parts, balance, size)
             # Free unknowns of the spread pressures stand at cavitation pressure: the step from there is p - p_c.
-            cavity = nested_cavity(*_symmetric_step(problem, setting, at, setting.held)) & ~setting.held
-        state = _projected(problem, setting, state, cavity)
-        return _Iterate(state, cavity, parts, *flow_balance(problem, parts, state))
+            guess = nested_cavity(*_symmetric_step(problem, setting, at, setting.held)) & ~setting.held
+            at = replace(at, cavity=guess)
+        return at
 
-    def _step(self, problem: FilmProblem, setting: Setting, at: _Iterate) -> State:
-        """The state after one Newton step of the free unknowns; held ones stay as they are."""
+    def _step(self, problem: FilmProblem, setting: Setting, at: _Iterate) -> Array:
+        """The signed unknowns after one Newton step of the free ones; held ones stay as they are."""
         carried = problem.cavitation is Cavitation.JFO and bool(at.cavity.any())
         if _is_linear(problem) and not carried:
             matrix, load = _symmetric_step(problem, setting, at, setting.held | at.cavity)
             self._factor.update(matrix)
-            return replace(at.state, pressure=at.state.pressure + self._factor.solve(load))
-        upper, lower, load, scale = _general_step(problem, setting, at)
-        if problem.walls is None:
-            self._general.update(problem.space.matrix(upper), lower)
-            change = self._general.solve(load)
+            change, scale = self._factor.solve(load), 0.0
         else:
-            change = _compliant_step(problem, setting, at, upper, lower, load)
-        return _taken(problem, at, change, scale)
+            upper, lower, load, scale = _general_step(problem, setting, at)
+            if problem.walls is None:
+                self._general.update(problem.space.matrix(upper), lower)
+                change = self._general.solve(load)
+            else:
+                change = _compliant_step(problem, setting, at, upper, lower, load)
+        return _signed(problem, at, change, scale)
+
+
+def _not_settled(problem: FilmProblem, at: _Iterate, imbalance: float) -> FilmNotConverged:
+    what = (
+        f"film pressure not settled after {MAX_ITERATIONS} iterations (imbalance {imbalance:.2g}, "
+        f"{int(at.cavity.sum())} of {problem.space.size} unknowns cavitated)"
+    )
+    if share := positive_share(problem.space, at.parts.stiffness):
+        return FilmNotConverged(
+            f"{what}; {share:.1%} of the mesh's couplings are positive, from cells with obtuse angles",
+            "Delaunay triangles or rectangular cells, on which no pressure overshoots",
+        )
+    return FilmNotConverged(what, "a finer mesh, or a film that changes less from cell to cell")
 
 
 def _is_linear(problem: FilmProblem) -> bool:
@@ -173,9 +190,6 @@ def _general_step(problem: FilmProblem, setting: Setting, at: _Iterate) -> tuple
     return upper, lower, np.where(setting.held, 0.0, -rest / unit), scale
 
 
-NOTHING = 1e-12  # of the largest flow
-
-
 def _with_pockets(setting: Setting, at: _Iterate) -> tuple[Array, Array]:
     """The balance less what pockets are fed, and what their feeds add to the diagonal."""
     rest, gain = at.balance.copy(), np.zeros(len(at.balance))
@@ -203,48 +217,83 @@ def _compliant_step(
     return np.asarray(np.linalg.solve(rigid.toarray() + slope @ (compliance * pressures[None, :]), load))
 
 
-def _taken(problem: FilmProblem, at: _Iterate, change: Array, scale: float) -> State:
-    """The state after a step, shortened where it would press compliant walls together."""
-    share = 1.0
-    while True:
-        pressure = at.state.pressure + share * np.where(at.cavity, 0.0, change)
-        fraction = at.state.film_fraction + share * np.where(at.cavity, scale * change, 0.0)
-        state = _opened(problem, pressure, fraction)
-        if problem.walls is None:
-            return state
-        given = problem.space.sample_vertices(state.opening) + problem.film.thickness
-        if (given > LEAST_LEFT * at.parts.transport.film.thickness).all():
-            return state
-        share *= 0.5
+def _signed(problem: FilmProblem, at: _Iterate, change: Array, scale: float) -> Array:
+    """The signed unknowns (size,) Pa after a step.
 
-
-def _cavity(problem: FilmProblem, setting: Setting, at: _Iterate) -> NDArray[np.bool_]:
-    """The unknowns that belong to the cavity by the state that a step led to."""
+    In the cavity the lack of oil 1 - theta, or the oil that Reynolds' condition makes, over the pressure that
+    would move as much: slopes of the balance by a signed unknown are then alike on both sides of zero.
+    """
     level = problem.cavitation_pressure
-    if problem.cavitation is Cavitation.NONE:
-        return at.cavity
-    enters = ~at.cavity & (at.state.pressure < level)
-    if problem.cavitation is Cavitation.REYNOLDS:
+    pressure = at.state.pressure + np.where(at.cavity, 0.0, change)
+    if problem.cavitation is Cavitation.JFO:
+        lack = at.state.film_fraction + scale * change - 1.0
+        return np.where(at.cavity, lack * _stiffness_of_lack(problem, at), pressure - level)
+    if problem.cavitation is Cavitation.REYNOLDS and at.cavity.any():
+        balance, size = flow_balance(problem, at.parts, replace(at.state, pressure=pressure))
         # A node that nothing drives (balance zero but for round-off) would otherwise enter and leave for ever.
-        stays = at.cavity & (at.balance > -TOLERANCE * at.size)
-    else:
-        # A node that nothing drives has no pressure of its own but for round-off.
-        diagonal = at.parts.stiffness[problem.space.pattern.indptr[1:] - 1]
-        enters = ~at.cavity & ((at.state.pressure - level) * diagonal < -TOLERANCE * at.size)
-        stays = at.cavity & (at.state.film_fraction < 1.0 + TOLERANCE) & (at.state.film_fraction > -TOLERANCE)
-    return (enters | stays) & ~setting.held
+        made = (balance + TOLERANCE * size) / _diagonal(problem, at.parts.stiffness)
+        return np.where(at.cavity, -made, pressure - level)
+    return pressure - level
 
 
-def _projected(problem: FilmProblem, setting: Setting, state: State, cavity: NDArray[np.bool_]) -> State:
-    """The state with cavitation pressure in the cavity and a full film elsewhere."""
+def _stiffness_of_lack(problem: FilmProblem, at: _Iterate) -> Array:
+    """Pressure that moves as much oil out of an unknown as its film fraction does, (size,) Pa."""
+    carried = _diagonal(problem, at.parts.convection[0] + at.parts.diffusion) + np.maximum(at.parts.rate, 0.0)
+    stiff = _diagonal(problem, at.parts.stiffness)
+    return np.maximum(carried, NOTHING * carried.max() + 1e-300) / stiff
+
+
+def _diagonal(problem: FilmProblem, upper: Array) -> Array:
+    return np.asarray(upper[problem.space.pattern.indptr[1:] - 1])
+
+
+def _at(problem: FilmProblem, setting: Setting, before: _Iterate, signed: Array) -> _Iterate:
+    """The iterate that signed unknowns mean: each a pressure where positive, else a cavity."""
     level = problem.cavitation_pressure
-    pressure = np.where(cavity, level, state.pressure)
+    pressure, fraction = signed + level, np.ones_like(signed)
+    cavity = np.zeros(len(signed), dtype=bool)
     if problem.cavitation is not Cavitation.NONE:
+        cavity = (signed < 0.0) & ~setting.held
         pressure = np.maximum(pressure, level)
-    fraction = np.where(cavity | setting.held, np.clip(state.film_fraction, 0.0, 1.0), 1.0)
-    if problem.cavitation is not Cavitation.JFO:
-        fraction = np.ones_like(fraction)
-    return _opened(problem, pressure, fraction)
+    if problem.cavitation is Cavitation.JFO:
+        fraction = np.where(cavity, 1.0 + signed / _stiffness_of_lack(problem, before), 1.0)
+    pressure = np.where(setting.held, setting.pressure, pressure)
+    fraction = np.where(setting.held, setting.film_fraction, fraction)
+    state = _opened(problem, pressure, fraction)
+    if _is_linear(problem):
+        return _Iterate(signed, state, cavity, before.parts, *flow_balance(problem, before.parts, state))
+    return _iterate(problem, state, cavity, signed)
+
+
+def _iterate(
+    problem: FilmProblem, state: State, cavity: NDArray[np.bool_], signed: Array | None = None
+) -> _Iterate:
+    parts = operators(problem, state)
+    if signed is None:
+        signed = state.pressure - problem.cavitation_pressure
+        at = _Iterate(signed, state, cavity, parts, signed, signed)
+        if problem.cavitation is Cavitation.JFO:
+            signed = np.where(cavity, (state.film_fraction - 1.0) * _stiffness_of_lack(problem, at), signed)
+    return _Iterate(signed, state, cavity, parts, *flow_balance(problem, parts, state))
+
+
+def _shortened(problem: FilmProblem, setting: Setting, at: _Iterate, signed: Array) -> _Iterate:
+    """A step cut back until it brings the balance nearer to zero, or the best of the shares that were tried."""
+
+    def rest(there: _Iterate) -> float:
+        return float(np.abs(_with_pockets(setting, there)[0][~setting.held]).sum())
+
+    before, best = rest(at), None
+    for halvings in range(MOST_HALVINGS):
+        share = 0.5**halvings
+        new = _at(problem, setting, at, at.signed + share * (signed - at.signed))
+        left = rest(new)
+        if left < (1.0 - LEAST_GAIN * share) * before:
+            return new
+        if best is None or left < best[0]:
+            best = left, new
+    assert best is not None
+    return best[1]
 
 
 def _imbalance(problem: FilmProblem, setting: Setting, at: _Iterate) -> float:
@@ -254,7 +303,8 @@ def _imbalance(problem: FilmProblem, setting: Setting, at: _Iterate) -> float:
         free &= ~at.cavity
     rest, slope = _with_pockets(setting, at)
     size = at.size + np.abs(at.balance - rest) + kernels.ROUNDING * np.abs(slope * at.state.pressure)
-    scale = np.where(size > 0.0, size, 1.0)
+    # Round-off of a solve is that of its largest flows: where next to nothing flows it is all there is.
+    scale = np.maximum(size + kernels.ROUNDING * size.max(initial=0.0), 1e-300)
     return float(np.max(np.abs(rest[free]) / scale[free], initial=0.0))
 
 

@@ -32,12 +32,19 @@ _ELEMENTS = {
 
 @dataclass(frozen=True)
 class Reference:
-    """Basis and geometry on the reference element at its quadrature points."""
+    """Basis and geometry on the reference element at its quadrature points.
+
+    `steep` tables belong to the conductance: for a bilinear quadrilateral they stand at the corner next to the
+    point, which integrates as exactly (trapezium rule) and leaves no positive coupling between unknowns, however
+    stretched a rectangle is: pressure and film fraction then know no overshoot. Else they are the others.
+    """
 
     value: Array  # (points, basis)
     gradient: Array  # (points, basis, 2)
     geometry_value: Array  # (points, corners)
     geometry_gradient: Array  # (points, corners, 2)
+    steep_gradient: Array  # (points, basis, 2)
+    steep_geometry: Array  # (points, corners, 2)
     weights: Array  # (points,)
 
 
@@ -93,8 +100,16 @@ class FilmSpace:
     @cached_property
     def area(self) -> Array:
         """Area element of each quadrature point, (cells, points), m2."""
+        return self._measured(self.reference.geometry_gradient)
+
+    @cached_property
+    def steep_area(self) -> Array:
+        """Area element where the steep gradients stand, (cells, points), m2."""
+        return self._measured(self.reference.steep_geometry)
+
+    def _measured(self, geometry_gradient: Array) -> Array:
         area = np.empty((len(self.cells), len(self.reference.weights)))
-        kernels.measure(self.vertices, self.cells, self.reference.geometry_gradient, self.reference.weights, area)
+        kernels.measure(self.vertices, self.cells, geometry_gradient, self.reference.weights, area)
         return area
 
     @cached_property
@@ -205,7 +220,7 @@ def film_space(film_mesh: FilmMesh, *, degree: int = 1, pockets: Iterable[str] =
 def _reference(mesh: skfem.Mesh, element: skfem.Element, points: Array, weights: Array) -> Reference:
     geometry = skfem.ElementTriP1() if isinstance(mesh, skfem.MeshTri1) else skfem.ElementQuad1()
 
-    def table(kind: skfem.Element, count: int) -> tuple[Array, Array]:
+    def table(kind: skfem.Element, count: int, points: Array = points) -> tuple[Array, Array]:
         values, slopes = zip(*(kind.lbasis(points, i) for i in range(count)), strict=True)
         at = np.array([np.broadcast_to(v, points.shape[1:]) for v in values]).T
         slope = np.array([np.broadcast_to(s, points.shape) for s in slopes]).transpose(2, 0, 1)
@@ -213,7 +228,10 @@ def _reference(mesh: skfem.Mesh, element: skfem.Element, points: Array, weights:
 
     value, gradient = table(element, len(element.doflocs))
     corner, corner_gradient = table(geometry, len(geometry.doflocs))
-    return Reference(value, gradient, corner, corner_gradient, np.ascontiguousarray(weights))
+    steep, steep_corner = gradient, corner_gradient
+    if isinstance(element, skfem.ElementQuad1):
+        steep, steep_corner = table(element, 4, np.round(points))[1], table(geometry, 4, np.round(points))[1]
+    return Reference(value, gradient, corner, corner_gradient, steep, steep_corner, np.ascontiguousarray(weights))
 
 
 def _tie(film_mesh: FilmMesh, basis: skfem.Basis, pockets: tuple[str, ...]) -> NDArray[np.int64]:
