@@ -1,9 +1,9 @@
 """Linear solves with one sparsity pattern: symmetric positive definite (`Factor`) and general (`GeneralFactor`).
 
-QDLDL (Stellato et al. 2020) keeps its symbolic part between calls and is the fastest of the freely licensed
-direct solvers below about 1e5 unknowns; above, conjugate gradients with algebraic multigrid
-(Ruge-Stueben 1987, pyamg) take over, since fill grows faster than the mesh. Where they stall, the direct solver
-does it after all, slowly.
+A ladder for the symmetric ones. On a grid, multigrid takes them from a few hundred unknowns on. QDLDL (Stellato
+et al. 2020) keeps its symbolic part between calls and is the fastest of the freely licensed direct solvers below
+about 1e5 unknowns; above, conjugate gradients with algebraic multigrid (Ruge-Stueben 1987, pyamg) take over,
+since fill grows faster than the mesh. Where a rung stalls, the next one does it.
 """
 
 from __future__ import annotations
@@ -18,17 +18,24 @@ from scipy.sparse import coo_array, csc_array, csc_matrix, csr_array, triu
 from scipy.sparse.linalg import SuperLU, splu
 
 from reynolds.errors import FilmNotConverged
+from reynolds.grid import Grid
 from reynolds.mesh import Array
+from reynolds.multigrid import Multigrid
 
 DIRECT_LIMIT = 60_000
+GRID_LEAST = 500  # unknowns: below, a direct solve of a grid is as fast as multigrid
 ITERATIVE_TOLERANCE = 1e-11
+STALLED = 1e3  # times the tolerance: what round-off may leave; beyond, the next rung of the ladder
 GENERAL_TOLERANCE = 1e-10  # residual over load beyond which an elimination without pivots is done again with them
 
 
 class Factor:
     """The factorised operator of one pattern: `update` with new entries, then `solve` any number of times."""
 
-    def __init__(self) -> None:
+    def __init__(self, grid: Grid | None = None) -> None:
+        """`grid`: the rows and columns of the unknowns (`grid_of`), None where there are none."""
+        self._grid = grid if grid is not None and grid.unknowns.size >= GRID_LEAST else None
+        self._on_grid: Multigrid | None = None
         self._direct: qdldl.Solver | None = None
         self._multigrid: tuple[csr_array, Any] | None = None
         self._upper: csc_array | None = None
@@ -37,22 +44,40 @@ class Factor:
     def update(self, upper: csc_array) -> None:
         """Take the upper triangle of a symmetric positive definite matrix; the pattern never changes."""
         self._upper = upper
-        if upper.shape[0] > DIRECT_LIMIT and not self._stalled:
-            self._multigrid = multigrid(upper)
-        else:
-            self._factorise(upper)
+        if self._grid is not None:
+            if self._on_grid is None:
+                self._on_grid = Multigrid(self._grid, upper)
+            if self._on_grid.update(upper.data):
+                return
+            self._leave_grid()
+        self._off_grid(upper)
 
     def solve(self, load: Array) -> Array:
         """x with A x = load, (n,). Where multigrid stalls (films that jump many times over) by a direct solve."""
+        assert self._upper is not None
+        if self._on_grid is not None:
+            answer, effort = self._on_grid.solve(load, ITERATIVE_TOLERANCE)
+            if effort.left <= STALLED * ITERATIVE_TOLERANCE:
+                return answer
+            self._leave_grid()
+            self._off_grid(self._upper)
         if self._multigrid is not None:
             answer, converged = _conjugate_gradients(*self._multigrid, load)
             if converged:
                 return answer
-            assert self._upper is not None
             self._stalled = True
             self._factorise(self._upper)
         assert self._direct is not None
         return self._direct.solve(load)
+
+    def _leave_grid(self) -> None:
+        self._grid = self._on_grid = None
+
+    def _off_grid(self, upper: csc_array) -> None:
+        if upper.shape[0] > DIRECT_LIMIT and not self._stalled:
+            self._multigrid = multigrid(upper)
+        else:
+            self._factorise(upper)
 
     def _factorise(self, upper: csc_array) -> None:
         self._multigrid = None
@@ -78,7 +103,7 @@ def _conjugate_gradients(matrix: csr_array, hierarchy: Any, load: Array) -> tupl
     """The solution, and whether its residual came down to near ITERATIVE_TOLERANCE of the load."""
     answer = hierarchy.solve(load, tol=ITERATIVE_TOLERANCE, accel="cg", maxiter=200)
     reached = float(np.linalg.norm(load - matrix @ answer))
-    return answer, reached <= 1e3 * ITERATIVE_TOLERANCE * float(np.linalg.norm(load))
+    return answer, reached <= STALLED * ITERATIVE_TOLERANCE * float(np.linalg.norm(load))
 
 
 class GeneralFactor:

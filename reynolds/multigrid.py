@@ -56,10 +56,14 @@ class Multigrid:
         return bool(kernels.set_up(self._levels))
 
     def solve(self, load: Array, tolerance: float) -> tuple[Array, Effort]:
-        """x with |A x - load| <= tolerance |load|, (n,), or as near as MAX_STEPS come."""
+        """x with |A x - load| <= tolerance |load|, (n,), or as near as round-off and MAX_STEPS let it come."""
         kernels.to_rows(load, self._grid.unknowns, self._levels.load)
-        steps, left = kernels.conjugate_gradients(self._levels, *self._work, tolerance, MAX_STEPS)
-        return self._taken(self._work[0]), Effort(steps, left)
+        steps, size = kernels.conjugate_gradients(self._levels, *self._work, tolerance, MAX_STEPS)
+        if size == 0.0:
+            return np.zeros(len(load)), Effort(0, 0.0)
+        kernels.to_rows(load, self._grid.unknowns, self._levels.load)
+        left = kernels.left_of(self._levels, self._work[0])
+        return self._taken(self._work[0]), Effort(steps, float(left / size))
 
     def full_pass(self, load: Array) -> Array:
         """x to about the error of the mesh, (n,): one pass of full multigrid (Brandt 1977), without a check."""

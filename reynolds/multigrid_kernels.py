@@ -499,7 +499,7 @@ def _repeat(a, x):
 
 @njit(**_FAST)
 def conjugate_gradients(a, x, direction, tolerance, most):
-    """Solve A x = load of the finest level, which ends as the residual; returns steps and |r|/|load|.
+    """Solve A x = load of the finest level, which is lost; returns steps and |load|.
 
     Hestenes and Stiefel 1952. Stops short where the operator or the cycle is not positive.
     """
@@ -527,7 +527,16 @@ def conjugate_gradients(a, x, direction, tolerance, most):
         left = _step(load, answer, length)
         before = now
         steps += 1
-    return steps, np.sqrt(left / size)
+    return steps, np.sqrt(size)
+
+
+@njit(**_FAST)
+def left_of(a, x):
+    """|load - A x| on the finest level, whose load ends as that residual."""
+    _repeat(a, x)
+    m = a.rows[0]
+    _apply(a, x, a.answer)
+    return np.sqrt(_step(a.load[:m], a.answer[:m], 1.0))
 
 
 @njit(**_SUMS)

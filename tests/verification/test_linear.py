@@ -5,7 +5,9 @@ import pytest
 from scipy.sparse import csc_array, triu
 
 from reynolds import linear
+from reynolds.balance import stiffness
 from reynolds.film import ZERO, Cavitation, FilmProblem, Held, film
+from reynolds.grid import grid_of
 from reynolds.loads import loads
 from reynolds.mesh import Cell, rectangle
 from reynolds.solve import FilmSolver
@@ -38,6 +40,35 @@ def test_a_stalled_multigrid_hands_over_to_the_direct_solver(monkeypatch):
     load = np.random.default_rng(1).standard_normal(300)
     full = (laplacian(300) + triu(laplacian(300), 1).T).toarray()
     np.testing.assert_allclose(full @ factor.solve(load), load, atol=1e-9)
+
+
+def test_each_rung_of_the_ladder_hands_over_to_the_next(monkeypatch):
+    """The same answer from multigrid on the grid, and where that and pyamg stall from QDLDL."""
+    space = film_space(rectangle((1.0, 1.0), (30, 20), cell=Cell.QUADRILATERAL))
+    entries = stiffness(space, (np.ones((1, 1)), np.ones((1, 1))))
+    column = np.repeat(np.arange(space.size), np.diff(space.pattern.indptr))
+    upper = space.matrix(entries + 0.1 * (space.pattern.indices == column))
+    load = np.random.default_rng(1).standard_normal(space.size)
+    whole = upper + triu(upper, 1).T
+    for limit, tolerance, rung in ((10_000, 1e-11, "_on_grid"), (10, 1e-11, "_on_grid"), (10, 1e-30, "_direct")):
+        monkeypatch.setattr(linear, "DIRECT_LIMIT", limit)
+        monkeypatch.setattr(linear, "ITERATIVE_TOLERANCE", tolerance)
+        factor = linear.Factor(grid_of(space))
+        factor.update(upper)
+        np.testing.assert_allclose(whole @ factor.solve(load), load, atol=1e-9)
+        assert getattr(factor, rung) is not None
+    assert factor._on_grid is None
+
+
+def test_a_matrix_that_is_not_positive_leaves_the_grid():
+    space = film_space(rectangle((1.0, 1.0), (30, 20), cell=Cell.QUADRILATERAL))
+    upper = space.matrix(-stiffness(space, (np.ones((1, 1)), np.ones((1, 1)))))
+    upper = upper - 0.1 * csc_array(np.eye(space.size))
+    upper.sort_indices()
+    factor = linear.Factor(grid_of(space))
+    factor.update(upper)
+    load = np.random.default_rng(1).standard_normal(space.size)
+    np.testing.assert_allclose((upper + triu(upper, 1).T) @ factor.solve(load), load, atol=1e-9)
 
 
 @pytest.mark.slow
