@@ -1,6 +1,6 @@
 """Body meshes from parameters: block, ring (shell, thick cylinder, annular plate), disc, and an (r, z) section.
 
-Hexahedra of quadratic geometry whose 20 nodes lie on the true arcs; face names are API.
+Hexahedra whose edges are parabolas through the true arcs; face names are API.
 """
 
 from __future__ import annotations
@@ -178,7 +178,7 @@ def _extruded(points: Array, quads: NDArray[np.int64], heights: Array, *, arcs_f
 
 
 def _fill_serendipity(mesh: skfem.MeshHex2, places: Array) -> None:
-    """Middles of faces and cells from their edges: the geometry is then of the displacement's own 20 nodes."""
+    """Middles of faces and cells half way between their edges, which alone are bent."""
     reference, cells = mesh.elem.refdom, mesh.dofs.element_dofs
     edge_of = {frozenset(pair): 8 + k for k, pair in enumerate(reference.edges)}
     for k, corners in enumerate(reference.facets):

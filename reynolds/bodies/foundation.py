@@ -13,6 +13,8 @@ from reynolds.mesh import Array
 from reynolds.space import FilmSpace
 from reynolds.walls import Walls
 
+BLOCK = 128  # points at a time: bounds the memory beside the result
+
 
 @dataclass(frozen=True)
 class Compliance:
@@ -59,6 +61,11 @@ def polygon_potential(points: Array, corners: Array) -> Array:
     Sum over the edges of d [asinh(t2/d) - asinh(t1/d)], d the distance to the edge's line, t along it; an edge in
     line with the point gives nothing. Of a rectangle it is Love's (1929) formula.
     """
+    blocks = [_potential(points[k : k + BLOCK], corners) for k in range(0, len(points), BLOCK)]
+    return np.vstack(blocks)
+
+
+def _potential(points: Array, corners: Array) -> Array:
     total = np.zeros((len(points), len(corners)))
     ahead = np.roll(corners, -1, axis=1)
     turn = np.sign(_cross(ahead[:, 0] - corners[:, 0], corners[:, 2] - corners[:, 0]))

@@ -8,9 +8,11 @@ import numpy as np
 from scipy.sparse import coo_array, csc_array
 
 from reynolds.bodies.body_space import BodySpace, Nodes
+from reynolds.errors import FilmInputError
 from reynolds.mesh import Array
 
 SINGULAR = 1e-8  # of the largest singular value: supports that hold a motion no better do not hold it
+FAR = 0.1  # of the body's size: a held point no farther than this from a node means that node
 
 
 @dataclass(frozen=True)
@@ -26,14 +28,22 @@ class Supports:
 
 
 def constraints(space: BodySpace, supports: Supports) -> tuple[csc_array, csc_array]:
-    """Orthonormal bases of the motions that supports hold (dofs, held) and allow (dofs, free)."""
+    """Orthonormal bases of the motions that supports hold (dofs, held) and allow (dofs, free).
+
+    Raises FilmInputError for a face that is not there and for a point far from the body.
+    """
     dim = space.dim
     directions: dict[int, list[Array]] = {}
     for name in supports.clamped:
         for node in space.face(name).nodes.tolist():
             directions.setdefault(node, []).append(np.eye(dim))
     for point in supports.points:
-        node = int(np.argmin(np.linalg.norm(space.places - np.asarray(point), axis=1)))
+        distance = np.linalg.norm(space.places - np.asarray(point), axis=1)
+        node = int(np.argmin(distance))
+        if not distance[node] <= FAR * np.ptp(space.places, axis=0).max():
+            raise FilmInputError(
+                "held point", f"{point} m, {distance[node]:.3g} m from any node", "a point of the body"
+            )
         directions.setdefault(node, []).append(np.eye(dim))
     for name in supports.symmetry:
         face = space.face(name)

@@ -1,28 +1,27 @@
 """Between a film and the face of a body whose meshes need not match: forces one way, openings back.
 
-Every quadrature point of the film is found in the face, along the film's normal. With N its shape functions there,
+Every point of the film's rule is found in the face, along the film's normal. With N its shape functions there,
 
-    force at face node i = int p N_i dA          opening: int psi (w - sum_i N_i w_i) dA = 0 for all vertices psi
+    force at face node i = int p N_i dA          opening w: int psi (w - sum_i N_i w_i) dA = 0 for all hats psi
 
 so that the force, its moments and, since one is the other's transpose, the work p w are the same on either side
-whatever the meshes (Farhat, Lesoinne and Le Tallec 1998). On a cylinder N is scaled by the nearly unit factor
-that makes its nodes' normals add up to the normal.
+whatever the meshes (Farhat, Lesoinne and Le Tallec 1998); the work exactly for a linear film without pockets. On a
+cylinder N is scaled by the nearly unit factor that makes its nodes' normals add up to the normal.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import coo_array, csc_array, csr_array
-from scipy.sparse.linalg import splu
+from scipy.sparse import coo_array, csr_array
 from scipy.spatial import cKDTree
 
 from reynolds.bodies.body_space import Face, tabulated
 from reynolds.bodies.chart import Chart, face_normals, on_section
+from reynolds.bodies.film_rule import FilmRule, film_rule
 from reynolds.errors import FilmInputError
 from reynolds.mesh import Array
 from reynolds.space import FilmSpace
@@ -30,66 +29,42 @@ from reynolds.space import FilmSpace
 INSIDE = 1e-6  # of a facet: how far outside its edges a point still belongs to it
 OFF_FACE = 0.1  # of a facet's size: how far off the face along the normal the film may lie
 STEPS = 12  # of Newton's method within a facet; four are enough for one that is not folded
+CONVERGED = 1e-13  # of a facet
 FACING = 0.2  # least cosine between a facet's and the film's normal
 
 
 @dataclass(frozen=True)
 class Transfer:
-    """Shape functions of a face at the quadrature points of a film.
+    """Shape functions of a face at the points of a film's rule.
 
     share (points, face nodes): rows add up to one (heat); normal_share: scaled so that normals do (force).
     """
 
-    film: FilmSpace
+    rule: FilmRule
     share: csr_array
     normal_share: csr_array
 
     @cached_property
     def force(self) -> csr_array:
         """Normal force (N) into the body at each face node by nodal film pressure, (face nodes, size) m2."""
-        return csr_array(self.normal_share.T @ self._integral(self.film.reference.value, self.film.dofs, "size"))
+        return csr_array(self.normal_share.T @ self.rule.by_unknown)
 
     @cached_property
     def heat(self) -> csr_array:
         """Heat (W) into the body at each face node by flux at the film's vertices, (face nodes, vertices) m2."""
-        return csr_array(self.share.T @ self._hats)
+        return csr_array(self.share.T @ self.rule.by_vertex)
 
-    def opening(self, normal: Array) -> Array:
-        """Opening (vertices, ...) m from displacements (face nodes, ...) m against the normal, in mean square."""
-        return np.asarray(self._hat_mass.solve(np.asarray(self._hats.T @ (self.normal_share @ normal))))
+    def opening(self, into: Array) -> Array:
+        """Opening (vertices, ...) m from displacements (face nodes, ...) m into the body, in mean square."""
+        return self.rule.fitted(csr_array(self.rule.by_vertex.T @ self.normal_share) @ into)
 
     def opening_by_force(self, compliance: Array) -> Array:
         """Opening by film pressure (vertices, size) m/Pa from a face's compliance (nodes, nodes) m/N."""
-        moved = np.asarray((self.force.T @ compliance.T).T)
-        back = csr_array(self._hats.T @ self.normal_share)
-        return np.asarray(self._hat_mass.solve(np.asarray(back @ moved)))
+        return np.asarray((self.force.T @ self.opening(compliance).T).T)
 
     def temperature(self, nodal: Array) -> Array:
         """Temperature (vertices, ...) from values at the face nodes (face nodes, ...), in mean square."""
-        return np.asarray(self._hat_mass.solve(np.asarray(self.heat.T @ nodal)))
-
-    @cached_property
-    def _hats(self) -> csr_array:
-        return self._integral(self.film.reference.geometry_value, self.film.cells, "vertices")
-
-    @cached_property
-    def _hat_mass(self) -> Any:
-        cells, table = self.film.cells, self.film.reference.geometry_value
-        local = np.einsum("qa,qb,eq->eab", table, table, self.film.area)
-        rows = np.broadcast_to(cells[:, :, None], local.shape).ravel()
-        columns = np.broadcast_to(cells[:, None, :], local.shape).ravel()
-        count = len(self.film.vertices)
-        return splu(csc_array(coo_array((local.ravel(), (rows, columns)), shape=(count, count))))
-
-    def _integral(self, table: Array, numbers: NDArray[np.int32], what: str) -> csr_array:
-        """Area of each film point times the film's basis there, (points, size | vertices)."""
-        width = self.film.size if what == "size" else len(self.film.vertices)
-        cells, points = self.film.area.shape
-        row = np.arange(cells * points).reshape(cells, points)
-        entries = self.film.area[:, :, None] * table[None]
-        rows = np.broadcast_to(row[:, :, None], entries.shape).ravel()
-        columns = np.broadcast_to(numbers[:, None, :], entries.shape).ravel()
-        return csr_array(coo_array((entries.ravel(), (rows, columns)), shape=(row.size, width)))
+        return self.rule.fitted(self.heat.T @ nodal)
 
 
 def transfer(film: FilmSpace, face: Face, chart: Chart) -> Transfer:
@@ -98,19 +73,19 @@ def transfer(film: FilmSpace, face: Face, chart: Chart) -> Transfer:
     A film of revolution on a section (r, z) is met by its mean around the turn. Raises FilmInputError where the
     face does not reach under the film or lies off it by more than a tenth of a facet: how many points, and where.
     """
-    flat = film.points.reshape(2, -1).T
-    places = chart.places(flat)
+    rule = film_rule(film)
+    places = chart.places(rule.points)
     normals = np.asarray(chart.normals(places))
     if face.places.shape[1] == 2:
         places, normals = on_section(places, normals)
-    facet, reference = _found(face, places, normals, flat)
+    facet, reference = _found(face, places, normals, rule.points)
     value, _ = tabulated(face.element, reference.T, face.facets.shape[1])
     rows = np.repeat(np.arange(len(places)), face.facets.shape[1])
     columns = face.facets[facet].ravel()
     share = csr_array(coo_array((value.T.ravel(), (rows, columns)), shape=(len(places), len(face.nodes))))
     length = ((share @ face_normals(chart, face.places)) * normals).sum(axis=1)
     scaled = csr_array(share.multiply(1.0 / length[:, None]))
-    return Transfer(film, share, scaled)
+    return Transfer(rule, share, scaled)
 
 
 def _found(face: Face, places: Array, normals: Array, flat: Array) -> tuple[NDArray[np.int64], Array]:
@@ -118,7 +93,8 @@ def _found(face: Face, places: Array, normals: Array, flat: Array) -> tuple[NDAr
     point, facet = _candidates(face, places, normals)
     reference, off = _projected(face, facet, places[point], normals[point])
     size = np.linalg.norm(np.ptp(face.places[face.facets], axis=1), axis=1)[facet]
-    outside = _outside(face, reference) + np.where(np.abs(off) > OFF_FACE * size, np.inf, 0.0)
+    near = np.abs(off) <= OFF_FACE * size  # false for NaN
+    outside = np.where(near, _outside(face, reference), np.inf)
     order = np.lexsort((outside, point))
     first = order[np.unique(point[order], return_index=True)[1]]
     held = np.zeros(len(places), dtype=bool)
@@ -148,19 +124,28 @@ def _candidates(face: Face, places: Array, normals: Array) -> tuple[NDArray[np.i
 
 
 def _projected(face: Face, facet: NDArray[np.int64], places: Array, normals: Array) -> tuple[Array, Array]:
-    """Newton's method for the point of a facet that lies on a film point's normal; and how far along it."""
-    corners = face.places[face.facets[facet]]
+    """Newton's method for the point of a facet that lies on a film point's normal; and how far along it.
+
+    NaN where there is none near the facet.
+    """
+    corners = face.places[face.facets]
     across = _tangents(normals)
     reference = np.full((len(facet), corners.shape[2] - 1), 1.0 / 3.0)
+    moving = np.arange(len(facet))
     for _ in range(STEPS):
-        value, slope = tabulated(face.element, reference.T, corners.shape[1])
-        gap = np.einsum("an,nak->nk", value, corners) - places
-        residual = np.einsum("nik,nk->ni", across, gap)
-        jacobian = np.einsum("nik,dan,nak->nid", across, slope, corners)
+        value, slope = tabulated(face.element, reference[moving].T, corners.shape[1])
+        nodes = corners[facet[moving]]
+        gap = np.einsum("an,nak->nk", value, nodes) - places[moving]
+        residual = np.einsum("nik,nk->ni", across[moving], gap)
+        jacobian = np.einsum("nik,ndk->nid", across[moving], np.einsum("dan,nak->ndk", slope, nodes))
         # Points of other facets need not converge: they only must not run away.
-        reference = np.clip(reference - _solved(jacobian, residual), -0.5, 1.5)
+        after = np.clip(reference[moving] - _solved(jacobian, residual), -0.5, 1.5)
+        step = np.abs(after - reference[moving]).max(axis=1)
+        reference[moving] = after
+        moving = moving[step > CONVERGED]
+    reference[moving] = np.nan
     value, _ = tabulated(face.element, reference.T, corners.shape[1])
-    gap = np.einsum("an,nak->nk", value, corners) - places
+    gap = np.einsum("an,nak->nk", value, corners[facet]) - places
     return reference, (gap * normals).sum(axis=1)
 
 

@@ -156,16 +156,21 @@ def _on_film(meeting: Transfer, back: Callable[[Array], Array], reference: Array
 
 
 def _load_case(body: Body, space: BodySpace, face: Face, load: FacePressure | Spin, folder: Path | None) -> Array:
+    """Displacement into the body (face nodes,) m; what is kept is that of a unit load."""
+    unit: FacePressure | Spin
+    if isinstance(load, FacePressure):
+        unit, size = FacePressure(load.face, 1.0), load.pressure
+        forces = pressure_forces(space, space.face(load.face), 1.0)
+    else:
+        unit, size = Spin(1.0, 1.0, load.axis), load.density * load.speed**2
+        forces = centrifugal_forces(space, 1.0, 1.0, load.axis)
+
     def compute() -> dict[str, Array]:
-        if isinstance(load, FacePressure):
-            forces = pressure_forces(space, space.face(load.face), load.pressure)
-        else:
-            forces = centrifugal_forces(space, load.density, load.speed, load.axis)
         normals = face_normals(body.chart, face.places)
         held = structure(space, body.elastic, body.supports)
         return {"opening": face_opening(held, face, normals, forces)}
 
-    return kept(_key("load", body, load), compute, folder).arrays["opening"]
+    return size * kept(_key("load", body, unit), compute, folder).arrays["opening"]
 
 
 def _key(*parts: object) -> str:

@@ -1,0 +1,189 @@
+"""Between a film and its elastic wall.
+
+Force, moments and work are the same on either side of meshes that do not match.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from reynolds.bodies.body_mesh import block, disc, ring, section
+from reynolds.bodies.body_space import body_space
+from reynolds.bodies.chart import Cylinder, Plane, Side, face_normals
+from reynolds.bodies.elasticity import Elastic
+from reynolds.bodies.supports import Supports
+from reynolds.bodies.transfer import transfer
+from reynolds.bodies.wall import Body, FacePressure, Spin, body_wall, load_opening
+from reynolds.errors import FilmInputError
+from reynolds.mesh import Cell, annulus, rectangle
+from reynolds.space import FilmSpace, film_space
+
+STEEL = Elastic(210e9, 0.3)
+BORE, OUTSIDE, LENGTH = 10e-3, 16e-3, 12e-3
+TOP = Plane((0.0, 0.0, 1.0), origin=(0.0, 0.0, 3e-3))
+
+
+def _bore_film(cells: tuple[int, int] = (37, 11), degree: int = 1) -> FilmSpace:
+    return film_space(rectangle((2.0 * np.pi * BORE, LENGTH), cells, periodic_x=True), degree=degree)
+
+
+MEETINGS = {
+    "bore, full turn": (
+        ring((BORE, OUTSIDE), LENGTH, (1, 8, 2)), "inner", Cylinder(BORE, Side.BORE), _bore_film(),
+    ),
+    "piston in part of its bore": (
+        ring((4e-3, BORE), 2 * LENGTH, (1, 8, 3)), "outer", Cylinder(BORE, Side.SHAFT, 0.7, 5e-3),
+        _bore_film((19, 7), 2),
+    ),
+    "turned plane": (
+        block((10e-3, 8e-3, 3e-3), (3, 2, 1)), "bottom",
+        Plane((0.0, 0.0, -1.0), (1e-3, 7e-3, 0.0), (0.0, -1.0, 0.0), (1.0, 0.0, 0.0)),
+        film_space(rectangle((6e-3, 7e-3), (7, 9), cell=Cell.QUADRILATERAL)),
+    ),
+    "ring on a disc": (disc(10e-3, 3e-3, (2, 2, 1)), "top", TOP, film_space(annulus(3e-3, 9e-3, (5, 17)))),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("kind", MEETINGS)
+def test_force_and_moments_are_conserved(kind, validation):
+    body, name, chart, film = MEETINGS[kind]
+    face = body_space(body).face(name)
+    pressure = np.random.default_rng(2).uniform(0.0, 30e6, film.size)
+    meeting = transfer(film, face, chart)
+    places = chart.places(meeting.rule.points)
+    forces = -(meeting.rule.by_unknown @ pressure)[:, None] * chart.normals(places)
+    own = np.sum(pressure[film.dofs] @ film.reference.value.T * film.area)
+    assert (meeting.rule.by_unknown @ pressure).sum() == pytest.approx(own, rel=1e-12)
+    nodal = -(meeting.force @ pressure)[:, None] * face_normals(chart, face.places)
+    scale = np.linalg.norm(forces, axis=1).sum()
+    arm = np.abs(places).max()
+    error = np.abs(nodal.sum(axis=0) - forces.sum(axis=0)).max() / scale
+    moment = np.abs(np.cross(face.places, nodal).sum(axis=0) - np.cross(places, forces).sum(axis=0)).max()
+    for quantity, found in (("force", error), ("moments", moment / (scale * arm))):
+        validation(
+            case="Transfer of a random pressure to a body",
+            source="conservation, Farhat, Lesoinne and Le Tallec 1998",
+            quantity=f"error of {quantity} / sum of magnitudes, {kind}",
+            unit="1",
+            expected=0.0,
+            obtained=float(found),
+            tolerance=1e-12,
+            note="meshes do not match; round-off",
+        )
+
+
+@pytest.mark.parametrize("kind", ["bore, full turn", "turned plane", "ring on a disc"])
+def test_work_is_the_same_on_either_side(kind, tmp_path, validation):
+    """int q w[p] dA = int p w[q] dA, over the film as computed there: the opening is symmetric in mean square."""
+    mesh, name, chart, film = MEETINGS[kind]
+    matrix = body_wall(Body(mesh, STEEL, Supports(), name, chart), film, folder=tmp_path).matrix
+    p, q = np.random.default_rng(3).uniform(0.0, 1.0, (2, film.size))
+
+    def work(pressure: np.ndarray, opening: np.ndarray) -> float:
+        at = film.sample_vertices(opening) * (pressure[film.dofs] @ film.reference.value.T)
+        return float(np.sum(at * film.area))
+
+    validation(
+        case="Work of one pressure on another's opening",
+        source="Betti 1872",
+        quantity=f"difference when exchanged / work, {kind}",
+        unit="1",
+        expected=0.0,
+        obtained=(work(q, matrix @ p) - work(p, matrix @ q)) / work(p, matrix @ p),
+        tolerance=1e-9,
+        note="round-off",
+    )
+    assert work(p, matrix @ p) > 0.0
+
+
+def test_body_displaced_as_a_whole():
+    """A translation opens the film by its component along the normal; of a plane, turning does so linearly."""
+    body, name, chart, film = MEETINGS["ring on a disc"]
+    face = body_space(body).face(name)
+    into = -face.places @ np.array([0.3, -0.2, 0.0]) - 0.1
+    x, y = film.vertices.T
+    assert transfer(film, face, chart).opening(into) == pytest.approx(-0.3 * x + 0.2 * y - 0.1, abs=1e-13)
+
+
+def test_opening_of_a_bore_by_the_film(tmp_path, validation):
+    """The whole way: film pressure to body, body's displacement to film."""
+
+    def solve(n: int) -> float:
+        body = Body(
+            ring((BORE, OUTSIDE), LENGTH, (n, 6 * n, 1)), STEEL, Supports(), "inner", Cylinder(BORE, Side.BORE)
+        )
+        film = _bore_film((18 * n, 6 * n))
+        wall = body_wall(body, film, folder=tmp_path)
+        opening = wall.matrix @ np.full(film.size, 30e6)
+        return 1e6 * float(np.sum(film.sample_vertices(opening) * film.area) / film.area.sum())
+
+    coarse, fine = solve(1), solve(2)
+    validation(
+        case="Thick-walled bore under pressure",
+        source="verification cases 3.11 (Lame)",
+        quantity="mean opening of the film in a free ring",
+        unit="um",
+        expected=3.688645,
+        obtained=fine,
+        tolerance=abs(fine - coarse) / 2.0**3,
+        note="third order assumed, from the mesh before",
+    )
+
+
+def test_load_cases_open_the_film(tmp_path):
+    """A chamber's pressure on a bore of its own, against the same pressure by the film; and spin."""
+    body = Body(ring((BORE, OUTSIDE), LENGTH, (2, 12, 1)), STEEL, Supports(), "inner", Cylinder(BORE, Side.BORE))
+    film = _bore_film()
+    by_load = load_opening(body, film, FacePressure("inner", 30e6), folder=tmp_path)
+    by_film = body_wall(body, film, folder=tmp_path).matrix @ np.full(film.size, 30e6)
+    # Parabolic arcs of 30 degrees: area, normals and radius each fall short of the circle's by less than 1e-4.
+    assert by_load.mean() == pytest.approx(by_film.mean(), rel=3e-4)
+    assert load_opening(body, film, FacePressure("outer", 30e6), folder=tmp_path).max() < 0.0
+    assert load_opening(body, film, Spin(7850.0, 1000.0), folder=tmp_path).min() > 0.0
+    twice = load_opening(body, film, Spin(7850.0, 2000.0), folder=tmp_path)
+    assert twice == pytest.approx(4.0 * load_opening(body, film, Spin(7850.0, 1000.0), folder=tmp_path))
+
+
+def test_pocket_presses_on_its_own_face(tmp_path):
+    """A pocket of the film pushes the floor that it has no cells over."""
+    film = film_space(annulus(3e-3, 9e-3, (3, 12)), pockets=("inner",))
+    body = Body(disc(10e-3, 3e-3, (2, 2, 1)), STEEL, Supports(clamped=("outer",)), "top", TOP)
+    pocket = film.edge_dofs["inner"][0]
+    alone = body_wall(body, film, folder=tmp_path).matrix
+    filled = body_wall(body, film, pockets={"inner": "bottom"}, folder=tmp_path).matrix
+    change = filled - alone
+    assert change[:, pocket] == pytest.approx(
+        load_opening(body, film, FacePressure("bottom", 1.0), folder=tmp_path)
+    )
+    assert np.count_nonzero(np.delete(change, pocket, axis=1)) == 0
+    with pytest.raises(FilmInputError, match="no such pocket"):
+        body_wall(body, film, pockets={"outer": "bottom"}, folder=tmp_path)
+
+
+def test_section_takes_the_mean_around(tmp_path):
+    """A film of revolution: the section's opening is that of the ring."""
+    chart, film = Cylinder(BORE, Side.BORE), _bore_film((12, 6))
+    pressure = 30e6 * (1.0 + film.vertices[:, 1] / LENGTH)
+    nodal = np.empty(film.size)
+    nodal[film.vertex_dofs] = pressure
+    found = [
+        body_wall(Body(mesh, STEEL, Supports(), "inner", chart), film, folder=tmp_path).matrix @ nodal
+        for mesh in (section((BORE, OUTSIDE), LENGTH, (3, 3)), ring((BORE, OUTSIDE), LENGTH, (2, 12, 2)))
+    ]
+    assert found[0] == pytest.approx(found[1], rel=3e-3)
+
+
+def test_errors():
+    body, name, chart, _ = MEETINGS["ring on a disc"]
+    face = body_space(body).face(name)
+    wide = film_space(annulus(3e-3, 12e-3, (3, 12)))
+    with pytest.raises(FilmInputError, match=r"\d+ of \d+ film points have no face under them, x -0\.01"):
+        transfer(wide, face, chart)
+    film = film_space(annulus(3e-3, 9e-3, (3, 12)))
+    with pytest.raises(FilmInputError, match=r"(\d+) of \1 film points"):
+        transfer(film, face, Plane((0.0, 0.0, 1.0)))  # 3 mm below the face
+    with pytest.raises(FilmInputError, match=r"(\d+) of \1 film points"):
+        transfer(film, face, Plane((0.0, 0.0, -1.0), origin=(0.0, 0.0, 3e-3)))  # the film within the body
+    with pytest.raises(FilmInputError, match="unit vectors at right angles"):
+        Plane((0.0, 1.0, 1.0))
