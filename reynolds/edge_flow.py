@@ -1,8 +1,9 @@
 """The flow of a solved film between neighbouring unknowns, spread across the film.
 
-What the Galerkin balance draws from each corner of a cell is the flow between its corners: on a triangle that
-through the median dual faces, so that unknowns are control volumes whose flows are antisymmetric and sum to the
-film's own balance to round-off, without a further approximation. Each part of it, driven by pressure or carried
+The balance of the film is one of flows between unknowns: pressure drives K_ij (p_j - p_i) along the edge i j, and
+what the walls carry off each corner of a cell flows between its corners (on a triangle through the median dual
+faces). So unknowns are control volumes whose flows are antisymmetric and sum to the film's own balance to
+round-off, without a further approximation. Each part of it, driven by pressure or carried
 by a wall, has its own shape across the film, of mean one: whatever the shapes, mass stays as it was.
 """
 
@@ -88,21 +89,36 @@ def _edges(space: FilmSpace) -> tuple[NDArray[np.int64], NDArray[np.int32], NDAr
 def _parts(solution: FilmSolution) -> Array:
     """Flows in the pattern's places (3, entries): driven by pressure, with the moving wall, with the fixed one."""
     problem, space = solution.problem, solution.problem.space
-    state = State(solution.pressure, solution.film_fraction, solution.opening)
-    operator = operators(problem, state)
+    operator = operators(problem, State(solution.pressure, solution.film_fraction, solution.opening))
+    row, column = space.pattern.indices, space.pattern.columns
+    driven = operator.stiffness * (solution.pressure[column] - solution.pressure[row])
+    carried = _carried(solution)
+    added = cavity_density(problem) * operator.diffusion
+    added *= solution.film_fraction[column] - solution.film_fraction[row]
+    return np.stack([driven, *(carried + added * _shares(carried))])
+
+
+def _carried(solution: FilmSolution) -> Array:
+    """Flows with the moving and with the fixed wall (2, entries)."""
+    space, reference = solution.problem.space, solution.problem.space.reference
     standing = _standing(solution)
     moving = tuple(np.asarray(whole - part) for whole, part in zip(solution.flux, standing, strict=True))
-    reference = space.reference
-    filling = solution.film_fraction * density(problem, solution.pressure)[0]
-    out = np.empty((3, len(space.pattern.indices)))
-    energy_kernels.edge_flows(
+    filling = solution.film_fraction * density(solution.problem, solution.pressure)[0]
+    out = np.empty((2, len(space.pattern.indices)))
+    energy_kernels.carried_flows(
         space.vertices, space.cells, space.dofs, space.pattern.slots, reference.value, reference.gradient,
-        reference.geometry_gradient, reference.weights, _split(space.cells.shape[1]),
-        *operator.transport.conductance, *moving, *standing, solution.pressure, filling, out,
+        reference.geometry_gradient, reference.weights, _split(space.cells.shape[1]), *moving, *standing,
+        filling, out,
     )  # fmt: skip
-    if operator.diffusion is not None:
-        out[1:] += _upwinded(solution, operator.diffusion, out)
     return out
+
+
+def _shares(carried: Array) -> Array:
+    """Share of each wall in the flow that both carry; the upwinding of a cavity is theirs in this proportion."""
+    size = np.abs(carried)
+    total = size.sum(axis=0)
+    share = np.where(total > 0.0, size[0] / np.where(total > 0.0, total, 1.0), 1.0)
+    return np.stack([share, 1.0 - share])
 
 
 def _standing(solution: FilmSolution) -> tuple[Array, Array]:
@@ -110,18 +126,6 @@ def _standing(solution: FilmSolution) -> tuple[Array, Array]:
     film = solution.film
     x, y = (film.thickness * (1.0 - film.moving_share) * along for along in film.velocity_fixed)
     return x, y
-
-
-def _upwinded(solution: FilmSolution, diffusion: Array, carried: Array) -> Array:
-    """What the cavity's upwinding adds to the flows with the walls, in proportion to them (2, entries)."""
-    space = solution.problem.space
-    row, column = space.pattern.indices, space.pattern.columns
-    filled = cavity_density(solution.problem) * solution.film_fraction
-    added = np.where(row != column, -diffusion * (filled[row] - filled[column]), 0.0)
-    size = np.abs(carried[1:])
-    total = size.sum(axis=0)
-    share = np.where(total > 0.0, size[0] / np.where(total > 0.0, total, 1.0), 1.0)
-    return np.stack([share * added, (1.0 - share) * added])
 
 
 def _split(corners: int) -> Array:

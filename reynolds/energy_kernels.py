@@ -14,53 +14,42 @@ _FAST = {"cache": True, "fastmath": False, "error_model": "numpy"}
 
 
 @njit(**_FAST)
-def edge_flows(
+def carried_flows(
     vertices, cells, dofs, slots, value, gradient, geometry_gradient, weights, split,
-    along_x, along_y, moving_x, moving_y, fixed_x, fixed_y, pressure, filling, out,
+    moving_x, moving_y, fixed_x, fixed_y, filling, out,
 ):  # fmt: skip
     """out[part, slot]: flow (m3/s) from the lower to the higher unknown of each pair of a cell's corners.
 
-    Parts: driven by pressure, carried by the moving wall, by the fixed one. `split[pair, corner]` turns what a
-    cell's corners give off into flows between them, so that the flows of a node sum to its Galerkin balance.
+    Parts: carried by the moving wall, by the fixed one. `split[pair, corner]` turns what a cell's corners give off
+    into flows between them, so that the flows of a node sum to its Galerkin balance.
     """
     nb = dofs.shape[1]
-    ae, aq = int(along_x.shape[0] > 1), int(along_x.shape[1] > 1)
-    be, bq = int(along_y.shape[0] > 1), int(along_y.shape[1] > 1)
     me, mq = int(moving_x.shape[0] > 1), int(moving_x.shape[1] > 1)
     ne, nq = int(moving_y.shape[0] > 1), int(moving_y.shape[1] > 1)
     fe, fq = int(fixed_x.shape[0] > 1), int(fixed_x.shape[1] > 1)
     ge, gq = int(fixed_y.shape[0] > 1), int(fixed_y.shape[1] > 1)
-    gx, gy = np.empty(nb), np.empty(nb)
-    off = np.empty((3, nb))
+    off = np.empty((2, nb))
     out[:] = 0.0
     for e in range(cells.shape[0]):
         off[:] = 0.0
         for q in range(weights.shape[0]):
             det, ixx, ixy, iyx, iyy = _inverse_map(vertices, cells[e], geometry_gradient, q)
-            w = weights[q] * abs(det)
-            px = py = full = 0.0
+            full = 0.0
+            for i in range(nb):
+                full += filling[dofs[e, i]] * value[q, i]
+            full *= weights[q] * abs(det)
             for i in range(nb):
                 rx, ry = gradient[q, i, 0], gradient[q, i, 1]
-                gx[i] = ixx * rx + ixy * ry
-                gy[i] = iyx * rx + iyy * ry
-                px += pressure[dofs[e, i]] * gx[i]
-                py += pressure[dofs[e, i]] * gy[i]
-                full += filling[dofs[e, i]] * value[q, i]
-            px *= along_x[e * ae, q * aq]
-            py *= along_y[e * be, q * bq]
-            mx, my = full * moving_x[e * me, q * mq], full * moving_y[e * ne, q * nq]
-            fx, fy = full * fixed_x[e * fe, q * fq], full * fixed_y[e * ge, q * gq]
-            for i in range(nb):
-                off[0, i] += w * (px * gx[i] + py * gy[i])
-                off[1, i] -= w * (mx * gx[i] + my * gy[i])
-                off[2, i] -= w * (fx * gx[i] + fy * gy[i])
+                gx, gy = ixx * rx + ixy * ry, iyx * rx + iyy * ry
+                off[0, i] -= full * (moving_x[e * me, q * mq] * gx + moving_y[e * ne, q * nq] * gy)
+                off[1, i] -= full * (fixed_x[e * fe, q * fq] * gx + fixed_y[e * ge, q * gq] * gy)
         k = 0
         for i in range(nb):
             for j in range(i, nb):
                 one, two = dofs[e, i], dofs[e, j]
                 if one != two:
                     sign = 1.0 if one < two else -1.0
-                    for part in range(3):
+                    for part in range(2):
                         for corner in range(nb):
                             out[part, slots[e, k]] += sign * split[k, corner] * off[part, corner]
                 k += 1
@@ -105,7 +94,7 @@ def blocks(start, edge, sign, flow, across, gain, conduction, derivative, second
 
 @njit(**_FAST)
 def apply(start, neighbour, edge, sign, flow, block, field, out):
-    """out = the equations' left side of a field, both (size, levels)."""
+    """out = the equations' left side of a field, both (size, levels), with upwind faces."""
     m = flow.shape[1]
     for i in range(block.shape[0]):
         for row in range(m + 2):
@@ -116,6 +105,42 @@ def apply(start, neighbour, edge, sign, flow, block, field, out):
         for k in range(start[i], start[i + 1]):
             for q in range(m):
                 out[i, q + 1] -= max(-sign[k] * flow[edge[k], q], 0.0) * field[neighbour[k], q + 1]
+
+
+@njit(**_FAST)
+def sharpen(start, neighbour, edge, sign, flow, entering, inflow, field, least, out):
+    """out[i, q]: what faces of second order add to upwind ones, in heat over rho c (m3/s K).
+
+    The upstream node's part in the jump to its neighbour is limited by what reaches that node (Kuzmin and Turek
+    2004, with van Leer's smooth limiter), so that no new extremum arises; jumps below `least` (K) go upwind. What
+    one node gains its neighbour loses.
+    """
+    size, m = out.shape
+    out[:] = 0.0
+    for i in range(size):
+        for q in range(m):
+            here = field[i, q + 1]
+            raised = entering[i, q] * max(inflow[i] - here, 0.0)
+            lowered = entering[i, q] * max(here - inflow[i], 0.0)
+            falls = rises = leaves = 0.0
+            for k in range(start[i], start[i + 1]):
+                f = sign[k] * flow[edge[k], q]
+                jump = field[neighbour[k], q + 1] - here
+                if f < 0.0:
+                    raised -= f * max(jump, 0.0)
+                    lowered += f * min(jump, 0.0)
+                else:
+                    leaves += f * least
+                    falls -= f * min(jump, 0.0)
+                    rises += f * max(jump, 0.0)
+            for k in range(start[i], start[i + 1]):
+                f = sign[k] * flow[edge[k], q]
+                jump = field[neighbour[k], q + 1] - here
+                arrives, goes = (raised, falls) if jump < 0.0 else (lowered, rises)
+                if f > 0.0 and arrives > 0.0:
+                    added = -f * jump * arrives / (arrives + goes + leaves)
+                    out[i, q] += added
+                    out[neighbour[k], q] -= added
 
 
 @njit(**_FAST)

@@ -79,11 +79,11 @@ class HeatMatrix:
         return field
 
 
-def solve_heat(matrix: HeatMatrix, right: Array, start: Array | None) -> tuple[Array, int]:
+def solve_heat(matrix: HeatMatrix, right: Array, start: Array | None, closer: float = 0.0) -> tuple[Array, int]:
     """Temperature (size, levels) with this right side, and the number of sweeps.
 
-    Afterwards the swept residual is below 1e-12 of the swept right side, or below 1e-9 where round-off lets it
-    fall no further. Raises FilmNotConverged.
+    Afterwards the swept residual is below 1e-12 of the swept right side (below 1e-9 where round-off lets it fall
+    no further), or below `closer` of what it was at the start. Raises FilmNotConverged.
     """
     from scipy.sparse.linalg import LinearOperator, gmres
 
@@ -105,16 +105,17 @@ def solve_heat(matrix: HeatMatrix, right: Array, start: Array | None) -> tuple[A
     answer = np.zeros(size) if start is None else start.ravel()
     scale = max(float(np.linalg.norm(load)), 1e-300)
     missed = float(np.linalg.norm(load - preconditioned(answer))) / scale
+    tolerance = max(TOLERANCE, closer * missed)
     for _ in range(MAX_CYCLES):
-        if missed <= TOLERANCE:
+        if missed <= tolerance:
             break
         before = missed
-        answer, _ = gmres(operator, load, x0=answer, rtol=TOLERANCE, atol=0.0, restart=RESTART, maxiter=1)
+        answer, _ = gmres(operator, load, x0=answer, rtol=tolerance, atol=0.0, restart=RESTART, maxiter=1)
         missed = float(np.linalg.norm(load - preconditioned(answer))) / scale
         # Conduction far stronger than convection leaves more round-off than the tolerance.
         if missed <= ROUND_OFF and missed > 0.5 * before:
             break
-    if not missed <= ROUND_OFF:
+    if not missed <= max(tolerance, ROUND_OFF):
         raise FilmNotConverged(
             f"film temperature not settled after {sweeps} sweeps (residual {missed:.2g})",
             "fewer levels across the film, a finer mesh, or a wall that takes heat",

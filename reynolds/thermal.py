@@ -1,8 +1,7 @@
 """Film and temperature together: pressure and heat solved in turn until the viscosity no longer changes.
 
 A round takes temperatures across the film to viscosities, to the generalised Reynolds equation, to the energy
-equation, to temperatures. Anderson's extrapolation (Anderson 1965, Walker and Ni 2011) over the last rounds takes
-the place of a relaxation factor.
+equation, to temperatures; Anderson's extrapolation takes the place of a relaxation factor.
 """
 
 from __future__ import annotations
@@ -13,6 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from reynolds.across import DEFAULT_LEVELS, Levels, Profile, dowson, film_with, levels
+from reynolds.anderson import History
 from reynolds.energy import FilmTemperature, Heat, solve_energy
 from reynolds.errors import FilmInputError, FilmNotConverged
 from reynolds.film import FilmProblem, FilmSolution
@@ -22,7 +22,6 @@ from reynolds.solve import FilmSolver
 
 TOLERANCE = 1e-6
 MAX_ROUNDS = 60
-REMEMBERED = 5  # rounds that Anderson's extrapolation looks back on
 
 ThermalViscosity = Callable[[Array, Array], Array]
 """(temperature K, pressure Pa), arrays that broadcast -> viscosity Pa s."""
@@ -64,7 +63,7 @@ def solve_thermal(
     temperature = _first_temperature(problem, heat, across, start)
     film, energy = (None, None) if start is None else (start.film, start.heat)
     pressure = np.zeros(problem.space.size) if film is None else film.pressure
-    history = _History()
+    history = History()
     for round_number in range(1, MAX_ROUNDS + 1):
         profile = _profile(across, viscosity, temperature, pressure)
         film = solver.solve(replace(problem, film=film_with(problem.film, problem.space, profile)), film)
@@ -98,24 +97,3 @@ def _first_temperature(problem: FilmProblem, heat: Heat, across: Levels, start: 
             raise FilmInputError("temperature to start from", found, f"{shape}: the same space and levels")
         return start.heat.temperature
     return np.full(shape, heat.datum)
-
-
-class _History:
-    """Anderson's extrapolation of a fixed point x = g(x), by least squares over the last changes."""
-
-    def __init__(self) -> None:
-        self._points: list[Array] = []
-        self._rests: list[Array] = []
-
-    def extrapolate(self, point: Array, image: Array) -> Array:
-        """The next point to try, of the same shape."""
-        self._points.append(image.ravel())
-        self._rests.append((image - point).ravel())
-        del self._points[: -REMEMBERED - 1], self._rests[: -REMEMBERED - 1]
-        if len(self._rests) == 1:
-            return image
-        rests = np.stack(self._rests)
-        points = np.stack(self._points)
-        slopes = np.diff(rests, axis=0).T
-        mix, *_ = np.linalg.lstsq(slopes, rests[-1], rcond=1e-10)
-        return np.asarray((points[-1] - np.diff(points, axis=0).T @ mix).reshape(image.shape))
