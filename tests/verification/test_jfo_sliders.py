@@ -224,20 +224,19 @@ def test_parabolic_slider_least_fraction(validation, refine):
         return float(found.solution.film_fraction.min()), found.loads.pressure_max_at[0] / PARABOLIC.length
 
     least, place = refine(solve, MESHES, 1.0)
-    common = {
-        "case": "Parabolic slider, film ruptured and reformed",
-        "source": "verification cases 3.4",
-        "unit": "1",
-    }
     validation(
-        **common,
+        case="Parabolic slider, film ruptured and reformed",
+        source="verification cases 3.4",
+        unit="1",
         quantity="least film fraction, parabolic, 0.101325 / 0.101325 MPa",
         expected=0.573318,
         obtained=least.finest,
         tolerance=least.front_tolerance(0.5e-6),
     )
     validation(
-        **common,
+        case="Parabolic slider, film ruptured and reformed",
+        source="verification cases 3.4",
+        unit="1",
         quantity="place of the largest pressure x/L, parabolic, 0.101325 / 0.101325 MPa",
         expected=0.31978,
         obtained=place.finest,
