@@ -86,6 +86,12 @@ class BodySpace:
         return self.places.shape[1]
 
     @property
+    def dofs(self) -> Nodes:
+        """Displacements of each cell, dim x node + direction, (cells, local dim)."""
+        dofs = self.dim * self.cells[:, :, None] + np.arange(self.dim)
+        return dofs.reshape(len(self.cells), -1)
+
+    @property
     def radius(self) -> Array:
         """Distance of the quadrature points from the axis of a section, (cells, points) m."""
         return np.asarray(self.places[self.cells, 0] @ self.value)

@@ -156,8 +156,7 @@ def expansion_forces(body: Structure, expansion: float) -> csc_array:
     lam, mu = body.elastic.lame
     spread = divergence(space).reshape(len(space.cells), -1, space.volume.shape[1])
     local = (3.0 * lam + 2.0 * mu) * expansion * ((spread * space.volume[:, None, :]) @ space.value.T)
-    dofs = (space.dim * space.cells[:, :, None] + np.arange(space.dim)).reshape(len(space.cells), -1)
-    return assembled(dofs, space.cells, local, (space.places.size, len(space.places)))
+    return assembled(space.dofs, space.cells, local, (space.places.size, len(space.places)))
 
 
 def _conductance(space: BodySpace, conductivity: float) -> csc_array:

@@ -75,7 +75,7 @@ def structure(space: BodySpace, elastic: Elastic, supports: Supports) -> Structu
     held, free = constraints(space, supports)
     rigid = rigid_motions(space)
     if held.shape[1]:
-        _, strength, rows = np.linalg.svd(np.asarray(held.T @ rigid))
+        _, strength, rows = np.linalg.svd(np.linalg.qr(np.asarray(held.T @ rigid), mode="r"))
         strength = np.pad(strength, (0, rigid.shape[1] - len(strength)))
         rigid = rigid @ rows[strength <= SINGULAR * np.linalg.norm(rigid, axis=0).max()].T
     inertia = _weighted(space, rigid)
@@ -105,9 +105,8 @@ def stiffness(space: BodySpace, elastic: Elastic) -> csc_array:
         matrix[:, :, 0, :, 0] += 2.0 * mu * np.einsum("eaq,ebq,eq->eab", hoop, hoop, space.volume, optimize=True)
     spread = divergence(space).reshape(cells, local * dim, points)
     matrix += lam * ((spread * space.volume[:, None, :]) @ spread.transpose(0, 2, 1)).reshape(products.shape)
-    dofs = _dofs(space)
-    size = space.places.size
-    return assembled(dofs, dofs, matrix.reshape(cells, local * dim, local * dim), (size, size))
+    matrix = matrix.reshape(cells, local * dim, local * dim)
+    return assembled(space.dofs, space.dofs, matrix, (space.places.size,) * 2)
 
 
 def divergence(space: BodySpace) -> Array:
@@ -172,8 +171,3 @@ def _weighted(space: BodySpace, motion: Array) -> Array:
     """Integral of the shape functions times displacements (dofs, k), (dofs, k)."""
     nodal = motion.reshape(len(space.places), -1)
     return np.asarray(space.mass @ nodal).reshape(motion.shape)
-
-
-def _dofs(space: BodySpace) -> Any:
-    dofs = space.dim * space.cells[:, :, None] + np.arange(space.dim)
-    return dofs.reshape(len(space.cells), -1)

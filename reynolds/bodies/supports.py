@@ -19,7 +19,8 @@ FAR = 0.1  # of the body's size: a held point no farther than this from a node m
 class Supports:
     """What holds a body: faces clamped, faces that only slide (symmetry planes), points (m) by the nearest node.
 
-    None at all is a free body.
+    None at all is a free body. A force on a held point sinks in the deeper the smaller its cells: points are for
+    bodies whose loads hold each other in balance.
     """
 
     clamped: tuple[str, ...] = ()
