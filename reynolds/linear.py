@@ -8,19 +8,20 @@ since fill grows faster than the mesh. Where a rung stalls, the next one does it
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 import qdldl
 from numpy.typing import NDArray
-from scipy.sparse import coo_array, csc_array, csc_matrix, csr_array, triu
+from scipy.sparse import csc_array, csc_matrix, csr_array, triu
 from scipy.sparse.linalg import SuperLU, splu
 
+from reynolds.carried import CarriedFilm
 from reynolds.errors import FilmNotConverged
 from reynolds.grid import Grid
 from reynolds.mesh import Array
 from reynolds.multigrid import Multigrid
+from reynolds.triangles import BothTriangles, both_triangles
 
 DIRECT_LIMIT = 60_000
 GRID_LEAST = 500  # unknowns: below, a direct solve of a grid is as fast as multigrid
@@ -109,71 +110,75 @@ def _conjugate_gradients(matrix: csr_array, hierarchy: Any, load: Array) -> tupl
 class GeneralFactor:
     """A matrix of symmetric pattern and any values, factorised: `update`, then `solve` any number of times.
 
-    Made for the mass-conserving film, whose columns are symmetric in the film and upwind transport in the
-    cavity: pivots on the diagonal do, and where they do not the elimination is done again with pivots.
+    Made for the film whose cavities carry oil, with columns symmetric in the film and upwind transport in the
+    cavity. On a grid an iteration does it (`CarriedFilm`). Else, and where that stalls, an elimination with
+    pivots on the diagonal, and where those do not do either, with pivots.
     """
 
-    def __init__(self) -> None:
-        self._full: _FullPattern | None = None
+    def __init__(self, grid: Grid | None = None) -> None:
+        """`grid`: the rows and columns of the unknowns (`grid_of`), None where there are none."""
+        self._grid = grid if grid is not None and grid.unknowns.size >= GRID_LEAST else None
+        self._on_grid: CarriedFilm | None = None
+        self._both: BothTriangles | None = None
+        self._given: tuple[csc_array, Array] | None = None
         self._matrix: csc_array | None = None
         self._scale: tuple[Array, Array] | None = None
         self._lu: SuperLU | None = None
 
-    def update(self, upper: csc_array, lower: Array) -> None:
-        """Take the upper triangle with its diagonal, and the mirrored entries.
+    def update(self, upper: csc_array, lower: Array, cavity: NDArray[np.bool_] | None = None) -> None:
+        """Take the upper triangle with its diagonal, the mirrored entries and which columns are the cavity's.
 
         lower[k] is the entry (j, i) where upper.data[k] is (i, j); on the diagonal it is not looked at. The
-        pattern never changes. Raises FilmNotConverged for a row or column of zeros.
+        pattern never changes. Without `cavity` (size,) the elimination does it. Raises FilmNotConverged for a
+        row or column of zeros.
         """
-        if self._full is None:
-            self._full = _full_pattern(upper)
-        entries = np.concatenate([upper.data, lower])[self._full.source]
-        matrix = csc_array((entries, self._full.indices, self._full.indptr), shape=upper.shape)
-        columns = _largest(np.abs(entries), self._full.column, upper.shape[0])
-        entries = np.abs(entries) / columns[self._full.column]
-        rows = _largest(entries, self._full.indices, upper.shape[0])
-        self._scale = 1.0 / rows, 1.0 / columns
-        entries = matrix.data * self._scale[0][matrix.indices] * self._scale[1][self._full.column]
-        self._matrix = csc_array((entries, matrix.indices, matrix.indptr), shape=upper.shape)
+        self._given, self._matrix = (upper, lower), None
+        if self._grid is not None and cavity is not None:
+            if self._on_grid is None:
+                self._on_grid = CarriedFilm(self._grid, upper)
+            if self._on_grid.update(upper.data, lower, cavity):
+                return
+            self._leave_grid()
+        self._scaled()
+        assert self._matrix is not None
         self._lu = _eliminate(self._matrix, threshold=1e-3)
 
     def solve(self, load: Array) -> Array:
-        """x with A x = load, (n,), refined once. Raises FilmNotConverged where the matrix is singular."""
+        """x with A x = load, (n,). Raises FilmNotConverged where the matrix is singular."""
+        if self._on_grid is not None and self._matrix is None:
+            answer, effort = self._on_grid.solve(load, ITERATIVE_TOLERANCE)
+            if effort.left <= GENERAL_TOLERANCE:
+                return answer
+            self._leave_grid()
+            self._scaled()
+            assert self._matrix is not None
+            self._lu = _eliminate(self._matrix, threshold=1e-3)
         assert self._matrix is not None
         assert self._scale is not None
         rows, columns = self._scale
-        scaled = rows * load
-        answer, good = _refined(self._lu, self._matrix, scaled)
+        answer, good = _refined(self._lu, self._matrix, rows * load)
         if not good:
             self._lu = _eliminate(self._matrix, threshold=1.0)
-            answer, good = _refined(self._lu, self._matrix, scaled)
+            answer, good = _refined(self._lu, self._matrix, rows * load)
         if not good:
             raise FilmNotConverged("the linearised film balance is singular", "a boundary that holds a pressure")
         return columns * answer
 
+    def _leave_grid(self) -> None:
+        self._grid = self._on_grid = None
 
-@dataclass(frozen=True)
-class _FullPattern:
-    """Both triangles by columns; `source` places each entry in (upper data, lower data)."""
-
-    indptr: NDArray[np.int32]
-    indices: NDArray[np.int32]
-    column: NDArray[np.int32]
-    source: NDArray[np.int64]
-
-
-def _full_pattern(upper: csc_array) -> _FullPattern:
-    size, count = upper.shape[0], len(upper.indices)
-    column = np.repeat(np.arange(size, dtype=np.int32), np.diff(upper.indptr))
-    off = np.flatnonzero(upper.indices != column)
-    row = np.concatenate([upper.indices, column[off]])
-    number = np.concatenate([np.arange(count), count + off])
-    full = coo_array((number + 1, (row, np.concatenate([column, upper.indices[off]]))), shape=upper.shape).tocsc()
-    full.sort_indices()
-    indptr, indices = full.indptr.astype(np.int32), full.indices.astype(np.int32)
-    return _FullPattern(
-        indptr, indices, np.repeat(np.arange(size, dtype=np.int32), np.diff(indptr)), full.data - 1
-    )
+    def _scaled(self) -> None:
+        """Both triangles, with rows and columns scaled to a largest entry of one."""
+        assert self._given is not None
+        upper, lower = self._given
+        if self._both is None:
+            self._both = both_triangles(upper)
+        entries = self._both.entries(upper.data, lower)
+        columns = _largest(np.abs(entries), self._both.column, upper.shape[0])
+        rows = _largest(np.abs(entries) / columns[self._both.column], self._both.indices, upper.shape[0])
+        self._scale = 1.0 / rows, 1.0 / columns
+        scaled = entries * self._scale[0][self._both.indices] * self._scale[1][self._both.column]
+        self._matrix = self._both.matrix(scaled)
 
 
 def _largest(values: Array, place: NDArray[np.int32], size: int) -> Array:

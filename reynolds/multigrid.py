@@ -50,6 +50,11 @@ class Multigrid:
         self._places = _places(self._grid, upper, self._stencils.shape[1])
         self._work = np.zeros((2, self._grid.rows + 2, self._grid.columns + 2))
 
+    @property
+    def parts(self) -> tuple[kernels.Levels, NDArray[np.int32]]:
+        """The levels and their unknowns in rows, for kernels that cycle themselves."""
+        return self._levels, self._grid.unknowns
+
     def update(self, data: Array) -> bool:
         """Take the entries of the upper triangle; False where the matrix is not positive definite on some row."""
         kernels.spread(data, self._places, self._stencils)
