@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from xml.sax.saxutils import quoteattr
 
@@ -14,10 +14,15 @@ from reynolds.mesh import Array
 from reynolds.space import FilmSpace
 
 
-def write_vtu(path: Path, solution: FilmSolution, place: Callable[[Array], Array] | None = None) -> None:
+def write_vtu(
+    path: Path,
+    solution: FilmSolution,
+    place: Callable[[Array], Array] | None = None,
+    more: Mapping[str, Array] | None = None,
+) -> None:
     """Write one film as a surface: film_pressure (Pa), film_thickness (m), wall_shear (Pa, moving wall).
 
-    `place` maps vertices (n, 2) m of the film plane to their true place (n, 3) m: a cylinder for a piston.
+    `more` are further fields at the vertices (vertices,), by name. `place` maps vertices (n, 2) m of the film plane to their true place (n, 3) m: a cylinder for a piston.
     film_thickness stands at the vertices (averaged where it jumps) and, exact, as the mean of each cell.
     """
     import meshio
@@ -34,6 +39,7 @@ def write_vtu(path: Path, solution: FilmSolution, place: Callable[[Array], Array
         point_data={
             "film_pressure": solution.pressure[space.vertex_dofs],
             "film_thickness": vertex_thickness(solution),
+            **(more or {}),
         },
         cell_data={
             "film_thickness_cell": [(thickness * space.area).sum(axis=1) / cell_area],

@@ -10,6 +10,7 @@ import numpy as np
 from reynolds.film import Cavitation
 from swashfilm.case_table import Table
 from swashfilm.field_reader import FieldReader
+from swashfilm.fields import CellData, InTime, PointData, Uniform
 from swashfilm.film_statement import BoundaryStatement
 from system.faults import nearest_choice
 from system.units import Dimension, format_quantity
@@ -30,22 +31,33 @@ def read_boundaries(top: Table, reader: FieldReader, level: float | None) -> Bou
             sewn = {side for pair in mesh.film_mesh.seams for side in pair}
             what = "a side of the periodic seam" if name in sewn else "no boundary of this mesh"
             table.fault(name, what, f"one of {', '.join(names)}", nearest_choice(name, names))
-        if entry and (stated := _entry(entry, level)) is not None:
+        if entry and (stated := _entry(entry, reader, level)) is not None:
             found[name] = stated
     if mesh and not (table and table.values):
         top.fault("boundary", "no pressure given anywhere", f"a pressure at one of {', '.join(names)} at least")
     return found
 
 
-def _entry(entry: Table, level: float | None) -> BoundaryStatement | None:
+def _entry(entry: Table, reader: FieldReader, level: float | None) -> BoundaryStatement | None:
     fraction = entry.number("film_fraction", 1.0)
     if fraction is not None and not 0.0 < fraction <= 1.0:
         entry.fault("film_fraction", repr(fraction), "above 0 (dry), at most 1 (flooded)")
         fraction = None
     starved = fraction is not None and fraction < 1.0
-    pressure = entry.quantity("pressure", Dimension.PRESSURE, level if starved else None)
+    pressure = _pressure(entry, reader, level if starved else None)
+    temperature = entry.positive("temperature", Dimension.TEMPERATURE) if entry.get("temperature") else None
     entry.close()
-    return None if pressure is None or fraction is None else BoundaryStatement(pressure, fraction)
+    return None if pressure is None or fraction is None else BoundaryStatement(pressure, fraction, temperature)
+
+
+def _pressure(entry: Table, reader: FieldReader, default: float | None) -> InTime | None:
+    """A pressure, or in a transient a formula of t; None with its fault told."""
+    if "t" in reader.variables and isinstance(entry.get("pressure"), str):
+        field = FieldReader(None, None, ("t",)).field(entry, "pressure", Dimension.PRESSURE)
+        assert not isinstance(field, (PointData, CellData))
+        return field
+    pressure = entry.quantity("pressure", Dimension.PRESSURE, default)
+    return None if pressure is None else Uniform(pressure, Dimension.PRESSURE)
 
 
 def check_boundaries(
@@ -58,10 +70,10 @@ def check_boundaries(
     for name, stated in boundary.items():
         if stated.film_fraction < 1.0:
             _check_starved(top, name, stated, cavitation, level)
-        elif cavitation is not Cavitation.NONE and stated.pressure < level:
+        elif cavitation is not Cavitation.NONE and stated.pressure.at_time(0.0) < level:
             top.fault(
                 f"boundary.{name}.pressure",
-                format_quantity(stated.pressure, Dimension.PRESSURE),
+                str(stated.pressure),
                 f"at least the cavitation pressure, {format_quantity(level, Dimension.PRESSURE)}",
                 "lower film.cavitation_pressure, or cavitation = 'none'",
             )
@@ -72,10 +84,10 @@ def _check_starved(top: Table, name: str, stated: BoundaryStatement, cavitation:
     if cavitation is not Cavitation.JFO:
         found = f"{fraction} with cavitation = '{cavitation.value}'"
         top.fault(f"boundary.{name}.film_fraction", found, "1, or cavitation = 'jfo', which carries it along")
-    elif stated.pressure != level:
+    elif stated.pressure.at_time(0.0) != level:
         top.fault(
             f"boundary.{name}.pressure",
-            f"{format_quantity(stated.pressure, Dimension.PRESSURE)} with film_fraction = {fraction}",
+            f"{stated.pressure} with film_fraction = {fraction}",
             f"the cavitation pressure, {format_quantity(level, Dimension.PRESSURE)}: more needs a full film",
         )
 

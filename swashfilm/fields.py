@@ -50,6 +50,10 @@ class Uniform:
         """The value, (vertices,)."""
         return np.full(len(space.vertices), self.value)
 
+    def at_time(self, t: float) -> float:
+        """The value at any time."""
+        return self.value
+
     def on(self, data: MeshData) -> Uniform:
         """The same on any mesh."""
         return self
@@ -73,6 +77,10 @@ class Formula:
         """At the vertices, (vertices,)."""
         x, y = space.vertices.T
         return self.expression(x, y, t)
+
+    def at_time(self, t: float) -> float:
+        """The value at a time (s) of a formula that holds no place."""
+        return float(self.expression(np.zeros(1), np.zeros(1), t)[0])
 
     def on(self, data: MeshData) -> Formula:
         """The same on any mesh."""
@@ -132,6 +140,7 @@ class CellData:
 
 
 Field = Uniform | Formula | PointData | CellData
+InTime = Uniform | Formula
 
 
 def read_field(raw: object, dimension: Dimension, data: MeshData, variables: Sequence[str] = PLACE) -> Field:

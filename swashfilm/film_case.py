@@ -13,13 +13,18 @@ from reynolds.setting import check_pressures
 from reynolds.space import film_space
 from swashfilm.boundary_case import check_boundaries, read_boundaries
 from swashfilm.case_table import Table, fault_lines, read_toml
+from swashfilm.elastic_case import read_elastic
+from swashfilm.expressions import IN_TIME, PLACE
 from swashfilm.field_reader import FieldReader
+from swashfilm.fields import Field, Uniform
 from swashfilm.film_problem import film_problem
 from swashfilm.film_resolved import resolved_text
 from swashfilm.film_statement import FilmStatement
 from swashfilm.gap_case import FORMAT, GapCase, read_gap_case
 from swashfilm.mesh_case import read_mesh
-from swashfilm.oil_case import read_oil
+from swashfilm.oil_case import OilStatement, oil_viscosity, read_oil
+from swashfilm.thermal_case import read_thermal
+from swashfilm.time_case import initial_film_fraction, read_time
 from system.faults import InputFaults
 from system.units import Dimension
 
@@ -71,8 +76,6 @@ def _check_format(top: Table) -> None:
     if type(stated) is not int or stated != FORMAT:
         found = "no such key" if stated is None else repr(stated)
         top.fault("format", found, f"format = {FORMAT}, the case format of this version")
-    if top.get("time") is not None:
-        top.fault("time", "a table [time]", "no such table: this version has no transient films")
     if top.get("study") is not None:
         top.fault("study", "a table [study]", "a single case; `swashfilm film` runs studies")
 
@@ -80,11 +83,12 @@ def _check_format(top: Table) -> None:
 def _free_film(path: Path, text: str, top: Table, film: Table) -> FilmCase | None:
     mesh, order = read_mesh(film, path.parent), _order(film)
     space = film_space(mesh.film_mesh, degree=order) if mesh and order else None
-    stated = _stated(top, film, FieldReader(mesh, space), order)
+    reader = FieldReader(mesh, space, PLACE if top.get("time") is None else IN_TIME)
+    stated = _stated(top, film, reader, order, path.parent)
     if stated is None or top.faults:
         return None
-    problem = film_problem(stated, space)
     try:
+        problem = film_problem(stated, space)
         check_pressures(problem)
     except FilmInputError as reason:
         top.fault(reason.where, reason.found, reason.expected)
@@ -92,24 +96,35 @@ def _free_film(path: Path, text: str, top: Table, film: Table) -> FilmCase | Non
     return FilmCase(path.stem, text, resolved_text(stated), stated, problem)
 
 
-def _stated(top: Table, film: Table, reader: FieldReader, order: int | None) -> FilmStatement | None:
+def _stated(top: Table, film: Table, reader: FieldReader, order: int | None, folder: Path) -> FilmStatement | None:
     """What the case states; None where a part of it has a fault, which is told."""
-    parts = {
+    faults = len(top.faults)
+    thermal, time = read_thermal(top), read_time(top)
+    viscosity, oil = _viscosity(top, film, reader)
+    parts: dict[str, Any] = {
         "mesh": reader.mesh,
         "order": order,
         "thickness": reader.field(film, "thickness", Dimension.LENGTH, positive=True),
         "velocity": reader.vector(film, "velocity", Dimension.VELOCITY, "0 m/s"),
         "velocity_fixed": reader.vector(film, "velocity_fixed", Dimension.VELOCITY, "0 m/s"),
         "squeeze": reader.field(film, "squeeze", Dimension.VELOCITY, "0 m/s"),
-        "viscosity": _viscosity(top, film, reader),
+        "viscosity": viscosity,
         "cavitation": film.choice("cavitation", Cavitation, Cavitation.JFO),
         "cavitation_pressure": film.quantity("cavitation_pressure", Dimension.PRESSURE, 0.0),
+        "initial_film_fraction": initial_film_fraction(top, film, reader),
     }
     parts["boundary"] = read_boundaries(top, reader, parts["cavitation_pressure"])
+    elastic = read_elastic(top, reader.mesh, folder)
+    for later in ("roughness", "contact"):
+        if top.get(later) is not None:
+            top.fault(later, f"a table [{later}]", "no such table: films of this version have smooth walls")
     film.close()
     _check_order(film, parts)
     check_boundaries(top, reader, parts["boundary"], parts["cavitation"], parts["cavitation_pressure"])
-    return None if None in parts.values() else FilmStatement(**parts)
+    _check_tables(top, film, oil, viscosity)
+    if None in parts.values() or len(top.faults) > faults:
+        return None
+    return FilmStatement(**parts, oil=oil, thermal=thermal, elastic=elastic, time=time)
 
 
 def _order(film: Table) -> int | None:
@@ -122,18 +137,37 @@ def _order(film: Table) -> int | None:
     return None
 
 
-def _viscosity(top: Table, film: Table, reader: FieldReader) -> Any:
-    oil = top.table("oil")
-    raw = film.get("viscosity")
-    if raw is not None and top.get("oil") is not None:
-        film.fault("viscosity", "a viscosity beside a table [oil]", "one of the two")
-    if raw is not None:
-        return reader.field(film, "viscosity", Dimension.DYNAMIC_VISCOSITY, positive=True)
-    if oil is not None:
-        return read_oil(oil)
+def _viscosity(top: Table, film: Table, reader: FieldReader) -> tuple[Field | None, OilStatement | None]:
+    """Viscosity without pressure at the oil's temperature, and the oil; None with the faults told."""
+    table = top.table("oil")
+    given = film.get("viscosity") is not None
+    with_heat = top.get("thermal") is not None
+    oil = read_oil(table, with_viscosity=given, with_heat=with_heat) if table else None
+    if given:
+        return reader.field(film, "viscosity", Dimension.DYNAMIC_VISCOSITY, positive=True), oil
+    if table and oil:
+        viscosity = oil_viscosity(table, oil)
+        return None if viscosity is None else Uniform(viscosity, Dimension.DYNAMIC_VISCOSITY), oil
     if top.get("oil") is None:
         film.fault("viscosity", "no such key", "a viscosity, such as '30 mPa s', or a table [oil]")
-    return None
+    return None, None
+
+
+def _check_tables(top: Table, film: Table, oil: OilStatement | None, viscosity: Field | None) -> None:
+    """Fault tables that do not go together."""
+    if top.get("thermal") is None:
+        return
+    if top.get("oil") is None:
+        top.fault("thermal", "no table [oil]", "its density, temperature, specific heat and thermal conductivity")
+    if top.get("time") is not None:
+        top.fault("thermal", "a table [thermal] beside [time]", "one of the two: film temperature is steady here")
+    if oil is None or oil.kinematic is not None:
+        return
+    if not oil.temperature_coefficient:
+        expected = "how the viscosity falls with temperature ('0.03 1/K'), or a grade in place of film.viscosity"
+        top.fault("oil.temperature_coefficient", "no such key", expected)
+    if viscosity is not None and not isinstance(viscosity, Uniform):
+        film.fault("viscosity", f"'{viscosity}' with a table [thermal]", "one viscosity, at the oil's temperature")
 
 
 def _check_order(film: Table, parts: Mapping[str, Any]) -> None:

@@ -50,7 +50,9 @@ def summary_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
         if key in ("format", "kind", "name", "warnings", "refinement"):
             continue
         words, unit = named(key)
-        if isinstance(value, dict):
+        if value is None:
+            yield words, "none"
+        elif isinstance(value, dict):
             for part, number in value.items():
                 yield f"{words}, {part}", f"{number:.6g} {unit}".strip()
         elif isinstance(value, list):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from reynolds.errors import FilmInputError
 from reynolds.film import Film, FilmProblem, Held
+from reynolds.fluid import CONSTANT, Fluid
 from reynolds.mesh import Array
 from reynolds.space import FilmSpace, film_space
 from swashfilm.field_reader import field_fault
@@ -11,33 +12,49 @@ from swashfilm.fields import Field
 from swashfilm.film_statement import FilmStatement
 
 
-def film_problem(stated: FilmStatement, space: FilmSpace | None = None) -> FilmProblem:
-    """The problem that a case states, on its mesh (`space`, where it is there already).
+def film_problem(stated: FilmStatement, space: FilmSpace | None = None, t: float = 0.0) -> FilmProblem:
+    """The problem that a case states at a time (s), on its mesh (`space`, where it is there already).
 
-    Raises FilmInputError for a field without a value somewhere and for a thickness or viscosity not above zero.
+    Raises FilmInputError for a field without a value somewhere, for a thickness or viscosity not above zero, and
+    for an elastic body that does not lie under the film.
     """
     space = space or film_space(stated.mesh.film_mesh, degree=stated.order)
-    u, v = (_sampled("film.velocity", part, space) for part in stated.velocity)
-    u_fixed, v_fixed = (_sampled("film.velocity_fixed", part, space) for part in stated.velocity_fixed)
+    u, v = (_sampled("film.velocity", part, space, t) for part in stated.velocity)
+    u_fixed, v_fixed = (_sampled("film.velocity_fixed", part, space, t) for part in stated.velocity_fixed)
     film = Film(
-        thickness=_sampled("film.thickness", stated.thickness, space, positive=True),
-        viscosity=_sampled("film.viscosity", stated.viscosity, space, positive=True),
+        thickness=_sampled("film.thickness", stated.thickness, space, t, positive=True),
+        viscosity=_sampled("film.viscosity", stated.viscosity, space, t, positive=True),
         velocity_moving=(u, v),
         velocity_fixed=(u_fixed, v_fixed),
-        squeeze=_sampled("film.squeeze", stated.squeeze, space),
-        thickness_at_vertices=stated.thickness.at_vertices(space),
+        squeeze=_sampled("film.squeeze", stated.squeeze, space, t),
+        thickness_at_vertices=stated.thickness.at_vertices(space, t),
     )
     return FilmProblem(
         space=space,
         film=film,
-        boundary={name: Held(entry.pressure, entry.film_fraction) for name, entry in stated.boundary.items()},
+        boundary=held(stated, t),
         cavitation=stated.cavitation,
         cavitation_pressure=stated.cavitation_pressure,
+        fluid=_fluid(stated),
+        walls=stated.elastic.walls(space) if stated.elastic else None,
     )
 
 
-def _sampled(where: str, field: Field, space: FilmSpace, *, positive: bool = False) -> Array:
+def held(stated: FilmStatement, t: float) -> dict[str, Held]:
+    """The boundaries at a time (s)."""
+    return {name: Held(entry.pressure.at_time(t), entry.film_fraction) for name, entry in stated.boundary.items()}
+
+
+def _fluid(stated: FilmStatement) -> Fluid:
+    """The oil's laws in pressure; of a film with temperature the viscosity is the thermal solve's."""
+    if stated.oil is None:
+        return CONSTANT
+    fluid = Fluid(density=stated.oil.density_law) if stated.thermal else stated.oil.fluid
+    return CONSTANT if fluid == CONSTANT else fluid
+
+
+def _sampled(where: str, field: Field, space: FilmSpace, t: float, *, positive: bool = False) -> Array:
     """A field at the quadrature points, found possible there."""
-    if fault := field_fault(field, space, positive=positive):
+    if fault := field_fault(field, space, t, positive=positive):
         raise FilmInputError(where, *fault)
-    return field.sample(space)
+    return field.sample(space, t)

@@ -2,32 +2,47 @@
 
 from __future__ import annotations
 
+from swashfilm.elastic_case import elastic_rows
 from swashfilm.film_statement import BoundaryStatement, FilmStatement, Velocity
 from swashfilm.gap_case import FORMAT
+from swashfilm.thermal_case import thermal_rows
+from swashfilm.time_case import time_rows
 from system.units import Dimension, format_quantity
 
 
 def resolved_text(stated: FilmStatement) -> str:
     """A case file that gives this very case."""
-    entries = {
+    film = {
         "mesh": stated.mesh.text,
         "order": stated.order,
         "thickness": f'"{stated.thickness}"  # m',
         "velocity": f"{_vector(stated.velocity)}  # m/s",
         "velocity_fixed": f"{_vector(stated.velocity_fixed)}  # m/s",
-        "squeeze": f'"{stated.squeeze}"  # m/s',
-        "viscosity": f'"{stated.viscosity}"  # Pa s',
         "cavitation": f'"{stated.cavitation.value}"',
         "cavitation_pressure": _pressure(stated.cavitation_pressure),
     }
-    rows = [f"format = {FORMAT}", "", "[film]", *(f"{key} = {value}" for key, value in entries.items())]
+    if stated.time:
+        film["initial_film_fraction"] = f'"{stated.initial_film_fraction}"'
+    else:
+        film["squeeze"] = f'"{stated.squeeze}"  # m/s'
+    if stated.oil is None or stated.oil.kinematic is None:
+        film["viscosity"] = f'"{stated.viscosity}"  # Pa s'
+    rows = [f"format = {FORMAT}", "", "[film]", *(f"{key} = {value}" for key, value in film.items())]
     rows += ["", "[boundary]  # what is not named is closed"]
     rows += [f'"{name}" = {{ {_boundary(entry)} }}' for name, entry in stated.boundary.items()]
+    if stated.oil:
+        rows += ["", "[oil]", *stated.oil.rows]
+    rows += ["", *thermal_rows(stated.thermal)] if stated.thermal else []
+    rows += ["", *elastic_rows(stated.elastic)] if stated.elastic else []
+    rows += ["", *time_rows(stated.time)] if stated.time else []
     return "\n".join(rows) + "\n"
 
 
 def _boundary(entry: BoundaryStatement) -> str:
-    return f"pressure = {_pressure(entry.pressure)}, film_fraction = {entry.film_fraction!r}"
+    text = f'pressure = "{entry.pressure}", film_fraction = {entry.film_fraction!r}'
+    if entry.temperature is None:
+        return text
+    return f'{text}, temperature = "{format_quantity(entry.temperature, Dimension.TEMPERATURE)}"'
 
 
 def _vector(parts: Velocity) -> str:

@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 from reynolds.export import write_pvd, write_vtu
+from reynolds.mesh import Array
 from swashfilm.film_case import FilmCase
+from swashfilm.film_physics import vertex_fields, write_history
 from swashfilm.film_refine import check_refinement, refine_study, refinement_summary, write_refinement
-from swashfilm.film_study import film_dataset, film_summary, solve_case
+from swashfilm.film_study import FilmStudy, film_dataset, film_summary, solve_case
 from swashfilm.gap_case import GapCase
 from swashfilm.gap_study import true_place
 from swashfilm.progress import Report
@@ -33,16 +37,14 @@ def run_case(
     (folder / "resolved.toml").write_text(case.resolved, encoding="utf-8")
     stages = _STAGES + meshes - 1
     report(0, stages, "solving")
-    study = solve_case(case)
+    study = solve_case(case, lambda done, steps, what: report(0, stages, f"solving, {what} ({done} of {steps})"))
     summary = film_summary(study)
     if meshes > 1 and isinstance(case, FilmCase):
         found = refine_study(case, study, meshes, lambda done, _, what: report(done, stages, what))
         summary["refinement"] = refinement_summary(found)
         write_refinement(folder / "refinement.csv", found)
     report(stages - 2, stages, "writing fields")
-    place = true_place(case) if isinstance(case, GapCase) else None
-    write_vtu(folder / "film.vtu", study.solution, place)
-    write_pvd(folder / "film.pvd", [(0.0, 0, "film.vtu")])
+    _write_films(folder, study, true_place(case) if isinstance(case, GapCase) else None)
     fields = film_dataset(study)
     fields.to_netcdf(folder / "results.nc", engine="h5netcdf")
     if as_table:
@@ -54,6 +56,20 @@ def run_case(
     write_film_page(folder)
     report(stages, stages, "done")
     return summary
+
+
+def _write_films(folder: Path, study: FilmStudy, place: Callable[[Array], Array] | None) -> None:
+    """film.vtu, and of a transient film_NNNN.vtu over time, film.pvd of them all; history.csv of its steps."""
+    write_vtu(folder / "film.vtu", study.solution, place, {k: v for k, (v, _) in vertex_fields(study).items()})
+    entries = [(0.0, 0, "film.vtu")]
+    if study.history:
+        write_history(folder / "history.csv", study.history)
+        kept = [(step.time, step.solution) for step in study.history if step.solution]
+        entries = [(time, 0, f"film_{number:04d}.vtu") for number, (time, _) in enumerate(kept, start=1)]
+        for (_, _, name), (_, solution) in zip(entries, kept, strict=True):
+            now = replace(study, solution=solution)
+            write_vtu(folder / name, solution, None, {k: v for k, (v, _) in vertex_fields(now).items()})
+    write_pvd(folder / "film.pvd", entries)
 
 
 def check_refinable(case: FilmCase | GapCase, meshes: int) -> None:

@@ -7,23 +7,35 @@ from dataclasses import dataclass, fields, replace
 from typing import Any
 
 from reynolds.film import Cavitation
-from swashfilm.fields import CellData, Field, Formula, MeshData, PointData, Uniform
+from swashfilm.elastic_case import ElasticStatement
+from swashfilm.fields import CellData, Field, Formula, InTime, MeshData, PointData, Uniform
 from swashfilm.mesh_case import CaseMesh
+from swashfilm.oil_case import OilStatement
+from swashfilm.thermal_case import ThermalStatement
+from swashfilm.time_case import TimeStatement
 
 Velocity = tuple[Field, Field]
 
 
 @dataclass(frozen=True)
 class BoundaryStatement:
-    """What a case states of one boundary: pressure (Pa) and the film fraction of what it may send in."""
+    """What a case states of one boundary: pressure (Pa), film fraction and temperature (K) of what it may send in.
 
-    pressure: float
+    The temperature is None where the inlet temperature of [thermal] holds.
+    """
+
+    pressure: InTime
     film_fraction: float = 1.0
+    temperature: float | None = None
 
 
 @dataclass(frozen=True)
 class FilmStatement:
-    """A free film as its case states it, every default filled in; `cavitation_pressure` in Pa."""
+    """A free film as its case states it, every default filled in; `cavitation_pressure` in Pa.
+
+    `viscosity` is that at the oil's temperature and without pressure. `initial_film_fraction` is that of a
+    transient; tables that a case does not have are None.
+    """
 
     mesh: CaseMesh
     order: int
@@ -35,6 +47,11 @@ class FilmStatement:
     cavitation: Cavitation
     cavitation_pressure: float
     boundary: Mapping[str, BoundaryStatement]
+    initial_film_fraction: Field
+    oil: OilStatement | None = None
+    thermal: ThermalStatement | None = None
+    elastic: ElasticStatement | None = None
+    time: TimeStatement | None = None
 
     def refined(self) -> FilmStatement:
         """The same film on a mesh twice finer, data of a mesh file carried along."""

@@ -9,12 +9,17 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from gaps.result import GapFilm
+from reynolds.energy import FilmTemperature
 from reynolds.film import Cavitation, FilmSolution, vertex_thickness
 from reynolds.loads import Loads, loads, point_fields
 from reynolds.solve import FilmSolver
 from swashfilm.film_case import FilmCase
+from swashfilm.film_physics import physics_summary, vertex_fields
+from swashfilm.film_thermal import solve_with_temperature
+from swashfilm.film_transient import Instant, transient
 from swashfilm.gap_case import GapCase
 from swashfilm.gap_study import gap_summary, gap_warnings, solve_gap
+from swashfilm.progress import Report
 
 if TYPE_CHECKING:
     import xarray
@@ -25,24 +30,48 @@ LARGEST_THICKNESS_RATIO = 0.05  # of the film's extent; beyond, flow across the 
 
 @dataclass(frozen=True)
 class FilmStudy:
-    """A solved case: its solution and integrals, the gap it is of (None: a free film), and the seconds it took."""
+    """A solved case: its solution and integrals, and the seconds it took; None what the case has not.
+
+    gap: the pump's gap that it is of; heat: its temperature; history: the steps of a transient, whose end
+    `solution` is.
+    """
 
     name: str
     solution: FilmSolution
     loads: Loads
     gap: GapFilm | None
     solve_seconds: float
+    heat: FilmTemperature | None = None
+    history: tuple[Instant, ...] = ()
 
 
-def solve_case(case: FilmCase | GapCase) -> FilmStudy:
-    """Solve a case; raises FilmNotConverged rather than give a number that is none."""
+def silent(done: int, steps: int, what: str) -> None:
+    """A report that tells nobody."""
+
+
+def solve_case(case: FilmCase | GapCase, report: Report = silent) -> FilmStudy:
+    """Solve a case; raises FilmNotConverged rather than give a number that is none.
+
+    `report` hears of the steps of a transient.
+    """
     began = time.perf_counter()
     if isinstance(case, GapCase):
         film = solve_gap(case)
         return FilmStudy(case.name, film.solution, film.loads, film, time.perf_counter() - began)
-    solution = FilmSolver(case.problem.space).solve(case.problem)
+    heat: FilmTemperature | None = None
+    history: tuple[Instant, ...] = ()
+    if case.stated.time:
+        history = tuple(transient(case.stated, report))
+        last = history[-1].solution
+        assert last is not None
+        solution = last
+    elif case.stated.thermal:
+        found = solve_with_temperature(case.stated, case.problem)
+        solution, heat = found.film, found.heat
+    else:
+        solution = FilmSolver(case.problem.space).solve(case.problem)
     seconds = time.perf_counter() - began
-    return FilmStudy(case.name, solution, loads(solution), None, seconds)
+    return FilmStudy(case.name, solution, loads(solution), None, seconds, heat, history)
 
 
 def film_summary(study: FilmStudy) -> dict[str, Any]:
@@ -69,6 +98,7 @@ def film_summary(study: FilmStudy) -> dict[str, Any]:
         "dissipation_W": integrals.dissipation,
         **_stribeck(solution, integrals),
         "cavitated_area_fraction": integrals.cavitated_area_fraction,
+        "film_fraction_min": float(solution.film_fraction.min()),
         "cavity_flow_m3_per_s": integrals.cavity_flow + 0.0,  # no negative zero
         "mass_balance_error": integrals.mass_balance_error,
         "energy_balance_error": integrals.energy_balance_error,
@@ -76,6 +106,7 @@ def film_summary(study: FilmStudy) -> dict[str, Any]:
         "dofs": solution.problem.space.size,
         "iterations": solution.iterations,
         "solve_seconds": study.solve_seconds,
+        **physics_summary(study),
         **(gap_summary(study.gap) if study.gap else {}),
         "warnings": film_warnings(study),
     }
@@ -165,6 +196,7 @@ def film_dataset(study: FilmStudy) -> xarray.Dataset:
         {
             "film_pressure": ("vertex", pressure, {"units": "Pa"}),
             "film_thickness": ("vertex", vertex_thickness(study.solution), {"units": "m"}),
+            **{name: ("vertex", values, {"units": unit}) for name, (values, unit) in vertex_fields(study).items()},
             "film_thickness_cell": ("cell", mean(thickness), {"units": "m"}),
             "wall_shear_x": ("cell", mean(shear[0]), {"units": "Pa", "wall": "moving"}),
             "wall_shear_y": ("cell", mean(shear[1]), {"units": "Pa", "wall": "moving"}),

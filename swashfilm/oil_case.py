@@ -1,48 +1,225 @@
-"""The [oil] table of a case file: a viscosity from an oil and its temperature."""
+"""The [oil] table of a film case: viscosity over temperature and pressure, density over pressure, heat."""
 
 from __future__ import annotations
 
-from reynolds.oil import ISO_GRADES, Oil, dynamic_viscosity
+from dataclasses import dataclass
+from enum import Enum
+
+import numpy as np
+
+from reynolds.density import DOWSON_HIGGINSON, BulkModulus, RationalDensity, Tait, tait_modulus
+from reynolds.errors import FilmInputError
+from reynolds.fluid import DensityLaw, Fluid, ViscosityLaw, incompressible, isoviscous
+from reynolds.mesh import Array
+from reynolds.oil import ISO_GRADES, Oil, dynamic_viscosity, walther
+from reynolds.viscosity import Barus, Roelands
 from swashfilm.case_table import Table
-from swashfilm.fields import Uniform
 from system.faults import nearest_choice
-from system.units import Dimension
+from system.units import Dimension, format_quantity
 
-_KEYS = ("kinematic_viscosity_40C", "kinematic_viscosity_100C")
+_KINEMATIC = ("kinematic_viscosity_40C", "kinematic_viscosity_100C")
 
 
-def read_oil(oil: Table) -> Uniform | None:
-    """The dynamic viscosity (Pa s) of the table's oil by Walther's law and its density; None, faults told.
+class PressureLaw(Enum):
+    """Viscosity over pressure."""
 
-    The table holds `grade` or two kinematic viscosities, `density` and `temperature`.
+    NONE = "none"
+    BARUS = "barus"
+    ROELANDS = "roelands"
+
+
+class Density(Enum):
+    """Density over pressure."""
+
+    NONE = "none"
+    DOWSON_HIGGINSON = "dowson_higginson"
+    BULK_MODULUS = "bulk_modulus"
+    RATIONAL = "rational"
+    TAIT = "tait"
+
+
+class ShearLaw(Enum):
+    """Viscosity over shear rate."""
+
+    NONE = "none"
+    CARREAU = "carreau"
+    CROSS = "cross"
+    EYRING = "eyring"
+
+
+@dataclass(frozen=True)
+class OilStatement:
+    """An oil as its case states it, SI; None where the case does not say and nothing asks for it.
+
+    `kinematic`: viscosities at 40 and 100 degC, m2/s (None: the case gives film.viscosity, at `temperature`, which
+    then falls by exp(-temperature_coefficient dT)); `rows`: the table as a case file writes it.
     """
-    density = oil.positive("density", Dimension.DENSITY)
-    temperature = oil.positive("temperature", Dimension.TEMPERATURE)
-    viscosities = _kinematic_viscosities(oil)
+
+    rows: tuple[str, ...]
+    kinematic: tuple[float, float] | None
+    density: float | None
+    temperature: float | None
+    temperature_coefficient: float
+    specific_heat: float | None
+    conductivity: float | None
+    expansion: float
+    viscosity_law: ViscosityLaw
+    density_law: DensityLaw
+
+    @property
+    def fluid(self) -> Fluid:
+        """The oil's laws in pressure, at one temperature."""
+        return Fluid(self.viscosity_law, self.density_law)
+
+    def at_temperature(self, temperature: Array, viscosity: float) -> Array:
+        """Viscosity (Pa s) without pressure at temperatures (K); `viscosity` is the case's own, Pa s.
+
+        Raises FilmInputError where the law of the viscosity over temperature does not hold.
+        """
+        if self.kinematic is None or self.density is None:
+            cooler = (self.temperature or 0.0) - temperature
+            return np.asarray(viscosity * np.exp(self.temperature_coefficient * cooler))
+        try:
+            return walther(temperature, Oil(*self.kinematic, self.density, 1.0, 1.0)) * self.density
+        except ValueError as reason:
+            raise FilmInputError("film temperature", str(reason), "a film within the range of its oil") from None
+
+
+@dataclass
+class _Rows:
+    """What was read of a table, as a case file writes it."""
+
+    table: Table
+    rows: list[str]
+
+    def positive(self, key: str, dimension: Dimension, default: float | None = None) -> float | None:
+        """A quantity above zero, its fault told, its row kept."""
+        value = self.table.positive(key, dimension, default)
+        if value is not None:
+            self.rows.append(f'{key} = "{format_quantity(value, dimension)}"')
+        return value
+
+    def optional(self, key: str, dimension: Dimension) -> float | None:
+        """A quantity above zero, or None where there is none."""
+        return self.positive(key, dimension) if self.table.get(key) is not None else None
+
+
+def read_oil(oil: Table, *, with_viscosity: bool, with_heat: bool) -> OilStatement | None:
+    """The oil of a table; None, faults told.
+
+    `with_viscosity`: the case gives film.viscosity itself, so that the table need not; `with_heat`: film
+    temperature is solved for, which needs density, temperature, specific heat and conductivity.
+    """
+    rows = _Rows(oil, [])
+    kinematic = _kinematic(rows, needed=not with_viscosity)
+    if with_viscosity and kinematic is not None:
+        oil.fault(
+            "grade" if oil.get("grade") else _KINEMATIC[0], "a viscosity beside film.viscosity", "one of the two"
+        )
+    needs = with_heat or not with_viscosity
+    read = rows.positive if needs else rows.optional
+    density, temperature = read("density", Dimension.DENSITY), read("temperature", Dimension.TEMPERATURE)
+    heat = rows.positive if with_heat else rows.optional
+    specific_heat = heat("specific_heat", Dimension.SPECIFIC_HEAT)
+    conductivity = heat("thermal_conductivity", Dimension.CONDUCTIVITY)
+    expansion = rows.optional("thermal_expansion", Dimension.TEMPERATURE_COEFFICIENT) or 0.0
+    coefficient = 0.0
+    if with_viscosity:
+        coefficient = rows.optional("temperature_coefficient", Dimension.TEMPERATURE_COEFFICIENT) or 0.0
+    faults = len(oil.faults)
+    viscosity_law, density_law = _viscosity_law(rows), _density_law(rows, temperature)
+    _shear_law(oil)
     oil.close()
-    if viscosities is None or density is None or temperature is None:
+    missing = None in (density, temperature) if needs else False
+    missing |= with_heat and None in (specific_heat, conductivity)
+    missing |= kinematic is None and not with_viscosity
+    if missing or len(oil.faults) > faults or viscosity_law is None or density_law is None:
         return None
+    return OilStatement(
+        tuple(rows.rows), kinematic, density, temperature, coefficient, specific_heat, conductivity, expansion,
+        viscosity_law, density_law,
+    )  # fmt: skip
+
+
+def oil_viscosity(oil: Table, stated: OilStatement) -> float | None:
+    """The dynamic viscosity (Pa s) by Walther's law at the table's temperature; None with its fault told."""
+    assert stated.kinematic is not None
+    assert stated.density is not None
+    assert stated.temperature is not None
     try:
         # A film at one temperature asks neither bulk modulus nor specific heat: ones stand for them.
-        fluid = Oil(*viscosities, density, 1.0, 1.0)
-        return Uniform(dynamic_viscosity(fluid, temperature), Dimension.DYNAMIC_VISCOSITY)
+        return dynamic_viscosity(Oil(*stated.kinematic, stated.density, 1.0, 1.0), stated.temperature)
     except ValueError as reason:
         oil.fault("temperature", str(reason), "an oil and a temperature for which Walther's law holds")
         return None
 
 
-def _kinematic_viscosities(oil: Table) -> tuple[float, float] | None:
-    """Kinematic viscosities at 40 and 100 degC (m2/s); None with the fault told."""
+def _viscosity_law(rows: _Rows) -> ViscosityLaw | None:
+    law = rows.table.choice("pressure_law", PressureLaw, PressureLaw.NONE)
+    if law in (None, PressureLaw.NONE):
+        return None if law is None else isoviscous
+    rows.rows.append(f'pressure_law = "{law.value}"')
+    coefficient = rows.positive("pressure_viscosity_coefficient", Dimension.PRESSURE_COEFFICIENT)
+    if coefficient is None:
+        return None
+    return Barus(coefficient) if law is PressureLaw.BARUS else Roelands(coefficient)
+
+
+def _density_law(rows: _Rows, temperature: float | None) -> DensityLaw | None:
+    law = rows.table.choice("density_law", Density, Density.NONE)
+    if law in (None, Density.NONE):
+        return None if law is None else incompressible
+    rows.rows.append(f'density_law = "{law.value}"')
+    if law is Density.DOWSON_HIGGINSON:
+        return DOWSON_HIGGINSON
+    if law is Density.BULK_MODULUS:
+        modulus = rows.positive("bulk_modulus", Dimension.MODULUS)
+        return None if modulus is None else BulkModulus(modulus)
+    if law is Density.RATIONAL:
+        pressure = rows.positive("density_pressure", Dimension.PRESSURE)
+        limit = rows.table.number("density_limit")
+        if limit is not None and limit <= 1.0:
+            rows.table.fault("density_limit", f"{limit:g}", "the density ratio at endless pressure, above 1")
+            limit = None
+        rows.rows.append(f"density_limit = {limit!r}")
+        return None if pressure is None or limit is None else RationalDensity(pressure, limit)
+    default = None if temperature is None else float(tait_modulus(temperature))
+    modulus = rows.positive("tait_modulus", Dimension.MODULUS, default)
+    slope = rows.table.number("tait_slope", 11.0)
+    if slope is not None and slope <= 0.0:
+        rows.table.fault("tait_slope", f"{slope:g}", "the modulus' rise with pressure, above 0 (mineral oils: 11)")
+        slope = None
+    rows.rows.append(f"tait_slope = {slope!r}")
+    return None if modulus is None or slope is None else Tait(modulus, slope)
+
+
+def _shear_law(oil: Table) -> None:
+    law = oil.choice("shear_law", ShearLaw, ShearLaw.NONE)
+    if law in (None, ShearLaw.NONE):
+        return
+    for key in ("second_newtonian", "relaxation_time", "shear_exponent", "eyring_stress"):
+        oil.get(key)
+    expected = "'none' (films of this version are Newtonian; reynolds.rheology has the laws)"
+    oil.fault("shear_law", repr(law.value), expected)
+
+
+def _kinematic(rows: _Rows, *, needed: bool) -> tuple[float, float] | None:
+    """Kinematic viscosities at 40 and 100 degC (m2/s); None with the fault told, or where they are not needed."""
+    oil = rows.table
     grade = oil.get("grade")
+    stated = [key for key in _KINEMATIC if oil.get(key) is not None]
     if grade is None:
-        at_40, at_100 = (oil.positive(key, Dimension.KINEMATIC_VISCOSITY) for key in _KEYS)
+        if not needed and not stated:
+            return None
+        at_40, at_100 = (rows.positive(key, Dimension.KINEMATIC_VISCOSITY) for key in _KINEMATIC)
         return None if at_40 is None or at_100 is None else (at_40, at_100)
-    if stated := [key for key in _KEYS if oil.get(key) is not None]:
+    if stated:
         oil.fault("grade", f"grade beside {' and '.join(stated)}", "the grade or the two viscosities")
         return None
     if not isinstance(grade, str) or grade not in ISO_GRADES:
-        expected = f"one of {', '.join(ISO_GRADES)}, or {' and '.join(_KEYS)} in its place"
+        expected = f"one of {', '.join(ISO_GRADES)}, or {' and '.join(_KINEMATIC)} in its place"
         oil.fault("grade", repr(grade), expected, nearest_choice(str(grade), ISO_GRADES))
         return None
+    rows.rows.append(f'grade = "{grade}"')
     known = ISO_GRADES[grade]
     return known.kinematic_viscosity_40C, known.kinematic_viscosity_100C

@@ -176,9 +176,7 @@ def test_an_edge_of_two_names_has_one_pressure(write, tmp_path):
         ('["10 mm", "10 mm"]', '["10 mm", "-10 mm"]', "film.mesh.size", ["above zero"]),
         ('["10 mm", "10 mm"]', '["10 mm"]', "film.mesh.size", ["along x and y"]),
         (MESH, '"no.vtu"', "film.mesh", ["no file", "no.vtu"]),
-        ("[boundary]", "[time]\nend = '1 s'\n[boundary]", "time", ["no transient films"]),
-        ("[boundary]", "[study]\n[boundary]", "study", ["no series"]),
-        ("[boundary]", "[oil]\n[boundary]", "film.viscosity", ["one of the two"]),
+        ("[boundary]", "[study]\n[boundary]", "study", ["a single case"]),
         ('viscosity = "30 mPa s"', '[oil]\ngrade = "ISO VG 45"', "oil.grade", ["ISO VG 46"]),
         ('viscosity = "30 mPa s"', '[oil]\ngrade = "ISO VG 46"', "oil.density", ["a density"]),
         (

@@ -1,0 +1,114 @@
+"""The [thermal] table of a film case: what the walls do with the film's heat, and what the oil brings along."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from reynolds.across import DEFAULT_LEVELS
+from reynolds.energy import Heat
+from reynolds.wall_heat import Adiabatic, Convecting, GivenTemperature, Turning, Wall
+from swashfilm.case_table import Table
+from swashfilm.oil_case import OilStatement
+from system.units import Dimension, format_quantity
+
+_WALLS = "{ temperature }, { heat_transfer_coefficient, outer_temperature }, 'adiabatic' or 'turning'"
+_MOST_LEVELS = 12
+
+
+@dataclass(frozen=True)
+class ThermalStatement:
+    """Both walls, the temperature (K) of what flows in, and the number of levels across the film."""
+
+    fixed_wall: Wall
+    moving_wall: Wall
+    inlet_temperature: float | None
+    levels: int
+
+    def heat(self, oil: OilStatement, temperatures: Mapping[str, float | None]) -> Heat:
+        """The core's heat problem; `temperatures` (K) by boundary, None where the inlet temperature holds."""
+        assert oil.density is not None
+        assert oil.specific_heat is not None
+        assert oil.conductivity is not None
+        usual = oil.temperature if self.inlet_temperature is None else self.inlet_temperature
+        assert usual is not None
+        inflow = {name: usual if kelvin is None else kelvin for name, kelvin in temperatures.items()}
+        return Heat(
+            oil.density,
+            oil.specific_heat,
+            oil.conductivity,
+            self.fixed_wall,
+            self.moving_wall,
+            inflow,
+            oil.expansion,
+        )
+
+
+def read_thermal(top: Table) -> ThermalStatement | None:
+    """The [thermal] table; None where there is none or, told, where it has a fault."""
+    table = top.table("thermal")
+    if table is None:
+        return None
+    fixed, moving = _wall(table, "fixed_wall"), _wall(table, "moving_wall")
+    inlet = table.positive("inlet_temperature", Dimension.TEMPERATURE) if table.get("inlet_temperature") else None
+    levels = table.get("levels")
+    levels = DEFAULT_LEVELS if levels is None else levels
+    if type(levels) is not int or not 2 <= levels <= _MOST_LEVELS:
+        table.fault("levels", repr(levels), f"a whole number of levels across the film, 2 to {_MOST_LEVELS}")
+        levels = None
+    table.close()
+    if fixed is None or moving is None or levels is None:
+        return None
+    return ThermalStatement(fixed, moving, inlet, levels)
+
+
+def _wall(table: Table, key: str) -> Wall | None:
+    raw = table.get(key)
+    if raw == "adiabatic":
+        return Adiabatic()
+    if raw == "turning":
+        return Turning()
+    if not isinstance(raw, dict):
+        table.fault(key, "no such key" if raw is None else repr(raw), _WALLS)
+        return None
+    wall = Table(table.name(key), raw, table.faults)
+    if "temperature" in raw:
+        kelvin = wall.positive("temperature", Dimension.TEMPERATURE)
+        wall.close()
+        return None if kelvin is None else GivenTemperature(kelvin)
+    coefficient = wall.positive("heat_transfer_coefficient", Dimension.HEAT_TRANSFER)
+    outer = wall.positive("outer_temperature", Dimension.TEMPERATURE)
+    wall.get("temperature")
+    wall.close()
+    return None if coefficient is None or outer is None else Convecting(coefficient, outer)
+
+
+def thermal_rows(stated: ThermalStatement) -> list[str]:
+    """The table as a case file writes it."""
+    rows = [
+        "[thermal]",
+        f"fixed_wall = {_written(stated.fixed_wall)}",
+        f"moving_wall = {_written(stated.moving_wall)}",
+    ]
+    if stated.inlet_temperature is not None:
+        rows.append(f'inlet_temperature = "{format_quantity(stated.inlet_temperature, Dimension.TEMPERATURE)}"')
+    return [*rows, f"levels = {stated.levels}"]
+
+
+def _written(wall: Wall) -> str:
+    def kelvin(value: object) -> str:
+        assert isinstance(value, float)
+        return format_quantity(value, Dimension.TEMPERATURE)
+
+    match wall:
+        case Adiabatic():
+            return '"adiabatic"'
+        case Turning():
+            return '"turning"'
+        case GivenTemperature(temperature):
+            return f'{{ temperature = "{kelvin(temperature)}" }}'
+        case Convecting(coefficient, outer):
+            assert isinstance(coefficient, float)
+            shown = format_quantity(coefficient, Dimension.HEAT_TRANSFER)
+            return f'{{ heat_transfer_coefficient = "{shown}", outer_temperature = "{kelvin(outer)}" }}'
+    raise AssertionError(wall)

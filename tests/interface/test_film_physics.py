@@ -1,0 +1,282 @@
+"""Switches of a film case: oil laws, temperature, walls that give way, time; their faults and their round trip."""
+
+import csv
+import json
+from pathlib import Path
+
+import meshio
+import numpy as np
+import pytest
+
+from reynolds.density import DOWSON_HIGGINSON, BulkModulus, RationalDensity, Tait
+from reynolds.film import Cavitation
+from reynolds.viscosity import Barus, Roelands
+from swashfilm.__main__ import main
+from swashfilm.film_case import FilmCase, load_case
+from swashfilm.film_study import film_summary, solve_case
+from system.faults import InputFaults
+
+ROOT = Path(__file__).resolve().parents[2]
+EXAMPLES = ROOT / "examples" / "films"
+BASE = """
+format = 1
+[film]
+mesh = { kind = "rectangle", size = ["10 mm", "1 mm"], cells = [16, 2] }
+thickness = "10 um"
+velocity = ["1 m/s", "0 m/s"]
+VISCOSITY
+[boundary]
+left = { pressure = "1 bar" }
+right = { pressure = "0 bar" }
+"""
+GIVEN = BASE.replace("VISCOSITY", 'viscosity = "30 mPa s"')
+GRADE = BASE.replace("VISCOSITY", "") + (
+    '[oil]\ngrade = "ISO VG 46"\ndensity = "860 kg/m3"\ntemperature = "50 degC"\n'
+    'specific_heat = "1950 J/(kg K)"\nthermal_conductivity = "0.13 W/(m K)"\n'
+)
+COOLED = '{ heat_transfer_coefficient = "80 W/(m2 K)", outer_temperature = "20 degC" }'
+WALLS = '[thermal]\nfixed_wall = "adiabatic"\nmoving_wall = { temperature = "50 degC" }\n'
+PLATE = (
+    '[elastic]\nfixed = { kind = "plate", thickness = "2 mm", cells = [4, 1, 1], support = "bottom", '
+    'youngs_modulus = "210 GPa", poissons_ratio = 0.3 }\n'
+)
+TIME = '[time]\nend = "4 ms"\nstep = "1 ms"\n'
+
+
+@pytest.fixture
+def read(tmp_path):
+    def reading(text: str) -> FilmCase:
+        path = tmp_path / "case.toml"
+        path.write_text(text, encoding="utf-8")
+        case = load_case(path)
+        assert isinstance(case, FilmCase)
+        return case
+
+    return reading
+
+
+@pytest.mark.parametrize(
+    ("oil", "viscosity", "density"),
+    [
+        ('pressure_law = "barus"\npressure_viscosity_coefficient = "20 1/GPa"', Barus(2e-8), None),
+        ('pressure_law = "roelands"\npressure_viscosity_coefficient = "20 1/GPa"', Roelands(2e-8), None),
+        ('density_law = "dowson_higginson"', None, DOWSON_HIGGINSON),
+        ('density_law = "bulk_modulus"\nbulk_modulus = "1.6 GPa"', None, BulkModulus(1.6e9)),
+        (
+            'density_law = "rational"\ndensity_pressure = "2.22 GPa"\ndensity_limit = 1.66',
+            None, RationalDensity(2.22e9, 1.66),
+        ),
+        ('density_law = "tait"\ntait_modulus = "1.2 GPa"\ntait_slope = 10.5', None, Tait(1.2e9, 10.5)),
+    ],
+)  # fmt: skip
+def test_an_oil_brings_its_laws(read, oil, viscosity, density):
+    case = read(GIVEN + "[oil]\n" + oil)
+    assert viscosity is None or case.problem.fluid.viscosity == viscosity
+    assert density is None or case.problem.fluid.density == density
+    again = read(case.resolved)
+    assert again.resolved == case.resolved
+    assert again.problem.fluid == case.problem.fluid
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        GRADE + WALLS + 'inlet_temperature = "45 degC"\nlevels = 4\n',
+        GRADE + WALLS.replace('"adiabatic"', COOLED),
+        GRADE.replace('"1 bar"', '"1 bar", temperature = "60 degC"') + WALLS.replace('"adiabatic"', '"turning"'),
+        GIVEN + PLATE,
+        GIVEN + PLATE.replace("fixed =", 'winkler = "1e14 Pa/m"\nmoving ='),
+        GIVEN + '[elastic]\nmoving = { kind = "half_space", youngs_modulus = "70 GPa", poissons_ratio = 0.33 }\n',
+        GIVEN.replace('"1 bar"', '"1e5*(1 + t)"').replace('"10 um"', '"1e-5*(1 + t)"') + TIME + "outputs = 2\n",
+        GIVEN.replace("[boundary]", "initial_film_fraction = 0.7\n[boundary]") + TIME,
+    ],
+)  # fmt: skip
+def test_a_resolved_case_of_every_switch_is_the_same_case(read, text):
+    first = read(text)
+    again = read(first.resolved)
+    assert again.resolved == first.resolved
+    assert film_summary(solve_case(again))["load_N"] == film_summary(solve_case(first))["load_N"]
+
+
+def example(name: str) -> dict:
+    return film_summary(solve_case(load_case(EXAMPLES / f"{name}.toml")))
+
+
+def test_a_starved_slider_begins_where_its_closed_form_does():
+    """Verification cases 3.1: film fraction .65, W* = .114235, pmax* = .207692; the front moves by whole cells."""
+    summary = example("starved_slider")
+    scale = 0.03 * 1.0 * 0.01**2 / 1e-5**2 * 1e-3
+    cell = 1.0 / 140.0
+    assert summary["load_N"] == pytest.approx(0.114235 * scale, rel=5.0 * cell)
+    assert summary["cavitated_area_fraction"] == pytest.approx(0.142857, abs=1.5 * cell)
+    assert summary["film_fraction_min"] == 0.65
+
+
+def test_a_soft_channel_lets_through_what_winkler_says():
+    """Verification cases 3.11: k/(48 mu L) [(h0 + p/k)^4 - h0^4] per width."""
+    summary = example("soft_channel")
+    flow = 1e13 / (48 * 0.03 * 0.01) * ((5e-6 + 30e6 / 1e13) ** 4 - 5e-6**4) * 1e-3
+    assert summary["flow_m3_per_s"]["right"] == pytest.approx(flow, rel=1e-3)
+    assert summary["deformation_max_m"] == pytest.approx(3e-6)
+
+
+def test_a_bent_plate_gives_way_as_much_as_its_stiffness_tells():
+    stiff = example("bending_plate")
+    assert 0.2e-6 < stiff["deformation_max_m"] < 5e-6
+    case = load_case(EXAMPLES / "bending_plate.toml")
+    rigid = film_summary(solve_case(case.refined()))
+    assert rigid["load_N"] == pytest.approx(stiff["load_N"], rel=0.02)
+
+
+def test_a_warm_film_is_in_balance_with_its_walls():
+    summary = example("warm_slider")
+    assert summary["temperature_max_K"] > 313.15
+    out = summary["oil_heat_W"] + summary["wall_heat_W"]["moving"] + summary["wall_heat_W"]["fixed"]
+    assert out == pytest.approx(summary["dissipation_W"], rel=0.01)
+    assert abs(summary["wall_heat_W"]["fixed"]) < 1e-9
+    assert summary["heat_balance_error"] < 1e-9
+
+
+def test_a_viscosity_that_falls_with_temperature_needs_no_grade(read):
+    oil = GRADE.partition("[oil]")[2].replace('grade = "ISO VG 46"', 'temperature_coefficient = "0.03 1/K"')
+    cold = film_summary(solve_case(read(GIVEN)))
+    warm = film_summary(solve_case(read(GIVEN + "[oil]" + oil + WALLS)))
+    assert warm["temperature_max_K"] > 323.15
+    assert warm["dissipation_W"] < cold["dissipation_W"]
+
+
+def test_a_transient_leaves_its_films_and_its_history(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    text = GIVEN.replace('"10 um"', '"1e-5*(1 - 20*t)"').replace('"1 m/s"', '"0 m/s"').replace("1 bar", "0 bar")
+    text = text.replace(
+        '"rectangle", size = ["10 mm", "1 mm"], cells = [16, 2]',
+        '"rectangle", size = ["10 mm", "1 mm"], cells = [32, 1], periodic = "y"',
+    )
+    Path("press.toml").write_text(text + TIME + "outputs = 2\n", encoding="utf-8")
+    assert main(["film", "press.toml", "-o", "run"]) == 0
+    with open("run/history.csv", encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    assert [float(row["time / s"]) for row in rows] == pytest.approx([1e-3, 2e-3, 3e-3, 4e-3])
+    # A strip pressed at V: load per width mu V L^3/h^3, h at the end of the step.
+    for row in rows:
+        thickness = 1e-5 * (1 - 20 * float(row["time / s"]))
+        assert float(row["load / N"]) == pytest.approx(0.03 * 2e-4 * 0.01**3 / thickness**3 * 1e-3, rel=2e-3)
+    assert sorted(path.name for path in Path("run").glob("film_*.vtu")) == ["film_0001.vtu", "film_0002.vtu"]
+    assert 'timestep="0.004"' in Path("run/film.pvd").read_text("utf-8")
+    summary = json.loads(Path("run/summary.json").read_text("utf-8"))
+    assert summary["time_steps"] == 4
+    assert summary["mass_balance_error_of_time"] < 1e-9
+
+
+def test_fields_of_every_switch_are_written(tmp_path):
+    for name, fields in (("warm_slider", {"temperature", "film_fraction"}), ("soft_channel", {"deformation"})):
+        assert main(["film", str(EXAMPLES / f"{name}.toml"), "-o", str(tmp_path / name), "--csv"]) == 0
+        assert fields <= set(meshio.read(tmp_path / name / "film.vtu").point_data)
+        header = (tmp_path / name / "fields.csv").read_text("utf-8").splitlines()[0]
+        assert fields | {"x", "y", "film_pressure"} <= set(header.split(","))
+
+
+def test_a_film_hotter_than_its_oil_is_no_number(read):
+    from reynolds.errors import FilmNotConverged
+
+    hot = read(
+        GRADE.replace('"1 m/s"', '"60 m/s"').replace('"10 um"', '"3 um"') + WALLS.replace("50 degC", "140 degC")
+    )
+    with pytest.raises(FilmNotConverged) as refused:
+        solve_case(hot)
+    assert "film temperature" in str(refused.value)
+
+
+@pytest.mark.parametrize(
+    ("text", "path", "words"),
+    [
+        (GIVEN + '[oil]\ngrade = "ISO VG 46"\n', "oil.grade", ["beside film.viscosity", "one of the two"]),
+        (GIVEN + '[oil]\npressure_law = "baros"\n', "oil.pressure_law", ["'barus'", "barus"]),
+        (
+            GIVEN + '[oil]\npressure_law = "barus"\n', "oil.pressure_viscosity_coefficient",
+            ["a pressure coefficient", "20 1/GPa"],
+        ),
+        (
+            GIVEN + '[oil]\npressure_law = "barus"\npressure_viscosity_coefficient = "20 GPa"\n',
+            "oil.pressure_viscosity_coefficient", ["not a pressure coefficient"],
+        ),
+        (GIVEN + '[oil]\ndensity_law = "bulk_modulus"\n', "oil.bulk_modulus", ["a bulk modulus"]),
+        (
+            GIVEN + '[oil]\ndensity_law = "rational"\ndensity_pressure = "2 GPa"\ndensity_limit = 0.9\n',
+            "oil.density_limit", ["0.9", "above 1"],
+        ),
+        (
+            GIVEN + '[oil]\ndensity_law = "tait"\ntait_modulus = "1 GPa"\ntait_slope = 0\n', "oil.tait_slope",
+            ["above 0"],
+        ),
+        (GIVEN + '[oil]\nshear_law = "carreau"\n', "oil.shear_law", ["'carreau'", "Newtonian"]),
+        (GIVEN + '[oil]\npresure_law = "barus"\n', "oil.presure_law", ["unknown key", "pressure_law"]),
+        (GIVEN + WALLS, "thermal", ["no table [oil]"]),
+        (GRADE.replace("specific_heat", "spec_heat") + WALLS, "oil.specific_heat", ["a specific heat"]),
+        (GRADE + WALLS.replace('"adiabatic"', '"adiabat"'), "thermal.fixed_wall", ["'adiabat'", "'adiabatic'"]),
+        (GRADE + "[thermal]\nfixed_wall = 'adiabatic'\n", "thermal.moving_wall", ["no such key"]),
+        (GRADE + WALLS + "levels = 1\n", "thermal.levels", ["2 to 12"]),
+        (
+            GRADE + WALLS.replace('temperature = "50', 'heat_transfer_coefficient = "50'),
+            "thermal.moving_wall.heat_transfer_coefficient", ["a heat transfer coefficient"],
+        ),
+        (GRADE + WALLS + TIME, "thermal", ["beside [time]"]),
+        (
+            GIVEN + "[oil]" + GRADE.partition("[oil]")[2].replace('grade = "ISO VG 46"', "") + WALLS,
+            "oil.temperature_coefficient", ["how the viscosity falls"],
+        ),
+        (GIVEN + "[elastic]\n", "elastic", ["nothing in it", "winkler"]),
+        (GIVEN + '[elastic]\nwinkler = "1e13 Pa"\n', "elastic.winkler", ["not a stiffness per area"]),
+        (GIVEN + PLATE.replace('"plate"', '"plat"'), "elastic.fixed.kind", ["plate"]),
+        (GIVEN + PLATE.replace("[4, 1, 1]", "[4, 1]"), "elastic.fixed.cells", ["three whole numbers"]),
+        (GIVEN + PLATE.replace('"bottom"', '"top"'), "elastic.fixed.support", ["bottom, edge, free"]),
+        (GIVEN + PLATE.replace("0.3", "0.5"), "elastic.fixed.poissons_ratio", ["between -1 and 0.5"]),
+        (GIVEN + PLATE.replace("thickness", "thick"), "elastic.fixed.thickness", ["a length"]),
+        (
+            GIVEN + PLATE.replace('kind = "plate"', 'mesh = "no.msh", face = "top"'), "elastic.fixed.mesh",
+            ["no file"],
+        ),
+        (GIVEN + TIME.replace("1 ms", "9 ms"), "time.step", ["at most the end"]),
+        (GIVEN + TIME + "outputs = 0\n", "time.outputs", ["from 1 on"]),
+        (GIVEN + TIME.replace("end", "till"), "time.end", ["a time"]),
+        (
+            GIVEN.replace("[boundary]", 'squeeze = "1 um/s"\n[boundary]') + TIME, "film.squeeze",
+            ["beside a table [time]"],
+        ),
+        (
+            GIVEN.replace("[boundary]", "initial_film_fraction = 0.5\n[boundary]"), "film.initial_film_fraction",
+            ["steady"],
+        ),
+        (
+            GIVEN.replace("[boundary]", "initial_film_fraction = 1.5\n[boundary]") + TIME,
+            "film.initial_film_fraction", ["at most 1"],
+        ),
+        (GIVEN.replace('"10 um"', '"1e-5*(1 + t)"'), "film.thickness", ["needs a table [time]"]),
+        (GIVEN.replace('"1 bar"', '"1e5*x"') + TIME, "boundary.left.pressure", ["a formula of t"]),
+        (GIVEN + "[roughness]\n", "roughness", ["smooth walls"]),
+        (GIVEN + "[contact]\n", "contact", ["smooth walls"]),
+    ],
+)  # fmt: skip
+def test_a_fault_of_a_switch_says_where(read, text, path, words):
+    with pytest.raises(InputFaults) as refused:
+        read(text)
+    told = [fault for fault in refused.value.faults if fault.path == path]
+    assert told, str(refused.value)
+    for word in words:
+        assert word in f"{told[0].found} {told[0].expected} {told[0].nearest}", str(refused.value)
+
+
+def test_a_film_that_closes_in_time_says_when(read):
+    case = read(GIVEN.replace('"10 um"', '"1e-5*(1 - 500*t)"') + TIME)
+    with pytest.raises(ValueError, match=r"at t = 0.002 s, film.thickness: .* above zero everywhere"):
+        solve_case(case)
+
+
+def test_the_fixed_wall_may_move_instead(read):
+    wedge = GIVEN.replace('"10 um"', '"1e-5*(2 - x/0.01)"').replace("1 bar", "0 bar")
+    one = film_summary(solve_case(read(wedge)))
+    other = film_summary(solve_case(read(wedge.replace("velocity =", "velocity_fixed ="))))
+    assert other["load_N"] == pytest.approx(one["load_N"])
+    assert other["friction_force_fixed_N"] == pytest.approx(one["friction_force_moving_N"])
+    assert read(wedge).problem.cavitation is Cavitation.JFO
+    assert np.all(read(wedge).problem.film.velocity_fixed[0] == 0.0)
