@@ -41,6 +41,7 @@ LEAST_WET = 1e-6  # film fraction that conducts where there is less: a dry film 
 LEAST_JUMP = 2e-5  # of the range of temperature: smaller jumps go upwind, which lets the corrections settle
 LEAST_RANGE = 1e-3  # K, where all is nearly at one temperature
 CORRECTED = 1e-7  # change of the last correction over the range of temperature
+PATIENCE = 40  # corrections, after which larger and larger jumps go upwind too
 CLOSER = 0.02  # of the residual is left by the solve of a correction
 MAX_CORRECTIONS = 100
 NO_INFLOW = 1e-9  # of the flows that meet at the unknown
@@ -109,7 +110,9 @@ class FilmTemperature:
     temperature (size, m + 2) at the levels across (fixed wall first), mean (size,) over the thickness; heat_flux
     (2, size) W/m2 into the fixed and the moving wall; to_fixed, to_moving W; carried_out: by the oil through the
     boundary, against `datum` (K), the lowest given temperature; stored: in the oil that the film holds;
-    dissipation, compression: what arises. energy_balance_error: what is missing, relative to all that is passed.
+    dissipation, compression: what arises. least_jump (K): smaller jumps between unknowns go upwind, of first order;
+    2e-5 of the range where the limiter settles soon. energy_balance_error: what is missing, over all that is
+    passed.
     """
 
     solution: FilmSolution = field(repr=False)
@@ -123,6 +126,7 @@ class FilmTemperature:
     dissipation: float
     compression: float
     datum: float
+    least_jump: float
     energy_balance_error: float
     iterations: int
 
@@ -168,35 +172,39 @@ def solve_energy(
     """The temperature of a solved film, whose viscosities follow `profile`.
 
     `start` (size, m + 2) K warms the solve; `before` (size, m + 2) K is the temperature one time step ago, wanted
-    where the film problem has a storage. Afterwards the energy balance closes to 1e-9 of the heat passed. Raises
-    FilmInputError where oil enters without a temperature, and FilmNotConverged.
+    where the film problem has a storage. Afterwards the energy balance closes to 1e-9 of the heat passed (1e-8
+    where conduction outweighs convection 1e4 times). Raises FilmInputError where oil enters without a temperature,
+    and FilmNotConverged.
     """
     terms = _terms(solution, heat, profile, before)
     matrix, right = _equations(solution, heat, profile, terms)
     guess = None if start is None else start - terms.datum
-    rise, iterations = _sharpened(terms, matrix, right, guess)
-    return _answer(solution, heat, profile, terms, matrix, rise, iterations)
+    rise, least_jump, iterations = _sharpened(terms, matrix, right, guess)
+    return _answer(solution, heat, profile, terms, matrix, rise, least_jump, iterations)
 
 
-def _sharpened(terms: _Terms, matrix: HeatMatrix, right: Array, guess: Array | None) -> tuple[Array, int]:
-    """The rise with faces of second order: upwind solves, each with what the last field adds on the right."""
+def _sharpened(terms: _Terms, matrix: HeatMatrix, right: Array, guess: Array | None) -> tuple[Array, float, int]:
+    """The rise with faces of second order: upwind solves, each with what the last field adds on the right.
+
+    Also the jump of temperature below which faces are upwind: it grows where the corrections do not settle.
+    """
     neighbours, flow = terms.flows.neighbours, terms.flows.flow
     graph = (neighbours.start, neighbours.neighbour, neighbours.edge, neighbours.sign, flow)
     history, iterations, rise = History(), 0, guess
     if rise is None:
         rise, iterations = solve_heat(matrix, right, None)
     added, whole = np.empty_like(terms.entering), right.copy()
-    for _ in range(MAX_CORRECTIONS):
-        spread = float(np.ptp(rise))
-        least = LEAST_JUMP * max(spread, LEAST_RANGE)
+    for correction in range(MAX_CORRECTIONS):
+        spread = max(float(np.ptp(rise)), LEAST_RANGE)
+        least = LEAST_JUMP * spread * 2.0 ** max(0, correction - PATIENCE)
         energy_kernels.sharpen(*graph, terms.entering, terms.inflow - terms.datum, rise, least, added)
         whole[:, 1:-1] = right[:, 1:-1] + added
         found, sweeps = solve_heat(matrix, whole, rise, CLOSER)
         iterations += sweeps
         change = float(np.abs(found - rise).max())
-        if change <= CORRECTED * max(spread, LEAST_RANGE):
+        if change <= CORRECTED * spread:
             found, sweeps = solve_heat(matrix, whole, found)
-            return found, iterations + sweeps
+            return found, least, iterations + sweeps
         rise = history.extrapolate(rise, found)
     raise FilmNotConverged(
         f"film temperature not settled after {MAX_CORRECTIONS} corrections (it still changes by {change:.2g} K)",
@@ -301,6 +309,7 @@ def _answer(
     terms: _Terms,
     matrix: HeatMatrix,
     rise: Array,
+    least_jump: float,
     iterations: int,
 ) -> FilmTemperature:
     weights, flows, inner = profile.levels.weights, terms.flows, rise[:, 1:-1]
@@ -327,6 +336,7 @@ def _answer(
         dissipation=spent,
         compression=pressed,
         datum=terms.datum,
+        least_jump=least_jump,
         energy_balance_error=abs(missing) / scale if scale > 0.0 else 0.0,
         iterations=iterations,
     )
