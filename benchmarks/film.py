@@ -91,7 +91,7 @@ def time_swashfilm(n: int, cavitation: Cavitation, verified: float, repeats: int
         f"reynolds, {'full film' if cavitation is Cavitation.NONE else 'with rupture'}",
         space.size,
         setup,
-        least(lambda: stiffness(space, (conductance, conductance)), repeats),
+        least(lambda: stiffness(space, (conductance, conductance, ZERO)), repeats),
         least(lambda: FilmSolver(space).solve(problem), repeats),
         solution.iterations,
         load,

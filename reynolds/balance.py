@@ -22,7 +22,7 @@ from reynolds.film import FilmProblem
 from reynolds.fluid import CONSTANT
 from reynolds.mesh import Array
 from reynolds.space import FilmSpace
-from reynolds.transport import Transport, at_points, lumped, transport
+from reynolds.transport import Tensor, Transport, along, at_points, lumped, transport
 
 
 @dataclass(frozen=True)
@@ -62,10 +62,10 @@ def operators(problem: FilmProblem, state: State) -> Operators:
     return Operators(terms, stiffness(space, terms.conductance), carried, diffusion, content, rate)
 
 
-def stiffness(space: FilmSpace, conductance: tuple[Array, Array]) -> Array:
+def stiffness(space: FilmSpace, conductance: Tensor) -> Array:
     """Entries of int k grad p . grad f, upper triangle in the space's pattern (m3/(s Pa)).
 
-    `conductance` is h^3/(12 mu) along x and y, (cells | 1, points | 1) each, m3/(Pa s).
+    `conductance` is h^3/(12 mu), its xx, yy and xy part, (cells | 1, points | 1) each, m3/(Pa s).
     """
     reference = space.reference
     data = np.empty(len(space.pattern.indices))
@@ -154,11 +154,9 @@ def slopes(problem: FilmProblem, parts: Operators, state: State) -> Slopes:
     c_upper, c_lower = parts.convection
     p_upper = p_lower = parts.stiffness
     if problem.fluid is not CONSTANT:
-        driven = [
-            -k * terms.by_pressure * along
-            for k, along in zip(terms.conductance, steep_gradient(space, state.pressure), strict=True)
-        ]
-        changed = convection(space, (driven[0], driven[1]), steep=True)
+        driven_x, driven_y = along(terms.conductance, steep_gradient(space, state.pressure))
+        less = -terms.by_pressure
+        changed = convection(space, (less * driven_x, less * driven_y), steep=True)
         filled = state.film_fraction * ratio_slope
         p_upper = parts.stiffness + changed[0] + c_upper * filled[column]
         p_lower = parts.stiffness + changed[1] + c_lower * filled[row]
@@ -186,15 +184,13 @@ def by_opening(problem: FilmProblem, parts: Operators, state: State) -> csr_arra
     """dR by the opening at each vertex, (size, vertices) m2/s."""
     space, terms, reference = problem.space, parts.transport, problem.space.reference
     filling = state.film_fraction * density(problem, state.pressure)[0]
-    driven = [
-        k * terms.by_thickness * along
-        for k, along in zip(terms.conductance, steep_gradient(space, state.pressure), strict=True)
-    ]
-    carried = [-at_points(space, filling) * flux for flux in terms.flux_by_thickness]
+    driven = along(terms.conductance_slope, steep_gradient(space, state.pressure))
+    full = at_points(space, filling)
+    carried = (-full * terms.flux_slope[0], -full * terms.flux_slope[1])
     local = _tested(space, driven, reference.steep_gradient, reference.steep_geometry, space.steep_area)
     local += _tested(space, carried, reference.gradient, reference.geometry_gradient, space.area)
     if problem.storage is not None:
-        per_second = np.broadcast_to(terms.content_by_thickness / problem.storage.step, space.area.shape)
+        per_second = np.broadcast_to(terms.content_slope / problem.storage.step, space.area.shape)
         local += np.einsum(
             "eq,qi,qv,ei->eiv", per_second * space.area, reference.value, reference.geometry_value,
             filling[space.dofs], optimize=True,
@@ -206,7 +202,7 @@ def by_opening(problem: FilmProblem, parts: Operators, state: State) -> csr_arra
     )
 
 
-def _tested(space: FilmSpace, flux: list[Array], gradient: Array, geometry: Array, area: Array) -> Array:
+def _tested(space: FilmSpace, flux: tuple[Array, Array], gradient: Array, geometry: Array, area: Array) -> Array:
     """int f_v flux . grad f_i with f_v the basis of the cell's corners, (cells, basis, corners)."""
     jacobian = np.einsum("evd,qvg->eqdg", space.vertices[space.cells], geometry)
     slopes = np.einsum("qig,eqgd->eqid", gradient, np.linalg.inv(jacobian))

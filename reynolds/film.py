@@ -13,9 +13,11 @@ from enum import Enum
 import numpy as np
 from numpy.typing import NDArray
 
+from reynolds.contact import Asperities
 from reynolds.errors import FilmInputError
 from reynolds.fluid import CONSTANT, Fluid
 from reynolds.mesh import Array
+from reynolds.roughness import Surface
 from reynolds.space import FilmSpace
 from reynolds.walls import Walls
 
@@ -135,9 +137,10 @@ class FilmProblem:
     """One film with its boundary conditions; a named boundary that is left out is closed (no flow).
 
     `held_nodes` (size,) may hold further unknowns at a pressure: NaN where the film is free (regions of the
-    film plane that lie under a port). `fluid` gives viscosity and density over pressure, `walls` how far the walls
-    give way. With `storage` the film is one step of a transient: the change of
-    what it holds takes the place of `film.squeeze`. Pressures in Pa on one common reference, gauge or absolute.
+    film plane that lie under a port). `fluid` gives viscosity and density over pressure, `surface`
+    the roughness of the walls, `asperities` what they bear where they touch, and `walls` how far they give way.
+    With `storage` the film is one step of a transient: the change of what it holds takes the place of
+    `film.squeeze`. Pressures in Pa on one common reference, gauge or absolute.
     Raises FilmInputError for a field that is not of the space, or of which a value is no number.
     """
 
@@ -148,6 +151,8 @@ class FilmProblem:
     cavitation_pressure: float = 0.0
     held_nodes: Array | None = None
     fluid: Fluid = CONSTANT
+    surface: Surface | None = None
+    asperities: Asperities | None = None
     walls: Walls | None = None
     storage: Storage | None = None
 

@@ -46,26 +46,29 @@ def measure(vertices, cells, geometry_gradient, weights, area):
 
 
 @njit(**_FAST)
-def stiffness(vertices, cells, dofs, slots, gradient, geometry_gradient, weights, along_x, along_y, data):
-    """Add int (kx, ky) grad p . grad f to the upper triangle; data follows the fixed pattern through slots."""
+def stiffness(vertices, cells, dofs, slots, gradient, geometry_gradient, weights, k_xx, k_yy, k_xy, data):
+    """Add int k grad p . grad f to the upper triangle; data follows the fixed pattern through slots."""
     nb = dofs.shape[1]
-    xe, xq = int(along_x.shape[0] > 1), int(along_x.shape[1] > 1)
-    ye, yq = int(along_y.shape[0] > 1), int(along_y.shape[1] > 1)
-    gx, gy = np.empty(nb), np.empty(nb)
+    xe, xq = int(k_xx.shape[0] > 1), int(k_xx.shape[1] > 1)
+    ye, yq = int(k_yy.shape[0] > 1), int(k_yy.shape[1] > 1)
+    ze, zq = int(k_xy.shape[0] > 1), int(k_xy.shape[1] > 1)
+    gx, gy, fx, fy = np.empty(nb), np.empty(nb), np.empty(nb), np.empty(nb)
     data[:] = 0.0
     for e in range(cells.shape[0]):
         for q in range(weights.shape[0]):
             det, ixx, ixy, iyx, iyy = _inverse_map(vertices, cells[e], geometry_gradient, q)
             w = weights[q] * abs(det)
-            wx, wy = w * along_x[e * xe, q * xq], w * along_y[e * ye, q * yq]
+            wx, wy, wz = w * k_xx[e * xe, q * xq], w * k_yy[e * ye, q * yq], w * k_xy[e * ze, q * zq]
             for i in range(nb):
                 rx, ry = gradient[q, i, 0], gradient[q, i, 1]
                 gx[i] = ixx * rx + ixy * ry
                 gy[i] = iyx * rx + iyy * ry
+                fx[i] = wx * gx[i] + wz * gy[i]
+                fy[i] = wz * gx[i] + wy * gy[i]
             k = 0
             for i in range(nb):
                 for j in range(i, nb):
-                    value = wx * gx[i] * gx[j] + wy * gy[i] * gy[j]
+                    value = fx[i] * gx[j] + fy[i] * gy[j]
                     # Two local nodes tied to one unknown (seam, pocket) meet on its diagonal twice.
                     if i != j and dofs[e, i] == dofs[e, j]:
                         value *= 2.0

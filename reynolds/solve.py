@@ -13,6 +13,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import csc_array, issparse
+from scipy.sparse.linalg import splu
 
 from reynolds import kernels
 from reynolds.balance import (
@@ -33,6 +34,7 @@ from reynolds.film import Cavitation, FilmProblem, FilmSolution
 from reynolds.fluid import CONSTANT
 from reynolds.linear import Factor, GeneralFactor
 from reynolds.mesh import Array
+from reynolds.opening import opening, opening_slope
 from reynolds.setting import Setting, spread
 from reynolds.space import FilmSpace
 
@@ -79,16 +81,17 @@ class FilmSolver:
         setting = spread(problem)
         at = self._begin(problem, setting, start)
         seen = {at.cavity.tobytes()}
-        cycles = False
+        cycles = near = False
         for iteration in range(1, MAX_ITERATIONS + 1):
             signed = self._step(problem, setting, at)
-            new = _shortened(problem, setting, at, signed) if cycles else _at(problem, setting, at, signed)
+            new = _advanced(problem, setting, at, signed, downhill=cycles)
             settled, at = bool(np.array_equal(new.cavity, at.cavity)), new
             _check_degree(problem, at.cavity)
             imbalance = _imbalance(problem, setting, at)
-            # Under JFO a signed unknown next to zero may change sides for ever: either side is the solution.
-            if (settled or problem.cavitation is Cavitation.JFO) and imbalance < TOLERANCE:
+            if imbalance < TOLERANCE and (settled or near):
                 return _solution(problem, setting, at, imbalance, iteration)
+            # Under JFO an unknown next to zero may change sides for ever: after one more step either side does.
+            near = imbalance < TOLERANCE and problem.cavitation is Cavitation.JFO
             cycles |= iteration >= FULL_STEPS or (not settled and at.cavity.tobytes() in seen)
             seen.add(at.cavity.tobytes())
         raise _not_settled(problem, at, imbalance)
@@ -112,7 +115,7 @@ class FilmSolver:
         """The signed unknowns after one Newton step of the free ones; held ones stay as they are."""
         carried = problem.cavitation is Cavitation.JFO and bool(at.cavity.any())
         if _is_linear(problem) and not carried:
-            matrix, load = _symmetric_step(problem, setting, at, setting.held | at.cavity)
+            matrix, load = _symmetric_step(problem, setting, at, _fixed(problem, setting, at))
             self._factor.update(matrix)
             change, scale = self._factor.solve(load), 0.0
         else:
@@ -149,9 +152,8 @@ def _check_degree(problem: FilmProblem, cavity: NDArray[np.bool_]) -> None:
         )
 
 
-def _opened(problem: FilmProblem, pressure: Array, fraction: Array) -> State:
-    opening = np.zeros(len(problem.space.vertices)) if problem.walls is None else problem.walls.matrix @ pressure
-    return State(pressure, fraction, opening)
+def _opened(problem: FilmProblem, pressure: Array, fraction: Array, near: Array | None = None) -> State:
+    return State(pressure, fraction, opening(problem, pressure, near))
 
 
 def _symmetric_step(
@@ -173,6 +175,7 @@ def _general_step(problem: FilmProblem, setting: Setting, at: _Iterate) -> tuple
     Scaled to order one; the last value turns an unknown of the cavity into a film fraction.
     """
     rest, gain = _with_pockets(setting, at)
+    fixed = _fixed(problem, setting, at)
     by = slopes(problem, at.parts, at.state)
     f_upper, f_lower, f_gain = by.by_fraction
     p_upper, p_lower, p_gain = by.by_pressure
@@ -185,9 +188,14 @@ def _general_step(problem: FilmProblem, setting: Setting, at: _Iterate) -> tuple
     pattern = problem.space.pattern
     kernels.choose_columns(
         pattern.indptr, pattern.indices, p_upper / unit, p_lower / unit, f_upper / unit, f_lower / unit,
-        (p_gain + gain) / unit, f_gain / unit, setting.held, at.cavity, scale, upper, lower,
+        (p_gain + gain) / unit, f_gain / unit, fixed, at.cavity, scale, upper, lower,
     )  # fmt: skip
-    return upper, lower, np.where(setting.held, 0.0, -rest / unit), scale
+    return upper, lower, np.where(fixed, 0.0, -rest / unit), scale
+
+
+def _fixed(problem: FilmProblem, setting: Setting, at: _Iterate) -> NDArray[np.bool_]:
+    """Unknowns that a step leaves alone: held ones, and those that Reynolds' condition holds."""
+    return setting.held | at.cavity if problem.cavitation is Cavitation.REYNOLDS else setting.held
 
 
 def _with_pockets(setting: Setting, at: _Iterate) -> tuple[Array, Array]:
@@ -204,17 +212,15 @@ def _compliant_step(
     problem: FilmProblem, setting: Setting, at: _Iterate, upper: Array, lower: Array, load: Array
 ) -> Array:
     """The same step where each pressure opens the film everywhere: dR/dp + dR/dh dh/dp."""
-    assert problem.walls is not None
-    compliance = problem.walls.matrix
+    wider = opening_slope(problem, at.state.opening)
     rigid = full_matrix(problem.space, upper, lower)
-    free = (~setting.held).astype(float)
+    free = (~_fixed(problem, setting, at)).astype(float)
     pressures = free * ~at.cavity
     slope = by_opening(problem, at.parts, at.state) * (free / np.abs(at.parts.stiffness).max())[:, None]
-    if issparse(compliance):
-        from scipy.sparse.linalg import spsolve
-
-        return np.asarray(spsolve(csc_array(rigid + slope @ (compliance * pressures[None, :])), load))
-    return np.asarray(np.linalg.solve(rigid.toarray() + slope @ (compliance * pressures[None, :]), load))
+    matrix = rigid + slope @ (wider * pressures[None, :])
+    if issparse(matrix):
+        return np.asarray(splu(csc_array(matrix)).solve(load))
+    return np.asarray(np.linalg.solve(matrix, load))
 
 
 def _signed(problem: FilmProblem, at: _Iterate, change: Array, scale: float) -> Array:
@@ -259,7 +265,7 @@ def _at(problem: FilmProblem, setting: Setting, before: _Iterate, signed: Array)
         fraction = np.where(cavity, 1.0 + signed / _stiffness_of_lack(problem, before), 1.0)
     pressure = np.where(setting.held, setting.pressure, pressure)
     fraction = np.where(setting.held, setting.film_fraction, fraction)
-    state = _opened(problem, pressure, fraction)
+    state = _opened(problem, pressure, fraction, before.state.opening)
     if _is_linear(problem):
         return _Iterate(signed, state, cavity, before.parts, *flow_balance(problem, before.parts, state))
     return _iterate(problem, state, cavity, signed)
@@ -277,22 +283,32 @@ def _iterate(
     return _Iterate(signed, state, cavity, parts, *flow_balance(problem, parts, state))
 
 
-def _shortened(problem: FilmProblem, setting: Setting, at: _Iterate, signed: Array) -> _Iterate:
-    """A step cut back until it brings the balance nearer to zero, or the best of the shares that were tried."""
+def _advanced(problem: FilmProblem, setting: Setting, at: _Iterate, signed: Array, *, downhill: bool) -> _Iterate:
+    """The iterate after a step, cut back where no film would be left or a law would not hold.
+
+    `downhill` cuts it back further until it brings the balance nearer to zero; where no share does, the best of
+    those tried. Raises what the laws raise where even the shortest step leads out of them.
+    """
 
     def rest(there: _Iterate) -> float:
         return float(np.abs(_with_pockets(setting, there)[0][~setting.held]).sum())
 
-    before, best = rest(at), None
+    before, best, fault = rest(at), None, None
     for halvings in range(MOST_HALVINGS):
         share = 0.5**halvings
-        new = _at(problem, setting, at, at.signed + share * (signed - at.signed))
+        try:
+            new = _at(problem, setting, at, at.signed + share * (signed - at.signed))
+        except (FilmInputError, FilmNotConverged) as reason:
+            fault = reason
+            continue
         left = rest(new)
-        if left < (1.0 - LEAST_GAIN * share) * before:
+        if not downhill or left < (1.0 - LEAST_GAIN * share) * before:
             return new
         if best is None or left < best[0]:
             best = left, new
-    assert best is not None
+    if best is None:
+        assert fault is not None
+        raise fault
     return best[1]
 
 

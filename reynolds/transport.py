@@ -13,36 +13,42 @@ from reynolds import kernels
 from reynolds.errors import FilmInputError
 from reynolds.film import Film, FilmProblem
 from reynolds.fluid import CONSTANT
+from reynolds.laws import Tangent
 from reynolds.mesh import Array
+from reynolds.roughness import flow_factors
 from reynolds.space import FilmSpace
 
 SMALLEST_CONDUCTANCE = 1e-250  # m3/(Pa s): products of less are no longer numbers of full precision
 
 
+Tensor = tuple[Array, Array, Array]
+"""xx, yy and xy part of a symmetric tensor in the film plane."""
+
+
 @dataclass(frozen=True)
 class Transport:
-    """Flow terms, each (cells | 1, points | 1).
+    """Flow terms, each (cells | 1, points | 1); *_slope by thickness, by_pressure the relative one by pressure.
 
-    film: as it is under pressure; conductance r h^3/(12 mu) along x and y, m3/(Pa s); flux h U along x, y, m2/s,
-    by which the walls carry a full film; content: oil per area, m; squeeze: its rate, m/s. by_pressure and
-    by_thickness: relative slopes of the conductance, 1/Pa and 1/m.
+    film: as it is under pressure; conductance r h^3/(12 mu) times pressure flow factors, m3/(Pa s); flux h U along
+    x and y by which the walls carry a full film, m2/s; content: oil per area, m; squeeze: its rate, m/s.
     """
 
     film: Film
-    conductance: tuple[Array, Array]
-    flux: tuple[Array, Array]
-    content: Array
-    squeeze: Array
+    conductance: Tensor
+    conductance_slope: Tensor
     by_pressure: Array
-    by_thickness: Array
-    flux_by_thickness: tuple[Array, Array]
-    content_by_thickness: Array
+    flux: tuple[Array, Array]
+    flux_slope: tuple[Array, Array]
+    content: Array
+    content_slope: Array
+    squeeze: Array
 
 
 def transport(problem: FilmProblem, pressure: Array, opening: Array) -> Transport:
     """Flow terms of a film at nodal pressures (size,) Pa and with its walls opened at the vertices (vertices,) m.
 
-    Raises FilmInputError where the conductance is no number of full precision and where no film is left.
+    Raises FilmInputError where the conductance is no number of full precision, where no film is left, and where
+    a law of the oil or of the walls does not hold.
     """
     film, space = problem.film, problem.space
     h = film.thickness
@@ -57,21 +63,57 @@ def transport(problem: FilmProblem, pressure: Array, opening: Array) -> Transpor
         mu, mu_slope = problem.fluid.viscosity(at, film.viscosity)
         ratio, ratio_slope = problem.fluid.density(at)
     with np.errstate(over="ignore"):  # told of in words
-        conductance = ratio * h**3 / (12.0 * mu)
-    _check_conductance(conductance)
+        smooth = ratio * h**3 / (12.0 * mu)
+    _check_conductance(smooth)
     sliding = None if film.couette_viscosity is None else film.couette_viscosity * mu / film.viscosity
-    u, v = film.mean_velocity
+    conductance, conductance_slope, flux, flux_slope, content = _between_walls(problem, h, smooth)
     return Transport(
         film=replace(film, thickness=h, viscosity=mu, couette_viscosity=sliding),
-        conductance=(conductance, conductance),
-        flux=(h * u, h * v),
-        content=h,
-        squeeze=film.squeeze,
+        conductance=conductance,
+        conductance_slope=conductance_slope,
         by_pressure=ratio_slope / ratio - mu_slope / mu,
-        by_thickness=3.0 / h,
-        flux_by_thickness=(u, v),
-        content_by_thickness=np.ones((1, 1)),
+        flux=flux,
+        flux_slope=flux_slope,
+        content=content.value,
+        content_slope=content.slope,
+        squeeze=content.slope * film.squeeze,
     )
+
+
+def _between_walls(
+    problem: FilmProblem, h: Array, smooth: Array
+) -> tuple[Tensor, Tensor, tuple[Array, Array], tuple[Array, Array], Tangent]:
+    """Conductance, flux, their slopes, and content of a film between smooth walls or rough ones."""
+    mean, one = problem.film.mean_velocity, np.ones((1, 1))
+    if problem.surface is None:
+        nothing = np.zeros((1, 1))
+        steeper = 3.0 * smooth / h
+        return (smooth, smooth, nothing), (steeper, steeper, nothing), _times(h, mean), mean, Tangent(h, one)
+    factors = flow_factors(problem.surface, h)
+    parts = (factors.pressure.x, factors.pressure.y, factors.pressure.xy)
+    values = tuple(smooth * part.value for part in parts)
+    slopes = tuple(smooth * (part.slope + 3.0 * part.value / h) for part in parts)
+    flux, flux_slope = [], []
+    half = 0.5 * problem.surface.composite_roughness
+    u, v = (a - b for a, b in zip(problem.film.velocity_moving, problem.film.velocity_fixed, strict=True))
+    shear = factors.shear
+    for velocity, along, across in ((mean[0], shear.x, shear.xy), (mean[1], shear.xy, shear.y)):
+        flux.append(factors.content.value * velocity + half * (along.value * u + across.value * v))
+        flux_slope.append(factors.content.slope * velocity + half * (along.slope * u + across.slope * v))
+    return (
+        (values[0], values[1], values[2]), (slopes[0], slopes[1], slopes[2]), (flux[0], flux[1]),
+        (flux_slope[0], flux_slope[1]), factors.content,
+    )  # fmt: skip
+
+
+def _times(h: Array, velocity: tuple[Array, Array]) -> tuple[Array, Array]:
+    return h * velocity[0], h * velocity[1]
+
+
+def along(tensor: Tensor, gradient: tuple[Array, Array]) -> tuple[Array, Array]:
+    """A tensor times a gradient, both at the quadrature points."""
+    xx, yy, xy = tensor
+    return xx * gradient[0] + xy * gradient[1], xy * gradient[0] + yy * gradient[1]
 
 
 def at_points(space: FilmSpace, nodal: Array) -> Array:

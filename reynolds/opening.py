@@ -1,0 +1,86 @@
+"""How far walls that give way open under a film's pressure and, where they touch, under their contact."""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.sparse import csc_array, csr_array, eye_array, issparse
+from scipy.sparse.linalg import splu
+
+from reynolds.contact import contact_pressure
+from reynolds.errors import FilmInputError, FilmNotConverged
+from reynolds.film import FilmProblem
+from reynolds.mesh import Array
+from reynolds.space import FilmSpace
+
+MAX_STEPS = 30
+TOLERANCE = 1e-12  # of the film thickness
+
+
+def opening(problem: FilmProblem, pressure: Array, start: Array | None = None) -> Array:
+    """Opening of the film at the vertices (vertices,) m under nodal pressures (size,) Pa.
+
+    Solves g = C (p + p_c(h + g)) by Newton's method from `start`: contact closes as the film opens. Raises
+    FilmNotConverged where that does not settle, and FilmInputError as the contact's law does.
+    """
+    if problem.walls is None:
+        return np.zeros(len(problem.space.vertices))
+    compliance = problem.walls.matrix
+    alone = np.asarray(compliance @ pressure)
+    if problem.asperities is None:
+        return alone
+    given = _given_thickness(problem)
+    found = alone if start is None else start
+    for _ in range(MAX_STEPS):
+        bears = contact_pressure(problem.asperities, given + found)
+        rest = found - alone - compliance @ _to_unknowns(problem.space, bears.value)
+        if np.max(np.abs(rest)) < TOLERANCE * np.max(given):
+            return found
+        found = found - _solved(_with_contact(problem, bears.slope), rest)
+    raise FilmNotConverged(
+        f"the opening of walls in contact not settled after {MAX_STEPS} steps", "a thicker film, or stiffer walls"
+    )
+
+
+def opening_slope(problem: FilmProblem, found: Array) -> Array | csr_array:
+    """dg/dp at an opening (vertices,) m: (vertices, size) m/Pa, the compliance where nothing touches."""
+    assert problem.walls is not None
+    compliance = problem.walls.matrix
+    if problem.asperities is None:
+        return compliance
+    bears = contact_pressure(problem.asperities, _given_thickness(problem) + found)
+    system = _with_contact(problem, bears.slope)
+    if not isinstance(compliance, np.ndarray):
+        return csr_array(splu(csc_array(system)).solve(compliance.toarray()))
+    return np.asarray(np.linalg.solve(system, compliance))
+
+
+def _given_thickness(problem: FilmProblem) -> Array:
+    if problem.space.degree != 1:
+        raise FilmInputError("film_space", "quadratic pressure between walls that touch", "degree 1")
+    known = problem.film.thickness_at_vertices
+    return problem.space.to_vertices(problem.film.thickness) if known is None else known
+
+
+def _with_contact(problem: FilmProblem, slope: Array) -> Array | csr_array:
+    """I - C dp_c/dh over the vertices."""
+    assert problem.walls is not None
+    compliance = problem.walls.matrix
+    spread = csr_array(
+        (slope / np.bincount(problem.space.vertex_dofs)[problem.space.vertex_dofs],
+         (problem.space.vertex_dofs, np.arange(len(slope)))),
+        shape=(problem.space.size, len(slope)),
+    )  # fmt: skip
+    if issparse(compliance):
+        return csr_array(eye_array(len(slope)) - compliance @ spread)
+    return np.asarray(np.eye(len(slope)) - compliance @ spread)
+
+
+def _solved(system: Array | csr_array, rest: Array) -> Array:
+    if issparse(system):
+        return np.asarray(splu(csc_array(system)).solve(rest))
+    return np.asarray(np.linalg.solve(system, rest))
+
+
+def _to_unknowns(space: FilmSpace, at_vertices: Array) -> Array:
+    total = np.bincount(space.vertex_dofs, weights=at_vertices, minlength=space.size)
+    return total / np.maximum(np.bincount(space.vertex_dofs, minlength=space.size), 1)
