@@ -110,7 +110,7 @@ class FilmTemperature:
     temperature (size, m + 2) at the levels across (fixed wall first), mean (size,) over the thickness; heat_flux
     (2, size) W/m2 into the fixed and the moving wall; to_fixed, to_moving W; carried_out: by the oil through the
     boundary, against `datum` (K), the lowest given temperature; stored: in the oil that the film holds;
-    dissipation, compression: what arises. least_jump (K): smaller jumps between unknowns go upwind, of first order;
+    dissipation, compression: what arises. least_jump (K): smaller jumps between unknowns go upwind (first order),
     2e-5 of the range where the limiter settles soon. energy_balance_error: what is missing, over all that is
     passed.
     """
