@@ -22,8 +22,9 @@ def write_vtu(
 ) -> None:
     """Write one film as a surface: film_pressure (Pa), film_thickness (m), wall_shear (Pa, moving wall).
 
-    `more` are further fields at the vertices (vertices,), by name. `place` maps vertices (n, 2) m of the film plane to their true place (n, 3) m: a cylinder for a piston.
-    film_thickness stands at the vertices (averaged where it jumps) and, exact, as the mean of each cell.
+    `more` are further fields at the vertices (vertices,), by name. `place` maps vertices (n, 2) m of the film
+    plane to their true place (n, 3) m: a cylinder for a piston. film_thickness stands at the vertices (averaged
+    where it jumps) and, exact, as the mean of each cell.
     """
     import meshio
 

@@ -23,6 +23,7 @@ from swashfilm.film_statement import FilmStatement
 from swashfilm.gap_case import FORMAT, GapCase, read_gap_case
 from swashfilm.mesh_case import read_mesh
 from swashfilm.oil_case import OilStatement, oil_viscosity, read_oil
+from swashfilm.roughness_case import read_roughness
 from swashfilm.thermal_case import read_thermal
 from swashfilm.time_case import initial_film_fraction, read_time
 from system.faults import InputFaults
@@ -115,16 +116,14 @@ def _stated(top: Table, film: Table, reader: FieldReader, order: int | None, fol
     }
     parts["boundary"] = read_boundaries(top, reader, parts["cavitation_pressure"])
     elastic = read_elastic(top, reader.mesh, folder)
-    for later in ("roughness", "contact"):
-        if top.get(later) is not None:
-            top.fault(later, f"a table [{later}]", "no such table: films of this version have smooth walls")
+    rough = read_roughness(top)
     film.close()
     _check_order(film, parts)
     check_boundaries(top, reader, parts["boundary"], parts["cavitation"], parts["cavitation_pressure"])
     _check_tables(top, film, oil, viscosity)
     if None in parts.values() or len(top.faults) > faults:
         return None
-    return FilmStatement(**parts, oil=oil, thermal=thermal, elastic=elastic, time=time)
+    return FilmStatement(**parts, oil=oil, thermal=thermal, elastic=elastic, rough=rough, time=time)
 
 
 def _order(film: Table) -> int | None:

@@ -9,6 +9,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from reynolds.contact import boundary_shear, contact_area, contact_pressure, lambda_ratio
+from reynolds.film import vertex_thickness
+from reynolds.roughness import beyond_range
 from reynolds.transport import lumped
 from swashfilm.film_transient import Instant
 from swashfilm.headline import titled
@@ -24,6 +27,8 @@ def physics_summary(study: FilmStudy) -> dict[str, Any]:
         found |= _heat_summary(study)
     if study.solution.problem.walls is not None:
         found["deformation_max_m"] = float(study.solution.opening.max())
+    if study.solution.problem.surface is not None:
+        found |= _rough_summary(study)
     if study.history:
         steps = study.history
         found |= {
@@ -50,6 +55,28 @@ def _heat_summary(study: FilmStudy) -> dict[str, Any]:
         "oil_heat_W": heat.carried_out,
         "heat_balance_error": heat.energy_balance_error,
     }
+
+
+def _rough_summary(study: FilmStudy) -> dict[str, Any]:
+    """Least lambda ratio, and what the asperities bear: contact load N and the friction of the contacts N."""
+    problem, film = study.solution.problem, study.solution.film
+    assert problem.surface is not None
+    ratio = lambda_ratio(study.loads.film_thickness_min, problem.surface.composite_roughness)
+    found: dict[str, Any] = {
+        "lambda_ratio_min": float(ratio),
+        "beyond_flow_factors_area_fraction": beyond_range(film.thickness, problem.surface).fraction,
+    }
+    if problem.asperities is not None:
+        area = problem.space.area
+        pressed = contact_pressure(problem.asperities, film.thickness).value
+        sheared = boundary_shear(problem.asperities, pressed).value
+        found["contact_load_N"] = study.loads.contact_load
+        found["contact_pressure_max_Pa"] = float(np.max(pressed))
+        found["contact_friction_N"] = float(np.sum(sheared * area))
+        found["contact_area_fraction"] = float(
+            np.sum(contact_area(problem.asperities, film.thickness).value * area) / area.sum()
+        )
+    return found
 
 
 def history_columns(history: Sequence[Instant]) -> dict[str, list[float]]:
@@ -92,4 +119,7 @@ def vertex_fields(study: FilmStudy) -> dict[str, tuple[np.ndarray, str]]:
         found["temperature_moving_wall"] = (study.heat.moving_wall[at], "K")
     if solution.problem.walls is not None:
         found["deformation"] = (solution.opening, "m")
+    if solution.problem.asperities is not None:
+        pressed = contact_pressure(solution.problem.asperities, vertex_thickness(solution)).value
+        found["contact_pressure"] = (pressed, "Pa")
     return found

@@ -37,6 +37,8 @@ def film_problem(stated: FilmStatement, space: FilmSpace | None = None, t: float
         cavitation_pressure=stated.cavitation_pressure,
         fluid=_fluid(stated),
         walls=stated.elastic.walls(space) if stated.elastic else None,
+        surface=stated.rough.surface if stated.rough else None,
+        asperities=stated.rough.asperities if stated.rough else None,
     )
 
 

@@ -34,6 +34,7 @@ def resolved_text(stated: FilmStatement) -> str:
         rows += ["", "[oil]", *stated.oil.rows]
     rows += ["", *thermal_rows(stated.thermal)] if stated.thermal else []
     rows += ["", *elastic_rows(stated.elastic)] if stated.elastic else []
+    rows += ["", *stated.rough.rows] if stated.rough else []
     rows += ["", *time_rows(stated.time)] if stated.time else []
     return "\n".join(rows) + "\n"
 

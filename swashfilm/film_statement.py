@@ -11,6 +11,7 @@ from swashfilm.elastic_case import ElasticStatement
 from swashfilm.fields import CellData, Field, Formula, InTime, MeshData, PointData, Uniform
 from swashfilm.mesh_case import CaseMesh
 from swashfilm.oil_case import OilStatement
+from swashfilm.roughness_case import RoughWalls
 from swashfilm.thermal_case import ThermalStatement
 from swashfilm.time_case import TimeStatement
 
@@ -51,6 +52,7 @@ class FilmStatement:
     oil: OilStatement | None = None
     thermal: ThermalStatement | None = None
     elastic: ElasticStatement | None = None
+    rough: RoughWalls | None = None
     time: TimeStatement | None = None
 
     def refined(self) -> FilmStatement:

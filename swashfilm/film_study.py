@@ -10,22 +10,20 @@ import numpy as np
 
 from gaps.result import GapFilm
 from reynolds.energy import FilmTemperature
-from reynolds.film import Cavitation, FilmSolution, vertex_thickness
+from reynolds.film import FilmSolution, vertex_thickness
 from reynolds.loads import Loads, loads, point_fields
 from reynolds.solve import FilmSolver
 from swashfilm.film_case import FilmCase
 from swashfilm.film_physics import physics_summary, vertex_fields
 from swashfilm.film_thermal import solve_with_temperature
 from swashfilm.film_transient import Instant, transient
+from swashfilm.film_warnings import film_warnings
 from swashfilm.gap_case import GapCase
-from swashfilm.gap_study import gap_summary, gap_warnings, solve_gap
+from swashfilm.gap_study import gap_summary, solve_gap
 from swashfilm.progress import Report
 
 if TYPE_CHECKING:
     import xarray
-
-LARGEST_CAVITY_FLOW = 0.01  # of the throughput; Reynolds' condition makes or swallows oil in a cavity
-LARGEST_THICKNESS_RATIO = 0.05  # of the film's extent; beyond, flow across the film counts
 
 
 @dataclass(frozen=True)
@@ -123,7 +121,8 @@ def _stribeck(solution: FilmSolution, integrals: Loads) -> dict[str, float | Non
     (u1, v1), (u2, v2) = film.velocity_moving, film.velocity_fixed
     total = float(area.sum())
     speed = float(np.sum(np.hypot(u1 - u2, v1 - v2) * area)) / total
-    if speed == 0.0 or not integrals.load > 0.0:
+    carried = integrals.load + integrals.contact_load
+    if speed == 0.0 or not carried > 0.0:
         return {"friction_coefficient": None, "hersey_number_m": None}
     power = sum(
         float(np.sum(shear * velocity * area))
@@ -131,52 +130,9 @@ def _stribeck(solution: FilmSolution, integrals: Loads) -> dict[str, float | Non
     )
     viscosity = float(np.sum(film.viscosity * area)) / total
     return {
-        "friction_coefficient": abs(power) / (speed * integrals.load),
-        "hersey_number_m": viscosity * speed * total / integrals.load,
+        "friction_coefficient": abs(power) / (speed * carried),
+        "hersey_number_m": viscosity * speed * total / carried,
     }
-
-
-def film_warnings(study: FilmStudy) -> list[dict[str, str]]:
-    """What to doubt about a film that was solved: name and text of each warning."""
-    problem, integrals = study.solution.problem, study.loads
-    found = [] if study.gap is None else gap_warnings(study.gap)
-    through = integrals.throughput
-    share = abs(integrals.cavity_flow) / through if through > 0.0 else np.inf * abs(integrals.cavity_flow)
-    if integrals.cavity_flow != 0.0 and share > LARGEST_CAVITY_FLOW:
-        verb = "makes" if integrals.cavity_flow > 0.0 else "swallows"
-        found.append(
-            {
-                "name": "cavity_does_not_conserve_mass",
-                "text": f"Reynolds' condition {verb} oil in the cavity, {share:.2%} of the throughput "
-                f"(limit {LARGEST_CAVITY_FLOW:.0%}): what enters is not what leaves",
-            }
-        )
-    thick = _thickness_ratio(study.solution)
-    if thick > LARGEST_THICKNESS_RATIO:
-        found.append(
-            {
-                "name": "film_not_thin",
-                "text": f"the mean film is {thick:.2g} of the film's extent (limit {LARGEST_THICKNESS_RATIO:.2g} "
-                "for Reynolds' equation): millimetres for micrometres, or a mesh not in metres?",
-            }
-        )
-    lowest = float(study.solution.pressure.min())
-    if problem.cavitation is Cavitation.NONE and lowest < problem.cavitation_pressure:
-        found.append(
-            {
-                "name": "pressure_below_cavitation",
-                "text": f"the film is pulled down to {lowest:.4g} Pa, below its cavitation pressure "
-                f"{problem.cavitation_pressure:.4g} Pa: oil would cavitate; choose cavitation = 'reynolds'",
-            }
-        )
-    return found
-
-
-def _thickness_ratio(solution: FilmSolution) -> float:
-    """Mean film thickness over the root of the film's area."""
-    area = solution.problem.space.area
-    total = float(area.sum())
-    return float(np.sum(solution.film.thickness * area)) / total**1.5
 
 
 def film_dataset(study: FilmStudy) -> xarray.Dataset:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from gaps.slipper import hagen_poiseuille_conductance
-from swashfilm.film_study import LARGEST_CAVITY_FLOW
+from swashfilm.film_warnings import LARGEST_CAVITY_FLOW
 from swashfilm.pump_data import gap_films
 from swashfilm.pump_summary import gap_statement
 from system.films import FilmsPoint

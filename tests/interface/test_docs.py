@@ -226,7 +226,7 @@ def test_warnings_are_explained(films):
     film = films.gaps.valve_plate[0].gap
     assert {warning["name"] for warning in gap_warnings(film)} <= explained
     sources = "".join(
-        (ROOT / name).read_text("utf-8") for name in ("swashfilm/film_study.py", "swashfilm/gap_study.py")
+        (ROOT / name).read_text("utf-8") for name in ("swashfilm/film_warnings.py", "swashfilm/gap_study.py")
     )
     assert set(re.findall(r'"name": "(\w+)"', sources)) <= explained
     checks = "".join(

@@ -170,7 +170,7 @@ def test_two_workers_give_what_one_gives():
         ('"film.thickness" = ["1 bar"]', 'study."film.thickness"', ["not a length"]),
         ('film.thickness = ["1 um"]', 'study."film"', ["in quotes"]),
         ('"film.thickness" = { from = "1 um", to = "2 um" }', 'study."film.thickness".points', ["2 to"]),
-        ('"film.thickness" = { from = "1 m", to = "2 Pa", points = 3 }', 'study."film.thickness"', ["of one kind"]),
+        ('"film.thickness" = { from = "1 m", to = "2 Pa", points = 3 }', 'study."film.thickness"', ["one kind"]),
         ('"film.thickness" = { form = "1 m", to = "2 m", points = 3 }', 'study."film.thickness".form', ["from"]),
         (
             '"film.thickness" = { from = "0 um", to = "2 um", points = 3, spacing = "log" }',

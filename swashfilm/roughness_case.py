@@ -1,0 +1,118 @@
+"""The tables [roughness] and [contact] of a film case: rough walls, and where they touch."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from reynolds.contact import Asperities, composite_modulus
+from reynolds.errors import FilmInputError
+from reynolds.roughness import Surface
+from swashfilm.case_table import Table
+from system.units import Dimension, format_quantity
+
+
+@dataclass(frozen=True)
+class RoughWalls:
+    """Both walls' roughness, what touches (None: nothing does), and the tables as a case file writes them."""
+
+    surface: Surface
+    asperities: Asperities | None
+    rows: tuple[str, ...]
+
+
+def read_roughness(top: Table) -> RoughWalls | None:
+    """The tables [roughness] and [contact]; None where there are none or, told, where one has a fault."""
+    table, contact = top.table("roughness"), top.table("contact")
+    if table is None:
+        if contact is not None:
+            for key in contact.values:
+                contact.get(key)
+            top.fault("contact", "no table [roughness]", "the roughness of the walls that touch")
+        return None
+    surface, rows = _surface(table)
+    if contact is None or surface is None:
+        return RoughWalls(surface, None, tuple(rows)) if surface else None
+    asperities, more = _asperities(contact, surface)
+    return RoughWalls(surface, asperities, (*rows, "", *more)) if asperities else None
+
+
+def _surface(table: Table) -> tuple[Surface | None, list[str]]:
+    """Standard deviations of the heights: of both walls together, or of the moving and the fixed one."""
+    if table.get("composite") is not None:
+        # One wall's roughness or the other's: the flow factors need to know whose; half of the variance each.
+        composite = table.positive("composite", Dimension.LENGTH)
+        moving = fixed = None if composite is None else composite / 2.0**0.5
+    else:
+        moving, fixed = (_height(table, wall) for wall in ("moving", "fixed"))
+    gammas = [table.number(f"peklenik_{wall}", table.number("peklenik", 1.0)) for wall in ("moving", "fixed")]
+    lay = table.quantity("lay_angle", Dimension.ANGLE, 0.0)
+    table.close()
+    if moving is None or fixed is None or None in gammas or lay is None:
+        return None, []
+    try:
+        surface = Surface(moving, fixed, float(gammas[0] or 0.0), float(gammas[1] or 0.0), lay)
+    except FilmInputError as reason:
+        key = "peklenik" if "eklenik" in reason.where else "moving"
+        table.fault(key, reason.found, reason.expected)
+        return None, []
+    shown = [
+        f'{key} = "{format_quantity(value, Dimension.LENGTH)}"'
+        for key, value in (("moving", moving), ("fixed", fixed))
+    ]
+    shown += [f"peklenik_moving = {gammas[0]!r}", f"peklenik_fixed = {gammas[1]!r}"]
+    return surface, ["[roughness]", *shown, f'lay_angle = "{format_quantity(lay, Dimension.ANGLE)}"']
+
+
+def _height(table: Table, wall: str) -> float | None:
+    """Standard deviation of a wall's heights (m), zero of a smooth one."""
+    value = table.quantity(wall, Dimension.LENGTH, 0.0)
+    if value is not None and value < 0.0:
+        table.fault(wall, str(table.values[wall]), "a height of 0 (smooth) or more")
+        return None
+    return value
+
+
+def _asperities(table: Table, surface: Surface) -> tuple[Asperities | None, list[str]]:
+    density = table.positive("asperity_density", Dimension.AREAL_DENSITY)
+    radius = table.positive("asperity_radius", Dimension.LENGTH)
+    height = table.positive("asperity_height", Dimension.LENGTH, surface.composite_roughness)
+    modulus = _modulus(table)
+    friction = table.number("friction_coefficient")
+    summit = table.quantity("summit_height", Dimension.LENGTH, 0.0)
+    table.close()
+    if (
+        density is None
+        or radius is None
+        or height is None
+        or modulus is None
+        or friction is None
+        or summit is None
+    ):
+        return None, []
+    try:
+        asperities = Asperities(density, radius, height, modulus, friction, summit)
+    except FilmInputError as reason:
+        table.fault("friction_coefficient", reason.found, reason.expected)
+        return None, []
+    rows = ["[contact]"]
+    for key, value, dimension in (
+        ("asperity_density", density, Dimension.AREAL_DENSITY),
+        ("asperity_radius", radius, Dimension.LENGTH),
+        ("asperity_height", height, Dimension.LENGTH),
+        ("composite_modulus", modulus, Dimension.MODULUS),
+        ("summit_height", summit, Dimension.LENGTH),
+    ):
+        rows.append(f'{key} = "{format_quantity(value, dimension)}"')
+    return asperities, [*rows, f"friction_coefficient = {friction!r}"]
+
+
+def _modulus(table: Table) -> float | None:
+    """E' of both walls: stated, or from the moduli and Poisson's ratios of the two."""
+    if "youngs_modulus" not in table.values:
+        return table.positive("composite_modulus", Dimension.MODULUS)
+    moduli, ratios = table.pair("youngs_modulus", Dimension.MODULUS), table.get("poissons_ratio")
+    is_pair = isinstance(ratios, list) and len(ratios) == 2
+    if not is_pair or not all(isinstance(ratio, float) and -1.0 < ratio < 0.5 for ratio in ratios):
+        table.fault("poissons_ratio", repr(ratios), "two numbers between -1 and 0.5, of the two walls")
+        return None
+    return None if moduli is None else composite_modulus(moduli[0], ratios[0], moduli[1], ratios[1])
