@@ -27,6 +27,7 @@ DIRECT_LIMIT = 60_000
 GRID_LEAST = 500  # unknowns: below, a direct solve of a grid is as fast as multigrid
 ITERATIVE_TOLERANCE = 1e-11
 STALLED = 1e3  # times the tolerance: what round-off may leave; beyond, the next rung of the ladder
+ROUND_OFF = 1e-13  # of the answer, in units of the scaled matrix
 GENERAL_TOLERANCE = 1e-10  # residual over load beyond which an elimination without pivots is done again with them
 
 
@@ -207,4 +208,6 @@ def _refined(lu: SuperLU | None, matrix: csc_array, load: Array) -> tuple[Array,
     answer = lu.solve(load)
     answer += lu.solve(load - matrix @ answer)
     left = float(np.linalg.norm(load - matrix @ answer))
-    return answer, left <= GENERAL_TOLERANCE * float(np.linalg.norm(load))
+    # The rows are of order one: a backward stable answer leaves round-off of itself, however small the load.
+    allowed = GENERAL_TOLERANCE * np.linalg.norm(load) + ROUND_OFF * np.linalg.norm(answer)
+    return answer, bool(left <= allowed)

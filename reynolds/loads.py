@@ -9,8 +9,10 @@ import numpy as np
 
 from reynolds import kernels
 from reynolds.balance import steep_gradient
+from reynolds.contact import boundary_shear, contact_pressure
 from reynolds.film import Cavitation, FilmSolution, Pocket, vertex_thickness
 from reynolds.mesh import Array
+from reynolds.roughness import Directional, flow_factors, shear_factors
 from reynolds.transport import at_points
 
 
@@ -18,16 +20,20 @@ from reynolds.transport import at_points
 class Loads:
     """Integrals of one film solution, SI.
 
-    load N (integral of p); moment_x, moment_y N m (integrals of p y and of -p x about the origin);
-    friction_moving, friction_fixed N: force of the oil on each wall (x, y); friction_torque_* N m about the
-    origin; dissipation W; flow m3/s by boundary name, positive out of the film; squeeze_flow m3/s = integral
-    of dh/dt; cavity_flow m3/s that Reynolds' condition makes the cavity supply (+) or swallow (-), zero in a
-    full film; cavitated_area_fraction; mass_balance_error = |out + squeeze - cavity|, relative to the flow
+    load N (integral of p); contact_load N, what touching asperities bear besides; moment_x, moment_y N m
+    (integrals of p y and of -p x about the origin, p with the contact's pressure); friction_moving,
+    friction_fixed N: force of oil and contact on each wall (x, y); friction_torque_* N m about the origin;
+    dissipation W, contact included; flow m3/s by boundary name, positive out of the film; squeeze_flow m3/s by which what the film holds grows;
+    cavity_flow m3/s that Reynolds' condition makes the cavity supply (+) or swallow (-), else zero;
+    film_fraction_min, cavitated_area_fraction; mass_balance_error = |out + squeeze - cavity|, relative to the flow
     through the boundaries or the flows within the film, whichever are larger; energy_balance_error likewise
-    relative to the dissipation, the walls' or the flows' power.
+    relative to the dissipation, the walls' or the flows' power: round-off for a full film between smooth walls;
+    of the order of the cells at the ends of a JFO cavity, whose upwinding dissipates; with rough walls what the
+    pressure's push on their asperities leaves out of the shear stress factors.
     """
 
     load: float
+    contact_load: float
     moment_x: float
     moment_y: float
     pressure_max: float
@@ -41,6 +47,7 @@ class Loads:
     flow: Mapping[str, float]
     squeeze_flow: float
     cavity_flow: float
+    film_fraction_min: float
     cavitated_area_fraction: float
     mass_balance_error: float
     energy_balance_error: float
@@ -53,33 +60,65 @@ class Loads:
 
 @dataclass(frozen=True)
 class PointFields:
-    """Pressure (Pa), its gradient (Pa/m) and the shear stress on both walls (Pa) at the quadrature points."""
+    """Fields at the quadrature points, (cells, points) each.
+
+    Film pressure (Pa), its gradient (Pa/m), contact pressure (Pa), and the shear stress on both walls (Pa), that
+    of contact included.
+    """
 
     pressure: Array
     gradient: tuple[Array, Array]
+    contact_pressure: Array
     shear_moving: tuple[Array, Array]
     shear_fixed: tuple[Array, Array]
 
 
 def point_fields(solution: FilmSolution) -> PointFields:
-    """Pressure, gradient and wall shear of a solution at the quadrature points, (cells, points) each.
+    """Pressure, its gradient, contact pressure and wall shear of a solution at the quadrature points.
 
     Stress of the oil on the moving wall: -w h grad p - mu (U1 - U2)/h, on the fixed wall
     -(1 - w) h grad p + mu (U1 - U2)/h; w = 1/2 where viscosity does not vary across the film (parabolic plus
-    linear profile). In a cavity oil fills the film fraction of the width and shears there alone (JFO); Reynolds'
-    condition knows no film fraction and takes it as full.
+    linear profile). Rough walls: each term with its shear stress factor (Patir and Cheng 1979). In a cavity oil
+    fills the film fraction of the width and shears there alone (JFO); Reynolds' condition knows no film fraction
+    and takes it as full. Walls that touch rub with the boundary friction of their asperities.
     """
     at, at_x, at_y = evaluate(solution, solution.pressure)
-    film = solution.film
-    filled = at_points(solution.problem.space, solution.film_fraction)
-    one, two = (filled * share * film.thickness for share in (film.moving_share, 1.0 - film.moving_share))
-    drag = [
-        filled * film.sliding_viscosity * (moving - fixed) / film.thickness
-        for moving, fixed in zip(film.velocity_moving, film.velocity_fixed, strict=True)
-    ]
-    moving = (-one * at_x - drag[0], -one * at_y - drag[1])
-    fixed = (-two * at_x + drag[0], -two * at_y + drag[1])
-    return PointFields(at, (at_x, at_y), moving, fixed)
+    problem, film = solution.problem, solution.film
+    filled = at_points(problem.space, solution.film_fraction)
+    slip = tuple(a - b for a, b in zip(film.velocity_moving, film.velocity_fixed, strict=True))
+    drag = tuple(filled * film.sliding_viscosity * part / film.thickness for part in slip)
+    pull = tuple(filled * film.thickness * part for part in (at_x, at_y))
+    on_moving, on_fixed = drag, drag
+    if problem.surface is not None:
+        factors = shear_factors(problem.surface, film.thickness)
+        pull = _turned(factors.pressure, pull)
+        cross = _turned(factors.sliding, drag)
+        on_moving = tuple(factors.couette.value * d - c for d, c in zip(drag, cross, strict=True))
+        on_fixed = tuple(factors.couette.value * d + c for d, c in zip(drag, cross, strict=True))
+    contact, rubbing = _contact(solution, slip)
+    w = film.moving_share
+    moving = [-w * p - d - r for p, d, r in zip(pull, on_moving, rubbing, strict=True)]
+    fixed = [-(1.0 - w) * p + d + r for p, d, r in zip(pull, on_fixed, rubbing, strict=True)]
+    return PointFields(at, (at_x, at_y), contact, (moving[0], moving[1]), (fixed[0], fixed[1]))
+
+
+def _turned(tensor: Directional, vector: tuple[Array, ...]) -> tuple[Array, Array]:
+    x, y = vector
+    return tensor.x.value * x + tensor.xy.value * y, tensor.xy.value * x + tensor.y.value * y
+
+
+def _contact(solution: FilmSolution, slip: tuple[Array, ...]) -> tuple[Array, tuple[Array, ...]]:
+    """Contact pressure (Pa) and the shear (Pa) with which it resists the sliding of the moving wall."""
+    shape = solution.problem.space.area.shape
+    asperities = solution.problem.asperities
+    if asperities is None:
+        nothing = np.zeros(shape)
+        return nothing, (nothing, nothing)
+    bears = np.broadcast_to(contact_pressure(asperities, solution.film.thickness).value, shape)
+    rubs = boundary_shear(asperities, bears).value
+    speed = np.hypot(*(np.broadcast_to(part, shape) for part in slip))
+    along = [np.divide(part, speed, out=np.zeros(shape), where=speed > 0.0) for part in slip]
+    return bears, tuple(rubs * part for part in along)
 
 
 def evaluate(solution: FilmSolution, nodal: Array) -> tuple[Array, Array, Array]:
@@ -117,6 +156,7 @@ def loads(solution: FilmSolution, weight: Array | None = None) -> Loads:
     load, moment_x, moment_y = pressure_integrals(solution)
     return Loads(
         load=load,
+        contact_load=float(np.sum(fields.contact_pressure * area)),
         moment_x=moment_x,
         moment_y=moment_y,
         pressure_max=float(solution.pressure[peak]),
@@ -130,6 +170,7 @@ def loads(solution: FilmSolution, weight: Array | None = None) -> Loads:
         flow=flow,
         squeeze_flow=squeeze_flow,
         cavity_flow=cavity_flow,
+        film_fraction_min=float(solution.film_fraction.min()),
         cavitated_area_fraction=_cavitated_fraction(solution),
         mass_balance_error=abs(out + squeeze_flow - cavity_flow) / max(through, _root_sum(solution.meeting)),
         energy_balance_error=_energy_error(solution, fields),
@@ -137,11 +178,17 @@ def loads(solution: FilmSolution, weight: Array | None = None) -> Loads:
 
 
 def pressure_integrals(solution: FilmSolution) -> tuple[float, float, float]:
-    """Load (N) and moments about x and y (N m): integrals of p, of p y and of -p x over the film."""
+    """Load (N) and moments about x and y (N m): integrals of p, of p y and of -p x over the film.
+
+    The moments count the pressure of contact too.
+    """
     space = solution.problem.space
     weighted = evaluate(solution, solution.pressure)[0] * space.area
     x, y = space.points
-    return float(weighted.sum()), float(np.sum(weighted * y)), -float(np.sum(weighted * x))
+    both = weighted
+    if solution.problem.asperities is not None:
+        both = weighted + contact_pressure(solution.problem.asperities, solution.film.thickness).value * space.area
+    return float(weighted.sum()), float(np.sum(both * y)), -float(np.sum(both * x))
 
 
 def boundary_flows(solution: FilmSolution) -> dict[str, float]:
@@ -203,14 +250,20 @@ def _torque(shear: tuple[Array, Array], x: Array, y: Array, area: Array) -> floa
 def dissipated(solution: FilmSolution) -> tuple[Array, Array]:
     """Heat at each quadrature point, (cells, points) W: of the flow that pressure drives, and of sliding.
 
-    h^3/(12 mu) |grad p|^2 and mu |U1 - U2|^2 / h, the latter where oil fills the film, times the area element.
+    h^3/(12 mu) |grad p|^2 and mu |U1 - U2|^2 / h, the latter where oil fills the film, times the area element and,
+    between rough walls, Patir and Cheng's factors; sliding with the boundary friction of contact.
     """
-    film, space = solution.film, solution.problem.space
-    slip = sum((a - b) ** 2 for a, b in zip(film.velocity_moving, film.velocity_fixed, strict=True))
-    along_x, along_y = steep_gradient(space, solution.pressure)
-    driven = film.thickness**3 / (12.0 * film.viscosity) * (along_x**2 + along_y**2)
-    sliding = at_points(space, solution.film_fraction) * film.sliding_viscosity * slip / film.thickness
-    return driven * space.steep_area, sliding * space.area
+    film, space, surface = solution.film, solution.problem.space, solution.problem.surface
+    slip = tuple(a - b for a, b in zip(film.velocity_moving, film.velocity_fixed, strict=True))
+    gradient = steep_gradient(space, solution.pressure)
+    flow, drag = gradient, at_points(space, solution.film_fraction)
+    if surface is not None:
+        flow = _turned(flow_factors(surface, film.thickness).pressure, gradient)
+        drag = drag * shear_factors(surface, film.thickness).couette.value
+    driven = film.thickness**3 / (12.0 * film.viscosity) * (flow[0] * gradient[0] + flow[1] * gradient[1])
+    sliding = drag * film.sliding_viscosity * (slip[0] ** 2 + slip[1] ** 2) / film.thickness
+    rubbing = sum(a * b for a, b in zip(_contact(solution, slip)[1], slip, strict=True))
+    return driven * space.steep_area, (sliding + rubbing) * space.area
 
 
 def _dissipation(solution: FilmSolution, weight: Array | None = None) -> float:

@@ -79,6 +79,9 @@ class FilmSolver:
         if problem.space.pattern is not self._pattern:
             raise FilmInputError("space", "another mesh", "the space of this solver, moved or not")
         setting = spread(problem)
+        if start is None and problem.walls is not None:
+            # Newton's method reaches walls that open widely from the film between rigid ones.
+            start = self.solve(replace(problem, walls=None))
         at = self._begin(problem, setting, start)
         seen = {at.cavity.tobytes()}
         cycles = near = False

@@ -1,0 +1,105 @@
+"""A film in time: implicit Euler on the oil that each unknown holds, theta r h as one quantity.
+
+Mass is conserved to round-off at every step, whatever its size; time enters to first order.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from reynolds.balance import State, holds, operators
+from reynolds.errors import FilmInputError, FilmNotConverged
+from reynolds.film import FilmProblem, FilmSolution, Storage
+from reynolds.mesh import Array
+from reynolds.opening import opening
+from reynolds.setting import spread
+from reynolds.solve import FilmSolver
+
+MOST_HALVINGS = 12  # of a step on which the cavity does not settle
+
+
+@dataclass(frozen=True)
+class Instant:
+    """The film at the end of a step: time s, step s, and its solution (`storage` holds what it was before)."""
+
+    time: float
+    step: float
+    solution: FilmSolution
+
+
+def march(
+    solver: FilmSolver,
+    problem_at: Callable[[float], FilmProblem],
+    end: float,
+    step: float,
+    *,
+    start: float = 0.0,
+    held: Array | None = None,
+) -> Iterator[Instant]:
+    """The film at start + step, start + 2 step, ... up to end (s), one instant at a time.
+
+    Solves d(theta r h)/dt + div q = 0 with `problem_at(t)` the film at time t, without storage: its thickness,
+    wall speeds and boundary pressures; its squeeze is not used. `held` (size,) m3 is what the unknowns hold at
+    `start`; None: a full film. A step on which a cavity does not settle is cut in two, each half yielded.
+    Raises FilmInputError for an end or step that leads nowhere, FilmNotConverged where no step is short enough.
+    """
+    if not (np.isfinite(end) and end > start):
+        raise FilmInputError("time, end", f"{end:g} s", f"after the start, {start:g} s")
+    if not (np.isfinite(step) and step > 0.0):
+        raise FilmInputError("time, step", f"{step:g} s", "above zero")
+    count = max(1, int(np.ceil((end - start) / step * (1.0 - 1e-9))))
+    before = oil_held(problem_at(start)) if held is None else held
+    last: FilmSolution | None = None
+    for number in range(count):
+        begin, until = (start + (end - start) * k / count for k in (number, number + 1))
+        for instant in _stepped(solver, problem_at, before, last, begin, until):
+            before, last = instant.solution.holds, instant.solution
+            yield instant
+
+
+def oil_held(problem: FilmProblem, film_fraction: float | Array = 1.0) -> Array:
+    """What each unknown of a film holds at given film fractions (size,): m3 at reference density, (size,)."""
+    setting = spread(problem)
+    fraction = np.broadcast_to(np.asarray(film_fraction, dtype=float), (problem.space.size,))
+    if not np.all((fraction >= 0.0) & (fraction <= 1.0)):
+        raise FilmInputError("film fraction", f"{fraction.min():g} .. {fraction.max():g}", "0 to 1")
+    state = State(setting.pressure, fraction, opening(problem, setting.pressure))
+    return holds(problem, operators(problem, state), state)
+
+
+def _stepped(
+    solver: FilmSolver,
+    problem_at: Callable[[float], FilmProblem],
+    before: Array,
+    last: FilmSolution | None,
+    begin: float,
+    until: float,
+) -> Iterator[Instant]:
+    """One step, or the shorter ones that it takes."""
+    at, step, halvings = begin, until - begin, 0
+    while at < until - 1e-9 * (until - begin):
+        problem = replace(problem_at(at + step), storage=Storage(before, step))
+        try:
+            solution = _solved(solver, problem, last)
+        except FilmNotConverged as reason:
+            halvings += 1
+            if halvings > MOST_HALVINGS:
+                raise FilmNotConverged(f"at {at:.6g} s, step {step:.2g} s: {reason.what}", reason.remedy) from None
+            step *= 0.5
+            continue
+        at += step
+        before, last = solution.holds, solution
+        yield Instant(at, step, solution)
+
+
+def _solved(solver: FilmSolver, problem: FilmProblem, last: FilmSolution | None) -> FilmSolution:
+    """From the step before; where that leads nowhere (a cavity that opens everywhere at once), from nothing."""
+    try:
+        return solver.solve(problem, start=last)
+    except FilmNotConverged:
+        if last is None:
+            raise
+        return solver.solve(problem)
