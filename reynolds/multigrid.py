@@ -15,10 +15,11 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import csc_array
 
-from reynolds import grid_kernels
+from reynolds import coarsening_kernels, grid_kernels
 from reynolds import multigrid_kernels as kernels
 from reynolds.errors import FilmInputError
 from reynolds.grid import Grid
+from reynolds.line_kernels import Levels
 from reynolds.mesh import Array
 
 MAX_STEPS = 60  # some 10 are usual: beyond these the operator is not one for multigrid
@@ -51,14 +52,14 @@ class Multigrid:
         self._work = np.zeros((2, self._grid.rows + 2, self._grid.columns + 2))
 
     @property
-    def parts(self) -> tuple[kernels.Levels, NDArray[np.int32]]:
+    def parts(self) -> tuple[Levels, NDArray[np.int32]]:
         """The levels and their unknowns in rows, for kernels that cycle themselves."""
         return self._levels, self._grid.unknowns
 
     def update(self, data: Array) -> bool:
         """Take the entries of the upper triangle; False where the matrix is not positive definite on some row."""
         kernels.spread(data, self._places, self._stencils)
-        return bool(kernels.set_up(self._levels))
+        return bool(coarsening_kernels.set_up(self._levels))
 
     def solve(self, load: Array, tolerance: float) -> tuple[Array, Effort]:
         """x with |A x - load| <= tolerance |load|, (n,), or as near as round-off and MAX_STEPS let it come."""
@@ -69,6 +70,14 @@ class Multigrid:
         kernels.to_rows(load, self._grid.unknowns, self._levels.load)
         left = kernels.left_of(self._levels, self._work[0])
         return self._taken(self._work[0]), Effort(steps, float(left / size))
+
+    def residual(self, load: Array, x: Array) -> Array:
+        """load - A x, (n,)."""
+        unknowns = self._grid.unknowns
+        kernels.to_rows(load, unknowns, self._levels.load)
+        kernels.to_rows(x, unknowns, self._work[0])
+        kernels.left_of(self._levels, self._work[0])
+        return self._taken(self._levels.load)
 
     def full_pass(self, load: Array) -> Array:
         """x to about the error of the mesh, (n,): one pass of full multigrid (Brandt 1977), without a check."""
@@ -88,7 +97,7 @@ class Multigrid:
         return values
 
 
-def _levels(grid: Grid) -> tuple[kernels.Levels, Array]:
+def _levels(grid: Grid) -> tuple[Levels, Array]:
     """All levels, empty, and their stencils as one array (5, all rows, columns + 2)."""
     counts = [grid.rows]
     while counts[-1] > 1:
@@ -96,7 +105,7 @@ def _levels(grid: Grid) -> tuple[kernels.Levels, Array]:
     rows = np.array(counts, dtype=np.int64)
     total, width = int(np.sum(rows + 2)), grid.columns + 2
     stencils, vectors = np.zeros((5, total, width)), np.zeros((3, total, width))
-    levels = kernels.Levels(
+    levels = Levels(
         centre=stencils[0],
         east=stencils[1],
         north=stencils[2],

