@@ -20,6 +20,7 @@ from swashfilm.pump_data import films_dataset, point_dataset
 from swashfilm.pump_page import headline_rows
 from swashfilm.pump_run import run_pump
 from swashfilm.pump_summary import pump_summary
+from swashfilm.study_case import load_film
 from system.assembly import PointWarning
 from system.description import dimension_of, section_models
 from system.films import FilmsPoint, films_point
@@ -130,7 +131,7 @@ def test_documented_cases_load(tmp_path):
     for block in blocks:
         path = tmp_path / block.split()[1].removesuffix(":")
         path.write_text(block, encoding="utf-8")
-        assert load_case(path).name == path.stem
+        assert load_film(path).name == path.stem
 
 
 @pytest.mark.parametrize(("section", "model"), list(section_models()), ids=[name for name, _ in section_models()])
@@ -189,8 +190,13 @@ def test_film_summary_keys_are_documented():
     free = set(film_summary(solve_case(load_case(ROOT / "examples" / "films" / "step_pad.toml"))))
     gap = set(film_summary(solve_case(load_case(ROOT / "examples" / "films" / "ref90_piston.toml"))))
     part = _part("## summary.json of a film")
-    assert _first_column(part.split("A gap adds:")[0]) == free
-    assert _first_column(part.split("A gap adds:")[1]) == gap - free
+    switched: set[str] = set()
+    for name in ("warm_slider", "soft_channel", "mixed_slider", "oscillating_squeeze"):
+        switched |= set(film_summary(solve_case(load_case(ROOT / "examples" / "films" / f"{name}.toml"))))
+    every, added, switches = re.split("A gap adds:|Switches add:", part)
+    assert _first_column(every) == free
+    assert _first_column(added) == gap - free
+    assert _first_column(switches) == switched - free | {"refinement"}
 
 
 def test_results_variables_are_documented(films):
