@@ -59,7 +59,9 @@ class Factor:
         assert self._upper is not None
         if self._on_grid is not None:
             answer, effort = self._on_grid.solve(load, ITERATIVE_TOLERANCE)
-            if effort.left <= STALLED * ITERATIVE_TOLERANCE:
+            # Entries are of order one: no answer leaves less than round-off of itself, however small the load.
+            lost = ROUND_OFF * float(np.linalg.norm(answer))
+            if effort.left * np.linalg.norm(load) <= STALLED * ITERATIVE_TOLERANCE * np.linalg.norm(load) + lost:
                 return answer
             self._leave_grid()
             self._off_grid(self._upper)

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.sparse import csc_array, triu
 
-from reynolds import linear
+from reynolds import kernels, linear
 from reynolds.balance import stiffness
 from reynolds.film import ZERO, Cavitation, FilmProblem, Held, film
 from reynolds.grid import grid_of
@@ -50,6 +50,7 @@ def test_each_rung_of_the_ladder_hands_over_to_the_next(monkeypatch):
     upper = space.matrix(entries + 0.1 * (space.pattern.indices == column))
     load = np.random.default_rng(1).standard_normal(space.size)
     whole = upper + triu(upper, 1).T
+    monkeypatch.setattr(linear, "ROUND_OFF", 0.0)
     for limit, tolerance, rung in ((10_000, 1e-11, "_on_grid"), (10, 1e-11, "_on_grid"), (10, 1e-30, "_direct")):
         monkeypatch.setattr(linear, "DIRECT_LIMIT", limit)
         monkeypatch.setattr(linear, "ITERATIVE_TOLERANCE", tolerance)
@@ -58,6 +59,26 @@ def test_each_rung_of_the_ladder_hands_over_to_the_next(monkeypatch):
         np.testing.assert_allclose(whole @ factor.solve(load), load, atol=1e-9)
         assert getattr(factor, rung) is not None
     assert factor._on_grid is None
+
+
+def test_a_pocket_five_hundred_times_deeper_stays_on_the_grid():
+    """Round-off of pressures across the pocket exceeds the tolerance of the load: no other solver does better."""
+    space = film_space(rectangle((1.0, 1.0), (60, 60), cell=Cell.QUADRILATERAL))
+    x, y = space.points
+    conductance = np.where((np.abs(x - 0.5) < 0.2) & (np.abs(y - 0.5) < 0.2), 1.0, 500.0**-3)
+    entries = stiffness(space, (conductance, conductance))
+    held, data = np.zeros(space.size, dtype=bool), np.empty_like(entries)
+    held[space.edge_dofs["left"]] = True
+    pattern = space.pattern
+    kernels.hold(pattern.indptr, pattern.indices, entries, held, np.zeros(space.size), data)
+    load = np.where(held, 0.0, np.random.default_rng(1).standard_normal(space.size))
+    answers = []
+    for grid in (grid_of(space), None):
+        factor = linear.Factor(grid)
+        factor.update(space.matrix(data))
+        answers.append(factor.solve(load))
+        assert (factor._on_grid is None) == (grid is None)
+    np.testing.assert_allclose(answers[0], answers[1], rtol=0.0, atol=1e-5 * np.abs(answers[1]).max())
 
 
 def test_a_matrix_that_is_not_positive_leaves_the_grid():
