@@ -67,8 +67,8 @@ def _solve(
     place = np.zeros(space.size)
     place[space.vertex_dofs] = space.vertices[:, 0]
     found = loads(solution)
-    assert found.mass_balance_error < 1e-8
-    assert found.flow["left"] == pytest.approx(-found.flow["right"], rel=1e-7)
+    assert found.mass_balance_error < 1e-11
+    assert found.flow["left"] == pytest.approx(-found.flow["right"], rel=1e-10)
     return Found(solution, float(np.ptp(space.vertices[:, 1])), np.unique(place[solution.cavity]), found)
 
 
