@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import base64
+import csv
 import io
 import json
 from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -15,6 +17,28 @@ from swashfilm.film_refine import refinement_head, refinement_rows
 from swashfilm.headline import named
 from swashfilm.maps import draw_map
 from system.faults import Fault, InputFaults
+
+
+@dataclass(frozen=True)
+class MapField:
+    """A field as the page shows it: (value - zero) x scale, under its title."""
+
+    name: str
+    title: str
+    scale: float = 1.0
+    zero: float = 0.0
+    colours: str = "viridis"
+    always: bool = False
+
+
+FIELDS = (
+    MapField("film_pressure", "film pressure / MPa", 1e-6, always=True),
+    MapField("film_thickness_cell", "film thickness / um", 1e6, colours="cividis", always=True),
+    MapField("film_fraction", "film fraction", colours="Blues"),
+    MapField("temperature", "film temperature, mean over the thickness / degC", zero=273.15, colours="inferno"),
+    MapField("deformation", "opening of the film by its walls / um", 1e6, colours="cividis"),
+    MapField("contact_pressure", "contact pressure / MPa", 1e-6, colours="magma"),
+)
 
 
 def write_film_page(folder: Path) -> Path:
@@ -31,7 +55,8 @@ def write_film_page(folder: Path) -> Path:
     template = Environment(loader=PackageLoader("swashfilm"), autoescape=True).get_template("film.html.jinja")
     page = template.render(
         name=summary["name"],
-        picture=base64.b64encode(film_picture(folder / "results.nc")).decode("ascii"),
+        picture=_inline(film_picture(folder / "results.nc")),
+        history=_inline(history_picture(history)) if (history := folder / "history.csv").is_file() else "",
         rows=list(summary_rows(summary)),
         warnings=summary["warnings"],
         refinement=[refinement_head(found), *refinement_rows(found)]
@@ -64,20 +89,49 @@ def summary_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
 
 
 def film_picture(results: Path) -> bytes:
-    """Maps of film pressure (MPa) and film thickness (um) over the film plane (mm), as a PNG."""
+    """Maps over the film plane (mm) as a PNG: pressure (MPa), thickness (um), and what else of FIELDS varies."""
     import xarray
     from matplotlib.figure import Figure
 
     with xarray.open_dataset(results, engine="h5netcdf") as fields:
         fields.load()
+    shown = [
+        field
+        for field in FIELDS
+        if field.name in fields and (field.always or np.ptp(fields[field.name].values) > 0.0)
+    ]
     place = (fields["x"].values * 1e3, fields["y"].values * 1e3)
     wide = np.ptp(place[0]) > 1.7 * np.ptp(place[1])
-    figure = Figure(figsize=(8.0, 7.0) if wide else (10.0, 4.2), layout="constrained")
-    one, two = figure.subplots(2, 1) if wide else figure.subplots(1, 2)
-    cells = fields["cells"].values
-    draw_map(one, place, cells, fields["film_pressure"].values * 1e-6, "film pressure / MPa")
-    thickness = fields["film_thickness_cell"].values * 1e6
-    draw_map(two, place, cells, thickness, "film thickness / um", colours="cividis")
+    rows, columns = (len(shown), 1) if wide else ((len(shown) + 1) // 2, 2)
+    figure = Figure(figsize=(8.0, 3.5 * rows) if wide else (10.0, 4.2 * rows), layout="constrained")
+    for number, field in enumerate(shown, start=1):
+        axes = figure.add_subplot(rows, columns, number)
+        values = (fields[field.name].values - field.zero) * field.scale
+        draw_map(axes, place, fields["cells"].values, values, field.title, colours=field.colours)
+    return _png(figure)
+
+
+def history_picture(history: Path) -> bytes:
+    """Load, largest pressure and least film over time, from history.csv, as a PNG."""
+    from matplotlib.figure import Figure
+
+    with history.open(newline="", encoding="utf-8") as file:
+        steps = list(csv.DictReader(file))
+    figure = Figure(figsize=(8.0, 6.5), layout="constrained")
+    shown = ("load / N", "pressure max / Pa", "film thickness min / m")
+    for axes, name in zip(figure.subplots(len(shown), 1, sharex=True), shown, strict=True):
+        axes.plot(*([float(step[key]) for step in steps] for key in ("time / s", name)))
+        axes.set_ylabel(name)
+        axes.grid(visible=True, alpha=0.3)
+    axes.set_xlabel("time / s")
+    return _png(figure)
+
+
+def _inline(png: bytes) -> str:
+    return base64.b64encode(png).decode("ascii")
+
+
+def _png(figure: Any) -> bytes:
     picture = io.BytesIO()
     figure.savefig(picture, format="png", dpi=130)
     return picture.getvalue()

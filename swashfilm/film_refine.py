@@ -49,7 +49,7 @@ def refine_study(case: FilmCase, study: FilmStudy, meshes: int, report: Report) 
         case = case.refined()
         studies.append(solve_case(case))
     rows = [headline_numbers(film_summary(one)) for one in studies]
-    expected = expected_orders(studies[-1].solution)
+    expected = expected_orders(studies[-1])
     size = sizes(rows[-1], _natural_sizes(studies[-1].solution))
     return Refinement(
         tuple(one.solution.problem.space.size for one in studies),
@@ -58,15 +58,15 @@ def refine_study(case: FilmCase, study: FilmStudy, meshes: int, report: Report) 
     )
 
 
-def expected_orders(solution: FilmSolution) -> tuple[float, float]:
+def expected_orders(study: FilmStudy) -> tuple[float, float]:
     """Range of the orders to expect of integrals: twice the degree; less where theory leaves it open.
 
-    A cavity's front moves by whole cells and its oil is carried upwind, of first order; quadratic pressures
-    on the straight cells of a round film are of second order.
+    A cavity's front moves by whole cells and its oil is carried upwind, of first order, as is heat where
+    temperatures jump; quadratic pressures on the straight cells of a round film are of second order.
     """
-    if solution.problem.space.degree == 2:
+    if study.solution.problem.space.degree == 2:
         return 2.0, 4.0
-    return (1.0, 2.0) if np.any(solution.cavity) else (2.0, 2.0)
+    return (1.0, 2.0) if study.heat or np.any(study.solution.cavity) else (2.0, 2.0)
 
 
 def _natural_sizes(solution: FilmSolution) -> dict[str, float]:

@@ -60,7 +60,10 @@ def _lines(axes: Any, data: xarray.Dataset, key: str) -> None:
     lines = list(product(*(range(data.sizes[dim]) for dim in others)))
     for index in lines[:MOST_LINES]:
         at = dict(zip(others, index, strict=True))
-        shown = ", ".join(f"{dim} = {_text(data[dim].values[k])}" for dim, k in at.items())
+        shown = ", ".join(
+            f"{dim} = {_text(data[dim].values[k])} {data[dim].attrs.get('units', '')}".strip()
+            for dim, k in at.items()
+        )
         axes.plot(places, field.isel(at).values, "o-", markersize=3.5, label=shown or None)
     if others:
         axes.legend(fontsize=7, title=None if len(lines) <= MOST_LINES else f"{MOST_LINES} of {len(lines)} lines")
