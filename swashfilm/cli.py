@@ -17,7 +17,6 @@ from swashfilm.terminal import show, show_table
 from system.faults import Fault, InputFaults, nearest_choice
 
 if TYPE_CHECKING:
-    from swashfilm.study_case import StudyCase
     from system.description import PumpDescription
 
 COMMAND_LINE = "command line"
@@ -30,7 +29,6 @@ _OVERRIDES = {
     "--case-pressure": ("operating.case_pressure", "1.5bar", "pressure in the case, gauge"),
 }
 _FILM_OPTIONS = ["--refine", "--csv", "--resume", "--workers"]
-EXIT_NOT_CONVERGED = 3
 _FIDELITIES = [fidelity.value for fidelity in Fidelity]
 
 
@@ -251,74 +249,10 @@ def _at_options(reason: InputFaults, stated: dict[str, object], faults: list[Fau
 
 
 def _film(options: argparse.Namespace) -> int:
-    from swashfilm.film_page import summary_rows
-    from swashfilm.film_refine import refinement_head, refinement_rows
-    from swashfilm.film_run import check_refinable, run_case
-    from swashfilm.progress import progress
-    from swashfilm.run_folder import final_folder, run_folder
-    from swashfilm.study_case import StudyCase, load_film
+    from swashfilm.cli_film import run_film
 
     _expect(options.case, "film", "pump", "run")
-    meshes = _count("--refine", options.refine, "a number of meshes", 2, 5)
-    workers = _count("--workers", options.workers, "a number of processes", 1, 64)
-    case = load_film(options.case)
-    _check_options(options, study=isinstance(case, StudyCase))
-    if isinstance(case, StudyCase):
-        return _study(case, options, workers)
-    if meshes > 1:
-        check_refinable(case, meshes)
-    with run_folder(case.name, options.output) as folder, progress(3, f"film {case.name}") as report:
-        summary = run_case(case, folder, report, meshes=meshes, as_table=options.csv)
-    show_table(f"Film {case.name}", summary_rows(summary))
-    if found := summary.get("refinement"):
-        show_table("On finer meshes", [refinement_head(found), *refinement_rows(found)])
-    for warning in summary["warnings"]:
-        show(f"warning: {warning['name']}: {warning['text']}")
-    show(f"results in {final_folder(folder)}")
-    return 0
-
-
-def _study(study: StudyCase, options: argparse.Namespace, workers: int) -> int:
-    from swashfilm.progress import progress
-    from swashfilm.run_folder import final_folder, run_folder
-    from swashfilm.series_page import failed_rows, run_study, span_rows
-
-    label = f"study {study.name}"
-    with run_folder(study.name, options.output) as folder, progress(len(study.points), label) as report:
-        summary = run_study(study, folder, report, resumed=options.resume, workers=workers)
-    head = ("", "least", "at", "largest", "at")
-    show_table(
-        f"Study {study.name}: {summary['solved']} of {summary['points']} points", [head, *span_rows(summary)]
-    )
-    if summary["failed"]:
-        show_table("Points without a result", failed_rows(summary))
-    for warning in summary["warnings"]:
-        show(f"warning: {warning['name']}: {warning['text']}")
-    show(f"results in {final_folder(folder)}")
-    return 0 if summary["solved"] else EXIT_NOT_CONVERGED
-
-
-def _check_options(options: argparse.Namespace, *, study: bool) -> None:
-    """Raise InputFaults for options that are not for this kind of case."""
-    unfit = {"--refine": options.refine, "--csv": options.csv or None}
-    kind, other = "a study", "a single film"
-    if not study:
-        unfit, kind, other = (
-            {"--resume": options.resume, "--workers": options.workers},
-            other,
-            "a case with [study]",
-        )
-    faults = [Fault(name, f"an option beside {kind}", other) for name, given in unfit.items() if given is not None]
-    if faults:
-        raise InputFaults(COMMAND_LINE, faults)
-
-
-def _count(option: str, text: str | None, what: str, least: int, most: int) -> int:
-    if text is None:
-        return 1
-    if not (text.isdecimal() and least <= int(text) <= most):
-        raise InputFaults(COMMAND_LINE, [Fault(option, repr(text), f"{what}, {least} to {most}")])
-    return int(text)
+    return run_film(options)
 
 
 def _report(options: argparse.Namespace) -> int:
