@@ -102,7 +102,7 @@ class PistonGap:
                 velocity_fixed=(around[1], ZERO),
             ),
             boundary={"chamber": Held(state.chamber_pressure), "case": Held(state.case_pressure)},
-            cavitation=Cavitation.REYNOLDS,
+            cavitation=Cavitation.JFO,
             cavitation_pressure=state.cavitation_pressure,
         )
 

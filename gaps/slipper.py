@@ -125,7 +125,7 @@ class SlipperGap:
                 velocity_fixed=(np.full((1, 1), -state.sliding_speed), ZERO),
             ),
             boundary={"pocket": Pocket(feed), "case": Held(state.case_pressure)},
-            cavitation=Cavitation.REYNOLDS,
+            cavitation=Cavitation.JFO,
             cavitation_pressure=state.cavitation_pressure,
         )
 

@@ -116,7 +116,7 @@ class ValvePlateGap:
                 velocity_moving=(-speed * y, speed * x),
             ),
             boundary=boundary,
-            cavitation=Cavitation.REYNOLDS,
+            cavitation=Cavitation.JFO,
             cavitation_pressure=state.cavitation_pressure,
             held_nodes=self._port_nodes(space.vertices, state),
         )

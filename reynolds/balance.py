@@ -116,10 +116,24 @@ def flow_balance(problem: FilmProblem, parts: Operators, state: State) -> tuple[
     out, size = np.zeros(problem.space.size), np.zeros(problem.space.size)
     kernels.exchange(pattern.indptr, pattern.indices, parts.stiffness, state.pressure, out, size)
     kernels.carry(pattern.indptr, pattern.indices, *parts.convection, filling, out, size)
-    carried = cavity_density(problem) * state.film_fraction
-    kernels.exchange(pattern.indptr, pattern.indices, parts.diffusion, carried, out, size)
+    mixed, mixed_size = _mixing(problem, parts, state)
+    out += mixed
+    size += mixed_size
     out += swallowed(problem, parts, state)
     size += np.abs(parts.rate * filling)
+    return out, size
+
+
+def mixing(problem: FilmProblem, parts: Operators, state: State) -> Array:
+    """What upwinding exchanges between the unknowns, m3/s at reference density, (size,): zero in a full film."""
+    return _mixing(problem, parts, state)[0]
+
+
+def _mixing(problem: FilmProblem, parts: Operators, state: State) -> tuple[Array, Array]:
+    pattern = problem.space.pattern
+    out, size = np.zeros(problem.space.size), np.zeros(problem.space.size)
+    level = cavity_density(problem) * state.film_fraction
+    kernels.exchange(pattern.indptr, pattern.indices, parts.diffusion, level, out, size)
     return out, size
 
 

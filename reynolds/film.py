@@ -190,7 +190,8 @@ class FilmSolution:
     opening (vertices,) m in its thickness and the oil's law in its viscosity; flux: what the walls carry along,
     m2/s at the quadrature points of a full film. Of each unknown (size,), at reference density: outflow, m3/s
     out of the film at held nodes and pockets; holds, its oil in m3, and swallowed, the rate of that in m3/s;
-    meeting: magnitudes of the flows that meet there, m3/s. `cavity` marks unknowns at cavitation pressure;
+    mixing, what upwinding exchanges in a cavity and at its ends, m3/s; meeting, magnitudes of the flows that meet
+    there, m3/s. `cavity` marks unknowns at cavitation pressure;
     `imbalance` is the largest residual of a free unknown relative to `meeting` (round-off when converged).
     """
 
@@ -203,6 +204,7 @@ class FilmSolution:
     outflow: Array
     holds: Array
     swallowed: Array
+    mixing: Array
     meeting: Array
     held: NDArray[np.bool_]
     cavity: NDArray[np.bool_]

@@ -23,13 +23,12 @@ class Loads:
     load N (integral of p); contact_load N, what touching asperities bear besides; moment_x, moment_y N m
     (integrals of p y and of -p x about the origin, p with the contact's pressure); friction_moving,
     friction_fixed N: force of oil and contact on each wall (x, y); friction_torque_* N m about the origin;
-    dissipation W, contact included; flow m3/s by boundary name, positive out of the film; squeeze_flow m3/s by which what the film holds grows;
-    cavity_flow m3/s that Reynolds' condition makes the cavity supply (+) or swallow (-), else zero;
-    film_fraction_min, cavitated_area_fraction; mass_balance_error = |out + squeeze - cavity|, relative to the flow
-    through the boundaries or the flows within the film, whichever are larger; energy_balance_error likewise
-    relative to the dissipation, the walls' or the flows' power: round-off for a full film between smooth walls;
-    of the order of the cells at the ends of a JFO cavity, whose upwinding dissipates; with rough walls what the
-    pressure's push on their asperities leaves out of the shear stress factors.
+    dissipation W, contact included; flow m3/s by boundary name, positive out of the film; squeeze_flow m3/s by
+    which what the film holds grows; cavity_flow m3/s that Reynolds' condition makes the cavity supply (+) or
+    swallow (-), else zero; film_fraction_min, cavitated_area_fraction; mass_balance_error =
+    |out + squeeze - cavity|, relative to the flow through the boundaries or the flows within the film, whichever
+    are larger; energy_balance_error likewise relative to the dissipation, the walls' or the flows' power: round-off between smooth walls; with rough ones
+    what the pressure's push on their asperities is, which the shear stress factors leave out.
     """
 
     load: float
@@ -267,8 +266,10 @@ def dissipated(solution: FilmSolution) -> tuple[Array, Array]:
 
 
 def _dissipation(solution: FilmSolution, weight: Array | None = None) -> float:
+    """Heat of the film (W), with what mixing spends in the cells at the ends of a cavity."""
     driven, sliding = dissipated(solution)
-    return float(np.sum((driven + sliding) * (1.0 if weight is None else weight)))
+    mixed = float(np.sum(solution.pressure * solution.mixing))
+    return float(np.sum((driven + sliding) * (1.0 if weight is None else weight))) + mixed
 
 
 def _root_sum(within: Array) -> float:

@@ -23,6 +23,7 @@ from reynolds.balance import (
     flow_balance,
     full_matrix,
     holds,
+    mixing,
     operators,
     positive_share,
     slopes,
@@ -32,6 +33,7 @@ from reynolds.cascade import COARSEST, nested_cavity
 from reynolds.errors import FilmInputError, FilmNotConverged
 from reynolds.film import Cavitation, FilmProblem, FilmSolution
 from reynolds.fluid import CONSTANT
+from reynolds.grid import grid_of
 from reynolds.linear import Factor, GeneralFactor
 from reynolds.mesh import Array
 from reynolds.opening import opening, opening_slope
@@ -67,8 +69,9 @@ class FilmSolver:
 
     def __init__(self, space: FilmSpace) -> None:
         self._pattern = space.pattern
-        self._factor = Factor()
-        self._general = GeneralFactor()
+        grid = grid_of(space)
+        self._factor = Factor(grid)
+        self._general = GeneralFactor(grid)
 
     def solve(self, problem: FilmProblem, start: FilmSolution | None = None) -> FilmSolution:
         """The film of `problem`; `start` warms pressures, film fractions and cavity.
@@ -124,7 +127,7 @@ class FilmSolver:
         else:
             upper, lower, load, scale = _general_step(problem, setting, at)
             if problem.walls is None:
-                self._general.update(problem.space.matrix(upper), lower)
+                self._general.update(problem.space.matrix(upper), lower, at.cavity)
                 change = self._general.solve(load)
             else:
                 change = _compliant_step(problem, setting, at, upper, lower, load)
@@ -340,6 +343,7 @@ def _solution(
         outflow=-at.balance,
         holds=holds(problem, at.parts, at.state),
         swallowed=swallowed(problem, at.parts, at.state),
+        mixing=mixing(problem, at.parts, at.state),
         meeting=at.size,
         held=setting.held,
         cavity=at.cavity,

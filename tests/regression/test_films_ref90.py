@@ -29,14 +29,14 @@ def test_held_numbers(rated, validation):
     """Tolerances: what doubling the film angles moves each number by."""
     point, leakage, pairs = rated.pump_point, rated.pump_point.leakage_flow, rated.pump_point.pairs
     for quantity, unit, expected, obtained, tolerance in (
-        ("leakage, pistons", "L/min", 0.3527, leakage.piston * 6e4, 0.002),
+        ("leakage, pistons", "L/min", 0.3780, leakage.piston * 6e4, 0.002),
         ("leakage, slippers", "L/min", 0.3937, leakage.slipper * 6e4, 0.001),
-        ("leakage, valve plate", "L/min", 0.1665, leakage.valve_plate * 6e4, 0.001),
-        ("viscous loss, pistons", "W", 277.8, pairs.piston_cylinder.mean_viscous, 0.01),
+        ("leakage, valve plate", "L/min", 0.1667, leakage.valve_plate * 6e4, 0.001),
+        ("viscous loss, pistons", "W", 284.0, pairs.piston_cylinder.mean_viscous, 0.01),
         ("viscous loss, slippers", "W", 956.3, pairs.slipper_swash_plate.mean_viscous, 0.001),
         ("viscous loss, valve plate", "W", 558.3, pairs.valve_plate_cylinder.mean_viscous, 0.001),
-        ("shaft torque", "N m", 512.67, point.bench.shaft_torque, 0.001),
-        ("delivery flow", "L/min", 178.72, point.bench.delivery_flow * 6e4, 0.001),
+        ("shaft torque", "N m", 512.66, point.bench.shaft_torque, 0.001),
+        ("delivery flow", "L/min", 178.71, point.bench.delivery_flow * 6e4, 0.001),
     ):
         validation(
             case="REF90 films, 35 MPa, 2100 r/min, full displacement",
