@@ -104,7 +104,7 @@ def _motion(journal: Journal, start: float, end: float, step: float) -> Iterator
 
 UPWIND = (
     "the listed values carry first-order upwinding of the full film: with the thickness half a cell upstream in "
-    "its flux this solver gives e_max .9354, pmax 1.882 on 100 x 10 cells (listed .9338, 1.811), without .952, 2.00"
+    "its flux this solver gives e_max .9354, pmax 1.882 on 100 x 10 cells (listed .9338, 1.811), else .952, 2.00"
 )
 PLACES = (  # time, X, Y; and whether the listed digits are met within 1 % of the clearance
     (0.25, 0.85181, 0.06108, True), (0.4, 0.81881, 0.39644, True), (0.5, 0.79033, 0.48744, True),
