@@ -1,0 +1,143 @@
+"""A film that finds the position at which it bears its load: sliders, squeeze, contact on springs, pivots."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from reynolds.bodies.foundation import winkler
+from reynolds.carried_load import RigidLoad, carry
+from reynolds.contact import Asperities, contact_pressure
+from reynolds.errors import FilmInputError, FilmNotConverged
+from reynolds.film import ZERO, Cavitation, FilmProblem, Held, film
+from reynolds.loads import loads
+from reynolds.mesh import rectangle
+from reynolds.roughness import Surface
+from reynolds.space import film_space
+
+LENGTH, WIDTH, VISCOSITY, SPEED = 0.01, 0.002, 0.03, 1.0
+SLIDING = (np.full((1, 1), SPEED), ZERO)
+ENDS = {"left": Held(0.0), "right": Held(0.0)}
+ASPERITIES = Asperities(2e10, 5e-6, 0.5e-6, 1e11, 0.1)
+
+
+def _space(cells=32):
+    return film_space(rectangle((LENGTH, WIDTH), (cells, 1), periodic_y=True))
+
+
+def _problem(space, shape, **motion):
+    given = film(1.0, VISCOSITY, **motion)
+    thickness = space.sample(shape)
+    corners = np.broadcast_to(shape(*space.vertices.T), len(space.vertices))
+    return FilmProblem(space, replace(given, thickness=thickness, thickness_at_vertices=corners), ENDS)
+
+
+def _slider_load(outlet, rise):
+    """Rayleigh 1918, N."""
+    n = 1.0 + rise / outlet
+    scale = 6.0 / (n - 1.0) ** 2 * (np.log(n) - 2.0 * (n - 1.0) / (n + 1.0))
+    return scale * VISCOSITY * SPEED * LENGTH**2 / outlet**2 * WIDTH
+
+
+@pytest.mark.parametrize("outlet", [2e-6, 1e-5, 8e-5])
+def test_a_slider_settles_where_it_bears_its_load(outlet, validation, refine):
+    rise = 1e-5
+
+    def found(cells):
+        problem = _problem(_space(cells), lambda x, y: rise * (1.0 - x / LENGTH), velocity_moving=SLIDING)
+        return carry(problem, RigidLoad(_slider_load(outlet, rise))).position.separation * 1e6
+
+    (column,) = refine(lambda cells: (found(cells),), (16, 32, 64))
+    validation(
+        case="Wide slider under a given load", source="Rayleigh 1918, inverted",
+        quantity=f"outlet film thickness, n = {1.0 + rise / outlet:.4g}", unit="um", expected=outlet * 1e6,
+        obtained=column.finest, tolerance=column.tolerance() + 1e-6 * outlet * 1e6, order=column.order,
+    )  # fmt: skip
+
+
+def test_a_squeezed_film_settles_where_it_bears_its_load(validation, refine):
+    """Infinitely long strip: W = mu V L^3 B/h^3."""
+    approach, h = 1e-4, 7e-6
+    load = VISCOSITY * approach * LENGTH**3 * WIDTH / h**3
+
+    def found(cells):
+        problem = _problem(_space(cells), lambda x, y: 0.0 * x, squeeze=np.full((1, 1), -approach))
+        return carry(problem, RigidLoad(load)).position.separation * 1e6
+
+    (column,) = refine(lambda cells: (found(cells),), (8, 16, 32))
+    validation(
+        case="Squeezed strip under a given load", source="closed form", quantity="film thickness", unit="um",
+        expected=h * 1e6, obtained=column.finest, tolerance=column.tolerance() + 1e-6 * h * 1e6,
+        order=column.order,
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize("stiffness", [None, 1e15])
+@pytest.mark.parametrize("h", [0.2e-6, 1e-6])
+def test_rough_walls_settle_where_their_contact_bears_the_load(h, stiffness, validation):
+    """No film pressure: F = A p_c(h), and springs give way by p_c/k."""
+    space = _space(8)
+    bears = float(contact_pressure(ASPERITIES, h).value)
+    problem = replace(
+        _problem(space, lambda x, y: 0.0 * x),
+        surface=Surface(0.3e-6, 0.4e-6, 1.0, 1.0, 0.0), asperities=ASPERITIES,
+        walls=None if stiffness is None else winkler(space, stiffness),
+    )  # fmt: skip
+    found = carry(problem, RigidLoad(bears * LENGTH * WIDTH))
+    slope = abs(float(contact_pressure(ASPERITIES, h).slope)) / bears
+    validation(
+        case="Rough walls under a given load", source="Greenwood and Tripp 1970-71, inverted",
+        quantity=f"separation, h = {h * 1e6:g} um, " + ("rigid" if stiffness is None else "Winkler's springs"),
+        unit="um", expected=(h - (bears / stiffness if stiffness else 0.0)) * 1e6,
+        obtained=found.position.separation * 1e6,
+        tolerance=1e6 * (1e-6 / slope + (1e-6 * bears / stiffness if stiffness else 0.0)),
+        note="1e-6 of the load over the contact's stiffness",
+    )  # fmt: skip
+    assert found.solution.film.thickness.min() == pytest.approx(h, rel=1e-4)
+
+
+@pytest.mark.parametrize("n", [1.5, 2.1887, 4.0])
+def test_a_flat_pad_on_a_pivot_finds_film_and_tilt(n, validation):
+    """A pad of the film and tilt of a slider is asked to bear that slider's own load and moment."""
+    space, outlet = _space(), 1e-5
+    rise = (n - 1.0) * outlet
+    slider = _problem(space, lambda x, y: outlet + rise * (1.0 - x / LENGTH), velocity_moving=SLIDING)
+    asked = loads(carry(slider, RigidLoad(_slider_load(outlet, rise))).solution)
+    flat = _problem(space, lambda x, y: 0.0 * x, velocity_moving=SLIDING)
+    found = carry(flat, RigidLoad(asked.load, moment_y=asked.moment_y))
+    reached = loads(found.solution)
+    assert reached.load == pytest.approx(asked.load, rel=2e-6)
+    assert reached.moment_y == pytest.approx(asked.moment_y, abs=2e-6 * asked.load * LENGTH)
+    assert found.position.slope_y == 0.0
+    obtained = reached.film_thickness_min - found.position.slope_x * LENGTH
+    centre = -asked.moment_y / asked.load / LENGTH
+    validation(
+        case="Flat pad on a pivot", source="Rayleigh 1918, inverted",
+        quantity=f"inlet over outlet film, pivot at x/L = {centre:.4f}", unit="1", expected=n,
+        obtained=obtained / reached.film_thickness_min, tolerance=5e-3 * n,
+        note="load and moment of 32 cells: within 0.2 % of the closed form",
+    )  # fmt: skip
+
+
+def test_a_square_pad_stays_level_across_its_motion():
+    space = film_space(rectangle((LENGTH, LENGTH), (16, 16), origin=(-LENGTH / 2, -LENGTH / 2)))
+    every = {name: Held(0.0) for name in ("left", "right", "bottom", "top")}
+    problem = replace(_problem(space, lambda x, y: 0.0 * x, velocity_moving=SLIDING), boundary=every)
+    found = carry(problem, RigidLoad(50.0, moment_x=0.0, moment_y=-50.0 * 0.08 * LENGTH))
+    assert abs(found.position.slope_y) < 1e-3 * abs(found.position.slope_x)
+    assert found.position.slope_x < 0.0
+    assert found.rest < 1e-6
+
+
+def test_what_no_position_bears_is_told_with_the_nearest():
+    space = _space(16)
+    level = _problem(space, lambda x, y: 0.0 * x, velocity_moving=SLIDING)
+    with pytest.raises(FilmNotConverged, match="no position of the walls bears 10 N; nearest after"):
+        carry(level, RigidLoad(10.0))
+    pressed = replace(level, boundary={"left": Held(1e6), "right": Held(1e6)}, cavitation=Cavitation.NONE)
+    with pytest.raises(FilmNotConverged, match=r"bears 10 N; nearest after .* films: 20 N"):
+        carry(pressed, RigidLoad(10.0))
+    with pytest.raises(FilmInputError, match="above zero"):
+        RigidLoad(-1.0)
