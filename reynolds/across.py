@@ -20,7 +20,8 @@ import numpy as np
 from numpy.polynomial import legendre
 
 from reynolds.errors import FilmInputError
-from reynolds.film import Film
+from reynolds.film import Film, FilmSolution
+from reynolds.loads import evaluate
 from reynolds.mesh import Array
 from reynolds.space import FilmSpace
 
@@ -149,6 +150,30 @@ def film_with(film: Film, space: FilmSpace, profile: Profile) -> Film:
         for nodal in (profile.viscosity, profile.couette_viscosity, profile.moving_share)
     )
     return replace(film, viscosity=viscosity, couette_viscosity=couette, moving_share=share)
+
+
+def scaled(profile: Profile, viscosity: Array) -> Profile:
+    """The profile of shares of a viscosity (size,) Pa s that does not vary across the film, in Pa s."""
+    return replace(
+        profile, viscosity=viscosity * profile.viscosity, couette_viscosity=viscosity * profile.couette_viscosity
+    )
+
+
+def shear_rate(solution: FilmSolution, profile: Profile) -> Array:
+    """Magnitude of du/dz at each unknown and Gauss point across the film, (size, m) 1/s.
+
+    `profile` is that of the solution's film, in Pa s. The slopes of film and pressure are averaged over the cells
+    at an unknown (second order where the film is smooth, first order at a step).
+    """
+    film, space = solution.film, solution.problem.space
+    _, *gradient = evaluate(solution, solution.pressure)
+    by_pressure = profile.mixed_heat / profile.couette_viscosity[:, None]  # (zeta - zbar)/mu
+    square = np.zeros_like(by_pressure)
+    for moving, fixed, slope in zip(film.velocity_moving, film.velocity_fixed, gradient, strict=True):
+        slid = space.to_unknowns((moving - fixed) / film.thickness)
+        driven = space.to_unknowns(film.thickness * slope)
+        square += (profile.sliding_heat * slid[:, None] + by_pressure * driven[:, None]) ** 2
+    return np.sqrt(square)
 
 
 def velocity(profile: Profile, thickness: Array, moving: Array, fixed: Array, gradient: Array) -> Array:

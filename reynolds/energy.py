@@ -268,7 +268,8 @@ def dissipation(solution: FilmSolution, profile: Profile) -> Array:
     """Heat that arises at each unknown and Gauss point, per zeta, (size, m) W.
 
     h mu |du/dz|^2 with tau = mu du/dz = mu_c (U1 - U2)/h + (z - zbar) grad p: its two squares and their product
-    are integrated over the plane by the film's quadrature, so that the sum is the dissipation of `loads`.
+    are integrated over the plane by the film's quadrature, so that the sum is the dissipation of `loads`: with the
+    friction of walls in contact, spread as that of sliding, and with what mixing spends at the ends of a cavity.
     """
     space, film = solution.problem.space, solution.film
     driven, sliding = dissipated(solution)
@@ -281,7 +282,9 @@ def dissipation(solution: FilmSolution, profile: Profile) -> Array:
         (driven / space.area, profile.driven_heat),
         (mixed, profile.mixed_heat),
     )
-    return np.asarray(sum(lumped(space, part)[:, None] * shape for part, shape in parts))
+    # What mixes sums to zero, so that any level of pressure will do: above the cavity's no heat is negative.
+    mixed_up = (solution.pressure - solution.problem.cavitation_pressure) * solution.mixing
+    return np.asarray(sum(lumped(space, part)[:, None] * shape for part, shape in parts) + mixed_up[:, None])
 
 
 def _equations(solution: FilmSolution, heat: Heat, profile: Profile, terms: _Terms) -> tuple[HeatMatrix, Array]:

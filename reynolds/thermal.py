@@ -1,40 +1,31 @@
-"""Film and temperature together: pressure and heat solved in turn until the viscosity no longer changes.
-
-A round takes temperatures across the film to viscosities, to the generalised Reynolds equation, to the energy
-equation, to temperatures; Anderson's extrapolation takes the place of a relaxation factor.
-"""
+"""Film and temperature together, steady or in time; the oil may thin with shear too."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
+from typing import cast
 
 import numpy as np
 
-from reynolds.across import DEFAULT_LEVELS, Levels, Profile, dowson, film_with, levels
-from reynolds.anderson import History
-from reynolds.energy import FilmTemperature, Heat, solve_energy
-from reynolds.errors import FilmInputError, FilmNotConverged
-from reynolds.film import FilmProblem, FilmSolution
-from reynolds.fluid import isoviscous
+from reynolds.across import DEFAULT_LEVELS, levels
+from reynolds.coupling import Coupled, Posed, agree
+from reynolds.energy import FilmTemperature, Heat
+from reynolds.errors import FilmInputError
+from reynolds.film import FilmProblem
+from reynolds.fluid import Fluid, ViscosityLaw, isoviscous
 from reynolds.mesh import Array
+from reynolds.shear import ShearLaw, newtonian
 from reynolds.solve import FilmSolver
+from reynolds.transient import Instant, from_last_or_anew, march_with
 
 TOLERANCE = 1e-6
-MAX_ROUNDS = 60
+PRESSURE_STEP = 1e4  # Pa, over which Newton's method takes the slope of a viscosity: 1e-4 of it is lost
 
 ThermalViscosity = Callable[[Array, Array], Array]
 """(temperature K, pressure Pa), arrays that broadcast -> viscosity Pa s."""
 
-
-@dataclass(frozen=True)
-class ThermalSolution:
-    """A film and its temperature that agree; `change`: the largest relative change of viscosity at the end."""
-
-    film: FilmSolution
-    heat: FilmTemperature
-    rounds: int
-    change: float
+ThermalSolution = Coupled[FilmTemperature]
 
 
 def solve_thermal(
@@ -42,58 +33,95 @@ def solve_thermal(
     heat: Heat,
     viscosity: ThermalViscosity,
     *,
+    shear: ShearLaw = newtonian,
     count: int = DEFAULT_LEVELS,
     tolerance: float = TOLERANCE,
     solver: FilmSolver | None = None,
-    start: ThermalSolution | None = None,
+    start: Coupled[object] | None = None,
     before: Array | None = None,
 ) -> ThermalSolution:
     """The film of `problem` with the viscosity of its own temperature, resolved by `count` levels across.
 
     The viscosity of `problem.film` is not used; its fluid may change density with pressure, but not viscosity,
-    which is here. `start` warms; `before` (size, count + 2) K is the temperature one time step ago. Afterwards one
-    more round would change no viscosity by more than `tolerance` of it. Raises FilmInputError, FilmNotConverged.
+    which is here; `shear` thins that of the oil at rest. Walls that give way, rough ones, a cavity and a storage
+    of the problem are taken along, and a wall of `heat` that expands opens the film. `start` warms; `before`
+    (size, count + 2) K is the temperature one time step ago. Afterwards one more round would change no viscosity
+    and no thickness by more than `tolerance` of it. Raises FilmInputError, FilmNotConverged.
     """
     if problem.fluid.viscosity is not isoviscous:
         raise FilmInputError(
             "fluid", "a law of viscosity over pressure", "that law in viscosity(temperature, pressure)"
         )
-    across = levels(count)
-    solver = FilmSolver(problem.space) if solver is None else solver
-    temperature = _first_temperature(problem, heat, across, start)
-    film, energy = (None, None) if start is None else (start.film, start.heat)
-    pressure = np.zeros(problem.space.size) if film is None else film.pressure
-    history = History()
-    for round_number in range(1, MAX_ROUNDS + 1):
-        profile = _profile(across, viscosity, temperature, pressure)
-        film = solver.solve(replace(problem, film=film_with(problem.film, problem.space, profile)), film)
-        warm = None if energy is None else energy.temperature
-        energy = solve_energy(film, heat, profile, start=warm, before=before)
-        used = viscosity(temperature[:, 1:-1], pressure[:, None])
-        change = _change(used, viscosity(energy.temperature[:, 1:-1], film.pressure[:, None]))
-        if change < tolerance:
-            return ThermalSolution(film, energy, round_number, change)
-        temperature, pressure = history.extrapolate(temperature, energy.temperature), film.pressure
-    raise FilmNotConverged(
-        f"film and temperature do not agree after {MAX_ROUNDS} rounds (viscosity still changes by {change:.2g})",
-        "a start from a case near by (`start`), a thicker film, or a wall that takes more heat",
-    )
+
+    def thinned(temperature: Array, pressure: Array, rate: Array) -> Array:
+        return shear(rate, np.asarray(viscosity(temperature, pressure), dtype=float))
+
+    posed = Posed(_resting(problem, heat.datum, viscosity), thinned, heat, before)
+    found = agree(posed, levels(count), tolerance, solver, start)
+    return cast("ThermalSolution", found)  # with a heat posed there is one
 
 
-def _profile(across: Levels, viscosity: ThermalViscosity, temperature: Array, pressure: Array) -> Profile:
-    found = np.asarray(viscosity(temperature[:, 1:-1], pressure[:, None]), dtype=float)
-    return dowson(across, np.broadcast_to(found, (len(temperature), len(across.weights))))
+@dataclass(frozen=True)
+class _AtTemperature:
+    """The viscosity law at one temperature (K), for the film's Newton method: its slope by a difference."""
+
+    viscosity: ThermalViscosity
+    temperature: Array
+    resting: float
+
+    def __call__(self, pressure: Array, viscosity: Array) -> tuple[Array, Array]:
+        here, ahead = (
+            np.asarray(self.viscosity(self.temperature, p)) for p in (pressure, pressure + PRESSURE_STEP)
+        )
+        share = viscosity / self.resting
+        return share * here, share * (ahead - here) / PRESSURE_STEP
 
 
-def _change(before: Array, after: Array) -> float:
-    return float(np.max(np.abs(np.log(after / before)), initial=0.0))
+def _resting(problem: FilmProblem, temperature: float, viscosity: ThermalViscosity) -> FilmProblem:
+    """The problem with the oil at rest at one temperature (K): by pressure it varies there as anywhere."""
+    at = np.full((1, 1), temperature)
+    without, under = (float(np.asarray(viscosity(at, np.full((1, 1), p))).item()) for p in (0.0, PRESSURE_STEP))
+    if not (np.isfinite(without) and without > 0.0):
+        raise FilmInputError("viscosity", f"{without:.4g} Pa s at {temperature:g} K", "positive")
+    law: ViscosityLaw = isoviscous if under == without else _AtTemperature(viscosity, at, without)
+    # An oil of constant viscosity and density stays the very fluid that the solver knows to be linear.
+    fluid = problem.fluid if law is isoviscous else Fluid(law, problem.fluid.density)
+    return replace(problem, film=replace(problem.film, viscosity=np.full((1, 1), without)), fluid=fluid)
 
 
-def _first_temperature(problem: FilmProblem, heat: Heat, across: Levels, start: ThermalSolution | None) -> Array:
-    shape = (problem.space.size, len(across.place))
-    if start is not None:
-        if start.heat.temperature.shape != shape:
-            found = f"a start of shape {start.heat.temperature.shape}"
-            raise FilmInputError("temperature to start from", found, f"{shape}: the same space and levels")
-        return start.heat.temperature
-    return np.full(shape, heat.datum)
+def march_thermal(
+    problem_at: Callable[[float], FilmProblem],
+    heat: Heat,
+    viscosity: ThermalViscosity,
+    end: float,
+    step: float,
+    *,
+    temperature: float | Array,
+    shear: ShearLaw = newtonian,
+    count: int = DEFAULT_LEVELS,
+    tolerance: float = TOLERANCE,
+    solver: FilmSolver | None = None,
+    start: float = 0.0,
+    held: Array | None = None,
+) -> Iterator[Instant[ThermalSolution]]:
+    """A film and its temperature in time, as `transient.march_with` and `solve_thermal` say.
+
+    `temperature` (K, one number or (size, count + 2)) and `held` are those at `start`. Heat and oil are balanced
+    at each step. A body answers as if it were steady: of one slower than the film give the temperature.
+    """
+    space = problem_at(start).space
+    used = FilmSolver(space) if solver is None else solver
+    first = np.broadcast_to(np.asarray(temperature, dtype=float), (space.size, count + 2))
+
+    def solve(problem: FilmProblem, last: ThermalSolution | None) -> ThermalSolution:
+        before = first if last is None else last.heat.temperature
+
+        def from_(warm: ThermalSolution | None) -> ThermalSolution:
+            return solve_thermal(
+                problem, heat, viscosity, shear=shear, count=count, tolerance=tolerance, solver=used, start=warm,
+                before=before,
+            )  # fmt: skip
+
+        return from_last_or_anew(from_, last)
+
+    return march_with(solve, problem_at, end, step, start=start, held=held)

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
+from typing import Generic, Protocol, TypeVar
 
 import numpy as np
 
@@ -21,13 +22,27 @@ from reynolds.solve import FilmSolver
 MOST_HALVINGS = 12  # of a step on which the cavity does not settle
 
 
+class Holding(Protocol):
+    """A solution of any kind, of which a march needs what its unknowns hold."""
+
+    @property
+    def holds(self) -> Array:
+        """Oil of each unknown, m3 at reference density, (size,)."""
+
+
+Solved = TypeVar("Solved", bound=Holding)
+
+Step = Callable[[FilmProblem, Solved | None], Solved]
+"""(film with its storage, solution one step before or None) -> solution."""
+
+
 @dataclass(frozen=True)
-class Instant:
+class Instant(Generic[Solved]):
     """The film at the end of a step: time s, step s, and its solution (`storage` holds what it was before)."""
 
     time: float
     step: float
-    solution: FilmSolution
+    solution: Solved
 
 
 def march(
@@ -38,12 +53,29 @@ def march(
     *,
     start: float = 0.0,
     held: Array | None = None,
-) -> Iterator[Instant]:
-    """The film at start + step, start + 2 step, ... up to end (s), one instant at a time.
+) -> Iterator[Instant[FilmSolution]]:
+    """The film at start + step, start + 2 step, ... up to end (s), one instant at a time: as `march_with`."""
+
+    def solve(problem: FilmProblem, last: FilmSolution | None) -> FilmSolution:
+        return from_last_or_anew(lambda warm: solver.solve(problem, start=warm), last)
+
+    return march_with(solve, problem_at, end, step, start=start, held=held)
+
+
+def march_with(
+    solve: Step[Solved],
+    problem_at: Callable[[float], FilmProblem],
+    end: float,
+    step: float,
+    *,
+    start: float = 0.0,
+    held: Array | None = None,
+) -> Iterator[Instant[Solved]]:
+    """The film at start + step, start + 2 step, ... up to end (s), one instant at a time, each solved by `solve`.
 
     Solves d(theta r h)/dt + div q = 0 with `problem_at(t)` the film at time t, without storage: its thickness,
     wall speeds and boundary pressures; its squeeze is not used. `held` (size,) m3 is what the unknowns hold at
-    `start`; None: a full film. A step on which a cavity does not settle is cut in two, each half yielded.
+    `start`; None: a full film. A step on which the film does not settle is cut in two, each half yielded.
     Raises FilmInputError for an end or step that leads nowhere, FilmNotConverged where no step is short enough.
     """
     if not (np.isfinite(end) and end > start):
@@ -52,10 +84,10 @@ def march(
         raise FilmInputError("time, step", f"{step:g} s", "above zero")
     count = max(1, int(np.ceil((end - start) / step * (1.0 - 1e-9))))
     before = oil_held(problem_at(start)) if held is None else held
-    last: FilmSolution | None = None
+    last: Solved | None = None
     for number in range(count):
         begin, until = (start + (end - start) * k / count for k in (number, number + 1))
-        for instant in _stepped(solver, problem_at, before, last, begin, until):
+        for instant in _stepped(solve, problem_at, before, last, begin, until):
             before, last = instant.solution.holds, instant.solution
             yield instant
 
@@ -71,19 +103,19 @@ def oil_held(problem: FilmProblem, film_fraction: float | Array = 1.0) -> Array:
 
 
 def _stepped(
-    solver: FilmSolver,
+    solve: Step[Solved],
     problem_at: Callable[[float], FilmProblem],
     before: Array,
-    last: FilmSolution | None,
+    last: Solved | None,
     begin: float,
     until: float,
-) -> Iterator[Instant]:
+) -> Iterator[Instant[Solved]]:
     """One step, or the shorter ones that it takes."""
     at, step, halvings = begin, until - begin, 0
     while at < until - 1e-9 * (until - begin):
         problem = replace(problem_at(at + step), storage=Storage(before, step))
         try:
-            solution = _solved(solver, problem, last)
+            solution = solve(problem, last)
         except FilmNotConverged as reason:
             halvings += 1
             if halvings > MOST_HALVINGS:
@@ -95,11 +127,11 @@ def _stepped(
         yield Instant(at, step, solution)
 
 
-def _solved(solver: FilmSolver, problem: FilmProblem, last: FilmSolution | None) -> FilmSolution:
+def from_last_or_anew(solve: Callable[[Solved | None], Solved], last: Solved | None) -> Solved:
     """From the step before; where that leads nowhere (a cavity that opens everywhere at once), from nothing."""
     try:
-        return solver.solve(problem, start=last)
+        return solve(last)
     except FilmNotConverged:
         if last is None:
             raise
-        return solver.solve(problem)
+        return solve(None)

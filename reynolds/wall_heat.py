@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
 
@@ -39,15 +40,29 @@ class Convecting:
     outer_temperature: float | Array
 
 
+class Response(Protocol):
+    """What answers to the heat flux q (vertices,) W/m2 into a wall by reference + matrix @ q."""
+
+    @property
+    def reference(self) -> Array:
+        """Without flux, (vertices,)."""
+
+    @property
+    def matrix(self) -> Array:
+        """By unit flux at each vertex, (vertices, vertices)."""
+
+
 @dataclass(frozen=True)
 class Body:
-    """A body of its own heat equation: T = reference + matrix @ q at the vertices.
+    """A body of its own heat equation, steady: T = reference + matrix @ q at the vertices.
 
-    reference (vertices,) K, matrix (vertices, vertices) K/(W/m2).
+    reference (vertices,) K, matrix (vertices, vertices) K/(W/m2). `opening`, of a body that expands, is that of
+    the film at the vertices, m by W/m2 (`bodies.wall.heated_wall` gives both).
     """
 
     reference: Array
     matrix: Array
+    opening: Response | None = None
 
 
 @dataclass(frozen=True)
@@ -100,10 +115,25 @@ def wall_rows(wall: Wall, space: FilmSpace, area: Array, conductance: Array) -> 
             return WallRows(
                 share, 1.0 / (given + conductance), share * _nodal(space, outer, "outer temperature", "K")
             )
-        case Body(reference, matrix):
+        case Body(reference, matrix, _):
             return _body(space, _nodal(space, reference, "body temperature", "K"), matrix)
         case Turning(heat):
             return _turning(heat, area, conductance)
+
+
+def opening_by_heat(wall: Wall, space: FilmSpace, flux: Array) -> Array:
+    """Opening of the film (vertices,) m as the wall expands under the heat flux (size,) W/m2 into it.
+
+    Raises FilmInputError for an opening that is not of the vertices.
+    """
+    count = len(space.vertices)
+    if not isinstance(wall, Body) or wall.opening is None:
+        return np.zeros(count)
+    grows = wall.opening
+    shapes = np.shape(grows.reference), np.shape(grows.matrix)
+    if shapes != ((count,), (count, count)):
+        raise FilmInputError("opening of a warm body", f"shapes {shapes}", f"({count},) and ({count}, {count})")
+    return np.asarray(grows.reference + grows.matrix @ flux[space.vertex_dofs])
 
 
 def _body(space: FilmSpace, reference: Array, matrix: Array) -> WallRows:
