@@ -191,8 +191,7 @@ class FilmSolution:
     m2/s at the quadrature points of a full film. Of each unknown (size,), at reference density: outflow, m3/s
     out of the film at held nodes and pockets; holds, its oil in m3, and swallowed, the rate of that in m3/s;
     mixing, what upwinding exchanges in a cavity and at its ends, m3/s; meeting, magnitudes of the flows that meet
-    there, m3/s. `cavity` marks unknowns at cavitation pressure;
-    `imbalance` is the largest residual of a free unknown relative to `meeting` (round-off when converged).
+    there, m3/s. `cavity` marks unknowns at cavitation pressure; `path` is the imbalance after each step.
     """
 
     problem: FilmProblem = field(repr=False)
@@ -208,5 +207,14 @@ class FilmSolution:
     meeting: Array
     held: NDArray[np.bool_]
     cavity: NDArray[np.bool_]
-    imbalance: float
-    iterations: int
+    path: tuple[float, ...]
+
+    @property
+    def imbalance(self) -> float:
+        """Largest residual of a free unknown relative to `meeting` (round-off when converged)."""
+        return self.path[-1]
+
+    @property
+    def iterations(self) -> int:
+        """Steps that the solver took."""
+        return len(self.path)

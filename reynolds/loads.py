@@ -27,8 +27,9 @@ class Loads:
     which what the film holds grows; cavity_flow m3/s that Reynolds' condition makes the cavity supply (+) or
     swallow (-), else zero; film_fraction_min, cavitated_area_fraction; mass_balance_error =
     |out + squeeze - cavity|, relative to the flow through the boundaries or the flows within the film, whichever
-    are larger; energy_balance_error likewise relative to the dissipation, the walls' or the flows' power: round-off between smooth walls; with rough ones
-    what the pressure's push on their asperities is, which the shear stress factors leave out.
+    are larger; energy_balance_error likewise relative to the dissipation, the walls' or the flows' power:
+    round-off between smooth walls; with rough ones what the pressure's push on their asperities is, which the
+    shear stress factors leave out.
     """
 
     load: float

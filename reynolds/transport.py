@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from reynolds import kernels
-from reynolds.errors import FilmInputError
+from reynolds.errors import FilmInputError, FilmNotConverged
 from reynolds.film import Film, FilmProblem
 from reynolds.fluid import CONSTANT
 from reynolds.laws import Tangent
@@ -47,15 +47,17 @@ class Transport:
 def transport(problem: FilmProblem, pressure: Array, opening: Array) -> Transport:
     """Flow terms of a film at nodal pressures (size,) Pa and with its walls opened at the vertices (vertices,) m.
 
-    Raises FilmInputError where the conductance is no number of full precision, where no film is left, and where
-    a law of the oil or of the walls does not hold.
+    Raises FilmInputError where the conductance is no number of full precision and where a law of the oil or of the
+    walls does not hold, FilmNotConverged where no film is left between walls that give way.
     """
     film, space = problem.film, problem.space
     h = film.thickness
     if problem.walls is not None:
         h = h + space.sample_vertices(opening)
         if h.min() <= 0.0:
-            raise FilmInputError("film thickness", f"{h.min():.3g} m between walls that give way", "a film left")
+            raise FilmNotConverged(
+                f"walls that give way leave {h.min():.3g} m of film", "a thicker film, stiffer walls, or contact"
+            )
     mu, mu_slope = film.viscosity, np.zeros((1, 1))
     ratio, ratio_slope = np.ones((1, 1)), np.zeros((1, 1))
     if problem.fluid is not CONSTANT:

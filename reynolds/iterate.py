@@ -1,0 +1,141 @@
+"""A film on the way to its solution: where it stands, and how it moves on."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from reynolds import kernels
+from reynolds.balance import Operators, State, flow_balance, operators
+from reynolds.errors import FilmInputError, FilmNotConverged
+from reynolds.film import Cavitation, FilmProblem
+from reynolds.fluid import CONSTANT
+from reynolds.mesh import Array
+from reynolds.opening import opening
+from reynolds.setting import Setting
+
+MOST_HALVINGS = 10
+LEAST_GAIN = 1e-4  # of the balance, by a full step
+NOTHING = 1e-12  # of the largest flow
+
+
+@dataclass(frozen=True)
+class Iterate:
+    """A state, its cavity and the balance there.
+
+    `signed` (size,) Pa tells the two apart: pressure above cavitation pressure where it is positive, else what
+    the cavity lacks of a full film, in pressures (see `newton.signed_after`).
+    """
+
+    signed: Array
+    state: State
+    cavity: NDArray[np.bool_]
+    parts: Operators
+    balance: Array
+    size: Array
+
+
+def is_linear(problem: FilmProblem) -> bool:
+    """Whether the balance is linear in pressures and film fractions, so that its operators are constant."""
+    return problem.fluid is CONSTANT and problem.walls is None
+
+
+def opened(problem: FilmProblem, pressure: Array, fraction: Array, near: Array | None = None) -> State:
+    """The state of nodal pressures and film fractions, with the walls opened by them (`near`: an opening like it)."""
+    return State(pressure, fraction, opening(problem, pressure, near))
+
+
+def iterate_of(
+    problem: FilmProblem, state: State, cavity: NDArray[np.bool_], signed: Array | None = None
+) -> Iterate:
+    """The iterate at a state, its operators and balance computed; `signed` where it is known."""
+    parts = operators(problem, state)
+    if signed is None:
+        signed = state.pressure - problem.cavitation_pressure
+        at = Iterate(signed, state, cavity, parts, signed, signed)
+        if problem.cavitation is Cavitation.JFO:
+            signed = np.where(cavity, (state.film_fraction - 1.0) * stiffness_of_lack(problem, at), signed)
+    return Iterate(signed, state, cavity, parts, *flow_balance(problem, parts, state))
+
+
+def iterate_at(problem: FilmProblem, setting: Setting, before: Iterate, signed: Array) -> Iterate:
+    """The iterate that signed unknowns mean: each a pressure where positive, else a cavity."""
+    level = problem.cavitation_pressure
+    pressure, fraction = signed + level, np.ones_like(signed)
+    cavity = np.zeros(len(signed), dtype=bool)
+    if problem.cavitation is not Cavitation.NONE:
+        cavity = (signed < 0.0) & ~setting.held
+        pressure = np.maximum(pressure, level)
+    if problem.cavitation is Cavitation.JFO:
+        fraction = np.where(cavity, 1.0 + signed / stiffness_of_lack(problem, before), 1.0)
+    pressure = np.where(setting.held, setting.pressure, pressure)
+    fraction = np.where(setting.held, setting.film_fraction, fraction)
+    state = opened(problem, pressure, fraction, before.state.opening)
+    if is_linear(problem):
+        return Iterate(signed, state, cavity, before.parts, *flow_balance(problem, before.parts, state))
+    return iterate_of(problem, state, cavity, signed)
+
+
+def advanced(problem: FilmProblem, setting: Setting, at: Iterate, signed: Array, *, downhill: bool) -> Iterate:
+    """The iterate after a step, cut back where no film would be left or a law would not hold.
+
+    `downhill` cuts it back further until it brings the balance nearer to zero; where no share does, the best of
+    those tried. Raises what the laws raise where even the shortest step leads out of them.
+    """
+
+    def rest(there: Iterate) -> float:
+        return float(np.abs(with_pockets(setting, there)[0][~setting.held]).sum())
+
+    before, best, fault = rest(at), None, None
+    for halvings in range(MOST_HALVINGS):
+        share = 0.5**halvings
+        try:
+            new = iterate_at(problem, setting, at, at.signed + share * (signed - at.signed))
+        except (FilmInputError, FilmNotConverged) as reason:
+            fault = reason
+            continue
+        left = rest(new)
+        if not downhill or left < (1.0 - LEAST_GAIN * share) * before:
+            return new
+        if best is None or left < best[0]:
+            best = left, new
+    if best is None:
+        assert fault is not None
+        raise fault
+    return best[1]
+
+
+def imbalance_of(problem: FilmProblem, setting: Setting, at: Iterate) -> float:
+    """Largest residual of a free unknown over the flows that meet there."""
+    free = ~setting.held
+    if problem.cavitation is Cavitation.REYNOLDS:
+        free &= ~at.cavity
+    rest, slope = with_pockets(setting, at)
+    size = at.size + np.abs(at.balance - rest) + kernels.ROUNDING * np.abs(slope * at.state.pressure)
+    # Round-off of a solve is that of its largest flows: where next to nothing flows it is all there is.
+    scale = np.maximum(size + kernels.ROUNDING * size.max(initial=0.0), 1e-300)
+    return float(np.max(np.abs(rest[free]) / scale[free], initial=0.0))
+
+
+def with_pockets(setting: Setting, at: Iterate) -> tuple[Array, Array]:
+    """The balance less what pockets are fed, and what their feeds add to the diagonal."""
+    rest, gain = at.balance.copy(), np.zeros(len(at.balance))
+    for node, pocket in setting.pockets:
+        inflow, slope = pocket.feed(at.state.pressure[node])
+        rest[node] -= inflow
+        gain[node] = -slope
+    return rest, gain
+
+
+def stiffness_of_lack(problem: FilmProblem, at: Iterate) -> Array:
+    """Pressure that moves as much oil out of an unknown as its film fraction does, (size,) Pa."""
+    carried = diagonal(problem, at.parts.convection[0] + at.parts.diffusion) + np.maximum(at.parts.rate, 0.0)
+    stiff = diagonal(problem, at.parts.stiffness)
+    return np.maximum(carried, NOTHING * carried.max() + 1e-300) / np.where(stiff > 0.0, stiff, 1.0)
+
+
+def diagonal(problem: FilmProblem, upper: Array) -> Array:
+    """The diagonal (size,) of an upper triangle in the space's pattern."""
+    return np.asarray(upper[problem.space.pattern.indptr[1:] - 1])

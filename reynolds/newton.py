@@ -1,0 +1,97 @@
+"""One step of Newton's method: the balance linearised for the change of every pressure or film fraction."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.sparse import csc_array, issparse
+from scipy.sparse.linalg import splu
+
+from reynolds import kernels
+from reynolds.balance import by_opening, flow_balance, full_matrix, slopes
+from reynolds.film import Cavitation, FilmProblem
+from reynolds.iterate import NOTHING, Iterate, diagonal, stiffness_of_lack, with_pockets
+from reynolds.mesh import Array
+from reynolds.opening import opening_slope
+from reynolds.setting import Setting
+
+TIE = 1e-9  # of the flows that meet at an unknown
+
+
+def symmetric_step(
+    problem: FilmProblem, setting: Setting, at: Iterate, fixed: NDArray[np.bool_]
+) -> tuple[csc_array, Array]:
+    """Upper triangle and right-hand side for the change of pressure, identity where fixed."""
+    rest, gain = with_pockets(setting, at)
+    # Conductances are 1e-15 to 1e-9: scaled to order one they stay clear of any pivot threshold.
+    scale = at.parts.stiffness.max()
+    data = np.empty_like(at.parts.stiffness)
+    pattern = problem.space.pattern
+    kernels.hold(pattern.indptr, pattern.indices, at.parts.stiffness / scale, fixed, gain / scale, data)
+    return problem.space.matrix(data), np.where(fixed, 0.0, -rest / scale)
+
+
+def general_step(problem: FilmProblem, setting: Setting, at: Iterate) -> tuple[Array, Array, Array, float]:
+    """Upper triangle, mirror and right-hand side for the change of pressure or, in the cavity, film fraction.
+
+    Scaled to order one; the last value turns an unknown of the cavity into a film fraction.
+    """
+    rest, gain = with_pockets(setting, at)
+    fixed = fixed_in(problem, setting, at)
+    by = slopes(problem, at.parts, at.state)
+    f_upper, f_lower, f_gain = by.by_fraction
+    p_upper, p_lower, p_gain = by.by_pressure
+    unit = float(np.abs(at.parts.stiffness).max()) or 1.0
+    largest = max(float(np.abs(f_upper).max()), float(np.abs(f_gain).max()))
+    scale = unit / largest if largest > 0.0 else 1.0
+    # Where nothing carries a cavity along, its film fraction stays as it is.
+    least = NOTHING * (largest if largest > 0.0 else unit)
+    f_gain = f_gain + np.where(diagonal(problem, f_upper) + f_gain < least, least, 0.0)
+    upper, lower = np.empty_like(p_upper), np.empty_like(p_upper)
+    pattern = problem.space.pattern
+    kernels.choose_columns(
+        pattern.indptr, pattern.indices, p_upper / unit, p_lower / unit, f_upper / unit, f_lower / unit,
+        (p_gain + gain) / unit, f_gain / unit, fixed, at.cavity, scale, upper, lower,
+    )  # fmt: skip
+    return upper, lower, np.where(fixed, 0.0, -rest / unit), scale
+
+
+def compliant_step(
+    problem: FilmProblem, setting: Setting, at: Iterate, upper: Array, lower: Array, load: Array
+) -> Array:
+    """The same step where each pressure opens the film everywhere: dR/dp + dR/dh dh/dp."""
+    wider = opening_slope(problem, at.state.opening)
+    rigid = full_matrix(problem.space, upper, lower)
+    free = (~fixed_in(problem, setting, at)).astype(float)
+    pressures = free * ~at.cavity
+    slope = by_opening(problem, at.parts, at.state) * (free / np.abs(at.parts.stiffness).max())[:, None]
+    matrix = rigid + slope @ (wider * pressures[None, :])
+    if issparse(matrix):
+        return np.asarray(splu(csc_array(matrix)).solve(load))
+    return np.asarray(np.linalg.solve(matrix, load))
+
+
+def signed_after(problem: FilmProblem, at: Iterate, change: Array, scale: float) -> Array:
+    """The signed unknowns (size,) Pa after a step.
+
+    In the cavity the lack of oil 1 - theta, or the oil that Reynolds' condition makes, over the pressure that
+    would move as much: slopes of the balance by a signed unknown are then alike on both sides of zero.
+    """
+    level = problem.cavitation_pressure
+    pressure = at.state.pressure + np.where(at.cavity, 0.0, change)
+    if problem.cavitation is Cavitation.JFO:
+        lack = at.state.film_fraction + scale * change - 1.0
+        return np.where(at.cavity, lack * stiffness_of_lack(problem, at), pressure - level)
+    if problem.cavitation is Cavitation.REYNOLDS and at.cavity.any():
+        balance, size = flow_balance(problem, at.parts, replace(at.state, pressure=pressure))
+        # A node that nothing drives (balance zero but for round-off) would otherwise enter and leave for ever.
+        made = (balance + TIE * size) / diagonal(problem, at.parts.stiffness)
+        return np.where(at.cavity, -made, pressure - level)
+    return pressure - level
+
+
+def fixed_in(problem: FilmProblem, setting: Setting, at: Iterate) -> NDArray[np.bool_]:
+    """Unknowns that a step leaves alone: held ones, and those that Reynolds' condition holds."""
+    return setting.held | at.cavity if problem.cavitation is Cavitation.REYNOLDS else setting.held
