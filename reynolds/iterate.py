@@ -43,7 +43,7 @@ def is_linear(problem: FilmProblem) -> bool:
 
 
 def opened(problem: FilmProblem, pressure: Array, fraction: Array, near: Array | None = None) -> State:
-    """The state of nodal pressures and film fractions, with the walls opened by them (`near`: an opening like it)."""
+    """The state of nodal pressures and film fractions, the walls opened by them (`near`: an opening like it)."""
     return State(pressure, fraction, opening(problem, pressure, near))
 
 

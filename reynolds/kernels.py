@@ -52,9 +52,11 @@ def stiffness(vertices, cells, dofs, slots, gradient, geometry_gradient, weights
     xe, xq = int(k_xx.shape[0] > 1), int(k_xx.shape[1] > 1)
     ye, yq = int(k_yy.shape[0] > 1), int(k_yy.shape[1] > 1)
     ze, zq = int(k_xy.shape[0] > 1), int(k_xy.shape[1] > 1)
-    gx, gy, fx, fy = np.empty(nb), np.empty(nb), np.empty(nb), np.empty(nb)
+    gx, gy = np.empty(nb), np.empty(nb)
+    local = np.empty((nb, nb))
     data[:] = 0.0
     for e in range(cells.shape[0]):
+        local[:] = 0.0
         for q in range(weights.shape[0]):
             det, ixx, ixy, iyx, iyy = _inverse_map(vertices, cells[e], geometry_gradient, q)
             w = weights[q] * abs(det)
@@ -63,17 +65,17 @@ def stiffness(vertices, cells, dofs, slots, gradient, geometry_gradient, weights
                 rx, ry = gradient[q, i, 0], gradient[q, i, 1]
                 gx[i] = ixx * rx + ixy * ry
                 gy[i] = iyx * rx + iyy * ry
-                fx[i] = wx * gx[i] + wz * gy[i]
-                fy[i] = wz * gx[i] + wy * gy[i]
-            k = 0
             for i in range(nb):
+                fx, fy = wx * gx[i] + wz * gy[i], wz * gx[i] + wy * gy[i]
                 for j in range(i, nb):
-                    value = fx[i] * gx[j] + fy[i] * gy[j]
-                    # Two local nodes tied to one unknown (seam, pocket) meet on its diagonal twice.
-                    if i != j and dofs[e, i] == dofs[e, j]:
-                        value *= 2.0
-                    data[slots[e, k]] += value
-                    k += 1
+                    local[i, j] += fx * gx[j] + fy * gy[j]
+        k = 0
+        for i in range(nb):
+            for j in range(i, nb):
+                # Two local nodes tied to one unknown (seam, pocket) meet on its diagonal twice.
+                tied = i != j and dofs[e, i] == dofs[e, j]
+                data[slots[e, k]] += 2.0 * local[i, j] if tied else local[i, j]
+                k += 1
 
 
 @njit(**_FAST)
@@ -84,33 +86,36 @@ def convection(
     nb = dofs.shape[1]
     xe, xq = int(flux_x.shape[0] > 1), int(flux_x.shape[1] > 1)
     ye, yq = int(flux_y.shape[0] > 1), int(flux_y.shape[1] > 1)
-    along = np.empty(nb)
+    local = np.empty((nb, nb))
     upper[:] = 0.0
     lower[:] = 0.0
     for e in range(cells.shape[0]):
+        local[:] = 0.0
         for q in range(weights.shape[0]):
             det, ixx, ixy, iyx, iyy = _inverse_map(vertices, cells[e], geometry_gradient, q)
             w = weights[q] * abs(det)
             wx, wy = w * flux_x[e * xe, q * xq], w * flux_y[e * ye, q * yq]
             for i in range(nb):
                 rx, ry = gradient[q, i, 0], gradient[q, i, 1]
-                along[i] = wx * (ixx * rx + ixy * ry) + wy * (iyx * rx + iyy * ry)
-            k = 0
-            for i in range(nb):
-                for j in range(i, nb):
-                    here, mirrored = -value[q, j] * along[i], -value[q, i] * along[j]
-                    one, two = dofs[e, i], dofs[e, j]
-                    if i == j:
-                        upper[slots[e, k]] += here
-                    elif one == two:
-                        upper[slots[e, k]] += here + mirrored
-                    elif one < two:
-                        upper[slots[e, k]] += here
-                        lower[slots[e, k]] += mirrored
-                    else:
-                        upper[slots[e, k]] += mirrored
-                        lower[slots[e, k]] += here
-                    k += 1
+                along = wx * (ixx * rx + ixy * ry) + wy * (iyx * rx + iyy * ry)
+                for j in range(nb):
+                    local[i, j] -= value[q, j] * along
+        k = 0
+        for i in range(nb):
+            for j in range(i, nb):
+                slot = slots[e, k]
+                one, two = dofs[e, i], dofs[e, j]
+                if i == j:
+                    upper[slot] += local[i, i]
+                elif one == two:
+                    upper[slot] += local[i, j] + local[j, i]
+                elif one < two:
+                    upper[slot] += local[i, j]
+                    lower[slot] += local[j, i]
+                else:
+                    upper[slot] += local[j, i]
+                    lower[slot] += local[i, j]
+                k += 1
 
 
 @njit(**_FAST)

@@ -31,6 +31,11 @@ ROUND_OFF = 1e-13  # of the answer, in units of the scaled matrix
 GENERAL_TOLERANCE = 1e-10  # residual over load beyond which an elimination without pivots is done again with them
 
 
+def _norm(vector: Array) -> float:
+    """Euclidean norm, without the threads of a BLAS library, which cost more than they bring here."""
+    return float(np.sqrt(np.sum(vector * vector)))
+
+
 class Factor:
     """The factorised operator of one pattern: `update` with new entries, then `solve` any number of times."""
 
@@ -60,8 +65,8 @@ class Factor:
         if self._on_grid is not None:
             answer, effort = self._on_grid.solve(load, ITERATIVE_TOLERANCE)
             # Entries are of order one: no answer leaves less than round-off of itself, however small the load.
-            lost = ROUND_OFF * float(np.linalg.norm(answer))
-            if effort.left * np.linalg.norm(load) <= STALLED * ITERATIVE_TOLERANCE * np.linalg.norm(load) + lost:
+            lost = ROUND_OFF * float(_norm(answer))
+            if effort.left * _norm(load) <= STALLED * ITERATIVE_TOLERANCE * _norm(load) + lost:
                 return answer
             self._leave_grid()
             self._off_grid(self._upper)
@@ -106,8 +111,8 @@ def multigrid(upper: csc_array, max_coarse: int = 10) -> tuple[csr_array, Any]:
 def _conjugate_gradients(matrix: csr_array, hierarchy: Any, load: Array) -> tuple[Array, bool]:
     """The solution, and whether its residual came down to near ITERATIVE_TOLERANCE of the load."""
     answer = hierarchy.solve(load, tol=ITERATIVE_TOLERANCE, accel="cg", maxiter=200)
-    reached = float(np.linalg.norm(load - matrix @ answer))
-    return answer, reached <= STALLED * ITERATIVE_TOLERANCE * float(np.linalg.norm(load))
+    reached = float(_norm(load - matrix @ answer))
+    return answer, reached <= STALLED * ITERATIVE_TOLERANCE * float(_norm(load))
 
 
 class GeneralFactor:
@@ -209,7 +214,7 @@ def _refined(lu: SuperLU | None, matrix: csc_array, load: Array) -> tuple[Array,
         return load, False
     answer = lu.solve(load)
     answer += lu.solve(load - matrix @ answer)
-    left = float(np.linalg.norm(load - matrix @ answer))
+    left = float(_norm(load - matrix @ answer))
     # The rows are of order one: a backward stable answer leaves round-off of itself, however small the load.
-    allowed = GENERAL_TOLERANCE * np.linalg.norm(load) + ROUND_OFF * np.linalg.norm(answer)
+    allowed = GENERAL_TOLERANCE * _norm(load) + ROUND_OFF * _norm(answer)
     return answer, bool(left <= allowed)
