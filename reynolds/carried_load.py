@@ -243,22 +243,24 @@ class _Search:
 
     def newton(self, start: Position) -> _Tried:
         """The film that bears force and moments; raises _Nowhere."""
-        here, fresh = self.at(start), True
-        slopes: Array = self._slopes(here)
+        here = self.at(start)
+        slopes: Array | None = None
         while here.rest > TOLERANCE:
+            if fresh := slopes is None:
+                slopes = self._slopes(here)
+            assert slopes is not None
             try:
-                step: Array = -np.linalg.solve(slopes, here.misses)
+                new = self._downhill(here, -np.asarray(np.linalg.solve(slopes, here.misses)))
             except np.linalg.LinAlgError:
                 raise _Nowhere from None
-            new = self._downhill(here, step)
             if new is None:
                 if fresh:
                     raise _Nowhere
-                slopes, fresh = self._slopes(here), True
+                slopes = None
                 continue
             moved = self._unknowns(new.position) - self._unknowns(here.position)
             change = new.misses - here.misses - slopes @ moved
-            slopes, fresh = np.asarray(slopes + np.outer(change, moved) / (moved @ moved)), False
+            slopes = slopes + np.outer(change, moved) / (moved @ moved)
             here = new
         return here
 

@@ -10,10 +10,10 @@ import numpy as np
 from reynolds.film import Cavitation
 from swashfilm.case_table import Table
 from swashfilm.field_reader import FieldReader
-from swashfilm.fields import CellData, InTime, PointData, Uniform
+from swashfilm.fields import CellData, InTime, MeshData, PointData, Uniform, read_field
 from swashfilm.film_statement import BoundaryStatement
 from system.faults import nearest_choice
-from system.units import Dimension, format_quantity
+from system.units import Dimension, QuantityError, format_quantity
 
 Boundaries = Mapping[str, BoundaryStatement]
 
@@ -51,9 +51,14 @@ def _entry(entry: Table, reader: FieldReader, level: float | None) -> BoundarySt
 
 
 def _pressure(entry: Table, reader: FieldReader, default: float | None) -> InTime | None:
-    """A pressure, or in a transient a formula of t; None with its fault told."""
-    if "t" in reader.variables and isinstance(entry.get("pressure"), str):
-        field = FieldReader(None, None, ("t",)).field(entry, "pressure", Dimension.PRESSURE)
+    """A pressure, or a formula of constants and, in a transient, of t; None with its fault told."""
+    in_time = tuple(name for name in reader.variables if name == "t")
+    if (in_time or reader.constants) and isinstance(entry.get("pressure"), str):
+        try:
+            field = read_field(entry.get("pressure"), Dimension.PRESSURE, MeshData(), in_time, reader.constants)
+        except QuantityError as reason:
+            entry.fault("pressure", reason.found, reason.expected, reason.nearest)
+            return None
         assert not isinstance(field, (PointData, CellData))
         return field
     pressure = entry.quantity("pressure", Dimension.PRESSURE, default)

@@ -1,4 +1,6 @@
-"""Formulas of case files: arithmetic of x, y and the time t, checked and evaluated without Python's own eval.
+"""Formulas of case files: arithmetic of place, time and constants, checked and evaluated without Python's eval.
+
+The place is x and y or r and phi, polar coordinates about the origin.
 
 A formula is parsed once into a tree of which only arithmetic, comparisons, listed functions and listed names
 are taken; everything else is an ExpressionError that says where.
@@ -8,8 +10,9 @@ from __future__ import annotations
 
 import ast
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
+from types import MappingProxyType
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,9 +23,10 @@ Array = NDArray[np.float64]
 _Evaluate = Callable[[Mapping[str, Array]], Array]
 
 LONGEST = 2000  # characters
-PLACE = ("x", "y")
+PLACE = ("x", "y", "r", "phi")
 IN_TIME = (*PLACE, "t")
 CONSTANTS = {"pi": math.pi}
+NO_CONSTANTS: Mapping[str, float] = MappingProxyType({})
 FUNCTIONS: dict[str, tuple[Callable[..., Array], int]] = {
     "sin": (np.sin, 1), "cos": (np.cos, 1), "tan": (np.tan, 1),
     "asin": (np.arcsin, 1), "acos": (np.arccos, 1), "atan": (np.arctan, 1), "atan2": (np.arctan2, 2),
@@ -49,20 +53,28 @@ class ExpressionError(ValueError):
 
 @dataclass(frozen=True)
 class Expression:
-    """A checked formula of x and y (m) and t (s); calling it gives its value, of the shape of x and y."""
+    """A checked formula of x and y or r (m) and phi (-pi .. pi), and of t (s); calling it gives its value."""
 
     text: str
     evaluate: _Evaluate = field(repr=False, compare=False)
+    constants: Mapping[str, float] = field(default_factory=dict)
+
+    @property
+    def _constants(self) -> dict[str, Array]:
+        return {name: np.asarray(value) for name, value in self.constants.items()}
 
     def __call__(self, x: Array, y: Array, t: float = 0.0) -> Array:
         """The formula at these places, float, shape of x; not finite where it has no value (1/0, sqrt(-1))."""
         with np.errstate(all="ignore"):
-            value = self.evaluate({"x": x, "y": y, "t": np.asarray(t)})
+            place = {"x": x, "y": y, "r": np.hypot(x, y), "phi": np.arctan2(y, x)}
+            value = self.evaluate(place | {"t": np.asarray(t)} | self._constants)
         return np.array(np.broadcast_to(value, np.shape(x)), dtype=float)
 
 
-def parse_expression(text: str, variables: Sequence[str] = PLACE) -> Expression:
-    """The formula that `text` writes: numbers, the variables, pi, + - * / **, < <= > >=, and or not, FUNCTIONS.
+def parse_expression(
+    text: str, variables: Sequence[str] = PLACE, constants: Mapping[str, float] = NO_CONSTANTS
+) -> Expression:
+    """The formula that `text` writes: numbers, variables, constants, + - * / **, < <= > >=, and or not, FUNCTIONS.
 
     Raises ExpressionError for a slip of syntax (with its column), an unknown name (with the nearest known one)
     and anything that is no arithmetic.
@@ -71,8 +83,8 @@ def parse_expression(text: str, variables: Sequence[str] = PLACE) -> Expression:
         raise ExpressionError(f"{len(text)} characters", f"a formula of at most {LONGEST} characters")
     try:
         tree = ast.parse(text.strip(), mode="eval")
-        _check_names(tree, variables)
-        formula = Expression(text.strip(), _compile(tree.body))
+        _check_names(tree, variables, constants)
+        formula = Expression(text.strip(), _compile(tree.body), dict(constants))
         formula(np.ones(1), np.ones(1))
     except SyntaxError as slip:
         column = f" at column {slip.offset}" if slip.offset else ""
@@ -88,23 +100,26 @@ def parse_expression(text: str, variables: Sequence[str] = PLACE) -> Expression:
     return formula
 
 
-def _check_names(tree: ast.Expression, variables: Sequence[str]) -> None:
+def _check_names(tree: ast.Expression, variables: Sequence[str], constants: Iterable[str]) -> None:
     """Raise ExpressionError for a name that is no variable, constant or function."""
+    fixed = (*CONSTANTS, *constants)
     called = {id(node.func) for node in ast.walk(tree) if isinstance(node, ast.Call)}
     for node in ast.walk(tree):
-        if not isinstance(node, ast.Name) or id(node) in called or node.id in (*variables, *CONSTANTS):
+        if not isinstance(node, ast.Name) or id(node) in called or node.id in (*variables, *fixed):
             continue
         if node.id in IN_TIME:
             expected = f"a formula of {_listed(variables)}" + (
                 " (t needs a table [time])" if node.id == "t" else ""
             )
             raise ExpressionError(f"{node.id}{_at(node)}", expected)
-        known = f"{', '.join((*variables, *CONSTANTS))} and the functions {', '.join(FUNCTIONS)}"
-        nearest = nearest_choice(node.id, (*FUNCTIONS, *CONSTANTS))
+        known = f"{', '.join((*variables, *fixed))} and the functions {', '.join(FUNCTIONS)}"
+        nearest = nearest_choice(node.id, (*FUNCTIONS, *fixed))
         raise ExpressionError(f"unknown name {node.id}{_at(node)}", known, nearest)
 
 
 def _listed(names: Sequence[str]) -> str:
+    if not names:
+        return "the constants of [constants]"
     return names[0] if len(names) == 1 else f"{', '.join(names[:-1])} and {names[-1]}"
 
 

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -17,11 +17,15 @@ from system.units import Dimension, QuantityError
 
 @dataclass(frozen=True)
 class FieldReader:
-    """Reads fields of one mesh, None where the mesh has a fault of its own; formulas are of `variables`."""
+    """Reads fields of one mesh, None where the mesh has a fault of its own.
+
+    Formulas are of `variables` and `constants`.
+    """
 
     mesh: CaseMesh | None
     space: FilmSpace | None
     variables: Sequence[str] = PLACE
+    constants: Mapping[str, float] = field(default_factory=dict)
 
     def field(
         self, table: Table, key: str, dimension: Dimension, default: str | None = None, *, positive: bool = False
@@ -49,17 +53,18 @@ class FieldReader:
             formula = f"a formula of {', '.join(self.variables)}"
             table.fault(key, "no such key", f"{dimension.noun}, such as '{dimension.example}', or {formula}")
             return None
-        if self.mesh is None and may_be_data(raw):
+        if self.mesh is None and may_be_data(raw) and str(raw).strip() not in self.constants:
             return None  # of a mesh whose own fault is told
         try:
-            field = read_field(raw, dimension, self.mesh.data if self.mesh else MeshData(), self.variables)
+            data = self.mesh.data if self.mesh else MeshData()
+            found = read_field(raw, dimension, data, self.variables, self.constants)
         except QuantityError as reason:
             table.fault(key, reason.found, reason.expected, reason.nearest)
             return None
-        if self.space and (fault := field_fault(field, self.space, positive=positive)):
+        if self.space and (fault := field_fault(found, self.space, positive=positive)):
             table.fault(key, *fault)
             return None
-        return field
+        return found
 
 
 def field_fault(

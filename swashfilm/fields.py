@@ -12,7 +12,15 @@ import numpy as np
 from reynolds.mesh import Array, FilmMesh, read_mesh_file
 from reynolds.mesh_refine import RefinedMesh
 from reynolds.space import FilmSpace
-from swashfilm.expressions import CONSTANTS, IN_TIME, PLACE, Expression, ExpressionError, parse_expression
+from swashfilm.expressions import (
+    CONSTANTS,
+    IN_TIME,
+    NO_CONSTANTS,
+    PLACE,
+    Expression,
+    ExpressionError,
+    parse_expression,
+)
 from system.faults import nearest_choice
 from system.units import Dimension, QuantityError, format_quantity, parse_quantity
 
@@ -143,14 +151,22 @@ Field = Uniform | Formula | PointData | CellData
 InTime = Uniform | Formula
 
 
-def read_field(raw: object, dimension: Dimension, data: MeshData, variables: Sequence[str] = PLACE) -> Field:
+def read_field(
+    raw: object,
+    dimension: Dimension,
+    data: MeshData,
+    variables: Sequence[str] = PLACE,
+    constants: Mapping[str, float] = NO_CONSTANTS,
+) -> Field:
     """The field that an entry of a case file means.
 
     A number with a unit is a quantity, a name of the mesh file's data that data, everything else a formula of
-    `variables` whose value is in the SI unit of `dimension`. Raises QuantityError: what was found and expected.
+    `variables` and `constants` whose value is in the SI unit of `dimension`. Raises QuantityError: what was found
+    and expected.
     """
     expected = (
-        f"{dimension.noun} with its unit, such as '{dimension.example}', a formula of {', '.join(variables)} in "
+        f"{dimension.noun} with its unit, such as '{dimension.example}', a formula of "
+        f"{', '.join(variables) or 'constants'} in "
         f"{dimension.si_unit} (text in quotes), or the name of data in the mesh file"
     )
     if isinstance(raw, bool) or not isinstance(raw, str):
@@ -159,20 +175,27 @@ def read_field(raw: object, dimension: Dimension, data: MeshData, variables: Seq
     text = raw.strip()
     if not text:
         raise QuantityError("empty text", expected)
-    if text in data.point and text in data.cell:
-        raise QuantityError(
-            f"'{text}', which is point data and cell data of the mesh file", "data of one kind", "rename one"
+    meanings = [
+        what
+        for what, names in (
+            ("point data of the mesh file", data.point),
+            ("cell data of the mesh file", data.cell),
+            ("a constant", constants),
         )
+        if text in names
+    ]
+    if len(meanings) > 1:
+        raise QuantityError(f"'{text}', which is {' and '.join(meanings)}", "a name of one meaning", "rename one")
     if text in data.point:
         return PointData(text, data.point[text])
     if text in data.cell:
         return CellData(text, data.cell[text])
     if _WITH_UNIT.fullmatch(text):
         return Uniform(parse_quantity(text, dimension), dimension)
-    if may_be_data(text):
-        raise _no_such_data(text, data)
+    if may_be_data(text) and text not in constants:
+        raise _no_such_data(text, data, constants)
     try:
-        return Formula(parse_expression(text, variables))
+        return Formula(parse_expression(text, variables, constants))
     except ExpressionError as reason:
         raise QuantityError(reason.found, reason.expected, reason.nearest) from None
 
@@ -207,15 +230,17 @@ def _scalar(values: Array) -> Array | None:
     return flat.astype(float) if flat.ndim == 1 and np.issubdtype(flat.dtype, np.number) else None
 
 
-def _no_such_data(name: str, data: MeshData) -> QuantityError:
+def _no_such_data(name: str, data: MeshData, constants: Mapping[str, float]) -> QuantityError:
     names = [*data.point, *data.cell]
-    known = (*PLACE, *CONSTANTS)
+    known = (*PLACE, *CONSTANTS, *constants)
     if not names:
         return QuantityError(
-            f"unknown name {name}", f"{', '.join(known)}, or data of the mesh (this mesh has none)"
+            f"unknown name {name}",
+            f"{', '.join(known)}, or data of the mesh (this mesh has none)",
+            nearest_choice(name, list(constants)),
         )
     return QuantityError(
         f"'{name}', no data of the mesh file",
         f"point data ({', '.join(data.point) or 'none'}) or cell data ({', '.join(data.cell) or 'none'}) of it",
-        nearest_choice(name, names),
+        nearest_choice(name, [*names, *constants]),
     )

@@ -13,6 +13,7 @@ from reynolds.setting import check_pressures
 from reynolds.space import film_space
 from swashfilm.boundary_case import check_boundaries, read_boundaries
 from swashfilm.case_table import Table, fault_lines, read_toml
+from swashfilm.constants_case import read_constants
 from swashfilm.elastic_case import read_elastic
 from swashfilm.expressions import IN_TIME, PLACE
 from swashfilm.field_reader import FieldReader
@@ -21,6 +22,7 @@ from swashfilm.film_problem import film_problem
 from swashfilm.film_resolved import resolved_text
 from swashfilm.film_statement import FilmStatement
 from swashfilm.gap_case import FORMAT, GapCase, read_gap_case
+from swashfilm.load_case import read_load
 from swashfilm.mesh_case import read_mesh
 from swashfilm.oil_case import OilStatement, oil_viscosity, read_oil
 from swashfilm.roughness_case import read_roughness
@@ -84,7 +86,8 @@ def _check_format(top: Table) -> None:
 def _free_film(path: Path, text: str, top: Table, film: Table) -> FilmCase | None:
     mesh, order = read_mesh(film, path.parent), _order(film)
     space = film_space(mesh.film_mesh, degree=order) if mesh and order else None
-    reader = FieldReader(mesh, space, PLACE if top.get("time") is None else IN_TIME)
+    variables = PLACE if top.get("time") is None else IN_TIME
+    reader = FieldReader(mesh, space, variables, read_constants(top))
     stated = _stated(top, film, reader, order, path.parent)
     if stated is None or top.faults:
         return None
@@ -100,12 +103,13 @@ def _free_film(path: Path, text: str, top: Table, film: Table) -> FilmCase | Non
 def _stated(top: Table, film: Table, reader: FieldReader, order: int | None, folder: Path) -> FilmStatement | None:
     """What the case states; None where a part of it has a fault, which is told."""
     faults = len(top.faults)
-    thermal, time = read_thermal(top), read_time(top)
+    thermal, time, load = read_thermal(top), read_time(top), read_load(top, film)
+    is_shape = film.get("load") is not None
     viscosity, oil = _viscosity(top, film, reader)
     parts: dict[str, Any] = {
         "mesh": reader.mesh,
         "order": order,
-        "thickness": reader.field(film, "thickness", Dimension.LENGTH, positive=True),
+        "thickness": reader.field(film, "thickness", Dimension.LENGTH, positive=not is_shape),
         "velocity": reader.vector(film, "velocity", Dimension.VELOCITY, "0 m/s"),
         "velocity_fixed": reader.vector(film, "velocity_fixed", Dimension.VELOCITY, "0 m/s"),
         "squeeze": reader.field(film, "squeeze", Dimension.VELOCITY, "0 m/s"),
@@ -123,7 +127,10 @@ def _stated(top: Table, film: Table, reader: FieldReader, order: int | None, fol
     _check_tables(top, film, oil, viscosity)
     if None in parts.values() or len(top.faults) > faults:
         return None
-    return FilmStatement(**parts, oil=oil, thermal=thermal, elastic=elastic, rough=rough, time=time)
+    return FilmStatement(
+        **parts, oil=oil, thermal=thermal, elastic=elastic, rough=rough, time=time, load=load,
+        constants=reader.constants,
+    )  # fmt: skip
 
 
 def _order(film: Table) -> int | None:

@@ -22,7 +22,7 @@ def film_problem(stated: FilmStatement, space: FilmSpace | None = None, t: float
     u, v = (_sampled("film.velocity", part, space, t) for part in stated.velocity)
     u_fixed, v_fixed = (_sampled("film.velocity_fixed", part, space, t) for part in stated.velocity_fixed)
     film = Film(
-        thickness=_sampled("film.thickness", stated.thickness, space, t, positive=True),
+        thickness=_sampled("film.thickness", stated.thickness, space, t, positive=stated.load is None),
         viscosity=_sampled("film.viscosity", stated.viscosity, space, t, positive=True),
         velocity_moving=(u, v),
         velocity_fixed=(u_fixed, v_fixed),

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from swashfilm.constants_case import constant_rows
 from swashfilm.elastic_case import elastic_rows
 from swashfilm.film_statement import BoundaryStatement, FilmStatement, Velocity
 from swashfilm.gap_case import FORMAT
+from swashfilm.load_case import load_rows
 from swashfilm.thermal_case import thermal_rows
 from swashfilm.time_case import time_rows
 from system.units import Dimension, format_quantity
@@ -21,6 +23,8 @@ def resolved_text(stated: FilmStatement) -> str:
         "cavitation": f'"{stated.cavitation.value}"',
         "cavitation_pressure": _pressure(stated.cavitation_pressure),
     }
+    if stated.load:
+        film |= load_rows(stated.load)
     if stated.time:
         film["initial_film_fraction"] = f'"{stated.initial_film_fraction}"'
     else:
@@ -28,6 +32,7 @@ def resolved_text(stated: FilmStatement) -> str:
     if stated.oil is None or stated.oil.kinematic is None:
         film["viscosity"] = f'"{stated.viscosity}"  # Pa s'
     rows = [f"format = {FORMAT}", "", "[film]", *(f"{key} = {value}" for key, value in film.items())]
+    rows += ["", *constant_rows(stated.constants)] if stated.constants else []
     rows += ["", "[boundary]  # what is not named is closed"]
     rows += [f'"{name}" = {{ {_boundary(entry)} }}' for name, entry in stated.boundary.items()]
     if stated.oil:

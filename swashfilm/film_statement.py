@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, field, fields, replace
 from typing import Any
 
+from reynolds.carried_load import RigidLoad
 from reynolds.film import Cavitation
 from swashfilm.elastic_case import ElasticStatement
 from swashfilm.fields import CellData, Field, Formula, InTime, MeshData, PointData, Uniform
@@ -35,7 +36,7 @@ class FilmStatement:
     """A free film as its case states it, every default filled in; `cavitation_pressure` in Pa.
 
     `viscosity` is that at the oil's temperature and without pressure. `initial_film_fraction` is that of a
-    transient; tables that a case does not have are None.
+    transient; tables that a case does not have are None. With `load` the thickness is a shape.
     """
 
     mesh: CaseMesh
@@ -54,6 +55,8 @@ class FilmStatement:
     elastic: ElasticStatement | None = None
     rough: RoughWalls | None = None
     time: TimeStatement | None = None
+    load: RigidLoad | None = None
+    constants: Mapping[str, float] = field(default_factory=dict)
 
     def refined(self) -> FilmStatement:
         """The same film on a mesh twice finer, data of a mesh file carried along."""

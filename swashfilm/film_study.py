@@ -9,10 +9,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from gaps.result import GapFilm
+from reynolds.carried_load import Carried
 from reynolds.energy import FilmTemperature
 from reynolds.film import FilmSolution, vertex_thickness
 from reynolds.loads import Loads, loads, point_fields
 from reynolds.solve import FilmSolver
+from swashfilm.film_carried import carried_summary, solve_carried
 from swashfilm.film_case import FilmCase
 from swashfilm.film_physics import physics_summary, vertex_fields
 from swashfilm.film_thermal import solve_with_temperature
@@ -31,7 +33,7 @@ class FilmStudy:
     """A solved case: its solution and integrals, and the seconds it took; None what the case has not.
 
     gap: the pump's gap that it is of; heat: its temperature; history: the steps of a transient, whose end
-    `solution` is.
+    `solution` is; carried: the position at which it bears a load.
     """
 
     name: str
@@ -41,6 +43,7 @@ class FilmStudy:
     solve_seconds: float
     heat: FilmTemperature | None = None
     history: tuple[Instant, ...] = ()
+    carried: Carried | None = None
 
 
 def silent(done: int, steps: int, what: str) -> None:
@@ -58,18 +61,22 @@ def solve_case(case: FilmCase | GapCase, report: Report = silent) -> FilmStudy:
         return FilmStudy(case.name, film.solution, film.loads, film, time.perf_counter() - began)
     heat: FilmTemperature | None = None
     history: tuple[Instant, ...] = ()
+    carried: Carried | None = None
     if case.stated.time:
         history = tuple(transient(case.stated, report))
         last = history[-1].solution
         assert last is not None
         solution = last
+    elif case.stated.load:
+        carried, heat = solve_carried(case.stated, case.problem)
+        solution = carried.solution
     elif case.stated.thermal:
         found = solve_with_temperature(case.stated, case.problem)
         solution, heat = found.film, found.heat
     else:
         solution = FilmSolver(case.problem.space).solve(case.problem)
     seconds = time.perf_counter() - began
-    return FilmStudy(case.name, solution, loads(solution), None, seconds, heat, history)
+    return FilmStudy(case.name, solution, loads(solution), None, seconds, heat, history, carried)
 
 
 def film_summary(study: FilmStudy) -> dict[str, Any]:
@@ -104,6 +111,7 @@ def film_summary(study: FilmStudy) -> dict[str, Any]:
         "dofs": solution.problem.space.size,
         "iterations": solution.iterations,
         "solve_seconds": study.solve_seconds,
+        **(carried_summary(study.carried) if study.carried else {}),
         **physics_summary(study),
         **(gap_summary(study.gap) if study.gap else {}),
         "warnings": film_warnings(study),

@@ -16,14 +16,19 @@ if TYPE_CHECKING:
     from swashfilm.film_statement import FilmStatement
 
 
-def solve_with_temperature(stated: FilmStatement, problem: FilmProblem) -> ThermalSolution:
-    """Film and temperature that agree; raises FilmNotConverged, also where the oil leaves the range of its law."""
+def solve_with_temperature(
+    stated: FilmStatement, problem: FilmProblem, start: ThermalSolution | None = None
+) -> ThermalSolution:
+    """Film and temperature that agree, warmed by `start`.
+
+    Raises FilmNotConverged, also where the oil leaves the range of its law.
+    """
     assert stated.thermal is not None
     assert stated.oil is not None
     temperatures = {name: entry.temperature for name, entry in stated.boundary.items()}
     heat = stated.thermal.heat(stated.oil, temperatures)
     try:
-        return solve_thermal(problem, heat, _viscosity(stated), count=stated.thermal.levels)
+        return solve_thermal(problem, heat, _viscosity(stated), count=stated.thermal.levels, start=start)
     except FilmInputError as reason:
         remedy = f"{reason.expected}: a thicker film, a lower speed or walls that take more heat"
         raise FilmNotConverged(f"{reason.where}: {reason.found}", remedy) from None

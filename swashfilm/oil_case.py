@@ -79,10 +79,7 @@ class OilStatement:
         if self.kinematic is None or self.density is None:
             cooler = (self.temperature or 0.0) - temperature
             return np.asarray(viscosity * np.exp(self.temperature_coefficient * cooler))
-        try:
-            return walther(temperature, Oil(*self.kinematic, self.density, 1.0, 1.0)) * self.density
-        except ValueError as reason:
-            raise FilmInputError("film temperature", str(reason), "a film within the range of its oil") from None
+        return walther(temperature, Oil(*self.kinematic, self.density, 1.0, 1.0)) * self.density
 
 
 @dataclass
@@ -149,7 +146,7 @@ def oil_viscosity(oil: Table, stated: OilStatement) -> float | None:
     try:
         # A film at one temperature asks neither bulk modulus nor specific heat: ones stand for them.
         return dynamic_viscosity(Oil(*stated.kinematic, stated.density, 1.0, 1.0), stated.temperature)
-    except ValueError as reason:
+    except FilmInputError as reason:
         oil.fault("temperature", str(reason), "an oil and a temperature for which Walther's law holds")
         return None
 

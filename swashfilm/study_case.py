@@ -116,6 +116,7 @@ def read_study(path: Path, text: str, tables: Mapping[str, Any]) -> StudyCase:
     base = {key: value for key, value in tables.items() if key != "study"}
     found = [axis for axis in axes if axis]
     study = StudyCase(path.stem, path, text, base, tuple(found), combine or Combine.ALL)
+    table.faults += _unknown_constants(base, found)
     if not table.faults:
         _check_size(table, study)
     if not table.faults:
@@ -191,6 +192,18 @@ def _dimension(values: Sequence[Any]) -> Dimension | None:
             continue
         return dimension
     return None
+
+
+def _unknown_constants(tables: Mapping[str, Any], axes: Sequence[Axis]) -> list[Fault]:
+    """Faults of varied constants that the case has not: nothing would come of them."""
+    constants = tables.get("constants")
+    known = [f"constants.{name}" for name in constants] if isinstance(constants, dict) else []
+    return [
+        Fault(_named(axis.key), "no such constant", f"one of {', '.join(known) or 'a table [constants]'}",
+              nearest_choice(axis.key, known))
+        for axis in axes
+        if axis.key.startswith("constants.") and axis.key not in known
+    ]  # fmt: skip
 
 
 def _check_size(table: Table, study: StudyCase) -> None:

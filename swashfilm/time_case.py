@@ -75,7 +75,7 @@ def initial_film_fraction(top: Table, film: Table, reader: FieldReader) -> Field
     raw = film.get("initial_film_fraction")
     expected = "a number above 0 and at most 1, or a formula of x and y (text in quotes)"
     try:
-        field = Formula(parse_expression("1.0" if raw is None else str(raw)))
+        field = Formula(parse_expression("1.0" if raw is None else str(raw), constants=reader.constants))
     except ExpressionError as reason:
         film.fault("initial_film_fraction", reason.found, expected, reason.nearest)
         return None

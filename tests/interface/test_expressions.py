@@ -24,6 +24,7 @@ X, Y = np.array([0.1, 0.5, 2.0]), np.array([-1.0, 0.3, 4.0])
         ("where(x < 0.3 or y > 3, 1, 0)", np.array([1.0, 0.0, 1.0])),
         ("min(x, max(y, 0.2)) + abs(y)", np.minimum(X, np.maximum(Y, 0.2)) + abs(Y)),
         ("atan2(y, x)", np.arctan2(Y, X)),
+        ("r*phi", np.hypot(X, Y) * np.arctan2(Y, X)),
     ],
 )  # fmt: skip
 def test_a_formula_has_the_value_that_numpy_gives_it(text, expected):
@@ -45,7 +46,7 @@ def test_where_a_formula_has_no_value_it_is_not_finite_and_nothing_is_raised():
 @pytest.mark.parametrize(
     ("text", "words"),
     [
-        ("1 + z", ["unknown name z", "column 5", "x, y, pi"]),
+        ("1 + z", ["unknown name z", "column 5", "x, y, r, phi, pi"]),
         ("1 + sine(x)", ["unknown function sine", "column 5"]),
         ("2*(x", ["slip of syntax", "column 3"]),
         ("x^2", ["^", "**"]),
@@ -61,7 +62,7 @@ def test_where_a_formula_has_no_value_it_is_not_finite_and_nothing_is_raised():
         ("__import__('os').system('true')", ["no arithmetic"]),
         ("(lambda: 1)()", ["no arithmetic"]),
         ("sin(x=1)", ["no arithmetic"]),
-        ("x\0", ["formula of x and y"]),
+        ("x\0", ["formula of x, y, r and phi"]),
         ("-" * 1500 + "x", ["too deep"]),
         ("x" * (LONGEST + 1), [str(LONGEST)]),
     ],
@@ -77,3 +78,11 @@ def test_a_misspelt_function_is_told_the_nearest():
     with pytest.raises(ExpressionError) as refused:
         parse_expression("sqr(x)")
     assert refused.value.nearest == "sqrt"
+
+
+def test_constants_stand_in_a_formula_by_name():
+    formula = parse_expression("height*(1 + ratio*x)", constants={"height": 2.0, "ratio": 0.5})
+    np.testing.assert_allclose(formula(X, Y), 2.0 * (1.0 + 0.5 * X), rtol=1e-15)
+    with pytest.raises(ExpressionError, match="unknown name heigth") as refused:
+        parse_expression("heigth*x", constants={"height": 2.0})
+    assert refused.value.nearest == "height"
