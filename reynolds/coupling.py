@@ -26,6 +26,7 @@ from reynolds.wall_heat import opening_by_heat
 
 MAX_ROUNDS = 100
 MOST_HALVINGS = 12
+ROUGHLY = 0.1  # a relative change: near enough to start from
 MOST_CLOSED = 0.5  # of its thickness, by which warm walls may close the film in one round
 
 LocalLaw = Callable[[Array, Array, Array], Array]
@@ -105,13 +106,16 @@ def agree(
     """
     problem = posed.problem
     solver = FilmSolver(problem.space) if solver is None else solver
+    if start is None and problem.fluid.viscosity is not isoviscous:
+        # An oil still cold or at rest may stiffen without bound under a pressure that the film never has.
+        start = agree(_unpressed(posed), across, ROUGHLY, solver, None)
     given = _given_thickness(problem)
     conditions, guess = _first(posed, across, given, start)
     film, heat = (None, None) if start is None else (start.film, start.heat)
-    history = History()
+    history, solved = History(), None
     for rounds in range(1, MAX_ROUNDS + 1):
-        shape = dowson(across, guess.share)
-        film = solver.solve(_bent(problem, shape, guess.opened * given), film)
+        film, guess = _film(problem, across, solver, film, guess, solved, given)
+        solved, shape = guess, dowson(across, guess.share)
         profile = scaled(shape, resting_viscosity(problem, film.pressure))
         heat = _heat(posed, film, profile, heat)
         image, conditions, fault = _image(posed, film, profile, heat, given, conditions)
@@ -127,10 +131,48 @@ def agree(
     )
 
 
+def _unpressed(posed: Posed) -> Posed:
+    """The same with an oil that no pressure stiffens."""
+    problem = posed.problem
+
+    def law(temperature: Array, pressure: Array, rate: Array) -> Array:
+        return posed.law(temperature, np.zeros_like(pressure), rate)
+
+    return replace(posed, problem=replace(problem, fluid=Fluid(isoviscous, problem.fluid.density)), law=law)
+
+
+def _film(
+    problem: FilmProblem,
+    across: Levels,
+    solver: FilmSolver,
+    warm: FilmSolution | None,
+    guess: _Guess,
+    solved: _Guess | None,
+    given: Array,
+) -> tuple[FilmSolution, _Guess]:
+    """The film of a guess, or of one nearer to the last that had a film; without such a one, of a thinner oil."""
+    fault: FilmInputError | FilmNotConverged | None = None
+    for _ in range(MOST_HALVINGS):
+        shape = dowson(across, guess.share)
+        try:
+            return solver.solve(_bent(problem, shape, guess.opened * given), warm), guess
+        except (FilmInputError, FilmNotConverged) as reason:
+            fault = reason if fault is None else fault
+        if solved is not None:
+            guess = guess.at(0.5 * (guess.point + solved.point))
+        elif problem.fluid.viscosity is not isoviscous:
+            guess = replace(guess, share=0.5 * guess.share)
+        else:
+            break
+    assert fault is not None
+    raise fault
+
+
 def resting_viscosity(problem: FilmProblem, pressure: Array) -> Array:
     """Viscosity (size,) Pa s that the problem itself states at nodal pressures (size,) Pa."""
-    given = problem.space.to_unknowns(problem.film.viscosity)
-    return np.broadcast_to(problem.fluid.viscosity(pressure, given)[0], pressure.shape)
+    given = problem.space.to_unknowns(problem.film.viscosity)[:, None]
+    found, _ = problem.fluid.viscosity(pressure[:, None], given)
+    return np.asarray(found[:, 0])
 
 
 @dataclass(frozen=True)

@@ -7,6 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
+from reynolds.errors import FilmInputError
+from reynolds.laws import within
+
 WALTHER_SHIFT = 0.7  # mm2/s; the constant of ASTM D341, good above LOWEST_KINEMATIC_VISCOSITY
 LOWEST_KINEMATIC_VISCOSITY = 2e-6  # m2/s; below this ASTM D341 needs further terms
 LOWEST_TEMPERATURE = 233.15  # K (-40 degC): near the pour point of mineral hydraulic oils
@@ -21,7 +24,7 @@ class Oil:
     """A Newtonian oil at the pressure of the case, named by two viscosities.
 
     kinematic_viscosity_40C, kinematic_viscosity_100C in m2/s, density in kg/m3, bulk_modulus in Pa,
-    specific_heat in J/(kg K). Raises ValueError for a value that is not positive, for a viscosity below
+    specific_heat in J/(kg K). Raises FilmInputError for a value that is not positive, for a viscosity below
     ASTM D341's 2 mm2/s and for an oil that does not thin from 40 to 100 degC.
     """
 
@@ -34,17 +37,14 @@ class Oil:
     def __post_init__(self) -> None:
         for name, value in vars(self).items():
             if not value > 0.0:
-                raise ValueError(f"oil {name}: found {value:g}, expected a positive SI value")
+                raise FilmInputError(f"oil {name}", f"{value:g}", "a positive SI value")
         if self.kinematic_viscosity_100C < LOWEST_KINEMATIC_VISCOSITY:
-            raise ValueError(
-                f"oil kinematic_viscosity_100C: found {self.kinematic_viscosity_100C * 1e6:g} mm2/s, "
-                "expected at least 2 mm2/s (ASTM D341)"
-            )
+            found = f"{self.kinematic_viscosity_100C * 1e6:g} mm2/s"
+            raise FilmInputError("oil kinematic_viscosity_100C", found, "at least 2 mm2/s (ASTM D341)")
         if self.kinematic_viscosity_100C >= self.kinematic_viscosity_40C:
-            raise ValueError(
-                f"oil kinematic_viscosity_100C: found {self.kinematic_viscosity_100C * 1e6:g} mm2/s, "
-                f"expected less than the {self.kinematic_viscosity_40C * 1e6:g} mm2/s at 40 degC"
-            )
+            found = f"{self.kinematic_viscosity_100C * 1e6:g} mm2/s"
+            at_40 = f"{self.kinematic_viscosity_40C * 1e6:g} mm2/s at 40 degC"
+            raise FilmInputError("oil kinematic_viscosity_100C", found, f"less than the {at_40}")
 
 
 @dataclass(frozen=True)
@@ -83,22 +83,19 @@ def walther_coefficients(oil: Oil) -> tuple[float, float]:
 def walther(temperature: ArrayLike, oil: Oil) -> np.ndarray:
     """Return the kinematic viscosity in m2/s at `temperature` in K (any shape), from Walther's law.
 
-    Raises ValueError outside -40 .. 150 degC and where the oil is thinner than 2 mm2/s: the law is void
+    Raises FilmInputError outside -40 .. 150 degC and where the oil is thinner than 2 mm2/s: the law is void
     there. Source: Walther 1931, ASTM D341.
     """
     kelvin = np.asarray(temperature, dtype=float)
-    inside = (kelvin >= LOWEST_TEMPERATURE) & (kelvin <= HIGHEST_TEMPERATURE)
-    if not np.all(inside):
-        raise ValueError(
-            f"oil temperature: found {np.min(kelvin) - 273.15:g} .. {np.max(kelvin) - 273.15:g} degC, "
-            f"expected {LOWEST_TEMPERATURE - 273.15:g} .. {HIGHEST_TEMPERATURE - 273.15:g} degC (Walther)"
-        )
+    lowest, highest = (limit - 273.15 for limit in (LOWEST_TEMPERATURE, HIGHEST_TEMPERATURE))
+    within("oil temperature", kelvin - 273.15, lowest, highest, "degC", "there Walther's law holds")
     intercept, slope = walther_coefficients(oil)
     viscosity = 1e-6 * (10.0**10.0 ** (intercept - slope * np.log10(kelvin)) - WALTHER_SHIFT)
     if not np.all(viscosity >= LOWEST_KINEMATIC_VISCOSITY):
-        raise ValueError(
-            f"oil at {np.max(kelvin) - 273.15:g} degC: {np.min(viscosity) * 1e6:.3g} mm2/s, but ASTM D341 in "
-            "this form holds from 2 mm2/s: choose a thicker grade or a lower temperature"
+        raise FilmInputError(
+            f"oil at {np.max(kelvin) - 273.15:g} degC",
+            f"{np.min(viscosity) * 1e6:.3g} mm2/s",
+            "at least 2 mm2/s, from which ASTM D341 holds: a thicker grade or a lower temperature",
         )
     return viscosity
 
@@ -107,7 +104,7 @@ def dynamic_viscosity(oil: Oil, temperature: float) -> float:
     """Return the dynamic viscosity in Pa s at `temperature` in K: Walther's law times the density.
 
     The density is constant: its thermal expansion (0.07 %/K) is within the oil grade's own 10 %.
-    Raises ValueError outside the range of `walther`.
+    Raises FilmInputError outside the range of `walther`.
     """
     return float(walther(temperature, oil)) * oil.density
 

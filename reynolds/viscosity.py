@@ -111,7 +111,7 @@ def wooster(viscosity: ArrayLike) -> np.ndarray:
 class Walther:
     """Dynamic viscosity of an oil by ASTM D341 (`oil.walther`) at constant density: law(T) -> (mu, dmu/dT).
 
-    Raises ValueError outside the range of `oil.walther`.
+    Raises FilmInputError outside the range of `oil.walther`.
     """
 
     oil: Oil

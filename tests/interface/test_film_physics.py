@@ -210,7 +210,7 @@ def test_a_film_hotter_than_its_oil_is_no_number(read):
     )
     with pytest.raises(FilmNotConverged) as refused:
         solve_case(hot)
-    assert "film temperature" in str(refused.value)
+    assert "oil temperature" in str(refused.value)
 
 
 @pytest.mark.parametrize(

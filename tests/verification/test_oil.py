@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from reynolds.errors import FilmInputError
 from reynolds.oil import ISO_GRADES, Oil, dynamic_viscosity, walther, walther_coefficients
 
 VG46 = Oil(46e-6, 6.8e-6, density=860.0, bulk_modulus=1.6e9, specific_heat=1950.0)
@@ -66,17 +67,17 @@ def _viscosity_index(at_40, at_100):
 
 @pytest.mark.parametrize("celsius", [-41.0, 151.0, np.nan])
 def test_a_temperature_outside_the_law_is_refused(celsius):
-    with pytest.raises(ValueError, match=r"-40 \.\. 150 degC"):
+    with pytest.raises(FilmInputError, match=r"-40 \.\. 150 degC"):
         walther(celsius + 273.15, VG46)
 
 
 def test_an_oil_too_thin_for_the_law_is_refused():
     thin = Oil(10e-6, 2.7e-6, 860.0, 1.6e9, 1950.0)
-    with pytest.raises(ValueError, match="2 mm2/s"):
+    with pytest.raises(FilmInputError, match="2 mm2/s"):
         walther(273.15 + 140.0, thin)
 
 
 @pytest.mark.parametrize("viscosities", [(46e-6, 46e-6), (46e-6, 1.5e-6), (-46e-6, 6.8e-6)])
 def test_what_is_no_oil_is_refused(viscosities):
-    with pytest.raises(ValueError, match="kinematic_viscosity"):
+    with pytest.raises(FilmInputError, match="kinematic_viscosity"):
         Oil(*viscosities, density=860.0, bulk_modulus=1.6e9, specific_heat=1950.0)
