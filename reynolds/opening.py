@@ -14,6 +14,7 @@ from reynolds.space import FilmSpace
 
 MAX_STEPS = 30
 TOLERANCE = 1e-12  # of the film thickness
+DEEPEST = 5.0  # standard deviations of the summits by which a step may press them into each other
 
 
 def opening(problem: FilmProblem, pressure: Array, start: Array | None = None) -> Array:
@@ -29,13 +30,15 @@ def opening(problem: FilmProblem, pressure: Array, start: Array | None = None) -
     if problem.asperities is None:
         return alone
     given = _given_thickness(problem)
-    found = alone if start is None else start
+    # Contact closes as the film opens, without bound: from where it barely resists, Newton's steps lead up.
+    deepest = problem.asperities.summit_height - DEEPEST * problem.asperities.height
+    found = np.maximum(alone if start is None else start, deepest - given)
     for _ in range(MAX_STEPS):
         bears = contact_pressure(problem.asperities, given + found)
         rest = found - alone - compliance @ _to_unknowns(problem.space, bears.value)
-        if np.max(np.abs(rest)) < TOLERANCE * np.max(given):
+        if np.max(np.abs(rest)) < TOLERANCE * np.max(np.abs(given)):
             return found
-        found = found - _solved(_with_contact(problem, bears.slope), rest)
+        found = np.maximum(found - _solved(_with_contact(problem, bears.slope), rest), deepest - given)
     raise FilmNotConverged(
         f"the opening of walls in contact not settled after {MAX_STEPS} steps", "a thicker film, or stiffer walls"
     )

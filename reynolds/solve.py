@@ -82,14 +82,15 @@ class FilmSolver:
     def _begin(self, problem: FilmProblem, setting: Setting, start: FilmSolution | None) -> Iterate:
         space = problem.space
         pressure, fraction = setting.pressure, setting.film_fraction
-        cavity = np.zeros(space.size, dtype=bool)
+        cavity, near = np.zeros(space.size, dtype=bool), None
         if start is None and problem.walls is not None:
             pressure = _lifting(problem, setting)
         if start is not None:
             pressure = np.where(setting.held, pressure, start.pressure)
+            near = start.opening
             fraction = np.where(setting.held, fraction, start.film_fraction)
             cavity = start.cavity & ~setting.held & (problem.cavitation is not Cavitation.NONE)
-        at = iterate_of(problem, opened(problem, pressure, fraction), cavity)
+        at = iterate_of(problem, opened(problem, pressure, fraction, near), cavity)
         cold = start is None or (problem.cavitation is Cavitation.JFO and not cavity.any())
         if cold and is_linear(problem) and problem.cavitation is not Cavitation.NONE and space.size > COARSEST:
             # Free unknowns of the spread pressures stand at cavitation pressure: the step from there is p - p_c.
