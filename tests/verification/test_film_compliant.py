@@ -6,6 +6,8 @@ elastic layer must tend to them.
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
@@ -17,7 +19,7 @@ from reynolds.bodies.elasticity import Elastic
 from reynolds.bodies.foundation import Compliance, both, winkler
 from reynolds.bodies.supports import Supports
 from reynolds.bodies.wall import Body, body_wall
-from reynolds.errors import FilmInputError
+from reynolds.errors import FilmNotConverged
 from reynolds.film import ZERO, Cavitation, FilmProblem, FilmSolution, Held, Pocket, film
 from reynolds.loads import loads
 from reynolds.mesh import Cell, rectangle
@@ -86,6 +88,25 @@ def test_rigid_channel(validation):
         expected=1.0416667e-6,
         obtained=loads(channel(strip(4), None)).flow["right"] / WIDE,
         relative_tolerance=0.5e-7,
+    )
+
+
+def test_walls_that_overlap_until_they_give_way(validation):
+    """Undeformed they would cut 2 um into each other; the pressure at both ends holds them apart."""
+    space, overlap, ends = strip(16), -2e-6, (60e6, 40e6)
+    posed = replace(film(GAP, VISCOSITY), thickness=np.full((1, 1), overlap))
+    held = {"left": Held(ends[0]), "right": Held(ends[1])}
+    found = FilmSolver(space).solve(FilmProblem(space, posed, held, walls=winkler(space, STIFFNESS)))
+    high, low = ((overlap + p / STIFFNESS) ** 4 for p in ends)
+    validation(
+        case="Channel on Winkler's foundation",
+        source="verification cases 3.11, closed form",
+        quantity="flow per width, 60 to 40 MPa, walls that overlap by 2 um undeformed",
+        unit="m2/s",
+        expected=STIFFNESS / (48.0 * VISCOSITY * LENGTH) * (high - low),
+        obtained=loads(found).flow["right"] / WIDE,
+        relative_tolerance=1e-11,
+        note="exact on any mesh",
     )
 
 
@@ -294,5 +315,5 @@ def test_errors():
     assert flow == pytest.approx(channel_flow(STIFFNESS), rel=2e-2)
     space = strip(8)
     closing = Compliance(-winkler(space, 5e12).matrix)
-    with pytest.raises(FilmInputError, match=r"between walls that give way.*a film left"):
+    with pytest.raises(FilmNotConverged, match=r"walls that give way leave.*Try: a thicker film, stiffer walls"):
         channel(space, closing)
