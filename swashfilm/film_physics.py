@@ -71,6 +71,8 @@ def _rough_summary(study: FilmStudy) -> dict[str, Any]:
         pressed = contact_pressure(problem.asperities, film.thickness).value
         sheared = boundary_shear(problem.asperities, pressed).value
         found["contact_load_N"] = study.loads.contact_load
+        both = study.loads.contact_load + study.loads.load
+        found["contact_load_fraction"] = study.loads.contact_load / both if both > 0.0 else None
         found["contact_pressure_max_Pa"] = float(np.max(pressed))
         found["contact_friction_N"] = float(np.sum(sheared * area))
         found["contact_area_fraction"] = float(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+from collections.abc import Mapping
 from itertools import product
 from typing import TYPE_CHECKING, Any
 
@@ -13,10 +14,12 @@ from swashfilm.headline import sizes, titled
 if TYPE_CHECKING:
     import xarray
 
-LEAST_CHANGE = 1e-9  # of the size of such numbers: one that varies less is not drawn
+LEAST_CHANGE = 1e-5  # of the size of such numbers: one that varies less is not drawn
 LOG_FROM = 30.0  # ratio of an axis' ends from which it is drawn in logarithms
+LOG_TO = 1e6  # ratio beyond which the small end is nothing
 MOST_LINES = 12
 STRIBECK = ("friction_coefficient", "hersey_number_m")
+CONTACT = "contact_load_fraction"
 
 
 def study_plots(data: xarray.Dataset) -> dict[str, bytes]:
@@ -31,10 +34,8 @@ def study_plots(data: xarray.Dataset) -> dict[str, bytes]:
     keys = [
         key for key, values in numbers.items() if np.nanmax(values) - np.nanmin(values) > LEAST_CHANGE * size[key]
     ]
-    pictures = {key: _picture(ordered, key) for key in keys}
-    if set(STRIBECK) <= set(keys):
-        pictures["stribeck"] = _stribeck(ordered)
-    return pictures
+    first = {"stribeck": _stribeck(ordered)} if set(STRIBECK) <= set(keys) else {}
+    return first | {key: _picture(ordered, key) for key in keys}
 
 
 def _is_numeric(values: np.ndarray) -> bool:
@@ -60,45 +61,95 @@ def _lines(axes: Any, data: xarray.Dataset, key: str) -> None:
     lines = list(product(*(range(data.sizes[dim]) for dim in others)))
     for index in lines[:MOST_LINES]:
         at = dict(zip(others, index, strict=True))
-        shown = ", ".join(
-            f"{dim} = {_text(data[dim].values[k])} {data[dim].attrs.get('units', '')}".strip()
-            for dim, k in at.items()
-        )
-        axes.plot(places, field.isel(at).values, "o-", markersize=3.5, label=shown or None)
+        axes.plot(places, field.isel(at).values, "o-", markersize=3.5, label=_where(data, at) or None)
     if others:
         axes.legend(fontsize=7, title=None if len(lines) <= MOST_LINES else f"{MOST_LINES} of {len(lines)} lines")
     if labels:
         axes.set_xticks(places, labels, rotation=20, ha="right", fontsize=7)
-    elif _is_wide(places):
+    elif _is_geometric(places):
         axes.set_xscale("log")
+    if _is_wide(field.values):
+        axes.set_yscale("log")
     axes.set(xlabel=_axis_title(data, str(along)), ylabel=titled(key))
     axes.grid(visible=True, alpha=0.3)
 
 
 def _map(figure: Any, axes: Any, data: xarray.Dataset, key: str) -> None:
+    """Colours over two keys, in logarithms where the number spans so much, with lines of equal value."""
     across, along = (str(dim) for dim in data[key].dims)
     x, y, values = data[across].values, data[along].values, data[key].values.T
-    drawn = axes.pcolormesh(x, y, values, shading="nearest")
-    if np.isfinite(values).all() and min(values.shape) > 2:
-        lines = axes.contour(x, y, values, colors="white", linewidths=0.7)
-        axes.clabel(lines, fontsize=6)
     for places, scale in ((x, axes.set_xscale), (y, axes.set_yscale)):
-        if _is_wide(places):
+        if _is_geometric(places):
             scale("log")
+    norm = "log" if _is_wide(values) else "linear"
+    whole = np.isfinite(values).all() and min(values.shape) > 2
+    drawn = axes.pcolormesh(x, y, values, shading="gouraud" if whole else "nearest", norm=norm)
+    if whole:
+        lines = axes.contour(x, y, values, levels=_levels(values), colors="white", linewidths=0.7)
+        axes.clabel(lines, fontsize=7, fmt="%.3g")
+        axes.plot(*(part.ravel() for part in np.meshgrid(x, y)), ".", color="black", markersize=1.5)
     axes.set(xlabel=_axis_title(data, across), ylabel=_axis_title(data, along))
     figure.colorbar(drawn, ax=axes)
 
 
+def _levels(values: np.ndarray) -> np.ndarray:
+    """Some seven round values within."""
+    from matplotlib.ticker import LogLocator, MaxNLocator
+
+    least, most = float(values.min()), float(values.max())
+    if not _is_wide(values):
+        found = np.asarray(MaxNLocator(7).tick_values(least, most))
+        return found[(found > least + 1e-3 * (most - least)) & (found < most)]
+    steps = (1.0, 3.0) if most > 300.0 * least else (1.0, 2.0, 5.0)
+    return np.asarray(LogLocator(subs=steps, numticks=12).tick_values(least, most))
+
+
 def _stribeck(data: xarray.Dataset) -> bytes:
+    """Friction coefficient over the Hersey number: one line with the contact's share, or many."""
     figure, axes = _figure()
-    friction, hersey = (data[key].values.ravel() for key in STRIBECK)
-    order = np.argsort(hersey)
-    axes.plot(hersey[order], friction[order], "o-" if data[STRIBECK[0]].ndim == 1 else "o", markersize=3.5)
-    if _is_wide(hersey):
-        axes.set_xscale("log")
+    friction, hersey = (data[key].transpose(*data[STRIBECK[0]].dims) for key in STRIBECK)
+    along, *others = (str(dim) for dim in friction.dims)
+    lines = list(product(*(range(data.sizes[dim]) for dim in others)))[:MOST_LINES]
+    for index in lines:
+        at = dict(zip(others, index, strict=True))
+        y, x = friction.isel(at).values, hersey.isel(at).values
+        order = np.argsort(x)
+        axes.plot(x[order], y[order], "o-", markersize=3.5, label=_where(data, at) or None)
+    axes.set_xscale("log")
+    if _is_wide(friction.values):
+        axes.set_yscale("log")
+    axes.margins(y=0.15)
     axes.set(xlabel="Hersey number mu U/p_mean / m", ylabel="friction coefficient", title="Stribeck curve")
     axes.grid(visible=True, alpha=0.3)
+    if others:
+        axes.legend(fontsize=7)
+    else:
+        _with_least_and_contact(axes, data, along)
     return _png(figure)
+
+
+def _with_least_and_contact(axes: Any, data: xarray.Dataset, along: str) -> None:
+    sorted_by_hersey = data.isel({along: np.argsort(data[STRIBECK[1]].values)})
+    friction, hersey = (sorted_by_hersey[key].values for key in STRIBECK)
+    least = int(np.nanargmin(friction))
+    if 0 < least < len(friction) - 1:
+        axes.plot(hersey[least], friction[least], "v", color="black")
+        axes.annotate(
+            f"least {friction[least]:.3g}", (hersey[least], friction[least]), (0, -14), ha="center", fontsize=8,
+            textcoords="offset points",
+        )  # fmt: skip
+    if CONTACT in data:
+        beside = axes.twinx()
+        beside.plot(hersey, sorted_by_hersey[CONTACT].values, "--", color="tab:orange", linewidth=1.0)
+        beside.set_ylim(-0.02, 1.02)
+        beside.set_ylabel("contact's share of the load", color="tab:orange")
+
+
+def _where(data: xarray.Dataset, at: Mapping[Any, int]) -> str:
+    """The values of the keys that a line is of, with their units."""
+    return ", ".join(
+        f"{dim} = {_text(data[dim].values[k])} {data[dim].attrs.get('units', '')}".strip() for dim, k in at.items()
+    )
 
 
 def _places(data: xarray.Dataset, dim: str) -> tuple[np.ndarray, list[str]]:
@@ -127,7 +178,16 @@ def _text(value: object) -> str:
 
 def _is_wide(values: np.ndarray) -> bool:
     known = values[np.isfinite(values)]
-    return bool(known.size) and bool(known.min() > 0.0) and bool(known.max() > LOG_FROM * known.min())
+    if not known.size or not known.min() > 0.0:
+        return False
+    return bool(LOG_FROM < known.max() / known.min() < LOG_TO)
+
+
+def _is_geometric(places: np.ndarray) -> bool:
+    """True for places of equal ratio, and for any that span much."""
+    if len(places) < 3 or not places.min() > 0.0:
+        return _is_wide(places)
+    return _is_wide(places) or bool(np.ptp(np.diff(np.log(places))) < 1e-6)
 
 
 def _figure() -> tuple[Any, Any]:
