@@ -39,7 +39,7 @@ SPAN, WIDE_END, NARROW_END = np.radians(132.0), 64e-3, 7.5e-3
 def _diaphragm(along: int, beside: int, across: int, outside: int) -> BodyMesh:
     """Half of the bore's innermost millimetre, `backed` by the shell but for the diaphragm.
 
-    The diaphragm narrows from 2 x 64 mm at the slot (0 deg, a free edge) to 2 x 7.5 mm at 132 deg. The shell behind
+    The diaphragm narrows from 128 mm at the slot (0 deg, a free edge) to 15 mm at 132 deg. The shell behind
     (49 mm of steel, held outside) gives way by less than a micrometre and is taken as rigid.
     """
     around, tall = along + beside, across + outside
@@ -251,7 +251,7 @@ def test_comsol_journal(validation):
         for where, expected in table.items():
             reason = (
                 f"the published points, joined, carry {short:.0%} less than 40 kN (at 10000 rpm 2 %), their film "
-                "ends 8 deg earlier; springs of 1e12 to 1e13 Pa/m behind the bore flatten this film and widen the gap"
+                "ends 8 deg earlier; springs of 1e12 to 1e13 Pa/m behind the bore only flatten this film"
             )
             validation(
                 case="Journal under 40 kN, viscosity and density by pressure",

@@ -1,0 +1,230 @@
+"""Mixed lubrication of a journal bearing.
+
+Sander et al., friction of a journal bearing test rig from full film to severe mixed lubrication: the torque of
+the shaft, that is of the test bearing and of the two bearings that carry it. What verification cases 3.11 leave open
+is taken from MBDyn's test of the same rig (mboct-mbdyn-pkg, mbdyn_post_ehd_load_output 13), most of it assumed there
+too: clearances of 1e-3 of the diameter, two steel bearings of 54 x 25 mm with half the load each, oil at ambient
+pressure through a hole of 5 mm (test bearing) or a groove of 180 deg by 5 mm (the others). The flow is that of smooth
+walls, as there: the published Peklenik number of 12 lies beyond Patir and Cheng's 9.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from reynolds.bodies.body_mesh import disc, ring
+from reynolds.bodies.chart import Cylinder, Side
+from reynolds.bodies.elasticity import Elastic
+from reynolds.bodies.foundation import both
+from reynolds.bodies.supports import Supports
+from reynolds.bodies.wall import Body, body_wall
+from reynolds.contact import asperities_of
+from reynolds.film import ZERO, FilmProblem, FilmSolution, Held, film
+from reynolds.fluid import Fluid
+from reynolds.loads import loads, point_fields
+from reynolds.mesh import Cell, rectangle
+from reynolds.solve import FilmSolver
+from reynolds.space import FilmSpace, film_space
+from reynolds.transport import at_points
+
+VISCOSITY, PRESSURE_COEFFICIENT, AMBIENT, VAPOUR = 6.8e-3, 9.5e-9, 1e5, 100.0
+SUMMITS = asperities_of(
+    0.001, 0.05, float(np.hypot(0.13e-6, 0.28e-6)), 53.3e9, 0.02, summit_height=0.21e-6 + 0.39e-6
+)
+STEEL, ALUMINIUM = Elastic(210e9, 0.3), Elastic(70e9, 0.3)
+SHELL = 70e-3  # outer radius of the connecting rod's big end; the blocks of the other bearings are no smaller
+TORQUE = {
+    8e3: {3000: 1.06, 1000: 0.544, 500: 0.43, 400: 0.46, 300: 0.58, 250: 0.747, 200: 1.076, 150: 1.71},
+    4e3: {3000: 0.96, 1000: 0.46, 500: 0.297, 400: 0.257, 300: 0.243, 250: 0.34, 150: 0.5},
+}
+THINNEST = {3000: 2.0, 150: 0.7}  # um, under 8 kN
+
+
+def _thickened(pressure, viscosity):
+    thicker = viscosity * np.exp(PRESSURE_COEFFICIENT * (pressure - AMBIENT))
+    return thicker, PRESSURE_COEFFICIENT * thicker
+
+
+@dataclass
+class Bearing:
+    """Half of a bearing; angles count from the direction in which its shaft is loaded."""
+
+    radius: float
+    space: FilmSpace
+    solver: FilmSolver
+    problem: FilmProblem
+    last: FilmSolution | None = None
+    slope: np.ndarray | None = None
+
+    def force(self, place: np.ndarray) -> np.ndarray:
+        """What film and contact bear (N), along the load and across, the shaft's axis at `place` in clearances."""
+        angle = self.space.points[0] / self.radius
+        thickness = 1e-3 * self.radius * (1.0 - place[0] * np.cos(angle) - place[1] * np.sin(angle))
+        posed = replace(self.problem.film, thickness=thickness)
+        self.last = self.solver.solve(replace(self.problem, film=posed), self.last)
+        bears = point_fields(self.last).contact_pressure + at_points(self.space, self.last.pressure)
+        bears = 2.0 * bears * self.space.area
+        return np.array([np.sum(bears * np.cos(angle)), np.sum(bears * np.sin(angle))])
+
+    def settle(self, load: float, place: np.ndarray) -> np.ndarray:
+        """The place in balance with the load: Newton with Broyden's updates of the slope."""
+        aim = np.array([1.0, 0.0])
+        rest = self.force(place) / load - aim
+        for _ in range(100):
+            if np.abs(rest).max() < 1e-4:
+                return place
+            if self.slope is None:
+                shifts = 1e-5 * np.eye(2)
+                self.slope = np.column_stack([(self.force(place + d) / load - aim - rest) / 1e-5 for d in shifts])
+            step = -np.linalg.solve(self.slope, rest)
+            # Rigid walls may not touch; soft ones open as they are pushed.
+            reach = 0.2 * (1.0 - np.hypot(*place)) if self.problem.walls is None else 0.03
+            step *= min(1.0, reach / np.abs(step).max())
+            new = self.force(place + step) / load - aim
+            self.slope = self.slope + np.outer(new - rest - self.slope @ step, step) / (step @ step)
+            if np.abs(new).max() > 2.0 * np.abs(rest).max():
+                self.slope = None
+            place, rest = place + step, new
+        raise AssertionError(f"shaft not in balance: {rest}")
+
+    def turn(self, rpm: float) -> None:
+        velocity = (np.full((1, 1), rpm * np.pi / 30.0 * self.radius), ZERO)
+        self.problem = replace(self.problem, film=replace(self.problem.film, velocity_moving=velocity))
+
+
+def _bearing(
+    diameter: float, width: float, shell: Elastic | None, supply, folder: Path, along: int = 48
+) -> Bearing:
+    """Cells finer about the load. `supply(angle, y, radius)` tells where oil comes in; rigid without `shell`.
+
+    Shell and shaft are free bodies, their rigid motion the bearing's own: a ring to 70 mm and a solid cylinder of
+    the bearing's width. Shaft and bearing stay parallel.
+    """
+    radius = 0.5 * diameter
+    mesh = rectangle((2.0 * np.pi, 0.5 * width), (along, 5), origin=(-np.pi, 0.0), cell=Cell.QUADRILATERAL,
+                     periodic_x=True)  # fmt: skip
+    space = film_space(mesh)
+    angle, y = space.vertices.T
+    angle = angle - 0.8 * np.sin(angle)
+    space = space.moved(np.column_stack([radius * angle, y]))
+    held = np.full(space.size, np.nan)
+    held[space.vertex_dofs[supply(np.abs(angle), y, radius)]] = AMBIENT
+    walls = None
+    if shell is not None:
+        free = Supports(symmetry=("bottom",))
+        sides = (
+            (ring((radius, SHELL), 0.5 * width, (3, 32, 2)), shell, "inner", Side.BORE),
+            (disc(radius, 0.5 * width, (8, 2, 2)), STEEL, "outer", Side.SHAFT),
+        )
+        walls = both(*(
+            body_wall(Body(body, elastic, free, face, Cylinder(radius, side)), space, folder=folder)
+            for body, elastic, face, side in sides
+        ))  # fmt: skip
+    problem = FilmProblem(
+        space, film(1e-3 * radius, VISCOSITY), {"top": Held(AMBIENT)}, cavitation_pressure=VAPOUR, held_nodes=held,
+        fluid=Fluid(viscosity=_thickened), asperities=SUMMITS, walls=walls,
+    )  # fmt: skip
+    return Bearing(radius, space, FilmSolver(space), problem)
+
+
+def _hole(angle, y, radius):
+    return np.hypot((angle - np.pi) * radius, y) <= 2.5e-3
+
+
+def _groove(angle, y, radius):
+    return (angle >= 0.5 * np.pi) & (y <= 2.6e-3)
+
+
+def _rig(folder: Path, *, elastic: bool = True, along: int = 48) -> tuple[Bearing, Bearing]:
+    test = _bearing(47.8e-3, 17.2e-3, ALUMINIUM if elastic else None, _hole, folder, along)
+    return test, _bearing(54e-3, 25e-3, STEEL if elastic else None, _groove, folder, along)
+
+
+def _torque(bearing: Bearing) -> float:
+    assert bearing.last is not None
+    found = loads(bearing.last)
+    assert found.mass_balance_error < 1e-8
+    return -2.0 * found.friction_moving[0] * bearing.radius
+
+
+BODIES = (
+    "here 64 (300 rpm) to 93 % (150 rpm) of the torque is boundary friction, which hangs on how evenly the bodies "
+    "spread the load: a ring and a cylinder stand for the rod, shaft and blocks that the source models. Rigid "
+    "ones would give 1.6 to 3.3 N m"
+)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("load", [8e3, 4e3])
+def test_sander_rig(load, tmp_path, validation):
+    """Torque of the shaft over speed, downward.
+
+    Tolerance 20 %: the assumed clearances alone shift the full film's torque by as much as themselves (a class of
+    fit is some 20 % of such a clearance), and the contact's by more.
+    """
+    test, other = _rig(tmp_path)
+    place = other_place = np.array([0.7, 0.5])
+    boundary = {}
+    for rpm, expected in TORQUE[load].items():
+        test.turn(rpm)
+        other.turn(rpm)
+        place, other_place = test.settle(load, place), other.settle(0.5 * load, other_place)
+        found = loads(test.last)
+        boundary[rpm] = 2.0 * found.contact_load / load
+        validation(
+            case="Journal bearing rig, full film to mixed lubrication",
+            source="Sander et al., digitised (verification cases 3.11)",
+            quantity=f"torque at {rpm} rpm, {load / 8e2:g} MPa",
+            unit="N m",
+            expected=expected,
+            obtained=_torque(test) + 2.0 * _torque(other),
+            relative_tolerance=0.2,
+            note="three bearings; tolerance: the clearances are assumed",
+            missed=BODIES if load == 8e3 and rpm <= 300 else "",
+        )
+        if load == 8e3 and rpm in THINNEST:
+            validation(
+                case="Journal bearing rig, full film to mixed lubrication",
+                source="Sander et al., digitised (verification cases 3.11)",
+                quantity=f"least film thickness at {rpm} rpm, {load / 8e2:g} MPa",
+                unit="um",
+                expected=THINNEST[rpm],
+                obtained=1e6 * found.film_thickness_min,
+                tolerance=0.1 * THINNEST[rpm] + 0.05,
+                note="read to 0.1 um; tolerance with a tenth for the assumed clearance",
+            )
+    shares = list(boundary.values())
+    assert shares == sorted(shares)
+    assert shares[0] < 1e-3 < 0.1 < shares[-1]
+
+
+@pytest.mark.slow
+def test_elastic_walls_part_the_surfaces(tmp_path):
+    """Rigid walls would bear 2 to 5 times as much by contact: their film is thin along one line only."""
+    soft, rigid = (_rig(tmp_path, elastic=elastic)[0] for elastic in (True, False))
+    place = {id(soft): np.array([0.7, 0.5]), id(rigid): np.array([0.7, 0.5])}
+    borne = {}
+    for rpm in (3000, 1000, 500):
+        for bearing in (soft, rigid):
+            bearing.turn(rpm)
+            place[id(bearing)] = bearing.settle(8e3, place[id(bearing)])
+            borne[rpm, bearing is soft] = loads(bearing.last).contact_load
+    assert 2.0 < borne[500, False] / borne[500, True] < 8.0
+
+
+@pytest.mark.slow
+def test_mesh_of_the_rig(tmp_path):
+    """A mesh half as fine again changes the torque by less than a tenth of the tolerance."""
+    torques = []
+    for along in (48, 72):
+        test, _ = _rig(tmp_path, along=along)
+        place = np.array([0.7, 0.5])
+        for rpm in (3000, 1000):
+            test.turn(rpm)
+            place = test.settle(8e3, place)
+        torques.append(_torque(test))
+    assert torques[0] == pytest.approx(torques[1], rel=0.02)
