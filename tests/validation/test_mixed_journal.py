@@ -1,11 +1,11 @@
 """Mixed lubrication of a journal bearing.
 
 Sander et al., friction of a journal bearing test rig from full film to severe mixed lubrication: the torque of
-the shaft, that is of the test bearing and of the two bearings that carry it. What verification cases 3.11 leave open
-is taken from MBDyn's test of the same rig (mboct-mbdyn-pkg, mbdyn_post_ehd_load_output 13), most of it assumed there
-too: clearances of 1e-3 of the diameter, two steel bearings of 54 x 25 mm with half the load each, oil at ambient
-pressure through a hole of 5 mm (test bearing) or a groove of 180 deg by 5 mm (the others). The flow is that of smooth
-walls, as there: the published Peklenik number of 12 lies beyond Patir and Cheng's 9.
+the shaft, that is of the test bearing and of the two bearings that carry it. What verification cases 3.11 leave
+open is taken from MBDyn's test of the same rig (mboct-mbdyn-pkg, mbdyn_post_ehd_load_output 13), most of it
+assumed there too: clearances of 1e-3 of the diameter, two steel bearings of 54 x 25 mm with half the load each,
+oil at ambient pressure through a hole of 5 mm (test bearing) or a groove of 180 deg by 5 mm (the others). The
+flow is that of smooth walls, as there: the published Peklenik number of 12 lies beyond Patir and Cheng's 9.
 """
 
 from __future__ import annotations
