@@ -97,6 +97,20 @@ def test_net_flow_of_the_sliding_slipper(validation, refine):
     )
 
 
+def test_largest_pressure_of_the_sliding_slipper(validation, refine):
+    found = refine(lambda n: loads(_tilted(0.5, -10.0, n)).pressure_max, (24, 48, 96))
+    validation(
+        case="Tilted slipper",
+        source=SOURCE,
+        quantity="largest pressure, a = 0.5, -10 m/s",
+        unit="Pa",
+        expected=23.357e6,
+        obtained=found.finest,
+        tolerance=found.front_tolerance(rounding=0.5e3) + 2e-4 * SUPPLY,
+        note="nodal value; 2e-4 of the supply pressure for what lies between nodes",
+    )
+
+
 @pytest.mark.parametrize(("speed", "smallest"), [(5.0, -0.175e6), (10.0, -3.98e6)])
 def test_diverging_slipper_pulls(speed, smallest, validation, refine):
     """Without cavitation the diverging film is in tension; Reynolds' condition takes the tension away."""

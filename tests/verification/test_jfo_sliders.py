@@ -245,6 +245,21 @@ def test_parabolic_slider_least_fraction(validation, refine):
     )
 
 
+def test_parabolic_slider_place_of_the_peak(validation):
+    n = MESHES[-1]
+    found = _solve(_strip(PARABOLIC.length, n, Cell.QUADRILATERAL), PARABOLIC, Held(0.0), Held(0.0))
+    validation(
+        case="Parabolic slider, film ruptured and reformed",
+        source="verification cases 3.4",
+        unit="1",
+        quantity="place of the largest pressure x/L, parabolic, 0 / 0 MPa",
+        expected=0.321066,
+        obtained=found.loads.pressure_max_at[0] / PARABOLIC.length,
+        tolerance=1.0 / n,
+        note="the node with the largest pressure; tolerance one cell",
+    )
+
+
 # ---- pocket slider, verification cases 3.5
 
 LAND, POCKET, LENGTH = 2e-3, 5e-3, 10e-3  # ends of the first land, of the pocket, of the film, m

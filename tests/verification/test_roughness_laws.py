@@ -39,6 +39,43 @@ def test_isotropic_rows(validation):
             )
 
 
+PRINTED = {  # gamma: C, r, A1, al1, al2, al3, A2, A3, al4, al5, al6, D, s as the sheet prints them
+    1 / 9: (1.48, 0.42, 2.046, 1.12, 0.78, 0.03, 1.856, 14.1, 2.45, 2.30, 0.10, 1.51, 0.52),
+    1 / 6: (1.38, 0.42, 1.962, 1.08, 0.77, 0.03, 1.754, 13.4, 2.42, 2.30, 0.10, 1.51, 0.54),
+    1 / 3: (1.18, 0.42, 1.858, 1.01, 0.76, 0.03, 1.561, 12.3, 2.32, 2.30, 0.10, 1.47, 0.58),
+    1.0: (0.90, 0.56, 1.899, 0.98, 0.92, 0.05, 1.126, 11.1, 2.31, 2.38, 0.11, 1.40, 0.66),
+    3.0: (0.225, 1.5, 1.560, 0.85, 1.13, 0.08, 0.556, 9.8, 2.25, 2.80, 0.18, 0.98, 0.79),
+    6.0: (0.520, 1.5, 1.290, 0.62, 1.09, 0.08, 0.388, 10.1, 2.25, 2.90, 0.18, 0.97, 0.91),
+    9.0: (0.870, 1.5, 1.011, 0.54, 1.07, 0.08, 0.295, 8.7, 2.15, 2.97, 0.18, 0.73, 0.91),
+}
+
+
+@pytest.mark.parametrize("gamma", PRINTED, ids=lambda gamma: f"{gamma:.3g}")
+def test_every_row_of_the_table(gamma, validation):
+    """At H = 2, and Phi_s at H = 6, where its second formula holds."""
+    c, r, a1, al1, al2, al3, a2, a3, al4, al5, al6, d, s = PRINTED[gamma]
+    h = 2.0
+    along = 1.0 - c * np.exp(-r * h) if gamma <= 1.0 else 1.0 + c * h**-r
+    for quantity, expected, obtained in (
+        ("phi_x, h/sigma = 2", along, phi_x(h, gamma)),
+        ("phi_y of 1/gamma, h/sigma = 2", along, phi_y(h, 1.0 / gamma)),
+        ("Phi_s, h/sigma = 2", a1 * h**al1 * np.exp(-al2 * h + al3 * h**2), phi_s(h, gamma)),
+        ("Phi_s, h/sigma = 6", a2 * np.exp(-0.25 * 6.0), phi_s(6.0, gamma)),
+        ("Phi_fs, h/sigma = 2", a3 * h**al4 * np.exp(-al5 * h + al6 * h**2), phi_fs(h, gamma)),
+        ("phi_fp, h/sigma = 2", 1.0 - d * np.exp(-s * h), phi_fp(h, gamma)),
+    ):
+        validation(
+            case="Table of Patir and Cheng's factors",
+            source="verification cases 4.1 (Patir and Cheng 1978, 1979)",
+            quantity=f"{quantity}, gamma = {gamma:.3g}",
+            unit="1",
+            expected=expected,
+            obtained=float(obtained.value),
+            relative_tolerance=1e-12,
+            note="the printed coefficients, put in by hand",
+        )
+
+
 def test_contact_factor_rows(validation):
     """phi_c and the mean film of Gaussian heights."""
     rows = {
