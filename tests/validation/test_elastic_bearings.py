@@ -107,8 +107,8 @@ def test_freund_diaphragm(tmp_path, validation):
     pressure and 7 % of the largest deflection at each point, and 5 % and 4 % in the mean."""
     angle, pressure, deflection = _freund(tmp_path, 2)
     rupture = (
-        "the film of the thesis ruptures some 15 deg before this one, which up to 160 deg agrees with it; "
-        "the table does not say by what condition"
+        "the film of the thesis ruptures some 15 deg before this one, which up to 160 deg agrees with it. The "
+        "table does not say by what condition: JFO and Reynolds' give 345 kPa at 180 deg, no rupture 46 kPa"
     )
     for what, unit, table, field, largest, mean in (
         ("pressure", "kPa", FREUND_PRESSURE, pressure, 1175.0, 5.0),
