@@ -209,7 +209,7 @@ def _slider(law, ratio: float) -> tuple[float, float]:
             slip, carried = between(law, h, found[0] * stiff, found[1] * stiff / h)
             return np.array([slip / SPEED - 1.0, (carried - flow) / (SPEED * GAP)])
 
-        return fsolve(missed, np.array([0.2 * GAP / h, 0.3 * (1.0 - 2.0 * flow / (SPEED * h))]), xtol=1e-12)
+        return fsolve(missed, np.array([0.2 * GAP / h, 0.3 * (1.0 - 2.0 * flow / (SPEED * h))]), xtol=1e-10)
 
     def along(flow: float) -> tuple[np.ndarray, np.ndarray]:
         both = np.array([local(flow, h) for h in thickness])
