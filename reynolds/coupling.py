@@ -96,6 +96,16 @@ class _Guess:
         return _Guess(np.exp(point[:count]).reshape(self.share.shape), opened)
 
 
+@dataclass(frozen=True)
+class _Work:
+    """What stays through the rounds: the case, levels, solver, and the film given (vertices,) m."""
+
+    posed: Posed
+    across: Levels
+    solver: FilmSolver
+    given: Array
+
+
 def agree(
     posed: Posed, across: Levels, tolerance: float, solver: FilmSolver | None, start: Coupled[object] | None
 ) -> Coupled[FilmTemperature | None]:
@@ -105,23 +115,22 @@ def agree(
     Raises FilmInputError, also where the oil's law does not hold at the answer, and FilmNotConverged.
     """
     problem = posed.problem
-    solver = FilmSolver(problem.space) if solver is None else solver
+    work = _Work(posed, across, solver or FilmSolver(problem.space), _given_thickness(problem))
     if start is None and problem.fluid.viscosity is not isoviscous:
         # An oil still cold or at rest may stiffen without bound under a pressure that the film never has.
-        start = agree(_unpressed(posed), across, ROUGHLY, solver, None)
-    given = _given_thickness(problem)
-    conditions, guess = _first(posed, across, given, start)
+        start = agree(_unpressed(posed), across, ROUGHLY, work.solver, None)
+    conditions, guess = _first(work, start)
     film, heat = (None, None) if start is None else (start.film, start.heat)
     history, solved = History(), None
     for rounds in range(1, MAX_ROUNDS + 1):
-        film, guess = _film(problem, across, solver, film, guess, solved, given)
-        solved, shape = guess, dowson(across, guess.share)
-        profile = scaled(shape, resting_viscosity(problem, film.pressure))
+        film, guess = _film(work, guess, film, solved)
+        solved = guess
+        profile = scaled(dowson(across, guess.share), resting_viscosity(problem, film.pressure))
         heat = _heat(posed, film, profile, heat)
-        image, conditions, fault = _image(posed, film, profile, heat, given, conditions)
+        image, conditions, fault = _image(work, film, profile, heat, conditions)
         change = float(np.abs(image.point - guess.point).max())
         if fault is None and change < tolerance:
-            return Coupled(film, heat, profile, guess.share, guess.opened * given, rounds, change)
+            return Coupled(film, heat, profile, guess.share, guess.opened * work.given, rounds, change)
         guess = guess.at(history.extrapolate(guess.point, image.point))
     if fault is not None:
         raise fault
@@ -142,20 +151,15 @@ def _unpressed(posed: Posed) -> Posed:
 
 
 def _film(
-    problem: FilmProblem,
-    across: Levels,
-    solver: FilmSolver,
-    warm: FilmSolution | None,
-    guess: _Guess,
-    solved: _Guess | None,
-    given: Array,
+    work: _Work, guess: _Guess, warm: FilmSolution | None, solved: _Guess | None
 ) -> tuple[FilmSolution, _Guess]:
     """The film of a guess, or of one nearer to the last that had a film; without such a one, of a thinner oil."""
+    problem = work.posed.problem
     fault: FilmInputError | FilmNotConverged | None = None
     for _ in range(MOST_HALVINGS):
-        shape = dowson(across, guess.share)
+        bent = _bent(problem, dowson(work.across, guess.share), guess.opened * work.given)
         try:
-            return solver.solve(_bent(problem, shape, guess.opened * given), warm), guess
+            return work.solver.solve(bent, warm), guess
         except (FilmInputError, FilmNotConverged) as reason:
             fault = reason if fault is None else fault
         if solved is not None:
@@ -216,22 +220,20 @@ def _given_thickness(problem: FilmProblem) -> Array:
     return problem.space.to_vertices(problem.film.thickness) if known is None else known
 
 
-def _first(
-    posed: Posed, across: Levels, given: Array, start: Coupled[object] | None
-) -> tuple[_Conditions, _Guess]:
-    space, m = posed.problem.space, len(across.weights)
+def _first(work: _Work, start: Coupled[object] | None) -> tuple[_Conditions, _Guess]:
+    """The oil at rest at the lowest temperature given, or as a start has it."""
+    posed, space, m = work.posed, work.posed.problem.space, len(work.across.weights)
     lowest = np.nan if posed.heat is None else posed.heat.datum
-    temperature, rate = np.full((space.size, m + 2), lowest), np.zeros((space.size, m))
-    if start is not None:
-        if start.share.shape != rate.shape or len(start.growth) != len(given):
-            expected = f"({space.size}, {m}): the same space and levels"
-            raise FilmInputError("viscosity to start from", f"a start of shape {start.share.shape}", expected)
-        if isinstance(start.heat, FilmTemperature) and posed.heat is not None:
-            temperature = start.heat.temperature
-        return _Conditions(temperature, rate), _Guess(start.share, start.growth / given)
-    conditions, still = _Conditions(temperature, rate), np.zeros((2, space.size))
-    share = _share(posed, conditions, np.zeros(space.size))
-    return conditions, _Guess(share, _growth(posed.heat, posed.problem, still) / given)
+    conditions = _Conditions(np.full((space.size, m + 2), lowest), np.zeros((space.size, m)))
+    if start is None:
+        growth = _growth(posed.heat, posed.problem, np.zeros((2, space.size)))
+        return conditions, _Guess(_share(posed, conditions, np.zeros(space.size)), growth / work.given)
+    if start.share.shape != (space.size, m) or len(start.growth) != len(work.given):
+        expected = f"({space.size}, {m}): the same space and levels"
+        raise FilmInputError("viscosity to start from", f"a start of shape {start.share.shape}", expected)
+    if isinstance(start.heat, FilmTemperature) and posed.heat is not None:
+        conditions = conditions._replace(temperature=start.heat.temperature)
+    return conditions, _Guess(start.share, start.growth / work.given)
 
 
 def _heat(posed: Posed, film: FilmSolution, profile: Profile, last: object) -> FilmTemperature | None:
@@ -242,21 +244,18 @@ def _heat(posed: Posed, film: FilmSolution, profile: Profile, last: object) -> F
 
 
 def _image(
-    posed: Posed,
-    film: FilmSolution,
-    profile: Profile,
-    heat: FilmTemperature | None,
-    given: Array,
-    last: _Conditions,
+    work: _Work, film: FilmSolution, profile: Profile, heat: FilmTemperature | None, last: _Conditions
 ) -> tuple[_Guess, _Conditions, FilmInputError | None]:
     """What a film makes of its oil; where the law does not hold there, on the way from the last conditions.
 
     An oil still too stiff makes more heat than the film's answer will: then the fault comes along.
     """
+    posed = work.posed
     temperature = last.temperature if heat is None else heat.temperature
     flux = np.zeros((2, posed.problem.space.size)) if heat is None else heat.heat_flux
-    reached, fault = _Conditions(temperature, shear_rate(film, profile)), None
-    opened = _growth(posed.heat, posed.problem, flux) / given
+    opened = _growth(posed.heat, posed.problem, flux) / work.given
+    reached = _Conditions(temperature, shear_rate(film, profile))
+    fault: FilmInputError | None = None
     for halvings in range(MOST_HALVINGS):
         part = 0.5**halvings
         there = _Conditions(*(old + part * (new - old) for old, new in zip(last, reached, strict=True)))
