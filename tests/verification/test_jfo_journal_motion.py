@@ -138,7 +138,7 @@ def test_dynamically_loaded_journal(validation):
             )
     eccentricity = [float(np.hypot(*place)) for place in places.values()]
     when = list(places)
-    flat = "from .54 to .1 of the next period the eccentricity ratio only creeps, here from .944 to .956; " + UPWIND
+    flat = "from .54 to .1 of the next period the eccentricity ratio creeps, here from .944 to .956; " + UPWIND
     for quantity, expected, obtained, missed in (
         ("time of the largest eccentricity ratio", 0.558, when[int(np.argmax(eccentricity))], flat),
         ("time of the largest pressure", 0.502, when[int(np.argmax(peaks))], ""),
