@@ -6,43 +6,39 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from reynolds.carried_load import Carried, carry
-from reynolds.energy import FilmTemperature
 from reynolds.film import FilmProblem, FilmSolution
-from swashfilm.film_thermal import solve_with_temperature
+from swashfilm.film_oil import Found, OilSolver, film_of, oil_solver
 
 if TYPE_CHECKING:
-    from reynolds.thermal import ThermalSolution
     from swashfilm.film_statement import FilmStatement
 
 
 @dataclass
-class _WithTemperature:
-    """Films with their temperatures, each warming the next."""
+class _Warmed:
+    """Films with what their oil does, each warming the next; `last` is the one solved last."""
 
-    stated: FilmStatement
-    last: ThermalSolution | None = None
+    solver: OilSolver
+    last: Found | None = None
 
     def __call__(self, problem: FilmProblem) -> FilmSolution:
-        self.last = solve_with_temperature(self.stated, problem, self.last)
-        return self.last.film
+        self.last = self.solver.solve(problem, self.last)
+        return film_of(self.last)
 
 
-def solve_carried(stated: FilmStatement, problem: FilmProblem) -> tuple[Carried, FilmTemperature | None]:
-    """The film at the position at which it bears what the case asks, and its temperature where it has one.
+def solve_carried(stated: FilmStatement, problem: FilmProblem) -> tuple[Carried, Found]:
+    """The position at which the film bears what the case asks, and the film there.
 
     Raises FilmNotConverged, with what was borne at best, where there is no such position.
     """
     assert stated.load is not None
-    if stated.thermal is None:
-        return carry(problem, stated.load), None
-    solve = _WithTemperature(stated)
-    found = carry(problem, stated.load, solve)
+    solve = _Warmed(oil_solver(stated, problem.space))
+    carried = carry(problem, stated.load, solve)
     assert solve.last is not None
-    return found, solve.last.heat
+    return carried, solve.last
 
 
 def carried_summary(found: Carried) -> dict[str, Any]:
-    """Where the film stands: separation m, slopes (m/m), what it bears with the contact, N and N m."""
+    """Where the film stands: separation m, slopes (m/m), what it bears with the contact, N."""
     position = found.position
     return {
         "separation_m": position.separation,

@@ -26,7 +26,7 @@ from swashfilm.load_case import read_load
 from swashfilm.mesh_case import read_mesh
 from swashfilm.oil_case import OilStatement, oil_viscosity, read_oil
 from swashfilm.roughness_case import read_roughness
-from swashfilm.thermal_case import read_thermal
+from swashfilm.thermal_case import check_bodies, read_thermal
 from swashfilm.time_case import initial_film_fraction, read_time
 from system.faults import InputFaults
 from system.units import Dimension
@@ -120,6 +120,7 @@ def _stated(top: Table, film: Table, reader: FieldReader, order: int | None, fol
     }
     parts["boundary"] = read_boundaries(top, reader, parts["cavitation_pressure"])
     elastic = read_elastic(top, reader.mesh, folder)
+    check_bodies(top, thermal, elastic)
     rough = read_roughness(top)
     film.close()
     _check_order(film, parts)
@@ -165,8 +166,6 @@ def _check_tables(top: Table, film: Table, oil: OilStatement | None, viscosity: 
         return
     if top.get("oil") is None:
         top.fault("thermal", "no table [oil]", "its density, temperature, specific heat and thermal conductivity")
-    if top.get("time") is not None:
-        top.fault("thermal", "a table [thermal] beside [time]", "one of the two: film temperature is steady here")
     if oil is None or oil.kinematic is not None:
         return
     if not oil.temperature_coefficient:

@@ -13,7 +13,7 @@ from reynolds.contact import boundary_shear, contact_area, contact_pressure, lam
 from reynolds.film import vertex_thickness
 from reynolds.roughness import beyond_range
 from reynolds.transport import lumped
-from swashfilm.film_transient import Instant
+from swashfilm.film_transient import Moment
 from swashfilm.headline import titled
 
 if TYPE_CHECKING:
@@ -40,6 +40,8 @@ def physics_summary(study: FilmStudy) -> dict[str, Any]:
             "film_thickness_of_time_min_m": min(step.loads.film_thickness_min for step in steps),
             "mass_balance_error_of_time": max(step.loads.mass_balance_error for step in steps),
         }
+        if study.heat:
+            found["temperature_of_time_max_K"] = max(step.temperature_max or 0.0 for step in steps)
     return found
 
 
@@ -81,7 +83,7 @@ def _rough_summary(study: FilmStudy) -> dict[str, Any]:
     return found
 
 
-def history_columns(history: Sequence[Instant]) -> dict[str, list[float]]:
+def history_columns(history: Sequence[Moment]) -> dict[str, list[float]]:
     """Headline numbers of every step of a transient, by key; `time_s` first."""
     columns = {"time_s": [step.time for step in history]}
     for key, of in (
@@ -96,12 +98,14 @@ def history_columns(history: Sequence[Instant]) -> dict[str, list[float]]:
         ("mass_balance_error", lambda loads: loads.mass_balance_error),
     ):
         columns[key] = [of(step.loads) for step in history]
+    if history[0].temperature_max is not None:
+        columns["temperature_max_K"] = [float(step.temperature_max or 0.0) for step in history]
     for name in history[0].loads.flow:
         columns[f"flow_m3_per_s.{name}"] = [step.loads.flow[name] for step in history]
     return columns
 
 
-def write_history(path: Path, history: Sequence[Instant]) -> None:
+def write_history(path: Path, history: Sequence[Moment]) -> None:
     """A CSV of one line a step: time and headline numbers, SI, units in the titles."""
     columns = history_columns(history)
     with path.open("w", newline="", encoding="utf-8") as file:

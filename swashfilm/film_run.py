@@ -64,10 +64,10 @@ def _write_films(folder: Path, study: FilmStudy, place: Callable[[Array], Array]
     entries = [(0.0, 0, "film.vtu")]
     if study.history:
         write_history(folder / "history.csv", study.history)
-        kept = [(step.time, step.solution) for step in study.history if step.solution]
-        entries = [(time, 0, f"film_{number:04d}.vtu") for number, (time, _) in enumerate(kept, start=1)]
-        for (_, _, name), (_, solution) in zip(entries, kept, strict=True):
-            now = replace(study, solution=solution)
+        kept = [(step.time, step.solution, step.heat) for step in study.history if step.solution]
+        entries = [(time, 0, f"film_{number:04d}.vtu") for number, (time, *_) in enumerate(kept, start=1)]
+        for (_, _, name), (_, solution, heat) in zip(entries, kept, strict=True):
+            now = replace(study, solution=solution, heat=heat)
             write_vtu(folder / name, solution, None, {k: v for k, (v, _) in vertex_fields(now).items()})
     write_pvd(folder / "film.pvd", entries)
 

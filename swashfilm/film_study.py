@@ -13,12 +13,11 @@ from reynolds.carried_load import Carried
 from reynolds.energy import FilmTemperature
 from reynolds.film import FilmSolution, vertex_thickness
 from reynolds.loads import Loads, loads, point_fields
-from reynolds.solve import FilmSolver
 from swashfilm.film_carried import carried_summary, solve_carried
 from swashfilm.film_case import FilmCase
+from swashfilm.film_oil import film_of, heat_of, oil_solver
 from swashfilm.film_physics import physics_summary, vertex_fields
-from swashfilm.film_thermal import solve_with_temperature
-from swashfilm.film_transient import Instant, transient
+from swashfilm.film_transient import Moment, transient
 from swashfilm.film_warnings import film_warnings
 from swashfilm.gap_case import GapCase
 from swashfilm.gap_study import gap_summary, solve_gap
@@ -42,7 +41,7 @@ class FilmStudy:
     gap: GapFilm | None
     solve_seconds: float
     heat: FilmTemperature | None = None
-    history: tuple[Instant, ...] = ()
+    history: tuple[Moment, ...] = ()
     carried: Carried | None = None
 
 
@@ -60,21 +59,19 @@ def solve_case(case: FilmCase | GapCase, report: Report = silent) -> FilmStudy:
         film = solve_gap(case)
         return FilmStudy(case.name, film.solution, film.loads, film, time.perf_counter() - began)
     heat: FilmTemperature | None = None
-    history: tuple[Instant, ...] = ()
+    history: tuple[Moment, ...] = ()
     carried: Carried | None = None
     if case.stated.time:
         history = tuple(transient(case.stated, report))
         last = history[-1].solution
         assert last is not None
-        solution = last
+        solution, heat = last, history[-1].heat
     elif case.stated.load:
-        carried, heat = solve_carried(case.stated, case.problem)
-        solution = carried.solution
-    elif case.stated.thermal:
-        found = solve_with_temperature(case.stated, case.problem)
-        solution, heat = found.film, found.heat
+        carried, found = solve_carried(case.stated, case.problem)
+        solution, heat = film_of(found), heat_of(found)
     else:
-        solution = FilmSolver(case.problem.space).solve(case.problem)
+        found = oil_solver(case.stated, case.problem.space).solve(case.problem)
+        solution, heat = film_of(found), heat_of(found)
     seconds = time.perf_counter() - began
     return FilmStudy(case.name, solution, loads(solution), None, seconds, heat, history, carried)
 

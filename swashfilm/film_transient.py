@@ -8,11 +8,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from reynolds.energy import FilmTemperature
 from reynolds.errors import FilmInputError, FilmNotConverged
-from reynolds.film import FilmSolution, Storage
+from reynolds.film import FilmProblem, FilmSolution
 from reynolds.loads import Loads, loads
-from reynolds.solve import FilmSolver
-from reynolds.transport import lumped
+from reynolds.transient import oil_held
+from swashfilm.film_oil import film_of, heat_of, oil_solver
 from swashfilm.film_problem import film_problem
 
 if TYPE_CHECKING:
@@ -22,40 +23,48 @@ StepReport = Callable[[int, int, str], None]
 
 
 @dataclass(frozen=True)
-class Instant:
-    """The film at a time (s): its solution, kept only where it is written, and its integrals."""
+class Moment:
+    """The film at a time (s): its integrals, and, only where it is written, its solution and temperature."""
 
     time: float
     solution: FilmSolution | None
+    heat: FilmTemperature | None
+    temperature_max: float | None
     loads: Loads
 
 
-def transient(stated: FilmStatement, report: StepReport) -> list[Instant]:
+def transient(stated: FilmStatement, report: StepReport) -> list[Moment]:
     """Every step of a transient, in time; the last one has its solution.
 
     Each step meets d(oil held)/dt + outflow = 0 with the film and the boundaries at its end (implicit Euler, first
-    order in the step). At the start the film holds film.initial_film_fraction of its thickness. Raises
-    FilmNotConverged with the time that was reached, FilmInputError where a field has no possible value.
+    order in the step). At the start the film holds film.initial_film_fraction of its thickness. A step that does
+    not settle is taken as shorter ones. Raises FilmNotConverged with the time that was reached, FilmInputError
+    where a field has no possible value or a law does not hold.
     """
     assert stated.time is not None
-    problem = film_problem(stated)
-    space, walls = problem.space, problem.walls
-    full = problem.film.thickness * stated.initial_film_fraction.sample(space)
-    before = lumped(space, np.broadcast_to(full, space.area.shape).copy())
-    solver, solution, found = FilmSolver(space), None, []
-    begin, steps = 0.0, stated.time.steps
-    for number, end in enumerate(stated.time.times, start=1):
-        try:
-            now = replace(film_problem(replace(stated, elastic=None), space, float(end)), walls=walls)
-            solution = solver.solve(replace(now, storage=Storage(before, float(end) - begin)), solution)
-        except FilmNotConverged as reason:
-            raise FilmNotConverged(
-                f"at t = {end:.6g} s: {reason.what}", f"a smaller step; {reason.remedy}"
-            ) from None
-        except FilmInputError as reason:
-            raise FilmInputError(f"at t = {end:.6g} s, {reason.where}", reason.found, reason.expected) from None
-        before, begin = solution.holds, float(end)
-        kept = solution if stated.time.is_output(number) else None
-        found.append(Instant(float(end), kept, loads(solution)))
-        report(number, steps, f"t = {end:.4g} s")
+    first = film_problem(stated)
+    space, rigid = first.space, replace(stated, elastic=None)
+    now = 0.0
+
+    def problem_at(t: float) -> FilmProblem:
+        nonlocal now
+        now = t
+        return replace(film_problem(rigid, space, t), walls=first.walls)
+
+    filled = space.to_unknowns(np.broadcast_to(stated.initial_film_fraction.sample(space), space.area.shape))
+    found: list[Moment] = []
+    try:
+        held = oil_held(first, np.minimum(filled, 1.0))  # a mean of ones may be above one by round-off
+        for instant in oil_solver(stated, space).march(problem_at, stated.time.end, stated.time.step_taken, held):
+            film, heat = film_of(instant.solution), heat_of(instant.solution)
+            hottest = None if heat is None else float(heat.temperature.max())
+            kept = stated.time.is_output(instant.time, instant.step)
+            found.append(
+                Moment(instant.time, film if kept else None, heat if kept else None, hottest, loads(film))
+            )
+            report(stated.time.number(instant.time), stated.time.steps, f"t = {instant.time:.4g} s")
+    except FilmNotConverged as reason:
+        raise FilmNotConverged(f"at t = {now:.6g} s: {reason.what}", f"a smaller step; {reason.remedy}") from None
+    except FilmInputError as reason:
+        raise FilmInputError(f"at t = {now:.6g} s, {reason.where}", reason.found, reason.expected) from None
     return found

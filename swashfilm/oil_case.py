@@ -12,6 +12,8 @@ from reynolds.errors import FilmInputError
 from reynolds.fluid import DensityLaw, Fluid, ViscosityLaw, incompressible, isoviscous
 from reynolds.mesh import Array
 from reynolds.oil import ISO_GRADES, Oil, dynamic_viscosity, walther
+from reynolds.rheology import Carreau, Cross, Eyring
+from reynolds.shear import ShearLaw
 from reynolds.viscosity import Barus, Roelands
 from swashfilm.case_table import Table
 from system.faults import nearest_choice
@@ -38,7 +40,7 @@ class Density(Enum):
     TAIT = "tait"
 
 
-class ShearLaw(Enum):
+class Thinning(Enum):
     """Viscosity over shear rate."""
 
     NONE = "none"
@@ -65,6 +67,7 @@ class OilStatement:
     expansion: float
     viscosity_law: ViscosityLaw
     density_law: DensityLaw
+    shear_law: ShearLaw | None
 
     @property
     def fluid(self) -> Fluid:
@@ -96,6 +99,15 @@ class _Rows:
             self.rows.append(f'{key} = "{format_quantity(value, dimension)}"')
         return value
 
+    def share(self, key: str) -> float | None:
+        """A bare number from 0 to 1, its fault told, its row kept."""
+        value = self.table.number(key)
+        if value is not None and not 0.0 <= value <= 1.0:
+            self.table.fault(key, f"{value:g}", "a share from 0 to 1")
+            return None
+        self.rows.append(f"{key} = {value!r}")
+        return value
+
     def optional(self, key: str, dimension: Dimension) -> float | None:
         """A quantity above zero, or None where there is none."""
         return self.positive(key, dimension) if self.table.get(key) is not None else None
@@ -125,7 +137,7 @@ def read_oil(oil: Table, *, with_viscosity: bool, with_heat: bool) -> OilStateme
         coefficient = rows.optional("temperature_coefficient", Dimension.TEMPERATURE_COEFFICIENT) or 0.0
     faults = len(oil.faults)
     viscosity_law, density_law = _viscosity_law(rows), _density_law(rows, temperature)
-    _shear_law(oil)
+    shear_law = _shear_law(rows)
     oil.close()
     missing = None in (density, temperature) if needs else False
     missing |= with_heat and None in (specific_heat, conductivity)
@@ -134,7 +146,7 @@ def read_oil(oil: Table, *, with_viscosity: bool, with_heat: bool) -> OilStateme
         return None
     return OilStatement(
         tuple(rows.rows), kinematic, density, temperature, coefficient, specific_heat, conductivity, expansion,
-        viscosity_law, density_law,
+        viscosity_law, density_law, shear_law,
     )  # fmt: skip
 
 
@@ -190,14 +202,20 @@ def _density_law(rows: _Rows, temperature: float | None) -> DensityLaw | None:
     return None if modulus is None or slope is None else Tait(modulus, slope)
 
 
-def _shear_law(oil: Table) -> None:
-    law = oil.choice("shear_law", ShearLaw, ShearLaw.NONE)
-    if law in (None, ShearLaw.NONE):
-        return
-    for key in ("second_newtonian", "relaxation_time", "shear_exponent", "eyring_stress"):
-        oil.get(key)
-    expected = "'none' (films of this version are Newtonian; reynolds.rheology has the laws)"
-    oil.fault("shear_law", repr(law.value), expected)
+def _shear_law(rows: _Rows) -> ShearLaw | None:
+    """How the oil thins with shear; None where it does not or, told, where the law has a fault."""
+    law = rows.table.choice("shear_law", Thinning, Thinning.NONE)
+    if law in (None, Thinning.NONE):
+        return None
+    rows.rows.append(f'shear_law = "{law.value}"')
+    if law is Thinning.EYRING:
+        stress = rows.positive("eyring_stress", Dimension.PRESSURE)
+        return None if stress is None else Eyring(stress)
+    time = rows.positive("relaxation_time", Dimension.TIME)
+    shares = [rows.share(key) for key in ("second_newtonian", "shear_exponent")]
+    if time is None or shares[0] is None or shares[1] is None:
+        return None
+    return (Carreau if law is Thinning.CARREAU else Cross)(shares[0], time, shares[1])
 
 
 def _kinematic(rows: _Rows, *, needed: bool) -> tuple[float, float] | None:

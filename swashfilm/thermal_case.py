@@ -7,12 +7,18 @@ from dataclasses import dataclass
 
 from reynolds.across import DEFAULT_LEVELS
 from reynolds.energy import Heat
+from reynolds.space import FilmSpace
 from reynolds.wall_heat import Adiabatic, Convecting, GivenTemperature, Turning, Wall
 from swashfilm.case_table import Table
+from swashfilm.elastic_case import ElasticStatement
 from swashfilm.oil_case import OilStatement
+from swashfilm.warm_body_case import WarmBody, read_warm_body
 from system.units import Dimension, format_quantity
 
-_WALLS = "{ temperature }, { heat_transfer_coefficient, outer_temperature }, 'adiabatic' or 'turning'"
+_WALLS = (
+    "{ temperature }, { heat_transfer_coefficient, outer_temperature }, 'adiabatic', 'turning', or "
+    "{ thermal_conductivity, thermal_expansion, unstrained_temperature, faces } of the body of [elastic]"
+)
 _MOST_LEVELS = 12
 
 
@@ -20,28 +26,64 @@ _MOST_LEVELS = 12
 class ThermalStatement:
     """Both walls, the temperature (K) of what flows in, and the number of levels across the film."""
 
-    fixed_wall: Wall
-    moving_wall: Wall
+    fixed_wall: Wall | WarmBody
+    moving_wall: Wall | WarmBody
     inlet_temperature: float | None
     levels: int
 
-    def heat(self, oil: OilStatement, temperatures: Mapping[str, float | None]) -> Heat:
-        """The core's heat problem; `temperatures` (K) by boundary, None where the inlet temperature holds."""
+    @property
+    def walls(self) -> Mapping[str, Wall | WarmBody]:
+        """Both walls by the names that [elastic] has for them."""
+        return {"fixed": self.fixed_wall, "moving": self.moving_wall}
+
+    def inlet(self, oil: OilStatement) -> float:
+        """Temperature of what flows in, K."""
+        usual = oil.temperature if self.inlet_temperature is None else self.inlet_temperature
+        assert usual is not None
+        return usual
+
+    def heat(
+        self,
+        oil: OilStatement,
+        temperatures: Mapping[str, float | None],
+        elastic: ElasticStatement | None,
+        space: FilmSpace,
+    ) -> Heat:
+        """The core's heat problem; `temperatures` (K) by boundary, None where the inlet temperature holds.
+
+        Raises FilmInputError for a warm body that does not lie under the film or whose heat goes nowhere.
+        """
         assert oil.density is not None
         assert oil.specific_heat is not None
         assert oil.conductivity is not None
-        usual = oil.temperature if self.inlet_temperature is None else self.inlet_temperature
-        assert usual is not None
+        usual = self.inlet(oil)
         inflow = {name: usual if kelvin is None else kelvin for name, kelvin in temperatures.items()}
+        fixed, moving = (_under(wall, elastic, key, space) for key, wall in self.walls.items())
         return Heat(
             oil.density,
             oil.specific_heat,
             oil.conductivity,
-            self.fixed_wall,
-            self.moving_wall,
+            fixed,
+            moving,
             inflow,
             oil.expansion,
         )
+
+
+def _under(wall: Wall | WarmBody, elastic: ElasticStatement | None, key: str, space: FilmSpace) -> Wall:
+    if not isinstance(wall, WarmBody):
+        return wall
+    stated = getattr(elastic, key)
+    return wall.under(stated.body, space)
+
+
+def check_bodies(top: Table, stated: ThermalStatement | None, elastic: ElasticStatement | None) -> None:
+    """Fault a warm body that [elastic] has not; a half-space has none."""
+    for key, wall in stated.walls.items() if stated else ():
+        if isinstance(wall, WarmBody) and getattr(getattr(elastic, key, None), "body", None) is None:
+            top.fault(
+                f"thermal.{key}_wall", "a body's conductivity", f"elastic.{key}, a body of a kind with sizes"
+            )
 
 
 def read_thermal(top: Table) -> ThermalStatement | None:
@@ -62,7 +104,7 @@ def read_thermal(top: Table) -> ThermalStatement | None:
     return ThermalStatement(fixed, moving, inlet, levels)
 
 
-def _wall(table: Table, key: str) -> Wall | None:
+def _wall(table: Table, key: str) -> Wall | WarmBody | None:
     raw = table.get(key)
     if raw == "adiabatic":
         return Adiabatic()
@@ -72,6 +114,8 @@ def _wall(table: Table, key: str) -> Wall | None:
         table.fault(key, "no such key" if raw is None else repr(raw), _WALLS)
         return None
     wall = Table(table.name(key), raw, table.faults)
+    if "thermal_conductivity" in raw:
+        return read_warm_body(wall)
     if "temperature" in raw:
         kelvin = wall.positive("temperature", Dimension.TEMPERATURE)
         wall.close()
@@ -95,12 +139,14 @@ def thermal_rows(stated: ThermalStatement) -> list[str]:
     return [*rows, f"levels = {stated.levels}"]
 
 
-def _written(wall: Wall) -> str:
+def _written(wall: Wall | WarmBody) -> str:
     def kelvin(value: object) -> str:
         assert isinstance(value, float)
         return format_quantity(value, Dimension.TEMPERATURE)
 
     match wall:
+        case WarmBody():
+            return wall.text
         case Adiabatic():
             return '"adiabatic"'
         case Turning():

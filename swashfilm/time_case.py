@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-import numpy as np
-
 from swashfilm.case_table import Table
 from swashfilm.expressions import ExpressionError, parse_expression
 from swashfilm.field_reader import FieldReader
@@ -30,13 +28,18 @@ class TimeStatement:
         return max(1, round(self.end / self.step))
 
     @property
-    def times(self) -> np.ndarray:
-        """End of each step, s."""
-        return self.end * np.arange(1, self.steps + 1) / self.steps
+    def step_taken(self) -> float:
+        """The step that divides the time evenly, s."""
+        return self.end / self.steps
 
-    def is_output(self, number: int) -> bool:
-        """True for a step (from 1) of which the film is written; the last always is."""
-        return number * self.outputs // self.steps > (number - 1) * self.outputs // self.steps
+    def number(self, time: float) -> int:
+        """Number of whole steps up to a time (s)."""
+        return int(time / self.step_taken + 1e-6)
+
+    def is_output(self, time: float, step: float) -> bool:
+        """True for a step ending at `time` (s) of which the film is written; the last always is."""
+        every = self.end / self.outputs
+        return int(time / every + 1e-6) > int((time - step) / every + 1e-6)
 
 
 def read_time(top: Table) -> TimeStatement | None:

@@ -10,6 +10,7 @@ import pytest
 
 from reynolds.density import DOWSON_HIGGINSON, BulkModulus, RationalDensity, Tait
 from reynolds.film import Cavitation
+from reynolds.transport import lumped
 from reynolds.viscosity import Barus, Roelands
 from swashfilm.__main__ import main
 from swashfilm.film_case import FilmCase, load_case
@@ -46,6 +47,11 @@ CONTACT = (
     "friction_coefficient = 0.1\n"
 )
 MODULI = ('composite_modulus = "100 GPa"', 'youngs_modulus = ["70 GPa", "200 GPa"]')
+THINNING = '[oil]\nshear_law = "carreau"\nsecond_newtonian = 0.2\nrelaxation_time = "1 us"\nshear_exponent = 0.5\n'
+WARM_BODY = (
+    '{ thermal_conductivity = "50 W/(m K)", thermal_expansion = "12e-6 1/K", unstrained_temperature = "30 degC", '
+    'faces = { bottom = { temperature = "30 degC" } } }'
+)
 TIME = '[time]\nend = "4 ms"\nstep = "1 ms"\n'
 
 
@@ -203,14 +209,56 @@ def test_fields_of_every_switch_are_written(tmp_path):
 
 
 def test_a_film_hotter_than_its_oil_is_no_number(read):
-    from reynolds.errors import FilmNotConverged
+    from reynolds.errors import FilmInputError
 
     hot = read(
         GRADE.replace('"1 m/s"', '"60 m/s"').replace('"10 um"', '"3 um"') + WALLS.replace("50 degC", "140 degC")
     )
-    with pytest.raises(FilmNotConverged) as refused:
+    with pytest.raises(FilmInputError) as refused:
         solve_case(hot)
-    assert "oil temperature" in str(refused.value)
+    for word in ("oil temperature", "a lower speed"):
+        assert word in str(refused.value)
+
+
+def test_an_oil_that_thins_with_shear_drags_less(read):
+    """Shear rate 1e5 1/s, relaxation time 1 us: 0.2 + 0.8 (1.01)^(-1/4) of the viscosity."""
+    text = GIVEN.replace('"1 bar"', '"0 bar"')
+    still, thin = (film_summary(solve_case(read(text + more))) for more in ("", THINNING))
+    share = 0.2 + 0.8 * 1.01**-0.25
+    assert thin["friction_force_moving_N"][0] == pytest.approx(
+        share * still["friction_force_moving_N"][0], rel=1e-6
+    )
+    eyring = film_summary(solve_case(read(text + '[oil]\nshear_law = "eyring"\neyring_stress = "5 kPa"\n')))
+    share = np.arcsinh(0.6) / 0.6
+    assert eyring["friction_force_moving_N"][0] == pytest.approx(
+        share * still["friction_force_moving_N"][0], rel=1e-6
+    )
+    first = read(text + THINNING)
+    assert read(first.resolved).resolved == first.resolved
+
+
+def test_temperature_in_time_comes_to_the_steady_one(read):
+    walls = "[thermal]\nfixed_wall = { temperature = '60 degC' }\nmoving_wall = { temperature = '50 degC' }\n"
+    steady = film_summary(solve_case(read(GRADE + walls)))
+    marched = solve_case(read(GRADE + walls + TIME.replace("4 ms", "40 ms").replace("1 ms", "10 ms")))
+    summary = film_summary(marched)
+    assert summary["temperature_mean_K"] == pytest.approx(steady["temperature_mean_K"], abs=0.05)
+    assert summary["temperature_of_time_max_K"] >= summary["temperature_max_K"]
+    assert marched.history[0].temperature_max is not None
+
+
+def test_a_warm_body_takes_the_heat_and_grows_into_the_film(read):
+    """All of the heat leaves through the bottom of the plate: its mean rise under the film is Q d/(k A)."""
+    hot = read(GRADE.replace('"1 m/s"', '"20 m/s"') + PLATE + WALLS.replace('"adiabatic"', WARM_BODY))
+    solved = solve_case(hot)
+    assert solved.heat is not None
+    rise = solved.heat.to_fixed * 2e-3 / (50.0 * 1e-5)
+    area = lumped(hot.problem.space, np.ones(hot.problem.space.area.shape))
+    mean = np.average(solved.heat.fixed_wall, weights=area)
+    assert rise > 5.0
+    assert mean - 303.15 == pytest.approx(rise, rel=0.01)
+    assert film_summary(solved)["film_thickness_min_m"] < 1e-5
+    assert read(hot.resolved).resolved == hot.resolved
 
 
 @pytest.mark.parametrize(
@@ -235,7 +283,15 @@ def test_a_film_hotter_than_its_oil_is_no_number(read):
             GIVEN + '[oil]\ndensity_law = "tait"\ntait_modulus = "1 GPa"\ntait_slope = 0\n', "oil.tait_slope",
             ["above 0"],
         ),
-        (GIVEN + '[oil]\nshear_law = "carreau"\n', "oil.shear_law", ["'carreau'", "Newtonian"]),
+        (GIVEN + '[oil]\nshear_law = "carrot"\n', "oil.shear_law", ["'carrot'", "carreau"]),
+        (GIVEN + '[oil]\nshear_law = "carreau"\n', "oil.relaxation_time", ["a time"]),
+        (GIVEN + THINNING.replace("0.5", "1.5"), "oil.shear_exponent", ["0 to 1"]),
+        (GIVEN + '[oil]\nshear_law = "eyring"\n', "oil.eyring_stress", ["a pressure"]),
+        (GRADE + WALLS.replace('"adiabatic"', WARM_BODY), "thermal.fixed_wall", ["elastic.fixed"]),
+        (GRADE + PLATE + WALLS.replace('"adiabatic"', WARM_BODY.replace("30 degC", "30 bar")),
+         "thermal.fixed_wall.faces.bottom.temperature", ["not a temperature"]),
+        (GRADE + PLATE + WALLS.replace('"adiabatic"', WARM_BODY.replace("bottom = {", "faces = {}, b = {")),
+         "thermal.fixed_wall.faces.faces.heat_transfer_coefficient", ["no such key"]),
         (GIVEN + '[oil]\npresure_law = "barus"\n', "oil.presure_law", ["unknown key", "pressure_law"]),
         (GIVEN + WALLS, "thermal", ["no table [oil]"]),
         (GRADE.replace("specific_heat", "spec_heat") + WALLS, "oil.specific_heat", ["a specific heat"]),
@@ -246,7 +302,6 @@ def test_a_film_hotter_than_its_oil_is_no_number(read):
             GRADE + WALLS.replace('temperature = "50', 'heat_transfer_coefficient = "50'),
             "thermal.moving_wall.heat_transfer_coefficient", ["a heat transfer coefficient"],
         ),
-        (GRADE + WALLS + TIME, "thermal", ["beside [time]"]),
         (
             GIVEN + "[oil]" + GRADE.partition("[oil]")[2].replace('grade = "ISO VG 46"', "") + WALLS,
             "oil.temperature_coefficient", ["how the viscosity falls"],
