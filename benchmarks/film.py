@@ -31,6 +31,7 @@ from reynolds.loads import point_fields
 from reynolds.mesh import Cell, FilmMesh, rectangle
 from reynolds.solve import FilmSolver
 from reynolds.space import FilmSpace, film_space
+from reynolds.transport import isotropic
 
 CELLS = (160, 500, 1600)  # round the bearing
 SPSOLVE_LIMIT = 300_000
@@ -91,7 +92,7 @@ def time_swashfilm(n: int, cavitation: Cavitation, verified: float, repeats: int
         f"reynolds, {'full film' if cavitation is Cavitation.NONE else 'with rupture'}",
         space.size,
         setup,
-        least(lambda: stiffness(space, (conductance, conductance, ZERO)), repeats),
+        least(lambda: stiffness(space, isotropic(conductance)), repeats),
         least(lambda: FilmSolver(space).solve(problem), repeats),
         solution.iterations,
         load,

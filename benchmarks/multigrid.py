@@ -33,6 +33,7 @@ from reynolds.grid import grid_of
 from reynolds.mesh import Cell, rectangle
 from reynolds.multigrid import CACHED, Multigrid
 from reynolds.space import FilmSpace, film_space
+from reynolds.transport import isotropic
 
 Array = NDArray[np.float64]
 CELLS = (72, 160, 500, 1600)  # round the bearing; 0.4 of it over the width
@@ -94,7 +95,7 @@ def operator(space: FilmSpace, case: Case, eccentricity: float) -> tuple[Array, 
     """Entries of the upper triangle and right-hand side of div h^3 grad p = dh/dx, the identity where fixed."""
     x, y = space.points
     h = case.thickness(x, y / case.width, eccentricity)
-    entries = stiffness(space, (h**3, h**3))
+    entries = stiffness(space, isotropic(h**3))
     fixed = np.zeros(space.size, dtype=bool)
     fixed[np.concatenate([space.edge_dofs["bottom"], space.edge_dofs["top"]])] = True
     where = np.empty(space.size)

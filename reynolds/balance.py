@@ -18,7 +18,7 @@ import numpy as np
 from scipy.sparse import coo_array, csc_array, csr_array
 
 from reynolds import kernels
-from reynolds.film import FilmProblem
+from reynolds.film import Cavitation, FilmProblem
 from reynolds.fluid import CONSTANT
 from reynolds.mesh import Array
 from reynolds.space import FilmSpace
@@ -57,8 +57,9 @@ def operators(problem: FilmProblem, state: State) -> Operators:
     content = lumped(space, terms.content)
     rate = lumped(space, terms.squeeze) if problem.storage is None else content / problem.storage.step
     carried = convection(space, terms.flux)
-    diffusion = np.empty_like(carried[0])
-    kernels.upwinding(space.pattern.indptr, space.pattern.indices, *carried, diffusion)
+    diffusion = np.zeros_like(carried[0])
+    if problem.cavitation is Cavitation.JFO:
+        kernels.upwinding(space.pattern.indptr, space.pattern.indices, *carried, diffusion)
     return Operators(terms, stiffness(space, terms.conductance), carried, diffusion, content, rate)
 
 
@@ -67,12 +68,14 @@ def stiffness(space: FilmSpace, conductance: Tensor) -> Array:
 
     `conductance` is h^3/(12 mu), its xx, yy and xy part, (cells | 1, points | 1) each, m3/(Pa s).
     """
-    reference = space.reference
-    data = np.empty(len(space.pattern.indices))
-    kernels.stiffness(
-        space.vertices, space.cells, space.dofs, space.pattern.slots, reference.steep_gradient,
-        reference.steep_geometry, reference.weights, *conductance, data,
-    )  # fmt: skip
+    tensors, pattern = space.tensors, space.pattern
+    data = np.zeros(len(pattern.indices))
+    xx, yy, xy = conductance
+    parts = [(tensors.pairs, xx)]
+    if xx is not yy:
+        parts = [(tensors.pairs_xx, xx), (tensors.pairs_yy, yy), (tensors.pairs_xy, xy)]
+    for pairs, along_pair in parts:
+        kernels.stiffness(space.dofs, pattern.slots, pattern.indptr, tensors.shape, pairs, along_pair, data)
     return data
 
 
@@ -87,15 +90,10 @@ def convection(space: FilmSpace, flux: tuple[Array, Array], *, steep: bool = Fal
 
     `steep` takes the gradients of the conductance: for a flux that pressure drives.
     """
-    reference = space.reference
-    tables = (reference.gradient, reference.geometry_gradient)
-    if steep:
-        tables = (reference.steep_gradient, reference.steep_geometry)
-    upper, lower = (np.empty(len(space.pattern.indices)) for _ in range(2))
-    kernels.convection(
-        space.vertices, space.cells, space.dofs, space.pattern.slots, reference.value, *tables,
-        reference.weights, *flux, upper, lower,
-    )  # fmt: skip
+    tensors, reference, pattern = space.tensors, space.reference, space.pattern
+    gradient = tensors.steep_gradient if steep else tensors.gradient
+    upper, lower = (np.empty(len(pattern.indices)) for _ in range(2))
+    kernels.convection(space.dofs, pattern.slots, tensors.shape, reference.value, gradient, *flux, upper, lower)
     return upper, lower
 
 
@@ -133,6 +131,8 @@ def _mixing(problem: FilmProblem, parts: Operators, state: State) -> tuple[Array
     pattern = problem.space.pattern
     out, size = np.zeros(problem.space.size), np.zeros(problem.space.size)
     level = cavity_density(problem) * state.film_fraction
+    if level.min() == level.max():
+        return out, size
     kernels.exchange(pattern.indptr, pattern.indices, parts.diffusion, level, out, size)
     return out, size
 
@@ -201,8 +201,8 @@ def by_opening(problem: FilmProblem, parts: Operators, state: State) -> csr_arra
     driven = along(terms.conductance_slope, steep_gradient(space, state.pressure))
     full = at_points(space, filling)
     carried = (-full * terms.flux_slope[0], -full * terms.flux_slope[1])
-    local = _tested(space, driven, reference.steep_gradient, reference.steep_geometry, space.steep_area)
-    local += _tested(space, carried, reference.gradient, reference.geometry_gradient, space.area)
+    local = _tested(space, driven, space.tensors.steep_gradient)
+    local += _tested(space, carried, space.tensors.gradient)
     if problem.storage is not None:
         per_second = np.broadcast_to(terms.content_slope / problem.storage.step, space.area.shape)
         local += np.einsum(
@@ -216,13 +216,11 @@ def by_opening(problem: FilmProblem, parts: Operators, state: State) -> csr_arra
     )
 
 
-def _tested(space: FilmSpace, flux: tuple[Array, Array], gradient: Array, geometry: Array, area: Array) -> Array:
+def _tested(space: FilmSpace, flux: tuple[Array, Array], gradient: Array) -> Array:
     """int f_v flux . grad f_i with f_v the basis of the cell's corners, (cells, basis, corners)."""
-    jacobian = np.einsum("evd,qvg->eqdg", space.vertices[space.cells], geometry)
-    slopes = np.einsum("qig,eqgd->eqid", gradient, np.linalg.inv(jacobian))
-    weighted = np.stack([np.broadcast_to(part, area.shape) * area for part in flux], axis=-1)
+    along = np.stack([np.broadcast_to(part, space.area.shape) for part in flux], axis=-1)
     corner = space.reference.geometry_value
-    return np.asarray(np.einsum("eqd,eqid,qv->eiv", weighted, slopes, corner, optimize=True))
+    return np.asarray(np.einsum("eqd,eqid,qv->eiv", along, gradient[space.tensors.shape], corner, optimize=True))
 
 
 def full_matrix(space: FilmSpace, upper: Array, lower: Array) -> csc_array:

@@ -84,7 +84,8 @@ def _weights(a, level, j, scratch):
         south[i] = -b[i] - be[i - 1] - bw[i]
         north[i] = -c[i] - ce[i] - cw[i]
         whole = south[i] + north[i] - east[i] - west[i - 1]
-        pivot[i] = whole if b[i] != 0.0 and c[i] != 0.0 and whole > 0.0 else centre[i]
+        # By all three couplings: the straight one alone may vanish where the corners carry everything.
+        pivot[i] = whole if south[i] != 0.0 and north[i] != 0.0 and whole > 0.0 else centre[i]
     pivots(pivot, east, pivot, n - a.around_x)
     substitute_two(south, north, pivot, east, n - a.around_x)
     if a.around_x:

@@ -65,6 +65,9 @@ def no_feed(pressure: float) -> tuple[float, float]:
 Boundary = Held | Pocket
 
 
+LEAST_FRACTION = -1e-6
+"""Round-off of a film fraction: one further below zero is no film."""
+
 ZERO = np.zeros((1, 1))
 HALF = np.full((1, 1), 0.5)
 
@@ -141,7 +144,8 @@ class FilmProblem:
     the roughness of the walls, `asperities` what they bear where they touch, and `walls` how far they give way.
     With `storage` the film is one step of a transient: the change of what it holds takes the place of
     `film.squeeze`. Pressures in Pa on one common reference, gauge or absolute.
-    Raises FilmInputError for a field that is not of the space, or of which a value is no number.
+    Where two held boundaries meet, their common unknowns are held by the later one.
+    Raises FilmInputError for a field that is not of the space, or of which a value is no number or means nothing.
     """
 
     space: FilmSpace
@@ -157,6 +161,17 @@ class FilmProblem:
     storage: Storage | None = None
 
     def __post_init__(self) -> None:
+        self._check_fields()
+        self._check_nodal()
+        if not isinstance(self.cavitation, Cavitation):
+            raise FilmInputError("cavitation", repr(self.cavitation), "a member of Cavitation")
+        if not np.isfinite(self.cavitation_pressure):
+            raise FilmInputError("cavitation pressure", f"{self.cavitation_pressure:g} Pa", "a finite number")
+        if self.storage is not None and not 0.0 < self.storage.step < np.inf:
+            raise FilmInputError("storage", f"a step of {self.storage.step:g} s", "above zero, and finite")
+
+    def _check_fields(self) -> None:
+        """Fault a field at the quadrature points."""
         cells, points = self.space.area.shape
         oil = self.film
         for name, field_values in (
@@ -172,6 +187,25 @@ class FilmProblem:
                 raise FilmInputError(name, f"an array of shape {shape}", expected)
             if not np.isfinite(field_values).all():
                 raise FilmInputError(name, "a value that is not finite", "numbers")
+        wanted = (len(self.space.vertices), self.space.size)
+        if self.walls is not None and self.walls.matrix.shape != wanted:
+            found = f"a compliance of shape {self.walls.matrix.shape}"
+            raise FilmInputError("walls", found, f"{wanted}: {wanted[0]} vertices, {wanted[1]} unknowns")
+        for name, viscosity in (("viscosity", oil.viscosity), ("sliding viscosity", oil.sliding_viscosity)):
+            if viscosity.min() <= 0.0:
+                raise FilmInputError(name, f"{viscosity.min():.4g} Pa s", "positive everywhere")
+
+    def _check_nodal(self) -> None:
+        """Fault a field at the unknowns or at the vertices."""
+        held = None if self.storage is None else self.storage.held_before
+        for name, values, size in (
+            ("held nodes", self.held_nodes, self.space.size), ("storage", held, self.space.size),
+            ("film thickness at the vertices", self.film.thickness_at_vertices, len(self.space.vertices)),
+        ):  # fmt: skip
+            if values is not None and np.shape(values) != (size,):
+                raise FilmInputError(name, f"an array of shape {np.shape(values)}", f"({size},)")
+        if held is not None and not held.min() >= LEAST_FRACTION * held.max():
+            raise FilmInputError("storage", f"{held.min():.3g} m3 of oil at an unknown", "none, or more than none")
 
 
 def vertex_thickness(solution: FilmSolution) -> Array:

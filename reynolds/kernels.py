@@ -7,8 +7,7 @@ Weak form of the Reynolds equation (Reynolds 1886): for every test function f
 with U the mean velocity of the two walls, theta the film fraction, r the density ratio and q_n the flow that
 leaves through the edge; theta and r are nodal, and their product is called filling. Fields stand at the
 quadrature points as (cells | 1, points | 1) arrays: a length of one means "the same everywhere".
-Geometry is recomputed from the vertices in the loop, which is cheaper than reading it from memory and lets
-a mesh move without rebuilding anything.
+Geometry enters by the tensors of the cells' shapes (`tensors`), or is recomputed in the loop.
 """
 
 import numpy as np
@@ -46,58 +45,51 @@ def measure(vertices, cells, geometry_gradient, weights, area):
 
 
 @njit(**_FAST)
-def stiffness(vertices, cells, dofs, slots, gradient, geometry_gradient, weights, k_xx, k_yy, k_xy, data):
-    """Add int k grad p . grad f to the upper triangle; data follows the fixed pattern through slots."""
+def stiffness(dofs, slots, indptr, shape, pairs, conductance, data):
+    """data += int k grad p . grad f, upper triangle in the fixed pattern; pairs[shape, q] as `ElementTensors`.
+
+    Off the diagonal a pair's coupling; what it couples leaves both diagonals, whose rows so sum to zero.
+    """
     nb = dofs.shape[1]
-    xe, xq = int(k_xx.shape[0] > 1), int(k_xx.shape[1] > 1)
-    ye, yq = int(k_yy.shape[0] > 1), int(k_yy.shape[1] > 1)
-    ze, zq = int(k_xy.shape[0] > 1), int(k_xy.shape[1] > 1)
-    gx, gy = np.empty(nb), np.empty(nb)
-    local = np.empty((nb, nb))
-    data[:] = 0.0
-    for e in range(cells.shape[0]):
-        local[:] = 0.0
-        for q in range(weights.shape[0]):
-            det, ixx, ixy, iyx, iyy = _inverse_map(vertices, cells[e], geometry_gradient, q)
-            w = weights[q] * abs(det)
-            wx, wy, wz = w * k_xx[e * xe, q * xq], w * k_yy[e * ye, q * yq], w * k_xy[e * ze, q * zq]
-            for i in range(nb):
-                rx, ry = gradient[q, i, 0], gradient[q, i, 1]
-                gx[i] = ixx * rx + ixy * ry
-                gy[i] = iyx * rx + iyy * ry
-            for i in range(nb):
-                fx, fy = wx * gx[i] + wz * gy[i], wz * gx[i] + wy * gy[i]
-                for j in range(i, nb):
-                    local[i, j] += fx * gx[j] + fy * gy[j]
-        k = 0
+    ce, cq = int(conductance.shape[0] > 1), int(conductance.shape[1] > 1)
+    for e in range(dofs.shape[0]):
+        s = shape[e]
+        k = pair = 0
         for i in range(nb):
-            for j in range(i, nb):
-                # Two local nodes tied to one unknown (seam, pocket) meet on its diagonal twice.
-                tied = i != j and dofs[e, i] == dofs[e, j]
-                data[slots[e, k]] += 2.0 * local[i, j] if tied else local[i, j]
+            k += 1  # the diagonal's slot
+            for j in range(i + 1, nb):
+                value = 0.0
+                for q in range(pairs.shape[1]):
+                    value += conductance[e * ce, q * cq] * pairs[s, q, pair]
+                one, two = dofs[e, i], dofs[e, j]
+                # Two corners tied to one unknown (seam, pocket) exchange nothing.
+                if one != two:
+                    data[slots[e, k]] += value
+                    data[indptr[one + 1] - 1] -= value
+                    data[indptr[two + 1] - 1] -= value
                 k += 1
+                pair += 1
 
 
 @njit(**_FAST)
-def convection(
-    vertices, cells, dofs, slots, value, gradient, geometry_gradient, weights, flux_x, flux_y, upper, lower
-):  # fmt: skip
-    """C_ij = - int f_j (flux_x, flux_y) . grad f_i: upper[slot] takes C_ij for i <= j, lower[slot] its mirror."""
+def convection(dofs, slots, shape, value, gradient, flux_x, flux_y, upper, lower):
+    """C_ij = - int f_j (flux_x, flux_y) . grad f_i: upper[slot] takes C_ij for i <= j, lower[slot] its mirror.
+
+    gradient[shape, q, i] is the area element times grad f_i, as `ElementTensors` has it.
+    """
     nb = dofs.shape[1]
     xe, xq = int(flux_x.shape[0] > 1), int(flux_x.shape[1] > 1)
     ye, yq = int(flux_y.shape[0] > 1), int(flux_y.shape[1] > 1)
     local = np.empty((nb, nb))
     upper[:] = 0.0
     lower[:] = 0.0
-    for e in range(cells.shape[0]):
+    for e in range(dofs.shape[0]):
+        s = shape[e]
         local[:] = 0.0
-        for q in range(weights.shape[0]):
-            det, ixx, ixy, iyx, iyy = _inverse_map(vertices, cells[e], geometry_gradient, q)
-            w = weights[q] * abs(det)
-            wx, wy = w * flux_x[e * xe, q * xq], w * flux_y[e * ye, q * yq]
+        for q in range(gradient.shape[1]):
+            fx, fy = flux_x[e * xe, q * xq], flux_y[e * ye, q * yq]
             for i in range(nb):
-                rx, ry = gradient[q, i, 0], gradient[q, i, 1]
-                along = wx * (ixx * rx + ixy * ry) + wy * (iyx * rx + iyy * ry)
+                along = fx * gradient[s, q, i, 0] + fy * gradient[s, q, i, 1]
                 for j in range(nb):
                     local[i, j] -= value[q, j] * along
         k = 0

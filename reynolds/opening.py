@@ -27,6 +27,8 @@ def opening(problem: FilmProblem, pressure: Array, start: Array | None = None) -
         return np.zeros(len(problem.space.vertices))
     compliance = problem.walls.matrix
     alone = np.asarray(compliance @ pressure)
+    if not np.isfinite(alone).all():
+        raise FilmInputError("walls", "a compliance that is not finite", "numbers, m/Pa")
     if problem.asperities is None:
         return alone
     given = _given_thickness(problem)

@@ -19,6 +19,7 @@ from scipy.spatial import cKDTree
 from reynolds import kernels
 from reynolds.errors import FilmInputError
 from reynolds.mesh import Array, FilmMesh
+from reynolds.tensors import ElementTensors, element_tensors
 
 # Quadrature exact enough that h^3 of a linear film costs no order of convergence: degree of the film
 # conductance (3) is not needed in full, the classical rule 2 k - 1 plus one is (Strang and Fix 1973).
@@ -111,6 +112,15 @@ class FilmSpace:
         area = np.empty((len(self.cells), len(self.reference.weights)))
         kernels.measure(self.vertices, self.cells, geometry_gradient, self.reference.weights, area)
         return area
+
+    @cached_property
+    def tensors(self) -> ElementTensors:
+        """What geometry contributes to the operators."""
+        tables = self.reference
+        return element_tensors(
+            self.vertices[self.cells], tables.gradient, tables.geometry_gradient, tables.steep_gradient,
+            tables.steep_geometry, tables.weights,
+        )  # fmt: skip
 
     @cached_property
     def points(self) -> Array:

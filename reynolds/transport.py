@@ -25,6 +25,11 @@ Tensor = tuple[Array, Array, Array]
 """xx, yy and xy part of a symmetric tensor in the film plane."""
 
 
+def isotropic(conductance: Array) -> Tensor:
+    """The tensor of a conductance that is the same in every direction."""
+    return conductance, conductance, np.zeros((1, 1))
+
+
 @dataclass(frozen=True)
 class Transport:
     """Flow terms, each (cells | 1, points | 1); *_slope by thickness, by_pressure the relative one by pressure.
@@ -65,7 +70,7 @@ def transport(problem: FilmProblem, pressure: Array, opening: Array) -> Transpor
         mu, mu_slope = problem.fluid.viscosity(at, film.viscosity)
         ratio, ratio_slope = problem.fluid.density(at)
     with np.errstate(over="ignore"):  # told of in words
-        smooth = ratio * h**3 / (12.0 * mu)
+        smooth = ratio * (h * h * h) / (12.0 * mu)
     _check_conductance(smooth)
     sliding = None if film.couette_viscosity is None else film.couette_viscosity * mu / film.viscosity
     conductance, conductance_slope, flux, flux_slope, content = _between_walls(problem, h, smooth)
@@ -88,9 +93,7 @@ def _between_walls(
     """Conductance, flux, their slopes, and content of a film between smooth walls or rough ones."""
     mean, one = problem.film.mean_velocity, np.ones((1, 1))
     if problem.surface is None:
-        nothing = np.zeros((1, 1))
-        steeper = 3.0 * smooth / h
-        return (smooth, smooth, nothing), (steeper, steeper, nothing), _times(h, mean), mean, Tangent(h, one)
+        return isotropic(smooth), isotropic(3.0 * smooth / h), _times(h, mean), mean, Tangent(h, one)
     factors = flow_factors(problem.surface, h)
     parts = (factors.pressure.x, factors.pressure.y, factors.pressure.xy)
     values = tuple(smooth * part.value for part in parts)

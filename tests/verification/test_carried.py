@@ -11,6 +11,7 @@ from reynolds.grid import grid_of
 from reynolds.linear import GeneralFactor
 from reynolds.mesh import Cell, rectangle
 from reynolds.space import FilmSpace, film_space
+from reynolds.transport import isotropic
 from reynolds.triangles import both_triangles
 
 
@@ -21,7 +22,7 @@ def carried(
 
     An unknown of the cavity gives to each neighbour downstream in proportion to the flow along the way there.
     """
-    film = space.matrix(stiffness(space, (np.ones((1, 1)), np.ones((1, 1)))))
+    film = space.matrix(stiffness(space, isotropic(np.ones((1, 1)))))
     column = np.repeat(np.arange(space.size), np.diff(space.pattern.indptr))
     row = space.pattern.indices
     where = np.empty((space.size, 2))

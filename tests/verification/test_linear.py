@@ -12,6 +12,7 @@ from reynolds.loads import loads
 from reynolds.mesh import Cell, rectangle
 from reynolds.solve import FilmSolver
 from reynolds.space import film_space
+from reynolds.transport import isotropic
 
 
 def laplacian(n: int) -> csc_array:
@@ -45,7 +46,7 @@ def test_a_stalled_multigrid_hands_over_to_the_direct_solver(monkeypatch):
 def test_each_rung_of_the_ladder_hands_over_to_the_next(monkeypatch):
     """The same answer from multigrid on the grid, and where that and pyamg stall from QDLDL."""
     space = film_space(rectangle((1.0, 1.0), (30, 20), cell=Cell.QUADRILATERAL))
-    entries = stiffness(space, (np.ones((1, 1)), np.ones((1, 1))))
+    entries = stiffness(space, isotropic(np.ones((1, 1))))
     column = np.repeat(np.arange(space.size), np.diff(space.pattern.indptr))
     upper = space.matrix(entries + 0.1 * (space.pattern.indices == column))
     load = np.random.default_rng(1).standard_normal(space.size)
@@ -66,7 +67,7 @@ def test_a_pocket_five_hundred_times_deeper_stays_on_the_grid():
     space = film_space(rectangle((1.0, 1.0), (60, 60), cell=Cell.QUADRILATERAL))
     x, y = space.points
     conductance = np.where((np.abs(x - 0.5) < 0.2) & (np.abs(y - 0.5) < 0.2), 1.0, 500.0**-3)
-    entries = stiffness(space, (conductance, conductance))
+    entries = stiffness(space, isotropic(conductance))
     held, data = np.zeros(space.size, dtype=bool), np.empty_like(entries)
     held[space.edge_dofs["left"]] = True
     pattern = space.pattern
@@ -83,7 +84,7 @@ def test_a_pocket_five_hundred_times_deeper_stays_on_the_grid():
 
 def test_a_matrix_that_is_not_positive_leaves_the_grid():
     space = film_space(rectangle((1.0, 1.0), (30, 20), cell=Cell.QUADRILATERAL))
-    upper = space.matrix(-stiffness(space, (np.ones((1, 1)), np.ones((1, 1)))))
+    upper = space.matrix(-stiffness(space, isotropic(np.ones((1, 1)))))
     upper = upper - 0.1 * csc_array(np.eye(space.size))
     upper.sort_indices()
     factor = linear.Factor(grid_of(space))

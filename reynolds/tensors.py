@@ -1,0 +1,68 @@
+"""Element tensors of a mesh: what geometry contributes to the operators, once for each shape of cell.
+
+Cells of one shape share their tensors, so that a regular mesh has a handful of them however fine it is; where no
+two cells are alike each has its own. Assembly is then field times tensor, summed into a fixed pattern.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from reynolds.mesh import Array
+
+SAME = 1e-10  # of a cell's size: corners nearer than this are at the same place of its shape
+
+
+@dataclass(frozen=True)
+class ElementTensors:
+    """Tensors of the shapes (shapes, points, ..) and the shape of each cell (cells,).
+
+    pairs: g_i g_j times the area element for i < j in the order of np.triu_indices, and its xx, yy and (doubled)
+    xy part, with the steep gradients g of the conductance; gradient and steep_gradient: (.., basis, 2) m, the area
+    element times each gradient.
+    """
+
+    shape: NDArray[np.int32]
+    pairs_xx: Array
+    pairs_yy: Array
+    pairs_xy: Array
+    pairs: Array
+    gradient: Array
+    steep_gradient: Array
+
+
+def element_tensors(
+    corners: Array, gradient: Array, geometry: Array, steep: Array, steep_geometry: Array, weights: Array
+) -> ElementTensors:
+    """Tensors of cells with these corners (cells, corners, 2) m; the tables are those of `space.Reference`."""
+    shape, first = _shapes(corners)
+    places = corners[first]
+    weighted = _weighted(places, gradient, geometry, weights)[0]
+    steeply, area = _weighted(places, steep, steep_geometry, weights)
+    i, j = np.triu_indices(gradient.shape[1], 1)
+    x, y = (steeply[..., axis] / area[..., None] for axis in (0, 1))
+    size = area[..., None]
+    xx, yy = size * x[..., i] * x[..., j], size * y[..., i] * y[..., j]
+    xy = size * (x[..., i] * y[..., j] + y[..., i] * x[..., j])
+    return ElementTensors(shape, xx, yy, xy, xx + yy, weighted, steeply)
+
+
+def _shapes(corners: Array) -> tuple[NDArray[np.int32], NDArray[np.int64]]:
+    """Number of each cell's shape (cells,), and a cell of each shape."""
+    edges = (corners[:, 1:] - corners[:, :1]).reshape(len(corners), -1)
+    size = np.abs(edges).max()
+    # One number a shape: a fixed combination of its edges, rounded, tells shapes apart but for a chance of 1e-10.
+    key = np.rint(edges / (SAME * size)) @ np.sqrt(np.arange(2.0, 2.0 + edges.shape[1]))
+    _, first, shape = np.unique(np.rint(key), return_index=True, return_inverse=True)
+    return shape.astype(np.int32), first
+
+
+def _weighted(places: Array, gradient: Array, geometry: Array, weights: Array) -> tuple[Array, Array]:
+    """Area element times gradient (shapes, points, basis, 2), and the area element (shapes, points)."""
+    jacobian = np.einsum("evd,qvg->eqdg", places, geometry)
+    area = np.abs(np.linalg.det(jacobian)) * weights
+    slopes = np.einsum("qig,eqgd->eqid", gradient, np.linalg.inv(jacobian))
+    return np.ascontiguousarray(slopes * area[..., None, None]), area
