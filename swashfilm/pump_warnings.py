@@ -5,7 +5,6 @@ from __future__ import annotations
 import numpy as np
 
 from gaps.slipper import hagen_poiseuille_conductance
-from swashfilm.film_warnings import LARGEST_CAVITY_FLOW
 from swashfilm.pump_data import gap_films
 from swashfilm.pump_summary import gap_statement
 from system.films import FilmsPoint
@@ -22,7 +21,6 @@ def films_warnings(films: FilmsPoint) -> list[str]:
     """All warnings of a films point, `name: text` each."""
     return [
         *uncarried_loads(films),
-        *cavity_flows(films),
         *impossible_pressures(films),
         *turbulent_orifice(films),
         *coarse_angles(films),
@@ -37,22 +35,6 @@ def uncarried_loads(films: FilmsPoint) -> list[str]:
         for gap, series in gap_films(films).items()
         if not all(film.holds_its_load for film in series)
     ]
-
-
-def cavity_flows(films: FilmsPoint) -> list[str]:
-    """A warning for each gap in whose cavities Reynolds' condition makes or swallows more than it may."""
-    found = []
-    for gap, series in gap_films(films).items():
-        made = sum(film.loads.cavity_flow for film in series)
-        share = abs(made) / sum(film.loads.throughput for film in series)
-        if share > LARGEST_CAVITY_FLOW:
-            verb = "makes" if made > 0.0 else "swallows"
-            found.append(
-                f"cavity_does_not_conserve_mass: {gap.replace('_', ' ')}: over the turn Reynolds' condition "
-                f"{verb} oil in the film's cavities, {share:.1%} of the throughput (limit "
-                f"{LARGEST_CAVITY_FLOW:.0%}); the pump's leakage is what enters the film from chambers and ports"
-            )
-    return found
 
 
 def impossible_pressures(films: FilmsPoint) -> list[str]:

@@ -7,7 +7,6 @@ import pytest
 
 from gaps.piston import PistonGap, PistonGeometry, PistonLoad, PistonState
 from swashfilm.pump_warnings import (
-    cavity_flows,
     coarse_angles,
     impossible_pressures,
     turbulent_orifice,
@@ -29,16 +28,6 @@ def films(piston, other):
     """The part of a FilmsPoint that is looked at: `piston` in the piston gap, `other` in the two others."""
     ring = SimpleNamespace(gap=other)
     return SimpleNamespace(gaps=SimpleNamespace(piston=(piston,), slipper=(other,), valve_plate=(ring,)))
-
-
-def test_oil_that_a_cavity_makes_is_told():
-    dry, flooded = film(0.0), film(100e6)
-    assert dry.loads.cavity_flow > 0.01 * dry.loads.throughput
-    assert flooded.loads.cavity_flow == 0.0
-    told = cavity_flows(films(dry, flooded))
-    assert len(told) == 1
-    assert told[0].startswith("cavity_does_not_conserve_mass: piston: ")
-    assert "makes oil" in told[0]
 
 
 @pytest.mark.parametrize(("share", "count"), [(0.5, 1), (1.0, 0), (2.0, 1)])
