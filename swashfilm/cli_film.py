@@ -18,8 +18,8 @@ EXIT_NOT_CONVERGED = 3
 def run_film(options: argparse.Namespace) -> int:
     """Run `swashfilm film` and return its exit code; raises InputFaults with what is wrong in words or file."""
     from swashfilm.film_page import summary_rows
-    from swashfilm.film_refine import refinement_head, refinement_rows
-    from swashfilm.film_run import check_refinable, run_case
+    from swashfilm.film_refine import check_refinement, refinement_head, refinement_rows
+    from swashfilm.film_run import run_case
     from swashfilm.progress import progress
     from swashfilm.run_folder import final_folder, run_folder
     from swashfilm.study_case import StudyCase, load_film
@@ -31,7 +31,7 @@ def run_film(options: argparse.Namespace) -> int:
     if isinstance(case, StudyCase):
         return _study(case, options, workers)
     if meshes > 1:
-        check_refinable(case, meshes)
+        check_refinement(case, meshes)
     with run_folder(case.name, options.output) as folder, progress(3, f"film {case.name}") as report:
         summary = run_case(case, folder, report, meshes=meshes, as_table=options.csv)
     show_table(f"Film {case.name}", summary_rows(summary))

@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 
+from swashfilm.film_in_time import last_of
 from swashfilm.film_refine import refinement_head, refinement_rows
 from swashfilm.headline import named
 from swashfilm.maps import draw_map
@@ -93,8 +94,8 @@ def film_picture(results: Path) -> bytes:
     import xarray
     from matplotlib.figure import Figure
 
-    with xarray.open_dataset(results, engine="h5netcdf") as fields:
-        fields.load()
+    with xarray.open_dataset(results, engine="h5netcdf") as data:
+        fields = last_of(data.load())
     shown = [
         field
         for field in FIELDS

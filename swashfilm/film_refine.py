@@ -15,6 +15,7 @@ from reynolds.loads import point_fields
 from swashfilm.convergence import Convergence, convergence
 from swashfilm.film_case import FilmCase
 from swashfilm.film_study import FilmStudy, film_summary, solve_case
+from swashfilm.gap_case import GapCase
 from swashfilm.headline import headline_numbers, named, sizes
 from swashfilm.mesh_case import MOST_CELLS
 from swashfilm.progress import Report
@@ -30,18 +31,20 @@ class Refinement:
     numbers: Mapping[str, Convergence]
 
 
-def check_refinement(case: FilmCase, meshes: int) -> None:
+def check_refinement(case: FilmCase | GapCase, meshes: int) -> None:
     """Raise InputFaults where a case cannot be refined so often."""
+    if isinstance(case, GapCase):
+        return  # coarse enough for as many as the command line takes
     cells = case.problem.space.area.shape[0] * 4 ** (meshes - 1)
     if cells > MOST_CELLS:
         fault = Fault("--refine", f"{meshes} meshes, the finest of {cells} cells", f"at most {MOST_CELLS} cells")
         raise InputFaults("command line", [fault])
 
 
-def refine_study(case: FilmCase, study: FilmStudy, meshes: int, report: Report) -> Refinement:
+def refine_study(case: FilmCase | GapCase, study: FilmStudy, meshes: int, report: Report) -> Refinement:
     """The case solved on `meshes` meshes, the first of which `study` is of.
 
-    Raises FilmNotConverged where one of the meshes does, and FilmInputError as `FilmCase.refined`.
+    Raises FilmNotConverged where one of the meshes does, and FilmInputError as the cases' `refined`.
     """
     studies = [study]
     for number in range(1, meshes):
@@ -70,14 +73,16 @@ def expected_orders(study: FilmStudy) -> tuple[float, float]:
 
 
 def _natural_sizes(solution: FilmSolution) -> dict[str, float]:
-    """Sizes that moments (N m) and wall forces (N) have before they cancel, as on a film of full symmetry."""
+    """Sizes that moments, torques (N m) and wall forces (N) have before they cancel, as in full symmetry."""
     space = solution.problem.space
     fields = point_fields(solution)
     reach = float(np.abs(space.vertices).max())
     shear = (*fields.shear_moving, *fields.shear_fixed)
+    friction = float(sum(np.sum(np.abs(part) * space.area) for part in shear))
     return {
         "moment": reach * float(np.sum(np.abs(fields.pressure) * space.area)),
-        "friction": float(sum(np.sum(np.abs(part) * space.area) for part in shear)),
+        "friction": friction,
+        "torque": reach * friction,
     }
 
 

@@ -3,21 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 from reynolds.export import write_pvd, write_vtu
 from reynolds.mesh import Array
 from swashfilm.film_case import FilmCase
+from swashfilm.film_in_time import at_moment, fields_over_time, last_of, written
 from swashfilm.film_physics import vertex_fields, write_history
 from swashfilm.film_refine import check_refinement, refine_study, refinement_summary, write_refinement
-from swashfilm.film_study import FilmStudy, film_dataset, film_summary, solve_case
+from swashfilm.film_study import FilmStudy, film_summary, solve_case
 from swashfilm.gap_case import GapCase
 from swashfilm.gap_study import true_place
 from swashfilm.progress import Report
 from swashfilm.run_folder import write_json
-from system.faults import Fault, InputFaults
 
 _STAGES = 3
 
@@ -32,23 +31,23 @@ def run_case(
     vertices. Returns the summary. Raises FilmNotConverged; then only the two TOML files are there.
     """
     if meshes > 1:
-        check_refinable(case, meshes)
+        check_refinement(case, meshes)
     (folder / "input.toml").write_text(case.text, encoding="utf-8")
     (folder / "resolved.toml").write_text(case.resolved, encoding="utf-8")
     stages = _STAGES + meshes - 1
     report(0, stages, "solving")
     study = solve_case(case, lambda done, steps, what: report(0, stages, f"solving, {what} ({done} of {steps})"))
     summary = film_summary(study)
-    if meshes > 1 and isinstance(case, FilmCase):
+    if meshes > 1:
         found = refine_study(case, study, meshes, lambda done, _, what: report(done, stages, what))
         summary["refinement"] = refinement_summary(found)
         write_refinement(folder / "refinement.csv", found)
     report(stages - 2, stages, "writing fields")
     _write_films(folder, study, true_place(case) if isinstance(case, GapCase) else None)
-    fields = film_dataset(study)
+    fields = fields_over_time(study)
     fields.to_netcdf(folder / "results.nc", engine="h5netcdf")
     if as_table:
-        fields.drop_dims(["cell", "corner"]).to_dataframe().to_csv(folder / "fields.csv", index=False)
+        last_of(fields).drop_dims(["cell", "corner"]).to_dataframe().to_csv(folder / "fields.csv", index=False)
     write_json(folder / "summary.json", summary)
     report(stages - 1, stages, "drawing")
     from swashfilm.film_page import write_film_page
@@ -64,17 +63,9 @@ def _write_films(folder: Path, study: FilmStudy, place: Callable[[Array], Array]
     entries = [(0.0, 0, "film.vtu")]
     if study.history:
         write_history(folder / "history.csv", study.history)
-        kept = [(step.time, step.solution, step.heat) for step in study.history if step.solution]
-        entries = [(time, 0, f"film_{number:04d}.vtu") for number, (time, *_) in enumerate(kept, start=1)]
-        for (_, _, name), (_, solution, heat) in zip(entries, kept, strict=True):
-            now = replace(study, solution=solution, heat=heat)
-            write_vtu(folder / name, solution, None, {k: v for k, (v, _) in vertex_fields(now).items()})
+        kept = written(study.history)
+        entries = [(moment.time, 0, f"film_{number:04d}.vtu") for number, moment in enumerate(kept, start=1)]
+        for (_, _, name), moment in zip(entries, kept, strict=True):
+            now = at_moment(study, moment)
+            write_vtu(folder / name, now.solution, None, {k: v for k, (v, _) in vertex_fields(now).items()})
     write_pvd(folder / "film.pvd", entries)
-
-
-def check_refinable(case: FilmCase | GapCase, meshes: int) -> None:
-    """Raise InputFaults for a case that cannot be solved on so many meshes."""
-    if isinstance(case, GapCase):
-        fault = Fault("--refine", "a gap of a pump, whose mesh is not the case's", "a free film")
-        raise InputFaults("command line", [fault])
-    check_refinement(case, meshes)

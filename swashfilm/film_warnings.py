@@ -17,6 +17,8 @@ if TYPE_CHECKING:
 
 LARGEST_CAVITY_FLOW = 0.01  # of the throughput; Reynolds' condition makes or swallows oil in a cavity
 LARGEST_THICKNESS_RATIO = 0.05  # of the film's extent; beyond, flow across the film counts
+MOST_BYTES = 200e6  # of the fields of a transient in results.nc
+MOST_FIELDS = 11  # at vertices and in cells
 LEAST_LAMBDA = 1.0  # h/sigma; below, contacts carry most of the load
 LARGEST_ISOVISCOUS_PRESSURE = 50e6  # Pa; a mineral oil is some three times as thick there
 
@@ -54,7 +56,25 @@ def film_warnings(study: FilmStudy) -> list[dict[str, str]]:
                 f"{problem.cavitation_pressure:.4g} Pa: oil would cavitate; choose cavitation = 'reynolds'",
             }
         )
-    return found + _rough_warnings(study.solution) + _pressure_warnings(study)
+    return found + _rough_warnings(study.solution) + _pressure_warnings(study) + _size_warnings(study)
+
+
+def thinned_by(study: FilmStudy) -> int:
+    """Every how many of the films of a transient are in results.nc, so that it stays below MOST_BYTES."""
+    films = sum(moment.solution is not None for moment in study.history)
+    size = films * MOST_FIELDS * 8.0 * len(study.solution.problem.space.vertices)
+    return max(1, int(np.ceil(size / MOST_BYTES)))
+
+
+def _size_warnings(study: FilmStudy) -> list[dict[str, str]]:
+    every = thinned_by(study)
+    if every == 1:
+        return []
+    text = (
+        f"results.nc holds one of every {every} films written, to stay below {MOST_BYTES * 1e-6:g} MB: all of "
+        "them are in film_NNNN.vtu; fewer outputs or a coarser mesh keep them all"
+    )
+    return [{"name": "results_thinned", "text": text}]
 
 
 def _rough_warnings(solution: FilmSolution) -> list[dict[str, str]]:

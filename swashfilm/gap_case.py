@@ -75,7 +75,8 @@ Instant = PistonInstant | SlipperInstant | ValvePlateInstant
 class GapCase:
     """A gap case, validated: its name, the file's text, the same resolved, the rotor and the instant (SI).
 
-    `load_is_stated`: the file itself gives the load, rather than the pump's motion.
+    `load_is_stated`: the file itself gives the load, rather than the pump's motion; `finer`: how many times more
+    cells than usual in each direction its mesh has.
     """
 
     name: str
@@ -87,6 +88,11 @@ class GapCase:
     chamber_pressure: Array
     instant: Instant
     load_is_stated: bool
+    finer: int = 1
+
+    def refined(self) -> GapCase:
+        """The same gap on a mesh twice finer."""
+        return replace(self, finer=2 * self.finer)
 
 
 def read_gap_case(name: str, text: str, top: Table, film: Table, folder: Path) -> GapCase | None:

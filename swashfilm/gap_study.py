@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from inspect import signature
 from typing import Any
 
 from gaps.frames import PUMP_FRAME
@@ -30,15 +31,23 @@ def solve_gap(case: GapCase) -> GapFilm:
 
 def _solved(case: GapCase) -> GapFilm:
     pump = case.rotor.pump
+    cells = gap_cells(case)
     match case.instant:
         case PistonInstant(state, load, position, balance):
-            piston = PistonGap(piston_geometry(pump))
+            piston = PistonGap(piston_geometry(pump), cells)
             return piston.balanced(state, load, position) if balance else piston.at(state, load, position)
         case SlipperInstant(state, load, position, balance):
-            slipper = SlipperGap(slipper_geometry(pump))
+            slipper = SlipperGap(slipper_geometry(pump), cells)
             return slipper.balanced(state, load, position) if balance else slipper.at(state, load, position)
         case ValvePlateInstant(state, pressing_force, position):
-            return ValvePlateGap(valve_plate_geometry(pump)).at(state, position, pressing_force).gap
+            return ValvePlateGap(valve_plate_geometry(pump), cells).at(state, position, pressing_force).gap
+
+
+def gap_cells(case: GapCase) -> tuple[int, int]:
+    """The counts of cells that the gap's mesh is made of: the usual ones, times `case.finer`."""
+    gap = {Gap.PISTON: PistonGap, Gap.SLIPPER: SlipperGap, Gap.VALVE_PLATE: ValvePlateGap}[case.gap]
+    first, second = signature(gap).parameters["cells"].default
+    return first * case.finer, second * case.finer
 
 
 def true_place(case: GapCase) -> Callable[[Array], Array]:

@@ -18,6 +18,7 @@ EFFORT = (
 _FAMILIES = {
     "moment": "moment",
     "friction_force": "friction",
+    "friction_torque": "torque",
     "flow": "flow",
     "leakage": "flow",
     "cavity_flow": "flow",
@@ -63,7 +64,7 @@ def titled(key: str) -> str:
 def sizes(numbers: Mapping[str, float], least: Mapping[str, float]) -> dict[str, float]:
     """The size of each number for rounding: the largest of its family, and at least what `least` says of it.
 
-    Families: `moment`, `friction` (all forces), `flow` (of all boundaries); any other number is its own.
+    Families: `moment`, `friction` (all forces), `torque`, `flow` (of all boundaries); any other number is its own.
     """
     largest = dict(least)
     for key, value in numbers.items():

@@ -185,7 +185,7 @@ def test_ctrl_c_ends_with_130_and_keeps_what_is_done(monkeypatch, capsys):
         raise KeyboardInterrupt
 
     with monkeypatch.context() as during:
-        during.setattr(film_run, "film_dataset", stopped)
+        during.setattr(film_run, "fields_over_time", stopped)
         assert main(["film", "pad.toml"]) == 130
     text = capsys.readouterr().err
     assert "runs/pad-1.partial" in text

@@ -7,6 +7,7 @@ from pathlib import Path
 import meshio
 import numpy as np
 import pytest
+import xarray
 
 from reynolds.density import DOWSON_HIGGINSON, BulkModulus, RationalDensity, Tait
 from reynolds.film import Cavitation
@@ -14,6 +15,7 @@ from reynolds.transport import lumped
 from reynolds.viscosity import Barus, Roelands
 from swashfilm.__main__ import main
 from swashfilm.film_case import FilmCase, load_case
+from swashfilm.film_in_time import fields_over_time
 from swashfilm.film_study import film_summary, solve_case
 from system.faults import InputFaults
 
@@ -198,6 +200,21 @@ def test_a_transient_leaves_its_films_and_its_history(tmp_path, monkeypatch):
     summary = json.loads(Path("run/summary.json").read_text("utf-8"))
     assert summary["time_steps"] == 4
     assert summary["mass_balance_error_of_time"] < 1e-9
+    with xarray.open_dataset("run/results.nc", engine="h5netcdf") as fields:
+        np.testing.assert_allclose(fields["time"], [2e-3, 4e-3])
+        assert fields["film_pressure"].dims == ("time", "vertex")
+        assert fields["cells"].dims == ("cell", "corner")
+        np.testing.assert_allclose(fields["film_thickness"].isel(vertex=0), [9.6e-6, 9.2e-6])
+
+
+def test_a_long_series_is_thinned_and_told(read, monkeypatch):
+    from swashfilm import film_warnings
+
+    study = solve_case(read(GIVEN + TIME))
+    films = 4 * film_warnings.MOST_FIELDS * 8 * len(study.solution.problem.space.vertices)
+    monkeypatch.setattr(film_warnings, "MOST_BYTES", films / 2)
+    np.testing.assert_allclose(fields_over_time(study)["time"], [2e-3, 4e-3])
+    assert "results_thinned" in {warning["name"] for warning in film_summary(study)["warnings"]}
 
 
 def test_fields_of_every_switch_are_written(tmp_path):

@@ -147,11 +147,18 @@ def test_a_wrong_number_of_meshes_is_told(words, told, tmp_path, capsys):
         assert word in text, text
 
 
-def test_what_cannot_be_refined_is_told(tmp_path, capsys):
+def test_a_gap_of_a_pump_has_finer_meshes_too(tmp_path):
     path = tmp_path / "gap.toml"
-    path.write_text('format = 1\n[film]\ngap = "slipper"\npump = "ref90"\n', encoding="utf-8")
-    assert main(["film", str(path), "--refine", "2"]) == 2
-    assert "a free film" in capsys.readouterr().err
+    text = 'format = 1\n[film]\ngap = "slipper"\npump = "ref90"\n[position]\nfilm_thickness = "9 um"\n'
+    path.write_text(text + 'slope_x = "0.01 deg"\n', encoding="utf-8")
+    assert main(["film", str(path), "--refine", "3", "-o", str(tmp_path / "run")]) == 0
+    found = json.loads((tmp_path / "run" / "summary.json").read_text("utf-8"))["refinement"]
+    assert found["dofs"] == [577, 2305, 9217]
+    assert found["numbers"]["load_N"]["order"] == pytest.approx(2.0, abs=0.1)
+
+
+def test_what_cannot_be_refined_is_told(tmp_path, capsys):
+    path = tmp_path / "fine.toml"
     path.write_text(SLIDER.replace("[16, 2]", "[400, 200]"), encoding="utf-8")
     assert main(["film", str(path), "--refine", "5"]) == 2
     assert "at most 10000000 cells" in capsys.readouterr().err
