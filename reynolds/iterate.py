@@ -124,6 +124,9 @@ def with_pockets(setting: Setting, at: Iterate) -> tuple[Array, Array]:
     rest, gain = at.balance.copy(), np.zeros(len(at.balance))
     for node, pocket in setting.pockets:
         inflow, slope = pocket.feed(at.state.pressure[node])
+        if not (np.isfinite(inflow) and np.isfinite(slope)):
+            found = f"{inflow:g} m3/s, slope {slope:g}, at {at.state.pressure[node]:.4g} Pa"
+            raise FilmInputError("feed of a pocket", found, "finite numbers at any pressure")
         rest[node] -= inflow
         gain[node] = -slope
     return rest, gain

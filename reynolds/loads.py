@@ -28,8 +28,8 @@ class Loads:
     swallow (-), else zero; film_fraction_min, cavitated_area_fraction; mass_balance_error =
     |out + squeeze - cavity|, relative to the flow through the boundaries or the flows within the film, whichever
     are larger; energy_balance_error likewise relative to the dissipation, the walls' or the flows' power:
-    round-off between smooth walls; with rough ones what the pressure's push on their asperities is, which the
-    shear stress factors leave out.
+    round-off between smooth walls and with oil of constant density; else what is left out: the pressure's push on
+    asperities, by the shear stress factors, and the work of compression.
     """
 
     load: float

@@ -62,7 +62,14 @@ def rectangle(
     periodic_x: bool = False,
     periodic_y: bool = False,
 ) -> FilmMesh:
-    """A regular nx x ny mesh of [x0, x0+Lx] x [y0, y0+Ly] with boundaries left, right, bottom, top (m)."""
+    """A regular nx x ny mesh of [x0, x0+Lx] x [y0, y0+Ly] with boundaries left, right, bottom, top (m).
+
+    Raises FilmInputError for a size that is not positive or fewer than one cell each way.
+    """
+    if not all(0.0 < length < np.inf for length in size):
+        raise FilmInputError("rectangle, size", f"{size[0]:g} x {size[1]:g} m", "positive lengths")
+    if min(cells) < 1:
+        raise FilmInputError("rectangle, cells", f"{cells[0]} x {cells[1]}", "at least one each way")
     x = origin[0] + np.linspace(0.0, size[0], cells[0] + 1)
     y = origin[1] + np.linspace(0.0, size[1], cells[1] + 1)
     mesh = MESH_CLASSES[cell].init_tensor(x, y)
@@ -86,7 +93,12 @@ def annulus(
     *,
     cell: Cell = Cell.QUADRILATERAL,
 ) -> FilmMesh:
-    """A full ring about the origin, cells = (radial, circumferential), boundaries inner and outer (m)."""
+    """A full ring about the origin, cells = (radial, circumferential), boundaries inner and outer (m).
+
+    Raises FilmInputError as `ring`, and where there is no radial cell.
+    """
+    if cells[0] < 1:
+        raise FilmInputError("ring, radial cells", f"{cells[0]}", "at least one")
     return ring(np.linspace(inner_radius, outer_radius, cells[0] + 1), cells[1], cell=cell)
 
 
@@ -96,8 +108,13 @@ def ring(
     """A full ring with given radial lines (m) and `around` equal sectors; boundaries inner and outer.
 
     `keep` (radial cells x sectors) leaves cells out: each hole that arises is a boundary of its own, named
-    hole_0, hole_1, ... in the order of the angle of its centre.
+    hole_0, hole_1, ... in the order of the angle of its centre. Raises FilmInputError for radii that do not rise
+    from above zero and for fewer than three sectors.
     """
+    if not (radii[0] > 0.0 and np.isfinite(radii).all() and (np.diff(radii) > 0.0).all()):
+        raise FilmInputError("ring, radii", f"{radii[0]:g} .. {radii[-1]:g} m", "rising, from above zero")
+    if around < 3:
+        raise FilmInputError("ring, sectors", f"{around}", "at least three")
     radial = len(radii) - 1
     angle = 2.0 * np.pi * np.arange(around) / around
     points = np.vstack(

@@ -26,7 +26,8 @@ def check_pressures(problem: FilmProblem) -> None:
     """Raise FilmInputError where no pressure is solved for.
 
     That is where a boundary is not of the mesh, where a piece of the film has no pressure level, where a boundary
-    lies below cavitation pressure, or where one filled in part lies above it.
+    lies below cavitation pressure, or where one filled in part lies above it; and where a pocket touches another
+    one or a held boundary, so that its pressure is not its own.
     """
     spread(problem)
 
@@ -56,12 +57,21 @@ def spread(problem: FilmProblem) -> Setting:
         pressure[more], fraction[more], held[more] = problem.held_nodes[more], 1.0, True
     if not np.isfinite(pressure).all():
         raise FilmInputError("boundary", "a pressure that is not finite", "a number of Pa")
+    _check_apart(held, pockets)
     _check_level(problem, held, pockets, level)
     if cavitates and (low := pressure[held].min(initial=np.inf)) < level:
         raise FilmInputError(
             "boundary", f"pressure {low:.4g} Pa", f"at least the cavitation pressure {level:.4g} Pa"
         )
     return Setting(pressure, fraction, held, tuple(pockets))
+
+
+def _check_apart(held: NDArray[np.bool_], pockets: list[tuple[int, Pocket]]) -> None:
+    nodes = [node for node, _ in pockets]
+    if held[nodes].any():
+        raise FilmInputError("boundary", "a pocket that touches a held pressure", "film between them")
+    if len(set(nodes)) < len(nodes):
+        raise FilmInputError("boundary", "pockets that touch each other", "one pocket, or film between them")
 
 
 def _check_fraction(name: str, condition: Held, problem: FilmProblem) -> None:

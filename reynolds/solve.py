@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from reynolds.balance import holds, mixing, positive_share, swallowed
 from reynolds.cascade import COARSEST, nested_cavity
 from reynolds.errors import FilmInputError, FilmNotConverged
-from reynolds.film import Cavitation, FilmProblem, FilmSolution
+from reynolds.film import LEAST_FRACTION, Cavitation, FilmProblem, FilmSolution
 from reynolds.fluid import CONSTANT
 from reynolds.grid import grid_of
 from reynolds.iterate import Iterate, advanced, imbalance_of, is_linear, iterate_of, opened
@@ -46,10 +46,13 @@ class FilmSolver:
         """The film of `problem`; `start` warms pressures, film fractions and cavity.
 
         Afterwards every free unknown's flow balance holds to 1e-9 of the flows meeting there. Raises
-        FilmInputError as `check_pressures` does, and FilmNotConverged when that is not reached.
+        FilmInputError as `check_pressures` does and for a `start` or a problem of another mesh, and
+        FilmNotConverged when that is not reached or a cavity would have to give more oil than reaches it.
         """
         if problem.space.pattern is not self._pattern:
             raise FilmInputError("space", "another mesh", "the space of this solver, moved or not")
+        if start is not None and len(start.pressure) != problem.space.size:
+            raise FilmInputError("start", "a film of another mesh", "one of the space of this solver")
         if start is None and (simpler := _simpler(problem)) is not None:
             try:
                 return self._solved(problem, self.solve(simpler))
@@ -71,6 +74,7 @@ class FilmSolver:
             imbalance = imbalance_of(problem, setting, at)
             path.append(imbalance)
             if (settled and imbalance < ROUND_OFF) or (imbalance < TOLERANCE and near):
+                _check_filled(at)
                 return _solution(problem, setting, at, path)
             # One more step brings the balance to round-off. Under JFO an unknown next to zero may change sides for
             # ever: either side is the solution.
@@ -127,6 +131,15 @@ def _not_settled(problem: FilmProblem, at: Iterate, imbalance: float) -> FilmNot
             "Delaunay triangles or rectangular cells, on which no pressure overshoots",
         )
     return FilmNotConverged(what, "a finer mesh, or a film that changes less from cell to cell")
+
+
+def _check_filled(at: Iterate) -> None:
+    """Upwinding leaves no film fraction below zero, unless more is drawn out of a cavity than flows into it."""
+    if (least := float(at.state.film_fraction.min())) < LEAST_FRACTION:
+        raise FilmNotConverged(
+            f"more oil drawn from a cavity than flows into it (film fraction {least:.3g})",
+            "pockets that draw less, or a mesh without obtuse angles",
+        )
 
 
 def _check_degree(problem: FilmProblem, cavity: NDArray[np.bool_]) -> None:

@@ -190,7 +190,11 @@ class FilmSpace:
         return total / np.maximum(np.bincount(numbers.ravel(), minlength=size), 1)
 
     def moved(self, vertices: Array) -> FilmSpace:
-        """The same topology and pattern with other vertex coordinates (m)."""
+        """The same topology and pattern with other vertex coordinates, (vertices, 2) m; else FilmInputError."""
+        if np.shape(vertices) != self.vertices.shape or not np.isfinite(vertices).all():
+            raise FilmInputError(
+                "moved vertices", f"an array of shape {np.shape(vertices)}", "a place for each vertex"
+            )
         return replace(self, vertices=np.ascontiguousarray(vertices))
 
     def matrix(self, data: Array) -> csc_array:
@@ -202,10 +206,13 @@ def film_space(film_mesh: FilmMesh, *, degree: int = 1, pockets: Iterable[str] =
     """The discrete film on a mesh: P1/Q1 (degree 1) or P2/Q2 (degree 2).
 
     Afterwards seams are sewn (both sides carry the same unknowns) and each boundary named in `pockets` is one
-    unknown: a pocket, groove or chamber of uniform pressure. Raises FilmInputError when a seam's sides do not
-    match under a translation or a pocket's name is not in the mesh.
+    unknown: a pocket, groove or chamber of uniform pressure. Raises FilmInputError for another degree or mesh, when
+    a seam's sides do not match under a translation and when a pocket's name is not in the mesh.
     """
     mesh = film_mesh.mesh
+    if (type(mesh), degree) not in _ELEMENTS:
+        found = f"degree {degree} on a {type(mesh).__name__}"
+        raise FilmInputError("film_space", found, "degree 1 or 2 on MeshTri or MeshQuad of straight cells")
     element, order = _ELEMENTS[type(mesh), degree]
     # The numbering is what is wanted: the basis itself is tabulated in one element only.
     dofs = skfem.Basis(mesh, element, intorder=order, elements=np.array([0]))

@@ -95,7 +95,10 @@ def march_with(
 def oil_held(problem: FilmProblem, film_fraction: float | Array = 1.0) -> Array:
     """What each unknown of a film holds at given film fractions (size,): m3 at reference density, (size,)."""
     setting = spread(problem)
-    fraction = np.broadcast_to(np.asarray(film_fraction, dtype=float), (problem.space.size,))
+    fraction = np.asarray(film_fraction, dtype=float)
+    if fraction.shape not in ((), (problem.space.size,)):
+        raise FilmInputError("film fraction", f"an array of shape {fraction.shape}", f"({problem.space.size},)")
+    fraction = np.broadcast_to(fraction, (problem.space.size,))
     if not np.all((fraction >= 0.0) & (fraction <= 1.0)):
         raise FilmInputError("film fraction", f"{fraction.min():g} .. {fraction.max():g}", "0 to 1")
     state = State(setting.pressure, fraction, opening(problem, setting.pressure))
