@@ -75,19 +75,28 @@ def march_with(
 
     Solves d(theta r h)/dt + div q = 0 with `problem_at(t)` the film at time t, without storage: its thickness,
     wall speeds and boundary pressures; its squeeze is not used. `held` (size,) m3 is what the unknowns hold at
-    `start`; None: a full film. A step on which the film does not settle is cut in two, each half yielded.
-    Raises FilmInputError for an end or step that leads nowhere, FilmNotConverged where no step is short enough.
+    `start`; None: a full film at its lowest pressure. A step on which the film does not settle is cut in two, each
+    half yielded. Raises FilmInputError for an end or step that leads nowhere and for a mesh that moves, whose motion
+    would carry oil too; FilmNotConverged where no step is short enough.
     """
     if not (np.isfinite(end) and end > start):
         raise FilmInputError("time, end", f"{end:g} s", f"after the start, {start:g} s")
     if not (np.isfinite(step) and step > 0.0):
         raise FilmInputError("time, step", f"{step:g} s", "above zero")
     count = max(1, int(np.ceil((end - start) / step * (1.0 - 1e-9))))
-    before = oil_held(problem_at(start)) if held is None else held
+    first = problem_at(start)
+    before = oil_held(first) if held is None else held
     last: Solved | None = None
+
+    def still(time: float) -> FilmProblem:
+        problem = problem_at(time)
+        if not np.array_equal(problem.space.vertices, first.space.vertices):
+            raise FilmInputError(f"mesh at {time:g} s", "vertices that have moved", "those of the start")
+        return problem
+
     for number in range(count):
         begin, until = (start + (end - start) * k / count for k in (number, number + 1))
-        for instant in _stepped(solve, problem_at, before, last, begin, until):
+        for instant in _stepped(solve, still, before, last, begin, until):
             before, last = instant.solution.holds, instant.solution
             yield instant
 

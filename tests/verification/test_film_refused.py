@@ -140,3 +140,13 @@ def test_what_a_march_starts_from_is_of_the_mesh():
         list(march(FilmSolver(SPACE), lambda t: problem, 1e-3, 1e-3, held=np.zeros(1)))
     with pytest.raises(FilmInputError, match="film fraction"):
         oil_held(problem, np.ones(3))
+
+
+def test_a_march_on_a_mesh_that_moves():
+    """Its motion would carry oil through the film's edges, which no term counts."""
+
+    def at(time: float) -> FilmProblem:
+        return FilmProblem(SPACE.moved(SPACE.vertices * (1.0 + time)), film(1e-5, 0.03), EDGES)
+
+    with pytest.raises(FilmInputError, match="have moved"):
+        list(march(FilmSolver(SPACE), at, 1e-3, 1e-3))
