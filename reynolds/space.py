@@ -206,8 +206,8 @@ def film_space(film_mesh: FilmMesh, *, degree: int = 1, pockets: Iterable[str] =
     """The discrete film on a mesh: P1/Q1 (degree 1) or P2/Q2 (degree 2).
 
     Afterwards seams are sewn (both sides carry the same unknowns) and each boundary named in `pockets` is one
-    unknown: a pocket, groove or chamber of uniform pressure. Raises FilmInputError for another degree or mesh, a seam
-    whose sides do not match under a translation and a pocket whose name is not in the mesh.
+    unknown: a pocket, groove or chamber of uniform pressure. Raises FilmInputError for another degree or mesh, a
+    seam whose sides do not match under a translation and a pocket whose name is not in the mesh.
     """
     mesh = film_mesh.mesh
     if (type(mesh), degree) not in _ELEMENTS:

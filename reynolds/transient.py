@@ -76,8 +76,8 @@ def march_with(
     Solves d(theta r h)/dt + div q = 0 with `problem_at(t)` the film at time t, without storage: its thickness,
     wall speeds and boundary pressures; its squeeze is not used. `held` (size,) m3 is what the unknowns hold at
     `start`; None: a full film at its lowest pressure. A step on which the film does not settle is cut in two, each
-    half yielded. Raises FilmInputError for an end or step that leads nowhere and for a mesh that moves, whose motion
-    would carry oil too; FilmNotConverged where no step is short enough.
+    half yielded. Raises FilmInputError for an end or step that leads nowhere and for a mesh that moves, since its
+    motion would carry oil too; FilmNotConverged where no step is short enough.
     """
     if not (np.isfinite(end) and end > start):
         raise FilmInputError("time, end", f"{end:g} s", f"after the start, {start:g} s")
