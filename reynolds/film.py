@@ -65,8 +65,8 @@ def no_feed(pressure: float) -> tuple[float, float]:
 Boundary = Held | Pocket
 
 
-LEAST_FRACTION = -1e-6
-"""Round-off of a film fraction: one further below zero is no film."""
+LEAST_FRACTION = -0.01
+"""Film fraction that cells with obtuse angles may overshoot to; one further below zero is no film."""
 
 ZERO = np.zeros((1, 1))
 HALF = np.full((1, 1), 0.5)

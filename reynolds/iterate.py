@@ -114,6 +114,9 @@ def imbalance_of(problem: FilmProblem, setting: Setting, at: Iterate) -> float:
         free &= ~at.cavity
     rest, slope = with_pockets(setting, at)
     size = at.size + np.abs(at.balance - rest) + kernels.ROUNDING * np.abs(slope * at.state.pressure)
+    if problem.cavitation is Cavitation.JFO and at.cavity.any():
+        # A film fraction next to zero is one less nearly one: to the last place of one.
+        size = size + np.where(at.cavity, kernels.ROUNDING * _carried(problem, at), 0.0)
     # Round-off of a solve is that of its largest flows: where next to nothing flows it is all there is.
     scale = np.maximum(size + kernels.ROUNDING * size.max(initial=0.0), 1e-300)
     return float(np.max(np.abs(rest[free]) / scale[free], initial=0.0))
@@ -134,9 +137,14 @@ def with_pockets(setting: Setting, at: Iterate) -> tuple[Array, Array]:
 
 def stiffness_of_lack(problem: FilmProblem, at: Iterate) -> Array:
     """Pressure that moves as much oil out of an unknown as its film fraction does, (size,) Pa."""
-    carried = diagonal(problem, at.parts.convection[0] + at.parts.diffusion) + np.maximum(at.parts.rate, 0.0)
+    carried = _carried(problem, at)
     stiff = diagonal(problem, at.parts.stiffness)
     return np.maximum(carried, NOTHING * carried.max() + 1e-300) / np.where(stiff > 0.0, stiff, 1.0)
+
+
+def _carried(problem: FilmProblem, at: Iterate) -> Array:
+    """Oil that leaves or stays at an unknown filled to the brim, (size,) m3/s."""
+    return diagonal(problem, at.parts.convection[0] + at.parts.diffusion) + np.maximum(at.parts.rate, 0.0)
 
 
 def diagonal(problem: FilmProblem, upper: Array) -> Array:

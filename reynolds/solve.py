@@ -134,7 +134,7 @@ def _not_settled(problem: FilmProblem, at: Iterate, imbalance: float) -> FilmNot
 
 
 def _check_filled(at: Iterate) -> None:
-    """Upwinding leaves no film fraction below zero, unless more is drawn out of a cavity than flows into it."""
+    """Fault a cavity drawn dry: upwinding alone leaves no film fraction below zero, obtuse angles leave little."""
     if (least := float(at.state.film_fraction.min())) < LEAST_FRACTION:
         raise FilmNotConverged(
             f"more oil drawn from a cavity than flows into it (film fraction {least:.3g})",

@@ -141,3 +141,19 @@ def test_meshes_that_overshoot_are_named(monkeypatch):
     space = SPACES["slivers"]
     with pytest.raises(FilmNotConverged, match=r"couplings are positive.*Delaunay triangles"):
         FilmSolver(space).solve(_problem(space, 1142, JUMP, True, True))
+
+
+@pytest.mark.parametrize(("speed", "tilt"), [((0.5, -0.5), 0.1), ((1.0, -1.1), 0.2)])
+def test_a_film_next_to_dry_settles(speed, tilt):
+    """Fed by nothing but what mixing draws from its outlet: film fractions down to the last place of one."""
+    space = film_space(rectangle((SIZE, SIZE), (30, 30)))
+    thickness = space.sample(
+        lambda x, y: THICKNESS * (
+            1.0 + tilt * (x / SIZE - 0.5) + 0.1 * np.sin(4.0 * np.pi * x / SIZE) * np.cos(4.0 * np.pi * y / SIZE)
+        )
+    )  # fmt: skip
+    walls = (np.full((1, 1), speed[0]), np.full((1, 1), speed[1]))
+    posed = film(thickness, VISCOSITY, velocity_moving=walls)
+    solution = FilmSolver(space).solve(FilmProblem(space, posed, {"right": Held(0.0, 0.4)}))
+    _assert_sound(solution, monotone=True)
+    assert solution.film_fraction[~solution.held].min() < 1e-12
