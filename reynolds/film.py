@@ -119,7 +119,13 @@ def film(
     velocity_fixed: tuple[Array, Array] = (ZERO, ZERO),
     squeeze: Array = ZERO,
 ) -> Film:
-    """A film with its fields checked: raises FilmInputError where thickness or viscosity is not positive."""
+    """A film with its fields checked.
+
+    Thickness (m) and viscosity (Pa s) are numbers or arrays as `Film` has them. Raises FilmInputError where one is
+    not positive, or an array of one axis, which could be cells or points.
+    """
+    if 1 in (np.ndim(thickness), np.ndim(viscosity)):
+        raise FilmInputError("film", "an array of one axis", "a number, or (1 | cells, 1 | points)")
     thickness, mu = (np.atleast_2d(np.asarray(field, dtype=float)) for field in (thickness, viscosity))
     for name, values, unit in (("film thickness", thickness, "m"), ("viscosity", mu, "Pa s")):
         if not np.all(np.isfinite(values)) or values.min() <= 0.0:

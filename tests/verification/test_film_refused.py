@@ -76,6 +76,12 @@ def test_problems_that_mean_nothing(changed, words):
         replace(FilmProblem(SPACE, CLOSING, EDGES), **changed)
 
 
+def test_a_field_of_one_axis():
+    """Three points a triangle: three numbers would pass for them."""
+    with pytest.raises(FilmInputError, match="one axis"):
+        film(np.full(3, 1e-5), 0.03)
+
+
 def test_a_space_that_is_none():
     with pytest.raises(FilmInputError, match="degree 3"):
         film_space(rectangle((0.01, 0.01), (2, 2)), degree=3)
