@@ -43,7 +43,7 @@ def _entry(entry: Table, reader: FieldReader, level: float | None) -> BoundarySt
     if fraction is not None and not 0.0 < fraction <= 1.0:
         entry.fault("film_fraction", repr(fraction), "above 0 (dry), at most 1 (flooded)")
         fraction = None
-    starved = fraction is not None and fraction < 1.0
+    starved = fraction is None or fraction < 1.0
     pressure = _pressure(entry, reader, level if starved else None)
     temperature = entry.positive("temperature", Dimension.TEMPERATURE) if entry.get("temperature") else None
     entry.close()

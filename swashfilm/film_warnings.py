@@ -6,9 +6,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from reynolds.contact import lambda_ratio
+from reynolds.contact import boundary_shear, contact_pressure, lambda_ratio
 from reynolds.film import Cavitation, FilmProblem, FilmSolution
 from reynolds.fluid import isoviscous
+from reynolds.loads import dissipated
 from reynolds.roughness import beyond_range
 from swashfilm.gap_study import gap_warnings
 
@@ -19,6 +20,10 @@ LARGEST_CAVITY_FLOW = 0.01  # of the throughput; Reynolds' condition makes or sw
 LARGEST_THICKNESS_RATIO = 0.05  # of the film's extent; beyond, flow across the film counts
 MOST_BYTES = 200e6  # of the fields of a transient in results.nc
 MOST_FIELDS = 11  # at vertices and in cells
+LARGEST_RISE = 10.0  # K; an oil is a quarter to a third thinner there
+HOTTEST = 393.15  # K (120 degC), from which mineral oils age within hours
+HEAT_CAPACITY = 1.7e6  # J/(m3 K), of mineral oils
+CONDUCTIVITY = 0.13  # W/(m K), of mineral oils
 LEAST_LAMBDA = 1.0  # h/sigma; below, contacts carry most of the load
 LARGEST_ISOVISCOUS_PRESSURE = 50e6  # Pa; a mineral oil is some three times as thick there
 
@@ -56,7 +61,56 @@ def film_warnings(study: FilmStudy) -> list[dict[str, str]]:
                 f"{problem.cavitation_pressure:.4g} Pa: oil would cavitate; choose cavitation = 'reynolds'",
             }
         )
-    return found + _rough_warnings(study.solution) + _pressure_warnings(study) + _size_warnings(study)
+    return (
+        found
+        + _rough_warnings(study.solution)
+        + _pressure_warnings(study)
+        + _heat_warnings(study)
+        + _size_warnings(study)
+    )
+
+
+def _heat_warnings(study: FilmStudy) -> list[dict[str, str]]:
+    """A film at one temperature that its own heat would warm, and one too hot for oil."""
+    if study.heat is not None:
+        hottest = float(study.heat.temperature.max())
+        text = (
+            f"the film reaches {hottest - 273.15:.0f} degC (limit {HOTTEST - 273.15:.0f} degC for mineral oils, "
+            "which age quickly beyond): more oil through the film, a thicker film, or walls that take more heat"
+        )
+        return [{"name": "film_hot", "text": text}] if hottest > HOTTEST else []
+    if study.gap or study.history or (rise := _least_rise(study)) <= LARGEST_RISE:
+        return []
+    text = (
+        f"the film's heat warms it by some {rise:.3g} K even between walls that stay cold (limit "
+        f"{LARGEST_RISE:g} K for one temperature): the oil is much thinner there; a table [thermal]"
+    )
+    return [{"name": "temperature_not_solved", "text": text}]
+
+
+def _least_rise(study: FilmStudy) -> float:
+    """Mean rise (K) of the film's oil by its heat, where both the flow and walls that stay cold carry it away.
+
+    The flow alone: heat/(rho c Q); the walls alone: heat per area x h/(12 k), that of a parabola across the film.
+    """
+    solution = study.solution
+    area, film = solution.problem.space.area, solution.film
+    driven, sliding = dissipated(solution)
+    heat = float(np.sum(driven + sliding)) - _rubbing(solution)
+    mean = float(np.sum(film.thickness * area)) / float(area.sum())
+    by_flow = HEAT_CAPACITY * study.loads.throughput
+    by_walls = 12.0 * CONDUCTIVITY * float(area.sum()) / mean
+    return heat / (by_flow + by_walls)
+
+
+def _rubbing(solution: FilmSolution) -> float:
+    """Heat of the contacts, W, which goes into the walls."""
+    asperities, film = solution.problem.asperities, solution.film
+    if asperities is None:
+        return 0.0
+    (u1, v1), (u2, v2) = film.velocity_moving, film.velocity_fixed
+    sheared = boundary_shear(asperities, contact_pressure(asperities, film.thickness).value).value
+    return float(np.sum(sheared * np.hypot(u1 - u2, v1 - v2) * solution.problem.space.area))
 
 
 def thinned_by(study: FilmStudy) -> int:

@@ -11,6 +11,8 @@ _MOMENTS = ("moment_x", "moment_y")
 
 def read_load(top: Table, film: Table) -> RigidLoad | None:
     """The load of a [film] table, SI; None where there is none or, told, where it has a fault."""
+    if top.get("load") is not None:
+        top.fault("load", "a table [load] of a free film", "keys of [film]", 'load = "1 kN" in [film]')
     stated = [key for key in _MOMENTS if film.get(key) is not None]
     moments = {key: film.quantity(key, Dimension.TORQUE) for key in stated}
     if film.get("load") is None:

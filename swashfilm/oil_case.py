@@ -20,6 +20,11 @@ from system.faults import nearest_choice
 from system.units import Dimension, format_quantity
 
 _KINEMATIC = ("kinematic_viscosity_40C", "kinematic_viscosity_100C")
+_OF_LAWS = {
+    "pressure_law": ("pressure_viscosity_coefficient",),
+    "density_law": ("bulk_modulus", "density_pressure", "density_limit", "tait_modulus", "tait_slope"),
+    "shear_law": ("second_newtonian", "relaxation_time", "shear_exponent", "eyring_stress"),
+}
 
 
 class PressureLaw(Enum):
@@ -138,6 +143,7 @@ def read_oil(oil: Table, *, with_viscosity: bool, with_heat: bool) -> OilStateme
     faults = len(oil.faults)
     viscosity_law, density_law = _viscosity_law(rows), _density_law(rows, temperature)
     shear_law = _shear_law(rows)
+    _check_laws(oil)
     oil.close()
     missing = None in (density, temperature) if needs else False
     missing |= with_heat and None in (specific_heat, conductivity)
@@ -148,6 +154,16 @@ def read_oil(oil: Table, *, with_viscosity: bool, with_heat: bool) -> OilStateme
         tuple(rows.rows), kinematic, density, temperature, coefficient, specific_heat, conductivity, expansion,
         viscosity_law, density_law, shear_law,
     )  # fmt: skip
+
+
+def _check_laws(oil: Table) -> None:
+    """Fault constants of laws that the table does not name."""
+    for law, keys in _OF_LAWS.items():
+        for key in keys:
+            if key in oil.values and key not in oil.asked:
+                named = repr(oil.get(law)) if oil.get(law) is not None else "none"
+                oil.get(key)
+                oil.fault(key, f"a constant beside {law} = {named}", f"a {law} that has it")
 
 
 def oil_viscosity(oil: Table, stated: OilStatement) -> float | None:

@@ -198,12 +198,12 @@ def _unknown_constants(tables: Mapping[str, Any], axes: Sequence[Axis]) -> list[
     """Faults of varied constants that the case has not: nothing would come of them."""
     constants = tables.get("constants")
     known = [f"constants.{name}" for name in constants] if isinstance(constants, dict) else []
+    expected = f"one of {', '.join(known)}" if known else "a table [constants] that has it"
     return [
-        Fault(_named(axis.key), "no such constant", f"one of {', '.join(known) or 'a table [constants]'}",
-              nearest_choice(axis.key, known))
+        Fault(_named(axis.key), "no such constant", expected, nearest_choice(axis.key, known))
         for axis in axes
         if axis.key.startswith("constants.") and axis.key not in known
-    ]  # fmt: skip
+    ]
 
 
 def _check_size(table: Table, study: StudyCase) -> None:

@@ -111,6 +111,7 @@ def test_a_constant_is_a_key_of_a_study():
         ('"20 N"', '"-20 N"', "film.load", ["above zero"]),
         ('"20 N"', '"20 bar"', "film.load", ["not a force"]),
         ('load = "20 N"', 'moment_x = "1 N m"', "film.moment_x", ["without a load"]),
+        ("[boundary]", '[load]\nforce = "1 N"\n[boundary]', "load", ["in [film]"]),
         ('"20 N"', '"20 N"\nmoment_x = "1 N"', "film.moment_x", ["not a torque"]),
         ("[boundary]", '[time]\nend = "1 s"\nstep = "1 s"\n[boundary]', "film.load", ["[time]"]),
         ('"10 um"', '"10 umm"', "constants.rise", ["bare number", "unit"]),

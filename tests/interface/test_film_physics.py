@@ -225,6 +225,13 @@ def test_fields_of_every_switch_are_written(tmp_path):
         assert fields | {"x", "y", "film_pressure"} <= set(header.split(","))
 
 
+def test_a_film_that_warms_itself_is_told(read):
+    """Couette: heat mu U^2/h per area, and between cold walls a mean rise of mu U^2/(12 k): 0.02 K and 31 K."""
+    for speed, told in (("1 m/s", False), ("40 m/s", True)):
+        warnings = film_summary(solve_case(read(GIVEN.replace("1 m/s", speed))))["warnings"]
+        assert ("temperature_not_solved" in {warning["name"] for warning in warnings}) is told
+
+
 def test_a_film_hotter_than_its_oil_is_no_number(read):
     from reynolds.errors import FilmInputError
 
@@ -300,6 +307,7 @@ def test_a_warm_body_takes_the_heat_and_grows_into_the_film(read):
             GIVEN + '[oil]\ndensity_law = "tait"\ntait_modulus = "1 GPa"\ntait_slope = 0\n', "oil.tait_slope",
             ["above 0"],
         ),
+        (GIVEN + '[oil]\nrelaxation_time = "1 us"\n', "oil.relaxation_time", ["a shear_law that has it"]),
         (GIVEN + '[oil]\nshear_law = "carrot"\n', "oil.shear_law", ["'carrot'", "carreau"]),
         (GIVEN + '[oil]\nshear_law = "carreau"\n', "oil.relaxation_time", ["a time"]),
         (GIVEN + THINNING.replace("0.5", "1.5"), "oil.shear_exponent", ["0 to 1"]),
