@@ -62,6 +62,8 @@ def iterate_of(
 
 def iterate_at(problem: FilmProblem, setting: Setting, before: Iterate, signed: Array) -> Iterate:
     """The iterate that signed unknowns mean: each a pressure where positive, else a cavity."""
+    if not np.isfinite(signed).all():
+        raise FilmNotConverged("pressures that grow without bound", "stiffer walls, or a thicker film")
     level = problem.cavitation_pressure
     pressure, fraction = signed + level, np.ones_like(signed)
     cavity = np.zeros(len(signed), dtype=bool)

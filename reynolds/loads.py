@@ -196,7 +196,8 @@ def boundary_flows(solution: FilmSolution) -> dict[str, float]:
 
     A corner's Poiseuille flow is divided between the held boundaries that meet there by their length, its
     Couette flow by their direction. What a cavity that reaches the boundary draws is not a flow through the
-    boundary. A closed boundary's flow is zero by construction.
+    boundary. A closed boundary's flow is zero by construction; a second name of edges that have a condition under
+    their first one is left out.
     """
     return _edge_flows(solution)[0]
 
@@ -215,12 +216,20 @@ def _edge_flows(solution: FilmSolution) -> tuple[dict[str, float], float]:
     if solution.problem.cavitation is Cavitation.REYNOLDS:
         level = solution.held & (length > 0.0) & (solution.pressure <= solution.problem.cavitation_pressure)
         drawn[level] = np.minimum(rest[level], 0.0)
-    flows = dict.fromkeys(space.edge_dofs, 0.0)
+    flows = dict.fromkeys((name for name in space.edge_dofs if not _told_by_another(solution, name)), 0.0)
     for name, across in couette.items():
         nodes = space.edge_dofs[name]
         share = space.edge_share[name] / length[nodes]
         flows[name] = float(np.sum(across + (rest - drawn)[nodes] * share))
     return flows, float(drawn.sum())
+
+
+def _told_by_another(solution: FilmSolution, name: str) -> bool:
+    """Whether a boundary without a condition has edges of one that has: what passes there is that one's flow."""
+    boundaries, conditions = solution.problem.space.film_mesh.mesh.boundaries, solution.problem.boundary
+    return name not in conditions and any(
+        np.intersect1d(boundaries[name], boundaries[other]).size for other in conditions
+    )
 
 
 def _couette_through(solution: FilmSolution) -> dict[str, Array]:

@@ -172,6 +172,8 @@ def _lifting(problem: FilmProblem, setting: Setting) -> Array:
 
 
 def _solution(problem: FilmProblem, setting: Setting, at: Iterate, path: list[float]) -> FilmSolution:
+    # A cavity that is full of oil is a film whose pressure happens to be the cavity's.
+    full = (problem.cavitation is Cavitation.JFO) & (at.state.film_fraction > 1.0 - TOLERANCE)
     return FilmSolution(
         problem=problem,
         pressure=at.state.pressure,
@@ -185,6 +187,6 @@ def _solution(problem: FilmProblem, setting: Setting, at: Iterate, path: list[fl
         mixing=mixing(problem, at.parts, at.state),
         meeting=at.size,
         held=setting.held,
-        cavity=at.cavity,
+        cavity=at.cavity & ~full,
         path=tuple(path),
     )
