@@ -20,7 +20,7 @@ Choice = TypeVar("Choice", bound=Enum)
 def read_toml(path: Path) -> tuple[str, dict[str, Any]]:
     """The text of a TOML file and its tables; raises InputFaults for a file that is absent or no TOML."""
     try:
-        text = path.read_text("utf-8")
+        text = path.read_text("utf-8-sig")  # some editors put a byte order mark first
     except FileNotFoundError:
         beside = [item.name for item in path.parent.glob("*.toml")] if path.parent.is_dir() else []
         near = nearest_choice(path.name, beside)

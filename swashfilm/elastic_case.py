@@ -42,8 +42,18 @@ class ElasticStatement:
     def walls(self, space: FilmSpace) -> Walls:
         """All that gives way together; raises FilmInputError as `WallStatement.compliance`."""
         parts: list[Walls] = [] if self.stiffness is None else [winkler(space, self.stiffness)]
-        parts += [wall.compliance(space) for wall in (self.moving, self.fixed) if wall]
+        parts += [
+            _under(wall, key, space) for key, wall in (("moving", self.moving), ("fixed", self.fixed)) if wall
+        ]
         return reduce(both, parts)
+
+
+def _under(wall: WallStatement, key: str, space: FilmSpace) -> Walls:
+    """The wall as the film feels it; a fault is told at its table, `elastic.moving` or `elastic.fixed`."""
+    try:
+        return wall.compliance(space)
+    except FilmInputError as reason:
+        raise FilmInputError(f"elastic.{key}", f"{reason.where}: {reason.found}", reason.expected) from None
 
 
 def read_elastic(top: Table, mesh: CaseMesh | None, folder: Path) -> ElasticStatement | None:
@@ -81,7 +91,7 @@ def _wall(table: Table, key: str, mesh: CaseMesh | None, folder: Path) -> WallSt
 
 
 def _elastic(entry: Table) -> Elastic | None:
-    modulus, poisson = entry.positive("youngs_modulus", Dimension.MODULUS), entry.number("poissons_ratio")
+    modulus, poisson = entry.positive("youngs_modulus", Dimension.ELASTICITY), entry.number("poissons_ratio")
     if modulus is None or poisson is None:
         return None
     try:

@@ -123,7 +123,7 @@ def _stated(top: Table, film: Table, reader: FieldReader, order: int | None, fol
     check_bodies(top, thermal, elastic)
     rough = read_roughness(top)
     film.close()
-    _check_order(film, parts)
+    _check_order(film, parts, with_heat=top.get("thermal") is not None)
     check_boundaries(top, reader, parts["boundary"], parts["cavitation"], parts["cavitation_pressure"])
     _check_tables(top, film, oil, viscosity)
     if None in parts.values() or len(top.faults) > faults:
@@ -168,14 +168,15 @@ def _check_tables(top: Table, film: Table, oil: OilStatement | None, viscosity: 
         top.fault("thermal", "no table [oil]", "its density, temperature, specific heat and thermal conductivity")
     if oil is None or oil.kinematic is not None:
         return
-    if not oil.temperature_coefficient:
+    table = top.get("oil")
+    if "temperature_coefficient" not in table:
         expected = "how the viscosity falls with temperature ('0.03 1/K'), or a grade in place of film.viscosity"
         top.fault("oil.temperature_coefficient", "no such key", expected)
     if viscosity is not None and not isinstance(viscosity, Uniform):
         film.fault("viscosity", f"'{viscosity}' with a table [thermal]", "one viscosity, at the oil's temperature")
 
 
-def _check_order(film: Table, parts: Mapping[str, Any]) -> None:
+def _check_order(film: Table, parts: Mapping[str, Any], *, with_heat: bool) -> None:
     cavitation = parts["cavitation"]
     if parts["order"] == 2 and cavitation not in (None, Cavitation.NONE):
         film.fault(
@@ -183,3 +184,5 @@ def _check_order(film: Table, parts: Mapping[str, Any]) -> None:
             f"2 with cavitation '{cavitation.value}'" + ("" if "cavitation" in film.values else " (the default)"),
             "order = 1, or cavitation = 'none' (quadratic pressure is for full films only)",
         )
+    elif parts["order"] == 2 and with_heat:
+        film.fault("order", "2 with a table [thermal]", "order = 1, with which the film's heat is carried")

@@ -58,7 +58,7 @@ def film_warnings(study: FilmStudy) -> list[dict[str, str]]:
             {
                 "name": "pressure_below_cavitation",
                 "text": f"the film is pulled down to {lowest:.4g} Pa, below its cavitation pressure "
-                f"{problem.cavitation_pressure:.4g} Pa: oil would cavitate; choose cavitation = 'reynolds'",
+                f"{problem.cavitation_pressure:.4g} Pa: oil would cavitate; choose cavitation = 'jfo'",
             }
         )
     return (

@@ -175,7 +175,7 @@ def oil_viscosity(oil: Table, stated: OilStatement) -> float | None:
         # A film at one temperature asks neither bulk modulus nor specific heat: ones stand for them.
         return dynamic_viscosity(Oil(*stated.kinematic, stated.density, 1.0, 1.0), stated.temperature)
     except FilmInputError as reason:
-        oil.fault("temperature", str(reason), "an oil and a temperature for which Walther's law holds")
+        oil.fault("temperature", reason.found, f"{reason.expected} of {reason.where}")
         return None
 
 

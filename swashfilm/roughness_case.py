@@ -42,12 +42,18 @@ def _surface(table: Table) -> tuple[Surface | None, list[str]]:
         # One wall's roughness or the other's: the flow factors need to know whose; half of the variance each.
         composite = table.positive("composite", Dimension.LENGTH)
         moving = fixed = None if composite is None else composite / 2.0**0.5
+        for wall in ("moving", "fixed"):
+            if table.get(wall) is not None:
+                table.fault(wall, "a wall's height beside composite", "composite, or moving and fixed")
     else:
         moving, fixed = (_height(table, wall) for wall in ("moving", "fixed"))
     gammas = [table.number(f"peklenik_{wall}", table.number("peklenik", 1.0)) for wall in ("moving", "fixed")]
     lay = table.quantity("lay_angle", Dimension.ANGLE, 0.0)
     table.close()
     if moving is None or fixed is None or None in gammas or lay is None:
+        return None, []
+    if moving == fixed == 0.0:
+        table.fault("moving", "two smooth walls", "moving or fixed above 0, or no table [roughness]")
         return None, []
     try:
         surface = Surface(moving, fixed, float(gammas[0] or 0.0), float(gammas[1] or 0.0), lay)
@@ -99,7 +105,7 @@ def _asperities(table: Table, surface: Surface) -> tuple[Asperities | None, list
         ("asperity_density", density, Dimension.AREAL_DENSITY),
         ("asperity_radius", radius, Dimension.LENGTH),
         ("asperity_height", height, Dimension.LENGTH),
-        ("composite_modulus", modulus, Dimension.MODULUS),
+        ("composite_modulus", modulus, Dimension.ELASTICITY),
         ("summit_height", summit, Dimension.LENGTH),
     ):
         rows.append(f'{key} = "{format_quantity(value, dimension)}"')
@@ -109,10 +115,10 @@ def _asperities(table: Table, surface: Surface) -> tuple[Asperities | None, list
 def _modulus(table: Table) -> float | None:
     """E' of both walls: stated, or from the moduli and Poisson's ratios of the two."""
     if "youngs_modulus" not in table.values:
-        return table.positive("composite_modulus", Dimension.MODULUS)
-    moduli, ratios = table.pair("youngs_modulus", Dimension.MODULUS), table.get("poissons_ratio")
+        return table.positive("composite_modulus", Dimension.ELASTICITY)
+    moduli, ratios = table.pair("youngs_modulus", Dimension.ELASTICITY), table.get("poissons_ratio")
     is_pair = isinstance(ratios, list) and len(ratios) == 2
-    if not is_pair or not all(isinstance(ratio, float) and -1.0 < ratio < 0.5 for ratio in ratios):
+    if not is_pair or not all(isinstance(ratio, (int, float)) and -1.0 < ratio < 0.5 for ratio in ratios):
         table.fault("poissons_ratio", repr(ratios), "two numbers between -1 and 0.5, of the two walls")
         return None
     return None if moduli is None else composite_modulus(moduli[0], ratios[0], moduli[1], ratios[1])

@@ -116,7 +116,7 @@ def read_study(path: Path, text: str, tables: Mapping[str, Any]) -> StudyCase:
     base = {key: value for key, value in tables.items() if key != "study"}
     found = [axis for axis in axes if axis]
     study = StudyCase(path.stem, path, text, base, tuple(found), combine or Combine.ALL)
-    table.faults += _unknown_constants(base, found)
+    table.faults += _unknown_constants(base, found) + _beyond_lists(base, found)
     if not table.faults:
         _check_size(table, study)
     if not table.faults:
@@ -204,6 +204,19 @@ def _unknown_constants(tables: Mapping[str, Any], axes: Sequence[Axis]) -> list[
         for axis in axes
         if axis.key.startswith("constants.") and axis.key not in known
     ]
+
+
+def _beyond_lists(tables: Mapping[str, Any], axes: Sequence[Axis]) -> list[Fault]:
+    """Faults of varied entries, such as `film.velocity[7]`, that a list of the case has not."""
+    faults = []
+    for axis in axes:
+        at: Any = tables
+        path, _, index = axis.key.rstrip("]").partition("[")
+        for step in path.split("."):
+            at = at.get(step) if isinstance(at, dict) else None
+        if index.isdecimal() and isinstance(at, list) and int(index) >= len(at):
+            faults.append(Fault(_named(axis.key), f"entry {index} of {path}", f"an entry from 0 to {len(at) - 1}"))
+    return faults
 
 
 def _check_size(table: Table, study: StudyCase) -> None:

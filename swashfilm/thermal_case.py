@@ -117,6 +117,9 @@ def _wall(table: Table, key: str) -> Wall | WarmBody | None:
     if "thermal_conductivity" in raw:
         return read_warm_body(wall)
     if "temperature" in raw:
+        for other in ("heat_transfer_coefficient", "outer_temperature"):
+            if wall.get(other) is not None:
+                wall.fault(other, f"{other} beside a temperature", "one of the two, " + _WALLS)
         kelvin = wall.positive("temperature", Dimension.TEMPERATURE)
         wall.close()
         return None if kelvin is None else GivenTemperature(kelvin)

@@ -44,6 +44,7 @@ class Dimension(Enum):
     ANGLE = ("an angle", "rad", ("deg",), "16.2 deg")
     PRESSURE = ("a pressure", "Pa", ("MPa", "kPa"), "350 bar")
     MODULUS = ("a bulk modulus", "Pa", ("GPa", "MPa"), "1.6 GPa")
+    ELASTICITY = ("a modulus of elasticity", "Pa", ("GPa", "MPa"), "210 GPa")
     ANGULAR_SPEED = ("a rotational speed", "rad/s", ("rpm",), "2100 rpm")
     TEMPERATURE = ("a temperature", "K", ("degC",), "50 degC")
     MASS = ("a mass", "kg", ("kg", "g"), "160 g")

@@ -1,0 +1,139 @@
+"""What a stranger gets wrong in a film case, and numbers that are none: told where and as what they are."""
+
+import json
+from pathlib import Path
+
+import meshio
+import numpy as np
+import pytest
+
+from swashfilm.__main__ import main
+from swashfilm.film_case import load_case
+from swashfilm.film_study import film_summary, solve_case
+
+CASE = """format = 1
+[film]
+mesh = { kind = "rectangle", size = ["10 mm", "1 mm"], cells = [16, 2] }
+thickness = "1e-5*(2 - x/0.01)"
+velocity = ["1 m/s", "0 m/s"]
+viscosity = "30 mPa s"
+[boundary]
+left = { pressure = "0 bar" }
+right = { pressure = "0 bar" }
+"""
+OIL = """[oil]
+density = "860 kg/m3"
+temperature = "40 degC"
+specific_heat = "2000 J/(kg K)"
+thermal_conductivity = "0.13 W/(m K)"
+temperature_coefficient = "0.03 1/K"
+"""
+WALLS = '[thermal]\nfixed_wall = "adiabatic"\nmoving_wall = { temperature = "40 degC" }\n'
+FULL = CASE.replace("viscosity", 'cavitation = "none"\norder = 2\nviscosity', 1)
+ROUGH = '[roughness]\nmoving = "0 um"\nfixed = "0 um"\n'
+STEEL = 'youngs_modulus = "210 GPa"\npoissons_ratio = 0.3\n'
+DISC = """[elastic.fixed]
+kind = "disc"
+thickness = "2 mm"
+outer_radius = "2 mm"
+cells = [4, 8, 1]
+support = "bottom"
+"""
+NOTHING_THERE = '[study]\n"film.velocity[7]" = ["1 m/s", "2 m/s"]\n'
+
+
+@pytest.fixture
+def told(tmp_path, capsys):
+    """What the command says of a case that it refuses, nothing written."""
+
+    def refused(text: str) -> str:
+        path = tmp_path / "case.toml"
+        path.write_text(text, encoding="utf-8")
+        assert main(["film", str(path), "-o", str(tmp_path / "run")]) == 2
+        assert [item.name for item in tmp_path.iterdir()] == ["case.toml"]
+        return capsys.readouterr().err
+
+    return refused
+
+
+@pytest.mark.parametrize(
+    ("text", "place", "words"),
+    [
+        (CASE + ROUGH, "roughness.moving (line 11)", ["two smooth walls", "no table [roughness]"]),
+        (CASE + ROUGH + 'composite = "1 um"\n', "roughness.moving (line 11)", ["beside composite"]),
+        (FULL + OIL + WALLS, "film.order (line 7)", ["2 with a table [thermal]", "order = 1"]),
+        (
+            CASE + OIL + WALLS.replace("{ temp", '{ heat_transfer_coefficient = "5 W/(m2 K)", temp'),
+            "thermal.moving_wall.heat_transfer_coefficient (line 18)", ["beside a temperature", "one of the two"],
+        ),
+        (CASE + OIL.replace("0.03", "0") + WALLS, "oil.temperature_coefficient (line 15)", ["above zero"]),
+        (CASE + DISC + STEEL, "elastic.fixed (line 10)", ["have no face under them", "under the whole film"]),
+        (CASE + DISC + STEEL.replace("210", "0"), "elastic.fixed.youngs_modulus", ["a modulus of elasticity"]),
+        (CASE + NOTHING_THERE, 'study."film.velocity[7]"', ["entry 7 of film.velocity", "from 0 to 1"]),
+    ],
+)  # fmt: skip
+def test_a_contradiction_is_told_at_its_key_and_once(told, text, place, words):
+    message = told(text)
+    assert place in message
+    paths = [line for line in message.splitlines()[1:] if not line.startswith("    ")]
+    assert len(paths) == len(set(paths))
+    for word in words:
+        assert word in message
+
+
+def test_a_temperature_beyond_the_oils_law_is_told_once(told):
+    oil = '[oil]\ngrade = "ISO VG 46"\ndensity = "860 kg/m3"\ntemperature = "400 degC"\n'
+    message = told(CASE.replace('viscosity = "30 mPa s"\n', "") + oil)
+    assert "oil.temperature (line 12)" in message
+    assert message.count("expected") == 1
+
+
+def test_a_byte_order_mark_is_no_fault(tmp_path):
+    path = tmp_path / "case.toml"
+    path.write_text("\ufeff" + CASE, encoding="utf-8")
+    assert load_case(path).problem is not None
+
+
+def summary_of(path: Path, text: str) -> dict:
+    path.write_text(text, encoding="utf-8")
+    summary = film_summary(solve_case(load_case(path)))
+    json.dumps(summary, allow_nan=False)
+    return summary
+
+
+def test_a_film_that_bears_round_off_has_no_friction_coefficient(tmp_path):
+    """Parallel walls bear nothing: a friction of mu U A/h over a load of round-off is no number."""
+    flat = CASE.replace("1e-5*(2 - x/0.01)", "12.4624723244e-6").replace("[16, 2]", "[24, 12]")
+    summary = summary_of(tmp_path / "case.toml", flat)
+    assert summary["friction_coefficient"] is None
+    assert summary["hersey_number_m"] is None
+    assert summary["friction_force_moving_N"][0] == pytest.approx(-0.03 * 1e-5 / 12.4624723244e-6)
+
+
+def test_the_warning_of_a_film_pulled_below_cavitation_names_the_law_that_conserves_mass(tmp_path):
+    diverging = CASE.replace("2 - x", "1 + x").replace("viscosity", 'cavitation = "none"\nviscosity', 1)
+    warnings = {
+        warning["name"]: warning["text"] for warning in summary_of(tmp_path / "c.toml", diverging)["warnings"]
+    }
+    assert "'jfo'" in warnings["pressure_below_cavitation"]
+
+
+def test_an_edge_of_two_names_tells_its_flow_once(tmp_path):
+    """A square pressed at 1 mm/s lets 1 mm/s x its area out through its one open edge, by the name stated."""
+    points = np.array([[x, y, 0.0] for x in (0.0, 0.005, 0.01) for y in (0.0, 0.01)])
+    cells = [[0, 2, 3], [0, 3, 1], [2, 4, 5], [2, 5, 3]]
+    mesh = meshio.Mesh(
+        points,
+        [("line", [[0, 1]]), ("triangle", cells)],
+        cell_data={key: [np.array([1]), np.full(4, 2)] for key in ("gmsh:physical", "gmsh:geometrical")},
+        field_data={"mouth": np.array([1, 1]), "pad": np.array([2, 2])},
+    )
+    meshio.write(tmp_path / "pad.msh", mesh, file_format="gmsh22", binary=False)
+    case = CASE[: CASE.index("mesh")] + (
+        'mesh = "pad.msh"\nthickness = "10 um"\nviscosity = "30 mPa s"\nsqueeze = "-1 mm/s"\n'
+        '[boundary]\nmouth = { pressure = "0 bar" }\n'
+    )
+    flow = summary_of(tmp_path / "case.toml", case)["flow_m3_per_s"]
+    assert flow["mouth"] == pytest.approx(1e-7)
+    assert flow["right"] == 0.0
+    assert not {"left", "outer"} & set(flow)
