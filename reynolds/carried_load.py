@@ -21,6 +21,7 @@ TOLERANCE = 1e-6  # of the load, and of the load at the film's edge for moments
 MOST_FILMS = 200
 THICKEST, THINNEST = 1.0, 1e-9  # least gap over the film's extent; beyond, no film
 USUAL_GAP = 1e-4  # of the extent, where the shape is flat
+SOFT_START = 0.7  # place to begin at where walls give way: steps of one from there do not meet a gap of nothing
 LEAST_STEP, MOST_STEP = 1e-3, 2.5  # of the logarithm of the least gap
 LEAST_SHARE = 0.2  # of the least gap that a step may leave
 DIFFERENCE = 1e-4  # of the least gap, for slopes by differences
@@ -102,7 +103,10 @@ def _warmed(problem: FilmProblem) -> Solve:
 
     def solve(now: FilmProblem) -> FilmSolution:
         nonlocal last
-        last = solver.solve(now, last)
+        try:
+            last = solver.solve(now, last)
+        except FilmNotConverged:
+            last = solver.solve(now)
         return last
 
     return solve
@@ -214,25 +218,25 @@ class _Search:
 
     def _bracket(self, lean: tuple[float, float]) -> tuple[tuple[float, _Tried], tuple[float, _Tried]]:
         """Places of less and of more than the load, next to each other; raises _Nowhere where there are none."""
-        at = 0.0 if self._problem.walls is None else 1.0
+        at = 0.0 if self._problem.walls is None else SOFT_START
         last = self.at(self._leaning(at, lean))
-        barrier = None
+        longest = MOST_STEP
         step = 1.0 if last.misses[0] > 0.0 else -1.0
         while True:
-            if barrier is not None and abs(step) >= abs(barrier - at):
-                step = 0.5 * (barrier - at)
             if abs(step) < LEAST_STEP or not self._ends[0] < at + step < self._ends[1]:
                 raise _Nowhere
             new = self._tried(self._leaning(at + step, lean))
-            if new is None:
-                barrier = at + step
+            if new is None:  # from nearer by it may be reached
+                step *= 0.5
+                longest = abs(step)
                 continue
             if new.misses[0] * last.misses[0] <= 0.0:
                 return (at, last), (at + step, new)
             falls = (new.misses[0] - last.misses[0]) / step
             wanted = 1.3 * abs(new.misses[0] / falls) if falls else MOST_STEP
             at, last = at + step, new
-            step = float(np.copysign(np.clip(wanted, 0.3, MOST_STEP), step))
+            step = float(np.copysign(min(max(wanted, 0.3), longest), step))
+            longest = min(2.0 * longest, MOST_STEP)
 
     def _tried(self, position: Position) -> _Tried | None:
         """The film there, None where it does not settle or its walls are pressed beyond their contact's law."""

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from reynolds.carried_load import Carried, carry
+from reynolds.errors import FilmNotConverged
 from reynolds.film import FilmProblem, FilmSolution
 from swashfilm.film_oil import Found, OilSolver, film_of, oil_solver
 
@@ -21,7 +22,10 @@ class _Warmed:
     last: Found | None = None
 
     def __call__(self, problem: FilmProblem) -> FilmSolution:
-        self.last = self.solver.solve(problem, self.last)
+        try:
+            self.last = self.solver.solve(problem, self.last)
+        except FilmNotConverged:  # from nothing it may be nearer
+            self.last = self.solver.solve(problem)
         return film_of(self.last)
 
 

@@ -42,6 +42,9 @@ FIELDS = (
 )
 
 
+HISTORY = ("load / N", "pressure max / Pa", "film thickness min / m", "temperature max / K")
+
+
 def write_film_page(folder: Path) -> Path:
     """Write report.html of a film's run folder from its summary.json, resolved.toml and results.nc.
 
@@ -113,13 +116,13 @@ def film_picture(results: Path) -> bytes:
 
 
 def history_picture(history: Path) -> bytes:
-    """Load, largest pressure and least film over time, from history.csv, as a PNG."""
+    """Load, largest pressure, least film and temperature (if any) over time, from history.csv, as a PNG."""
     from matplotlib.figure import Figure
 
     with history.open(newline="", encoding="utf-8") as file:
         steps = list(csv.DictReader(file))
-    figure = Figure(figsize=(8.0, 6.5), layout="constrained")
-    shown = ("load / N", "pressure max / Pa", "film thickness min / m")
+    shown = [name for name in HISTORY if name in steps[0]]
+    figure = Figure(figsize=(8.0, 2.2 * len(shown)), layout="constrained")
     for axes, name in zip(figure.subplots(len(shown), 1, sharex=True), shown, strict=True):
         axes.plot(*([float(step[key]) for step in steps] for key in ("time / s", name)))
         axes.set_ylabel(name)
