@@ -7,7 +7,8 @@ At unknown i, with nodal pressure p, film fraction theta and density ratio r,
 K is the conductance, C the walls' carrying, M the lumped content. D, the least diffusion that makes C + D an
 upwind scheme (Kuzmin and Turek 2002), vanishes where the film is full, since its rows sum to zero: the full film
 keeps its order of accuracy, a cavity is carried along without overshoot, and columns that sum to zero conserve
-mass to round-off.
+mass to round-off. At an edge over which the walls carry nothing in, D takes the edge's film fraction out of the
+balance beside it.
 """
 
 from __future__ import annotations
@@ -15,14 +16,17 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.sparse import coo_array, csc_array, csr_array
 
 from reynolds import kernels
-from reynolds.film import Cavitation, FilmProblem
+from reynolds.film import Cavitation, FilmProblem, Held
 from reynolds.fluid import CONSTANT
 from reynolds.mesh import Array
 from reynolds.space import FilmSpace
 from reynolds.transport import Tensor, Transport, along, at_points, lumped, transport
+
+NO_FLOW = 1e-9  # of the flow along an edge: less across it is round-off
 
 
 @dataclass(frozen=True)
@@ -59,8 +63,28 @@ def operators(problem: FilmProblem, state: State) -> Operators:
     carried = convection(space, terms.flux)
     diffusion = np.zeros_like(carried[0])
     if problem.cavitation is Cavitation.JFO:
-        kernels.upwinding(space.pattern.indptr, space.pattern.indices, *carried, diffusion)
+        leaves = _sends_nothing(problem, terms.flux)
+        kernels.upwinding(space.pattern.indptr, space.pattern.indices, *carried, leaves, diffusion)
     return Operators(terms, stiffness(space, terms.conductance), carried, diffusion, content, rate)
+
+
+def _sends_nothing(problem: FilmProblem, flux: tuple[Array, Array]) -> NDArray[np.bool_]:
+    """Unknowns of held edges over which the walls carry no oil into the film, (size,).
+
+    Their film fraction is of no matter: upwinding across the way of the walls would bring it in all the same, and
+    feed a cavity that runs along the side of a bearing.
+    """
+    space = problem.space
+    held, sends = np.zeros(space.size, dtype=bool), np.zeros(space.size, dtype=bool)
+    for name, condition in problem.boundary.items():
+        if isinstance(condition, Held):
+            out, size = space.carried_out(name, flux)
+            nodes = space.facet_dofs[name]
+            held[nodes] = True
+            sends[nodes[:, (out < -NO_FLOW * size) | (size == 0.0)]] = True
+    if problem.held_nodes is not None:
+        sends |= ~np.isnan(problem.held_nodes)
+    return held & ~sends
 
 
 def stiffness(space: FilmSpace, conductance: Tensor) -> Array:

@@ -16,6 +16,9 @@ from numba import njit
 _FAST = {"cache": True, "fastmath": False, "error_model": "numpy"}
 
 
+LEAST_MIXING = 1e-3
+"""Share of upwinding's exchange kept with an edge that sends nothing in: a ring of oil has no other level."""
+
 ROUNDING = 1e-6
 """Weight of what cancels in a nearly uniform pressure: with the solver's 1e-9, some units in the last place."""
 
@@ -111,16 +114,36 @@ def convection(dofs, slots, shape, value, gradient, flux_x, flux_y, upper, lower
 
 
 @njit(**_FAST)
-def upwinding(indptr, indices, upper, lower, diffusion):
-    """The least diffusion D, symmetric with rows of sum zero, for which C + D couples nothing positively."""
+def upwinding(indptr, indices, upper, lower, leaves, diffusion):
+    """The least diffusion D, symmetric with rows of sum zero, for which C + D couples nothing positively.
+
+    Beside an edge that sends nothing in (`leaves`) D takes the level of the unknown there for the edge's, as far
+    as what the edge's unknowns so bring in is no more than what they take.
+    """
+    size = indptr.shape[0] - 1
+    taken, brought = np.zeros(size), np.zeros(size)
     diffusion[:] = 0.0
-    for j in range(indptr.shape[0] - 1):
+    for j in range(size):
+        for k in range(indptr[j], indptr[j + 1] - 1):
+            i = indices[k]
+            if leaves[i] != leaves[j]:
+                beside, c = (i, upper[k]) if leaves[j] else (j, lower[k])
+                taken[beside] += max(0.0, c)
+                brought[beside] += max(0.0, -c)
+    for j in range(size):
         diagonal_j = indptr[j + 1] - 1
         for k in range(indptr[j], diagonal_j):
-            d = max(0.0, upper[k], lower[k])
+            i = indices[k]
+            if leaves[i] != leaves[j]:
+                beside, d = (i, upper[k]) if leaves[j] else (j, lower[k])
+                if d < 0.0:
+                    d *= min(1.0, taken[beside] / brought[beside])
+                d += LEAST_MIXING * (max(0.0, upper[k], lower[k]) - d)
+            else:
+                d = 0.0 if leaves[i] else max(0.0, upper[k], lower[k])
             diffusion[k] = -d
             diffusion[diagonal_j] += d
-            diffusion[indptr[indices[k] + 1] - 1] += d
+            diffusion[indptr[i + 1] - 1] += d
 
 
 @njit(**_FAST)

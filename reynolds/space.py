@@ -140,11 +140,23 @@ class FilmSpace:
     def edge_normal(self) -> dict[str, Array]:
         """The same integral of basis times outward normal, (unknowns, 2) m; zero on a line inside the film."""
         return {
-            name: np.column_stack(
-                [self._along(name, n) for n in _outward(self, self.film_mesh.mesh.boundaries[name])]
-            )
+            name: np.column_stack([self._along(name, n) for n in self._facet_normal[name]])
             for name in self.edge_dofs
         }
+
+    @cached_property
+    def _facet_normal(self) -> dict[str, Array]:
+        return {name: _outward(self, self.film_mesh.mesh.boundaries[name]) for name in self.edge_dofs}
+
+    def carried_out(self, name: str, flux: tuple[Array, Array]) -> tuple[Array, Array]:
+        """Flow (m3/s) out over each facet of a boundary, (facets,), and the magnitude that it could have at most.
+
+        `flux` (cells | 1, points | 1) m2/s; both zero for a line inside the film.
+        """
+        normal = self._facet_normal[name]
+        cell = self.film_mesh.mesh.f2t[0, self.film_mesh.mesh.boundaries[name]]
+        mean = np.array([part[cell if len(part) > 1 else slice(None)].mean(axis=1) for part in flux])
+        return (mean * normal).sum(axis=0), np.hypot(*mean) * np.hypot(*normal)
 
     def _along(self, name: str, per_facet: Array) -> Array:
         """Trapezium rule for a linear basis, Simpson's for a quadratic one: exact integrals of the basis."""

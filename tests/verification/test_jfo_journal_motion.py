@@ -155,12 +155,12 @@ def test_dynamically_loaded_journal(validation):
             missed=missed,
         )
     rows = (
-        ("largest eccentricity ratio", 0.93841, max(eccentricity)),
-        ("least eccentricity ratio", 0.35071, min(eccentricity)),
-        ("largest pressure", 1.8961, max(peaks)),
-        ("least film thickness", 0.06159, 1.0 - max(eccentricity)),
+        ("largest eccentricity ratio", 0.93841, max(eccentricity), UPWIND),
+        ("least eccentricity ratio", 0.35071, min(eccentricity), ""),
+        ("largest pressure", 1.8961, max(peaks), UPWIND),
+        ("least film thickness", 0.06159, 1.0 - max(eccentricity), UPWIND),
     )
-    for quantity, expected, obtained in rows:
+    for quantity, expected, obtained, missed in rows:
         validation(
             case="Dynamically loaded journal bearing",
             source="verification cases 3.6, Ausas 2009, 200 x 20 cells",
@@ -169,5 +169,5 @@ def test_dynamically_loaded_journal(validation):
             expected=expected,
             obtained=obtained,
             relative_tolerance=0.01,
-            missed=UPWIND,
+            missed=missed,
         )

@@ -144,8 +144,8 @@ def test_grooved_journal_stored_result(validation):
         expected=0.551,
         obtained=float(_grooved(_regular(Cell.QUADRILATERAL)(288))[0].film_fraction.min()),
         relative_tolerance=0.02,
-        missed="a thin streak beside the end of the groove, which upwinding smears: .602, .587, .570 on 144, 288, "
-        "576 cells around, still falling",
+        missed="a thin streak beside the end of the groove, which upwinding smears: .526, .511, .497 on 144, 288, "
+        "576 cells around, still falling; the stored mesh is coarse and draws oil in at the side",
     )
 
 
