@@ -20,7 +20,7 @@ GROOVE = np.pi / 2.0 - np.pi / 24.0, np.pi / 2.0 + np.pi / 24.0, 0.75
 
 
 def _grooved(n: int, cell: Cell, side: float) -> tuple[float, float]:
-    """Load of half a journal bearing, L/D = 1, eps = .6, and flow in at its groove; `side`: film fraction there."""
+    """Load of half a journal bearing, L/D = 1, eps = .6, and flow in at its groove; `side`: its film fraction."""
     space = film_space(rectangle((ROUND, 1.0), (n, n // 4), cell=cell, periodic_x=True))
     place = np.full((2, space.size), np.inf)
     np.minimum.at(place, (slice(None), space.vertex_dofs), space.vertices.T)
