@@ -13,7 +13,7 @@ from reynolds.mesh import Array
 from reynolds.space import FilmSpace
 
 MAX_STEPS = 30
-TOLERANCE = 1e-12  # of the film thickness
+TOLERANCE = 1e-12  # of film thickness and asperities' height
 DEEPEST = 5.0  # standard deviations of the summits by which a step may press them into each other
 
 
@@ -38,7 +38,7 @@ def opening(problem: FilmProblem, pressure: Array, start: Array | None = None) -
     for _ in range(MAX_STEPS):
         bears = contact_pressure(problem.asperities, given + found)
         rest = found - alone - compliance @ _to_unknowns(problem.space, bears.value)
-        if np.max(np.abs(rest)) < TOLERANCE * np.max(np.abs(given)):
+        if np.max(np.abs(rest)) < TOLERANCE * (np.max(np.abs(given)) + problem.asperities.height):
             return found
         found = np.maximum(found - _solved(_with_contact(problem, bears.slope), rest), deepest - given)
     raise FilmNotConverged(
