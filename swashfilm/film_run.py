@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from reynolds.export import write_pvd, write_vtu
 from reynolds.mesh import Array
@@ -17,6 +17,9 @@ from swashfilm.gap_case import GapCase
 from swashfilm.gap_study import true_place
 from swashfilm.progress import Report
 from swashfilm.run_folder import write_json
+
+if TYPE_CHECKING:
+    import xarray
 
 _STAGES = 3
 
@@ -47,7 +50,7 @@ def run_case(
     fields = fields_over_time(study)
     fields.to_netcdf(folder / "results.nc", engine="h5netcdf")
     if as_table:
-        last_of(fields).drop_dims(["cell", "corner"]).to_dataframe().to_csv(folder / "fields.csv", index=False)
+        _write_table(folder / "fields.csv", last_of(fields))
     write_json(folder / "summary.json", summary)
     report(stages - 1, stages, "drawing")
     from swashfilm.film_page import write_film_page
@@ -55,6 +58,14 @@ def run_case(
     write_film_page(folder)
     report(stages, stages, "done")
     return summary
+
+
+def _write_table(path: Path, fields: xarray.Dataset) -> None:
+    """The fields at the vertices as a table, the unit in each head."""
+    table = fields.drop_dims(["cell", "corner"])
+    units = {name: array.attrs.get("units") for name, array in table.variables.items()}
+    heads = {name: f"{name} / {unit}" for name, unit in units.items() if unit and unit != "1"}
+    table.to_dataframe().rename(columns=heads).to_csv(path, index=False)
 
 
 def _write_films(folder: Path, study: FilmStudy, place: Callable[[Array], Array] | None) -> None:

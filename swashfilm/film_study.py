@@ -90,11 +90,11 @@ def film_summary(study: FilmStudy) -> dict[str, Any]:
         "name": study.name,
         "load_N": integrals.load,
         "moment_x_Nm": integrals.moment_x,
-        "moment_y_Nm": integrals.moment_y,
+        "moment_y_Nm": integrals.moment_y + 0.0,  # no negative zero
         "pressure_max_Pa": integrals.pressure_max,
         "pressure_max_at_m": list(integrals.pressure_max_at),
         "film_thickness_min_m": integrals.film_thickness_min,
-        "flow_m3_per_s": _flows_told(solution, integrals),
+        "flow_m3_per_s": dict(integrals.flow),
         "leakage_flow_m3_per_s": sum(max(flow, 0.0) for flow in integrals.flow.values()),
         "friction_force_moving_N": list(integrals.friction_moving),
         "friction_force_fixed_N": list(integrals.friction_fixed),
@@ -114,20 +114,6 @@ def film_summary(study: FilmStudy) -> dict[str, Any]:
         **physics_summary(study),
         **(gap_summary(study.gap) if study.gap else {}),
         "warnings": film_warnings(study),
-    }
-
-
-def _flows_told(solution: FilmSolution, integrals: Loads) -> dict[str, float]:
-    """Flow by boundary name; a name without a condition is left out where one with a condition has edges of it.
-
-    A mesh file may name an edge twice (`leading` and `bottom`): what flows there is told once, by the name stated.
-    """
-    boundaries, stated = solution.problem.space.film_mesh.mesh.boundaries or {}, solution.problem.boundary
-    held = {edge for name in stated for edge in boundaries.get(name, ())}
-    return {
-        name: flow
-        for name, flow in integrals.flow.items()
-        if name in stated or held.isdisjoint(boundaries.get(name, ()))
     }
 
 

@@ -24,6 +24,8 @@ LARGEST_RISE = 10.0  # K; an oil is a quarter to a third thinner there
 HOTTEST = 393.15  # K (120 degC), from which mineral oils age within hours
 HEAT_CAPACITY = 1.7e6  # J/(m3 K), of mineral oils
 CONDUCTIVITY = 0.13  # W/(m K), of mineral oils
+LEAST_FILM_FRACTION = 1e-3
+VACUUM = -101325.0  # Pa, gauge
 LEAST_LAMBDA = 1.0  # h/sigma; below, contacts carry most of the load
 LARGEST_ISOVISCOUS_PRESSURE = 50e6  # Pa; a mineral oil is some three times as thick there
 
@@ -65,6 +67,7 @@ def film_warnings(study: FilmStudy) -> list[dict[str, str]]:
         found
         + _rough_warnings(study.solution)
         + _pressure_warnings(study)
+        + _supply_warnings(study)
         + _heat_warnings(study)
         + _size_warnings(study)
     )
@@ -172,6 +175,30 @@ def _pressure_warnings(study: FilmStudy) -> list[dict[str, str]]:
             "that give way, [elastic]",
         }
     ]
+
+
+def _supply_warnings(study: FilmStudy) -> list[dict[str, str]]:
+    """A film that no oil reaches, and a cavity emptier than vacuum."""
+    found = []
+    problem, fraction = study.solution.problem, study.solution.film_fraction
+    if study.gap is None and not study.history and float(fraction.min()) < LEAST_FILM_FRACTION:
+        found.append(
+            {
+                "name": "film_runs_dry",
+                "text": f"the film fraction falls to {float(fraction.min()):.2g} (limit {LEAST_FILM_FRACTION:g}): "
+                "no oil comes to a part of the film; is the edge closed through which it enters? A boundary that "
+                "is not named is",
+            }
+        )
+    if problem.cavitation is not Cavitation.NONE and problem.cavitation_pressure < VACUUM:
+        found.append(
+            {
+                "name": "cavitation_below_vacuum",
+                "text": f"the cavitation pressure is {problem.cavitation_pressure * 1e-5:.4g} bar gauge (vacuum: "
+                f"{VACUUM * 1e-5:.4g} bar): oil that is pulled so hard cavitates before; absolute for gauge?",
+            }
+        )
+    return found
 
 
 def _isoviscous(study: FilmStudy) -> bool:

@@ -137,3 +137,29 @@ def test_an_edge_of_two_names_tells_its_flow_once(tmp_path):
     assert flow["mouth"] == pytest.approx(1e-7)
     assert flow["right"] == 0.0
     assert not {"left", "outer"} & set(flow)
+
+
+def named(summary: dict) -> set[str]:
+    return {warning["name"] for warning in summary["warnings"]}
+
+
+def test_a_film_whose_inlet_is_closed_is_told_to_run_dry(tmp_path):
+    closed = CASE.replace('left = { pressure = "0 bar" }\n', "")
+    summary = summary_of(tmp_path / "case.toml", closed)
+    assert "film_runs_dry" in named(summary)
+    assert str(summary["moment_y_Nm"]) == "0.0"
+    assert "film_runs_dry" not in named(summary_of(tmp_path / "fed.toml", CASE))
+
+
+def test_a_cavity_below_vacuum_is_told(tmp_path):
+    deep = CASE.replace("viscosity", 'cavitation_pressure = "-1.1 bar"\nviscosity', 1)
+    assert "cavitation_below_vacuum" in named(summary_of(tmp_path / "case.toml", deep))
+    vacuum = deep.replace("-1.1 bar", "-1.01 bar")
+    assert "cavitation_below_vacuum" not in named(summary_of(tmp_path / "vacuum.toml", vacuum))
+
+
+def test_the_table_of_fields_has_a_unit_in_every_head(tmp_path):
+    (tmp_path / "case.toml").write_text(CASE, encoding="utf-8")
+    assert main(["film", str(tmp_path / "case.toml"), "-o", str(tmp_path / "run"), "--csv"]) == 0
+    heads = (tmp_path / "run" / "fields.csv").read_text("utf-8").splitlines()[0].split(",")
+    assert {"x / m", "y / m", "film_pressure / Pa", "film_thickness / m", "film_fraction"} == set(heads)
