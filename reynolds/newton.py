@@ -6,15 +6,14 @@ from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import csc_array, issparse
-from scipy.sparse.linalg import splu
+from scipy.sparse import csc_array
 
 from reynolds import kernels
 from reynolds.balance import by_opening, flow_balance, full_matrix, slopes
 from reynolds.film import Cavitation, FilmProblem
 from reynolds.iterate import NOTHING, Iterate, diagonal, stiffness_of_lack, with_pockets
 from reynolds.mesh import Array
-from reynolds.opening import opening_slope
+from reynolds.opening import opening_slope, solved
 from reynolds.setting import Setting
 
 TIE = 1e-9  # of the flows that meet at an unknown
@@ -68,9 +67,7 @@ def compliant_step(
     pressures = free * ~at.cavity
     slope = by_opening(problem, at.parts, at.state) * (free / np.abs(at.parts.stiffness).max())[:, None]
     matrix = rigid + slope @ (wider * pressures[None, :])
-    if issparse(matrix):
-        return np.asarray(splu(csc_array(matrix)).solve(load))
-    return np.asarray(np.linalg.solve(matrix, load))
+    return solved(matrix, load)
 
 
 def signed_after(problem: FilmProblem, at: Iterate, change: Array, scale: float) -> Array:

@@ -40,7 +40,7 @@ def opening(problem: FilmProblem, pressure: Array, start: Array | None = None) -
         rest = found - alone - compliance @ _to_unknowns(problem.space, bears.value)
         if np.max(np.abs(rest)) < TOLERANCE * (np.max(np.abs(given)) + problem.asperities.height):
             return found
-        found = np.maximum(found - _solved(_with_contact(problem, bears.slope), rest), deepest - given)
+        found = np.maximum(found - solved(_with_contact(problem, bears.slope), rest), deepest - given)
     raise FilmNotConverged(
         f"the opening of walls in contact not settled after {MAX_STEPS} steps", "a thicker film, or stiffer walls"
     )
@@ -55,8 +55,8 @@ def opening_slope(problem: FilmProblem, found: Array) -> Array | csr_array:
     bears = contact_pressure(problem.asperities, _given_thickness(problem) + found)
     system = _with_contact(problem, bears.slope)
     if not isinstance(compliance, np.ndarray):
-        return csr_array(splu(csc_array(system)).solve(compliance.toarray()))
-    return np.asarray(np.linalg.solve(system, compliance))
+        return csr_array(solved(system, compliance.toarray()))
+    return solved(system, compliance)
 
 
 def _given_thickness(problem: FilmProblem) -> Array:
@@ -80,10 +80,16 @@ def _with_contact(problem: FilmProblem, slope: Array) -> Array | csr_array:
     return np.asarray(np.eye(len(slope)) - compliance @ spread)
 
 
-def _solved(system: Array | csr_array, rest: Array) -> Array:
-    if issparse(system):
-        return np.asarray(splu(csc_array(system)).solve(rest))
-    return np.asarray(np.linalg.solve(system, rest))
+def solved(system: Array | csr_array, load: Array) -> Array:
+    """x with A x = load for a dense or sparse A; raises FilmNotConverged for a singular one."""
+    try:
+        if issparse(system):
+            return np.asarray(splu(csc_array(system)).solve(load))
+        return np.asarray(np.linalg.solve(system, load))
+    except (np.linalg.LinAlgError, RuntimeError) as reason:  # SuperLU: "Factor is exactly singular"
+        raise FilmNotConverged(
+            f"the balance between walls that give way is singular ({reason})", "stiffer walls, or a thicker film"
+        ) from None
 
 
 def _to_unknowns(space: FilmSpace, at_vertices: Array) -> Array:
