@@ -2,6 +2,11 @@
 
 from __future__ import annotations
 
+import os
+
+# Read by BLAS as numpy is loaded: its threads cost small solves more than they bring, the more on a busy machine.
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
