@@ -26,6 +26,7 @@ from reynolds.wall_heat import opening_by_heat
 
 MAX_ROUNDS = 100
 MOST_HALVINGS = 12
+THINNEST = 1e-9  # of the viscosity of the oil at rest: less is a law far outside its range
 ROUGHLY = 0.1  # a relative change: near enough to start from
 MOST_CLOSED = 0.5  # of its thickness, by which warm walls may close the film in one round
 
@@ -268,11 +269,16 @@ def _image(
 
 
 def _share(posed: Posed, conditions: _Conditions, pressure: Array) -> Array:
-    """Viscosity by the law over that of the resting oil, (size, m). Raises FilmInputError unless positive."""
+    """Viscosity by the law over that of the resting oil, (size, m). Raises FilmInputError where no oil has it."""
     found = posed.law(conditions.temperature[:, 1:-1], pressure[:, None], conditions.rate)
     share = np.broadcast_to(found / resting_viscosity(posed.problem, pressure)[:, None], conditions.rate.shape)
-    if not (np.isfinite(share).all() and share.min() > 0.0):
-        raise FilmInputError("viscosity across the film", f"minimum {np.min(found):.4g} Pa s", "positive")
+    if not (share.min() > THINNEST and share.max() < 1.0 / THINNEST):
+        warmest, coldest = np.max(conditions.temperature), np.min(conditions.temperature)
+        raise FilmInputError(
+            "viscosity across the film",
+            f"{np.min(found):.3g} to {np.max(found):.3g} Pa s at {coldest:.4g} to {warmest:.4g} K",
+            f"at least {THINNEST:g} of the resting oil's: a law that holds there, or a film that stays cooler",
+        )
     return share
 
 
