@@ -23,7 +23,7 @@ run: install
 	$(VENV)/swashfilm run ref90 --speed 2100rpm --pressure 35MPa --displacement 1.0
 
 test: install
-	$(VENV)/python -m pytest
+	$(VENV)/python -m pytest -n 2
 
 check: install
 	$(VENV)/ruff check
