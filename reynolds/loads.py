@@ -160,7 +160,7 @@ def loads(solution: FilmSolution, weight: Array | None = None) -> Loads:
         moment_x=moment_x,
         moment_y=moment_y,
         pressure_max=float(solution.pressure[peak]),
-        pressure_max_at=_place(solution, peak),
+        pressure_max_at=space.place(peak),
         film_thickness_min=float(min(vertex_thickness(solution).min(), film.thickness.min())),
         friction_moving=(moving[0], moving[1]),
         friction_fixed=(fixed[0], fixed[1]),
@@ -309,12 +309,3 @@ def _cavitated_fraction(solution: FilmSolution) -> float:
     space = solution.problem.space
     inside, _, _ = evaluate(solution, solution.cavity.astype(float))
     return float(np.sum(inside * space.area) / np.sum(space.area))
-
-
-def _place(solution: FilmSolution, node: int) -> tuple[float, float]:
-    space = solution.problem.space
-    cell, local = (int(k[0]) for k in np.nonzero(space.dofs == node))
-    corners = space.vertices[space.cells[cell]]
-    if local < len(corners):
-        return float(corners[local, 0]), float(corners[local, 1])
-    return float(corners[:, 0].mean()), float(corners[:, 1].mean())

@@ -173,6 +173,16 @@ class FilmSpace:
         found[self.cells] = self.dofs[:, :corners]
         return found
 
+    def place(self, unknown: int) -> tuple[float, float]:
+        """Where an unknown stands, x and y (m); a tied one (seam, pocket) has many places: this is one."""
+        cell, local = (int(k[0]) for k in np.nonzero(self.dofs == unknown))
+        corners = self.vertices[self.cells[cell]]
+        geometry = skfem.ElementTriP1() if len(corners) == 3 else skfem.ElementQuad1()
+        at = _ELEMENTS[type(self.film_mesh.mesh), self.degree][0].doflocs[local][:, None]
+        share = np.array([geometry.lbasis(at, corner)[0][0] for corner in range(len(corners))])
+        x, y = share @ corners
+        return float(x), float(y)
+
     def sample(self, field: Callable[[Array, Array], Array | float] | float) -> Array:
         """A field at the quadrature points: a function of x, y (m) or a constant; (cells|1, points|1)."""
         if callable(field):

@@ -9,7 +9,7 @@ import skfem
 from reynolds.errors import FilmInputError
 from reynolds.film import ZERO, Cavitation, Film, FilmProblem, Held, film
 from reynolds.loads import loads
-from reynolds.mesh import FilmMesh, rectangle
+from reynolds.mesh import Cell, FilmMesh, rectangle
 from reynolds.setting import check_pressures
 from reynolds.solve import FilmSolver
 from reynolds.space import film_space
@@ -71,3 +71,14 @@ def test_the_least_film_of_a_single_thin_cell_is_not_averaged_away():
     cells[7] = 2e-6
     oil = film(SPACE.sample_cells(cells), 0.03)
     assert loads(FilmSolver(SPACE).solve(FilmProblem(SPACE, oil, ENDS))).film_thickness_min == 2e-6
+
+
+@pytest.mark.parametrize("cell", list(Cell))
+@pytest.mark.parametrize("degree", [1, 2])
+def test_unknowns_stand_where_scikit_fem_has_them(cell, degree):
+    """Corners, middles of edges and of cells, through the basis that interpolates x and y."""
+    space = film_space(rectangle((1.0, 2.0), (3, 2), cell=cell), degree=degree)
+    places = np.array([space.place(unknown) for unknown in range(space.size)])
+    at = places[space.dofs]
+    found = np.einsum("qi,eid->deq", space.reference.value, at)
+    np.testing.assert_allclose(found, space.points, atol=1e-14)
