@@ -232,8 +232,16 @@ def code() -> str:
     return f"{commit}, with uncommitted changes in reynolds: provisional" if changed else commit
 
 
-def page(measured: Sequence[Measured], left_out: Sequence[str], load: float, attitude: float, state: str) -> str:
-    """docs/benchmarks.md; `state` is the code before the run."""
+def multigrid_work(quick: bool) -> str:
+    """What `multigrid.py` prints: work units and share of the memory's bandwidth of this solver's multigrid."""
+    command = [sys.executable, str(HERE / "multigrid.py"), *(["--quick"] if quick else [])]
+    return subprocess.run(command, capture_output=True, text=True, check=True, timeout=TIMEOUT).stdout
+
+
+def page(
+    measured: Sequence[Measured], left_out: Sequence[str], load: float, attitude: float, state: str, work: str
+) -> str:
+    """docs/benchmarks.md; `state` is the code before the run, `work` the table of `multigrid.py`."""
     versions = dict.fromkeys(f"{row.peer.name.split(',')[0].split(' +')[0]} {row.version}" for row in measured)
     text = (HERE / "peers" / "page.md").read_text(encoding="utf-8")
     return text.format(
@@ -246,6 +254,7 @@ def page(measured: Sequence[Measured], left_out: Sequence[str], load: float, att
         attitude=f"{attitude:.3f}",
         meshes=markdown(MESHES, mesh_lines(measured, load)),
         equal=markdown(EQUAL, equal_lines(measured, load)),
+        work=work.rstrip(),
         left_out="\n".join(f"- {line}" for line in left_out) or "- nothing",
     )
 
@@ -285,8 +294,10 @@ def main() -> None:
     console.print(f"{machine()}; code {state}")
     for line in left_out:
         console.print(f"left out: {line}")
+    work = multigrid_work(asked.quick)
+    print(work)
     if asked.page is not None:
-        asked.page.write_text(page(measured, left_out, load, attitude, state), encoding="utf-8")
+        asked.page.write_text(page(measured, left_out, load, attitude, state, work), encoding="utf-8")
 
 
 if __name__ == "__main__":

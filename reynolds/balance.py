@@ -132,7 +132,7 @@ def holds(problem: FilmProblem, parts: Operators, state: State) -> Array:
 
 
 def flow_balance(problem: FilmProblem, parts: Operators, state: State) -> tuple[Array, Array]:
-    """R (size,) m3/s, and the size of the flows that meet at each unknown (see `kernels.residual`)."""
+    """R (size,) m3/s, and the size of the flows that meet at each unknown (see `kernels.exchange`)."""
     pattern = problem.space.pattern
     filling = state.film_fraction * density(problem, state.pressure)[0]
     out, size = np.zeros(problem.space.size), np.zeros(problem.space.size)
