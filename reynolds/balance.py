@@ -25,7 +25,7 @@ from reynolds.film import Cavitation, FilmProblem, Held
 from reynolds.fluid import CONSTANT
 from reynolds.mesh import Array
 from reynolds.space import FilmSpace
-from reynolds.transport import Tensor, Transport, along, at_points, lumped, transport
+from reynolds.transport import Tensor, Transport, along, at_points, transport
 
 NO_FLOW = 1e-9  # of the flow along an edge: less across it is round-off
 
@@ -72,15 +72,15 @@ class Operators:
     @cached_property
     def content(self) -> Array:
         """Integral of the content, (size,) m3."""
-        return lumped(self.problem.space, self.transport.content)
+        return self.problem.space.lumped(self.transport.content)
 
     @cached_property
     def rate(self) -> Array:
         """What a full film swallows, (size,) m3/s: its squeeze, or its content over the time step."""
         storage = self.problem.storage
-        return (
-            lumped(self.problem.space, self.transport.squeeze) if storage is None else self.content / storage.step
-        )
+        if storage is None:
+            return self.problem.space.lumped(self.transport.squeeze)
+        return self.content / storage.step
 
     @cached_property
     def full(self) -> tuple[Array, Array]:
@@ -90,10 +90,9 @@ class Operators:
         """
         space = self.problem.space
         net, meeting = self.rate.copy(), np.abs(self.rate)
-        kernels.carried(
-            space.dofs, space.tensors.shape, space.tensors.gradient, *self.transport.flux, *space.reference.loops,
-            net, meeting,
-        )  # fmt: skip
+        flux = (space.everywhere(part) for part in self.transport.flux)
+        tensors, loops = space.tensors, space.reference.loops
+        kernels.carried(space.dofs, tensors.shape, tensors.gradient, *flux, *loops, net, meeting)
         return net, meeting
 
 
@@ -133,7 +132,8 @@ def stiffness(space: FilmSpace, conductance: Tensor) -> Array:
     if xx is not yy:
         parts = [(tensors.pairs_xx, xx), (tensors.pairs_yy, yy), (tensors.pairs_xy, xy)]
     for pairs, along_pair in parts:
-        kernels.stiffness(pattern.slots, tensors.shape, pairs, along_pair, *space.reference.loops, data)
+        field = space.everywhere(along_pair)
+        kernels.stiffness(pattern.slots, tensors.shape, pairs, field, *space.reference.loops, data)
     kernels.close_rows(pattern.indptr, pattern.indices, data)
     return data
 
@@ -149,23 +149,17 @@ def convection(space: FilmSpace, flux: tuple[Array, Array], *, steep: bool = Fal
 
     `steep` takes the gradients of the conductance: for a flux that pressure drives.
     """
-    tensors, reference, pattern = space.tensors, space.reference, space.pattern
-    gradient = tensors.steep_gradient if steep else tensors.gradient
+    tensors, pattern, loops = space.tensors, space.pattern, space.reference.loops
+    value, gradient = space.reference.value, tensors.steep_gradient if steep else tensors.gradient
     upper, lower = (np.empty(len(pattern.indices)) for _ in range(2))
-    kernels.convection(
-        space.dofs, pattern.slots, tensors.shape, reference.value, gradient, *flux, *reference.loops, upper, lower
-    )
+    fields = (space.everywhere(part) for part in flux)
+    kernels.convection(space.dofs, pattern.slots, tensors.shape, value, gradient, *fields, *loops, upper, lower)
     return upper, lower
 
 
 def density(problem: FilmProblem, pressure: Array) -> tuple[Array, Array]:
     """Density ratio of the unknowns and its slope by pressure (1/Pa), (size,) each."""
     return problem.fluid.density(pressure)
-
-
-def holds(problem: FilmProblem, parts: Operators, state: State) -> Array:
-    """Oil of each unknown, m3 at reference density, (size,)."""
-    return parts.content * state.film_fraction * density(problem, state.pressure)[0]
 
 
 @dataclass(frozen=True)

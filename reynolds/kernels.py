@@ -6,7 +6,7 @@ Weak form of the Reynolds equation (Reynolds 1886): for every test function f
 
 with U the mean velocity of the two walls, theta the film fraction, r the density ratio and q_n the flow that
 leaves through the edge; theta and r are nodal, and their product is called filling. Fields stand at the
-quadrature points as (cells | 1, points | 1) arrays: a length of one means "the same everywhere".
+quadrature points, (cells, points).
 Geometry enters by the tensors of the cells' shapes (`tensors`), or is recomputed in the loop.
 
 `basis` and `points` are tuples as long as a cell has unknowns and quadrature points: the compiler knows the length
@@ -56,7 +56,6 @@ def stiffness(slots, shape, pairs, conductance, basis, points, data):
 
     What then stands on the diagonal means nothing: see `close_rows`.
     """
-    ce, cq = int(conductance.shape[0] > 1), int(conductance.shape[1] > 1)
     for e in range(slots.shape[0]):
         s = shape[e]
         k = pair = 0
@@ -65,7 +64,7 @@ def stiffness(slots, shape, pairs, conductance, basis, points, data):
             for _ in range(i + 1, len(basis)):
                 value = 0.0
                 for q in range(len(points)):
-                    value += conductance[e * ce, q * cq] * pairs[s, pair, q]
+                    value += conductance[e, q] * pairs[s, pair, q]
                 data[slots[e, k]] += value
                 k += 1
                 pair += 1
@@ -93,16 +92,12 @@ def carried(dofs, shape, gradient, flux_x, flux_y, basis, points, out, size):
     gradient[shape, q, i] is the area element times grad f_i, as `ElementTensors` has it. size adds up the
     magnitudes of the cells: in a uniform film they cancel, and are no less for that.
     """
-    xe, xq = int(flux_x.shape[0] > 1), int(flux_x.shape[1] > 1)
-    ye, yq = int(flux_y.shape[0] > 1), int(flux_y.shape[1] > 1)
     for e in range(dofs.shape[0]):
         s = shape[e]
         for i in range(len(basis)):
             flow = 0.0
             for q in range(len(points)):
-                flow -= (
-                    flux_x[e * xe, q * xq] * gradient[s, q, i, 0] + flux_y[e * ye, q * yq] * gradient[s, q, i, 1]
-                )
+                flow -= flux_x[e, q] * gradient[s, q, i, 0] + flux_y[e, q] * gradient[s, q, i, 1]
             out[dofs[e, i]] += flow
             size[dofs[e, i]] += abs(flow)
 
@@ -113,15 +108,13 @@ def convection(dofs, slots, shape, value, gradient, flux_x, flux_y, basis, point
 
     gradient as for `carried`.
     """
-    xe, xq = int(flux_x.shape[0] > 1), int(flux_x.shape[1] > 1)
-    ye, yq = int(flux_y.shape[0] > 1), int(flux_y.shape[1] > 1)
     along = np.empty((len(points), len(basis)))
     upper[:] = 0.0
     lower[:] = 0.0
     for e in range(dofs.shape[0]):
         s = shape[e]
         for q in range(len(points)):
-            fx, fy = flux_x[e * xe, q * xq], flux_y[e * ye, q * yq]
+            fx, fy = flux_x[e, q], flux_y[e, q]
             for i in range(len(basis)):
                 along[q, i] = fx * gradient[s, q, i, 0] + fy * gradient[s, q, i, 1]
         k = 0
@@ -223,13 +216,12 @@ def carry(indptr, indices, upper, lower, filling, out, size):
 @njit(**_FAST)
 def lump(dofs, value, area, field, basis, points, out):
     """out[i] = int field f_i, with area[cell, q] the weights of the quadrature."""
-    fe, fq = int(field.shape[0] > 1), int(field.shape[1] > 1)
     out[:] = 0.0
     for e in range(dofs.shape[0]):
         for i in range(len(basis)):
             total = 0.0
             for q in range(len(points)):
-                total += area[e, q] * field[e * fe, q * fq] * value[q, i]
+                total += area[e, q] * field[e, q] * value[q, i]
             out[dofs[e, i]] += total
 
 
@@ -274,12 +266,10 @@ def hold(indptr, indices, data, held, gain, data_out):
     part of a factorisation is kept while nodes enter and leave the cavity.
     """
     for j in range(indptr.shape[0] - 1):
-        for k in range(indptr[j], indptr[j + 1]):
-            i = indices[k]
-            if i == j:
-                data_out[k] = 1.0 if held[j] else data[k] + gain[j]
-            else:
-                data_out[k] = 0.0 if held[i] or held[j] else data[k]
+        last = indptr[j + 1] - 1
+        for k in range(indptr[j], last):
+            data_out[k] = 0.0 if held[j] or held[indices[k]] else data[k]
+        data_out[last] = 1.0 if held[j] else data[last] + gain[j]
 
 
 @njit(**_FAST)

@@ -13,7 +13,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from reynolds.balance import holds, positive_share
+from reynolds.balance import positive_share
 from reynolds.cascade import COARSEST, nested_cavity
 from reynolds.errors import FilmInputError, FilmNotConverged
 from reynolds.film import LEAST_FRACTION, Cavitation, FilmProblem, FilmSolution
@@ -183,8 +183,8 @@ def _solution(problem: FilmProblem, setting: Setting, at: Iterate, path: list[fl
         film=at.parts.transport.film,
         opening=at.state.opening,
         flux=at.parts.transport.flux,
+        content=at.parts.transport.content,
         outflow=-at.balance.net,
-        holds=holds(problem, at.parts, at.state),
         swallowed=at.balance.swallowed,
         mixing=at.balance.mixing,
         meeting=at.balance.meeting,

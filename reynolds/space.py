@@ -125,13 +125,21 @@ class FilmSpace:
     @cached_property
     def share(self) -> Array:
         """Integral of each unknown's basis over the film (size,), m2."""
-        return self.lumped(np.ones((1, 1)))
+        return self._lumped(np.ones(self.area.shape))
 
     def lumped(self, field: Array) -> Array:
         """Integral of a field (cells | 1, points | 1) times each unknown's basis, (size,): its unit times m2."""
+        return float(field[0, 0]) * self.share if field.size == 1 else self._lumped(self.everywhere(field))
+
+    def _lumped(self, field: Array) -> Array:
         out = np.empty(self.size)
         kernels.lump(self.dofs, self.reference.value, self.area, field, *self.reference.loops, out)
         return out
+
+    def everywhere(self, field: Array) -> Array:
+        """A field (cells | 1, points | 1) at every quadrature point (cells, points), as the kernels want it."""
+        shape = self.area.shape
+        return field if field.shape == shape else np.ascontiguousarray(np.broadcast_to(field, shape))
 
     @cached_property
     def tensors(self) -> ElementTensors:

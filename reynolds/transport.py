@@ -152,11 +152,6 @@ def at_points(space: FilmSpace, nodal: Array) -> Array:
     return np.ascontiguousarray(nodal[space.dofs] @ space.reference.value.T)
 
 
-def lumped(space: FilmSpace, field: Array) -> Array:
-    """Integral of a field times the basis of each unknown, (size,): the field's unit times m2."""
-    return float(field[0, 0]) * space.share if field.size == 1 else space.lumped(field)
-
-
 def _check_conductance(conductance: Array) -> None:
     if not (conductance.min() >= SMALLEST_CONDUCTANCE and conductance.max() < np.inf):
         found = f"h^3/(12 mu) from {conductance.min():.3g} to {conductance.max():.3g} m3/(Pa s)"
