@@ -62,15 +62,14 @@ def iterate_at(problem: FilmProblem, setting: Setting, before: Iterate, signed: 
     if not np.isfinite(signed).all():
         raise FilmNotConverged("pressures that grow without bound", "stiffer walls, or a thicker film")
     level = problem.cavitation_pressure
-    pressure, fraction = signed + level, np.ones_like(signed)
+    pressure, fraction = signed + level, setting.film_fraction
     cavity = np.zeros(len(signed), dtype=bool)
     if problem.cavitation is not Cavitation.NONE:
         cavity = (signed < 0.0) & ~setting.held
         pressure = np.maximum(pressure, level)
     if problem.cavitation is Cavitation.JFO and cavity.any():
-        fraction = np.where(cavity, 1.0 + signed / before.parts.lack, 1.0)
+        fraction = np.where(cavity, 1.0 + signed / before.parts.lack, fraction)
     pressure = np.where(setting.held, setting.pressure, pressure)
-    fraction = np.where(setting.held, setting.film_fraction, fraction)
     state = opened(problem, pressure, fraction, before.state.opening)
     if is_linear(problem):
         return Iterate(signed, state, cavity, before.parts, flow_balance(problem, before.parts, state))

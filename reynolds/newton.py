@@ -82,16 +82,16 @@ def signed_after(problem: FilmProblem, at: Iterate, change: Array, scale: float)
     would move as much: slopes of the balance by a signed unknown are then alike on both sides of zero.
     """
     level = problem.cavitation_pressure
+    if not at.cavity.any():
+        return at.state.pressure + change - level
     pressure = at.state.pressure + np.where(at.cavity, 0.0, change)
-    if problem.cavitation is Cavitation.JFO and at.cavity.any():
+    if problem.cavitation is Cavitation.JFO:
         lack = at.state.film_fraction + scale * change - 1.0
         return np.where(at.cavity, lack * at.parts.lack, pressure - level)
-    if problem.cavitation is Cavitation.REYNOLDS and at.cavity.any():
-        balance = flow_balance(problem, at.parts, replace(at.state, pressure=pressure))
-        # A node that nothing drives (balance zero but for round-off) would otherwise enter and leave for ever.
-        made = (balance.net + TIE * balance.meeting) / at.parts.stiffness[problem.space.pattern.diagonal]
-        return np.where(at.cavity, -made, pressure - level)
-    return pressure - level
+    balance = flow_balance(problem, at.parts, replace(at.state, pressure=pressure))
+    # A node that nothing drives (balance zero but for round-off) would otherwise enter and leave for ever.
+    made = (balance.net + TIE * balance.meeting) / at.parts.stiffness[problem.space.pattern.diagonal]
+    return np.where(at.cavity, -made, pressure - level)
 
 
 def fixed_in(problem: FilmProblem, setting: Setting, at: Iterate) -> NDArray[np.bool_]:

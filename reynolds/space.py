@@ -156,7 +156,7 @@ class FilmSpace:
         `flux` (cells | 1, points | 1) m2/s; both zero for a line inside the film.
         """
         normal, cell = self._facet_normal[name], self._facet_cell[name]
-        mean = np.array([part[cell if len(part) > 1 else slice(None)].mean(axis=1) for part in flux])
+        mean = np.array([self.everywhere(part)[cell].mean(axis=1) for part in flux])
         return (mean * normal).sum(axis=0), np.hypot(*mean) * np.hypot(*normal)
 
     def _along(self, name: str, per_facet: Array) -> Array:
