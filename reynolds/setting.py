@@ -14,7 +14,7 @@ from reynolds.mesh import Array
 
 @dataclass(frozen=True)
 class Setting:
-    """Pressure (size,) Pa and film fraction (size,) where `held`; elsewhere a first guess, a full film. Pockets."""
+    """Pressure (size,) Pa and film fraction (size,) where `held`, elsewhere a guess and a full film; pockets."""
 
     pressure: Array
     film_fraction: Array
