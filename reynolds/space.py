@@ -156,8 +156,8 @@ class FilmSpace:
         `flux` (cells | 1, points | 1) m2/s; both zero for a line inside the film.
         """
         normal, cell = self._facet_normal[name], self._facet_cell[name]
-        mean = np.array([self.everywhere(part)[cell].mean(axis=1) for part in flux])
-        return (mean * normal).sum(axis=0), np.hypot(*mean) * np.hypot(*normal)
+        x, y = (self.everywhere(part)[cell].mean(axis=1) for part in flux)
+        return x * normal[0] + y * normal[1], np.hypot(x, y) * np.hypot(*normal)
 
     def _along(self, name: str, per_facet: Array) -> Array:
         """Trapezium rule for a linear basis, Simpson's for a quadratic one: exact integrals of the basis."""

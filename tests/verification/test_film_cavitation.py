@@ -77,6 +77,17 @@ def test_steps_do_not_grow_with_the_mesh(cell):
     assert max(steps) <= 8
 
 
+def test_steps_do_not_grow_without_rows_and_columns():
+    """The same where a pocket leaves no grid: coarse problems gathered from neighbours."""
+    steps = []
+    for n in (48, 96, 192):
+        mesh = rectangle((2.0 * np.pi, 1.0), (n, n // 4), cell=Cell.QUADRILATERAL, periodic_x=True)
+        space = film_space(mesh, pockets=["bottom"])
+        boundary = {"bottom": Pocket(no_feed), "top": Held(LEVEL + 0.5)}
+        steps.append(FilmSolver(space).solve(_problem(space, boundary, 0.6)).iterations)
+    assert max(steps) <= 8
+
+
 def test_coarse_problems_find_a_known_contact():
     """A string over a table: -u'' = f, u >= 0; contact ends where slope and value vanish.
 
