@@ -14,6 +14,7 @@ balance beside it.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,7 +25,7 @@ from reynolds.film import Cavitation, FilmProblem, Held
 from reynolds.fluid import CONSTANT
 from reynolds.mesh import Array
 from reynolds.space import FilmSpace
-from reynolds.transport import Tensor, Transport, along, at_points, lumped, transport
+from reynolds.transport import Tensor, Transport, along, at_points, transport
 
 NO_FLOW = 1e-9  # of the flow along an edge: less across it is round-off
 
@@ -42,30 +43,62 @@ class State:
 class Operators:
     """K, C and D of the balance on the space's pattern (upper triangle, C's mirror beside it), lumped integrals.
 
-    content (size,) m3 = integral of the content; rate (size,) m3/s: what a full film swallows as the content
-    changes: the squeeze, or content over the time step.
+    Each is computed when it is first asked for: a full film of constant density needs neither C nor D.
     """
 
+    problem: FilmProblem
     transport: Transport
-    stiffness: Array
-    convection: tuple[Array, Array]
-    diffusion: Array
-    content: Array
-    rate: Array
+
+    @cached_property
+    def stiffness(self) -> Array:
+        """K, m3/(s Pa)."""
+        return stiffness(self.problem.space, self.transport.conductance)
+
+    @cached_property
+    def convection(self) -> tuple[Array, Array]:
+        """C and its mirror, m3/s."""
+        return convection(self.problem.space, self.transport.flux)
+
+    @cached_property
+    def diffusion(self) -> Array:
+        """D, m3/s; zero where no film fraction is carried along."""
+        diffusion = np.zeros(len(self.problem.space.pattern.indices))
+        if self.problem.cavitation is Cavitation.JFO:
+            leaves = _sends_nothing(self.problem, self.transport.flux)
+            pattern = self.problem.space.pattern
+            kernels.upwinding(pattern.indptr, pattern.indices, *self.convection, leaves, diffusion)
+        return diffusion
+
+    @cached_property
+    def content(self) -> Array:
+        """Integral of the content, (size,) m3."""
+        return self.problem.space.lumped(self.transport.content)
+
+    @cached_property
+    def rate(self) -> Array:
+        """What a full film swallows, (size,) m3/s: its squeeze, or its content over the time step."""
+        storage = self.problem.storage
+        if storage is None:
+            return self.problem.space.lumped(self.transport.squeeze)
+        return self.content / storage.step
+
+    @cached_property
+    def full(self) -> tuple[Array, Array]:
+        """What walls and rate add to R in a full film at reference density, and the sum of the magnitudes.
+
+        (size,) m3/s each: the rows of C summed in the cells, without C.
+        """
+        space = self.problem.space
+        net, meeting = self.rate.copy(), np.abs(self.rate)
+        flux = (space.everywhere(part) for part in self.transport.flux)
+        tensors, loops = space.tensors, space.reference.loops
+        kernels.carried(space.dofs, tensors.shape, tensors.gradient, *flux, *loops, net, meeting)
+        return net, meeting
 
 
 def operators(problem: FilmProblem, state: State) -> Operators:
     """The balance's operators at a state; they are constant for a constant fluid between rigid walls."""
-    space = problem.space
-    terms = transport(problem, state.pressure, state.opening)
-    content = lumped(space, terms.content)
-    rate = lumped(space, terms.squeeze) if problem.storage is None else content / problem.storage.step
-    carried = convection(space, terms.flux)
-    diffusion = np.zeros_like(carried[0])
-    if problem.cavitation is Cavitation.JFO:
-        leaves = _sends_nothing(problem, terms.flux)
-        kernels.upwinding(space.pattern.indptr, space.pattern.indices, *carried, leaves, diffusion)
-    return Operators(terms, stiffness(space, terms.conductance), carried, diffusion, content, rate)
+    return Operators(problem, transport(problem, state.pressure, state.opening))
 
 
 def _sends_nothing(problem: FilmProblem, flux: tuple[Array, Array]) -> NDArray[np.bool_]:
@@ -99,7 +132,9 @@ def stiffness(space: FilmSpace, conductance: Tensor) -> Array:
     if xx is not yy:
         parts = [(tensors.pairs_xx, xx), (tensors.pairs_yy, yy), (tensors.pairs_xy, xy)]
     for pairs, along_pair in parts:
-        kernels.stiffness(space.dofs, pattern.slots, pattern.indptr, tensors.shape, pairs, along_pair, data)
+        field = space.everywhere(along_pair)
+        kernels.stiffness(pattern.slots, tensors.shape, pairs, field, *space.reference.loops, data)
+    kernels.close_rows(pattern.indptr, pattern.indices, data)
     return data
 
 
@@ -114,10 +149,11 @@ def convection(space: FilmSpace, flux: tuple[Array, Array], *, steep: bool = Fal
 
     `steep` takes the gradients of the conductance: for a flux that pressure drives.
     """
-    tensors, reference, pattern = space.tensors, space.reference, space.pattern
-    gradient = tensors.steep_gradient if steep else tensors.gradient
+    tensors, pattern, loops = space.tensors, space.pattern, space.reference.loops
+    value, gradient = space.reference.value, tensors.steep_gradient if steep else tensors.gradient
     upper, lower = (np.empty(len(pattern.indices)) for _ in range(2))
-    kernels.convection(space.dofs, pattern.slots, tensors.shape, reference.value, gradient, *flux, upper, lower)
+    fields = (space.everywhere(part) for part in flux)
+    kernels.convection(space.dofs, pattern.slots, tensors.shape, value, gradient, *fields, *loops, upper, lower)
     return upper, lower
 
 
@@ -126,46 +162,45 @@ def density(problem: FilmProblem, pressure: Array) -> tuple[Array, Array]:
     return problem.fluid.density(pressure)
 
 
-def holds(problem: FilmProblem, parts: Operators, state: State) -> Array:
-    """Oil of each unknown, m3 at reference density, (size,)."""
-    return parts.content * state.film_fraction * density(problem, state.pressure)[0]
+@dataclass(frozen=True)
+class Balance:
+    """The flows of each unknown, (size,) m3/s at reference density.
+
+    net is R; meeting adds up the magnitudes (see `kernels.exchange`): the scale against which net is round-off.
+    swallowed is the rate at which its oil grows, mixing what upwinding exchanges (zero in a full film); both are
+    part of net.
+    """
+
+    net: Array
+    meeting: Array
+    swallowed: Array
+    mixing: Array
 
 
-def flow_balance(problem: FilmProblem, parts: Operators, state: State) -> tuple[Array, Array]:
-    """R (size,) m3/s, and the size of the flows that meet at each unknown (see `kernels.exchange`)."""
+def flow_balance(problem: FilmProblem, parts: Operators, state: State) -> Balance:
+    """The balance of a state; C and D are not asked for where the film is full and its density constant."""
     pattern = problem.space.pattern
-    filling = state.film_fraction * density(problem, state.pressure)[0]
-    out, size = np.zeros(problem.space.size), np.zeros(problem.space.size)
-    kernels.exchange(pattern.indptr, pattern.indices, parts.stiffness, state.pressure, out, size)
-    kernels.carry(pattern.indptr, pattern.indices, *parts.convection, filling, out, size)
-    mixed, mixed_size = _mixing(problem, parts, state)
-    out += mixed
-    size += mixed_size
-    out += swallowed(problem, parts, state)
-    size += np.abs(parts.rate * filling)
-    return out, size
-
-
-def mixing(problem: FilmProblem, parts: Operators, state: State) -> Array:
-    """What upwinding exchanges between the unknowns, m3/s at reference density, (size,): zero in a full film."""
-    return _mixing(problem, parts, state)[0]
-
-
-def _mixing(problem: FilmProblem, parts: Operators, state: State) -> tuple[Array, Array]:
-    pattern = problem.space.pattern
-    out, size = np.zeros(problem.space.size), np.zeros(problem.space.size)
-    level = cavity_density(problem) * state.film_fraction
-    if level.min() == level.max():
-        return out, size
-    kernels.exchange(pattern.indptr, pattern.indices, parts.diffusion, level, out, size)
-    return out, size
-
-
-def swallowed(problem: FilmProblem, parts: Operators, state: State) -> Array:
-    """Rate at which each unknown's oil grows, m3/s at reference density, (size,)."""
-    filled = state.film_fraction if problem.storage else np.where(parts.rate > 0.0, state.film_fraction, 1.0)
-    rate = parts.rate * filled * density(problem, state.pressure)[0]
-    return rate if problem.storage is None else rate - problem.storage.held_before / problem.storage.step
+    mixed = np.zeros(problem.space.size)
+    if problem.fluid is CONSTANT and bool(np.all(state.film_fraction == 1.0)):
+        net, meeting = (part.copy() for part in parts.full)
+        grown = parts.rate
+    else:
+        ratio = density(problem, state.pressure)[0]
+        filling = state.film_fraction * ratio
+        # A full film swallows; as it is torn apart, its film fraction gives way.
+        grown = parts.rate * (filling if problem.storage else np.where(parts.rate > 0.0, filling, ratio))
+        net, meeting = grown.copy(), np.abs(parts.rate * filling)
+        kernels.carry(pattern.indptr, pattern.indices, *parts.convection, filling, net, meeting)
+        level = cavity_density(problem) * state.film_fraction
+        if level.min() < level.max():
+            kernels.exchange(pattern.indptr, pattern.indices, parts.diffusion, level, mixed, meeting)
+            net += mixed
+    kernels.exchange(pattern.indptr, pattern.indices, parts.stiffness, state.pressure, net, meeting)
+    if problem.storage is not None:
+        before = problem.storage.held_before / problem.storage.step
+        net -= before
+        grown = grown - before
+    return Balance(net, meeting, grown, mixed)
 
 
 def cavity_density(problem: FilmProblem) -> float:

@@ -34,7 +34,7 @@ from reynolds.errors import FilmInputError, FilmNotConverged
 from reynolds.film import FilmSolution
 from reynolds.loads import dissipated
 from reynolds.mesh import Array
-from reynolds.transport import at_points, lumped
+from reynolds.transport import at_points
 from reynolds.wall_heat import Body, Convecting, GivenTemperature, Wall, wall_rows
 
 LEAST_WET = 1e-6  # film fraction that conducts where there is less: a dry film has its walls' temperature
@@ -227,8 +227,8 @@ def _terms(solution: FilmSolution, heat: Heat, profile: Profile, before: Array |
         oil, old = storage.held_before / storage.step, before[:, 1:-1]
     return _Terms(
         flows=flows,
-        conductance=lumped(space, wet * heat.conductivity / film.thickness),
-        area=lumped(space, np.ones((1, 1))),
+        conductance=space.lumped(wet * heat.conductivity / film.thickness),
+        area=space.lumped(np.ones((1, 1))),
         entering=np.where(np.isnan(inflow)[:, None], 0.0, np.maximum(-flows.leaving, 0.0)),
         inflow=np.where(np.isnan(inflow), 0.0, inflow),
         before=oil,
@@ -284,7 +284,7 @@ def dissipation(solution: FilmSolution, profile: Profile) -> Array:
     )
     # What mixes sums to zero, so that any level of pressure will do: above the cavity's no heat is negative.
     mixed_up = (solution.pressure - solution.problem.cavitation_pressure) * solution.mixing
-    return np.asarray(sum(lumped(space, part)[:, None] * shape for part, shape in parts) + mixed_up[:, None])
+    return np.asarray(sum(space.lumped(part)[:, None] * shape for part, shape in parts) + mixed_up[:, None])
 
 
 def _equations(solution: FilmSolution, heat: Heat, profile: Profile, terms: _Terms) -> tuple[HeatMatrix, Array]:

@@ -9,6 +9,8 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from enum import Enum
+from functools import cached_property
+from math import isfinite
 
 import numpy as np
 from numpy.typing import NDArray
@@ -128,9 +130,14 @@ def film(
         raise FilmInputError("film", "an array of one axis", "a number, or (1 | cells, 1 | points)")
     thickness, mu = (np.atleast_2d(np.asarray(field, dtype=float)) for field in (thickness, viscosity))
     for name, values, unit in (("film thickness", thickness, "m"), ("viscosity", mu, "Pa s")):
-        if not np.all(np.isfinite(values)) or values.min() <= 0.0:
+        if not _all_finite(values) or values.min() <= 0.0:
             raise FilmInputError(name, f"minimum {values.min():.4g} {unit}", "positive everywhere")
     return Film(thickness, mu, velocity_moving, velocity_fixed, squeeze)
+
+
+def _all_finite(values: Array) -> bool:
+    """Whether every value is a number; most fields are one, and looked at without numpy's loops."""
+    return isfinite(values.item()) if values.size == 1 else bool(np.isfinite(values).all())
 
 
 @dataclass(frozen=True)
@@ -184,21 +191,23 @@ class FilmProblem:
             ("film thickness", oil.thickness), ("viscosity", oil.viscosity), ("squeeze", oil.squeeze),
             ("moving wall, x", oil.velocity_moving[0]), ("moving wall, y", oil.velocity_moving[1]),
             ("fixed wall, x", oil.velocity_fixed[0]), ("fixed wall, y", oil.velocity_fixed[1]),
-            ("sliding viscosity", oil.sliding_viscosity), ("moving wall's share", oil.moving_share),
+            ("moving wall's share", oil.moving_share), ("sliding viscosity", oil.couette_viscosity),
         ):  # fmt: skip
+            if field_values is None:  # no other viscosity than that of pressure flow
+                continue
             # The compiled loops trust these shapes: another one would read beside the array.
             shape = np.shape(field_values)
             if len(shape) != 2 or shape[0] not in (1, cells) or shape[1] not in (1, points):
                 expected = f"(1 or {cells} cells, 1 or {points} points), as `space.sample` gives it"
                 raise FilmInputError(name, f"an array of shape {shape}", expected)
-            if not np.isfinite(field_values).all():
+            if not _all_finite(field_values):
                 raise FilmInputError(name, "a value that is not finite", "numbers")
         wanted = (len(self.space.vertices), self.space.size)
         if self.walls is not None and self.walls.matrix.shape != wanted:
             found = f"a compliance of shape {self.walls.matrix.shape}"
             raise FilmInputError("walls", found, f"{wanted}: {wanted[0]} vertices, {wanted[1]} unknowns")
-        for name, viscosity in (("viscosity", oil.viscosity), ("sliding viscosity", oil.sliding_viscosity)):
-            if viscosity.min() <= 0.0:
+        for name, viscosity in (("viscosity", oil.viscosity), ("sliding viscosity", oil.couette_viscosity)):
+            if viscosity is not None and viscosity.min() <= 0.0:
                 raise FilmInputError(name, f"{viscosity.min():.4g} Pa s", "positive everywhere")
 
     def _check_nodal(self) -> None:
@@ -227,9 +236,9 @@ class FilmSolution:
     """A pressure field and its quality.
 
     pressure (size,) Pa; film_fraction (size,), 1 in the film; film: as it is under this pressure, with the walls'
-    opening (vertices,) m in its thickness and the oil's law in its viscosity; flux: what the walls carry along,
-    m2/s at the quadrature points of a full film. Of each unknown (size,), at reference density: outflow, m3/s
-    out of the film at held nodes and pockets; holds, its oil in m3, and swallowed, the rate of that in m3/s;
+    opening (vertices,) m in its thickness and the oil's law in its viscosity; flux, m2/s, and content, m: what the
+    walls carry along and the oil per area at the quadrature points of a full film. Of each unknown (size,), at
+    reference density: outflow, m3/s out of the film at held nodes and pockets; swallowed, rate of its oil in m3/s;
     mixing, what upwinding exchanges in a cavity and at its ends, m3/s; meeting, magnitudes of the flows that meet
     there, m3/s. `cavity` marks unknowns at cavitation pressure; `path` is the imbalance after each step.
     """
@@ -240,14 +249,20 @@ class FilmSolution:
     film: Film = field(repr=False)
     opening: Array
     flux: tuple[Array, Array] = field(repr=False)
+    content: Array = field(repr=False)
     outflow: Array
-    holds: Array
     swallowed: Array
     mixing: Array
     meeting: Array
     held: NDArray[np.bool_]
     cavity: NDArray[np.bool_]
     path: tuple[float, ...]
+
+    @cached_property
+    def holds(self) -> Array:
+        """Oil of each unknown, (size,) m3 at reference density."""
+        ratio = self.problem.fluid.density(self.pressure)[0]
+        return self.problem.space.lumped(self.content) * self.film_fraction * ratio
 
     @property
     def imbalance(self) -> float:

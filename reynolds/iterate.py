@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from reynolds import kernels
-from reynolds.balance import Operators, State, flow_balance, operators
+from reynolds.balance import Balance, Operators, State, flow_balance, operators
 from reynolds.errors import FilmInputError, FilmNotConverged
 from reynolds.film import Cavitation, FilmProblem
 from reynolds.fluid import CONSTANT
@@ -33,8 +33,7 @@ class Iterate:
     state: State
     cavity: NDArray[np.bool_]
     parts: Operators
-    balance: Array
-    size: Array
+    balance: Balance
 
 
 def is_linear(problem: FilmProblem) -> bool:
@@ -54,10 +53,9 @@ def iterate_of(
     parts = operators(problem, state)
     if signed is None:
         signed = state.pressure - problem.cavitation_pressure
-        at = Iterate(signed, state, cavity, parts, signed, signed)
-        if problem.cavitation is Cavitation.JFO:
-            signed = np.where(cavity, (state.film_fraction - 1.0) * stiffness_of_lack(problem, at), signed)
-    return Iterate(signed, state, cavity, parts, *flow_balance(problem, parts, state))
+        if problem.cavitation is Cavitation.JFO and cavity.any():
+            signed = np.where(cavity, (state.film_fraction - 1.0) * stiffness_of_lack(problem, parts), signed)
+    return Iterate(signed, state, cavity, parts, flow_balance(problem, parts, state))
 
 
 def iterate_at(problem: FilmProblem, setting: Setting, before: Iterate, signed: Array) -> Iterate:
@@ -70,13 +68,13 @@ def iterate_at(problem: FilmProblem, setting: Setting, before: Iterate, signed: 
     if problem.cavitation is not Cavitation.NONE:
         cavity = (signed < 0.0) & ~setting.held
         pressure = np.maximum(pressure, level)
-    if problem.cavitation is Cavitation.JFO:
-        fraction = np.where(cavity, 1.0 + signed / stiffness_of_lack(problem, before), 1.0)
+    if problem.cavitation is Cavitation.JFO and cavity.any():
+        fraction = np.where(cavity, 1.0 + signed / stiffness_of_lack(problem, before.parts), 1.0)
     pressure = np.where(setting.held, setting.pressure, pressure)
     fraction = np.where(setting.held, setting.film_fraction, fraction)
     state = opened(problem, pressure, fraction, before.state.opening)
     if is_linear(problem):
-        return Iterate(signed, state, cavity, before.parts, *flow_balance(problem, before.parts, state))
+        return Iterate(signed, state, cavity, before.parts, flow_balance(problem, before.parts, state))
     return iterate_of(problem, state, cavity, signed)
 
 
@@ -90,7 +88,7 @@ def advanced(problem: FilmProblem, setting: Setting, at: Iterate, signed: Array,
     def rest(there: Iterate) -> float:
         return float(np.abs(with_pockets(setting, there)[0][~setting.held]).sum())
 
-    before, best, fault = rest(at), None, None
+    before, best, fault = rest(at) if downhill else np.inf, None, None
     for halvings in range(MOST_HALVINGS):
         share = 0.5**halvings
         try:
@@ -98,8 +96,10 @@ def advanced(problem: FilmProblem, setting: Setting, at: Iterate, signed: Array,
         except (FilmInputError, FilmNotConverged) as reason:
             fault = reason
             continue
+        if not downhill:
+            return new
         left = rest(new)
-        if not downhill or left < (1.0 - LEAST_GAIN * share) * before:
+        if left < (1.0 - LEAST_GAIN * share) * before:
             return new
         if best is None or left < best[0]:
             best = left, new
@@ -115,18 +115,21 @@ def imbalance_of(problem: FilmProblem, setting: Setting, at: Iterate) -> float:
     if problem.cavitation is Cavitation.REYNOLDS:
         free &= ~at.cavity
     rest, slope = with_pockets(setting, at)
-    size = at.size + np.abs(at.balance - rest) + kernels.ROUNDING * np.abs(slope * at.state.pressure)
+    size = at.balance.meeting
+    if setting.pockets:
+        size = size + np.abs(at.balance.net - rest) + kernels.ROUNDING * np.abs(slope * at.state.pressure)
     if problem.cavitation is Cavitation.JFO and at.cavity.any():
         # A film fraction next to zero is one less nearly one: to the last place of one.
-        size = size + np.where(at.cavity, kernels.ROUNDING * _carried(problem, at), 0.0)
+        size = size + np.where(at.cavity, kernels.ROUNDING * _carried(problem, at.parts), 0.0)
     # Round-off of a solve is that of its largest flows: where next to nothing flows it is all there is.
-    scale = np.maximum(size + kernels.ROUNDING * size.max(initial=0.0), 1e-300)
-    return float(np.max(np.abs(rest[free]) / scale[free], initial=0.0))
+    scale = size + max(kernels.ROUNDING * size.max(initial=0.0), 1e-300)
+    return float(np.max(np.abs(rest) / scale, where=free, initial=0.0))
 
 
 def with_pockets(setting: Setting, at: Iterate) -> tuple[Array, Array]:
     """The balance less what pockets are fed, and what their feeds add to the diagonal."""
-    rest, gain = at.balance.copy(), np.zeros(len(at.balance))
+    net = at.balance.net
+    rest, gain = net.copy() if setting.pockets else net, np.zeros(len(net))
     for node, pocket in setting.pockets:
         inflow, slope = pocket.feed(at.state.pressure[node])
         if not (np.isfinite(inflow) and np.isfinite(slope)):
@@ -137,16 +140,17 @@ def with_pockets(setting: Setting, at: Iterate) -> tuple[Array, Array]:
     return rest, gain
 
 
-def stiffness_of_lack(problem: FilmProblem, at: Iterate) -> Array:
+def stiffness_of_lack(problem: FilmProblem, parts: Operators) -> Array:
     """Pressure that moves as much oil out of an unknown as its film fraction does, (size,) Pa."""
-    carried = _carried(problem, at)
-    stiff = diagonal(problem, at.parts.stiffness)
+    carried = _carried(problem, parts)
+    stiff = diagonal(problem, parts.stiffness)
     return np.maximum(carried, NOTHING * carried.max() + 1e-300) / np.where(stiff > 0.0, stiff, 1.0)
 
 
-def _carried(problem: FilmProblem, at: Iterate) -> Array:
+def _carried(problem: FilmProblem, parts: Operators) -> Array:
     """Oil that leaves or stays at an unknown filled to the brim, (size,) m3/s."""
-    return diagonal(problem, at.parts.convection[0] + at.parts.diffusion) + np.maximum(at.parts.rate, 0.0)
+    carried = diagonal(problem, parts.convection[0]) + diagonal(problem, parts.diffusion)
+    return carried + np.maximum(parts.rate, 0.0)
 
 
 def diagonal(problem: FilmProblem, upper: Array) -> Array:

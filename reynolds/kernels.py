@@ -6,14 +6,17 @@ Weak form of the Reynolds equation (Reynolds 1886): for every test function f
 
 with U the mean velocity of the two walls, theta the film fraction, r the density ratio and q_n the flow that
 leaves through the edge; theta and r are nodal, and their product is called filling. Fields stand at the
-quadrature points as (cells | 1, points | 1) arrays: a length of one means "the same everywhere".
+quadrature points, (cells, points).
 Geometry enters by the tensors of the cells' shapes (`tensors`), or is recomputed in the loop.
+
+`basis` and `points` are tuples as long as a cell has unknowns and quadrature points: the compiler knows the length
+of a tuple and unrolls the loops over it.
 """
 
 import numpy as np
 from numba import njit
 
-_FAST = {"cache": True, "fastmath": False, "error_model": "numpy"}
+_FAST = {"cache": True, "fastmath": {"contract"}, "error_model": "numpy"}
 
 
 LEAST_MIXING = 1e-3
@@ -48,68 +51,91 @@ def measure(vertices, cells, geometry_gradient, weights, area):
 
 
 @njit(**_FAST)
-def stiffness(dofs, slots, indptr, shape, pairs, conductance, data):
-    """data += int k grad p . grad f, upper triangle in the fixed pattern; pairs[shape, q] as `ElementTensors`.
+def stiffness(slots, shape, pairs, conductance, basis, points, data):
+    """data += int k grad f_i . grad f_j, i < j, in the fixed pattern; pairs[shape, pair, q] as `ElementTensors`.
 
-    Off the diagonal a pair's coupling; what it couples leaves both diagonals, whose rows so sum to zero.
+    What then stands on the diagonal means nothing: see `close_rows`.
     """
-    nb = dofs.shape[1]
-    ce, cq = int(conductance.shape[0] > 1), int(conductance.shape[1] > 1)
-    for e in range(dofs.shape[0]):
+    for e in range(slots.shape[0]):
         s = shape[e]
         k = pair = 0
-        for i in range(nb):
+        for i in range(len(basis)):
             k += 1  # the diagonal's slot
-            for j in range(i + 1, nb):
+            for _ in range(i + 1, len(basis)):
                 value = 0.0
-                for q in range(pairs.shape[1]):
-                    value += conductance[e * ce, q * cq] * pairs[s, q, pair]
-                one, two = dofs[e, i], dofs[e, j]
-                # Two corners tied to one unknown (seam, pocket) exchange nothing.
-                if one != two:
-                    data[slots[e, k]] += value
-                    data[indptr[one + 1] - 1] -= value
-                    data[indptr[two + 1] - 1] -= value
+                for q in range(len(points)):
+                    value += conductance[e, q] * pairs[s, pair, q]
+                data[slots[e, k]] += value
                 k += 1
                 pair += 1
 
 
 @njit(**_FAST)
-def convection(dofs, slots, shape, value, gradient, flux_x, flux_y, upper, lower):
+def close_rows(indptr, indices, data):
+    """Set the diagonal so that the rows of the symmetric matrix sum to zero: one level everywhere drives nothing.
+
+    Corners tied to one unknown (seam, pocket) have put their coupling on the diagonal; it is overwritten.
+    """
+    for j in range(indptr.shape[0] - 1):
+        last = indptr[j + 1] - 1
+        total = 0.0
+        for k in range(indptr[j], last):
+            total += data[k]
+            data[indptr[indices[k] + 1] - 1] -= data[k]
+        data[last] = -total
+
+
+@njit(**_FAST)
+def carried(dofs, shape, gradient, flux_x, flux_y, basis, points, out, size):
+    """out_i += - int (flux_x, flux_y) . grad f_i, what the walls carry out of each unknown of a full film.
+
+    gradient[shape, q, i] is the area element times grad f_i, as `ElementTensors` has it. size adds up the
+    magnitudes of the cells: in a uniform film they cancel, and are no less for that.
+    """
+    for e in range(dofs.shape[0]):
+        s = shape[e]
+        for i in range(len(basis)):
+            flow = 0.0
+            for q in range(len(points)):
+                flow -= flux_x[e, q] * gradient[s, q, i, 0] + flux_y[e, q] * gradient[s, q, i, 1]
+            out[dofs[e, i]] += flow
+            size[dofs[e, i]] += abs(flow)
+
+
+@njit(**_FAST)
+def convection(dofs, slots, shape, value, gradient, flux_x, flux_y, basis, points, upper, lower):
     """C_ij = - int f_j (flux_x, flux_y) . grad f_i: upper[slot] takes C_ij for i <= j, lower[slot] its mirror.
 
-    gradient[shape, q, i] is the area element times grad f_i, as `ElementTensors` has it.
+    gradient as for `carried`.
     """
-    nb = dofs.shape[1]
-    xe, xq = int(flux_x.shape[0] > 1), int(flux_x.shape[1] > 1)
-    ye, yq = int(flux_y.shape[0] > 1), int(flux_y.shape[1] > 1)
-    local = np.empty((nb, nb))
+    along = np.empty((len(points), len(basis)))
     upper[:] = 0.0
     lower[:] = 0.0
     for e in range(dofs.shape[0]):
         s = shape[e]
-        local[:] = 0.0
-        for q in range(gradient.shape[1]):
-            fx, fy = flux_x[e * xe, q * xq], flux_y[e * ye, q * yq]
-            for i in range(nb):
-                along = fx * gradient[s, q, i, 0] + fy * gradient[s, q, i, 1]
-                for j in range(nb):
-                    local[i, j] -= value[q, j] * along
+        for q in range(len(points)):
+            fx, fy = flux_x[e, q], flux_y[e, q]
+            for i in range(len(basis)):
+                along[q, i] = fx * gradient[s, q, i, 0] + fy * gradient[s, q, i, 1]
         k = 0
-        for i in range(nb):
-            for j in range(i, nb):
+        for i in range(len(basis)):
+            for j in range(i, len(basis)):
+                c_ij = c_ji = 0.0
+                for q in range(len(points)):
+                    c_ij -= value[q, j] * along[q, i]
+                    c_ji -= value[q, i] * along[q, j]
                 slot = slots[e, k]
                 one, two = dofs[e, i], dofs[e, j]
                 if i == j:
-                    upper[slot] += local[i, i]
+                    upper[slot] += c_ij
                 elif one == two:
-                    upper[slot] += local[i, j] + local[j, i]
+                    upper[slot] += c_ij + c_ji
                 elif one < two:
-                    upper[slot] += local[i, j]
-                    lower[slot] += local[j, i]
+                    upper[slot] += c_ij
+                    lower[slot] += c_ji
                 else:
-                    upper[slot] += local[j, i]
-                    lower[slot] += local[i, j]
+                    upper[slot] += c_ji
+                    lower[slot] += c_ij
                 k += 1
 
 
@@ -154,14 +180,18 @@ def exchange(indptr, indices, coupling, level, out, size):
     in them: the scale against which out is round-off.
     """
     for j in range(indptr.shape[0] - 1):
+        there = level[j]
+        gone = met = 0.0
         for k in range(indptr[j], indptr[j + 1] - 1):
             i = indices[k]
-            flow = coupling[k] * (level[j] - level[i])
-            lost = abs(flow) + ROUNDING * abs(coupling[k]) * (abs(level[i]) + abs(level[j]))
+            flow = coupling[k] * (there - level[i])
+            lost = abs(flow) + ROUNDING * abs(coupling[k]) * (abs(level[i]) + abs(there))
             out[i] += flow
-            out[j] -= flow
+            gone += flow
             size[i] += lost
-            size[j] += lost
+            met += lost
+        out[j] -= gone
+        size[j] += met
 
 
 @njit(**_FAST)
@@ -169,26 +199,30 @@ def carry(indptr, indices, upper, lower, filling, out, size):
     """out += A filling, A's upper triangle by columns and the mirror of each entry in lower; size as above."""
     for j in range(indptr.shape[0] - 1):
         last = indptr[j + 1] - 1
-        out[j] += upper[last] * filling[j]
-        size[j] += abs(upper[last] * filling[j])
+        full = filling[j]
+        come = upper[last] * full
+        met = abs(come)
         for k in range(indptr[j], last):
             i = indices[k]
-            out[i] += upper[k] * filling[j]
-            out[j] += lower[k] * filling[i]
-            size[i] += abs(upper[k] * filling[j])
-            size[j] += abs(lower[k] * filling[i])
+            there, here = upper[k] * full, lower[k] * filling[i]
+            out[i] += there
+            size[i] += abs(there)
+            come += here
+            met += abs(here)
+        out[j] += come
+        size[j] += met
 
 
 @njit(**_FAST)
-def lump(dofs, value, area, field, out):
+def lump(dofs, value, area, field, basis, points, out):
     """out[i] = int field f_i, with area[cell, q] the weights of the quadrature."""
-    fe, fq = int(field.shape[0] > 1), int(field.shape[1] > 1)
     out[:] = 0.0
     for e in range(dofs.shape[0]):
-        for q in range(area.shape[1]):
-            w = area[e, q] * field[e * fe, q * fq]
-            for i in range(dofs.shape[1]):
-                out[dofs[e, i]] += w * value[q, i]
+        for i in range(len(basis)):
+            total = 0.0
+            for q in range(len(points)):
+                total += area[e, q] * field[e, q] * value[q, i]
+            out[dofs[e, i]] += total
 
 
 @njit(**_FAST)
@@ -232,12 +266,10 @@ def hold(indptr, indices, data, held, gain, data_out):
     part of a factorisation is kept while nodes enter and leave the cavity.
     """
     for j in range(indptr.shape[0] - 1):
-        for k in range(indptr[j], indptr[j + 1]):
-            i = indices[k]
-            if i == j:
-                data_out[k] = 1.0 if held[j] else data[k] + gain[j]
-            else:
-                data_out[k] = 0.0 if held[i] or held[j] else data[k]
+        last = indptr[j + 1] - 1
+        for k in range(indptr[j], last):
+            data_out[k] = 0.0 if held[j] or held[indices[k]] else data[k]
+        data_out[last] = 1.0 if held[j] else data[last] + gain[j]
 
 
 @njit(**_FAST)

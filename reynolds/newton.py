@@ -78,13 +78,13 @@ def signed_after(problem: FilmProblem, at: Iterate, change: Array, scale: float)
     """
     level = problem.cavitation_pressure
     pressure = at.state.pressure + np.where(at.cavity, 0.0, change)
-    if problem.cavitation is Cavitation.JFO:
+    if problem.cavitation is Cavitation.JFO and at.cavity.any():
         lack = at.state.film_fraction + scale * change - 1.0
-        return np.where(at.cavity, lack * stiffness_of_lack(problem, at), pressure - level)
+        return np.where(at.cavity, lack * stiffness_of_lack(problem, at.parts), pressure - level)
     if problem.cavitation is Cavitation.REYNOLDS and at.cavity.any():
-        balance, size = flow_balance(problem, at.parts, replace(at.state, pressure=pressure))
+        balance = flow_balance(problem, at.parts, replace(at.state, pressure=pressure))
         # A node that nothing drives (balance zero but for round-off) would otherwise enter and leave for ever.
-        made = (balance + TIE * size) / diagonal(problem, at.parts.stiffness)
+        made = (balance.net + TIE * balance.meeting) / diagonal(problem, at.parts.stiffness)
         return np.where(at.cavity, -made, pressure - level)
     return pressure - level
 

@@ -13,7 +13,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from reynolds.balance import holds, mixing, positive_share, swallowed
+from reynolds.balance import positive_share
 from reynolds.cascade import COARSEST, nested_cavity
 from reynolds.errors import FilmInputError, FilmNotConverged
 from reynolds.film import LEAST_FRACTION, Cavitation, FilmProblem, FilmSolution
@@ -98,7 +98,9 @@ class FilmSolver:
         cold = start is None or (problem.cavitation is Cavitation.JFO and not cavity.any())
         if cold and is_linear(problem) and problem.cavitation is not Cavitation.NONE and space.size > COARSEST:
             # Free unknowns of the spread pressures stand at cavitation pressure: the step from there is p - p_c.
-            spread_out = iterate_of(problem, opened(problem, setting.pressure, setting.film_fraction), cavity)
+            spread_out = at
+            if start is not None:
+                spread_out = iterate_of(problem, opened(problem, setting.pressure, setting.film_fraction), cavity)
             guess = nested_cavity(*symmetric_step(problem, setting, spread_out, setting.held)) & ~setting.held
             at = replace(at, cavity=guess)
         return at
@@ -181,11 +183,11 @@ def _solution(problem: FilmProblem, setting: Setting, at: Iterate, path: list[fl
         film=at.parts.transport.film,
         opening=at.state.opening,
         flux=at.parts.transport.flux,
-        outflow=-at.balance,
-        holds=holds(problem, at.parts, at.state),
-        swallowed=swallowed(problem, at.parts, at.state),
-        mixing=mixing(problem, at.parts, at.state),
-        meeting=at.size,
+        content=at.parts.transport.content,
+        outflow=-at.balance.net,
+        swallowed=at.balance.swallowed,
+        mixing=at.balance.mixing,
+        meeting=at.balance.meeting,
         held=setting.held,
         cavity=at.cavity & ~full,
         path=tuple(path),

@@ -6,6 +6,7 @@ Built once for a mesh; films of changing thickness, wall velocity and even moved
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
+from copy import copy
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -48,6 +49,12 @@ class Reference:
     steep_geometry: Array  # (points, corners, 2)
     weights: Array  # (points,)
 
+    @cached_property
+    def loops(self) -> tuple[tuple[int, ...], tuple[int, ...]]:
+        """Numbers of the basis and of the points, as tuples: see `kernels`."""
+        points, basis = self.value.shape
+        return tuple(range(basis)), tuple(range(points))
+
 
 @dataclass(frozen=True)
 class Pattern:
@@ -73,6 +80,8 @@ class Pattern:
     def pieces_without(self, marked: NDArray[np.bool_]) -> int:
         """Number of pieces of the film in which no unknown is marked."""
         count, piece = self.pieces
+        if count == 1:
+            return int(not marked.any())
         reached = np.zeros(count, dtype=bool)
         reached[piece[marked]] = True
         return int(np.count_nonzero(~reached))
@@ -112,6 +121,25 @@ class FilmSpace:
         area = np.empty((len(self.cells), len(self.reference.weights)))
         kernels.measure(self.vertices, self.cells, geometry_gradient, self.reference.weights, area)
         return area
+
+    @cached_property
+    def share(self) -> Array:
+        """Integral of each unknown's basis over the film (size,), m2."""
+        return self._lumped(np.ones(self.area.shape))
+
+    def lumped(self, field: Array) -> Array:
+        """Integral of a field (cells | 1, points | 1) times each unknown's basis, (size,): its unit times m2."""
+        return float(field[0, 0]) * self.share if field.size == 1 else self._lumped(self.everywhere(field))
+
+    def _lumped(self, field: Array) -> Array:
+        out = np.empty(self.size)
+        kernels.lump(self.dofs, self.reference.value, self.area, field, *self.reference.loops, out)
+        return out
+
+    def everywhere(self, field: Array) -> Array:
+        """A field (cells | 1, points | 1) at every quadrature point (cells, points), as the kernels want it."""
+        shape = self.area.shape
+        return field if field.shape == shape else np.ascontiguousarray(np.broadcast_to(field, shape))
 
     @cached_property
     def tensors(self) -> ElementTensors:
@@ -221,7 +249,15 @@ class FilmSpace:
 
     def matrix(self, data: Array) -> csc_array:
         """Upper triangle of the operator with these entries."""
-        return csc_array((data, self.pattern.indices, self.pattern.indptr), shape=(self.size, self.size))
+        upper = copy(self._empty)
+        upper.data = data
+        return upper
+
+    @cached_property
+    def _empty(self) -> csc_array:
+        """An upper triangle to copy: scipy checks indices whenever a matrix is made of them."""
+        indices, indptr = self.pattern.indices, self.pattern.indptr
+        return csc_array((np.zeros(len(indices)), indices, indptr), shape=(self.size, self.size))
 
 
 def film_space(film_mesh: FilmMesh, *, degree: int = 1, pockets: Iterable[str] = ()) -> FilmSpace:

@@ -18,11 +18,11 @@ SAME = 1e-10  # of a cell's size: corners nearer than this are at the same place
 
 @dataclass(frozen=True)
 class ElementTensors:
-    """Tensors of the shapes (shapes, points, ..) and the shape of each cell (cells,).
+    """Tensors of the shapes and the shape of each cell (cells,).
 
-    pairs: g_i g_j times the area element for i < j in the order of np.triu_indices, and its xx, yy and (doubled)
-    xy part, with the steep gradients g of the conductance; gradient and steep_gradient: (.., basis, 2) m, the area
-    element times each gradient.
+    pairs (shapes, pairs, points): g_i g_j times the area element for i < j in the order of np.triu_indices, and
+    its xx, yy and (doubled) xy part, with the steep gradients g of the conductance; gradient and steep_gradient
+    (shapes, points, basis, 2) m: the area element times each gradient.
     """
 
     shape: NDArray[np.int32]
@@ -47,6 +47,7 @@ def element_tensors(
     size = area[..., None]
     xx, yy = size * x[..., i] * x[..., j], size * y[..., i] * y[..., j]
     xy = size * (x[..., i] * y[..., j] + y[..., i] * x[..., j])
+    xx, yy, xy = (np.ascontiguousarray(part.swapaxes(1, 2)) for part in (xx, yy, xy))
     return ElementTensors(shape, xx, yy, xy, xx + yy, weighted, steeply)
 
 

@@ -11,7 +11,7 @@ from typing import Generic, Protocol, TypeVar
 
 import numpy as np
 
-from reynolds.balance import State, holds, operators
+from reynolds.balance import State, density, operators
 from reynolds.errors import FilmInputError, FilmNotConverged
 from reynolds.film import FilmProblem, FilmSolution, Storage
 from reynolds.mesh import Array
@@ -111,7 +111,7 @@ def oil_held(problem: FilmProblem, film_fraction: float | Array = 1.0) -> Array:
     if not np.all((fraction >= 0.0) & (fraction <= 1.0)):
         raise FilmInputError("film fraction", f"{fraction.min():g} .. {fraction.max():g}", "0 to 1")
     state = State(setting.pressure, fraction, opening(problem, setting.pressure))
-    return holds(problem, operators(problem, state), state)
+    return operators(problem, state).content * fraction * density(problem, setting.pressure)[0]
 
 
 def _stepped(

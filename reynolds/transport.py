@@ -5,17 +5,18 @@ Values and, for Newton's method, their slopes by pressure and by film thickness,
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
-from reynolds import kernels
 from reynolds.errors import FilmInputError, FilmNotConverged
 from reynolds.film import Film, FilmProblem
 from reynolds.fluid import CONSTANT
 from reynolds.laws import Tangent
 from reynolds.mesh import Array
-from reynolds.roughness import flow_factors
+from reynolds.roughness import FlowFactors, Surface, flow_factors
 from reynolds.space import FilmSpace
 
 WIDEST = 1e6  # times the given film: walls that open further were meant to be stiffer
@@ -35,19 +36,72 @@ def isotropic(conductance: Array) -> Tensor:
 class Transport:
     """Flow terms, each (cells | 1, points | 1); *_slope by thickness, by_pressure the relative one by pressure.
 
-    film: as it is under pressure; conductance r h^3/(12 mu) times pressure flow factors, m3/(Pa s); flux h U along
-    x and y by which the walls carry a full film, m2/s; content: oil per area, m; squeeze: its rate, m/s.
+    film: as it is under pressure; smooth: r h^3/(12 mu), m3/(Pa s), the conductance between smooth walls; factors:
+    what roughness makes of it and of the flow with the walls.
     """
 
     film: Film
-    conductance: Tensor
-    conductance_slope: Tensor
+    smooth: Array
     by_pressure: Array
-    flux: tuple[Array, Array]
-    flux_slope: tuple[Array, Array]
-    content: Array
-    content_slope: Array
-    squeeze: Array
+    surface: Surface | None
+    factors: FlowFactors | None
+
+    @cached_property
+    def conductance(self) -> Tensor:
+        """r h^3/(12 mu) times the pressure flow factors, m3/(Pa s)."""
+        if self.factors is None:
+            return isotropic(self.smooth)
+        x, xy, y = (self.smooth * part.value for part in self.factors.pressure)
+        return x, y, xy
+
+    @cached_property
+    def conductance_slope(self) -> Tensor:
+        """Its slope, m2/(Pa s)."""
+        steeper = 3.0 / self.film.thickness
+        if self.factors is None:
+            return isotropic(steeper * self.smooth)
+        x, xy, y = (self.smooth * (part.slope + steeper * part.value) for part in self.factors.pressure)
+        return x, y, xy
+
+    @cached_property
+    def flux(self) -> tuple[Array, Array]:
+        """h U along x and y by which the walls carry a full film, m2/s; between rough walls see `roughness`."""
+        return self._with_walls(self._content.value, lambda part: part.value)
+
+    @cached_property
+    def flux_slope(self) -> tuple[Array, Array]:
+        """Its slope, m/s."""
+        return self._with_walls(self._content.slope, lambda part: part.slope)
+
+    @property
+    def content(self) -> Array:
+        """Oil per area, m."""
+        return self._content.value
+
+    @property
+    def content_slope(self) -> Array:
+        """Its slope."""
+        return self._content.slope
+
+    @property
+    def squeeze(self) -> Array:
+        """Its rate, m/s."""
+        return self._content.slope * self.film.squeeze
+
+    @cached_property
+    def _content(self) -> Tangent:
+        return Tangent(self.film.thickness, np.ones((1, 1))) if self.factors is None else self.factors.content
+
+    def _with_walls(self, content: Array, of: Callable[[Tangent], Array]) -> tuple[Array, Array]:
+        u, v = self.film.mean_velocity
+        if self.surface is None or self.factors is None:
+            return content * u, content * v
+        half, shear = 0.5 * self.surface.composite_roughness, self.factors.shear
+        slip_x, slip_y = (a - b for a, b in zip(self.film.velocity_moving, self.film.velocity_fixed, strict=True))
+        return (
+            content * u + half * (of(shear.x) * slip_x + of(shear.xy) * slip_y),
+            content * v + half * (of(shear.xy) * slip_x + of(shear.y) * slip_y),
+        )
 
 
 def transport(problem: FilmProblem, pressure: Array, opening: Array) -> Transport:
@@ -56,65 +110,35 @@ def transport(problem: FilmProblem, pressure: Array, opening: Array) -> Transpor
     Raises FilmInputError where the conductance is no number of full precision and where a law of the oil or of the
     walls does not hold, FilmNotConverged where no film is left between walls that give way.
     """
-    film, space = problem.film, problem.space
-    h = film.thickness
+    film = problem.film
     if problem.walls is not None:
-        h = h + space.sample_vertices(opening)
-        if not (h.min() > 0.0 and h.max() < WIDEST * np.abs(film.thickness).max()):
-            raise FilmNotConverged(
-                f"walls that give way leave {h.min():.3g} to {h.max():.3g} m of film",
-                "a thicker film, stiffer walls, or contact",
-            )
-    mu, mu_slope = film.viscosity, np.zeros((1, 1))
-    ratio, ratio_slope = np.ones((1, 1)), np.zeros((1, 1))
+        film = replace(film, thickness=_parted(problem, opening))
+    ratio, by_pressure = np.ones((1, 1)), np.zeros((1, 1))
     if problem.fluid is not CONSTANT:
-        at = at_points(space, pressure)
+        at = at_points(problem.space, pressure)
         mu, mu_slope = problem.fluid.viscosity(at, film.viscosity)
         ratio, ratio_slope = problem.fluid.density(at)
+        by_pressure = ratio_slope / ratio - mu_slope / mu
+        sliding = None if film.couette_viscosity is None else film.couette_viscosity * mu / film.viscosity
+        film = replace(film, viscosity=mu, couette_viscosity=sliding)
+    h = film.thickness
     with np.errstate(over="ignore"):  # told of in words
-        smooth = ratio * (h * h * h) / (12.0 * mu)
+        smooth = h * h * h * (ratio / (12.0 * film.viscosity))
     _check_conductance(smooth)
-    sliding = None if film.couette_viscosity is None else film.couette_viscosity * mu / film.viscosity
-    conductance, conductance_slope, flux, flux_slope, content = _between_walls(problem, h, smooth)
-    return Transport(
-        film=replace(film, thickness=h, viscosity=mu, couette_viscosity=sliding),
-        conductance=conductance,
-        conductance_slope=conductance_slope,
-        by_pressure=ratio_slope / ratio - mu_slope / mu,
-        flux=flux,
-        flux_slope=flux_slope,
-        content=content.value,
-        content_slope=content.slope,
-        squeeze=content.slope * film.squeeze,
-    )
+    factors = None if problem.surface is None else flow_factors(problem.surface, h)
+    return Transport(film, smooth, by_pressure, problem.surface, factors)
 
 
-def _between_walls(
-    problem: FilmProblem, h: Array, smooth: Array
-) -> tuple[Tensor, Tensor, tuple[Array, Array], tuple[Array, Array], Tangent]:
-    """Conductance, flux, their slopes, and content of a film between smooth walls or rough ones."""
-    mean, one = problem.film.mean_velocity, np.ones((1, 1))
-    if problem.surface is None:
-        return isotropic(smooth), isotropic(3.0 * smooth / h), _times(h, mean), mean, Tangent(h, one)
-    factors = flow_factors(problem.surface, h)
-    parts = (factors.pressure.x, factors.pressure.y, factors.pressure.xy)
-    values = tuple(smooth * part.value for part in parts)
-    slopes = tuple(smooth * (part.slope + 3.0 * part.value / h) for part in parts)
-    flux, flux_slope = [], []
-    half = 0.5 * problem.surface.composite_roughness
-    u, v = (a - b for a, b in zip(problem.film.velocity_moving, problem.film.velocity_fixed, strict=True))
-    shear = factors.shear
-    for velocity, along, across in ((mean[0], shear.x, shear.xy), (mean[1], shear.xy, shear.y)):
-        flux.append(factors.content.value * velocity + half * (along.value * u + across.value * v))
-        flux_slope.append(factors.content.slope * velocity + half * (along.slope * u + across.slope * v))
-    return (
-        (values[0], values[1], values[2]), (slopes[0], slopes[1], slopes[2]), (flux[0], flux[1]),
-        (flux_slope[0], flux_slope[1]), factors.content,
-    )  # fmt: skip
-
-
-def _times(h: Array, velocity: tuple[Array, Array]) -> tuple[Array, Array]:
-    return h * velocity[0], h * velocity[1]
+def _parted(problem: FilmProblem, opening: Array) -> Array:
+    """Thickness of a film whose walls give way by an opening at the vertices (vertices,) m."""
+    given = problem.film.thickness
+    h = np.asarray(given + problem.space.sample_vertices(opening))
+    if not (h.min() > 0.0 and h.max() < WIDEST * np.abs(given).max()):
+        raise FilmNotConverged(
+            f"walls that give way leave {h.min():.3g} to {h.max():.3g} m of film",
+            "a thicker film, stiffer walls, or contact",
+        )
+    return h
 
 
 def along(tensor: Tensor, gradient: tuple[Array, Array]) -> tuple[Array, Array]:
@@ -128,14 +152,7 @@ def at_points(space: FilmSpace, nodal: Array) -> Array:
     return np.ascontiguousarray(nodal[space.dofs] @ space.reference.value.T)
 
 
-def lumped(space: FilmSpace, field: Array) -> Array:
-    """Integral of a field times the basis of each unknown, (size,): the field's unit times m2."""
-    out = np.empty(space.size)
-    kernels.lump(space.dofs, space.reference.value, space.area, field, out)
-    return out
-
-
 def _check_conductance(conductance: Array) -> None:
-    if not (conductance.min() >= SMALLEST_CONDUCTANCE and np.isfinite(conductance).all()):
+    if not (conductance.min() >= SMALLEST_CONDUCTANCE and conductance.max() < np.inf):
         found = f"h^3/(12 mu) from {conductance.min():.3g} to {conductance.max():.3g} m3/(Pa s)"
         raise FilmInputError("film", found, f"finite and at least {SMALLEST_CONDUCTANCE:g}")

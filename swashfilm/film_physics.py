@@ -12,7 +12,6 @@ import numpy as np
 from reynolds.contact import boundary_shear, contact_area, contact_pressure, lambda_ratio
 from reynolds.film import vertex_thickness
 from reynolds.roughness import beyond_range
-from reynolds.transport import lumped
 from swashfilm.film_transient import Moment
 from swashfilm.headline import titled
 
@@ -52,7 +51,7 @@ def _heat_summary(study: FilmStudy) -> dict[str, Any]:
     return {
         "temperature_max_K": float(heat.temperature.max()),
         "temperature_max_at_m": [float(part) for part in space.vertices[hottest]],
-        "temperature_mean_K": float(np.average(heat.mean, weights=lumped(space, np.ones(space.area.shape)))),
+        "temperature_mean_K": float(np.average(heat.mean, weights=space.lumped(np.ones(space.area.shape)))),
         "wall_heat_W": {"fixed": heat.to_fixed, "moving": heat.to_moving},
         "oil_heat_W": heat.carried_out,
         "heat_balance_error": heat.energy_balance_error,

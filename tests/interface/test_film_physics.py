@@ -11,7 +11,6 @@ import xarray
 
 from reynolds.density import DOWSON_HIGGINSON, BulkModulus, RationalDensity, Tait
 from reynolds.film import Cavitation
-from reynolds.transport import lumped
 from reynolds.viscosity import Barus, Roelands
 from swashfilm.__main__ import main
 from swashfilm.film_case import FilmCase, load_case
@@ -277,7 +276,7 @@ def test_a_warm_body_takes_the_heat_and_grows_into_the_film(read):
     solved = solve_case(hot)
     assert solved.heat is not None
     rise = solved.heat.to_fixed * 2e-3 / (50.0 * 1e-5)
-    area = lumped(hot.problem.space, np.ones(hot.problem.space.area.shape))
+    area = hot.problem.space.lumped(np.ones(hot.problem.space.area.shape))
     mean = np.average(solved.heat.fixed_wall, weights=area)
     assert rise > 5.0
     assert mean - 303.15 == pytest.approx(rise, rel=0.01)

@@ -16,7 +16,6 @@ from reynolds.film import ZERO, FilmProblem, Held, film
 from reynolds.mesh import Cell, rectangle
 from reynolds.solve import FilmSolver
 from reynolds.space import FilmSpace, film_space
-from reynolds.transport import lumped
 
 CELLS = 144, 8  # around, over half of the length
 STEP = 1e-4  # of displacement and velocity for the coefficients, in clearances (per radian)
@@ -71,7 +70,7 @@ def _bearing(length_over_diameter: float) -> Bearing:
     np.minimum.at(angle, space.vertex_dofs, np.degrees(space.vertices[:, 0]))
     groove = np.minimum(np.abs(angle - 90.0), np.abs(angle - 270.0)) < 10.0 + 1e-6
     normal = np.stack([np.cos(space.points[0]), np.sin(space.points[0])])
-    integrated = np.stack([lumped(space, part) for part in normal])
+    integrated = np.stack([space.lumped(part) for part in normal])
     return Bearing(space, FilmSolver(space), np.where(groove, 0.0, np.nan), normal, integrated)
 
 

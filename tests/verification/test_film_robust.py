@@ -21,7 +21,6 @@ from reynolds.loads import loads
 from reynolds.mesh import Cell, FilmMesh, annulus, box_names, rectangle
 from reynolds.solve import FilmSolver
 from reynolds.space import FilmSpace, film_space
-from reynolds.transport import lumped
 
 SIZE, THICKNESS, VISCOSITY = 0.01, 1e-5, 0.03
 JUMP = 1e4 ** (1.0 / 3.0)
@@ -91,7 +90,7 @@ def _problem(space: FilmSpace, seed: int, jump: float, dry: bool, in_time: bool)
     held = {name: Held(float(p)) for name, p in zip(kept, pressure, strict=True)}
     storage = None
     if in_time:
-        storage = Storage(lumped(space, h) * rng.uniform(0.3, 1.0, space.size), 10.0 ** rng.uniform(-6.0, -2.0))
+        storage = Storage(space.lumped(h) * rng.uniform(0.3, 1.0, space.size), 10.0 ** rng.uniform(-6.0, -2.0))
     return FilmProblem(space, posed, held, Cavitation.JFO, level, storage=storage)
 
 

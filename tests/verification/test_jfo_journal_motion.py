@@ -16,7 +16,6 @@ from reynolds.loads import loads
 from reynolds.mesh import Cell, rectangle
 from reynolds.solve import FilmSolver
 from reynolds.space import FilmSpace, film_space
-from reynolds.transport import lumped
 
 MASS, VISCOSITY = 1e-6, 1.0 / 6.0  # div(h^3 grad p) = d(theta h)/dx + 2 d(theta h)/dt
 SIDES = {"bottom": Held(0.0075), "top": Held(0.0)}
@@ -62,7 +61,7 @@ def _journal(around: int, across: int) -> Journal:
     space = film_space(rectangle((1.0, 0.1), (around, across), cell=Cell.QUADRILATERAL, periodic_x=True))
     angle = 2.0 * np.pi * space.points[0]
     normal = np.stack([np.cos(angle), np.sin(angle)])
-    return Journal(space, FilmSolver(space), normal, np.stack([lumped(space, part) for part in normal]))
+    return Journal(space, FilmSolver(space), normal, np.stack([space.lumped(part) for part in normal]))
 
 
 def _stepped(journal: Journal, before: State, step: float) -> State:
@@ -95,7 +94,7 @@ def _stepped(journal: Journal, before: State, step: float) -> State:
 
 def _motion(journal: Journal, start: float, end: float, step: float) -> Iterator[State]:
     place = np.array([0.5, 0.5])
-    held = lumped(journal.space, journal.thickness(place))
+    held = journal.space.lumped(journal.thickness(place))
     state = State(start, place, np.zeros(2), held, None, None)
     for number in range(round((end - start) / step)):
         state = replace(_stepped(journal, state, step), time=start + (number + 1) * step)

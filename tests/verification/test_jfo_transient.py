@@ -16,7 +16,6 @@ from reynolds.film import Cavitation, FilmProblem, FilmSolution, Held, Storage, 
 from reynolds.mesh import Cell, rectangle
 from reynolds.solve import FilmSolver
 from reynolds.space import FilmSpace, film_space
-from reynolds.transport import lumped
 
 SUPPLY = 0.025  # pressure at the ends
 UNIT = 1.0 / 6.0  # viscosity with which the equation reads d/dx(h^3 dp/dx) = 2 d(theta h)/dt
@@ -44,7 +43,7 @@ def _march(
 ) -> Iterator[Moment]:
     """The oscillating film from rest and full; one implicit step after the other."""
     solver, before = FilmSolver(space), None
-    held = lumped(space, np.full((1, 1), _thickness(0.0)))
+    held = space.lumped(np.full((1, 1), _thickness(0.0)))
     for k in range(1, round(until / step) + 1):
         posed = film(_thickness(k * step), UNIT)
         ends = {"right": Held(SUPPLY)}  # the left side, the middle of the film, is closed
@@ -104,7 +103,7 @@ def test_cavity_opens_and_closes(validation):
     space = _half(np.concatenate(parts))
     x = np.zeros(space.size)
     x[space.vertex_dofs] = space.vertices[:, 0]
-    oil, ends = float(lumped(space, np.full((1, 1), _thickness(0.0))).sum()), {}
+    oil, ends = float(space.lumped(np.full((1, 1), _thickness(0.0))).sum()), {}
     for moment in _march(space, step, 0.74):
         assert abs(moment.lost) < 1e-13 * oil
         assert moment.solution.pressure.min() >= 0.0
