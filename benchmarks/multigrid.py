@@ -122,7 +122,7 @@ def row(case: Case, cells: int, triad: float) -> tuple[str, ...]:
     error = np.abs(multigrid.full_pass(load) - exact).max() / np.abs(exact).max()
     in_memory = space.size > CACHED
     repeats = 15 if in_memory else 40
-    fine, coarse = multigrid.levels
+    fine, coarse, coarsest = multigrid.levels
     field, image = np.zeros((2, fine.load.size))
     multigrid_kernels.put(answer, multigrid.slots, field)
     unit = least(lambda: multigrid_kernels.left_of(fine, field, image), repeats)
@@ -132,7 +132,12 @@ def row(case: Case, cells: int, triad: float) -> tuple[str, ...]:
     moved = 8.0 * (CYCLE_NUMBERS + FINEST_NUMBERS) * space.size * effort.steps
     changed, new_load = operator(space, case, case.eccentricity + GROWTH)
     warm = least(lambda: warm_step(multigrid, space, changed, new_load, answer), repeats)
-    held = sum(array.nbytes for levels in (fine, coarse) for array in levels[:8]) + field.nbytes + image.nbytes
+    held = (
+        sum(array.nbytes for level in (fine, coarse) for array in level[:8])
+        + sum(array.nbytes for array in coarsest)
+        + field.nbytes
+        + image.nbytes
+    )
     return (
         case.name, f"{space.size}", f"{1e3 * setup:.3g}", f"{1e3 * solve:.3g}", f"{effort.steps}",
         f"{solve / unit:.0f}", f"{1e3 * once:.3g}", f"{once / unit:.0f}", f"{error:.1e}", f"{1e3 * warm:.3g}",

@@ -7,6 +7,7 @@ coupling to a neighbour. Coarse operators have nine-point stencils again. The la
 import numpy as np
 from numba import njit
 
+from reynolds.coarsest_kernels import eliminate_blocks
 from reynolds.lanes import WIDTH, all_lanes, apart, lanes, put_lanes, where_positive
 from reynolds.line_kernels import coloured, eliminate, factorise, repeat_last, substitute, width
 
@@ -14,17 +15,19 @@ _FAST = {"cache": True, "error_model": "numpy", "fastmath": {"contract"}}
 
 
 @njit(**_FAST)
-def set_up(fine, coarse):
-    """Coarse operators and line factors of all levels from the finest stencil; False where it is not positive."""
+def set_up(fine, coarse, coarsest):
+    """Coarse operators and factors of all levels from the finest stencil; False where it is not positive."""
     levels = coarse.lines.shape[0]
-    if levels:
-        _coarsen(fine, 0, coarse, 0)
+    if fine.around:
+        _repeat_stencils(fine, 0)
+    if levels == 0:
+        return eliminate_blocks(coarsest, fine, 0)
+    _coarsen(fine, 0, coarse, 0)
     good = _factorise(fine, 0)
-    for level in range(levels):
-        if level + 1 < levels:
-            _coarsen(coarse, level, coarse, level + 1)
+    for level in range(levels - 1):
+        _coarsen(coarse, level, coarse, level + 1)
         good = good and _factorise(coarse, level)
-    return good
+    return good and eliminate_blocks(coarsest, coarse, levels - 1)
 
 
 @njit(**_FAST)
@@ -80,9 +83,6 @@ def _weights(a, level):
 @njit(**_FAST)
 def _coarsen(a, level, b, below):
     """The operator P^T A P of the next level, `below` of b."""
-    if a.around:
-        for stencil in (a.centre, a.east, a.north, a.north_east, a.north_west):
-            repeat_last(stencil, a, level)
     _weights(a, level)
     slots = a.slots[level]
     for i in range(1, a.length + 1):
@@ -98,10 +98,17 @@ def _coarsen(a, level, b, below):
             _put_apart(b.north_west, even, odd, first[4], second[4])
     if a.around:
         _join_ends(a, level, b, below)
+        _repeat_stencils(b, below)
     for odd in range(2):
         begin = a.start[level, odd]
         a.answer[begin : begin + (a.length + 2) * slots] = 0.0
         a.load[begin : begin + (a.length + 2) * slots] = 0.0
+
+
+@njit(**_FAST)
+def _repeat_stencils(a, level):
+    for stencil in (a.centre, a.east, a.north, a.north_east, a.north_west):
+        repeat_last(stencil, a, level)
 
 
 @njit(inline="always")
@@ -134,7 +141,7 @@ def _coarse_stencils(a, level, t):
 
 @njit(**_FAST)
 def _join_ends(a, level, b, below):
-    """Where the last line is next to the first: the coupling of two even ones stays, a single line takes its own.
+    """Where the last line is next to the first: the coupling of two even ones stays.
 
     The pad after the coarse lines, to which the last odd line has added too, is one again.
     """
@@ -149,10 +156,3 @@ def _join_ends(a, level, b, below):
             b.north_west[last + row] = a.north_west[fine]
         b.centre[pad + row] = 1.0
         b.east[pad + row] = b.north[pad + row] = b.north_east[pad + row] = b.north_west[pad + row] = 0.0
-    if lines == 1:
-        for row in range(last + b.slots[below], last + (a.length + 1) * b.slots[below], b.slots[below]):
-            b.centre[row] += 2.0 * b.north[row]
-            b.east[row] += b.north_east[row] + b.north_west[row + b.slots[below]]
-            b.north[row] = b.north_east[row] = 0.0
-        for row in range(last, last + (a.length + 2) * b.slots[below], b.slots[below]):
-            b.north_west[row] = 0.0

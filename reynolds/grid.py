@@ -14,7 +14,6 @@ from reynolds import grid_kernels
 from reynolds.space import FilmSpace
 
 
-
 @dataclass(frozen=True)
 class Grid:
     """The unknowns in lines side by side: `unknowns` (lines, length), each once.

@@ -1,8 +1,8 @@
-"""Eight neighbouring numbers of an array as one value, in compiled loops: explicit vector registers for numba.
+"""Eight neighbouring numbers of an array as one value in compiled loops: explicit vector registers for numba.
 
-A loop that reads a dozen arrays and writes one is vectorised by the compiler only behind a dozen tests that they do
-not overlap, which short loops do not repay. `lanes(array, at)` reads array[at : at + 8], `put_lanes` writes them, and
-+, -, *, / go number by number. Indices are not checked. LLVM maps the vectors onto whatever registers there are.
+A loop that reads a dozen arrays and writes one is vectorised by the compiler only behind a dozen tests that they
+do not overlap, which short loops do not repay. `lanes(array, at)` reads array[at : at + 8], `put_lanes` writes it,
+and +, -, *, / go number by number. Indices are not checked. LLVM maps the vectors to the registers there are.
 """
 
 import operator
@@ -18,7 +18,7 @@ from numba.np import arrayobj
 WIDTH = 8
 
 
-class Lanes(types.Type):  # type: ignore[misc]
+class Lanes(types.Type):
     """The type of eight numbers side by side."""
 
     def __init__(self, dtype: types.Float) -> None:
@@ -27,14 +27,14 @@ class Lanes(types.Type):  # type: ignore[misc]
 
 
 @register_model(Lanes)
-class _LanesModel(models.PrimitiveModel):  # type: ignore[misc]
+class _LanesModel(models.PrimitiveModel):
     def __init__(self, dmm: Any, fe_type: Lanes) -> None:
         super().__init__(dmm, fe_type, ir.VectorType(dmm.lookup(fe_type.dtype).get_value_type(), WIDTH))
 
 
 def _operation(symbol: Any, build: str) -> None:
     @infer_global(symbol)
-    class _Typed(AbstractTemplate):  # type: ignore[misc]
+    class _Typed(AbstractTemplate):
         def generic(self, args: Any, kws: Any) -> Any:
             if len(args) == 2 and isinstance(args[0], Lanes) and args[0] == args[1]:
                 return signature(args[0], *args)

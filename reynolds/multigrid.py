@@ -4,7 +4,8 @@ Lines are relaxed as a whole, odd ones and even ones in turn, and every second o
 coarse operators follow from the entries of the matrix alone (semicoarsening: Dendy, McCormick, Ruge, Russell and
 Schaffer 1989; Schaffer 1998). So cells of any aspect ratio, films that jump, nodes that are held and cavities
 (rows of the identity) need no word about them. The cycle is symmetric positive definite and preconditions
-conjugate gradients; its coarse levels are kept in single precision, unless a film jumps by more than that holds.
+conjugate gradients. Coarse levels of large films are kept in single precision, unless a film jumps by more than
+that holds.
 """
 
 from __future__ import annotations
@@ -18,6 +19,7 @@ from scipy.sparse import csc_array
 
 from reynolds import coarsening_kernels, grid_kernels
 from reynolds import multigrid_kernels as kernels
+from reynolds.coarsest_kernels import SQUARE, Coarsest
 from reynolds.errors import FilmInputError
 from reynolds.grid import Grid
 from reynolds.lanes import WIDTH
@@ -25,6 +27,7 @@ from reynolds.line_kernels import Levels
 from reynolds.mesh import Array
 
 MAX_STEPS = 60  # some 10 are usual: beyond these the operator is not one for multigrid
+IN_CACHE = 200_000  # unknowns: above, what coarse levels take to read counts, and they are of single precision
 SLOW = 30  # steps after which coarse levels of single precision are made anew in double
 
 
@@ -39,27 +42,27 @@ class Effort:
 class Multigrid:
     """The operator of one grid on all its levels: `update` with new entries, then `solve` any number of times.
 
-    Memory: 17 doubles an unknown, 21 with coarse levels in double precision.
+    Memory: 21 doubles an unknown, 17 above IN_CACHE.
     """
 
-    def __init__(self, grid: Grid, upper: csc_array, precision: type[np.floating[Any]] = np.float32) -> None:
-        """`upper` has the pattern of the upper triangles to come, coarse levels this precision.
+    def __init__(self, grid: Grid, upper: csc_array) -> None:
+        """`upper` has the pattern of the upper triangles to come.
 
         Raises FilmInputError where it couples unknowns that are not neighbours on the grid.
         """
         self._grid, lines = grid, [len(grid.unknowns)]
-        while lines[-1] > 1:
+        while lines[-1] > WIDTH:
             lines.append((lines[-1] + 1) // 2)
         self._lines = np.array(lines, dtype=np.int64)
         self._fine, self._entries = _levels(self._grid, self._lines[:1], np.float64)
-        self._coarse, _ = _levels(self._grid, self._lines[1:], precision)
+        self._take_coarse(np.float32 if grid.unknowns.size > IN_CACHE else np.float64)
         self._slots, self._places = _places(self._grid, upper, self._fine)
         self._work = np.zeros((2, self._fine.load.size))
 
     @property
-    def levels(self) -> tuple[Levels, Levels]:
-        """The finest level and the others, for kernels that cycle themselves."""
-        return self._fine, self._coarse
+    def levels(self) -> tuple[Levels, Levels, Coarsest]:
+        """The finest level, the others and what solves the last, for kernels that cycle themselves."""
+        return self._fine, self._coarse, self._coarsest
 
     @property
     def slots(self) -> NDArray[np.int32]:
@@ -75,8 +78,14 @@ class Multigrid:
         """Coarse levels in double precision from here on; False where they have been, or do not help."""
         if self._coarse.load.dtype == np.float64:
             return False
-        self._coarse, _ = _levels(self._grid, self._lines[1:], np.float64)
+        self._take_coarse(np.float64)
         return bool(coarsening_kernels.set_up(*self.levels))
+
+    def _take_coarse(self, precision: type[np.floating[Any]]) -> None:
+        self._coarse, _ = _levels(self._grid, self._lines[1:], precision)
+        blocks = self._fine.length + 2
+        squares = np.zeros((3, blocks * SQUARE), dtype=precision)
+        self._coarsest = Coarsest(*squares, x=np.zeros(blocks * WIDTH, dtype=precision))
 
     def solve(self, load: Array, tolerance: float) -> tuple[Array, Effort]:
         """x with |A x - load| <= tolerance |load|, (n,), or as near as round-off and MAX_STEPS let it come."""
@@ -114,7 +123,7 @@ class Multigrid:
         kernels.cycle(*self.levels)
         return self._taken(self._fine.answer)
 
-    def _taken(self, flat: Array) -> Array:
+    def _taken(self, flat: NDArray[np.floating[Any]]) -> Array:
         values = np.empty(len(self._slots))
         kernels.take(flat, self._slots, values)
         return values
@@ -130,15 +139,13 @@ def _levels(
     total = -(-int(sizes.sum()) // WIDTH) * WIDTH
     stencils, vectors = np.zeros((5, total), dtype=precision), np.zeros((3, total), dtype=precision)
     stencils[0] = 1.0
+    centre, east, north, north_east, north_west = stencils
+    pivot, answer, load = vectors
     levels = Levels(
-        *stencils,
-        *vectors,
-        start=(np.cumsum(sizes) - sizes).reshape(-1, 2),
-        slots=slots,
-        lines=lines,
-        length=grid.unknowns.shape[1],
+        centre, east, north, north_east, north_west, pivot, answer, load,
+        start=(np.cumsum(sizes) - sizes).reshape(-1, 2), slots=slots, lines=lines, length=grid.unknowns.shape[1],
         around=grid.around,
-    )
+    )  # fmt: skip
     return levels, stencils.reshape(-1)
 
 

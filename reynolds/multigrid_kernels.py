@@ -3,12 +3,13 @@
 Every second line is coarsened away (semicoarsening), lines are solved as a whole, even ones and odd ones in turn:
 fast whatever the anisotropy, for a strong coupling along the lines is solved and one across them is coarsened.
 The layout is that of `line_kernels`. The finest level is a `Levels` of one, in double precision; `coarse` holds
-the others, which only precondition.
+the others, which only precondition; the last of them, of at most eight lines, is solved as a whole.
 """
 
 import numpy as np
 from numba import njit
 
+from reynolds.coarsest_kernels import solve_blocks
 from reynolds.lanes import WIDTH, all_lanes, apart, lanes, lanes_like, put_lanes, together
 from reynolds.line_kernels import coloured, repeat_lines, substitute, width
 
@@ -117,44 +118,44 @@ def _ascend(a, level, b, below):
 
 
 @njit(**_FAST)
-def cycle(fine, coarse):
+def cycle(fine, coarse, coarsest):
     """answer of the finest level = M load: a symmetric V-cycle from nothing."""
     if coarse.lines.shape[0] == 0:
-        _begin(fine, 0)
+        solve_blocks(coarsest, fine, 0)
     else:
         _descend(fine, 0, coarse, 0)
-        _cycle_from(coarse, 0)
+        _cycle_from(coarse, 0, coarsest)
         _ascend(fine, 0, coarse, 0)
 
 
 @njit(**_FAST)
-def _cycle_from(a, top):
+def _cycle_from(a, top, coarsest):
     """The cycle of one of these levels and those below it."""
     last = a.lines.shape[0] - 1
     for level in range(top, last):
         _descend(a, level, a, level + 1)
-    _begin(a, last)
+    solve_blocks(coarsest, a, last)
     for level in range(last - 1, top - 1, -1):
         _ascend(a, level, a, level + 1)
 
 
 @njit(**_FAST)
-def full_cycle(fine, coarse):
+def full_cycle(fine, coarse, coarsest):
     """answer of the finest level: full multigrid, a cycle on every level from the coarsest up (Brandt 1977)."""
     last = coarse.lines.shape[0] - 1
     if last < 0:
-        _begin(fine, 0)
+        solve_blocks(coarsest, fine, 0)
         return
     _first_load(fine, 0, coarse, 0)
     for level in range(last):
         _first_load(coarse, level, coarse, level + 1)
-    _begin(coarse, last)
+    solve_blocks(coarsest, coarse, last)
     for level in range(last - 1, -1, -1):
         _improve(coarse, level, coarse, level + 1)
-        _cycle_from(coarse, level + 1)
+        _cycle_from(coarse, level + 1, coarsest)
         _ascend(coarse, level, coarse, level + 1)
     _improve(fine, 0, coarse, 0)
-    _cycle_from(coarse, 0)
+    _cycle_from(coarse, 0, coarsest)
     _ascend(fine, 0, coarse, 0)
 
 
@@ -194,7 +195,7 @@ def apply(a, x, out):
 
 
 @njit(**_FAST)
-def conjugate_gradients(fine, coarse, x, direction, tolerance, most):
+def conjugate_gradients(fine, coarse, coarsest, x, direction, tolerance, most):
     """Solve A x = load of the finest level, which is lost; returns steps and |load|.
 
     Hestenes and Stiefel 1952. Stops short where the operator or the cycle is not positive.
@@ -207,7 +208,7 @@ def conjugate_gradients(fine, coarse, x, direction, tolerance, most):
     goal = tolerance * tolerance * size
     left, steps, before = size, 0, 1.0
     while left > goal and steps < most:
-        cycle(fine, coarse)
+        cycle(fine, coarse, coarsest)
         now = _dot(load, answer)  # no load stands in pads
         if not now > 0.0:
             break

@@ -57,7 +57,17 @@ def _holed():
         (FilmMesh(skfem.MeshTri.init_lshaped()), {}),
         (FilmMesh(skfem.MeshQuad.init_tensor(np.arange(3.0), np.arange(4.0)).remove_elements(np.array([0]))), {}),
     ],
-    ids=["hole", "pocket", "quadratic", "closed both ways", "two cells round", "one cell round", "no halves", "L, halves", "L"],
+    ids=[
+        "hole",
+        "pocket",
+        "quadratic",
+        "closed both ways",
+        "two cells round",
+        "one cell round",
+        "no halves",
+        "L, halves",
+        "L",
+    ],
 )
 def test_what_is_no_grid_is_told_apart(mesh, posed):
     assert grid_of(film_space(mesh, **posed)) is None
