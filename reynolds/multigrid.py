@@ -84,8 +84,8 @@ class Multigrid:
     def _take_coarse(self, precision: type[np.floating[Any]]) -> None:
         self._coarse, _ = _levels(self._grid, self._lines[1:], precision)
         blocks = self._fine.length + 2
-        squares = np.zeros((3, blocks * SQUARE), dtype=precision)
-        self._coarsest = Coarsest(*squares, x=np.zeros(blocks * WIDTH, dtype=precision))
+        inverse, onward, back = np.zeros((3, blocks * SQUARE), dtype=precision)
+        self._coarsest = Coarsest(inverse, onward, back, np.zeros(blocks * WIDTH, dtype=precision))
 
     def solve(self, load: Array, tolerance: float) -> tuple[Array, Effort]:
         """x with |A x - load| <= tolerance |load|, (n,), or as near as round-off and MAX_STEPS let it come."""
