@@ -27,6 +27,7 @@ from reynolds.mesh import Array
 from reynolds.space import FilmSpace
 from reynolds.transport import Tensor, Transport, along, at_points, transport
 
+NOTHING = 1e-12  # of the largest flow
 NO_FLOW = 1e-9  # of the flow along an edge: less across it is round-off
 
 
@@ -68,6 +69,23 @@ class Operators:
             pattern = self.problem.space.pattern
             kernels.upwinding(pattern.indptr, pattern.indices, *self.convection, leaves, diffusion)
         return diffusion
+
+    @cached_property
+    def carriage(self) -> tuple[Array, Array]:
+        """C + D and its mirror, m3/s: R by film fraction at reference density."""
+        upper, lower = self.convection
+        return upper + self.diffusion, lower + self.diffusion
+
+    @cached_property
+    def brim(self) -> Array:
+        """Oil that leaves or stays at an unknown filled to the brim, (size,) m3/s."""
+        return self.carriage[0][self.problem.space.pattern.diagonal] + np.maximum(self.rate, 0.0)
+
+    @cached_property
+    def lack(self) -> Array:
+        """Pressure that moves as much oil out of an unknown as its film fraction does, (size,) Pa."""
+        stiff = self.stiffness[self.problem.space.pattern.diagonal]
+        return np.maximum(self.brim, NOTHING * self.brim.max() + 1e-300) / np.where(stiff > 0.0, stiff, 1.0)
 
     @cached_property
     def content(self) -> Array:
@@ -222,24 +240,22 @@ def slopes(problem: FilmProblem, parts: Operators, state: State) -> Slopes:
     That the diffusion D changes with the pressure is left out: it does so only where walls give way.
     """
     space, terms = problem.space, parts.transport
+    grows = np.maximum(parts.rate, 0.0)
+    if problem.fluid is CONSTANT:
+        return Slopes((parts.stiffness, parts.stiffness, np.zeros(space.size)), (*parts.carriage, grows))
     ratio, ratio_slope = density(problem, state.pressure)
     row, column = space.pattern.indices, space.pattern.columns
     c_upper, c_lower = parts.convection
-    p_upper = p_lower = parts.stiffness
-    if problem.fluid is not CONSTANT:
-        driven_x, driven_y = along(terms.conductance, steep_gradient(space, state.pressure))
-        less = -terms.by_pressure
-        changed = convection(space, (less * driven_x, less * driven_y), steep=True)
-        filled = state.film_fraction * ratio_slope
-        p_upper = parts.stiffness + changed[0] + c_upper * filled[column]
-        p_lower = parts.stiffness + changed[1] + c_lower * filled[row]
+    driven_x, driven_y = along(terms.conductance, steep_gradient(space, state.pressure))
+    less = -terms.by_pressure
+    changed = convection(space, (less * driven_x, less * driven_y), steep=True)
+    filled = state.film_fraction * ratio_slope
+    p_upper = parts.stiffness + changed[0] + c_upper * filled[column]
+    p_lower = parts.stiffness + changed[1] + c_lower * filled[row]
     level = cavity_density(problem)
     f_upper = c_upper * ratio[column] + level * parts.diffusion
     f_lower = c_lower * ratio[row] + level * parts.diffusion
-    return Slopes(
-        (p_upper, p_lower, parts.rate * state.film_fraction * ratio_slope),
-        (f_upper, f_lower, np.maximum(parts.rate, 0.0) * ratio),
-    )
+    return Slopes((p_upper, p_lower, parts.rate * filled), (f_upper, f_lower, grows * ratio))
 
 
 def steep_gradient(space: FilmSpace, nodal: Array) -> tuple[Array, Array]:

@@ -18,7 +18,6 @@ from reynolds.setting import Setting
 
 MOST_HALVINGS = 10
 LEAST_GAIN = 1e-4  # of the balance, by a full step
-NOTHING = 1e-12  # of the largest flow
 
 
 @dataclass(frozen=True)
@@ -54,7 +53,7 @@ def iterate_of(
     if signed is None:
         signed = state.pressure - problem.cavitation_pressure
         if problem.cavitation is Cavitation.JFO and cavity.any():
-            signed = np.where(cavity, (state.film_fraction - 1.0) * stiffness_of_lack(problem, parts), signed)
+            signed = np.where(cavity, (state.film_fraction - 1.0) * parts.lack, signed)
     return Iterate(signed, state, cavity, parts, flow_balance(problem, parts, state))
 
 
@@ -63,15 +62,14 @@ def iterate_at(problem: FilmProblem, setting: Setting, before: Iterate, signed: 
     if not np.isfinite(signed).all():
         raise FilmNotConverged("pressures that grow without bound", "stiffer walls, or a thicker film")
     level = problem.cavitation_pressure
-    pressure, fraction = signed + level, np.ones_like(signed)
+    pressure, fraction = signed + level, setting.film_fraction
     cavity = np.zeros(len(signed), dtype=bool)
     if problem.cavitation is not Cavitation.NONE:
         cavity = (signed < 0.0) & ~setting.held
         pressure = np.maximum(pressure, level)
     if problem.cavitation is Cavitation.JFO and cavity.any():
-        fraction = np.where(cavity, 1.0 + signed / stiffness_of_lack(problem, before.parts), 1.0)
+        fraction = np.where(cavity, 1.0 + signed / before.parts.lack, fraction)
     pressure = np.where(setting.held, setting.pressure, pressure)
-    fraction = np.where(setting.held, setting.film_fraction, fraction)
     state = opened(problem, pressure, fraction, before.state.opening)
     if is_linear(problem):
         return Iterate(signed, state, cavity, before.parts, flow_balance(problem, before.parts, state))
@@ -120,7 +118,7 @@ def imbalance_of(problem: FilmProblem, setting: Setting, at: Iterate) -> float:
         size = size + np.abs(at.balance.net - rest) + kernels.ROUNDING * np.abs(slope * at.state.pressure)
     if problem.cavitation is Cavitation.JFO and at.cavity.any():
         # A film fraction next to zero is one less nearly one: to the last place of one.
-        size = size + np.where(at.cavity, kernels.ROUNDING * _carried(problem, at.parts), 0.0)
+        size = size + np.where(at.cavity, kernels.ROUNDING * at.parts.brim, 0.0)
     # Round-off of a solve is that of its largest flows: where next to nothing flows it is all there is.
     scale = size + max(kernels.ROUNDING * size.max(initial=0.0), 1e-300)
     return float(np.max(np.abs(rest) / scale, where=free, initial=0.0))
@@ -138,21 +136,3 @@ def with_pockets(setting: Setting, at: Iterate) -> tuple[Array, Array]:
         rest[node] -= inflow
         gain[node] = -slope
     return rest, gain
-
-
-def stiffness_of_lack(problem: FilmProblem, parts: Operators) -> Array:
-    """Pressure that moves as much oil out of an unknown as its film fraction does, (size,) Pa."""
-    carried = _carried(problem, parts)
-    stiff = diagonal(problem, parts.stiffness)
-    return np.maximum(carried, NOTHING * carried.max() + 1e-300) / np.where(stiff > 0.0, stiff, 1.0)
-
-
-def _carried(problem: FilmProblem, parts: Operators) -> Array:
-    """Oil that leaves or stays at an unknown filled to the brim, (size,) m3/s."""
-    carried = diagonal(problem, parts.convection[0]) + diagonal(problem, parts.diffusion)
-    return carried + np.maximum(parts.rate, 0.0)
-
-
-def diagonal(problem: FilmProblem, upper: Array) -> Array:
-    """The diagonal (size,) of an upper triangle in the space's pattern."""
-    return np.asarray(upper[problem.space.pattern.indptr[1:] - 1])

@@ -226,6 +226,33 @@ def lump(dofs, value, area, field, basis, points, out):
 
 
 @njit(**_FAST)
+def gather(indptr, indices):
+    """Number of the aggregate of each unknown, (n,) (Vanek, Mandel and Brezina 1996).
+
+    The graph is symmetric. An unknown none of whose neighbours is taken makes an aggregate with them; what is left
+    over joins an aggregate beside it.
+    """
+    size = indptr.shape[0] - 1
+    aggregate = np.full(size, -1, np.int32)
+    count = 0
+    for i in range(size):
+        alone = aggregate[i] < 0
+        for k in range(indptr[i], indptr[i + 1]):
+            alone = alone and aggregate[indices[k]] < 0
+        if alone:
+            aggregate[i] = count
+            for k in range(indptr[i], indptr[i + 1]):
+                aggregate[indices[k]] = count
+            count += 1
+    gathered = aggregate.copy()
+    for i in range(size):
+        for k in range(indptr[i], indptr[i + 1]):
+            if gathered[i] < 0:
+                gathered[i] = aggregate[indices[k]]
+    return gathered
+
+
+@njit(**_FAST)
 def find_slots(indptr, indices, row, column, slots):
     """Fill slots[cell, entry] with where (row, column) stands in sorted CSC indices, by bisection."""
     for e in range(row.shape[0]):
@@ -274,12 +301,13 @@ def hold(indptr, indices, data, held, gain, data_out):
 
 @njit(**_FAST)
 def choose_columns(
-    indptr, indices, p_upper, p_lower, f_upper, f_lower, p_gain, f_gain, held, cavity, scale, upper, lower
+    indptr, indices, p_upper, p_lower, f_upper, f_lower, p_gain, f_gain, held, cavity, p_scale, f_scale,
+    upper, lower,
 ):  # fmt: skip
-    """Newton's matrix: each unknown is a pressure (in the film) or, by `scale`, a film fraction (in the cavity).
+    """Newton's matrix: each unknown is a pressure (in the film) or a film fraction (in the cavity).
 
     p_* and f_* are the balance's slopes by nodal pressure and by nodal film fraction, p_gain and f_gain what
-    their diagonals carry besides; held unknowns get identity rows and columns.
+    their diagonals carry besides; p_scale and f_scale multiply them. Held unknowns get identity rows and columns.
     """
     for j in range(indptr.shape[0] - 1):
         last = indptr[j + 1] - 1
@@ -289,12 +317,12 @@ def choose_columns(
                 upper[k] = 0.0
                 lower[k] = 0.0
             else:
-                upper[k] = scale * f_upper[k] if cavity[j] else p_upper[k]
-                lower[k] = scale * f_lower[k] if cavity[i] else p_lower[k]
+                upper[k] = f_scale * f_upper[k] if cavity[j] else p_scale * p_upper[k]
+                lower[k] = f_scale * f_lower[k] if cavity[i] else p_scale * p_lower[k]
         if held[j]:
             upper[last] = 1.0
         elif cavity[j]:
-            upper[last] = scale * (f_upper[last] + f_gain[j])
+            upper[last] = f_scale * (f_upper[last] + f_gain[j])
         else:
-            upper[last] = p_upper[last] + p_gain[j]
+            upper[last] = p_scale * (p_upper[last] + p_gain[j])
         lower[last] = upper[last]

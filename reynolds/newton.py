@@ -9,9 +9,9 @@ from numpy.typing import NDArray
 from scipy.sparse import csc_array
 
 from reynolds import kernels
-from reynolds.balance import by_opening, flow_balance, full_matrix, slopes
+from reynolds.balance import NOTHING, by_opening, flow_balance, full_matrix, slopes
 from reynolds.film import Cavitation, FilmProblem
-from reynolds.iterate import NOTHING, Iterate, diagonal, stiffness_of_lack, with_pockets
+from reynolds.iterate import Iterate, with_pockets
 from reynolds.mesh import Array
 from reynolds.opening import opening_slope, solved
 from reynolds.setting import Setting
@@ -42,19 +42,24 @@ def general_step(problem: FilmProblem, setting: Setting, at: Iterate) -> tuple[A
     by = slopes(problem, at.parts, at.state)
     f_upper, f_lower, f_gain = by.by_fraction
     p_upper, p_lower, p_gain = by.by_pressure
-    unit = float(np.abs(at.parts.stiffness).max()) or 1.0
-    largest = max(float(np.abs(f_upper).max()), float(np.abs(f_gain).max()))
+    unit = _largest(at.parts.stiffness) or 1.0
+    largest = max(_largest(f_upper), _largest(f_gain))
     scale = unit / largest if largest > 0.0 else 1.0
     # Where nothing carries a cavity along, its film fraction stays as it is.
     least = NOTHING * (largest if largest > 0.0 else unit)
-    f_gain = f_gain + np.where(diagonal(problem, f_upper) + f_gain < least, least, 0.0)
-    upper, lower = np.empty_like(p_upper), np.empty_like(p_upper)
     pattern = problem.space.pattern
+    f_gain = f_gain + np.where(f_upper[pattern.diagonal] + f_gain < least, least, 0.0)
+    upper, lower = np.empty_like(p_upper), np.empty_like(p_upper)
     kernels.choose_columns(
-        pattern.indptr, pattern.indices, p_upper / unit, p_lower / unit, f_upper / unit, f_lower / unit,
-        (p_gain + gain) / unit, f_gain / unit, fixed, at.cavity, scale, upper, lower,
+        pattern.indptr, pattern.indices, p_upper, p_lower, f_upper, f_lower, p_gain + gain, f_gain,
+        fixed, at.cavity, 1.0 / unit, scale / unit, upper, lower,
     )  # fmt: skip
     return upper, lower, np.where(fixed, 0.0, -rest / unit), scale
+
+
+def _largest(values: Array) -> float:
+    """Largest magnitude."""
+    return float(max(values.max(), -values.min()))
 
 
 def compliant_step(
@@ -77,16 +82,16 @@ def signed_after(problem: FilmProblem, at: Iterate, change: Array, scale: float)
     would move as much: slopes of the balance by a signed unknown are then alike on both sides of zero.
     """
     level = problem.cavitation_pressure
+    if not at.cavity.any():
+        return at.state.pressure + change - level
     pressure = at.state.pressure + np.where(at.cavity, 0.0, change)
-    if problem.cavitation is Cavitation.JFO and at.cavity.any():
+    if problem.cavitation is Cavitation.JFO:
         lack = at.state.film_fraction + scale * change - 1.0
-        return np.where(at.cavity, lack * stiffness_of_lack(problem, at.parts), pressure - level)
-    if problem.cavitation is Cavitation.REYNOLDS and at.cavity.any():
-        balance = flow_balance(problem, at.parts, replace(at.state, pressure=pressure))
-        # A node that nothing drives (balance zero but for round-off) would otherwise enter and leave for ever.
-        made = (balance.net + TIE * balance.meeting) / diagonal(problem, at.parts.stiffness)
-        return np.where(at.cavity, -made, pressure - level)
-    return pressure - level
+        return np.where(at.cavity, lack * at.parts.lack, pressure - level)
+    balance = flow_balance(problem, at.parts, replace(at.state, pressure=pressure))
+    # A node that nothing drives (balance zero but for round-off) would otherwise enter and leave for ever.
+    made = (balance.net + TIE * balance.meeting) / at.parts.stiffness[problem.space.pattern.diagonal]
+    return np.where(at.cavity, -made, pressure - level)
 
 
 def fixed_in(problem: FilmProblem, setting: Setting, at: Iterate) -> NDArray[np.bool_]:

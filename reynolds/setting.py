@@ -14,7 +14,7 @@ from reynolds.mesh import Array
 
 @dataclass(frozen=True)
 class Setting:
-    """Pressure (size,) Pa and film fraction (size,) where `held`, a first guess elsewhere; pockets by unknown."""
+    """Pressure (size,) Pa and film fraction (size,) where `held`; elsewhere a first guess, a full film. Pockets."""
 
     pressure: Array
     film_fraction: Array
@@ -57,7 +57,8 @@ def spread(problem: FilmProblem) -> Setting:
         pressure[more], fraction[more], held[more] = problem.held_nodes[more], 1.0, True
     if not np.isfinite(pressure).all():
         raise FilmInputError("boundary", "a pressure that is not finite", "a number of Pa")
-    _check_apart(held, pockets)
+    if pockets:
+        _check_apart(held, pockets)
     _check_level(problem, held, pockets, level)
     if cavitates and (low := pressure[held].min(initial=np.inf)) < level:
         raise FilmInputError(
@@ -99,7 +100,8 @@ def _check_level(
     """Fault a piece of the film whose pressure nothing fixes."""
     pattern = problem.space.pattern
     fed = held.copy()
-    fed[[node for node, pocket in pockets if pocket.feed(level)[1] < 0.0]] = True
+    for node, pocket in pockets:
+        fed[node] |= pocket.feed(level)[1] < 0.0
     if dry := pattern.pieces_without(fed):
         where = f"in {dry} of {pattern.pieces[0]} separate pieces of the film" if fed.any() else "anywhere"
         raise FilmInputError("boundary", f"no pressure given {where}", "a boundary with a pressure at each piece")

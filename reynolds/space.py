@@ -13,13 +13,13 @@ from functools import cached_property
 import numpy as np
 import skfem
 from numpy.typing import NDArray
-from scipy.sparse import coo_array, csc_array
-from scipy.sparse.csgraph import connected_components
+from scipy.sparse import csc_array
 from scipy.spatial import cKDTree
 
 from reynolds import kernels
 from reynolds.errors import FilmInputError
 from reynolds.mesh import Array, FilmMesh
+from reynolds.pattern import Pattern, pattern_of
 from reynolds.tensors import ElementTensors, element_tensors
 
 # Quadrature exact enough that h^3 of a linear film costs no order of convergence: degree of the film
@@ -54,37 +54,6 @@ class Reference:
         """Numbers of the basis and of the points, as tuples: see `kernels`."""
         points, basis = self.value.shape
         return tuple(range(basis)), tuple(range(points))
-
-
-@dataclass(frozen=True)
-class Pattern:
-    """Upper triangle by columns, and where each element entry goes in its data."""
-
-    indptr: NDArray[np.int32]
-    indices: NDArray[np.int32]
-    slots: NDArray[np.int32]  # (cells, basis (basis + 1) / 2)
-
-    @cached_property
-    def columns(self) -> NDArray[np.int32]:
-        """Column of each entry (entries,)."""
-        return np.repeat(np.arange(len(self.indptr) - 1, dtype=np.int32), np.diff(self.indptr))
-
-    @cached_property
-    def pieces(self) -> tuple[int, NDArray[np.int32]]:
-        """How many pieces the film falls into, and the piece of each unknown (size,)."""
-        size = len(self.indptr) - 1
-        graph = csc_array((np.ones(len(self.indices), dtype=bool), self.indices, self.indptr), shape=(size, size))
-        count, piece = connected_components(graph, directed=False)
-        return int(count), piece
-
-    def pieces_without(self, marked: NDArray[np.bool_]) -> int:
-        """Number of pieces of the film in which no unknown is marked."""
-        count, piece = self.pieces
-        if count == 1:
-            return int(not marked.any())
-        reached = np.zeros(count, dtype=bool)
-        reached[piece[marked]] = True
-        return int(np.count_nonzero(~reached))
 
 
 @dataclass(frozen=True)
@@ -176,14 +145,18 @@ class FilmSpace:
     def _facet_normal(self) -> dict[str, Array]:
         return {name: _outward(self, self.film_mesh.mesh.boundaries[name]) for name in self.edge_dofs}
 
+    @cached_property
+    def _facet_cell(self) -> dict[str, NDArray[np.int64]]:
+        mesh = self.film_mesh.mesh
+        return {name: mesh.f2t[0, mesh.boundaries[name]] for name in self.edge_dofs}
+
     def carried_out(self, name: str, flux: tuple[Array, Array]) -> tuple[Array, Array]:
         """Flow (m3/s) out over each facet of a boundary, (facets,), and the magnitude that it could have at most.
 
         `flux` (cells | 1, points | 1) m2/s; both zero for a line inside the film.
         """
-        normal = self._facet_normal[name]
-        cell = self.film_mesh.mesh.f2t[0, self.film_mesh.mesh.boundaries[name]]
-        mean = np.array([part[cell if len(part) > 1 else slice(None)].mean(axis=1) for part in flux])
+        normal, cell = self._facet_normal[name], self._facet_cell[name]
+        mean = np.array([self.everywhere(part)[cell].mean(axis=1) for part in flux])
         return (mean * normal).sum(axis=0), np.hypot(*mean) * np.hypot(*normal)
 
     def _along(self, name: str, per_facet: Array) -> Array:
@@ -286,7 +259,7 @@ def film_space(film_mesh: FilmMesh, *, degree: int = 1, pockets: Iterable[str] =
         dofs=np.ascontiguousarray(cell_dofs),
         size=len(numbers),
         reference=_reference(mesh, element, dofs.X, dofs.W),
-        pattern=_pattern(cell_dofs, len(numbers)),
+        pattern=pattern_of(cell_dofs, len(numbers)),
         edge_dofs={name: np.unique(on) for name, on in facet_dofs.items()},
         facet_dofs=facet_dofs,
     )
@@ -365,15 +338,3 @@ def _outward(space: FilmSpace, facets: NDArray[np.int64]) -> Array:
     away = (space.vertices[mesh.facets[0, facets]] - inside).T
     towards = np.sign((normal * away).sum(axis=0))
     return np.where(mesh.f2t[1, facets] < 0, normal * towards, 0.0)
-
-
-def _pattern(dofs: NDArray[np.int32], size: int) -> Pattern:
-    rows, columns = np.triu_indices(dofs.shape[1])
-    a, b = dofs[:, rows], dofs[:, columns]
-    row, column = np.minimum(a, b), np.maximum(a, b)
-    entries = coo_array((np.ones(row.size, dtype=bool), (row.ravel(), column.ravel())), shape=(size, size)).tocsc()
-    entries.sum_duplicates()
-    indptr, indices = entries.indptr.astype(np.int32), entries.indices.astype(np.int32)
-    slots = np.empty(row.shape, dtype=np.int32)
-    kernels.find_slots(indptr, indices, row, column, slots)
-    return Pattern(indptr, indices, slots)

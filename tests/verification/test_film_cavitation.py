@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from reynolds.cascade import COARSEST, nested_cavity
+from reynolds.cascade import COARSEST, Cascade, Obstacle
 from reynolds.film import ZERO, Cavitation, FilmProblem, FilmSolution, Held, Pocket, film, no_feed
 from reynolds.loads import loads
 from reynolds.mesh import Cell, rectangle
@@ -89,7 +89,7 @@ def test_coarse_problems_find_a_known_contact():
     x = np.arange(1, n) / n
     upper = csc_array(diags_array([2.0 * np.ones(n - 1), -np.ones(n - 2)], offsets=[0, 1]))
     load = np.where((x > 0.25) & (x < 0.75), -1.0, 1.0) / n**2
-    cavity = nested_cavity(upper, load)
+    cavity = Cascade(upper).cavity(Obstacle(upper.data, load, np.zeros(n - 1, dtype=bool)))
     edge = x[cavity].min()
     assert edge == pytest.approx(0.25 + 0.25 * (np.sqrt(2.0) - 1.0), abs=8.0 / n)
 
