@@ -67,8 +67,9 @@ class CarriedFilm:
         both, steps, left = self._both, 0, size
         for _ in range(ROUNDS):
             left, more = kernels.gmres(
-                *self._film.parts, both.indptr, both.indices, self._entries, self._entries[both.diagonal],
-                self._cavity, self._order[: self._count], load, tolerance * size, self._basis, answer,
+                *self._film.levels, self._film.slots, both.indptr, both.indices, self._entries,
+                self._entries[both.diagonal], self._cavity, self._order[: self._count], load, tolerance * size,
+                self._basis, answer,
             )  # fmt: skip
             steps += more
             if not left > tolerance * size:

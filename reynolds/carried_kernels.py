@@ -6,7 +6,7 @@ The matrix stands in columns, both triangles: indptr, indices, entries.
 import numpy as np
 from numba import njit
 
-from reynolds.multigrid_kernels import cycle, from_rows, to_rows
+from reynolds.multigrid_kernels import cycle, put, take
 
 _FAST = {"cache": True, "error_model": "numpy", "fastmath": {"contract"}}
 _SUMS = _FAST | {"fastmath": {"contract", "reassoc", "nsz"}}  # lets a sum run in several parts at once
@@ -109,7 +109,9 @@ def _sweep(indptr, indices, entries, diagonal, order, rest):
 
 
 @njit(**_FAST)
-def precondition(levels, unknowns, indptr, indices, entries, diagonal, cavity, order, load, rest, out):
+def precondition(
+    fine, coarse, coarsest, slots, indptr, indices, entries, diagonal, cavity, order, load, rest, out
+):
     """out = M load: the cavity, a cycle on the film with what that carries to it, and the cavity once more."""
     n = cavity.shape[0]
     rest[:] = load
@@ -117,9 +119,9 @@ def precondition(levels, unknowns, indptr, indices, entries, diagonal, cavity, o
     for i in range(n):
         if cavity[i]:
             rest[i] = 0.0
-    to_rows(rest, unknowns, levels.load)
-    cycle(levels)
-    from_rows(levels.answer, unknowns, out)
+    put(rest, slots, fine.load)
+    cycle(fine, coarse, coarsest)
+    take(fine.answer, slots, out)
     rest[:] = load
     for j in range(n):
         if not cavity[j]:
@@ -140,7 +142,9 @@ def _dot(a, b):
 
 
 @njit(**_FAST)
-def gmres(levels, unknowns, indptr, indices, entries, diagonal, cavity, order, load, tolerance, basis, x):
+def gmres(
+    fine, coarse, coarsest, slots, indptr, indices, entries, diagonal, cavity, order, load, tolerance, basis, x
+):
     """One round of GMRES (Saad and Schultz 1986) preconditioned from the right, added to x; |load - A x|, steps.
 
     `basis` (steps + 3, n) is room for the directions.
@@ -160,7 +164,9 @@ def gmres(levels, unknowns, indptr, indices, entries, diagonal, cavity, order, l
     steps = 0
     while steps < most and abs(right[steps]) > tolerance:
         k = steps
-        precondition(levels, unknowns, indptr, indices, entries, diagonal, cavity, order, basis[k], rest, image)
+        precondition(
+            fine, coarse, coarsest, slots, indptr, indices, entries, diagonal, cavity, order, basis[k], rest, image
+        )
         multiply(indptr, indices, entries, image, basis[k + 1])
         for j in range(k + 1):
             h[j, k] = _dot(basis[j], basis[k + 1])
@@ -186,7 +192,9 @@ def gmres(levels, unknowns, indptr, indices, entries, diagonal, cavity, order, l
     total[:] = 0.0
     for k in range(steps):
         _add(total, basis[k], right[k])
-    precondition(levels, unknowns, indptr, indices, entries, diagonal, cavity, order, total, rest, image)
+    precondition(
+        fine, coarse, coarsest, slots, indptr, indices, entries, diagonal, cavity, order, total, rest, image
+    )
     _add(x, image, 1.0)
     multiply(indptr, indices, entries, x, image)
     for i in range(x.shape[0]):

@@ -1,169 +1,158 @@
-"""Coarse levels of multigrid on lines, compiled once by numba: weights, operators P^T A P and row factors.
+"""Coarse levels of multigrid on lines, compiled once by numba: weights, operators P^T A P and line factors.
 
-Interpolation follows the operator (Schaffer 1998): T w = -B 1 for T an odd row and B its coupling to a neighbour.
-Coarse operators have nine-point stencils again.
+Every second line stays. Interpolation follows the operator (Schaffer 1998): T w = -B 1 for T an odd line and B its
+coupling to a neighbour. Coarse operators have nine-point stencils again. The layout is that of `line_kernels`.
 """
 
 import numpy as np
 from numba import njit
 
-from reynolds.line_kernels import (
-    below,
-    close_row,
-    pivots,
-    pivots_four,
-    substitute,
-    substitute_rows,
-    substitute_two,
-)
+from reynolds.coarsest_kernels import eliminate_blocks
+from reynolds.lanes import WIDTH, all_lanes, apart, lanes, put_lanes, where_positive
+from reynolds.line_kernels import coloured, eliminate, factorise, repeat_last, substitute, width
 
 _FAST = {"cache": True, "error_model": "numpy", "fastmath": {"contract"}}
 
 
 @njit(**_FAST)
-def set_up(a):
-    """Coarse operators and row factors of all levels from the finest stencil; False where it is not positive."""
-    n = a.centre.shape[1] - 2
-    scratch = np.zeros((4, n + 2))
-    for level in range(a.first.shape[0]):
-        first, m = a.first[level], a.rows[level]
-        if a.around_x:
-            for r in range(first, first + m):
-                a.east[r, 0] = a.east[r, n]
-                a.north_east[r, 0] = a.north_east[r, n]
-                a.north_west[r, n + 1] = a.north_west[r, 1]
-        if not _factorise(a, first, m):
-            return False
-        if level + 1 < a.first.shape[0]:
-            _coarsen(a, level, scratch)
-    return True
+def set_up(fine, coarse, coarsest):
+    """Coarse operators and factors of all levels from the finest stencil; False where it is not positive."""
+    levels = coarse.lines.shape[0]
+    if fine.around:
+        _repeat_stencils(fine, 0)
+    if levels == 0:
+        return eliminate_blocks(coarsest, fine, 0)
+    _coarsen(fine, 0, coarse, 0)
+    good = _factorise(fine, 0)
+    for level in range(levels - 1):
+        _coarsen(coarse, level, coarse, level + 1)
+        good = good and _factorise(coarse, level)
+    return good and eliminate_blocks(coarsest, coarse, levels - 1)
 
 
 @njit(**_FAST)
-def _factorise(a, first, m):
-    """L D L^T of every row of a level; False where a pivot is not positive."""
-    n = a.centre.shape[1] - 2
-    inner = n - a.around_x
-    done = 0
-    while done + 4 <= m:
-        pivots_four(a.centre, a.east, a.pivot, first + done, inner)
-        done += 4
-    for r in range(first + done, first + m):
-        pivots(a.centre[r], a.east[r], a.pivot[r], inner)
-    if a.around_x:
-        z = a.closing
-        for r in range(first, first + m):
-            z[r] = 0.0
-            z[r, 1] = a.east[r, n]
-            z[r, n - 1] += a.east[r, n - 1]
-        substitute_rows(z, a.pivot, a.east, first, 1, m, inner)
-        for r in range(first, first + m):
-            a.pivot[r, n] = 1.0 / (a.centre[r, n] - a.east[r, n] * z[r, 1] - a.east[r, n - 1] * z[r, n - 1])
-    good = True
-    for r in range(first, first + m):
-        p = a.pivot[r]
-        for i in range(1, n + 1):
-            good &= 0.0 < p[i] < np.inf
+def _factorise(a, level):
+    """L D L^T of every line of a level; False where a pivot is not positive."""
+    slots, good = a.slots[level], True
+    for odd in range(2):
+        begin = a.start[level, odd] + odd
+        factorise(a.centre, a.east, a.pivot, begin, slots, width(a, level, odd), a.length)
+        for row in range(begin + slots, begin + (a.length + 1) * slots, slots):
+            for q in range(row, row + coloured(a, level, odd)):
+                good &= 0.0 < a.pivot[q] < np.inf
     return good
 
 
 @njit(**_FAST)
-def _weights(a, level, j, scratch):
-    """Interpolation of odd row j from its neighbours: T w = - sum of its couplings to that neighbour.
+def _weights(a, level):
+    """Interpolation of the odd lines from their neighbours: T w = - sum of their couplings to that neighbour.
 
-    T is the row, with as much diagonal as makes the two weights one together where there are two neighbours:
-    what a held end of the row has taken out of the matrix shall not shorten them.
+    Afterwards the odd block of `answer` has the southern weights, that of `load` the northern ones. T is the line,
+    with as much diagonal as makes the two weights one together where there are two neighbours: what a held end of
+    the line has taken out of the matrix shall not shorten them.
     """
-    south, north, pivot, closing = scratch[0], scratch[1], scratch[2], scratch[3]
-    n = south.shape[0] - 2
-    r, s = a.first[level] + j, below(a, level, j)
-    b, be, bw = a.north[s], a.north_east[s, :-1], a.north_west[s, 1:]
-    c, ce, cw = a.north[r], a.north_east[r], a.north_west[r]
-    centre, east, west = a.centre[r], a.east[r], a.east[r, :-1]
-    for i in range(1, n + 1):
-        south[i] = -b[i] - be[i - 1] - bw[i]
-        north[i] = -c[i] - ce[i] - cw[i]
-        whole = south[i] + north[i] - east[i] - west[i - 1]
-        # By all three couplings: the straight one alone may vanish where the corners carry everything.
-        pivot[i] = whole if south[i] != 0.0 and north[i] != 0.0 and whole > 0.0 else centre[i]
-    pivots(pivot, east, pivot, n - a.around_x)
-    substitute_two(south, north, pivot, east, n - a.around_x)
-    if a.around_x:
-        last = pivot[n]
-        closing[:] = 0.0
-        closing[1] = east[n]
-        closing[n - 1] += east[n - 1]
-        substitute(closing, pivot, east, n - 1)
-        pivot[n] = 1.0 / (last - east[n] * closing[1] - east[n - 1] * closing[n - 1])
-        close_row(south, pivot, east, closing)
-        close_row(north, pivot, east, closing)
+    slots, begin, wide = a.slots[level], a.start[level, 1] + 1, width(a, level, 1)
+    over = a.start[level, 0] - begin
+    south, north, pivot = a.answer, a.load, a.pivot  # which are free while operators are made
+    none = all_lanes(a.centre, 0.0)
+    for i in range(1, a.length + 1):
+        for q in range(begin + i * slots, begin + i * slots + wide, WIDTH):
+            t = q + over
+            s = none - lanes(a.north, t) - lanes(a.north_east, t - slots) - lanes(a.north_west, t + slots)
+            n = none - lanes(a.north, q) - lanes(a.north_east, q) - lanes(a.north_west, q)
+            centre = lanes(a.centre, q)
+            whole = s + n - lanes(a.east, q) - lanes(a.east, q - slots)
+            # By all three couplings: the straight one alone may vanish where the corners carry everything.
+            made = where_positive(
+                s * s, where_positive(n * n, where_positive(whole, whole, centre), centre), centre
+            )
+            put_lanes(south, q, s)
+            put_lanes(north, q, n)
+            put_lanes(pivot, q, made)
+    factorise(pivot, a.east, pivot, begin, slots, wide, a.length)
+    for side in (south, north):
+        eliminate(side, pivot, a.east, begin, slots, wide, a.length)
+        substitute(side, pivot, a.east, begin, slots, wide, a.length)
+    if a.around:
+        end = coloured(a, level, 1) + 1
+        for row in range(a.start[level, 1] + slots, a.start[level, 1] + (a.length + 1) * slots, slots):
+            south[row + end] = north[row + end] = 0.0
+            north[row] = north[row + end - 1] if a.lines[level] % 2 == 0 else 0.0
 
 
 @njit(**_FAST)
-def _coarsen(a, level, scratch):
-    """The next level's operator P^T A P, row by row."""
-    south, north = scratch[0], scratch[1]
-    first, m = a.first[level], a.rows[level]
-    below, half = a.first[level + 1], a.rows[level + 1]
-    for k in range(half):
-        a.centre[below + k] = a.centre[first + 2 * k]
-        a.east[below + k] = a.east[first + 2 * k]
-    seam = a.around_y and m % 2 == 1  # the last even row meets the first without an odd one between
-    if m % 2 == 1:
-        direct = first + (m - 1 if seam else m)
-        a.north[below + half - 1] = a.north[direct]
-        a.north_east[below + half - 1] = a.north_east[direct]
-        a.north_west[below + half - 1] = a.north_west[direct]
-    for j in range(1, m, 2):
-        _weights(a, level, j, scratch)
-        k = j // 2
-        _eliminate_row(a, first + j, below + k, south, north)
-        if j + 1 < m:
-            _add_north(a, first + j, below + k + 1, north)
-        elif a.around_y:
-            _add_north(a, first + j, below, north)
-    if half == 1 and a.around_y:
-        _fold(a, below)
+def _coarsen(a, level, b, below):
+    """The operator P^T A P of the next level, `below` of b."""
+    _weights(a, level)
+    slots = a.slots[level]
+    for i in range(1, a.length + 1):
+        row, there = a.start[level, 0] + i * slots, i * b.slots[below]
+        for k in range(0, width(b, below, 0), WIDTH):
+            first = _coarse_stencils(a, level, row + 2 * k)
+            second = _coarse_stencils(a, level, row + 2 * k + WIDTH)
+            even, odd = b.start[below, 0] + there + k, b.start[below, 1] + there + k + 1
+            _put_apart(b.centre, even, odd, first[0], second[0])
+            _put_apart(b.east, even, odd, first[1], second[1])
+            _put_apart(b.north, even, odd, first[2], second[2])
+            _put_apart(b.north_east, even, odd, first[3], second[3])
+            _put_apart(b.north_west, even, odd, first[4], second[4])
+    if a.around:
+        _join_ends(a, level, b, below)
+        _repeat_stencils(b, below)
+    for odd in range(2):
+        begin = a.start[level, odd]
+        a.answer[begin : begin + (a.length + 2) * slots] = 0.0
+        a.load[begin : begin + (a.length + 2) * slots] = 0.0
 
 
 @njit(**_FAST)
-def _eliminate_row(a, r, k, ws, wn):
-    """What odd row r adds to the coarse row k south of it, and that row's coupling to the one north of it."""
-    n = ws.shape[0] - 2
-    c, e, b = a.centre[r], a.east[r], a.north[r - 1]
-    be, bw = a.north_east[r - 1], a.north_west[r - 1]
-    nn, ne, nw = a.north[r], a.north_east[r], a.north_west[r]
-    centre, east = a.centre[k], a.east[k]
-    for i in range(1, n + 1):
-        centre[i] += ws[i] * (ws[i] * c[i] + 2.0 * b[i])
-        east[i] += ws[i] * (ws[i + 1] * e[i] + bw[i + 1]) + ws[i + 1] * be[i]
-    north, north_east, north_west = a.north[k], a.north_east[k], a.north_west[k]
-    for i in range(1, n + 1):
-        north[i] = ws[i] * (c[i] * wn[i] + nn[i]) + b[i] * wn[i]
-        north_east[i] = ws[i] * (e[i] * wn[i + 1] + ne[i]) + be[i] * wn[i + 1]
-        north_west[i] = ws[i] * (e[i - 1] * wn[i - 1] + nw[i]) + bw[i] * wn[i - 1]
+def _repeat_stencils(a, level):
+    for stencil in (a.centre, a.east, a.north, a.north_east, a.north_west):
+        repeat_last(stencil, a, level)
+
+
+@njit(inline="always")
+def _put_apart(stencil, even, odd, first, second):
+    one, other = apart(first, second)
+    put_lanes(stencil, even, one)
+    put_lanes(stencil, odd, other)
+
+
+@njit(inline="always")
+def _coarse_stencils(a, level, t):
+    """Coarse stencils of the even lines at t: their own, and what the odd lines north and south of them add."""
+    slots = a.slots[level]
+    q = t + a.start[level, 1] - a.start[level, 0] + 1
+    p = q - 1
+    b, be, bw = lanes(a.north, t), lanes(a.north_east, t), lanes(a.north_west, t)
+    s, s_east = lanes(a.answer, q), lanes(a.answer, q + slots)
+    n, n_east, n_west = lanes(a.load, q), lanes(a.load, q + slots), lanes(a.load, q - slots)
+    c, e = lanes(a.centre, q), lanes(a.east, q)
+    centre = lanes(a.centre, t) + s * (s * c + b + b)
+    east = lanes(a.east, t) + s * (s_east * e + lanes(a.north_west, t + slots)) + s_east * be
+    m, m_east = lanes(a.load, p), lanes(a.load, p + slots)
+    centre += m * (m * lanes(a.centre, p) + lanes(a.north, p) + lanes(a.north, p))
+    east += m * (m_east * lanes(a.east, p) + lanes(a.north_east, p)) + m_east * lanes(a.north_west, p + slots)
+    north = s * (c * n + lanes(a.north, q)) + b * n
+    north_east = s * (e * n_east + lanes(a.north_east, q)) + be * n_east
+    north_west = s * (lanes(a.east, q - slots) * n_west + lanes(a.north_west, q)) + bw * n_west
+    return centre, east, north, north_east, north_west
 
 
 @njit(**_FAST)
-def _add_north(a, r, k, wn):
-    """What odd row r adds to the coarse row k north of it."""
-    n = wn.shape[0] - 2
-    c, e, nn, ne, nw = a.centre[r], a.east[r], a.north[r], a.north_east[r], a.north_west[r]
-    centre, east = a.centre[k], a.east[k]
-    for i in range(1, n + 1):
-        centre[i] += wn[i] * (wn[i] * c[i] + 2.0 * nn[i])
-        east[i] += wn[i] * (wn[i + 1] * e[i] + ne[i]) + wn[i + 1] * nw[i + 1]
+def _join_ends(a, level, b, below):
+    """Where the last line is next to the first: the coupling of two even ones stays.
 
-
-@njit(**_FAST)
-def _fold(a, k):
-    """A single row that is its own northern neighbour: its couplings to itself belong to the row."""
-    n = a.centre.shape[1] - 2
-    if a.around_x:
-        a.north_west[k, n + 1] = a.north_west[k, 1]
-    for i in range(1, n + 1):
-        a.centre[k, i] += 2.0 * a.north[k, i]
-        a.east[k, i] += a.north_east[k, i] + a.north_west[k, i + 1]
-    a.north[k] = 0.0
-    a.north_east[k] = 0.0
-    a.north_west[k] = 0.0
+    The pad after the coarse lines, to which the last odd line has added too, is one again.
+    """
+    lines = b.lines[below]
+    last = b.start[below, (lines - 1) % 2] + (lines - 1) // 2 + (lines - 1) % 2
+    pad = b.start[below, lines % 2] + lines // 2 + lines % 2
+    for i in range(1, a.length + 1):
+        row, fine = i * b.slots[below], a.start[level, 0] + i * a.slots[level] + lines - 1
+        if a.lines[level] % 2:
+            b.north[last + row] = a.north[fine]
+            b.north_east[last + row] = a.north_east[fine]
+            b.north_west[last + row] = a.north_west[fine]
+        b.centre[pad + row] = 1.0
+        b.east[pad + row] = b.north[pad + row] = b.north_east[pad + row] = b.north_west[pad + row] = 0.0

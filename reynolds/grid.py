@@ -13,41 +13,24 @@ from numpy.typing import NDArray
 from reynolds import grid_kernels
 from reynolds.space import FilmSpace
 
-SHORTEST_LINE = 8  # lines follow the numbering of the unknowns, which memory likes, unless they get this short
-
 
 @dataclass(frozen=True)
 class Grid:
-    """The unknowns in rows and columns: `unknowns` (rows, columns), each once.
+    """The unknowns in lines side by side: `unknowns` (lines, length), each once.
 
-    `around_x` closes each row on itself, `around_y` each column. Unknowns couple only to their eight
-    neighbours.
+    `around`: the last line is next to the first. Unknowns couple only to their eight neighbours.
     """
 
     unknowns: NDArray[np.int32]
-    around_x: bool
-    around_y: bool
-
-    @property
-    def rows(self) -> int:
-        return self.unknowns.shape[0]
-
-    @property
-    def columns(self) -> int:
-        return self.unknowns.shape[1]
-
-    @property
-    def turned(self) -> Grid:
-        """The same with rows and columns exchanged."""
-        return Grid(np.ascontiguousarray(self.unknowns.T), self.around_y, self.around_x)
+    around: bool
 
 
 def grid_of(space: FilmSpace) -> Grid | None:
-    """The rows and columns of a linear space (P1 on split quadrilaterals, Q1); None where there are none.
+    """The lines of a linear space (P1 on split quadrilaterals, Q1); None where there are none.
 
-    None too for holes, unknowns tied to a pocket, and fewer than three cells around a seam. Triangles are
-    taken for halves of quadrilaterals as scikit-fem cuts them: triangle k with triangle k + cells/2. Rows run
-    along neighbouring numbers.
+    None too for holes, unknowns tied to a pocket, fewer than three cells around a seam, and films that close on
+    themselves both ways. Triangles are taken for halves of quadrilaterals as scikit-fem cuts them: triangle k with
+    triangle k + cells/2. Lines run from side to side of a film that closes on itself, else the shorter way.
     """
     if space.degree != 1:
         return None
@@ -58,11 +41,11 @@ def grid_of(space: FilmSpace) -> Grid | None:
     unknowns = _agreed(corners, around_x, around_y) if corners.size else None
     if unknowns is None or not np.array_equal(np.sort(unknowns.ravel()), np.arange(space.size)):
         return None
-    grid = Grid(unknowns, around_x, around_y)
-    along = abs(int(unknowns[0, 1]) - int(unknowns[0, 0])) == 1
-    if (not along and grid.rows >= SHORTEST_LINE) or grid.columns < SHORTEST_LINE <= grid.rows:
-        return grid.turned
-    return grid
+    if around_x and around_y:
+        return None
+    if around_x or (not around_y and unknowns.shape[1] > unknowns.shape[0]):
+        unknowns = np.ascontiguousarray(unknowns.T)
+    return Grid(unknowns, around_x or around_y)
 
 
 def _joined(triangles: NDArray[np.int32]) -> NDArray[np.int32] | None:

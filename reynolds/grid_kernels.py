@@ -114,8 +114,8 @@ def walk(cells, size):
 
 
 @njit(**_FAST)
-def find_places(indptr, indices, column_of, row_of, columns, rows, around_x, around_y, total, places):
-    """Where each entry of the upper triangle stands in flattened stencils (5, total, columns + 2).
+def find_places(indptr, indices, along, line_of, place_of, lines, around, total, places):
+    """Where each entry of the upper triangle stands in stencils (5, total), flat; unknown k at place_of[k].
 
     Stencil 0 is the centre, 1 to 4 the couplings east, north, north-east, north-west. False where an entry
     couples unknowns that are not neighbours.
@@ -123,10 +123,8 @@ def find_places(indptr, indices, column_of, row_of, columns, rows, around_x, aro
     for j in range(indptr.shape[0] - 1):
         for k in range(indptr[j], indptr[j + 1]):
             i = indices[k]
-            dx, dy = column_of[j] - column_of[i], row_of[j] - row_of[i]
-            if around_x and abs(dx) == columns - 1:
-                dx = -1 if dx > 0 else 1
-            if around_y and abs(dy) == rows - 1:
+            dx, dy = along[j] - along[i], line_of[j] - line_of[i]
+            if around and abs(dy) == lines - 1:
                 dy = -1 if dy > 0 else 1
             if abs(dx) > 1 or abs(dy) > 1:
                 return False
@@ -134,5 +132,5 @@ def find_places(indptr, indices, column_of, row_of, columns, rows, around_x, aro
             if dy < 0 or (dy == 0 and dx < 0):
                 at, dx, dy = j, -dx, -dy
             which = (2 + (dx if dx >= 0 else 2)) if dy else dx
-            places[k] = (which * total + row_of[at]) * (columns + 2) + column_of[at] + 1
+            places[k] = which * total + place_of[at]
     return True

@@ -1,191 +1,106 @@
-"""Rows of nine-point stencils, compiled once by numba: their layout, couplings and direct solution.
+"""Lines of nine-point stencils, compiled once by numba: how they lie in memory, and what is done to many at once.
 
-Layout: a level of m rows takes m + 2 rows of the arrays: after its own one of zeros, which is the neighbour
-where there is none, and one that repeats its first, which is the neighbour of the last where columns close on
-themselves. Columns 1 to n are the unknowns, 0 and n + 1 repeat the far end where rows close on themselves.
+Layout: the lines of a level lie side by side, so that eight of them share a vector register; odd ones and even
+ones apart, for each colour needs the other only. A block is n + 2 rows of `slots` numbers: row i has unknowns i
+of its lines, rows 0 and n + 1 are zero. Line 2 k stands in slot k of the even block, line 2 k + 1 in slot k + 1 of
+the odd one: line k of a colour has its southern neighbour in slot k of the other block, its northern one in slot
+k + 1. The slots that are left over are pads: the centre of their stencil is one, all else zero, but for a copy of
+the line at the other end where the last line is next to the first.
 
 Numba's cache watches a function's own file only: after a change here, touch the kernels that import it.
 """
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
+from reynolds.lanes import WIDTH, all_lanes, lanes, put_lanes
+
 _FAST = {"cache": True, "error_model": "numpy", "fastmath": {"contract"}}
 
 
 class Levels(NamedTuple):
-    """Operators and vectors of all levels; arrays (all rows, n + 2).
+    """Operators and vectors of some levels, each one flat array: level by level, even block and odd block.
 
-    The symmetric stencil of an unknown: centre, and its coupling east, north, north-east and north-west.
-    `pivot` is the inverse diagonal of each row's L D L^T; `closing` the row's answer to its last unknown.
+    The symmetric stencil of an unknown: centre, and its coupling east (along the line), north (to the next line),
+    north-east and north-west. `pivot` is the inverse diagonal of each line's L D L^T. `start` (levels, 2) of the
+    blocks, `slots` (levels,) of their rows, `lines` (levels,) of length `length`; `around`: last next to first.
     """
 
-    centre: NDArray[np.float64]
-    east: NDArray[np.float64]
-    north: NDArray[np.float64]
-    north_east: NDArray[np.float64]
-    north_west: NDArray[np.float64]
-    pivot: NDArray[np.float64]
-    closing: NDArray[np.float64]
-    answer: NDArray[np.float64]
-    load: NDArray[np.float64]
-    first: NDArray[np.int64]
-    rows: NDArray[np.int64]
-    around_x: bool
-    around_y: bool
+    centre: NDArray[np.floating[Any]]
+    east: NDArray[np.floating[Any]]
+    north: NDArray[np.floating[Any]]
+    north_east: NDArray[np.floating[Any]]
+    north_west: NDArray[np.floating[Any]]
+    pivot: NDArray[np.floating[Any]]
+    answer: NDArray[np.floating[Any]]
+    load: NDArray[np.floating[Any]]
+    start: NDArray[np.int64]
+    slots: NDArray[np.int64]
+    lines: NDArray[np.int64]
+    length: int
+    around: bool
 
 
 @njit(inline="always")
-def below(a, level, j):
-    """Array row of the southern neighbour of row j."""
-    if j > 0:
-        return a.first[level] + j - 1
-    m = a.rows[level]
-    return a.first[level] + (m - 1 if a.around_y else m)
+def coloured(a, level, odd):
+    """Number of even (odd = 0) or odd (1) lines of a level."""
+    return (a.lines[level] + 1 - odd) // 2
 
 
 @njit(inline="always")
-def above(a, level, j):
-    """Array row of the northern neighbour of row j."""
-    m = a.rows[level]
-    if j < m - 1:
-        return a.first[level] + j + 1
-    return a.first[level] + (m + 1 if a.around_y else m)
+def width(a, level, odd):
+    """Slots that the lines of a colour take, to the next full register."""
+    return -(-coloured(a, level, odd) // WIDTH) * WIDTH
 
 
 @njit(**_FAST)
-def couple_north(out, load, north, east, west, beyond):
-    """out = load minus the couplings to the row north of it; all of one row."""
-    centre, right, left = beyond[1:-1], beyond[2:], beyond[:-2]
-    o, f, n, e, w = out[1:-1], load[1:-1], north[1:-1], east[1:-1], west[1:-1]
-    for i in range(o.shape[0]):
-        o[i] = f[i] - n[i] * centre[i] - e[i] * right[i] - w[i] * left[i]
+def repeat_lines(x, a, level, odd):
+    """Fill the pads of a block of a vector where the last line is next to the first."""
+    evens, odds = coloured(a, level, 0), coloured(a, level, 1)
+    for row in range(0, (a.length + 2) * a.slots[level], a.slots[level]):
+        even, other = a.start[level, 0] + row, a.start[level, 1] + row
+        if odd and evens > odds:
+            x[other], x[other + odds + 1] = x[even + evens - 1], x[even]
+        elif odd:
+            x[other] = x[other + odds]
+        elif evens == odds:
+            x[even + evens] = x[even]
 
 
 @njit(**_FAST)
-def couple_south(out, north, east, west, beyond):
-    """out -= the couplings to the row south of it, which holds them."""
-    centre, right, left = beyond[1:-1], beyond[2:], beyond[:-2]
-    o, n, e, w = out[1:-1], north[1:-1], east[:-2], west[2:]
-    for i in range(o.shape[0]):
-        o[i] -= n[i] * centre[i] + e[i] * left[i] + w[i] * right[i]
+def repeat_last(stencil, a, level):
+    """Fill the pad before the odd lines where the last line is next to the first: with that last line."""
+    evens, odds = coloured(a, level, 0), coloured(a, level, 1)
+    last = a.start[level, 0] + evens - 1 if evens > odds else a.start[level, 1] + odds
+    for row in range(0, (a.length + 2) * a.slots[level], a.slots[level]):
+        stencil[a.start[level, 1] + row] = stencil[last + row]
 
 
 @njit(**_FAST)
-def off_row(a, out, load, level, j):
-    """out = load minus all couplings of row j to its two neighbours, which are taken from `answer`."""
-    r, s, t = a.first[level] + j, below(a, level, j), above(a, level, j)
-    couple_north(out, load, a.north[r], a.north_east[r], a.north_west[r], a.answer[t])
-    couple_south(out, a.north[s], a.north_east[s], a.north_west[s], a.answer[s])
-
-
-@njit(**_FAST)
-def substitute(x, pivot, east, n):
-    """Both substitutions of one row, in place, over its first n unknowns."""
-    y = 0.0
-    multiplier = 0.0
+def factorise(centre, east, pivot, begin, slots, wide, n):
+    """Inverse pivots of the lines of a block from `begin` on; all three may be anywhere in their arrays alike."""
+    one = all_lanes(pivot, 1.0)
     for i in range(1, n + 1):
-        y = x[i] - multiplier * y
-        x[i] = y
-        multiplier = east[i] * pivot[i]
-    y = 0.0
-    for i in range(n, 0, -1):
-        y = pivot[i] * x[i] - (east[i] * pivot[i]) * y
-        x[i] = y
+        for q in range(begin + i * slots, begin + i * slots + wide, WIDTH):
+            e = lanes(east, q - slots)
+            put_lanes(pivot, q, one / (lanes(centre, q) - e * e * lanes(pivot, q - slots)))
 
 
 @njit(**_FAST)
-def substitute_two(x, z, pivot, east, n):
-    """The same for two right-hand sides of one row at once."""
-    y = w = multiplier = 0.0
+def eliminate(x, pivot, east, begin, slots, wide, n):
+    """Forward substitution of lines in place: x = D^-1 L^-1 x."""
     for i in range(1, n + 1):
-        y = x[i] - multiplier * y
-        w = z[i] - multiplier * w
-        x[i], z[i] = y, w
-        multiplier = east[i] * pivot[i]
-    y = w = 0.0
-    for k in range(n):
-        i = n - k
-        y = pivot[i] * x[i] - (east[i] * pivot[i]) * y
-        w = pivot[i] * z[i] - (east[i] * pivot[i]) * w
-        x[i], z[i] = y, w
+        for q in range(begin + i * slots, begin + i * slots + wide, WIDTH):
+            rest = lanes(x, q) - lanes(east, q - slots) * lanes(x, q - slots)
+            put_lanes(x, q, lanes(pivot, q) * rest)
 
 
 @njit(**_FAST)
-def _substitute_four(x, pivot, east, r, step, n):
-    """The same in rows r, r + step, r + 2 step, r + 3 step at once: four chains hide each other's latency."""
-    xa, xb, xc, xd = x[r], x[r + step], x[r + 2 * step], x[r + 3 * step]
-    pa, pb, pc, pd = pivot[r], pivot[r + step], pivot[r + 2 * step], pivot[r + 3 * step]
-    ea, eb, ec, ed = east[r], east[r + step], east[r + 2 * step], east[r + 3 * step]
-    ya = yb = yc = yd = 0.0
-    ma = mb = mc = md = 0.0
-    for i in range(1, n + 1):
-        ya = xa[i] - ma * ya
-        yb = xb[i] - mb * yb
-        yc = xc[i] - mc * yc
-        yd = xd[i] - md * yd
-        xa[i], xb[i], xc[i], xd[i] = ya, yb, yc, yd
-        ma, mb, mc, md = ea[i] * pa[i], eb[i] * pb[i], ec[i] * pc[i], ed[i] * pd[i]
-    ya = yb = yc = yd = 0.0
-    for k in range(n):
-        i = n - k
-        ya = pa[i] * xa[i] - (ea[i] * pa[i]) * ya
-        yb = pb[i] * xb[i] - (eb[i] * pb[i]) * yb
-        yc = pc[i] * xc[i] - (ec[i] * pc[i]) * yc
-        yd = pd[i] * xd[i] - (ed[i] * pd[i]) * yd
-        xa[i], xb[i], xc[i], xd[i] = ya, yb, yc, yd
-
-
-@njit(**_FAST)
-def substitute_rows(x, pivot, east, r, step, count, n):
-    """Both substitutions of `count` rows in place."""
-    done = 0
-    while done + 4 <= count:
-        _substitute_four(x, pivot, east, r + done * step, step, n)
-        done += 4
-    for k in range(done, count):
-        q = r + k * step
-        substitute(x[q], pivot[q], east[q], n)
-
-
-@njit(**_FAST)
-def close_row(x, pivot, east, closing):
-    """The last unknown of a row closed on itself, then the others, once the others are solved without it."""
-    n = x.shape[0] - 2
-    last = (x[n] - east[n] * x[1] - east[n - 1] * x[n - 1]) * pivot[n]
-    o, z = x[1:n], closing[1:n]
-    for i in range(n - 1):
-        o[i] -= last * z[i]
-    x[n] = last
-    x[0] = last
-    x[n + 1] = x[1]
-
-
-@njit(**_FAST)
-def pivots(c, e, p, n):
-    """Inverse pivots p of a row with diagonal c and couplings e, over its first n unknowns; p may be c."""
-    inverse = coupling = 0.0
-    for i in range(1, n + 1):
-        inverse = 1.0 / (c[i] - coupling * coupling * inverse)
-        coupling = e[i]
-        p[i] = inverse
-
-
-@njit(**_FAST)
-def pivots_four(centre, east, pivot, r, n):
-    """The same in four rows at once, from row r on."""
-    ca, cb, cc, cd = centre[r], centre[r + 1], centre[r + 2], centre[r + 3]
-    ea, eb, ec, ed = east[r], east[r + 1], east[r + 2], east[r + 3]
-    pa, pb, pc, pd = pivot[r], pivot[r + 1], pivot[r + 2], pivot[r + 3]
-    a = b = c = d = 0.0
-    ka = kb = kc = kd = 0.0
-    for i in range(1, n + 1):
-        a = 1.0 / (ca[i] - ka * ka * a)
-        b = 1.0 / (cb[i] - kb * kb * b)
-        c = 1.0 / (cc[i] - kc * kc * c)
-        d = 1.0 / (cd[i] - kd * kd * d)
-        ka, kb, kc, kd = ea[i], eb[i], ec[i], ed[i]
-        pa[i], pb[i], pc[i], pd[i] = a, b, c, d
+def substitute(x, pivot, east, begin, slots, wide, n):
+    """Backward substitution of lines in place: x = L^-T x."""
+    for i in range(n - 1, 0, -1):
+        for q in range(begin + i * slots, begin + i * slots + wide, WIDTH):
+            put_lanes(x, q, lanes(x, q) - lanes(pivot, q) * lanes(east, q) * lanes(x, q + slots))

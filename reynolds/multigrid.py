@@ -1,15 +1,17 @@
 """Multigrid for films on logically rectangular meshes, at a cost in proportion to the unknowns.
 
-Rows are relaxed as a whole, odd ones and even ones in turn, and every second one is coarsened away; weights and
+Lines are relaxed as a whole, odd ones and even ones in turn, and every second one is coarsened away; weights and
 coarse operators follow from the entries of the matrix alone (semicoarsening: Dendy, McCormick, Ruge, Russell and
 Schaffer 1989; Schaffer 1998). So cells of any aspect ratio, films that jump, nodes that are held and cavities
 (rows of the identity) need no word about them. The cycle is symmetric positive definite and preconditions
-conjugate gradients.
+conjugate gradients. Coarse levels of large films are kept in single precision, unless a film jumps by more than
+that holds.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,13 +19,16 @@ from scipy.sparse import csc_array
 
 from reynolds import coarsening_kernels, grid_kernels
 from reynolds import multigrid_kernels as kernels
+from reynolds.coarsest_kernels import SQUARE, Coarsest
 from reynolds.errors import FilmInputError
 from reynolds.grid import Grid
+from reynolds.lanes import WIDTH
 from reynolds.line_kernels import Levels
 from reynolds.mesh import Array
 
 MAX_STEPS = 60  # some 10 are usual: beyond these the operator is not one for multigrid
-CACHED = 200_000  # unknowns: below this all stays in cache, and the longer rows are the faster ones
+IN_CACHE = 200_000  # unknowns: above, what coarse levels take to read counts, and they are of single precision
+SLOW = 30  # steps after which coarse levels of single precision are made anew in double
 
 
 @dataclass(frozen=True)
@@ -37,7 +42,7 @@ class Effort:
 class Multigrid:
     """The operator of one grid on all its levels: `update` with new entries, then `solve` any number of times.
 
-    Memory: 21 doubles an unknown, 23 where the rows close on themselves.
+    Memory: 21 doubles an unknown, 17 above IN_CACHE.
     """
 
     def __init__(self, grid: Grid, upper: csc_array) -> None:
@@ -45,93 +50,116 @@ class Multigrid:
 
         Raises FilmInputError where it couples unknowns that are not neighbours on the grid.
         """
-        longer = grid.rows > grid.columns and grid.unknowns.size < CACHED
-        self._grid = grid.turned if longer else grid
-        self._levels, self._stencils = _levels(self._grid)
-        self._places = _places(self._grid, upper, self._stencils.shape[1])
-        self._work = np.zeros((2, self._grid.rows + 2, self._grid.columns + 2))
+        self._grid, lines = grid, [len(grid.unknowns)]
+        while lines[-1] > WIDTH:
+            lines.append((lines[-1] + 1) // 2)
+        self._lines = np.array(lines, dtype=np.int64)
+        self._fine, self._entries = _levels(self._grid, self._lines[:1], np.float64)
+        self._take_coarse(np.float32 if grid.unknowns.size > IN_CACHE else np.float64)
+        self._slots, self._places = _places(self._grid, upper, self._fine)
+        self._work = np.zeros((2, self._fine.load.size))
 
     @property
-    def parts(self) -> tuple[Levels, NDArray[np.int32]]:
-        """The levels and their unknowns in rows, for kernels that cycle themselves."""
-        return self._levels, self._grid.unknowns
+    def levels(self) -> tuple[Levels, Levels, Coarsest]:
+        """The finest level, the others and what solves the last, for kernels that cycle themselves."""
+        return self._fine, self._coarse, self._coarsest
+
+    @property
+    def slots(self) -> NDArray[np.int32]:
+        """Where each unknown stands in the vectors of the finest level."""
+        return self._slots
 
     def update(self, data: Array) -> bool:
-        """Take the entries of the upper triangle; False where the matrix is not positive definite on some row."""
-        kernels.spread(data, self._places, self._stencils)
-        return bool(coarsening_kernels.set_up(self._levels))
+        """Take the entries of the upper triangle; False where the matrix is not positive definite on some line."""
+        kernels.put(data, self._places, self._entries)
+        return bool(coarsening_kernels.set_up(*self.levels)) or self._precise()
+
+    def _precise(self) -> bool:
+        """Coarse levels in double precision from here on; False where they have been, or do not help."""
+        if self._coarse.load.dtype == np.float64:
+            return False
+        self._take_coarse(np.float64)
+        return bool(coarsening_kernels.set_up(*self.levels))
+
+    def _take_coarse(self, precision: type[np.floating[Any]]) -> None:
+        self._coarse, _ = _levels(self._grid, self._lines[1:], precision)
+        blocks = self._fine.length + 2
+        inverse, onward, back = np.zeros((3, blocks * SQUARE), dtype=precision)
+        self._coarsest = Coarsest(inverse, onward, back, np.zeros(blocks * WIDTH, dtype=precision))
 
     def solve(self, load: Array, tolerance: float) -> tuple[Array, Effort]:
         """x with |A x - load| <= tolerance |load|, (n,), or as near as round-off and MAX_STEPS let it come."""
-        kernels.to_rows(load, self._grid.unknowns, self._levels.load)
-        steps, size = kernels.conjugate_gradients(self._levels, *self._work, tolerance, MAX_STEPS)
+        answer, effort = self._iterated(load, tolerance)
+        if effort.steps > SLOW and self._precise():
+            answer, effort = self._iterated(load, tolerance)
+        return answer, effort
+
+    def _iterated(self, load: Array, tolerance: float) -> tuple[Array, Effort]:
+        x, direction = self._work
+        kernels.put(load, self._slots, self._fine.load)
+        steps, size = kernels.conjugate_gradients(*self.levels, x, direction, tolerance, MAX_STEPS)
         if size == 0.0:
             return np.zeros(len(load)), Effort(0, 0.0)
-        kernels.to_rows(load, self._grid.unknowns, self._levels.load)
-        left = kernels.left_of(self._levels, self._work[0])
-        return self._taken(self._work[0]), Effort(steps, float(left / size))
+        kernels.put(load, self._slots, self._fine.load)
+        left = kernels.left_of(self._fine, x, direction)
+        return self._taken(x), Effort(steps, float(left / size))
 
     def residual(self, load: Array, x: Array) -> Array:
         """load - A x, (n,)."""
-        unknowns = self._grid.unknowns
-        kernels.to_rows(load, unknowns, self._levels.load)
-        kernels.to_rows(x, unknowns, self._work[0])
-        kernels.left_of(self._levels, self._work[0])
-        return self._taken(self._levels.load)
+        kernels.put(load, self._slots, self._fine.load)
+        kernels.put(x, self._slots, self._work[0])
+        kernels.left_of(self._fine, *self._work)
+        return self._taken(self._fine.load)
 
     def full_pass(self, load: Array) -> Array:
         """x to about the error of the mesh, (n,): one pass of full multigrid (Brandt 1977), without a check."""
-        kernels.to_rows(load, self._grid.unknowns, self._levels.load)
-        kernels.full_cycle(self._levels)
-        return self._taken(self._levels.answer)
+        kernels.put(load, self._slots, self._fine.load)
+        kernels.full_cycle(*self.levels)
+        return self._taken(self._fine.answer)
 
     def cycle(self, load: Array) -> Array:
         """M load, (n,): the preconditioner, one V-cycle from nothing."""
-        kernels.to_rows(load, self._grid.unknowns, self._levels.load)
-        kernels.cycle(self._levels)
-        return self._taken(self._levels.answer)
+        kernels.put(load, self._slots, self._fine.load)
+        kernels.cycle(*self.levels)
+        return self._taken(self._fine.answer)
 
-    def _taken(self, rows: Array) -> Array:
-        values = np.empty(self._grid.unknowns.size)
-        kernels.from_rows(rows, self._grid.unknowns, values)
+    def _taken(self, flat: NDArray[np.floating[Any]]) -> Array:
+        values = np.empty(len(self._slots))
+        kernels.take(flat, self._slots, values)
         return values
 
 
-def _levels(grid: Grid) -> tuple[Levels, Array]:
-    """All levels, empty, and their stencils as one array (5, all rows, columns + 2)."""
-    counts = [grid.rows]
-    while counts[-1] > 1:
-        counts.append((counts[-1] + 1) // 2)
-    rows = np.array(counts, dtype=np.int64)
-    total, width = int(np.sum(rows + 2)), grid.columns + 2
-    stencils, vectors = np.zeros((5, total, width)), np.zeros((3, total, width))
+def _levels(
+    grid: Grid, lines: NDArray[np.int64], precision: type[np.floating[Any]]
+) -> tuple[Levels, NDArray[np.floating[Any]]]:
+    """Levels of so many lines each, empty, and all their stencils as one flat array."""
+    # Two registers of even lines for one of the next level; a pad before the odd lines, and one after any.
+    slots = -(-lines // (4 * WIDTH)) * 2 * WIDTH + 2
+    sizes = np.repeat((grid.unknowns.shape[1] + 2) * slots, 2)
+    total = -(-int(sizes.sum()) // WIDTH) * WIDTH
+    stencils, vectors = np.zeros((5, total), dtype=precision), np.zeros((3, total), dtype=precision)
+    stencils[0] = 1.0
+    centre, east, north, north_east, north_west = stencils
+    pivot, answer, load = vectors
     levels = Levels(
-        centre=stencils[0],
-        east=stencils[1],
-        north=stencils[2],
-        north_east=stencils[3],
-        north_west=stencils[4],
-        pivot=vectors[0],
-        closing=np.zeros((total if grid.around_x else 0, width)),
-        answer=vectors[1],
-        load=vectors[2],
-        first=np.cumsum(rows + 2) - (rows + 2),
-        rows=rows,
-        around_x=grid.around_x,
-        around_y=grid.around_y,
-    )
-    return levels, stencils
+        centre, east, north, north_east, north_west, pivot, answer, load,
+        start=(np.cumsum(sizes) - sizes).reshape(-1, 2), slots=slots, lines=lines, length=grid.unknowns.shape[1],
+        around=grid.around,
+    )  # fmt: skip
+    return levels, stencils.reshape(-1)
 
 
-def _places(grid: Grid, upper: csc_array, total: int) -> NDArray[np.int32]:
-    """Where each entry of the upper triangle stands in the flattened stencils."""
-    row_of, column_of = np.empty((2, grid.unknowns.size), dtype=np.int32)
-    row_of[grid.unknowns], column_of[grid.unknowns] = np.indices(grid.unknowns.shape, dtype=np.int32)
-    places = np.empty(len(upper.indices), dtype=np.int32)
+def _places(grid: Grid, upper: csc_array, fine: Levels) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
+    """Where each unknown stands in a vector of the finest level, and each entry of `upper` in the stencils."""
+    line_of, along = np.empty((2, grid.unknowns.size), dtype=np.int32)
+    line_of[grid.unknowns], along[grid.unknowns] = np.indices(grid.unknowns.shape, dtype=np.int32)
+    odd = line_of % 2
+    slot = fine.start[0][odd] + (along + 1) * fine.slots[0] + line_of // 2 + odd
+    place_of, places = slot.astype(np.int32), np.empty(len(upper.indices), dtype=np.int32)
     neighbours = grid_kernels.find_places(
-        upper.indptr, upper.indices, column_of, row_of, grid.columns, grid.rows, grid.around_x, grid.around_y,
-        total, places,
+        upper.indptr, upper.indices, along, line_of, place_of, len(grid.unknowns), grid.around, fine.load.size,
+        places,
     )  # fmt: skip
     if not neighbours:
         raise FilmInputError("matrix", "couplings beyond the next unknowns of the grid", "nine-point stencils")
-    return places
+    return place_of, places

@@ -1,275 +1,292 @@
 """Multigrid on lines, compiled once by numba: cycles and conjugate gradients.
 
-Every second row is coarsened away (semicoarsening), rows are solved as a whole, even ones and odd ones in turn:
-fast whatever the anisotropy, for a strong coupling along the rows is solved and one across them is coarsened.
-The layout is that of `line_kernels`.
+Every second line is coarsened away (semicoarsening), lines are solved as a whole, even ones and odd ones in turn:
+fast whatever the anisotropy, for a strong coupling along the lines is solved and one across them is coarsened.
+The layout is that of `line_kernels`. The finest level is a `Levels` of one, in double precision; `coarse` holds
+the others, which only precondition; the last of them, of at most eight lines, is solved as a whole.
 """
 
 import numpy as np
 from numba import njit
 
-from reynolds.line_kernels import above, below, close_row, couple_north, couple_south, off_row, substitute_rows
+from reynolds.coarsest_kernels import solve_blocks
+from reynolds.lanes import WIDTH, all_lanes, apart, lanes, lanes_like, put_lanes, together
+from reynolds.line_kernels import coloured, repeat_lines, substitute, width
 
 _FAST = {"cache": True, "error_model": "numpy", "fastmath": {"contract"}}
-_SUMS = _FAST | {"fastmath": {"contract", "reassoc", "nsz"}}  # lets a sum run in several parts at once
+
+
+@njit(inline="always")
+def _own(a, x, q, slots):
+    """What unknowns q couple to themselves and along their line."""
+    along = lanes(a.east, q) * lanes(x, q + slots) + lanes(a.east, q - slots) * lanes(x, q - slots)
+    return lanes(a.centre, q) * lanes(x, q) + along
+
+
+@njit(inline="always")
+def _others(a, x, q, t, slots):
+    """What unknowns q couple to the next line on both sides; t is their slot in the other block."""
+    corners = lanes(a.north_east, q) * lanes(x, t + slots + 1) + lanes(a.north_west, q) * lanes(x, t - slots + 1)
+    south = lanes(a.north_east, t - slots) * lanes(x, t - slots) + lanes(a.north_west, t + slots) * lanes(
+        x, t + slots
+    )
+    return lanes(a.north, q) * lanes(x, t + 1) + lanes(a.north, t) * lanes(x, t) + corners + south
 
 
 @njit(**_FAST)
-def _solve_rows(a, r, step, count):
-    """Solve `count` rows of `answer` in place."""
-    substitute_rows(a.answer, a.pivot, a.east, r, step, count, a.answer.shape[1] - 2 - a.around_x)
-    if a.around_x:
-        for k in range(count):
-            q = r + k * step
-            close_row(a.answer[q], a.pivot[q], a.east[q], a.closing[q])
+def _begin(a, level):
+    """Solve the even lines for their load alone, from nothing."""
+    slots, begin, wide = a.slots[level], a.start[level, 0], width(a, level, 0)
+    for i in range(1, a.length + 1):
+        for q in range(begin + i * slots, begin + i * slots + wide, WIDTH):
+            rest = lanes(a.load, q) - lanes(a.east, q - slots) * lanes(a.answer, q - slots)
+            put_lanes(a.answer, q, lanes(a.pivot, q) * rest)
+    substitute(a.answer, a.pivot, a.east, begin, slots, wide, a.length)
 
 
 @njit(**_FAST)
 def _relax(a, level, odd):
-    """Solve the even or the odd rows of a level for their load and what they couple to."""
-    first, m = a.first[level], a.rows[level]
-    if a.around_y:
-        a.answer[first + m + 1] = a.answer[first]
-    for j in range(odd, m, 8):
-        count = min(4, (m - j + 1) // 2)
-        for k in range(count):
-            off_row(a, a.answer[first + j + 2 * k], a.load[first + j + 2 * k], level, j + 2 * k)
-        _solve_rows(a, first + j, 2, count)
+    """Solve the even or the odd lines of a level for their load and what they couple to."""
+    if a.around:
+        repeat_lines(a.answer, a, level, 1 - odd)
+    slots, begin, wide = a.slots[level], a.start[level, odd] + odd, width(a, level, odd)
+    over = a.start[level, 1 - odd] - begin
+    for i in range(1, a.length + 1):
+        for q in range(begin + i * slots, begin + i * slots + wide, WIDTH):
+            rest = lanes(a.load, q) - _others(a, a.answer, q, q + over, slots)
+            rest -= lanes(a.east, q - slots) * lanes(a.answer, q - slots)
+            put_lanes(a.answer, q, lanes(a.pivot, q) * rest)
+    substitute(a.answer, a.pivot, a.east, begin, slots, wide, a.length)
+
+
+@njit(inline="always")
+def _left(a, q, over, slots, whole):
+    """The residual of even lines that hold for themselves, or of any."""
+    rest = all_lanes(a.load, 0.0) - _others(a, a.answer, q, q + over, slots)
+    if whole:
+        rest += lanes(a.load, q) - _own(a, a.answer, q, slots)
+    return rest
 
 
 @njit(**_FAST)
-def _descend(a, level):
-    """From nothing: relax even rows, then odd ones, and hand what is left in the even ones to the next level."""
-    first, m = a.first[level], a.rows[level]
-    for j in range(0, m, 8):
-        count = min(4, (m - j + 1) // 2)
-        for k in range(count):
-            a.answer[first + j + 2 * k, 1:-1] = a.load[first + j + 2 * k, 1:-1]
-        _solve_rows(a, first + j, 2, count)
+def _hand_down(a, level, b, below, whole):
+    """The residual of the even lines as the load of the next level.
+
+    They have just been solved, but for the odd lines; unless they are to be taken as a `whole`.
+    """
+    if a.around:
+        repeat_lines(a.answer, a, level, 1)
+    slots, begin = a.slots[level], a.start[level, 0]
+    over = a.start[level, 1] - begin
+    for i in range(1, a.length + 1):
+        row, out = begin + i * slots, i * b.slots[below]
+        for k in range(0, width(b, below, 0), WIDTH):
+            q = row + 2 * k
+            even, odd = apart(_left(a, q, over, slots, whole), _left(a, q + WIDTH, over, slots, whole))
+            put_lanes(b.load, b.start[below, 0] + out + k, even)
+            put_lanes(b.load, b.start[below, 1] + out + k + 1, odd)
+
+
+@njit(**_FAST)
+def _lift(a, level, b, below, old):
+    """The next level's answer on the even lines, added to `old` (0 or 1) times what stands there."""
+    for i in range(1, a.length + 1):
+        row, there = a.start[level, 0] + i * a.slots[level], i * b.slots[below]
+        for k in range(0, width(b, below, 0), WIDTH):
+            even = lanes(b.answer, b.start[below, 0] + there + k)
+            odd = lanes(b.answer, b.start[below, 1] + there + k + 1)
+            first, second = together(even, odd)
+            kept, q = all_lanes(a.answer, old), row + 2 * k
+            put_lanes(a.answer, q, kept * lanes(a.answer, q) + lanes_like(a.answer, first))
+            put_lanes(a.answer, q + WIDTH, kept * lanes(a.answer, q + WIDTH) + lanes_like(a.answer, second))
+
+
+@njit(**_FAST)
+def _descend(a, level, b, below):
+    """From nothing: relax even lines, then odd ones, and hand what is left in the even ones to the next level."""
+    _begin(a, level)
     _relax(a, level, 1)
-    _hand_down(a, level)
+    _hand_down(a, level, b, below, False)
 
 
 @njit(**_FAST)
-def _hand_down(a, level):
-    """The residual of even rows that hold for themselves, as the load of the next level."""
-    first, m = a.first[level], a.rows[level]
-    below = a.first[level + 1]
-    if a.around_y:
-        a.answer[first + m + 1] = a.answer[first]
-    for j in range(0, m, 2):
-        out = a.load[below + j // 2]
-        out[:] = 0.0
-        off_row(a, out, out, level, j)
-
-
-@njit(**_FAST)
-def _ascend(a, level):
-    """Add the next level's answer to the even rows, relax odd ones and even ones: the mirror of `_descend`."""
-    first, below = a.first[level], a.first[level + 1]
-    for k in range(a.rows[level + 1]):
-        x, e = a.answer[first + 2 * k], a.answer[below + k]
-        for i in range(x.shape[0]):
-            x[i] += e[i]
+def _ascend(a, level, b, below):
+    """Add the next level's answer to the even lines, relax odd ones and even ones: the mirror of `_descend`."""
+    _lift(a, level, b, below, 1.0)
     _relax(a, level, 1)
     _relax(a, level, 0)
 
 
 @njit(**_FAST)
-def _coarsest(a):
-    last = a.first.shape[0] - 1
-    a.answer[a.first[last], 1:-1] = a.load[a.first[last], 1:-1]
-    _solve_rows(a, a.first[last], 1, 1)
-
-
-@njit(**_FAST)
-def cycle(a):
+def cycle(fine, coarse, coarsest):
     """answer of the finest level = M load: a symmetric V-cycle from nothing."""
-    last = a.first.shape[0] - 1
-    for level in range(last):
-        _descend(a, level)
-    _coarsest(a)
-    for level in range(last - 1, -1, -1):
-        _ascend(a, level)
+    if coarse.lines.shape[0] == 0:
+        solve_blocks(coarsest, fine, 0)
+    else:
+        _descend(fine, 0, coarse, 0)
+        _cycle_from(coarse, 0, coarsest)
+        _ascend(fine, 0, coarse, 0)
 
 
 @njit(**_FAST)
-def full_cycle(a):
+def _cycle_from(a, top, coarsest):
+    """The cycle of one of these levels and those below it."""
+    last = a.lines.shape[0] - 1
+    for level in range(top, last):
+        _descend(a, level, a, level + 1)
+    solve_blocks(coarsest, a, last)
+    for level in range(last - 1, top - 1, -1):
+        _ascend(a, level, a, level + 1)
+
+
+@njit(**_FAST)
+def full_cycle(fine, coarse, coarsest):
     """answer of the finest level: full multigrid, a cycle on every level from the coarsest up (Brandt 1977)."""
-    last = a.first.shape[0] - 1
+    last = coarse.lines.shape[0] - 1
+    if last < 0:
+        solve_blocks(coarsest, fine, 0)
+        return
+    _first_load(fine, 0, coarse, 0)
     for level in range(last):
-        first, m = a.first[level], a.rows[level]
-        for j in range(0, m, 2):
-            a.answer[first + j] = 0.0
-        _relax(a, level, 1)
-        _hand_down(a, level)
-        _add_own(a, level)
-    _coarsest(a)
+        _first_load(coarse, level, coarse, level + 1)
+    solve_blocks(coarsest, coarse, last)
     for level in range(last - 1, -1, -1):
-        _ascend_to(a, level)
-        _relax(a, level, 1)
-        _hand_down(a, level)
-        _add_own(a, level)
-        for k in range(level + 1, last):
-            _descend(a, k)
-        _coarsest(a)
-        for k in range(last - 1, level - 1, -1):
-            _ascend(a, k)
+        _improve(coarse, level, coarse, level + 1)
+        _cycle_from(coarse, level + 1, coarsest)
+        _ascend(coarse, level, coarse, level + 1)
+    _improve(fine, 0, coarse, 0)
+    _cycle_from(coarse, 0, coarsest)
+    _ascend(fine, 0, coarse, 0)
 
 
 @njit(**_FAST)
-def _add_own(a, level):
-    """Add load minus the row's own couplings of even rows to the load of the next level."""
-    n = a.answer.shape[1] - 2
-    for k in range(a.rows[level + 1]):
-        r = a.first[level] + 2 * k
-        out, f, x, c, e = a.load[a.first[level + 1] + k], a.load[r], a.answer[r], a.centre[r], a.east[r]
-        for i in range(1, n + 1):
-            out[i] += f[i] - c[i] * x[i] - e[i] * x[i + 1] - e[i - 1] * x[i - 1]
-
-
-@njit(**_FAST)
-def _ascend_to(a, level):
-    """The next level's answer as this level's first guess."""
-    first, below = a.first[level], a.first[level + 1]
-    for k in range(a.rows[level + 1]):
-        a.answer[first + 2 * k] = a.answer[below + k]
+def _first_load(a, level, b, below):
+    """The load of the next level where the even lines are still nothing."""
+    a.answer[a.start[level, 0] : a.start[level, 1]] = 0.0
     _relax(a, level, 1)
-    _relax(a, level, 0)
-
-
-@njit(**_SUMS)
-def _apply(a, x, out):
-    """out = A x on the finest level; x has its repeated columns and rows. Returns x . A x."""
-    n, m = x.shape[1] - 2, a.rows[0]
-    total = 0.0
-    for j in range(m):
-        s, t = below(a, 0, j), above(a, 0, j)
-        c, e, r = a.centre[j], a.east[j], out[j]
-        x_row = x[j]
-        for i in range(1, n + 1):
-            r[i] = -c[i] * x_row[i] - e[i] * x_row[i + 1] - e[i - 1] * x_row[i - 1]
-        couple_north(r, r, a.north[j], a.north_east[j], a.north_west[j], x[t])
-        couple_south(r, a.north[s], a.north_east[s], a.north_west[s], x[s])
-        for i in range(1, n + 1):
-            r[i] = -r[i]
-            total += r[i] * x_row[i]
-    return total
+    _hand_down(a, level, b, below, True)
 
 
 @njit(**_FAST)
-def _repeat(a, x):
-    """Fill the repeated columns and the repeated row of a vector of the finest level."""
-    n, m = x.shape[1] - 2, a.rows[0]
-    if a.around_x:
-        for j in range(m):
-            x[j, 0] = x[j, n]
-            x[j, n + 1] = x[j, 1]
-    if a.around_y:
-        x[m + 1] = x[0]
+def _improve(a, level, b, below):
+    """From the next level's answer: relax odd lines, and hand down what is left in the even ones."""
+    _lift(a, level, b, below, 0.0)
+    _relax(a, level, 1)
+    _hand_down(a, level, b, below, True)
 
 
 @njit(**_FAST)
-def conjugate_gradients(a, x, direction, tolerance, most):
+def apply(a, x, out):
+    """out = A x on the finest level; repeats of x are filled, out has none."""
+    if a.around:
+        repeat_lines(x, a, 0, 0)
+        repeat_lines(x, a, 0, 1)
+    slots = a.slots[0]
+    for odd in range(2):
+        begin, wide = a.start[0, odd] + odd, width(a, 0, odd)
+        over = a.start[0, 1 - odd] - begin
+        for i in range(1, a.length + 1):
+            for q in range(begin + i * slots, begin + i * slots + wide, WIDTH):
+                put_lanes(out, q, _own(a, x, q, slots) + _others(a, x, q, q + over, slots))
+        if a.around:
+            for row in range(0, (a.length + 2) * slots, slots):
+                out[row + a.start[0, odd]] *= 1 - odd
+                out[row + begin + coloured(a, 0, odd) : row + a.start[0, odd] + slots] = 0.0
+
+
+@njit(**_FAST)
+def conjugate_gradients(fine, coarse, coarsest, x, direction, tolerance, most):
     """Solve A x = load of the finest level, which is lost; returns steps and |load|.
 
     Hestenes and Stiefel 1952. Stops short where the operator or the cycle is not positive.
     """
-    m = a.rows[0]
-    load, answer = a.load[:m], a.answer[:m]
+    load, answer = fine.load, fine.answer
     size = _dot(load, load)
+    x[:] = 0.0
     if not 0.0 < size < np.inf:
-        x[:] = 0.0
         return 0, size
     goal = tolerance * tolerance * size
-    x[:] = 0.0
     left, steps, before = size, 0, 1.0
     while left > goal and steps < most:
-        cycle(a)
-        now = _dot(load, answer)
+        cycle(fine, coarse, coarsest)
+        now = _dot(load, answer)  # no load stands in pads
         if not now > 0.0:
             break
         _combine(direction, answer, now / before if steps else 0.0)
-        _repeat(a, direction)
-        curvature = _apply(a, direction, answer)  # the cycle's answer is no longer needed
+        apply(fine, direction, answer)  # the cycle's answer is no longer needed
+        curvature = _dot(direction, answer)
         if not curvature > 0.0:
             break
         length = now / curvature
-        _move(x, direction, length, m)
-        left = _step(load, answer, length)
+        left = _advance(x, direction, load, answer, length)
         before = now
         steps += 1
     return steps, np.sqrt(size)
 
 
 @njit(**_FAST)
-def left_of(a, x):
-    """|load - A x| on the finest level, whose load ends as that residual."""
-    _repeat(a, x)
-    m = a.rows[0]
-    _apply(a, x, a.answer)
-    return np.sqrt(_step(a.load[:m], a.answer[:m], 1.0))
+def left_of(fine, x, image):
+    """|load - A x| on the finest level, whose load ends as that residual; `image` is lost."""
+    apply(fine, x, image)
+    return np.sqrt(_less(fine.load, image))
 
 
-@njit(**_SUMS)
+@njit(inline="always")
+def _sum(parts):
+    """The sum of eight lanes."""
+    eight = np.empty(WIDTH)
+    put_lanes(eight, 0, parts)
+    return eight.sum()
+
+
+@njit(**_FAST)
 def _dot(a, b):
-    total = 0.0
-    for j in range(a.shape[0]):
-        p, q = a[j], b[j]
-        part = 0.0
-        for i in range(1, p.shape[0] - 1):
-            part += p[i] * q[i]
-        total += part
-    return total
+    total = all_lanes(a, 0.0)
+    for k in range(0, a.shape[0], WIDTH):
+        total += lanes(a, k) * lanes(b, k)
+    return _sum(total)
+
+
+@njit(**_FAST)
+def _less(a, b):
+    """a -= b; returns its square."""
+    total = all_lanes(a, 0.0)
+    for k in range(0, a.shape[0], WIDTH):
+        rest = lanes(a, k) - lanes(b, k)
+        put_lanes(a, k, rest)
+        total += rest * rest
+    return _sum(total)
 
 
 @njit(**_FAST)
 def _combine(direction, answer, beta):
-    for j in range(answer.shape[0]):
-        p, q = direction[j], answer[j]
-        for i in range(p.shape[0]):
-            p[i] = q[i] + beta * p[i]
+    """direction = answer + beta direction."""
+    much = all_lanes(direction, beta)
+    for k in range(0, answer.shape[0], WIDTH):
+        put_lanes(direction, k, lanes(answer, k) + much * lanes(direction, k))
 
 
 @njit(**_FAST)
-def _move(x, direction, length, m):
-    for j in range(m):
-        p, q = x[j], direction[j]
-        for i in range(p.shape[0]):
-            p[i] += length * q[i]
-
-
-@njit(**_SUMS)
-def _step(residual, image, length):
-    """residual -= length image; returns its square."""
-    total = 0.0
-    for j in range(residual.shape[0]):
-        p, q = residual[j], image[j]
-        for i in range(1, p.shape[0] - 1):
-            p[i] -= length * q[i]
-            total += p[i] * p[i]
-    return total
+def _advance(x, direction, residual, image, length):
+    """x += length direction, residual -= length image; returns its square."""
+    far, total = all_lanes(x, length), all_lanes(x, 0.0)
+    for k in range(0, x.shape[0], WIDTH):
+        put_lanes(x, k, lanes(x, k) + far * lanes(direction, k))
+        rest = lanes(residual, k) - far * lanes(image, k)
+        put_lanes(residual, k, rest)
+        total += rest * rest
+    return _sum(total)
 
 
 @njit(**_FAST)
-def spread(data, places, stencils):
-    """Put the entries of the upper triangle where they stand in the stencils."""
-    flat = stencils.ravel()
+def put(values, places, out):
+    """Values where they stand in a flat array, out[places] = values."""
     for k in range(places.shape[0]):
-        flat[places[k]] = data[k]
+        out[places[k]] = values[k]
 
 
 @njit(**_FAST)
-def to_rows(values, unknowns, out):
-    """A vector over the unknowns as rows of the finest level."""
-    for j in range(unknowns.shape[0]):
-        for i in range(unknowns.shape[1]):
-            out[j, i + 1] = values[unknowns[j, i]]
-
-
-@njit(**_FAST)
-def from_rows(x, unknowns, out):
-    """Rows of the finest level as a vector over the unknowns."""
-    for j in range(unknowns.shape[0]):
-        for i in range(unknowns.shape[1]):
-            out[unknowns[j, i]] = x[j, i + 1]
+def take(flat, places, out):
+    """The mirror of `put`: out = flat[places]."""
+    for k in range(places.shape[0]):
+        out[k] = flat[places[k]]

@@ -6,6 +6,7 @@ from scipy.sparse import csc_array, triu
 from scipy.sparse.linalg import spsolve
 
 from reynolds import kernels
+from reynolds import multigrid as multigrid_module
 from reynolds.balance import stiffness
 from reynolds.errors import FilmInputError
 from reynolds.grid import Grid, grid_of
@@ -46,8 +47,7 @@ def whole(upper: csc_array) -> csc_array:
 
 @pytest.mark.parametrize("cell", list(Cell))
 @pytest.mark.parametrize("cells", [(7, 12), (8, 13), (5, 3), (3, 9), (16, 5)])
-@pytest.mark.parametrize("around_x", [False, True])
-@pytest.mark.parametrize("around_y", [False, True])
+@pytest.mark.parametrize(("around_x", "around_y"), [(False, False), (False, True), (True, False)])
 def test_it_agrees_with_a_direct_solve(cell, cells, around_x, around_y):
     """Any number of rows, open or closed; film rough from cell to cell, a tenth of the nodes in a cavity."""
     space = film_space(rectangle((1.0, 1.0), cells, cell=cell, periodic_x=around_x, periodic_y=around_y))
@@ -64,18 +64,24 @@ def test_it_agrees_with_a_direct_solve(cell, cells, around_x, around_y):
 
 
 @pytest.mark.parametrize("mesh", [annulus(1.0, 2.0, (9, 31)), rectangle((1.0, 2.0), (9, 10), periodic_x=True)])
-def test_the_cycle_is_symmetric_and_positive(mesh):
+@pytest.mark.parametrize("single", [False, True])
+def test_the_cycle_is_symmetric_and_positive(mesh, single, monkeypatch):
     """What conjugate gradients ask of a preconditioner, and that it never makes an error larger: M A < 2."""
     space = film_space(mesh)
     fixed = np.zeros(space.size, dtype=bool)
     fixed[:4] = True
     upper = operator(space, np.exp(np.random.default_rng(2).standard_normal((len(space.cells), 1))), fixed)
+    if single:
+        monkeypatch.setattr(multigrid_module, "IN_CACHE", 0)
     multigrid = solver(space, upper)
     cycle = np.column_stack([multigrid.cycle(unit) for unit in np.eye(space.size)])
-    np.testing.assert_allclose(cycle, cycle.T, rtol=0.0, atol=1e-12 * np.abs(cycle).max())
+    # Round-off of the coarse operators, times what these amplify it by.
+    lost = np.finfo(np.float32 if single else np.float64).eps * np.linalg.cond(whole(upper).toarray())
+    assert lost < 0.5
+    np.testing.assert_allclose(cycle, cycle.T, rtol=0.0, atol=0.01 * lost * np.abs(cycle).max())
     values = np.linalg.eigvals(cycle @ whole(upper).toarray()).real
     assert values.min() > 0.0
-    assert values.max() < 1.0 + 1e-9  # the smoothing is a product of projections
+    assert values.max() < 1.0 + max(1e-9, lost)  # the smoothing is a product of projections
 
 
 def _pocket(x, y):
@@ -158,8 +164,6 @@ def test_what_is_not_positive_is_said():
 def test_a_matrix_of_another_mesh_is_refused():
     space = film_space(rectangle((1.0, 1.0), (6, 6)))
     upper = operator(space, np.ones((1, 1)), at_edges(space, "left"))
-    other = Grid(
-        np.arange(49, dtype=np.int32).reshape(7, 7)[:, ::-1][:, [0, 3, 1, 2, 4, 5, 6]].copy(), False, False
-    )
+    other = Grid(np.arange(49, dtype=np.int32).reshape(7, 7)[:, ::-1][:, [0, 3, 1, 2, 4, 5, 6]].copy(), False)
     with pytest.raises(FilmInputError, match="grid"):
         Multigrid(other, upper)
