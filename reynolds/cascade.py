@@ -24,6 +24,7 @@ COARSEST = 200  # unknowns: below this a cold start takes no more than a few ste
 FINEST = 20_000  # unknowns: above this a coarse problem costs more than the steps that it saves
 ACROSS = 3.0  # cells from the middle of an aggregate to the middle of the next
 MAX_STEPS = 10  # per level: a guess that has not settled is still a guess
+ROUGHLY = 1e-4  # of the load: what is asked is where a pressure is positive
 
 
 @dataclass(frozen=True)
@@ -107,7 +108,7 @@ def active_set(
     for _ in range(MAX_STEPS):
         kernels.hold(indptr, indices, problem.entries, cavity | problem.held, nothing, upper.data)
         factor.update(upper)
-        answer = factor.solve(np.where(cavity | problem.held, 0.0, load))
+        answer = factor.solve(np.where(cavity | problem.held, 0.0, load), ROUGHLY)
         lack, size = -load, np.zeros(len(load))
         kernels.carry(indptr, indices, problem.entries, problem.entries, answer, lack, size)
         now = np.where(cavity, lack > 0.0, answer < 0.0) & ~problem.held

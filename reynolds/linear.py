@@ -59,14 +59,17 @@ class Factor:
             self._leave_grid()
         self._off_grid(upper)
 
-    def solve(self, load: Array) -> Array:
-        """x with A x = load, (n,). Where multigrid stalls (films that jump many times over) by a direct solve."""
+    def solve(self, load: Array, tolerance: float = ITERATIVE_TOLERANCE) -> Array:
+        """x with A x = load, (n,), at least to |A x - load| = tolerance |load|.
+
+        Where multigrid stalls (films that jump many times over) by a direct solve.
+        """
         assert self._upper is not None
         if self._on_grid is not None:
-            answer, effort = self._on_grid.solve(load, ITERATIVE_TOLERANCE)
+            answer, effort = self._on_grid.solve(load, tolerance)
             # Entries are of order one: no answer leaves less than round-off of itself, however small the load.
             lost = ROUND_OFF * float(_norm(answer))
-            if effort.left * _norm(load) <= STALLED * ITERATIVE_TOLERANCE * _norm(load) + lost:
+            if effort.left * _norm(load) <= max(STALLED * ITERATIVE_TOLERANCE, tolerance) * _norm(load) + lost:
                 return answer
             self._leave_grid()
             self._off_grid(self._upper)
@@ -151,11 +154,14 @@ class GeneralFactor:
         assert self._matrix is not None
         self._lu = _eliminate(self._matrix, threshold=1e-3)
 
-    def solve(self, load: Array) -> Array:
-        """x with A x = load, (n,). Raises FilmNotConverged where the matrix is singular."""
+    def solve(self, load: Array, tolerance: float = ITERATIVE_TOLERANCE) -> Array:
+        """x with A x = load, (n,), at least to |A x - load| = tolerance |load|.
+
+        Raises FilmNotConverged where the matrix is singular.
+        """
         if self._on_grid is not None and self._matrix is None:
-            answer, effort = self._on_grid.solve(load, ITERATIVE_TOLERANCE)
-            if effort.left <= GENERAL_TOLERANCE:
+            answer, effort = self._on_grid.solve(load, tolerance)
+            if effort.left <= max(GENERAL_TOLERANCE, tolerance):
                 return answer
             self._leave_grid()
             self._scaled()

@@ -20,7 +20,7 @@ from reynolds.film import LEAST_FRACTION, Cavitation, FilmProblem, FilmSolution
 from reynolds.fluid import CONSTANT
 from reynolds.grid import grid_of
 from reynolds.iterate import Iterate, advanced, imbalance_of, is_linear, iterate_of, opened
-from reynolds.linear import Factor, GeneralFactor
+from reynolds.linear import ITERATIVE_TOLERANCE, Factor, GeneralFactor
 from reynolds.mesh import Array
 from reynolds.newton import compliant_step, fixed_in, general_step, signed_after, symmetric_step
 from reynolds.setting import Setting, spread
@@ -29,7 +29,9 @@ from reynolds.space import FilmSpace
 MAX_ITERATIONS = 100
 FULL_STEPS = 15  # then, or as soon as a cavity comes back, each step must bring the balance nearer to zero
 TOLERANCE = 1e-9
+NEAR = 1e-6  # of which one more step leaves round-off
 ROUND_OFF = 1e-12
+LOOSEST = 1e-2  # residual of a linear solve over its load
 LEAST_GAP = 0.1  # of the largest film, where walls overlap that a first pressure parts
 
 
@@ -67,8 +69,12 @@ class FilmSolver:
         seen = {at.cavity.tobytes()}
         cycles = near = False
         path: list[float] = []
+        imbalance = 1.0
         for iteration in range(1, MAX_ITERATIONS + 1):
-            signed = self._step(problem, setting, at)
+            tolerance = max(ITERATIVE_TOLERANCE, min(LOOSEST, 0.1 * ROUND_OFF / max(imbalance, ROUND_OFF)))
+            signed = self._step(problem, setting, at, tolerance)
+            if iteration == 1 and (guessed := self._ruptured(problem, setting, at, signed)) is not at:
+                at, signed = guessed, self._step(problem, setting, guessed, tolerance)
             new = advanced(problem, setting, at, signed, downhill=cycles)
             settled, at = bool(np.array_equal(new.cavity, at.cavity)), new
             _check_degree(problem, at.cavity)
@@ -77,9 +83,8 @@ class FilmSolver:
             if (settled and imbalance < ROUND_OFF) or (imbalance < TOLERANCE and near):
                 _check_filled(at)
                 return _solution(problem, setting, at, path)
-            # One more step brings the balance to round-off. Under JFO an unknown next to zero may change sides for
-            # ever: either side is the solution.
-            near = imbalance < TOLERANCE and (settled or problem.cavitation is Cavitation.JFO)
+            # Under JFO an unknown next to zero may change sides for ever: either side is the solution.
+            near = imbalance < (NEAR if settled else TOLERANCE if problem.cavitation is Cavitation.JFO else 0.0)
             cycles |= iteration >= FULL_STEPS or (not settled and at.cavity.tobytes() in seen)
             seen.add(at.cavity.tobytes())
         raise _not_settled(problem, at, imbalance)
@@ -95,15 +100,17 @@ class FilmSolver:
             near = start.opening
             fraction = np.where(setting.held, fraction, start.film_fraction)
             cavity = start.cavity & ~setting.held & (problem.cavitation is not Cavitation.NONE)
-        at = iterate_of(problem, opened(problem, pressure, fraction, near), cavity)
-        cold = start is None or (problem.cavitation is Cavitation.JFO and not cavity.any())
-        if cold and is_linear(problem) and problem.cavitation is not Cavitation.NONE and space.size > COARSEST:
-            # Free unknowns of the spread pressures stand at cavitation pressure: the step from there is p - p_c.
-            spread_out = at
-            if start is not None:
-                spread_out = iterate_of(problem, opened(problem, setting.pressure, setting.film_fraction), cavity)
-            at = replace(at, cavity=self._cavity(problem, setting, spread_out))
-        return at
+        return iterate_of(problem, opened(problem, pressure, fraction, near), cavity)
+
+    def _ruptured(self, problem: FilmProblem, setting: Setting, at: Iterate, signed: Array) -> Iterate:
+        """The same with a first guess of its cavity, if a film without one would be pulled (`signed` < 0)."""
+        pulled = problem.cavitation is not Cavitation.NONE and bool((signed[~setting.held] < 0.0).any())
+        if at.cavity.any() or not pulled or not is_linear(problem) or problem.space.size <= COARSEST:
+            return at
+        # Free unknowns of the spread pressures stand at cavitation pressure: the step from there is p - p_c.
+        spread_out = opened(problem, setting.pressure, setting.film_fraction)
+        cavity = self._cavity(problem, setting, iterate_of(problem, spread_out, at.cavity))
+        return replace(at, cavity=cavity)
 
     def _cavity(self, problem: FilmProblem, setting: Setting, at: Iterate) -> NDArray[np.bool_]:
         """A first guess, from coarser problems under Reynolds' condition.
@@ -117,18 +124,18 @@ class FilmSolver:
         guess = self._cascade.cavity(obstacle)
         return active_set(matrix, self._factor, obstacle, guess) if problem.cavitation is Cavitation.JFO else guess
 
-    def _step(self, problem: FilmProblem, setting: Setting, at: Iterate) -> Array:
+    def _step(self, problem: FilmProblem, setting: Setting, at: Iterate, tolerance: float) -> Array:
         """The signed unknowns after one Newton step of the free ones; held ones stay as they are."""
         carried = problem.cavitation is Cavitation.JFO and bool(at.cavity.any())
         if is_linear(problem) and not carried:
             matrix, load = symmetric_step(problem, setting, at, fixed_in(problem, setting, at))
             self._factor.update(matrix)
-            change, scale = self._factor.solve(load), 0.0
+            change, scale = self._factor.solve(load, tolerance), 0.0
         else:
             upper, lower, load, scale = general_step(problem, setting, at)
             if problem.walls is None:
                 self._general.update(problem.space.matrix(upper), lower, at.cavity)
-                change = self._general.solve(load)
+                change = self._general.solve(load, tolerance)
             else:
                 change = compliant_step(problem, setting, at, upper, lower, load)
         return signed_after(problem, at, change, scale)
