@@ -26,12 +26,12 @@ ROUNDS = 3
 class CarriedFilm:
     """The matrix of a film with cavities on one grid: `update` with new entries and cavity, then `solve`.
 
-    Memory: some 70 doubles an unknown.
+    Memory: some 100 doubles an unknown.
     """
 
     def __init__(self, grid: Grid, upper: csc_array) -> None:
         """`upper` has the pattern to come. Raises FilmInputError as `Multigrid` does."""
-        size = grid.unknowns.size
+        size, entries = grid.unknowns.size, 2 * len(upper.indices)
         self._film = Multigrid(grid, upper)
         self._upper = upper
         self._both = both_triangles(upper)
@@ -39,23 +39,27 @@ class CarriedFilm:
         self._order, self._waits = np.empty((2, size), dtype=np.int32)
         self._returned = np.empty(size)
         self._basis = np.zeros((DIRECTIONS + 3, size))
-        self._entries = np.empty(0)
-        self._cavity = np.zeros(size, dtype=bool)
-        self._count = 0
+        self._begin, self._value = np.empty(size + 1, dtype=np.int32), np.empty(entries)
+        self._row, self._edge, self._edge_column = np.empty((3, entries), dtype=np.int32)
+        self._columns: kernels.Columns | None = None
 
     def update(self, upper: Array, lower: Array, cavity: NDArray[np.bool_]) -> bool:
         """Take the entries of the upper triangle, their mirror, and which columns are the cavity's (size,).
 
         False where the film alone is not positive definite, or a cavity's column has no diagonal.
         """
-        self._entries, self._cavity = self._both.entries(upper, lower), cavity
         both, given = self._both, self._upper
-        diagonal = self._entries[both.diagonal]
+        entries = both.entries(upper, lower)
+        diagonal = entries[both.diagonal]
         good = bool((diagonal[cavity] > 0.0).all())
         kernels.film_part(given.indptr, given.indices, upper, lower, cavity, self._returned, self._part)
-        self._count = kernels.flow_order(
-            both.indptr, both.indices, self._entries, diagonal, cavity, self._order, self._waits
-        )
+        count = kernels.flow_order(both.indptr, both.indices, entries, diagonal, cavity, self._order, self._waits)
+        columns = kernels.Columns(
+            both.indptr, both.indices, entries, diagonal, cavity, self._order[:count], self._begin, self._row,
+            self._value, self._edge, self._edge_column,
+        )  # fmt: skip
+        edges = kernels.sort_columns(columns)
+        self._columns = columns._replace(edge=self._edge[:edges], edge_column=self._edge_column[:edges])
         return good and self._film.update(self._part)
 
     def solve(self, load: Array, tolerance: float) -> tuple[Array, Effort]:
@@ -64,13 +68,11 @@ class CarriedFilm:
         answer = np.zeros(len(load))
         if size == 0.0:
             return answer, Effort(0, 0.0)
-        both, steps, left = self._both, 0, size
+        steps, left = 0, size
         for _ in range(ROUNDS):
             left, more = kernels.gmres(
-                *self._film.levels, self._film.slots, both.indptr, both.indices, self._entries,
-                self._entries[both.diagonal], self._cavity, self._order[: self._count], load, tolerance * size,
-                self._basis, answer,
-            )  # fmt: skip
+                self._film.levels, self._film.slots, self._columns, load, tolerance * size, self._basis, answer
+            )
             steps += more
             if not left > tolerance * size:
                 break

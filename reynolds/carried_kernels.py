@@ -3,8 +3,11 @@
 The matrix stands in columns, both triangles: indptr, indices, entries.
 """
 
+from typing import NamedTuple
+
 import numpy as np
 from numba import njit
+from numpy.typing import NDArray
 
 from reynolds.multigrid_kernels import cycle, put, take
 
@@ -13,6 +16,26 @@ _SUMS = _FAST | {"fastmath": {"contract", "reassoc", "nsz"}}  # lets a sum run i
 
 NEGLIGIBLE = 1e-12  # of what an unknown of the cavity gives on: less is round-off, and sets no order
 MOST_RETURNED = 1.0 - 1e-3  # a film that cavities return all to would have no level
+
+
+class Columns(NamedTuple):
+    """A matrix in columns (indptr, indices, entries) and its diagonal (n,); and apart, what the cavity carries.
+
+    order: the cavity's unknowns downstream; begin, row, value: their columns without diagonal; edge: the entries
+    by which columns of the film, edge_column, reach the cavity.
+    """
+
+    indptr: NDArray[np.int32]
+    indices: NDArray[np.int32]
+    entries: NDArray[np.float64]
+    diagonal: NDArray[np.float64]
+    cavity: NDArray[np.bool_]
+    order: NDArray[np.int32]
+    begin: NDArray[np.int32]
+    row: NDArray[np.int32]
+    value: NDArray[np.float64]
+    edge: NDArray[np.int32]
+    edge_column: NDArray[np.int32]
 
 
 @njit(**_FAST)
@@ -89,48 +112,69 @@ def flow_order(indptr, indices, entries, diagonal, cavity, order, waits):
 
 
 @njit(**_FAST)
-def multiply(indptr, indices, entries, x, out):
-    """out = A x."""
-    out[:] = 0.0
-    for j in range(x.shape[0]):
-        for k in range(indptr[j], indptr[j + 1]):
-            out[indices[k]] += entries[k] * x[j]
+def sort_columns(m):
+    """Fill what `Columns` keeps apart; the number of edges."""
+    at = edges = 0
+    for place in range(m.order.shape[0]):
+        j = m.order[place]
+        m.begin[place] = at
+        for k in range(m.indptr[j], m.indptr[j + 1]):
+            if m.indices[k] != j and m.entries[k] != 0.0:
+                m.row[at], m.value[at] = m.indices[k], m.entries[k]
+                at += 1
+    m.begin[m.order.shape[0]] = at
+    for j in range(m.cavity.shape[0]):
+        if not m.cavity[j]:
+            for k in range(m.indptr[j], m.indptr[j + 1]):
+                if m.cavity[m.indices[k]]:
+                    m.edge[edges], m.edge_column[edges] = k, j
+                    edges += 1
+    return edges
 
 
 @njit(**_FAST)
-def _sweep(indptr, indices, entries, diagonal, order, rest):
+def _multiply(m, x, out):
+    """out = A x."""
+    out[:] = 0.0
+    for j in range(x.shape[0]):
+        if not m.cavity[j]:
+            for k in range(m.indptr[j], m.indptr[j + 1]):
+                out[m.indices[k]] += m.entries[k] * x[j]
+    for place in range(m.order.shape[0]):
+        j = m.order[place]
+        out[j] += m.diagonal[j] * x[j]
+        for k in range(m.begin[place], m.begin[place + 1]):
+            out[m.row[k]] += m.value[k] * x[j]
+
+
+@njit(**_FAST)
+def _sweep(m, rest):
     """Solve for the cavity downstream, in place: `rest` of the film ends less what the cavity carries there."""
-    for place in range(order.shape[0]):
-        j = order[place]
-        carried = rest[j] / diagonal[j]
-        for k in range(indptr[j], indptr[j + 1]):
-            rest[indices[k]] -= entries[k] * carried
+    for place in range(m.order.shape[0]):
+        j = m.order[place]
+        carried = rest[j] / m.diagonal[j]
+        for k in range(m.begin[place], m.begin[place + 1]):
+            rest[m.row[k]] -= m.value[k] * carried
         rest[j] = carried
 
 
 @njit(**_FAST)
-def precondition(
-    fine, coarse, coarsest, slots, indptr, indices, entries, diagonal, cavity, order, load, rest, out
-):
+def _precondition(levels, slots, m, load, rest, out):
     """out = M load: the cavity, a cycle on the film with what that carries to it, and the cavity once more."""
-    n = cavity.shape[0]
+    fine, coarse, coarsest = levels
     rest[:] = load
-    _sweep(indptr, indices, entries, diagonal, order, rest)
-    for i in range(n):
-        if cavity[i]:
-            rest[i] = 0.0
+    _sweep(m, rest)
+    for j in m.order:
+        rest[j] = 0.0
     put(rest, slots, fine.load)
     cycle(fine, coarse, coarsest)
     take(fine.answer, slots, out)
     rest[:] = load
-    for j in range(n):
-        if not cavity[j]:
-            for k in range(indptr[j], indptr[j + 1]):
-                rest[indices[k]] -= entries[k] * out[j]
-    _sweep(indptr, indices, entries, diagonal, order, rest)
-    for i in range(n):
-        if cavity[i]:
-            out[i] = rest[i]
+    for k in range(m.edge.shape[0]):
+        rest[m.indices[m.edge[k]]] -= m.entries[m.edge[k]] * out[m.edge_column[k]]
+    _sweep(m, rest)
+    for j in m.order:
+        out[j] = rest[j]
 
 
 @njit(**_SUMS)
@@ -142,16 +186,14 @@ def _dot(a, b):
 
 
 @njit(**_FAST)
-def gmres(
-    fine, coarse, coarsest, slots, indptr, indices, entries, diagonal, cavity, order, load, tolerance, basis, x
-):
+def gmres(levels, slots, m, load, tolerance, basis, x):
     """One round of GMRES (Saad and Schultz 1986) preconditioned from the right, added to x; |load - A x|, steps.
 
     `basis` (steps + 3, n) is room for the directions.
     """
     most = basis.shape[0] - 3
     image, rest = basis[most + 1], basis[most + 2]
-    multiply(indptr, indices, entries, x, image)
+    _multiply(m, x, image)
     for i in range(x.shape[0]):
         basis[0, i] = load[i] - image[i]
     size = np.sqrt(_dot(basis[0], basis[0]))
@@ -164,10 +206,8 @@ def gmres(
     steps = 0
     while steps < most and abs(right[steps]) > tolerance:
         k = steps
-        precondition(
-            fine, coarse, coarsest, slots, indptr, indices, entries, diagonal, cavity, order, basis[k], rest, image
-        )
-        multiply(indptr, indices, entries, image, basis[k + 1])
+        _precondition(levels, slots, m, basis[k], rest, image)
+        _multiply(m, image, basis[k + 1])
         for j in range(k + 1):
             h[j, k] = _dot(basis[j], basis[k + 1])
             _add(basis[k + 1], basis[j], -h[j, k])
@@ -192,11 +232,9 @@ def gmres(
     total[:] = 0.0
     for k in range(steps):
         _add(total, basis[k], right[k])
-    precondition(
-        fine, coarse, coarsest, slots, indptr, indices, entries, diagonal, cavity, order, total, rest, image
-    )
+    _precondition(levels, slots, m, total, rest, image)
     _add(x, image, 1.0)
-    multiply(indptr, indices, entries, x, image)
+    _multiply(m, x, image)
     for i in range(x.shape[0]):
         image[i] = load[i] - image[i]
     return np.sqrt(_dot(image, image)), steps
