@@ -11,6 +11,7 @@ from typing import Any
 from llvmlite import ir
 from numba.core import cgutils, types
 from numba.core.imputils import lower_builtin
+from numba.core.types import containers
 from numba.core.typing.templates import AbstractTemplate, infer_global, signature
 from numba.extending import intrinsic, models, register_model
 from numba.np import arrayobj
@@ -130,7 +131,7 @@ def _shuffled(first: tuple[int, ...], second: tuple[int, ...]) -> Any:
             places = (ir.Constant(ir.VectorType(cgutils.int32_t, WIDTH), list(p)) for p in (first, second))
             return context.make_tuple(builder, sig.return_type, [builder.shuffle_vector(*args, p) for p in places])
 
-        return types.UniTuple(a, 2)(a, b), generate
+        return containers.UniTuple(a, 2)(a, b), generate
 
     return shuffled
 
