@@ -24,7 +24,7 @@ from reynolds.multigrid import Multigrid
 from reynolds.triangles import BothTriangles, both_triangles
 
 DIRECT_LIMIT = 60_000
-GRID_LEAST = 500  # unknowns: below, a direct solve of a grid is as fast as multigrid
+GRID_LEAST = 100  # unknowns: below, a direct solve of a grid is as fast as multigrid
 ITERATIVE_TOLERANCE = 1e-11
 STALLED = 1e3  # times the tolerance: what round-off may leave; beyond, the next rung of the ladder
 ROUND_OFF = 1e-13  # of the answer, in units of the scaled matrix
