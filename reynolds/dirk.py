@@ -1,0 +1,250 @@
+"""Steps in time for stiff motion: diagonally implicit Runge-Kutta methods with error control.
+
+What moves is known by what it holds, y (size,): of a film the oil of each unknown, whose rate is its flow
+balance. A stage at time t is one step of implicit Euler, y = y_before + step rate(t, y), and whoever solves it (a
+film with the force balance of what floats on it, or an equation of one line) needs to know no other. From its
+stages a method puts together a step of higher order.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from math import inf, sqrt
+from typing import Generic, Protocol, TypeVar
+
+import numpy as np
+
+from reynolds.errors import FilmInputError, FilmNotConverged
+from reynolds.mesh import Array
+
+MOST_REFUSALS = 25  # of one step, each at least halving it
+LEAST_CHANGE, MOST_CHANGE = 0.2, 5.0  # of the step from one to the next
+CAUTION = 0.9  # of the step that would just keep the tolerance
+SLIVER = 1e-9  # of the way to the next node: not worth a step
+PROPORTIONAL, INTEGRAL = 0.4, 0.7  # of the step control (Gustafsson 1991), over the order of the error
+
+
+class Stage(Protocol):
+    """One implicit Euler step, solved."""
+
+    @property
+    def q(self) -> Array:
+        """Position (k,), m: what the error is measured in."""
+
+    @property
+    def holds(self) -> Array:
+        """What is held at its end, (size,)."""
+
+    def carried(self, before: Array) -> tuple[Array, Array]:
+        """Change of q (k, m) and of `holds` (size, m) for changes (size, m) of what was held before.
+
+        Asked for, if at all, before the next stage is solved.
+        """
+
+
+S = TypeVar("S", bound=Stage)
+
+StageSolver = Callable[[float, Array, float, Array, S | None], S]
+"""(time s, held before, step s, guess of q, last stage or None) -> stage; FilmNotConverged if it has none."""
+
+
+@dataclass(frozen=True)
+class Tableau:
+    """Coefficients of a method whose last stage is the end of the step (stiffly accurate).
+
+    Stage i stands at start + places[i] step and takes matrix[i][j] step of stage j's rate; the diagonal is
+    positive. `error` (stages + 1,) weighs the rates at the start and of the stages; times the step it estimates
+    the local error, of order step**error_order. `order` is that of the solution at a given time.
+    """
+
+    places: tuple[float, ...]
+    matrix: tuple[tuple[float, ...], ...]
+    error: tuple[float, ...]
+    order: int
+    error_order: int
+
+
+BACKWARD_EULER = Tableau(places=(1.0,), matrix=((1.0,),), error=(0.5, -0.5), order=1, error_order=2)
+"""Implicit Euler; its error is the difference from the trapezium rule. Keeps every film fraction above zero."""
+
+_GAMMA = 1.0 - sqrt(0.5)
+
+ALEXANDER_2 = Tableau(
+    places=(_GAMMA, 1.0),
+    matrix=((_GAMMA, 0.0), (1.0 - _GAMMA, _GAMMA)),
+    error=(-sqrt(2.0) / 3.0, 2.0 / 3.0, (sqrt(2.0) - 2.0) / 3.0),
+    order=2,
+    error_order=3,
+)
+"""Two stages, second order, L-stable (Alexander 1977).
+
+The error is the difference from the weights that make a linear equation's step third order; that of a quadrature,
+y' = f(t), is seven times less than it says.
+"""
+
+
+@dataclass(frozen=True)
+class Tangent:
+    """How position (k, m) and what is held (size, m) change with m parameters."""
+
+    q: Array
+    held: Array
+
+
+@dataclass(frozen=True)
+class State(Generic[S]):
+    """Between two steps: time s, position q (k,) m, what is held (size,), rate dq/dt (k,) m/s, the last stage.
+
+    The rate enters the error of the step to come and its first guess, not its result: zero where it is not known.
+    The tangent, where there is one, is carried along.
+    """
+
+    time: float
+    q: Array
+    held: Array
+    rate: Array
+    stage: S | None = None
+    tangent: Tangent | None = None
+
+
+@dataclass(frozen=True)
+class Taken(Generic[S]):
+    """One step: the state at its end, its length s, the estimate of its local error in q (k,) m."""
+
+    state: State[S]
+    step: float
+    error: Array
+
+    @property
+    def largest_error(self) -> float:
+        """Largest component of the error, m."""
+        return float(np.abs(self.error).max())
+
+    @property
+    def stage(self) -> S:
+        """The last stage, at the end of the step."""
+        assert self.state.stage is not None
+        return self.state.stage
+
+
+def advance(tableau: Tableau, solve: StageSolver[S], state: State[S], step: float) -> Taken[S]:
+    """One step (s) of a method from a state.
+
+    Stage i solves y_i = y + step sum_j matrix[i][j] rate_j, and the last one is the end. q is taken along as if
+    its own rate were integrated, which is what happens where what is held is linear in q (a full film); that
+    enters the error and the guesses alone. Raises what `solve` raises.
+    """
+    tangent = state.tangent
+    held = _beside(state.held, None if tangent is None else tangent.held)  # column 0, its tangents after it
+    held_rates: list[Array] = []
+    q_rates = [state.rate]
+    stage = state.stage
+    for number, (row, place) in enumerate(zip(tableau.matrix, tableau.places, strict=True)):
+        own = row[number] * step
+        before = held + _sum(row[:number], held_rates, step)
+        q_before = state.q + _sum(row[:number], q_rates[1:], step)
+        held_before = np.ascontiguousarray(before[:, 0])
+        stage = solve(state.time + place * step, held_before, own, q_before + own * q_rates[-1], stage)
+        after = stage.holds[:, None]
+        if tangent is not None:
+            tangent = Tangent(*stage.carried(before[:, 1:]))
+            after = _beside(stage.holds, tangent.held)
+        held_rates.append((after - before) / own)
+        q_rates.append((stage.q - q_before) / own)
+    assert stage is not None
+    end = State(state.time + step, stage.q, stage.holds, q_rates[-1], stage, tangent)
+    return Taken(end, step, np.asarray(_sum(tableau.error, q_rates, step)))
+
+
+def _beside(column: Array, others: Array | None) -> Array:
+    return column[:, None] if others is None else np.column_stack([column, others])
+
+
+def _sum(weights: Sequence[float], rates: Sequence[Array], step: float) -> Array | float:
+    return step * sum((weight * rate for weight, rate in zip(weights, rates, strict=True)), 0.0)
+
+
+def nodes_only(_: Stage) -> float:
+    """Tolerance of a march whose steps are given: from node to node, halved only where a stage has no solution."""
+    return inf
+
+
+def march(
+    tableau: Tableau,
+    solve: StageSolver[S],
+    start: State[S],
+    nodes: Sequence[float],
+    tolerance: Callable[[S], float],
+) -> Iterator[Taken[S]]:
+    """Step by step from a state to the last of `nodes` (s), each of which ends a step.
+
+    Each step's error estimate stays below `tolerance(stage)` (m) of the stage at its end; the first step tries to
+    reach the first node. A step on which a stage has no solution is halved. Raises FilmInputError for nodes that
+    do not rise from the state's time on, FilmNotConverged where no step is short enough.
+    """
+    times = np.array([start.time, *nodes])
+    if len(times) < 2 or not np.all(np.diff(times) > 0.0) or not np.all(np.isfinite(times)):
+        raise FilmInputError(
+            "nodes of the march", f"{list(nodes)[:5]} s", f"times that rise from {start.time:g} s on"
+        )
+    state, pace = start, Pace(times[1] - times[0])
+    for node in times[1:]:
+        while node - state.time > 0.0:
+            taken, pace = _kept(tableau, solve, state, node, tolerance, pace)
+            state = taken.state
+            yield taken
+
+
+@dataclass(frozen=True)
+class Pace:
+    """Step control: the step wanted (s), and the last error over its tolerance."""
+
+    step: float
+    error: float = 1.0
+
+    def refused(self, step: float, change: float) -> Pace:
+        """After a step that is not taken."""
+        return Pace(step * min(0.5, max(LEAST_CHANGE, change)), self.error)
+
+    def kept(self, step: float, error: float, order: int) -> Pace:
+        """After a step of `error` <= 1 over its tolerance; one cut short by a node does not slow those to come."""
+        error = max(error, 1e-6)
+        change = CAUTION * error ** (-INTEGRAL / order) * self.error ** (PROPORTIONAL / order)
+        wanted = step * min(MOST_CHANGE, max(LEAST_CHANGE, change))
+        return Pace(max(wanted, self.step) if change >= 1.0 else wanted, error)
+
+
+def _kept(
+    tableau: Tableau,
+    solve: StageSolver[S],
+    state: State[S],
+    node: float,
+    tolerance: Callable[[S], float],
+    pace: Pace,
+) -> tuple[Taken[S], Pace]:
+    """A step towards the node that keeps the tolerance, and the pace after it."""
+    order, reason = tableau.error_order, FilmNotConverged("no step tried", "a later node")
+    for _ in range(MOST_REFUSALS):
+        step = _towards(node - state.time, pace.step)
+        try:
+            taken = advance(tableau, solve, state, step)
+        except FilmNotConverged as failure:
+            reason, pace = failure, pace.refused(step, 0.5)
+            continue
+        taken = replace(taken, state=replace(taken.state, time=node)) if step == node - state.time else taken
+        error = taken.largest_error / tolerance(taken.stage)
+        if error <= 1.0:
+            return taken, pace.kept(step, error, order)
+        reason = FilmNotConverged(
+            f"error {error:.3g} times its tolerance", "a wider tolerance, or nodes where the motion bends"
+        )
+        pace = pace.refused(step, CAUTION * error ** (-1.0 / order))
+    raise FilmNotConverged(f"at {state.time:.6g} s, step {pace.step:.2g} s: {reason.what}", reason.remedy)
+
+
+def _towards(way: float, step: float) -> float:
+    """The step wanted, or the whole way, or half of it where a whole step would leave a short rest."""
+    if step >= way * (1.0 - SLIVER):
+        return way
+    return min(step, 0.5 * way)

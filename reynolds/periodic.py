@@ -1,0 +1,126 @@
+"""Periodic motion: the start that one turn leads back to, by many linearised turns for each that is run.
+
+A turn takes the start q to its end M(q) and tells the slopes M' of that map. Marching turn after turn shrinks a
+disturbance by the largest multiplier (eigenvalue of M') a turn, which takes for ever where that is near one. After
+n turns of the linearised map q has moved by (1 + M' + ... + M'^(n-1)) (M(q) - q). For a stable motion that tends
+to Newton's step (1 - M')^-1 (M(q) - q), the whole way at once; near an unstable one, where Newton's step goes
+against the motion, it grows along the motion. So what is found is what a march of many turns would find.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Generic, Protocol, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from reynolds.errors import FilmNotConverged
+from reynolds.mesh import Array
+
+MOST_TURNS = 30
+MOST_DOUBLINGS = 40  # of the linearised turns run at once: 1e12 of them
+RETREAT = 0.25  # of the reach, after a step too far
+
+
+class Turn(Protocol):
+    """One turn from a start q (k,) m."""
+
+    @property
+    def end(self) -> Array:
+        """q at its end, (k,) m."""
+
+    @property
+    def slopes(self) -> Array:
+        """d end / d start, (k, k)."""
+
+    @property
+    def allowed(self) -> float:
+        """Largest |end - start| of a turn that counts as closed, m."""
+
+    @property
+    def reach(self) -> float:
+        """Largest change of the next start from this turn's end, m."""
+
+    @property
+    def repeats(self) -> bool:
+        """Whether whatever else a turn leaves to the next (what its cavity holds) came back, too."""
+
+
+T = TypeVar("T", bound=Turn)
+
+TurnFrom = Callable[[Array, T | None], T]
+"""(start q (k,) m, turn before or None) -> turn."""
+
+
+@dataclass(frozen=True)
+class Periodic(Generic[T]):
+    """The turn that closes from `start`, |end - start| of each turn on the way (m), eigenvalues of its slopes."""
+
+    turn: T
+    start: Array
+    changes: tuple[float, ...]
+    multipliers: NDArray[np.complex128]
+
+    @property
+    def turns(self) -> int:
+        """Turns that were run."""
+        return len(self.changes)
+
+    @property
+    def largest_multiplier(self) -> float:
+        """Share of a small disturbance that a turn leaves; above one it grows, and the motion is unstable."""
+        return float(np.abs(self.multipliers).max())
+
+
+def periodic(turn_from: TurnFrom[T], start: Array) -> Periodic[T]:
+    """The periodic motion that turns from `start` (k,) m lead to.
+
+    Afterwards |end - start| <= allowed in every coordinate and the turn repeats. A start lies no further than
+    `reach` from the end of the turn before; one from which the turn goes back, and further than it came, is taken
+    back for a nearer one. Raises FilmNotConverged after MOST_TURNS: the motion is not periodic, unstable, or its
+    start far away.
+    """
+    at, share = np.asarray(start, dtype=float), 1.0
+    before: T | None = None
+    last: tuple[Array, T] | None = None
+    changes: list[float] = []
+    while len(changes) < MOST_TURNS:
+        turn = turn_from(at, before)
+        change = float(np.abs(turn.end - at).max())
+        changes.append(change)
+        if change <= turn.allowed and turn.repeats:
+            return Periodic(turn, at, tuple(changes), np.linalg.eigvals(turn.slopes).astype(complex))
+        before = turn
+        if last is not None and _too_far(*last, at, turn):
+            share *= RETREAT
+            at, last = _next(*last, share), None
+        else:
+            share, last = min(1.0, 2.0 * share), (at, turn)
+            at = _next(at, turn, share)
+    lately = ", ".join(f"{change:.2g}" for change in changes[-4:])
+    raise FilmNotConverged(
+        f"motion not periodic after {MOST_TURNS} turns, of which the last changed it by {lately} m",
+        "a start nearer to it, or smaller steps in time",
+    )
+
+
+def _too_far(last_start: Array, last: Turn, start: Array, turn: Turn) -> bool:
+    """Whether a turn goes back, and further than the one before went forth."""
+    forth, back = last.end - last_start, turn.end - start
+    return bool(back @ (start - last_start) < 0.0 and np.abs(back).max() > np.abs(forth).max())
+
+
+def _next(start: Array, turn: Turn, share: float) -> Array:
+    """Where as many linearised turns lead as stay within reach of the turn's end."""
+    reach = share * turn.reach
+    way, power = turn.end - start, turn.slopes
+    beyond = np.zeros(len(start))
+    for _ in range(MOST_DOUBLINGS):
+        further = way + power @ way
+        beyond = further - (turn.end - start)
+        if np.abs(beyond).max() > reach or np.array_equal(further, way):
+            break
+        way, power = further, power @ power
+    return np.asarray(turn.end + beyond * min(1.0, reach / max(float(np.abs(beyond).max()), 1e-300)))

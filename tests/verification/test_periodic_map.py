@@ -1,0 +1,186 @@
+"""Periodic motion: from turn to turn by linearised turns.
+
+On equations of one or two lines, with the turn taken by the steps in time.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+import pytest
+
+from reynolds.dirk import ALEXANDER_2, State, Tangent, march, nodes_only
+from reynolds.errors import FilmNotConverged
+from reynolds.periodic import periodic
+
+DAMPING, LOAD, TURN = 3.0e5, 40.0, 2.0 * np.pi / 220.0  # N s/m, N, s: REF90's slipper at 10 um and 2100 1/min
+
+
+@dataclass(frozen=True)
+class Stage:
+    """y = before + step rate(t, y), and dy/dbefore."""
+
+    q: np.ndarray
+    slope: np.ndarray
+
+    @property
+    def holds(self) -> np.ndarray:
+        return self.q
+
+    def carried(self, before: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        return self.slope @ before, self.slope @ before
+
+
+@dataclass(frozen=True)
+class Turn:
+    """One turn of an equation of motion."""
+
+    end: np.ndarray
+    slopes: np.ndarray
+    path: np.ndarray
+    allowed: float = 1e-12
+    reach: float = 1.0
+    repeats: bool = True
+
+
+def _turn(rate: Callable, period: float, steps: int, *, reach: float = 1.0, allowed: float = 1e-12):
+    """Turns of y' = rate(t, y)[0]."""
+
+    def solve(time, before, step, guess, last):
+        y = guess
+        for _ in range(50):
+            value, slope = rate(time, y)
+            move = np.linalg.solve(np.eye(len(y)) - step * slope, before + step * value - y)
+            y = y + move
+            if np.abs(move).max() <= 1e-15 + 1e-13 * np.abs(y).max():
+                break
+        return Stage(y, np.linalg.inv(np.eye(len(y)) - step * rate(time, y)[1]))
+
+    def run(start: np.ndarray, before: Turn | None) -> Turn:
+        one = np.eye(len(start))
+        state = State(0.0, start, start, np.zeros(len(start)), None, Tangent(one, one))
+        nodes = period * np.arange(1, steps + 1) / steps
+        path = [taken.state for taken in march(ALEXANDER_2, solve, state, nodes, nodes_only)]
+        return Turn(path[-1].q, path[-1].tangent.q, np.array([at.q for at in path]), allowed, reach)
+
+    return run
+
+
+def _hydrostatic(stiffness: float):
+    """c h' = -k h + W cos wt: what is left of a hydrostatic film that a small load sways."""
+    speed = 2.0 * np.pi / TURN
+
+    def rate(t: float, h: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        return (LOAD * np.cos(speed * t) - stiffness * h) / DAMPING, np.array([[-stiffness / DAMPING]])
+
+    return rate
+
+
+@pytest.mark.parametrize("stiffness", [1e5, 1e7, 1e9])
+def test_film_that_sways(stiffness, validation):
+    """Amplitude W/(k^2 + (c w)^2)^1/2, a disturbance down to exp(-2 pi k/(c w)) a turn; found in one step.
+
+    Soft (a disturbance lives for many turns), as stiff as it is damped, and stiff (the film follows its load).
+    """
+    speed = 2.0 * np.pi / TURN
+    found = periodic(_turn(_hydrostatic(stiffness), TURN, 360, allowed=1e-15), np.array([1e-5]))
+    assert found.turns == 2, "a linear map is solved by one step"
+    h, time = found.turn.path[:, 0], TURN * np.arange(1, 361) / 360
+    wave = 2.0 * np.mean(h * np.exp(-1j * speed * time))
+    exact = LOAD / (stiffness + 1j * speed * DAMPING)
+    case, source = "Hydrostatic film under a swaying load, periodic", "closed form: c h' + k h = W cos wt"
+    what = f"k/(c w) = {stiffness / (DAMPING * speed):.3g}"
+    tolerance = 1e-3  # of two stages and 360 steps: (2 pi/360)^2 = 3e-4
+    validation(case=case, source=source, quantity=f"amplitude, {what}", unit="m",
+               expected=abs(exact), obtained=abs(wave), relative_tolerance=tolerance)  # fmt: skip
+    validation(case=case, source=source, quantity=f"phase, {what}", unit="rad",
+               expected=np.angle(exact), obtained=np.angle(wave), tolerance=tolerance)  # fmt: skip
+    validation(case=case, source=source, quantity=f"what a turn leaves of a disturbance, {what}", unit="1",
+               expected=np.exp(-stiffness * TURN / DAMPING), obtained=found.multipliers[0].real,
+               tolerance=tolerance)  # fmt: skip
+
+
+def _sinking(t: float, h: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """h' = h^3 (1/h - 1 + 0.8 cos t)/20: a film that is hard to press out and holds its load at h = 1."""
+    load = 1.0 - 0.8 * np.cos(t)
+    return (h**2 - load * h**3) / 20.0, np.diag((2.0 * h - 3.0 * load * h**2) / 20.0)
+
+
+@pytest.mark.parametrize("start", [0.05, 0.3, 3.0])
+def test_film_that_is_hard_to_press_out(start):
+    """From far away, where marching takes hundreds of turns: a start in reach each time, and few turns."""
+    turn = _turn(_sinking, 2.0 * np.pi, 60, reach=0.5, allowed=1e-10)
+    found = periodic(turn, np.array([start]))
+    assert found.turns <= 12
+    assert found.changes[-1] <= 1e-10
+    again = turn(found.turn.end, None)
+    assert again.end[0] == pytest.approx(found.start[0], abs=1e-9)
+    nudged = [turn(found.start + d, None).end[0] for d in (1e-5, -1e-5)]
+    assert found.multipliers[0].real == pytest.approx((nudged[0] - nudged[1]) / 2e-5, rel=1e-6)
+
+
+def test_two_coordinates_that_turn():
+    """A damped oscillator: its multipliers are a pair, exp((-d +- i w) T)."""
+    damping, speed, period = 0.02, 0.9, 2.0 * np.pi
+    matrix = np.array([[-damping, -speed], [speed, -damping]])
+
+    def rate(t: float, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        return matrix @ y + np.array([np.cos(t), 0.0]), matrix
+
+    found = periodic(_turn(rate, period, 400, reach=100.0, allowed=1e-10), np.array([30.0, -20.0]))
+    assert found.turns == 2
+    expected = np.exp((-damping + 1j * speed) * period)
+    assert np.min(np.abs(found.multipliers - expected)) < 1e-3
+    assert found.largest_multiplier == pytest.approx(abs(expected), rel=1e-3)
+
+
+def test_unstable_motion_is_left():
+    """y' = y - y^3 + cos(t)/10 swings unstably about 0 and stably about 1: the way leads there."""
+    rate = lambda t, y: (y - y**3 + 0.1 * np.cos(t), np.diag(1.0 - 3.0 * y**2))  # noqa: E731
+    found = periodic(_turn(rate, 2.0 * np.pi, 100, reach=0.2), np.array([0.05]))
+    assert found.start[0] == pytest.approx(1.0, abs=0.1)
+    assert found.largest_multiplier < 1e-4
+
+
+@dataclass(frozen=True)
+class Mapped:
+    end: np.ndarray
+    slopes: np.ndarray
+    allowed: float = 1e-10
+    reach: float = 10.0
+    repeats: bool = True
+
+
+def test_step_that_overshoots_is_taken_back():
+    """end = start - arctan(3 start)/3: Newton's method alone runs away from |start| > 0.46."""
+
+    def turn(start: np.ndarray, before: Mapped | None) -> Mapped:
+        slope = 1.0 - 1.0 / (1.0 + 9.0 * start**2)
+        return Mapped(start - np.arctan(3.0 * start) / 3.0, np.diag(slope))
+
+    found = periodic(turn, np.array([4.0]))
+    assert abs(found.start[0]) < 1e-9
+    assert found.turns < 25
+
+
+def test_a_turn_that_does_not_repeat_goes_on():
+    """What else a turn leaves behind (here: how many there were) has to come back too."""
+    count = []
+
+    def turn(start: np.ndarray, before: Mapped | None) -> Mapped:
+        count.append(before)
+        return Mapped(start, np.zeros((1, 1)), repeats=len(count) == 4)
+
+    assert periodic(turn, np.array([1.0])).turns == 4
+    assert count[0] is None
+    assert count[1] is not None
+
+
+def test_motion_that_never_closes():
+    def turn(start: np.ndarray, before: Mapped | None) -> Mapped:
+        return Mapped(start - 1e-6, np.eye(1))
+
+    with pytest.raises(FilmNotConverged, match=r"30 turns.*1e-06 m"):
+        periodic(turn, np.array([1e-5]))
