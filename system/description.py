@@ -10,41 +10,51 @@ import math
 from collections.abc import Iterator
 from typing import Annotated
 
-from pydantic import BaseModel, ConfigDict, Field
-from pydantic.fields import FieldInfo
+from pydantic import Field
 
 from reynolds.oil import Oil
+from system.fields import (
+    AcuteAngle,
+    Angle,
+    AngularSpeed,
+    AnyLength,
+    Area,
+    Coefficient,
+    Conductivity,
+    Density,
+    Displacement,
+    Expansion,
+    Force,
+    Fraction,
+    Grooves,
+    KinematicViscosity,
+    Length,
+    Mass,
+    Modulus,
+    NotNegative,
+    Positive,
+    Pressure,
+    PressureCoefficient,
+    Profile,
+    Section,
+    SpecificHeat,
+    Stiffness,
+    Temperature,
+    Volume,
+    table_of,
+)
+from system.parts_description import (
+    BoreSection,
+    DeliveryLineSection,
+    MaterialsSection,
+    ReliefSection,
+    RetainerSection,
+    SurfacesSection,
+    WavinessSection,
+)
 from system.units import Dimension
 
 FORMAT = 1
-
-Positive = Field(gt=0.0)
-NotNegative = Field(ge=0.0)
-
-Length = Annotated[float, Dimension.LENGTH, Positive]
-Area = Annotated[float, Dimension.AREA, Positive]
-Volume = Annotated[float, Dimension.VOLUME, Positive]
-Displacement = Annotated[float, Dimension.DISPLACEMENT, Positive]
-Angle = Annotated[float, Dimension.ANGLE]
-AcuteAngle = Annotated[float, Dimension.ANGLE, Field(gt=0.0, lt=math.pi / 2)]
-Pressure = Annotated[float, Dimension.PRESSURE]
-Modulus = Annotated[float, Dimension.MODULUS, Positive]
-AngularSpeed = Annotated[float, Dimension.ANGULAR_SPEED, Positive]
-Temperature = Annotated[float, Dimension.TEMPERATURE, Positive]
-Mass = Annotated[float, Dimension.MASS, Positive]
-Force = Annotated[float, Dimension.FORCE, NotNegative]
-Stiffness = Annotated[float, Dimension.STIFFNESS, NotNegative]
-KinematicViscosity = Annotated[float, Dimension.KINEMATIC_VISCOSITY, Positive]
-Density = Annotated[float, Dimension.DENSITY, Positive]
-SpecificHeat = Annotated[float, Dimension.SPECIFIC_HEAT, Positive]
-Fraction = Annotated[float, Field(ge=0.0, le=1.0)]
-Coefficient = Annotated[float, NotNegative]
-
-
-class Section(BaseModel):
-    """A table of the pump file; frozen, and no key beside the named ones."""
-
-    model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
 
 
 class PumpSection(Section):
@@ -70,6 +80,12 @@ class PistonSection(Section):
     eccentricity_ratio: Annotated[float, Field(ge=0.0, lt=1.0)]  # given; used where no balance is
     mass: Mass
     spin_ratio: float  # spin relative to the block / shaft speed
+    guide_length: Length | None = None  # of the land in the bore, from the case edge inwards
+    centre_of_mass: Length | None = None  # from the ball centre into the bore
+    profile: Profile | None = None  # from the chamber's end
+    barrel: Length | None = None  # fall of a crowned piston from its middle to its ends
+    edge_relief: ReliefSection | None = None  # at both ends
+    grooves: Grooves | None = None  # rings; places from the chamber's end
 
 
 class SlipperSection(Section):
@@ -86,6 +102,11 @@ class SlipperSection(Section):
     spin_ratio: float  # spin about its own axis / shaft speed
     tilt_radial: Angle
     tilt_tangential: Angle
+    ball_height: Length | None = None  # of the ball centre above the sliding face
+    orifice_flow_coefficient: Annotated[float, Field(gt=0.0, le=1.0)] | None = None  # of entry and exit
+    profile: Profile | None = None  # over the radius
+    crown: AnyLength | None = None  # of the face over its outer radius; negative: dished
+    rim_relief: ReliefSection | None = None  # at the outer radius
 
 
 class ValvePlateSection(Section):
@@ -102,6 +123,7 @@ class ValvePlateSection(Section):
     tilt_x: Angle
     tilt_y: Angle
     residual_clamping: Coefficient  # fraction of the pressure force
+    waviness: WavinessSection | None = None
 
 
 class PortsSection(Section):
@@ -132,6 +154,7 @@ class BlockSection(Section):
     """[block]: the cylinder block."""
 
     mass: Mass
+    spline_position: AnyLength | None = None  # above the valve plate: where the shaft holds the block sideways
 
 
 class BearingsSection(Section):
@@ -163,11 +186,14 @@ class OilSection(Section):
     density: Density
     bulk_modulus: Modulus
     specific_heat: SpecificHeat
+    pressure_viscosity: PressureCoefficient | None = None  # Barus' coefficient
+    thermal_conductivity: Conductivity | None = None
+    thermal_expansion: Expansion | None = None
 
     @property
     def fluid(self) -> Oil:
         """The oil as `reynolds.oil` knows it; raises ValueError where Walther's law is void."""
-        return Oil(**self.model_dump())
+        return Oil(**{name: getattr(self, name) for name in Oil.__dataclass_fields__})
 
 
 class OperatingSection(Section):
@@ -179,6 +205,10 @@ class OperatingSection(Section):
     temperature: Temperature
     inlet_pressure: Pressure
     case_pressure: Pressure
+
+
+SINGLE_PARTS = ("piston", "slipper")
+"""Tables of which single parts may differ: [piston.3] puts its values in place of [piston]'s for chamber 3."""
 
 
 class PumpDescription(Section):
@@ -197,21 +227,34 @@ class PumpDescription(Section):
     friction: FrictionSection
     oil: OilSection
     operating: OperatingSection
+    bore: BoreSection = BoreSection()
+    retainer: RetainerSection = RetainerSection()
+    materials: MaterialsSection = MaterialsSection()
+    surfaces: SurfacesSection = SurfacesSection()
+    delivery_line: DeliveryLineSection = DeliveryLineSection()
+    single_pistons: tuple[tuple[int, PistonSection], ...] = ()  # by chamber, complete
+    single_slippers: tuple[tuple[int, SlipperSection], ...] = ()
+
+    def of_chamber(self, chamber: int) -> PumpDescription:
+        """The pump with the piston and slipper of a chamber (1 .. z) in place of all, and no single parts."""
+        return self.model_copy(
+            update={
+                "piston": dict(self.single_pistons).get(chamber, self.piston),
+                "slipper": dict(self.single_slippers).get(chamber, self.slipper),
+                "single_pistons": (),
+                "single_slippers": (),
+            }
+        )
 
 
 def section_models() -> Iterator[tuple[str, type[Section]]]:
-    """Yield the name and the model of every table, in the order of the file."""
-    for name, field in PumpDescription.model_fields.items():
-        if isinstance(field.annotation, type) and issubclass(field.annotation, Section):
-            yield name, field.annotation
+    """Yield the name and the model of every table, in the order of the file; one in another as `outer.inner`."""
+    yield from _tables_in(PumpDescription, "")
 
 
-def dimension_of(field: FieldInfo) -> Dimension | None:
-    """Return what a field of a table measures, or None for a bare number."""
-    return next((mark for mark in _marks(field) if isinstance(mark, Dimension)), None)
-
-
-def _marks(field: FieldInfo) -> list[object]:
-    """Return the annotations of a field, also of one that may be left out."""
-    inner = getattr(field.annotation, "__args__", ())
-    return [*field.metadata, *(mark for part in inner for mark in getattr(part, "__metadata__", ()))]
+def _tables_in(model: type[Section], above: str) -> Iterator[tuple[str, type[Section]]]:
+    for name, field in model.model_fields.items():
+        inner = table_of(field)
+        if inner is not None:
+            yield above + name, inner
+            yield from _tables_in(inner, f"{above}{name}.")

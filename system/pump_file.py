@@ -5,28 +5,30 @@ from __future__ import annotations
 import json
 import re
 import tomllib
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, field
 from importlib.resources import files
 from pathlib import Path
 from typing import Any
 
 from pydantic import ValidationError
-from pydantic.fields import FieldInfo
 
 from reynolds.oil import ISO_GRADES
 from system.checks import CheckReport, run_checks
-from system.description import FORMAT, PumpDescription, Section, dimension_of, section_models
+from system.description import FORMAT, SINGLE_PARTS, PumpDescription
 from system.faults import Fault, InputFaults, key_lines, nearest_choice
+from system.fields import Section, dimension_of, table_of
 from system.film_checks import FILM_CHECKS
 from system.geometry_checks import GEOMETRY_CHECKS
 from system.operating_checks import OPERATING_CHECKS
-from system.units import Dimension, QuantityError, format_quantity, parse_quantity, to_gauge
+from system.parts_checks import PARTS_CHECKS, single_parts_checked
+from system.pump_values import bound, read_value, wanted, written_value
+from system.units import Dimension, QuantityError, to_gauge
 
 ABSOLUTE = "_abs"  # a pressure key that ends so is absolute
-_CHECKS = GEOMETRY_CHECKS + FILM_CHECKS + OPERATING_CHECKS
+_CHECKS = GEOMETRY_CHECKS + FILM_CHECKS + OPERATING_CHECKS + PARTS_CHECKS
 _VISCOSITIES = ("kinematic_viscosity_40C", "kinematic_viscosity_100C")
-_BOUNDS = {"gt": "more than", "ge": "at least", "lt": "less than", "le": "at most"}
+_TABLES = {name: model for name, info in PumpDescription.model_fields.items() if (model := table_of(info))}
 
 
 def builtin_pumps() -> tuple[str, ...]:
@@ -46,8 +48,10 @@ def load_pump(source: str | Path, overrides: Mapping[str, object] | None = None)
     tables = _parse(label, text)
     lines: dict[str, int | None] = {**key_lines(text)}
     for path, value in (overrides or {}).items():
-        section, _, key = path.rpartition(".")
-        table = tables.setdefault(section, {}) if section else tables
+        *within, key = path.split(".")
+        table: object = tables
+        for name in within:
+            table = table.setdefault(name, {}) if isinstance(table, dict) else None
         if isinstance(table, dict):
             table.pop(key + ABSOLUTE, None)
             table[key] = value
@@ -57,24 +61,35 @@ def load_pump(source: str | Path, overrides: Mapping[str, object] | None = None)
 
 def check_pump(pump: PumpDescription) -> CheckReport:
     """Return what is impossible and what is doubtful about a description and its own operating point."""
-    return run_checks(_CHECKS, pump)
+    return single_parts_checked(_CHECKS, pump, run_checks(_CHECKS, pump))
 
 
 def resolved_toml(pump: PumpDescription) -> str:
     """Return a pump file that loads to this very description: every value, with its unit, to the last bit."""
     rows = [f"name = {json.dumps(pump.name, ensure_ascii=False)}", f"format = {pump.format}"]
-    for name, model in section_models():
-        rows += ["", f"[{name}]"]
-        section = getattr(pump, name)
-        for key, info in model.model_fields.items():
-            value = getattr(section, key)
-            if value is not None:
-                rows.append(f"{key} = {_toml_value(value, dimension_of(info))}")
+    for name in _TABLES:
+        rows += _table_rows(name, getattr(pump, name))
+    for name in SINGLE_PARTS:
+        for chamber, part in getattr(pump, f"single_{name}s"):
+            rows += _table_rows(f"{name}.{chamber}", part, getattr(pump, name))
     return "\n".join(rows) + "\n"
 
 
-def _toml_value(value: float, dimension: Dimension | None) -> str:
-    return repr(value) if dimension is None else f'"{format_quantity(value, dimension)}"'
+def _table_rows(name: str, section: Section, base: Section | None = None) -> Iterator[str]:
+    """Yield a table's lines and those of the tables in it; with `base`, only what differs from that one."""
+    stated = {
+        key: (info, value)
+        for key, info in type(section).model_fields.items()
+        if (value := getattr(section, key)) is not None and value != getattr(base, key, None)
+    }
+    own = {key: row for key, row in stated.items() if table_of(row[0]) is None}
+    if own:
+        yield from ("", f"[{name}]")
+    for key, (info, value) in own.items():
+        yield f"{key} = {written_value(info, value)}"
+    for key, (_, value) in stated.items():
+        if key not in own:
+            yield from _table_rows(f"{name}.{key}", value)
 
 
 def _read(source: str | Path) -> tuple[str, str]:
@@ -145,30 +160,61 @@ def _describe(label: str, tables: Mapping[str, Any], lines: Mapping[str, int | N
     """Return the description of the tables, or raise all their faults, those of the checks included."""
     reading = _Reading()
     name = tables.get("name")
-    known = list(PumpDescription.model_fields)
+    known = ["name", "format", *_TABLES]
     for key in tables:
         if key not in known:
             reading.unknown("", key, known)
     if "name" not in reading.told and not (isinstance(name, str) and name.isprintable() and name):
         reading.fault("name", "no such key" if name is None else repr(name), "the pump's name, one line of text")
     sections: dict[str, Any] = {
-        key: _section(key, model, tables.get(key), reading) for key, model in section_models()
+        key: _section(key, model, tables[key], reading) if key in tables else _left_out(key, model, reading)
+        for key, model in _TABLES.items()
     }
-    pump = PumpDescription.model_construct(name=name, format=FORMAT, **sections)
-    reading.faults += run_checks(_CHECKS, pump, reading.trusted).faults
+    singles: dict[str, Any] = {
+        f"single_{key}s": _singles(key, sections[key], tables.get(key), reading) for key in SINGLE_PARTS
+    }
+    pump = PumpDescription.model_construct(name=name, format=FORMAT, **sections, **singles)
+    report = run_checks(_CHECKS, pump, reading.trusted)
+    reading.faults += report.faults
+    if not reading.faults:
+        reading.faults += single_parts_checked(_CHECKS, pump, report).faults
     if reading.faults:
         raise InputFaults(label, reading.faults, lines)
     return pump
 
 
-def _section(name: str, model: type[Section], table: object, reading: _Reading) -> Section:
-    """Return one table as its model; with faults, one that holds the good values only."""
+def _left_out(name: str, model: type[Section], reading: _Reading) -> Section:
+    """Return a table that the file does not have: the empty one, with a fault where the pump needs it."""
+    if PumpDescription.model_fields[name].is_required() and name not in reading.told:
+        reading.fault(name, "no such table", f"a table [{name}] with {', '.join(_keys(name, model))}")
+    return model.model_construct()
+
+
+def _singles(name: str, base: Section, table: object, reading: _Reading) -> tuple[tuple[int, Section], ...]:
+    """Return the single parts of a table by chamber, each complete: [piston.3] over [piston]."""
+    numbered = {key: part for key, part in table.items() if _is_chamber(key)} if isinstance(table, dict) else {}
+    return tuple(
+        (int(key), _section(f"{name}.{key}", type(base), part, reading, base)) for key, part in numbered.items()
+    )
+
+
+def _is_chamber(key: str) -> bool:
+    """True for the name of a single part's table: a chamber's number, written one way only."""
+    return key.isdecimal() and key == str(int(key))
+
+
+def _section(
+    name: str, model: type[Section], table: object, reading: _Reading, base: Section | None = None
+) -> Section:
+    """Return one table as its model; with faults, one that holds the good values only.
+
+    What the table leaves out is that of `base`, whose own faults are told elsewhere.
+    """
     if not isinstance(table, dict):
-        if name not in reading.told:
-            found = "no such table" if table is None else repr(table)
-            reading.fault(name, found, f"a table [{name}] with {', '.join(_keys(name, model))}")
+        reading.fault(name, repr(table), f"a table [{name}] with {', '.join(_keys(name, model))}")
         return model.model_construct()
-    values: dict[str, Any] = _values(name, model, table, reading)
+    stated: dict[str, Any] = _values(name, model, table, reading)
+    values = {**dict(base or {}), **stated}
     try:
         section = model.model_validate(values)
     except ValidationError as invalid:
@@ -177,74 +223,48 @@ def _section(name: str, model: type[Section], table: object, reading: _Reading) 
             info, path = model.model_fields[key], f"{name}.{key}"
             if error["type"] != "missing":
                 raw = table.get(key, table.get(key + ABSOLUTE))
-                reading.fault(path, str(raw), _bound(info, error.get("ctx", {})))
-            elif path not in reading.told:
-                reading.fault(path, "no such key", _wanted(info))
+                if key in stated:
+                    reading.fault(path, str(raw), bound(info, error.get("ctx", {})))
+            elif path not in reading.told and base is None:
+                reading.fault(path, "no such key", wanted(info))
         section = model.model_construct(**{k: v for k, v in values.items() if f"{name}.{k}" not in reading.told})
     reading.trusted |= {f"{name}.{key}" for key in section.model_fields_set} - reading.told
     return section
 
 
-def _values(name: str, model: type[Section], table: Mapping[str, object], reading: _Reading) -> dict[str, float]:
+def _values(name: str, model: type[Section], table: Mapping[str, object], reading: _Reading) -> dict[str, object]:
     """Return the SI values of a table, and tell of every entry that gives none."""
-    values: dict[str, float] = {}
+    values: dict[str, object] = {}
     for written, raw in table.items():
         path, key = f"{name}.{written}", written.removesuffix(ABSOLUTE)
         info = model.model_fields.get(key)
         absolute = key != written
         if (name, written) == ("oil", "grade"):
             values |= _grade_viscosities(raw, table, reading)
+        elif name in SINGLE_PARTS and _is_chamber(written):
+            continue  # a single part: `_singles`
         elif info is None or (absolute and dimension_of(info) is not Dimension.PRESSURE):
             reading.unknown(f"{name}.", written, _keys(name, model))
         elif absolute and key in table:
             reading.fault(path, f"both {key} and {written}", "one of the two, gauge or absolute")
-        elif (value := _value(path, info, raw, reading)) is not None:
-            values[key] = to_gauge(value) if absolute else value
+        elif inner := table_of(info):
+            values[key] = _section(path, inner, raw, reading)
+            if any(fault.path.startswith(f"{path}.") for fault in reading.faults):
+                reading.told.add(path)
         else:
-            reading.told.add(f"{name}.{key}")
+            try:
+                value = read_value(info, raw)
+            except QuantityError as reason:
+                reading.fault(path, reason.found, reason.expected, reason.nearest)
+                reading.told.add(f"{name}.{key}")
+            else:
+                values[key] = to_gauge(value) if absolute and isinstance(value, float) else value
     return values
 
 
 def _keys(name: str, model: type[Section]) -> list[str]:
     """Return the keys that a table may have."""
     return [*model.model_fields, *(["grade"] if name == "oil" else [])]
-
-
-def _value(path: str, info: FieldInfo, raw: object, reading: _Reading) -> float | None:
-    """Return the SI value of one entry, or None with its fault told."""
-    dimension = dimension_of(info)
-    if dimension is not None:
-        try:
-            return parse_quantity(raw, dimension)
-        except QuantityError as reason:
-            reading.fault(path, reason.found, reason.expected, reason.nearest)
-            return None
-    if isinstance(raw, bool) or not isinstance(raw, (int, float)):
-        reading.fault(path, repr(raw), _wanted(info))
-        return None
-    return raw
-
-
-def _bound(info: FieldInfo, limits: Mapping[str, Any]) -> str:
-    """Return the bound that a value broke, in words and with its unit."""
-    dimension = dimension_of(info)
-    for short, words in _BOUNDS.items():
-        if short in limits:
-            bound = float(limits[short])
-            return (
-                f"{words} {bound:g}"
-                if dimension is None
-                else f"{words} {format_quantity(bound, dimension, digits=4)}"
-            )
-    return _wanted(info)
-
-
-def _wanted(info: FieldInfo) -> str:
-    """Return what a key holds, in words."""
-    dimension = dimension_of(info)
-    if dimension is not None:
-        return f"{dimension.noun} with its unit, such as '{dimension.example}'"
-    return "a whole number" if info.annotation is int else "a bare number (the value has no unit)"
 
 
 def _grade_viscosities(grade: object, table: Mapping[str, object], reading: _Reading) -> dict[str, float]:

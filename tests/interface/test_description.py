@@ -10,8 +10,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from system.checks import CheckWarning
-from system.description import PumpDescription, dimension_of, section_models
+from system.description import PumpDescription, section_models
 from system.faults import InputFaults, key_lines
+from system.fields import dimension_of
 from system.operating import operating_point
 from system.operating_checks import check_operating_point
 from system.pump_file import builtin_pumps, check_pump, load_pump, resolved_toml

@@ -1,0 +1,108 @@
+"""What a value of a pump file can be: a quantity, a choice, rows of quantities, or a table of such.
+
+Each is a type of a model's field: the quantity's dimension, or its columns', stands in the annotation.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from enum import Enum
+from typing import Annotated
+
+from pydantic import BaseModel, ConfigDict, Field
+from pydantic.fields import FieldInfo
+
+from system.units import Dimension
+
+
+@dataclass(frozen=True)
+class Points:
+    """Marks a field that is a list of rows, one quantity a column, with an example row."""
+
+    columns: tuple[Dimension, ...]
+    heads: tuple[str, ...]
+    example: tuple[str, ...]
+
+
+Positive = Field(gt=0.0)
+NotNegative = Field(ge=0.0)
+
+Length = Annotated[float, Dimension.LENGTH, Positive]
+AnyLength = Annotated[float, Dimension.LENGTH]
+Area = Annotated[float, Dimension.AREA, Positive]
+Volume = Annotated[float, Dimension.VOLUME, Positive]
+Displacement = Annotated[float, Dimension.DISPLACEMENT, Positive]
+Angle = Annotated[float, Dimension.ANGLE]
+AcuteAngle = Annotated[float, Dimension.ANGLE, Field(gt=0.0, lt=math.pi / 2)]
+Pressure = Annotated[float, Dimension.PRESSURE]
+Modulus = Annotated[float, Dimension.MODULUS, Positive]
+Elasticity = Annotated[float, Dimension.ELASTICITY, Positive]
+AngularSpeed = Annotated[float, Dimension.ANGULAR_SPEED, Positive]
+Temperature = Annotated[float, Dimension.TEMPERATURE, Positive]
+Mass = Annotated[float, Dimension.MASS, Positive]
+Force = Annotated[float, Dimension.FORCE, NotNegative]
+Stiffness = Annotated[float, Dimension.STIFFNESS, NotNegative]
+KinematicViscosity = Annotated[float, Dimension.KINEMATIC_VISCOSITY, Positive]
+Density = Annotated[float, Dimension.DENSITY, Positive]
+SpecificHeat = Annotated[float, Dimension.SPECIFIC_HEAT, Positive]
+Conductivity = Annotated[float, Dimension.CONDUCTIVITY, Positive]
+Expansion = Annotated[float, Dimension.TEMPERATURE_COEFFICIENT, NotNegative]
+PressureCoefficient = Annotated[float, Dimension.PRESSURE_COEFFICIENT, NotNegative]
+ArealDensity = Annotated[float, Dimension.AREAL_DENSITY, Positive]
+Fraction = Annotated[float, Field(ge=0.0, le=1.0)]
+Coefficient = Annotated[float, NotNegative]
+
+Profile = Annotated[
+    tuple[tuple[float, float], ...],
+    Points((Dimension.LENGTH, Dimension.LENGTH), ("place", "material taken off"), ("3 mm", "2 um")),
+    Field(min_length=2),
+]
+Grooves = Annotated[
+    tuple[tuple[float, float, float], ...],
+    Points((Dimension.LENGTH,) * 3, ("middle", "width", "depth"), ("10 mm", "0.5 mm", "0.3 mm")),
+    Field(min_length=1),
+]
+
+
+class Section(BaseModel):
+    """A table of the pump file; frozen, and no key beside the named ones."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
+
+
+def dimension_of(field: FieldInfo) -> Dimension | None:
+    """Return what a field of a table measures, or None for what is no single quantity."""
+    return next((mark for mark in _marks(field) if isinstance(mark, Dimension)), None)
+
+
+def points_of(field: FieldInfo) -> Points | None:
+    """Return the columns of a field that is a list of rows, or None for another."""
+    return next((mark for mark in _marks(field) if isinstance(mark, Points)), None)
+
+
+def choice_of(field: FieldInfo) -> type[Enum] | None:
+    """Return the choices of a field that is one of them, or None for another."""
+    return next((part for part in _types(field) if issubclass(part, Enum)), None)
+
+
+def table_of(field: FieldInfo) -> type[Section] | None:
+    """Return the model of a field that is a table of its own, or None for another."""
+    return next((part for part in _types(field) if issubclass(part, Section)), None)
+
+
+def whole(field: FieldInfo) -> bool:
+    """True for a field that is a whole number."""
+    return int in _types(field)
+
+
+def _types(field: FieldInfo) -> list[type]:
+    """Return the plain types of a field, also of one that may be left out."""
+    inner = getattr(field.annotation, "__args__", ())
+    return [part for part in (field.annotation, *inner) if isinstance(part, type)]
+
+
+def _marks(field: FieldInfo) -> list[object]:
+    """Return the annotations of a field, also of one that may be left out."""
+    inner = getattr(field.annotation, "__args__", ())
+    return [*field.metadata, *(mark for part in inner for mark in getattr(part, "__metadata__", ()))]

@@ -1,0 +1,240 @@
+"""Checks of the parts' own shapes and holds, where a pump file states them, and of single parts."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator
+from dataclasses import replace
+from itertools import pairwise
+from typing import TypeVar
+
+from system.checks import Check, CheckReport, CheckWarning, Finding, length, needs, run_checks
+from system.description import SINGLE_PARTS, PumpDescription
+from system.faults import Fault
+from system.parts_description import DeliveryLineKind, ReliefSection, RetainerKind
+
+_Found = TypeVar("_Found", Fault, CheckWarning)
+
+STEEPEST = 0.01  # depth of a shape over its width; above it the film is no thin film
+
+_BORE = ("piston.engaged_length", "pump.dead_volume", "pump.piston_diameter")
+
+
+def _bore_depth(pump: PumpDescription) -> float:
+    """Depth of a bore from its case edge (m), the dead volume taken as its straight prolongation."""
+    area = math.pi * pump.pump.piston_diameter**2 / 4
+    return pump.piston.engaged_length + pump.pump.dead_volume / area
+
+
+@needs("piston.guide_length", *_BORE)
+def guide_lies_in_the_bore(pump: PumpDescription) -> Iterator[Finding]:
+    """The guiding land is no longer than the bore; one shorter than a piston diameter lets the piston tilt."""
+    guide, depth = pump.piston.guide_length, _bore_depth(pump)
+    if guide is None:
+        return
+    if guide > depth:
+        yield Fault(
+            "piston.guide_length",
+            length(guide),
+            f"at most {length(depth)}, the bore's depth (engaged_length, and dead_volume over the piston's area)",
+        )
+    elif guide < pump.pump.piston_diameter:
+        yield CheckWarning(
+            "piston.guide_length",
+            length(guide),
+            f"one piston diameter, {length(pump.pump.piston_diameter)} (side forces grow with the lever)",
+            "lengthen the guide",
+        )
+
+
+@needs("piston.centre_of_mass", "piston.overhang", "piston.engaged_length")
+def centre_of_mass_lies_in_the_piston(pump: PumpDescription) -> Iterator[Finding]:
+    """The piston's centre of mass is not beyond its inner end."""
+    place, whole = pump.piston.centre_of_mass, pump.piston.overhang + pump.piston.engaged_length
+    if place is not None and place > whole:
+        yield Fault("piston.centre_of_mass", length(place), f"at most {length(whole)}, the piston's inner end")
+
+
+@needs("piston.profile", "piston.radial_clearance", "piston.engaged_length")
+def piston_profile_fits(pump: PumpDescription) -> Iterator[Finding]:
+    """The piston's measured shape lies on it, and leaves a clearance everywhere."""
+    rows = pump.piston.profile or ()
+    yield from _places("piston.profile", rows, pump.piston.engaged_length, "engaged_length")
+    yield from _leaves_clearance("piston.profile", rows, pump.piston.radial_clearance)
+
+
+@needs("bore.profile", "piston.radial_clearance", *_BORE)
+def bore_profile_fits(pump: PumpDescription) -> Iterator[Finding]:
+    """The bore's measured shape lies in it, and leaves a clearance everywhere."""
+    rows = pump.bore.profile or ()
+    yield from _places("bore.profile", rows, _bore_depth(pump), "the bore's depth")
+    yield from _leaves_clearance("bore.profile", rows, pump.piston.radial_clearance)
+
+
+@needs("slipper.profile", "slipper.land_outer_radius")
+def slipper_profile_fits(pump: PumpDescription) -> Iterator[Finding]:
+    """The face's measured shape lies on the slipper."""
+    rows = pump.slipper.profile or ()
+    yield from _places("slipper.profile", rows, pump.slipper.land_outer_radius, "land_outer_radius")
+
+
+def _places(path: str, rows: tuple[tuple[float, ...], ...], end: float, name: str) -> Iterator[Finding]:
+    """Places of a profile grow from 0 to at most `end`."""
+    places = [row[0] for row in rows]
+    for before, after in pairwise(places):
+        if before >= after:
+            yield Fault(path, f"{length(after)} after {length(before)}", "places that grow from row to row")
+    if places and (min(places) < 0.0 or max(places) > end):
+        outside = min(places) if min(places) < 0.0 else max(places)
+        yield Fault(path, f"a place at {length(outside)}", f"0 to {name}, {length(end)}")
+
+
+def _leaves_clearance(path: str, rows: tuple[tuple[float, ...], ...], clearance: float) -> Iterator[Finding]:
+    least = min((row[1] for row in rows), default=0.0)
+    if least <= -clearance:
+        yield Fault(
+            path,
+            f"{length(least)} taken off: material that stands out by more than the clearance",
+            f"more than {length(-clearance)} (minus radial_clearance)",
+        )
+
+
+@needs("piston.grooves", "piston.engaged_length")
+def piston_grooves_lie_apart(pump: PumpDescription) -> Iterator[Finding]:
+    """Ring grooves lie on the piston in order, with land between them."""
+    grooves = pump.piston.grooves or ()
+    for middle, width, depth in grooves:
+        if width <= 0.0 or depth <= 0.0:
+            yield Fault("piston.grooves", f"{length(width)} wide, {length(depth)} deep", "both more than 0")
+        elif middle - width / 2 <= 0.0 or middle + width / 2 >= pump.piston.engaged_length:
+            found = f"a groove {length(width)} wide at {length(middle)}"
+            yield Fault(
+                "piston.grooves", found, f"between 0 and engaged_length, {length(pump.piston.engaged_length)}"
+            )
+    for (first, wide, _), (second, wider, _) in pairwise(grooves):
+        if second - first <= (wide + wider) / 2:
+            found = f"grooves at {length(first)} and {length(second)}"
+            yield Fault("piston.grooves", found, f"more than {length((wide + wider) / 2)} apart, in growing order")
+
+
+@needs("piston.edge_relief", "piston.engaged_length")
+def piston_edges_leave_a_land(pump: PumpDescription) -> Iterator[Finding]:
+    """The relieved edges do not meet in the piston's middle."""
+    relief = pump.piston.edge_relief
+    yield from _relief("piston.edge_relief", relief, pump.piston.engaged_length / 2, "half of engaged_length")
+
+
+@needs("slipper.rim_relief", "slipper.land_inner_radius", "slipper.land_outer_radius")
+def slipper_rim_lies_on_the_land(pump: PumpDescription) -> Iterator[Finding]:
+    """The relieved rim is no wider than the sealing land."""
+    land = pump.slipper.land_outer_radius - pump.slipper.land_inner_radius
+    if land > 0.0:
+        yield from _relief("slipper.rim_relief", pump.slipper.rim_relief, land, "the land's width")
+
+
+def _relief(path: str, relief: ReliefSection | None, widest: float, name: str) -> Iterator[Finding]:
+    if relief is None:
+        return
+    if relief.width > widest * (1.0 + 1e-9):
+        yield Fault(f"{path}.width", length(relief.width), f"at most {name}, {length(widest)}")
+    yield from _steep(f"{path}.depth", relief.depth, relief.width)
+
+
+@needs("piston.barrel", "piston.engaged_length")
+def barrel_is_shallow(pump: PumpDescription) -> Iterator[Finding]:
+    """A crowned piston falls little over its half length."""
+    yield from _steep("piston.barrel", pump.piston.barrel, pump.piston.engaged_length / 2)
+
+
+@needs("slipper.crown", "slipper.land_outer_radius")
+def crown_is_shallow(pump: PumpDescription) -> Iterator[Finding]:
+    """A crowned or dished face differs little from a plane."""
+    yield from _steep("slipper.crown", pump.slipper.crown, pump.slipper.land_outer_radius)
+
+
+@needs("valve_plate.waviness", "valve_plate.land_radius_1")
+def waves_are_shallow(pump: PumpDescription) -> Iterator[Finding]:
+    """The valve plate's waves are long against their height."""
+    waves = pump.valve_plate.waviness
+    if waves is not None:
+        half_wave = math.pi * pump.valve_plate.land_radius_1 / waves.waves
+        yield from _steep("valve_plate.waviness.amplitude", waves.amplitude, half_wave)
+
+
+def _steep(path: str, depth: float | None, width: float) -> Iterator[Finding]:
+    if depth is not None and width > 0.0 and abs(depth) > STEEPEST * width:
+        limit = f"{length(STEEPEST * width)} (1 % of {length(width)}: above it the film is no thin film)"
+        yield CheckWarning(path, length(depth), limit, "check the unit: um, not mm?")
+
+
+@needs("retainer.kind")
+def retainer_keys_belong_to_its_kind(pump: PumpDescription) -> Iterator[Finding]:
+    """A retainer pressed by the spring has no clearance to reach."""
+    part = pump.retainer
+    if part.kind is not RetainerKind.SPRING:
+        return
+    for key in ("clearance", "stiffness"):
+        if getattr(part, key) is not None:
+            yield Fault(f"retainer.{key}", "beside kind = 'spring'", f"no {key}, or kind = 'clearance'")
+
+
+@needs("delivery_line.kind")
+def delivery_line_keys_belong_to_its_kind(pump: PumpDescription) -> Iterator[Finding]:
+    """An orifice needs a volume before it; a held pressure has neither."""
+    line = pump.delivery_line
+    if line.kind is DeliveryLineKind.ORIFICE and line.volume is None:
+        yield Fault("delivery_line.volume", "no such key", "the volume between pump and orifice, such as '1 L'")
+    if line.kind is DeliveryLineKind.HELD:
+        for key in ("volume", "orifice_area", "tank_pressure"):
+            if getattr(line, key) is not None:
+                yield Fault(f"delivery_line.{key}", "beside kind = 'held'", f"no {key}, or kind = 'orifice'")
+
+
+PARTS_CHECKS = (
+    guide_lies_in_the_bore,
+    centre_of_mass_lies_in_the_piston,
+    piston_profile_fits,
+    bore_profile_fits,
+    slipper_profile_fits,
+    piston_grooves_lie_apart,
+    piston_edges_leave_a_land,
+    slipper_rim_lies_on_the_land,
+    barrel_is_shallow,
+    crown_is_shallow,
+    waves_are_shallow,
+    retainer_keys_belong_to_its_kind,
+    delivery_line_keys_belong_to_its_kind,
+)
+
+
+def single_parts_checked(checks: Iterable[Check], pump: PumpDescription, report: CheckReport) -> CheckReport:
+    """Return the report of a pump with what its single parts add: the same checks, with that part in all chambers.
+
+    Paths name the single part: `piston.3.radial_clearance`.
+    """
+    faults, warnings = list(report.faults), list(report.warnings)
+    for table in SINGLE_PARTS:
+        concerned = [check for check in checks if any(path.startswith(f"{table}.") for path in check.needs)]
+        for chamber, _ in getattr(pump, f"single_{table}s"):
+            single = f"{table}.{chamber}"
+            if not 1 <= chamber <= pump.pump.pistons:
+                faults.append(Fault(single, f"chamber {chamber}", f"1 to {pump.pump.pistons}, the pump's pistons"))
+                continue
+            found = run_checks(concerned, pump.of_chamber(chamber))
+            faults += [_renamed(f, table, single) for f in found.faults if f not in report.faults]
+            warnings += [_renamed(w, table, single) for w in found.warnings if w not in report.warnings]
+            warnings.append(_not_alike(single))
+    return CheckReport(tuple(faults), tuple(warnings))
+
+
+def _renamed(finding: _Found, table: str, single: str) -> _Found:
+    return replace(finding, path=finding.path.replace(f"{table}.", f"{single}.", 1))
+
+
+def _not_alike(single: str) -> CheckWarning:
+    return CheckWarning(
+        single,
+        "a part unlike the others",
+        "alike parts in the fidelities lumped and films, which take the common table for every chamber",
+        "let the gaps float to see what it does",
+    )

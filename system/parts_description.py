@@ -1,0 +1,117 @@
+"""Tables of the pump description that floating gaps need: the parts' shapes, surfaces, materials and holds.
+
+Every key may be left out; `system.floating_parts` says what is then taken, and why.
+"""
+
+from __future__ import annotations
+
+from enum import Enum
+from typing import Annotated
+
+from pydantic import Field
+
+from system.fields import (
+    Area,
+    ArealDensity,
+    Coefficient,
+    Conductivity,
+    Density,
+    Elasticity,
+    Expansion,
+    Length,
+    Pressure,
+    Profile,
+    Section,
+    Stiffness,
+    Volume,
+)
+
+
+class ReliefSection(Section):
+    """An edge taken back: by `depth` at the edge, falling to nothing at `width` from it as a parabola."""
+
+    width: Length
+    depth: Length
+
+
+class WavinessSection(Section):
+    """[valve_plate.waviness]: the plate's face rises and falls by `amplitude` around the shaft."""
+
+    waves: Annotated[int, Field(ge=1, le=99)]
+    amplitude: Length
+
+
+class BoreSection(Section):
+    """[bore]: the bore's own shape."""
+
+    profile: Profile | None = None  # from the case edge inwards
+
+
+class RetainerKind(Enum):
+    """How slippers are kept on the swash plate: pressed by the spring, or by a plate at a fixed clearance."""
+
+    SPRING = "spring"
+    CLEARANCE = "clearance"
+
+
+class RetainerSection(Section):
+    """[retainer]: what holds the slippers down."""
+
+    kind: RetainerKind | None = None
+    clearance: Length | None = None  # film at which the retainer is reached
+    stiffness: Stiffness | None = None  # beyond it, a slipper
+
+
+class MaterialSection(Section):
+    """[materials.PART]: what a part is made of."""
+
+    youngs_modulus: Elasticity
+    poissons_ratio: Annotated[float, Field(gt=-1.0, lt=0.5)]
+    density: Density | None = None
+    thermal_conductivity: Conductivity | None = None
+    thermal_expansion: Expansion | None = None
+
+
+class MaterialsSection(Section):
+    """[materials]: the six parts that meet in the three gaps."""
+
+    piston: MaterialSection | None = None
+    bushing: MaterialSection | None = None
+    slipper: MaterialSection | None = None
+    swash_plate: MaterialSection | None = None
+    block: MaterialSection | None = None
+    valve_plate: MaterialSection | None = None
+
+
+class SurfaceSection(Section):
+    """[surfaces.PAIR]: both faces of a gap together, as `reynolds.roughness` and `reynolds.contact` take them."""
+
+    composite_roughness: Length | None = None
+    peklenik: Annotated[float, Field(ge=1 / 9, le=9.0)] | None = None
+    asperity_density: ArealDensity | None = None
+    asperity_radius: Length | None = None
+    friction_coefficient: Coefficient | None = None  # of the boundary layer
+
+
+class SurfacesSection(Section):
+    """[surfaces]: the three gaps by the names of their friction pairs."""
+
+    piston_cylinder: SurfaceSection | None = None
+    slipper_swash_plate: SurfaceSection | None = None
+    valve_plate_cylinder: SurfaceSection | None = None
+
+
+class DeliveryLineKind(Enum):
+    """What the pump delivers into: a pressure held by all means, or a volume that an orifice empties."""
+
+    HELD = "held"
+    ORIFICE = "orifice"
+
+
+class DeliveryLineSection(Section):
+    """[delivery_line]: from the delivery port on."""
+
+    kind: DeliveryLineKind | None = None
+    volume: Volume | None = None
+    orifice_area: Area | None = None  # left out: that which gives [operating] pressure
+    tank_pressure: Pressure | None = None

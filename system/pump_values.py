@@ -1,0 +1,119 @@
+"""One value of a pump file: from TOML to what the description holds, and back; what it should be, in words."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from enum import Enum
+from typing import Any
+
+from pydantic.fields import FieldInfo
+
+from system.faults import nearest_choice
+from system.fields import Points, choice_of, dimension_of, points_of, whole
+from system.units import Dimension, QuantityError, format_quantity, parse_quantity
+
+_BOUNDS = {"gt": "more than", "ge": "at least", "lt": "less than", "le": "at most"}
+
+
+def read_value(info: FieldInfo, raw: object) -> object:
+    """Return what an entry of a table means, in SI: a number, a choice, or rows of numbers.
+
+    Raises QuantityError (found, expected, nearest) for what the field does not hold.
+    """
+    dimension, points, choice = dimension_of(info), points_of(info), choice_of(info)
+    if dimension is not None:
+        return parse_quantity(raw, dimension)
+    if points is not None:
+        return _rows(raw, points)
+    if choice is not None:
+        return _choice(raw, choice)
+    if isinstance(raw, bool) or not isinstance(raw, (int, float)):
+        raise QuantityError(repr(raw), wanted(info))
+    return raw
+
+
+def written_value(info: FieldInfo, value: object) -> str:
+    """Return a value as TOML, so that `read_value` gives it back to the last bit."""
+    dimension, points = dimension_of(info), points_of(info)
+    if points is not None and isinstance(value, tuple):
+        rows = (", ".join(map(_written_quantity, row, points.columns)) for row in value)
+        return "[" + ", ".join(f"[{row}]" for row in rows) + "]"
+    if isinstance(value, Enum):
+        return json.dumps(value.value)
+    if dimension is not None and isinstance(value, float):
+        return _written_quantity(value, dimension)
+    return repr(value)
+
+
+def wanted(info: FieldInfo) -> str:
+    """Return what a key holds, in words."""
+    dimension, points, choice = dimension_of(info), points_of(info), choice_of(info)
+    if dimension is not None:
+        return f"{dimension.noun} with its unit, such as '{dimension.example}'"
+    if points is not None:
+        return _wanted_rows(points)
+    if choice is not None:
+        return f"one of {_names(choice)}"
+    return "a whole number" if whole(info) else "a bare number (the value has no unit)"
+
+
+def bound(info: FieldInfo, limits: Mapping[str, Any]) -> str:
+    """Return the bound that a value broke, in words and with its unit; what is wanted where it broke none."""
+    dimension = dimension_of(info)
+    for short, words in _BOUNDS.items():
+        if short in limits:
+            limit = float(limits[short])
+            shown = f"{limit:g}" if dimension is None else format_quantity(limit, dimension, digits=4)
+            return f"{words} {shown}"
+    if "min_length" in limits:
+        return f"at least {limits['min_length']} rows, {wanted(info)}"
+    return wanted(info)
+
+
+def units_shown(info: FieldInfo) -> str:
+    """Return the example units of a key's columns, such as "mm" or "mm, um"; "-" for what has none."""
+    points, dimension = points_of(info), dimension_of(info)
+    examples = points.example if points else (dimension.example,) if dimension else ()
+    return ", ".join(example.split(" ", 1)[1] for example in examples) or "-"
+
+
+def _rows(raw: object, points: Points) -> tuple[tuple[float, ...], ...]:
+    """Return a list of rows in SI; a fault names the row, counted from 1, and its column."""
+    if not isinstance(raw, list) or not all(isinstance(row, list) for row in raw):
+        raise QuantityError(repr(raw), _wanted_rows(points))
+    return tuple(_row(number, row, points) for number, row in enumerate(raw, start=1))
+
+
+def _row(number: int, row: list[object], points: Points) -> tuple[float, ...]:
+    if len(row) != len(points.columns):
+        raise QuantityError(f"{len(row)} values in row {number}, {row!r}", _wanted_rows(points))
+    found = []
+    for cell, dimension, head in zip(row, points.columns, points.heads, strict=True):
+        try:
+            found.append(parse_quantity(cell, dimension))
+        except QuantityError as reason:
+            where = f"{reason.found} as {head} of row {number}"
+            raise QuantityError(where, reason.expected, reason.nearest) from None
+    return tuple(found)
+
+
+def _choice(raw: object, choices: type[Enum]) -> Enum:
+    for member in choices:
+        if member.value == raw:
+            return member
+    names = [str(member.value) for member in choices]
+    raise QuantityError(repr(raw), f"one of {_names(choices)}", nearest_choice(str(raw), names))
+
+
+def _names(choices: type[Enum]) -> str:
+    return ", ".join(f"'{member.value}'" for member in choices)
+
+
+def _wanted_rows(points: Points) -> str:
+    heads = ", ".join(points.heads)
+    return f"rows of {heads}, each with its unit, such as [{list(points.example)}, ...]"
+
+
+def _written_quantity(value: float, dimension: Dimension) -> str:
+    return f'"{format_quantity(value, dimension)}"'
