@@ -1,0 +1,180 @@
+"""The ball joint between piston and slipper: what either film must bear, and the moment that the joint rubs with.
+
+Vectors (3,) in any right-handed frame, N, m, s. a is the bore's axis out of the block, n the swash plate's normal
+away from the block, B the force of the piston on the slipper:
+
+    slipper   m_s A   = B + G_s - lift n          piston   m_p a_p = -B + G_p + L,  L . a = 0
+
+G are the known forces on either body. The slipper's motion in the plate fixes B there, the piston's along its bore
+fixes the rest of B; what the slipper's film must press with (lift) and the bore with (L) follows.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from reynolds.errors import FilmInputError, FilmNotConverged
+from reynolds.laws import require_positive
+from reynolds.mesh import Array
+
+LEAST_FACING = 0.1  # cosine between bore and plate normal: a plate steeper than 84 deg pushes no piston
+CREEP = 0.01  # of the shaft's speed: spin at which the joint's friction has reached 1/sqrt 2 of its size
+MOST_STEPS = 60
+SETTLED = 1e-10  # of the shaft's speed
+
+
+@dataclass(frozen=True)
+class DrivenBody:
+    """Piston or slipper at one instant.
+
+    mass kg; acceleration (3,) m/s2 of its centre of mass; force (3,) N, the sum of all on it but the joint's and
+    its own film's bearing force.
+    """
+
+    mass: float
+    acceleration: Array
+    force: Array
+
+    @property
+    def lack(self) -> Array:
+        """Force (3,) N that joint and film together must give it."""
+        return self.mass * self.acceleration - self.force
+
+
+@dataclass(frozen=True)
+class BallForces:
+    """What joint and films bear at one instant, N.
+
+    ball: force (3,) of the piston on the slipper; lift: of the slipper's film away from the plate, to which what
+    else presses the slipper (retainer, spring) is to be added; side: force (3,) of the bore's film on the piston,
+    across the bore.
+    """
+
+    ball: Array
+    lift: float
+    side: Array
+
+
+def ball_forces(bore_axis: Array, plate_normal: Array, piston: DrivenBody, slipper: DrivenBody) -> BallForces:
+    """What joint, slipper film and bore must bear, from both bodies' balance of forces (file head).
+
+    The ball's acceleration is the slipper's prescribed motion along the plate: growth and tilting of its film are
+    left out of it (1e-4 of the rest). Raises FilmInputError where the plate hardly faces the bore (n . a < 0.1).
+    """
+    facing = float(plate_normal @ bore_axis)
+    if not facing >= LEAST_FACING:
+        raise FilmInputError(
+            "ball joint, plate normal along the bore", f"{facing:.3g}", f"at least {LEAST_FACING}"
+        )
+    in_plate = slipper.lack - (slipper.lack @ plate_normal) * plate_normal
+    along_bore = -float(piston.lack @ bore_axis)
+    normal = (along_bore - float(in_plate @ bore_axis)) / facing
+    ball = in_plate + normal * plate_normal
+    side = piston.lack + ball
+    return BallForces(ball, normal - float(slipper.lack @ plate_normal), side - (side @ bore_axis) * bore_axis)
+
+
+def swept_acceleration(
+    place: Array, axis: Array, velocity: float, acceleration: float, shaft_speed: float
+) -> Array:
+    """Acceleration (3,) m/s2 of a point at `place` (3,) m that slides along an axis which the shaft carries round.
+
+    s'' a + 2 w s' z x a - w^2 (r - z z . r): along the bore, Coriolis (nothing for a cylindrical block) and
+    centripetal, z the shaft's axis. velocity s' m/s, acceleration s'' m/s2, shaft_speed w rad/s, constant.
+    """
+    shaft = np.array([0.0, 0.0, 1.0])
+    inward = shaft_speed**2 * (place - (place @ shaft) * shaft)
+    return np.asarray(acceleration * axis + 2.0 * shaft_speed * velocity * np.cross(shaft, axis) - inward)
+
+
+def relative_spin(
+    bore_axis: Array, plate_normal: Array, shaft_speed: float, piston_spin: float, slipper_spin: float
+) -> Array:
+    """Angular velocity (3,) rad/s of the slipper against the piston: s n - w z - s_p a.
+
+    piston_spin s_p about its axis relative to the block, slipper_spin s about the plate's normal relative to the
+    plate, both rad/s; the slipper's tilting is left out.
+    """
+    return np.asarray(
+        slipper_spin * plate_normal - shaft_speed * np.array([0.0, 0.0, 1.0]) - piston_spin * bore_axis
+    )
+
+
+def ball_friction(coefficient: float, force: float, radius: float, spin: Array, shaft_speed: float) -> Array:
+    """Moment (3,) N m of the joint's friction on the slipper, -mu |B| r W/|W|; the piston feels its opposite.
+
+    Coulomb's law on the ball's radius (m) under a force (N), W the relative spin (rad/s); |W| is taken as
+    sqrt(W^2 + (0.01 w)^2), so that a joint at rest has none. Exact for a contact that is small beside the ball and
+    W square to the force; a socket that bears all over has another factor, of order one.
+    """
+    width = np.sqrt(float(spin @ spin) + (CREEP * shaft_speed) ** 2)
+    return np.asarray(-coefficient * abs(force) * radius / width * spin)
+
+
+def bore_drag(viscosity: float, diameter: float, length: float, clearance: float) -> float:
+    """Torque per spin (N m s) of a piston centred in its bore, pi mu d^3 l/(4 c). Source: Petroff 1883."""
+    require_positive("bore drag", viscosity=viscosity, diameter=diameter, length=length, clearance=clearance)
+    return float(np.pi * viscosity * diameter**3 * length / (4.0 * clearance))
+
+
+def land_drag(viscosity: float, inner_radius: float, outer_radius: float, film_thickness: float) -> float:
+    """Torque per spin (N m s) of a parallel land, pi mu (r2^4 - r1^4)/(2 h)."""
+    require_positive("land drag", viscosity=viscosity, outer_radius=outer_radius, film_thickness=film_thickness)
+    return float(np.pi * viscosity * (outer_radius**4 - inner_radius**4) / (2.0 * film_thickness))
+
+
+@dataclass(frozen=True)
+class Spins:
+    """Spin (rad/s) of the piston in its bore, relative to the block, and of the slipper on the plate."""
+
+    piston: float
+    slipper: float
+
+
+def free_spins(
+    bore_axis: Array,
+    plate_normal: Array,
+    shaft_speed: float,
+    friction: float,
+    piston_drag: float,
+    slipper_drag: float,
+) -> Spins:
+    """The spins at which the joint's friction and both films' drag balance about bore and plate normal.
+
+    friction: mu |B| r of the joint, N m; drags: N m s, above zero. They are the least of
+    friction |W| + (piston_drag s_p^2 + slipper_drag s^2)/2, a convex function of both, found by Newton's method.
+    A joint that rubs harder than the films drags the piston back against the block until neither turns in space
+    (s = 0, s_p = -w on a cylindrical block); without friction neither is turned (s = s_p = 0). Quasi-steady: at
+    a piston's inertia spins follow within some 1e-2 s, so that means over a turn belong here.
+    Raises FilmInputError for a drag that is not positive, FilmNotConverged where Newton's method does not settle.
+    """
+    require_positive("free spins", shaft_speed=shaft_speed, piston_drag=piston_drag, slipper_drag=slipper_drag)
+    turns = np.column_stack([-bore_axis, plate_normal])
+    still = relative_spin(bore_axis, plate_normal, shaft_speed, 0.0, 0.0)
+    drag = np.diag([piston_drag, slipper_drag])
+
+    def spent(spins: Array) -> float:
+        return float(friction * _width(still + turns @ spins, shaft_speed) + 0.5 * spins @ drag @ spins)
+
+    spins = np.zeros(2)
+    for _ in range(MOST_STEPS):
+        relative = still + turns @ spins
+        width = _width(relative, shaft_speed)
+        pull = turns.T @ relative / width
+        slope = friction * pull + drag @ spins
+        bend = friction / width * (turns.T @ turns - np.outer(pull, pull)) + drag
+        step = np.linalg.solve(bend, -slope)
+        if np.max(np.abs(step)) < SETTLED * shaft_speed:
+            return Spins(float(spins[0]), float(spins[1]))
+        while spent(spins + step) > spent(spins) + 1e-4 * float(slope @ step) + 1e-15 * spent(spins):
+            step = 0.5 * step
+        spins = spins + step
+    raise FilmNotConverged(
+        f"spins of piston and slipper not settled after {MOST_STEPS} steps", "given spin ratios"
+    )
+
+
+def _width(spin: Array, shaft_speed: float) -> float:
+    return float(np.sqrt(spin @ spin + (CREEP * shaft_speed) ** 2))

@@ -1,0 +1,77 @@
+"""Which physics a floating gap has: switches, and the laws of oil and walls that they leave."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from enum import Enum
+
+from reynolds.contact import Asperities
+from reynolds.film import Cavitation
+from reynolds.fluid import CONSTANT, Fluid
+from reynolds.roughness import Surface
+from reynolds.walls import Walls
+
+
+class Effect(Enum):
+    """A part of the physics that can be left out, each named after the field of `Physics` that it switches."""
+
+    CAVITATION = "cavitation"
+    PRESSURE_VISCOSITY = "pressure_viscosity"
+    ROUGHNESS = "roughness"
+    ELASTIC_WALLS = "elastic_walls"
+    HEAT = "heat"
+
+
+@dataclass(frozen=True)
+class Physics:
+    """What is on. Off means left out; on means as far as the pump's description has it.
+
+    cavitation: mass-conserving (JFO), else pressures may fall below the cavity's; pressure_viscosity: the fluid's
+    laws over pressure, else viscosity and density are constant; roughness: flow factors and contact of asperities,
+    else smooth walls that never touch; elastic_walls: walls give way, else rigid; heat: the film warms, else it
+    has the case's temperature.
+    """
+
+    cavitation: bool = True
+    pressure_viscosity: bool = True
+    roughness: bool = True
+    elastic_walls: bool = True
+    heat: bool = False
+
+    def without(self, *effects: Effect) -> Physics:
+        """The same with these effects left out."""
+        return replace(self, **{effect.value: False for effect in effects})
+
+    def including(self, *effects: Effect) -> Physics:
+        """The same with these effects too."""
+        return replace(self, **{effect.value: True for effect in effects})
+
+    @property
+    def left_out(self) -> tuple[Effect, ...]:
+        """Effects that are off, in the order of `Effect`: a result says them."""
+        return tuple(effect for effect in Effect if not getattr(self, effect.value))
+
+    @property
+    def film_rupture(self) -> Cavitation:
+        """How the film solver takes pressures below the cavity's."""
+        return Cavitation.JFO if self.cavitation else Cavitation.NONE
+
+
+@dataclass(frozen=True)
+class FilmLaws:
+    """Oil and walls of one gap, as `reynolds.film.FilmProblem` takes them."""
+
+    fluid: Fluid = CONSTANT
+    surface: Surface | None = None
+    asperities: Asperities | None = None
+    walls: Walls | None = None
+
+
+def laws_left(laws: FilmLaws, physics: Physics) -> FilmLaws:
+    """The laws of a gap of which those that `physics` switches off are taken away."""
+    return FilmLaws(
+        fluid=laws.fluid if physics.pressure_viscosity else CONSTANT,
+        surface=laws.surface if physics.roughness else None,
+        asperities=laws.asperities if physics.roughness else None,
+        walls=laws.walls if physics.elastic_walls else None,
+    )

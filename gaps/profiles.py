@@ -1,0 +1,264 @@
+"""Shapes of faces and pistons: material taken off a plain face or cylinder, as a sum of simple shapes.
+
+`place` is the length along the profile (m): from its chamber's end on a piston, from the case edge in a bore, the
+radius on a face. `angle` (rad) goes round the part. Positive depths open the film, negative ones close it. Where a
+shape's depth or slope jumps it has a knee, at which a mesh does well to have a line; the rest of it is smooth.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import NamedTuple, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from reynolds.errors import FilmInputError
+from reynolds.laws import require_positive, within
+from reynolds.mesh import Array
+
+
+class Relief(NamedTuple):
+    """Material taken off (m), and its slopes along the profile (m/m) and around (m/rad), arrays of one shape."""
+
+    depth: Array
+    along: Array
+    around: Array
+
+
+class Shape(Protocol):
+    """A shape of a profile."""
+
+    @property
+    def knees(self) -> tuple[float, ...]:
+        """Places (m) at which depth or slope jump."""
+
+    def __call__(self, place: Array, angle: Array) -> Relief:
+        """Relief at places (m) and angles (rad), arrays of one shape."""
+
+
+@dataclass(frozen=True)
+class Profile:
+    """The sum of shapes; without any, a plain face or cylinder."""
+
+    shapes: tuple[Shape, ...] = ()
+
+    @property
+    def knees(self) -> tuple[float, ...]:
+        """Places (m) at which depth or slope jump, rising."""
+        return tuple(sorted({knee for shape in self.shapes for knee in shape.knees}))
+
+    def __call__(self, place: Array, angle: Array) -> Relief:
+        """Depth and slopes of all shapes together."""
+        total = _level(place)
+        for shape in self.shapes:
+            total = Relief(*(a + b for a, b in zip(total, shape(place, angle), strict=True)))
+        return total
+
+
+PLAIN = Profile()
+"""Nothing taken off."""
+
+
+class _Smooth:
+    """A shape without knees."""
+
+    @property
+    def knees(self) -> tuple[float, ...]:
+        """None."""
+        return ()
+
+
+@dataclass(frozen=True)
+class Barrel(_Smooth):
+    """A parabola over a length (m) from place 0, `height` (m) taken off at both ends and nothing in the middle."""
+
+    length: float
+    height: float
+
+    def __post_init__(self) -> None:
+        require_positive("barrel", length=self.length)
+
+    def __call__(self, place: Array, angle: Array) -> Relief:
+        from_middle = 2.0 * place / self.length - 1.0
+        flat = _level(place)
+        return Relief(self.height * from_middle**2, 4.0 * self.height / self.length * from_middle, flat.around)
+
+
+@dataclass(frozen=True)
+class Crown(_Smooth):
+    """A face domed as a parabola: `height` (m) taken off at `radius` (m), nothing in the centre.
+
+    A negative height makes it dished.
+    """
+
+    radius: float
+    height: float
+
+    def __post_init__(self) -> None:
+        require_positive("crown", radius=self.radius)
+
+    def __call__(self, place: Array, angle: Array) -> Relief:
+        share = place / self.radius
+        return Relief(self.height * share**2, 2.0 * self.height / self.radius * share, np.zeros(np.shape(place)))
+
+
+@dataclass(frozen=True)
+class EdgeRelief(_Smooth):
+    """An edge at a place (m) taken back by `depth` (m), falling to nothing at `end` (m) as a parabola.
+
+    depth ((x - end)/(edge - end))^2 from `end` to the edge and beyond it: depth and slope run on at `end`, where
+    the curvature jumps. `end` lies on the part's side of the edge, either way.
+    """
+
+    edge: float
+    end: float
+    depth: float
+
+    def __post_init__(self) -> None:
+        if not (np.isfinite(self.edge) and np.isfinite(self.end) and self.edge != self.end):
+            raise FilmInputError("edge relief", f"from {self.end:g} to {self.edge:g} m", "two places apart")
+
+    def __call__(self, place: Array, angle: Array) -> Relief:
+        share = np.maximum((place - self.end) / (self.edge - self.end), 0.0)
+        slope = 2.0 * self.depth / (self.edge - self.end) * share
+        return Relief(self.depth * share**2, slope, np.zeros(np.shape(place)))
+
+
+@dataclass(frozen=True)
+class RingGroove:
+    """A groove with upright sides around a part: its middle, width and depth (m). Its depth jumps at its sides."""
+
+    middle: float
+    width: float
+    depth: float
+
+    def __post_init__(self) -> None:
+        require_positive("ring groove", width=self.width, depth=self.depth)
+
+    @property
+    def knees(self) -> tuple[float, ...]:
+        """Both sides (m)."""
+        return self.middle - 0.5 * self.width, self.middle + 0.5 * self.width
+
+    def __call__(self, place: Array, angle: Array) -> Relief:
+        flat = _level(place)
+        within_it = np.abs(place - self.middle) < 0.5 * self.width
+        return Relief(np.where(within_it, self.depth, 0.0), flat.along, flat.around)
+
+
+@dataclass(frozen=True)
+class Waviness(_Smooth):
+    """Waves around a part: amplitude cos(waves (angle - crest)), m, half of peak to peak; mean depth zero.
+
+    `crest` (rad) is an angle at which most is taken off.
+    """
+
+    waves: int
+    amplitude: float
+    crest: float = 0.0
+
+    def __post_init__(self) -> None:
+        require_positive("waviness", waves=self.waves)
+
+    def __call__(self, place: Array, angle: Array) -> Relief:
+        phase = self.waves * (np.broadcast_to(angle, np.shape(place)) - self.crest)
+        flat = np.zeros(np.shape(place))
+        return Relief(self.amplitude * np.cos(phase), flat, -self.waves * self.amplitude * np.sin(phase))
+
+
+@dataclass(frozen=True)
+class Points:
+    """Measured depths (m) at rising places (m), straight in between: the slope jumps at each.
+
+    Raises FilmInputError for places that do not rise, and, when asked, beyond the first and last of them: what was
+    not measured is not known.
+    """
+
+    places: tuple[float, ...]
+    depths: tuple[float, ...]
+
+    def __post_init__(self) -> None:
+        _check_rising("profile, places", np.array(self.places))
+        _check_table("profile, depths", np.array(self.depths), (len(self.places),))
+
+    @property
+    def knees(self) -> tuple[float, ...]:
+        """All places but the ends."""
+        return self.places[1:-1]
+
+    def __call__(self, place: Array, angle: Array) -> Relief:
+        places, depths = np.array(self.places), np.array(self.depths)
+        cell, share = _cell_of("profile, place", places, place)
+        slope = np.diff(depths) / np.diff(places)
+        return Relief(depths[cell] + share * np.diff(depths)[cell], slope[cell], np.zeros(np.shape(place)))
+
+
+@dataclass(frozen=True)
+class PointsAround:
+    """Measured depths (m) on a net of rising places (m) and rising angles (rad) within one turn: a worn surface.
+
+    depths[i][j] at place i and angle j; bilinear in between and closed around. Raises as `Points`, and for angles
+    that span a turn or more.
+    """
+
+    places: tuple[float, ...]
+    angles: tuple[float, ...]
+    depths: tuple[tuple[float, ...], ...]
+
+    def __post_init__(self) -> None:
+        _check_rising("profile, places", np.array(self.places))
+        _check_rising("profile, angles", np.array(self.angles))
+        if self.angles[-1] - self.angles[0] >= 2.0 * np.pi:
+            span = f"{np.degrees(self.angles[-1] - self.angles[0]):g} deg"
+            raise FilmInputError("profile, angles", span, "less than a turn; it closes by itself")
+        _check_table("profile, depths", np.array(self.depths), (len(self.places), len(self.angles)))
+
+    @property
+    def knees(self) -> tuple[float, ...]:
+        """All places but the ends."""
+        return self.places[1:-1]
+
+    def __call__(self, place: Array, angle: Array) -> Relief:
+        places = np.array(self.places)
+        angles = np.append(self.angles, self.angles[0] + 2.0 * np.pi)
+        depths = np.array(self.depths)[:, [*range(len(self.angles)), 0]]
+        turned = angles[0] + (np.broadcast_to(angle, np.shape(place)) - angles[0]) % (2.0 * np.pi)
+        i, u = _cell_of("profile, place", places, place)
+        j, v = _cell_of("profile, angle", angles, np.minimum(turned, angles[-1]))
+        one, two, three, four = depths[i, j], depths[i + 1, j], depths[i, j + 1], depths[i + 1, j + 1]
+        depth = (1 - u) * ((1 - v) * one + v * three) + u * ((1 - v) * two + v * four)
+        along = ((1 - v) * (two - one) + v * (four - three)) / np.diff(places)[i]
+        around = ((1 - u) * (three - one) + u * (four - two)) / np.diff(angles)[j]
+        return Relief(depth, along, around)
+
+
+def ring_grooves(grooves: Iterable[tuple[float, float, float]]) -> Profile:
+    """A profile of ring grooves given by middle, width and depth (m)."""
+    return Profile(tuple(RingGroove(*groove) for groove in grooves))
+
+
+def _level(place: Array) -> Relief:
+    return Relief(*(np.zeros(np.shape(place)) for _ in range(3)))
+
+
+def _cell_of(where: str, knots: Array, found: Array) -> tuple[NDArray[np.int64], Array]:
+    """Number of the interval of each value, and how far into it (0 .. 1); raises beyond the ends."""
+    unit = "m" if "place" in where else "rad"
+    slack = 1e-9 * (knots[-1] - knots[0])  # a mesh's last line, not another place
+    values = within(
+        where, found, knots[0] - slack, knots[-1] + slack, unit, "measured points over all of the part"
+    )
+    cell = np.clip(np.searchsorted(knots, values, side="right") - 1, 0, len(knots) - 2)
+    return cell, (values - knots[cell]) / np.diff(knots)[cell]
+
+
+def _check_rising(where: str, knots: Array) -> None:
+    if len(knots) < 2 or not np.isfinite(knots).all() or not (np.diff(knots) > 0.0).all():
+        raise FilmInputError(where, f"{knots.tolist()}", "two or more that rise")
+
+
+def _check_table(where: str, table: Array, shape: tuple[int, ...]) -> None:
+    if table.shape != shape or not np.isfinite(table).all():
+        raise FilmInputError(where, f"an array of shape {table.shape}", f"{shape} numbers of metres")
