@@ -1,0 +1,224 @@
+"""A floating film tried at one position: forces that are to balance there, and their exact slopes."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from reynolds.contact import LOWEST_RATIO
+from reynolds.errors import FilmInputError, FilmNotConverged
+from reynolds.film import LEAST_FRACTION, Boundary, FilmProblem, FilmSolution, Pocket, Storage
+from reynolds.floating import Floating, Outer
+from reynolds.generalised import ContactForce, Modes, contact_force, generalised_force, modes_on
+from reynolds.mesh import Array
+from reynolds.overlap import film_between
+from reynolds.sensitivity import Response, oil_slopes, response, thickness_load
+from reynolds.solve import FilmSolver
+from reynolds.transient import from_last_or_anew
+
+LEAST_SHARE = 0.2  # of the least gap that a step may leave
+DEEPEST = 3.0  # standard deviations of the summits by which a step may press the walls together
+SOLID = 1.0 - 1e-6  # of the overlap at which the law of contact ends
+
+
+@dataclass(frozen=True)
+class Kept:
+    """What a floating film carries on from one step to the next.
+
+    oil (size,) m3 at reference density, position q (k,) m and, where the walls have inertia, rate dq/dt (k,) m/s;
+    also changes of them, (size, m) and so on.
+    """
+
+    oil: Array
+    position: Array
+    rate: Array
+
+
+def joined(floating: Floating, held: Kept) -> Array:
+    """All that is carried on as one vector, or its changes as columns."""
+    parts = [held.oil, held.position] if floating.inertia is None else [held.oil, held.position, held.rate]
+    return np.concatenate(parts)
+
+
+def parted(floating: Floating, held: Array, size: int) -> Kept:
+    """What `joined` has joined, for a film of so many unknowns."""
+    k = len(held) - size if floating.inertia is None else (len(held) - size) // 2
+    oil, position, rate = held[:size], held[size : size + k], held[size + k :]
+    return Kept(oil, position, np.zeros_like(position) if floating.inertia is None else rate)
+
+
+@dataclass(frozen=True)
+class Trial:
+    """A film at a position q (k,) m and rate m/s over the step.
+
+    gap (cells, points) m between the mean planes; thicker (cells, points, k): growth of the film by q; film_force
+    Q (k,) N without contact; missing (k,) N: what is left of the balance, and `size` (k,) N, the magnitudes in it.
+    """
+
+    q: Array
+    rate: Array
+    gap: Array
+    least: float
+    thicker: Array
+    solution: FilmSolution
+    film_force: Array
+    contact: ContactForce | None
+    outer: Outer
+    missing: Array
+    size: Array
+
+    @property
+    def missed(self) -> float:
+        """Largest imbalance over the magnitudes that balance."""
+        return float(np.max(np.abs(self.missing) / np.maximum(self.size, 1e-300)))
+
+
+@dataclass(frozen=True)
+class Instant:
+    """A floating film at a time (s): its shape, and what it held one implicit step (s) before."""
+
+    solver: FilmSolver
+    floating: Floating
+    time: float
+    step: float
+    shape: FilmProblem
+    modes: Modes
+    before: Kept
+
+    def tried(self, q: Array, warm: FilmSolution | None) -> Trial:
+        """The film at a position; raises FilmNotConverged where walls overlap or the film does not settle."""
+        problem, gap, least, thicker = posed(self.shape, self.modes, q)
+        if not least > lowest_gap(self.shape):
+            raise FilmNotConverged(f"walls that overlap by {-least:.3g} m", "a shorter step")
+        boundary = self._with_volumes(q)
+        problem = replace(problem, boundary=boundary, storage=Storage(self.before.oil, self.step))
+        solution = from_last_or_anew(lambda last: self.solver.solve(problem, last), warm)
+        rate = (q - self.before.position) / self.step
+        return self._balanced(q, rate, gap, least, thicker, solution)
+
+    def _with_volumes(self, q: Array) -> dict[str, Boundary]:
+        """The boundaries, pockets fed with what their growing volume takes."""
+        boundary = dict(self.shape.boundary)
+        for name, area in self.floating.pockets.items():
+            condition = boundary.get(name)
+            if not isinstance(condition, Pocket):
+                found = f"{type(condition).__name__} at boundary {name}"
+                raise FilmInputError(f"{self.floating.name}, pockets", found, "a Pocket")
+            taken = float(area @ (q - self.before.position)) / self.step
+            boundary[name] = Pocket(_less(condition.feed, taken))
+        return boundary
+
+    def _balanced(
+        self, q: Array, rate: Array, gap: Array, least: float, thicker: Array, solution: FilmSolution
+    ) -> Trial:
+        reference, asperities = self.floating.reference, self.shape.asperities
+        force = generalised_force(solution.pressure, self.modes, reference)
+        size = np.abs(solution.pressure - reference) @ np.abs(self.modes.weights)
+        outer = self.floating.outer_at(self.time, q, rate)
+        missing, size = force + outer.force, size + np.abs(outer.force)
+        contact = None if asperities is None else contact_force(asperities, gap, self.modes)
+        if contact is not None:
+            missing, size = missing + contact.force, size + contact.size
+        if self.floating.inertia is not None:
+            pushed = self.floating.inertia @ (rate - self.before.rate) / self.step
+            missing, size = missing - pushed, size + np.abs(pushed)
+        return Trial(q, rate, gap, least, thicker, solution, force, contact, outer, missing, size)
+
+    def allowed(self, least: float) -> float:
+        """The least gap (m) that a step from a least gap may lead to."""
+        asperities = self.shape.asperities
+        if self.shape.walls is not None:
+            return -np.inf
+        if asperities is None:
+            return LEAST_SHARE * least
+        return min(LEAST_SHARE * least, least - DEEPEST * asperities.height)
+
+    def by_position(self, at: Trial) -> Response:
+        """How the film at a position answers to it, on the film's last factor."""
+        load = thickness_load(at.solution, at.thicker) + self.modes.pockets / self.step
+        return response(self.solver, at.solution, -load)
+
+    def slopes(self, at: Trial, film: Response) -> Array:
+        """d missing/dq, (k, k) N/m."""
+        total = self.modes.weights.T @ film.pressure + at.outer.by_position + at.outer.by_rate / self.step
+        if at.contact is not None:
+            total = total + at.contact.slopes
+        if self.floating.inertia is not None:
+            total = total - self.floating.inertia / self.step**2
+        return np.asarray(total)
+
+    def by_before(self, at: Trial, changed: Kept) -> tuple[Response, Array]:
+        """Change of the film and of `missing` (k, m) with what was held before, the position as it is."""
+        film = response(
+            self.solver, at.solution, (changed.oil + self.modes.pockets @ changed.position) / self.step
+        )
+        missing = self.modes.weights.T @ film.pressure - at.outer.by_rate @ changed.position / self.step
+        if self.floating.inertia is not None:
+            missing += self.floating.inertia @ (changed.position / self.step + changed.rate) / self.step
+        return film, missing
+
+    def onward(self, at: Trial, changed: Kept) -> Kept:
+        """Change of what is held at the end of the step with what was held before it, balance kept."""
+        film, missing = self.by_before(at, changed)
+        own = self.by_position(at)
+        q = -solved(self.slopes(at, own), missing, self.floating.name)
+        both = Response(film.pressure + own.pressure @ q, film.film_fraction + own.film_fraction @ q)
+        oil = oil_slopes(at.solution, at.thicker @ q, both)
+        return Kept(oil, q, (q - changed.position) / self.step)
+
+
+def instant_of(solver: FilmSolver, floating: Floating, time: float, step: float, held: Array) -> Instant:
+    """The floating film at the end of a step; raises FilmNotConverged where less than no oil was held before."""
+    shape = floating.shape_at(time)
+    modes = modes_on(shape.space, floating.modes_at(time), floating.pockets)
+    before = parted(floating, held, shape.space.size)
+    if shape.walls is not None and shape.asperities is not None:
+        found = "walls that give way and asperities"
+        raise FilmInputError(floating.name, found, "one of them: contact between elastic walls is not floated")
+    if not before.oil.min() >= LEAST_FRACTION * before.oil.max():
+        raise FilmNotConverged(
+            f"{floating.name}: {before.oil.min():.3g} m3 of oil left in a cavity between two stages",
+            "a shorter step, or implicit Euler",
+        )
+    return Instant(solver, floating, time, step, shape, modes, before)
+
+
+def posed(shape: FilmProblem, modes: Modes, q: Array) -> tuple[FilmProblem, Array, float, Array]:
+    """The film at a position: its problem, gap (cells, points) m, least gap m, and growth (cells, points, k)."""
+    gap = shape.film.thickness + modes.at_points @ q
+    between, corners = film_between(shape, gap), shape.film.thickness_at_vertices
+    least = float(gap.min())
+    if corners is not None:
+        corners = corners + modes.at_vertices @ q
+        least = min(least, float(corners.min()))
+        corners = film_between(shape, corners).value
+    film = replace(shape.film, thickness=between.value, thickness_at_vertices=corners)
+    thicker = np.ascontiguousarray(between.slope[:, :, None] * modes.at_points)
+    return replace(shape, film=film, asperities=None), gap, least, thicker
+
+
+def lowest_gap(shape: FilmProblem) -> float:
+    """The gap (m) above which walls are apart: zero, or where the law of contact ends."""
+    if shape.walls is not None:
+        return -np.inf
+    if shape.asperities is None:
+        return 0.0
+    return shape.asperities.summit_height + SOLID * LOWEST_RATIO * shape.asperities.height
+
+
+def solved(slopes: Array, load: Array, name: str) -> Array:
+    """x with slopes x = load; raises FilmNotConverged where no force resists a motion."""
+    try:
+        return np.asarray(np.linalg.solve(slopes, load))
+    except np.linalg.LinAlgError:
+        raise FilmNotConverged(f"{name}: no force resists some motion of the walls", "a shorter step") from None
+
+
+def _less(feed: Callable[[float], tuple[float, float]], taken: float) -> Callable[[float], tuple[float, float]]:
+    def less(pressure: float) -> tuple[float, float]:
+        inflow, slope = feed(pressure)
+        return inflow - taken, slope
+
+    return less

@@ -1,0 +1,199 @@
+"""One implicit step of a floating film: the position at which its forces balance, by Newton's method."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from reynolds.errors import FilmInputError, FilmNotConverged
+from reynolds.film import FilmSolution
+from reynolds.floating import Floating, Outer
+from reynolds.floating_instant import (
+    Instant,
+    Kept,
+    Trial,
+    instant_of,
+    joined,
+    lowest_gap,
+    parted,
+    posed,
+    solved,
+)
+from reynolds.generalised import modes_on
+from reynolds.mesh import Array
+from reynolds.solve import FilmSolver
+from reynolds.transient import oil_held
+
+TOLERANCE = 1e-8  # of the magnitudes that balance in a generalised force
+GOOD_ENOUGH = 1e-6  # where no step comes nearer to balance: round-off of the film's pressures
+MOST_STEPS = 40
+MOST_HALVINGS = 12
+LEAST_GAIN = 1e-4  # of the imbalance, by a full step
+
+
+@dataclass(frozen=True)
+class Stage:
+    """A floating film at the end of an implicit step: a `Stage` as `dirk` has them.
+
+    films: solved on the way; steps: of Newton's method.
+    """
+
+    time: float
+    trial: Trial = field(repr=False)
+    instant: Instant = field(repr=False)
+    films: int
+    steps: int
+
+    @property
+    def q(self) -> Array:
+        """Position (k,), m."""
+        return self.trial.q
+
+    @property
+    def solution(self) -> FilmSolution:
+        """The film, with its storage."""
+        return self.trial.solution
+
+    @property
+    def gap(self) -> Array:
+        """Distance of the mean planes at the quadrature points (cells, points), m; before walls give way."""
+        return self.trial.gap
+
+    @property
+    def least_gap(self) -> float:
+        """Least distance of the mean planes, m."""
+        return self.trial.least
+
+    @property
+    def film_force(self) -> Array:
+        """Q without contact, (k,) N."""
+        return self.trial.film_force
+
+    @property
+    def contact_force(self) -> Array:
+        """Share of the asperities in Q, (k,) N."""
+        contact = self.trial.contact
+        return np.zeros(len(self.q)) if contact is None else contact.force
+
+    @property
+    def outer(self) -> Outer:
+        """P and its slopes."""
+        return self.trial.outer
+
+    @property
+    def holds(self) -> Array:
+        """What is carried on, one vector: oil (size,) m3, q (k,) m and, with inertia, dq/dt (k,) m/s."""
+        return joined(self.instant.floating, Kept(self.solution.holds, self.q, self.trial.rate))
+
+    @property
+    def force_slopes(self) -> Array:
+        """d(Q + P - M q'')/dq over the step, (k, k) N/m: stiffness and, by the step, damping."""
+        return self.instant.slopes(self.trial, self.instant.by_position(self.trial))
+
+    def carried(self, before: Array) -> tuple[Array, Array]:
+        """Change of q (k, m) and of `holds` (held, m) for changes (held, m) of what was held before.
+
+        Exact for the cavity as it is; costs k + m right-hand sides on the film's last factor, and a new factor
+        where the solver has solved another film since.
+        """
+        floating = self.instant.floating
+        after = self.instant.onward(self.trial, parted(floating, before, self.solution.problem.space.size))
+        return after.position, joined(floating, after)
+
+
+def solve_stage(
+    solver: FilmSolver,
+    floating: Floating,
+    time: float,
+    before: Array,
+    step: float,
+    guess: Array,
+    last: Stage | None,
+) -> Stage:
+    """The position at `time` (s), one implicit step (s) after `before` was held.
+
+    Afterwards the generalised forces balance to 1e-8 of the magnitudes that meet there (1e-6 where the film's
+    round-off allows no less). Newton's method starts at `guess` (k,) m, or where that leaves no film, at the
+    position before; `last` warms the film. A Newton step is halved until it leaves a fifth of the least gap, or
+    presses rough walls by three standard deviations at most, and brings the forces nearer to balance. Raises
+    FilmNotConverged where that leads nowhere, so that a shorter step may; FilmInputError as the film does.
+    `functools.partial(solve_stage, solver, floating)` is a `dirk.StageSolver`.
+    """
+    instant = instant_of(solver, floating, time, step, before)
+    search = _Search(instant, None if last is None else last.solution)
+    at = search.first(guess)
+    for steps in range(MOST_STEPS):
+        if at.missed <= TOLERANCE:
+            return Stage(time, at, instant, search.films, steps)
+        new = search.downhill(at)
+        if new is None and at.missed <= GOOD_ENOUGH:
+            return Stage(time, at, instant, search.films, steps)
+        if new is None:
+            break
+        at = new
+    raise FilmNotConverged(
+        f"{floating.name} at {time:.6g} s: forces out of balance by {at.missed:.2g}, least gap {at.least:.3g} m "
+        f"({search.why})",
+        "a shorter step, or less load",
+    )
+
+
+def standing(floating: Floating, time: float, q: Array, rate: Array | None = None) -> Array:
+    """What a full film at a position (k,) m holds, as `Stage.holds`: the start of a march.
+
+    The film is at the pressures of its boundaries; `rate` (k,) m/s counts where walls have inertia (None: at
+    rest). Raises FilmInputError where walls overlap.
+    """
+    shape = floating.shape_at(time)
+    problem, _, least, _ = posed(shape, modes_on(shape.space, floating.modes_at(time), floating.pockets), q)
+    if not least > lowest_gap(shape):
+        raise FilmInputError(f"{floating.name} at {time:.6g} s", f"a least gap of {least:.3g} m", "walls apart")
+    return joined(floating, Kept(oil_held(problem), q, np.zeros(len(q)) if rate is None else rate))
+
+
+class _Search:
+    """Films tried at one instant, each warming the next."""
+
+    def __init__(self, instant: Instant, warm: FilmSolution | None) -> None:
+        self.instant, self._warm = instant, warm
+        self.films, self.why = 0, "after the most steps"
+
+    def at(self, q: Array) -> Trial | None:
+        """The film there, None where there is none."""
+        self.films += 1
+        try:
+            found = self.instant.tried(q, self._warm)
+        except FilmNotConverged as reason:
+            self.why = reason.what
+            return None
+        self._warm = found.solution
+        return found
+
+    def first(self, guess: Array) -> Trial:
+        """The film at the guess, else at the position before."""
+        found = self.at(guess)
+        if found is None and not np.array_equal(guess, self.instant.before.position):
+            found = self.at(self.instant.before.position)
+        if found is None:
+            name = self.instant.floating.name
+            raise FilmNotConverged(f"{name} at {self.instant.time:.6g} s: {self.why}", "a shorter step")
+        return found
+
+    def downhill(self, at: Trial) -> Trial | None:
+        """The film one Newton step on, cut back until it is nearer to balance; None where no share is."""
+        instant = self.instant
+        slopes = instant.slopes(at, instant.by_position(at))
+        step = -solved(slopes, at.missing, instant.floating.name)
+        size = np.maximum(at.size, 1e-300)
+        before = float(np.max(np.abs(at.missing) / size))
+        self.why = "no step comes nearer to balance"
+        for halvings in range(MOST_HALVINGS):
+            share = 0.5**halvings
+            q = at.q + share * step
+            if posed(instant.shape, instant.modes, q)[2] < instant.allowed(at.least):
+                continue
+            new = self.at(q)
+            if new is not None and float(np.max(np.abs(new.missing) / size)) < (1.0 - LEAST_GAIN * share) * before:
+                return new
+        return None

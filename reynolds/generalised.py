@@ -1,0 +1,97 @@
+"""Generalised coordinates of a film: h = shape + sum_j q_j phi_j, and the force that works on each of them.
+
+q_j in m, phi_j without unit (a tilt counts as the rise over a reference radius), so that every force
+Q_j = int (p - p_reference + p_contact) phi_j dA is in N and Q_j dq_j is work.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from reynolds import generalised_kernels as kernels
+from reynolds.contact import Asperities, contact_pressure
+from reynolds.errors import FilmInputError
+from reynolds.mesh import Array
+from reynolds.space import FilmSpace
+
+
+@dataclass(frozen=True)
+class Modes:
+    """The modes phi_j of one space.
+
+    at_vertices (vertices, k); at_points (cells, points, k), interpolated between the vertices; pockets (size, k)
+    m2: by how much the volume of a pocket grows with each coordinate beyond the film, at the pocket's unknown.
+    """
+
+    space: FilmSpace
+    at_vertices: Array
+    pockets: Array
+
+    @cached_property
+    def at_points(self) -> Array:
+        """The modes at the quadrature points, (cells, points, k)."""
+        return np.ascontiguousarray(self.space.reference.geometry_value @ self.at_vertices[self.space.cells])
+
+    @cached_property
+    def weights(self) -> Array:
+        """int f_i phi_j and the pockets' areas, (size, k) m2: Q by nodal pressure."""
+        space, out = self.space, np.empty(self.pockets.shape)
+        kernels.weigh(space.dofs, space.reference.value, space.area, self.at_points, *space.reference.loops, out)
+        return out + self.pockets
+
+
+def modes_on(space: FilmSpace, at_vertices: Array, pockets: Mapping[str, Array] | None = None) -> Modes:
+    """Modes given at the vertices (vertices, k).
+
+    `pockets` gives, by the name of a pocket of the space, the area (k,) m2 by which its volume grows with each
+    coordinate: of a slipper's pocket pi r^2 for the lift. Raises FilmInputError for modes of another mesh or no
+    numbers, and for a name that is no pocket.
+    """
+    if at_vertices.ndim != 2 or len(at_vertices) != len(space.vertices) or not np.isfinite(at_vertices).all():
+        found = f"an array of shape {at_vertices.shape}"
+        raise FilmInputError("modes", found, f"({len(space.vertices)} vertices, k) finite numbers")
+    grown = np.zeros((space.size, at_vertices.shape[1]))
+    for name, area in (pockets or {}).items():
+        nodes = space.edge_dofs.get(name)
+        if nodes is None or len(nodes) != 1:
+            raise FilmInputError(
+                f"pocket {name} of the modes", "no pocket of this space", "film_space(pockets=...)"
+            )
+        grown[nodes[0]] += area
+    return Modes(space, np.ascontiguousarray(at_vertices, dtype=float), grown)
+
+
+def generalised_force(pressure: Array, modes: Modes, reference: float) -> Array:
+    """Q_j = int (p - p_reference) phi_j dA with the pockets' push, (k,) N, of nodal pressures (size,) Pa.
+
+    Positive where it opens the film along the mode; in a cavity p is the cavitation pressure.
+    """
+    return np.asarray((pressure - reference) @ modes.weights)
+
+
+@dataclass(frozen=True)
+class ContactForce:
+    """What touching asperities add: force (k,) N, its slopes by position (k, k) N/m, its magnitudes (k,) N."""
+
+    force: Array
+    slopes: Array
+    size: Array
+
+
+def contact_force(asperities: Asperities, gap: Array, modes: Modes) -> ContactForce:
+    """int p_c(gap) phi_j dA and its slopes int p_c' phi_i phi_j dA, the walls rigid.
+
+    `gap` (cells, points) m is the distance of the mean planes, which may overlap down to the limit of
+    `contact_pressure`; raises as that does. Source: Greenwood and Tripp 1970-71.
+    """
+    bears, phi = contact_pressure(asperities, gap), modes.at_points
+    area = modes.space.area
+    slopes = np.einsum("eq,eqi,eqj->ij", area * bears.slope, phi, phi, optimize=True)
+    weighted = area * bears.value
+    return ContactForce(
+        np.einsum("eq,eqj->j", weighted, phi), slopes, np.einsum("eq,eqj->j", weighted, np.abs(phi))
+    )
