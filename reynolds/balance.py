@@ -213,7 +213,8 @@ def flow_balance(problem: FilmProblem, parts: Operators, state: State) -> Balanc
         if level.min() < level.max():
             kernels.exchange(pattern.indptr, pattern.indices, parts.diffusion, level, mixed, meeting)
             net += mixed
-    kernels.exchange(pattern.indptr, pattern.indices, parts.stiffness, state.pressure, net, meeting)
+    if state.pressure.min() < state.pressure.max():
+        kernels.exchange(pattern.indptr, pattern.indices, parts.stiffness, state.pressure, net, meeting)
     if problem.storage is not None:
         before = problem.storage.held_before / problem.storage.step
         net -= before

@@ -15,6 +15,7 @@ from scipy.sparse import csc_array
 
 from reynolds import carried_kernels as kernels
 from reynolds.grid import Grid
+from reynolds.kernels import norm
 from reynolds.mesh import Array
 from reynolds.multigrid import Effort, Multigrid
 from reynolds.triangles import both_triangles
@@ -64,7 +65,7 @@ class CarriedFilm:
 
     def solve(self, load: Array, tolerance: float) -> tuple[Array, Effort]:
         """x with |A x - load| <= tolerance |load|, (n,), or as near as ROUNDS of GMRES come."""
-        size = float(np.sqrt(np.sum(load * load)))
+        size = norm(load)
         answer = np.zeros(len(load))
         if size == 0.0:
             return answer, Effort(0, 0.0)

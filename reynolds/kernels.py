@@ -252,6 +252,15 @@ def gather(indptr, indices):
     return gathered
 
 
+@njit(**_FAST | {"fastmath": {"contract", "reassoc"}})
+def norm(vector):
+    """Euclidean norm, without the threads of a BLAS library, which cost more than they bring here."""
+    total = 0.0
+    for k in range(vector.shape[0]):
+        total += vector[k] * vector[k]
+    return np.sqrt(total)
+
+
 @njit(**_FAST)
 def find_slots(indptr, indices, row, column, slots):
     """Fill slots[cell, entry] with where (row, column) stands in sorted CSC indices, by bisection."""

@@ -19,6 +19,7 @@ from scipy.sparse.linalg import SuperLU, splu
 from reynolds.carried import CarriedFilm
 from reynolds.errors import FilmNotConverged
 from reynolds.grid import Grid
+from reynolds.kernels import norm
 from reynolds.mesh import Array
 from reynolds.multigrid import Multigrid
 from reynolds.triangles import BothTriangles, both_triangles
@@ -29,11 +30,6 @@ ITERATIVE_TOLERANCE = 1e-11
 STALLED = 1e3  # times the tolerance: what round-off may leave; beyond, the next rung of the ladder
 ROUND_OFF = 1e-13  # of the answer, in units of the scaled matrix
 GENERAL_TOLERANCE = 1e-10  # residual over load beyond which an elimination without pivots is done again with them
-
-
-def _norm(vector: Array) -> float:
-    """Euclidean norm, without the threads of a BLAS library, which cost more than they bring here."""
-    return float(np.sqrt(np.sum(vector * vector)))
 
 
 class Factor:
@@ -68,8 +64,9 @@ class Factor:
         if self._on_grid is not None:
             answer, effort = self._on_grid.solve(load, tolerance)
             # Entries are of order one: no answer leaves less than round-off of itself, however small the load.
-            lost = ROUND_OFF * float(_norm(answer))
-            if effort.left * _norm(load) <= max(STALLED * ITERATIVE_TOLERANCE, tolerance) * _norm(load) + lost:
+            lost = ROUND_OFF * norm(answer)
+            size = norm(load)
+            if effort.left * size <= max(STALLED * ITERATIVE_TOLERANCE, tolerance) * size + lost:
                 return answer
             self._leave_grid()
             self._off_grid(self._upper)
@@ -114,8 +111,8 @@ def multigrid(upper: csc_array, max_coarse: int = 10) -> tuple[csr_array, Any]:
 def _conjugate_gradients(matrix: csr_array, hierarchy: Any, load: Array) -> tuple[Array, bool]:
     """The solution, and whether its residual came down to near ITERATIVE_TOLERANCE of the load."""
     answer = hierarchy.solve(load, tol=ITERATIVE_TOLERANCE, accel="cg", maxiter=200)
-    reached = float(_norm(load - matrix @ answer))
-    return answer, reached <= STALLED * ITERATIVE_TOLERANCE * float(_norm(load))
+    reached = norm(load - matrix @ answer)
+    return answer, reached <= STALLED * ITERATIVE_TOLERANCE * norm(load)
 
 
 class GeneralFactor:
@@ -220,7 +217,7 @@ def _refined(lu: SuperLU | None, matrix: csc_array, load: Array) -> tuple[Array,
         return load, False
     answer = lu.solve(load)
     answer += lu.solve(load - matrix @ answer)
-    left = float(_norm(load - matrix @ answer))
+    left = norm(load - matrix @ answer)
     # The rows are of order one: a backward stable answer leaves round-off of itself, however small the load.
-    allowed = GENERAL_TOLERANCE * _norm(load) + ROUND_OFF * _norm(answer)
+    allowed = GENERAL_TOLERANCE * norm(load) + ROUND_OFF * norm(answer)
     return answer, bool(left <= allowed)
