@@ -1,0 +1,233 @@
+"""The piston that floats in its bore: film, motion and forces by its eccentricities at both ends of the guide.
+
+Film plane: x = radius x angle in [0, pi d), sewn; y along the bore's axis out of the block, from the guide's inner
+end (0) to its case edge (guide_length). Angle 0 points to the inner dead centre's side; the plane does not turn
+with the block, so that bore and piston both spin in it. Coordinates q = (ex0, ey0, ex1, ey1), m: the eccentricity
+of the piston's axis at two stations fixed in the bore, the guide's inner end (0) and its case edge (1). With s the
+depth inside the case edge, s = guide_length - y,
+
+    h = c + bore(s) + piston(depth from its end) - e(s) . (cos, sin),   e(s) = e1 + (e0 - e1) s/guide_length.
+
+The mesh spans what is engaged and stretches as the piston moves; wall velocities are relative to it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from gaps.course import OverTurn
+from gaps.physics import FilmLaws, Physics, laws_left
+from gaps.profiles import PLAIN, Profile
+from reynolds.errors import FilmInputError
+from reynolds.film import ZERO, Film, FilmProblem, FilmSolution, Held
+from reynolds.floating import Floating, Outer, steady
+from reynolds.laws import require_positive
+from reynolds.loads import point_fields
+from reynolds.mesh import Array, Cell, rectangle, rename
+from reynolds.space import FilmSpace, film_space
+
+
+@dataclass(frozen=True)
+class PistonShape:
+    """Piston diameter, radial clearance and guide length in the bore (m), and what is taken off either part.
+
+    `piston` counts places from the piston's chamber end, `bore` from the guide's case edge inwards.
+    """
+
+    diameter: float
+    radial_clearance: float
+    guide_length: float
+    piston: Profile = PLAIN
+    bore: Profile = PLAIN
+
+    def __post_init__(self) -> None:
+        require_positive(
+            "piston", diameter=self.diameter, clearance=self.radial_clearance, guide_length=self.guide_length
+        )
+
+
+@dataclass(frozen=True)
+class PistonDrive:
+    """What drives a piston over the turn, SI.
+
+    shaft_speed rad/s; viscosity Pa s and pressures Pa; spins rad/s of piston and bore about the bore's axis in the
+    frame that does not turn. Over the shaft angle: chamber_pressure Pa; reach m, how far inside the case edge the
+    piston's end stands; velocity m/s of the piston out of the block, -d reach/dt; outer (4,) N, the generalised
+    forces of all but the film (`lateral_force`, `lateral_moment`).
+    """
+
+    shaft_speed: float
+    viscosity: float
+    case_pressure: float
+    cavitation_pressure: float
+    piston_spin: float
+    bore_spin: float
+    chamber_pressure: OverTurn
+    reach: OverTurn
+    velocity: OverTurn
+    outer: OverTurn
+
+
+def lateral_force(guide_length: float, depth: float, force: Array) -> Array:
+    """Generalised forces (4,) N of a force (2,) N across the bore on the piston, `depth` (m) inside the case edge.
+
+    P0 = G s/Lg, P1 = G (1 - s/Lg): a force outside the guide (s < 0) pulls its ends opposite ways.
+    """
+    share = depth / guide_length
+    return np.concatenate([share * np.asarray(force), (1.0 - share) * np.asarray(force)])
+
+
+def lateral_moment(guide_length: float, moment: Array) -> Array:
+    """Generalised forces (4,) N of a moment (2,) N m on the piston, about axes across the bore.
+
+    P0 = a x M/Lg = -P1, a the bore's axis out of the block.
+    """
+    couple = np.array([-moment[1], moment[0]]) / guide_length
+    return np.concatenate([couple, -couple])
+
+
+@dataclass(frozen=True)
+class PistonFriction:
+    """What a film does to its piston besides bearing it.
+
+    force N along the bore, out of the block; torque N m about its axis; moment (2,) N m of the axial shear about
+    axes across the bore; power W, what piston and bore spend on shearing the film.
+    """
+
+    force: float
+    torque: float
+    moment: Array
+    power: float
+
+
+class PistonFilm:
+    """Films of one floating piston on one mesh, cells = (around, along)."""
+
+    def __init__(
+        self,
+        shape: PistonShape,
+        drive: PistonDrive,
+        laws: FilmLaws | None = None,
+        physics: Physics | None = None,
+        cells: tuple[int, int] = (48, 16),
+    ) -> None:
+        self.shape, self.drive = shape, drive
+        self._physics = Physics() if physics is None else physics
+        self._laws = laws_left(FilmLaws() if laws is None else laws, self._physics)
+        mesh = rectangle((np.pi * shape.diameter, 1.0), cells, cell=Cell.QUADRILATERAL, periodic_x=True)
+        self._unit = film_space(rename(mesh, {"bottom": "chamber", "top": "case"}))
+        self._space = self._unit
+
+    def space_at(self, time: float) -> FilmSpace:
+        """The mesh over what is engaged at a time (s); raises FilmInputError where nothing is."""
+        engaged = self._engaged(time)
+        around, along = self._unit.vertices.T
+        axial = self.shape.guide_length - engaged * (1.0 - along)
+        if not np.array_equal(self._space.vertices[:, 1], axial):
+            self._space = self._unit.moved(np.column_stack([around, axial]))
+        return self._space
+
+    def problem_at(self, time: float) -> FilmProblem:
+        """The film of the piston in the middle of its bore at a time (s), walls relative to the mesh."""
+        space, drive, laws = self.space_at(time), self.drive, self._laws
+        moving, fixed = self._velocities(time)
+        carried = self._mesh_velocity(time, space)
+        film = Film(
+            thickness=self._thickness(time, *space.points),
+            viscosity=np.full((1, 1), drive.viscosity),
+            velocity_moving=(moving[0], moving[1] - carried),
+            velocity_fixed=(fixed[0], fixed[1] - carried),
+            squeeze=ZERO,
+            thickness_at_vertices=self._thickness(time, *space.vertices.T),
+        )
+        pressure = float(drive.chamber_pressure(self._angle(time)))
+        return FilmProblem(
+            space=space,
+            film=film,
+            boundary={"chamber": Held(pressure), "case": Held(drive.case_pressure)},
+            cavitation=self._physics.film_rupture,
+            cavitation_pressure=drive.cavitation_pressure,
+            fluid=laws.fluid,
+            surface=laws.surface,
+            asperities=laws.asperities,
+            walls=laws.walls,
+        )
+
+    def modes_at(self, time: float) -> Array:
+        """Growth of the film by each coordinate at the vertices, (vertices, 4): -(cos, sin) (s, Lg - s)/Lg."""
+        x, y = self.space_at(time).vertices.T
+        angle, share = 2.0 * x / self.shape.diameter, 1.0 - y / self.shape.guide_length
+        towards = np.column_stack([np.cos(angle), np.sin(angle)])
+        return -np.hstack([share[:, None] * towards, (1.0 - share)[:, None] * towards])
+
+    def outer_at(self, time: float, position: Array, rate: Array) -> Outer:
+        """Outer generalised forces; they depend on the shaft's angle alone."""
+        return steady(self.drive.outer(self._angle(time)))
+
+    def friction(self, time: float, solution: FilmSolution) -> PistonFriction:
+        """What a film of this piston at a time (s) does to it along and around the bore."""
+        fields, area = point_fields(solution), solution.problem.space.area
+        radius, angle = 0.5 * self.shape.diameter, 2.0 * solution.problem.space.points[0] / self.shape.diameter
+        around, along = (part * area for part in fields.shear_moving)
+        stresses = (*fields.shear_moving, *fields.shear_fixed)
+        velocities = (part for wall in self._velocities(time) for part in wall)
+        return PistonFriction(
+            force=float(along.sum()),
+            torque=radius * float(around.sum()),
+            moment=radius * np.array([np.sum(along * np.sin(angle)), -np.sum(along * np.cos(angle))]),
+            power=-sum(float(np.sum(t * u * area)) for t, u in zip(stresses, velocities, strict=True)),
+        )
+
+    def _angle(self, time: float) -> float:
+        return self.drive.shaft_speed * time
+
+    def _engaged(self, time: float) -> float:
+        """Length of the film (m): up to the piston's end, or to the guide's where the piston passes it."""
+        reach = float(self.drive.reach(self._angle(time)))
+        if not reach > 0.0:
+            where = f"piston at {np.degrees(self._angle(time)) % 360.0:.1f} deg"
+            raise FilmInputError(where, f"its end {reach * 1e3:.3g} mm inside the bore", "an engaged length")
+        return min(reach, self.shape.guide_length)
+
+    def _velocities(self, time: float) -> tuple[tuple[Array, Array], tuple[Array, Array]]:
+        """Velocity of piston and bore, m/s, around and along."""
+        radius, drive = 0.5 * self.shape.diameter, self.drive
+        axial = np.full((1, 1), float(drive.velocity(self._angle(time))))
+        piston, bore = (np.full((1, 1), spin * radius) for spin in (drive.piston_spin, drive.bore_spin))
+        return (piston, axial), (bore, ZERO)
+
+    def _mesh_velocity(self, time: float, space: FilmSpace) -> Array:
+        """Velocity of the mesh along the bore, m/s: that of the piston at its end, none at the case edge.
+
+        As the mesh's own rate it is what makes a stretching film store as much oil as the walls bring.
+        """
+        if float(self.drive.reach(self._angle(time))) >= self.shape.guide_length:
+            return ZERO
+        share = (self.shape.guide_length - space.points[1]) / self._engaged(time)
+        return np.asarray(float(self.drive.velocity(self._angle(time))) * share)
+
+    def _thickness(self, time: float, x: Array, y: Array) -> Array:
+        """Film (m) of a centred piston; its profile moves and turns with it, the bore's turns with the block."""
+        shape, drive = self.shape, self.drive
+        angle, depth = 2.0 * x / shape.diameter, shape.guide_length - y
+        reach = float(drive.reach(self._angle(time)))
+        bore = shape.bore(depth, angle - drive.bore_spin * time).depth
+        piston = shape.piston(reach - depth, angle - drive.piston_spin * time).depth
+        return np.asarray(shape.radial_clearance + bore + piston)
+
+
+def floating_piston(
+    shape: PistonShape,
+    drive: PistonDrive,
+    laws: FilmLaws | None = None,
+    physics: Physics | None = None,
+    cells: tuple[int, int] = (48, 16),
+) -> Floating:
+    """A piston as `reynolds.floating` takes it: coordinates (ex0, ey0, ex1, ey1) m, massless across the bore.
+
+    Validity: eccentricities and clearance small beside the radius; forces above case pressure.
+    """
+    film = PistonFilm(shape, drive, laws, physics, cells)
+    return Floating("piston", film.problem_at, film.modes_at, film.outer_at, reference=drive.case_pressure)

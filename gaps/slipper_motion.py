@@ -1,0 +1,289 @@
+"""The slipper that floats on the swash plate: film, pocket and outer forces by its film thickness and two tilts.
+
+Film plane: origin under the ball joint, x along the plate's steepest line, y its tilt axis, z the plate's normal
+away from the block; it travels with the ball and does not turn. Coordinates q = (h under the ball, rise along x,
+rise along y), m, rises over the outer radius r2 of the last land:
+
+    h = face(r) + q0 + q1 x/r2 + q2 y/r2.
+
+Boundaries: pocket, case, and groove_1, groove_2, .. between lands: grooves of one pressure without supply.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from itertools import pairwise
+
+import numpy as np
+
+from gaps.course import OverTurn
+from gaps.physics import FilmLaws, Physics, laws_left
+from gaps.profiles import PLAIN, Profile
+from gaps.slipper import hagen_poiseuille_conductance
+from reynolds.errors import FilmInputError
+from reynolds.film import ZERO, Boundary, Film, FilmProblem, Held, Pocket, no_feed
+from reynolds.floating import Floating, Outer
+from reynolds.laws import Tangent, require_positive
+from reynolds.mesh import Array, FilmMesh, ring
+from reynolds.space import FilmSpace, film_space
+
+
+@dataclass(frozen=True)
+class Orifice:
+    """Diameter and length (m) of the bore that feeds the pocket; flow coefficient of its ends, None: none.
+
+    With a flow coefficient Cd entry and exit take rho/2 (q/(Cd A))^2 on top of the laminar loss.
+    """
+
+    diameter: float
+    length: float
+    flow_coefficient: float | None = None
+
+
+@dataclass(frozen=True)
+class SlipperShape:
+    """Sealing lands (inner, outer radius) m from the pocket outwards, the orifice, and what is taken off the face.
+
+    `face` counts places by the radius. Raises FilmInputError for lands that do not follow each other.
+    """
+
+    lands: tuple[tuple[float, float], ...]
+    orifice: Orifice
+    face: Profile = PLAIN
+
+    def __post_init__(self) -> None:
+        radii = np.array(self.lands).ravel()
+        if not (len(radii) and radii[0] > 0.0 and np.all(np.diff(radii) > 0.0)):
+            raise FilmInputError("slipper, lands", f"radii {radii.tolist()} m", "rising from above zero")
+
+    @property
+    def outer_radius(self) -> float:
+        """Outer radius of the last land (m)."""
+        return self.lands[-1][1]
+
+
+@dataclass(frozen=True)
+class Retainer:
+    """A plate over the slippers: reached where the film at the rim exceeds `clearance` (m), of a stiffness N/m."""
+
+    clearance: float
+    stiffness: float
+
+
+@dataclass(frozen=True)
+class SlipperDrive:
+    """What drives a slipper over the turn, SI.
+
+    shaft_speed rad/s; viscosity Pa s, density kg/m3, pressures Pa; spin rad/s about the plate's normal. Over the
+    shaft angle: chamber_pressure Pa; sliding (2,) m/s over the plate along x and y; outer (3,) N, the generalised
+    forces of all but film, pocket and retainer (`face_force`).
+    """
+
+    shaft_speed: float
+    viscosity: float
+    density: float
+    case_pressure: float
+    cavitation_pressure: float
+    spin: float
+    chamber_pressure: OverTurn
+    sliding: OverTurn
+    outer: OverTurn
+    retainer: Retainer | None = None
+
+
+def face_force(outer_radius: float, lift: float, pressed: Array) -> Array:
+    """Generalised forces (3,) N that ask a film for a lift (N) and for int p (x, y) dA = pressed (2,) N m."""
+    return -np.array([lift, pressed[0] / outer_radius, pressed[1] / outer_radius])
+
+
+def pressed_by(
+    inertia: Array, centre_of_mass: float, friction: Array, ball_height: float, ball_moment: Array
+) -> Array:
+    """int p (x, y) dA (N m) that the film must give to keep the slipper's moments about the ball in balance.
+
+    l m A - H T + n x M: inertia m A (2,) N of its centre of mass, l (m) from the ball towards the face; friction
+    T (2,) N of the plate on the face, H (m) from the ball; moment M (2,) N m of the joint on the slipper. All
+    along the plate's x and y; the slipper's moments of inertia are left out.
+    """
+    turned = np.array([-ball_moment[1], ball_moment[0]])
+    return np.asarray(centre_of_mass * np.asarray(inertia) - ball_height * np.asarray(friction) + turned)
+
+
+def orifice_and_capillary(drop: float, conductance: float, loss: float) -> Tangent:
+    """Flow q (m3/s) and dq/d drop of a bore with laminar and Bernoulli's loss in series: drop = q/G + k q |q|.
+
+    conductance G m3/(s Pa) by Hagen and Poiseuille; loss k = rho/(2 (Cd A)^2), Pa s2/m6, 0: none.
+    Validity: laminar in the bore, Re d/l << 64 but for what k adds.
+    """
+    root = np.sqrt(1.0 + 4.0 * loss * conductance**2 * abs(drop))
+    return Tangent(2.0 * conductance * drop / (1.0 + root), conductance / root)
+
+
+def supply(shape: Orifice, viscosity: float, density: float) -> Callable[[float], Tangent]:
+    """Flow through the orifice by the pressure drop over it (Pa).
+
+    viscosity Pa s, density kg/m3; raises FilmInputError for sizes that are none.
+    """
+    require_positive("slipper orifice", diameter=shape.diameter, length=shape.length, viscosity=viscosity)
+    conductance = hagen_poiseuille_conductance(shape.diameter, shape.length, viscosity)
+    loss = 0.0
+    if shape.flow_coefficient is not None:
+        loss = 0.5 * density / (shape.flow_coefficient * 0.25 * np.pi * shape.diameter**2) ** 2
+    return lambda drop: orifice_and_capillary(drop, conductance, loss)
+
+
+def retainer_force(retainer: Retainer, position: Array) -> Outer:
+    """What a retainer that the rim reaches does: P = -k <rise - clearance> (1, q1/t, q2/t), t = |(q1, q2)|.
+
+    rise = q0 + t is the film at the rim's highest place; a spring k that is never pulled, with a potential, so
+    that it spends no work over a turn.
+    """
+    tilt = float(np.hypot(position[1], position[2]))
+    along = np.array([1.0, *(position[1:] / tilt if tilt > 0.0 else (0.0, 0.0))])
+    over = float(position[0]) + tilt - retainer.clearance
+    nothing = np.zeros((3, 3))
+    if over <= 0.0:
+        return Outer(np.zeros(3), nothing, nothing)
+    slopes = np.outer(along, along)
+    if tilt > 0.0:
+        slopes[1:, 1:] += over / tilt * (np.eye(2) - np.outer(along[1:], along[1:]))
+    return Outer(-retainer.stiffness * over * along, -retainer.stiffness * slopes, nothing)
+
+
+class SlipperFilm:
+    """Films of one floating slipper on a ring mesh, cells = (across each land, around)."""
+
+    def __init__(
+        self,
+        shape: SlipperShape,
+        drive: SlipperDrive,
+        laws: FilmLaws | None = None,
+        physics: Physics | None = None,
+        cells: tuple[int, int] = (12, 48),
+    ) -> None:
+        self.shape, self.drive = shape, drive
+        self._physics = Physics() if physics is None else physics
+        self._laws = laws_left(FilmLaws() if laws is None else laws, self._physics)
+        self._around = cells[1]
+        mesh = slipper_mesh(shape.lands, cells)
+        self._grooves = tuple(name for name in mesh.boundary_names if name.startswith("groove_"))
+        self._space = film_space(mesh, pockets=["pocket", *self._grooves])
+        self._supply = supply(shape.orifice, drive.viscosity, drive.density)
+
+    @property
+    def space(self) -> FilmSpace:
+        """The mesh, which travels with the ball."""
+        return self._space
+
+    def problem_at(self, time: float) -> FilmProblem:
+        """The film with the slipper's face on the plate (q = 0) at a time (s), seen from the slipper."""
+        space, drive, laws = self._space, self.drive, self._laws
+        x, y = space.points
+        along, across = drive.sliding(self._angle(time))
+        film = Film(
+            thickness=self._face(time, *space.points),
+            viscosity=np.full((1, 1), drive.viscosity),
+            velocity_moving=(-drive.spin * y, drive.spin * x),
+            velocity_fixed=(np.full((1, 1), -float(along)), np.full((1, 1), -float(across))),
+            squeeze=ZERO,
+            thickness_at_vertices=self._face(time, *space.vertices.T),
+        )
+        return FilmProblem(
+            space=space,
+            film=film,
+            boundary=self._boundary(time),
+            cavitation=self._physics.film_rupture,
+            cavitation_pressure=drive.cavitation_pressure,
+            fluid=laws.fluid,
+            surface=laws.surface,
+            asperities=laws.asperities,
+            walls=laws.walls,
+        )
+
+    def modes_at(self, time: float) -> Array:
+        """Growth of the film by each coordinate at the vertices, (vertices, 3): 1, x/r2, y/r2."""
+        x, y = self._space.vertices.T / self.shape.outer_radius
+        return np.column_stack([np.ones_like(x), x, y])
+
+    @property
+    def pockets(self) -> dict[str, Array]:
+        """Area (3,) m2 by which the volume of pocket and grooves grows with each coordinate.
+
+        Polygons, as the mesh has them: film, grooves and pocket leave nothing out and count nothing twice.
+        """
+        sector = 0.5 * self._around * np.sin(2.0 * np.pi / self._around)
+        radii = [0.0, *(radius for land in self.shape.lands for radius in land)]
+        areas = [sector * (end**2 - start**2) for start, end in zip(radii[::2], radii[1::2], strict=False)]
+        names = ["pocket", *(f"groove_{n + 1}" for n in range(len(self._grooves)))]
+        return {name: np.array([area, 0.0, 0.0]) for name, area in zip(names, areas, strict=True)}
+
+    def outer_at(self, time: float, position: Array, rate: Array) -> Outer:
+        """Outer generalised forces at a time (s) and position, with the retainer's."""
+        given = np.asarray(self.drive.outer(self._angle(time)))
+        if self.drive.retainer is None:
+            return Outer(given, np.zeros((3, 3)), np.zeros((3, 3)))
+        held = retainer_force(self.drive.retainer, position)
+        return replace(held, force=given + held.force)
+
+    def _angle(self, time: float) -> float:
+        return self.drive.shaft_speed * time
+
+    def _boundary(self, time: float) -> dict[str, Boundary]:
+        chamber = float(self.drive.chamber_pressure(self._angle(time)))
+
+        def feed(pressure: float) -> tuple[float, float]:
+            flow, slope = self._supply(chamber - pressure)
+            return float(flow), -float(slope)
+
+        grooves = {name: Pocket(no_feed) for name in self._grooves}
+        return {"pocket": Pocket(feed), **grooves, "case": Held(self.drive.case_pressure)}
+
+    def _face(self, time: float, x: Array, y: Array) -> Array:
+        """What is taken off the face (m) at places; it turns with the slipper."""
+        lands = self.shape.lands
+        # The mesh's sectors are straight: between their corners the radius is a little less than the land's.
+        radius = np.maximum(np.hypot(x, y), lands[0][0])
+        return np.asarray(self.shape.face(radius, np.arctan2(y, x) - self.drive.spin * time).depth)
+
+
+def slipper_mesh(lands: tuple[tuple[float, float], ...], cells: tuple[int, int]) -> FilmMesh:
+    """Rings of quadrilaterals, one a land, `cells` (across each, around), with boundaries pocket, groove_k, case.
+
+    Radii of each land rise by one ratio, as the pressure falls with the logarithm. A groove is one boundary: both
+    its edges. Raises FilmInputError as `reynolds.mesh.ring`.
+    """
+    radii = np.concatenate([np.geomspace(*land, cells[0] + 1) for land in lands])
+    keep = np.ones((len(radii) - 1, cells[1]), dtype=bool)
+    keep[cells[0] :: cells[0] + 1] = False
+    whole = ring(radii, cells[1], keep=keep)
+    mesh, middle = whole.mesh, [0.5 * (one[1] + two[0]) for one, two in pairwise(lands)]
+    facets = mesh.boundary_facets()
+    distance = np.hypot(*mesh.p[:, mesh.facets[0, facets]])
+    # Land k's inner edge and the land before's outer one lie on either side of the middle of groove k.
+    number = np.searchsorted([0.5 * sum(land) for land in lands], distance)
+    names = ["pocket", *(f"groove_{n + 1}" for n in range(len(middle))), "case"]
+    edges = {name: facets[number == n] for n, name in enumerate(names)}
+    return replace(whole, mesh=replace(mesh, _boundaries=edges))
+
+
+def floating_slipper(
+    shape: SlipperShape,
+    drive: SlipperDrive,
+    laws: FilmLaws | None = None,
+    physics: Physics | None = None,
+    cells: tuple[int, int] = (12, 48),
+) -> Floating:
+    """A slipper as `reynolds.floating` takes it: coordinates (h, rise x, rise y) m, massless across the film.
+
+    Validity: film thin beside the land's width; forces above case pressure.
+    """
+    film = SlipperFilm(shape, drive, laws, physics, cells)
+    return Floating(
+        "slipper",
+        film.problem_at,
+        film.modes_at,
+        film.outer_at,
+        reference=drive.case_pressure,
+        pockets=film.pockets,
+    )
