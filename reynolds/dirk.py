@@ -174,7 +174,7 @@ def march(
     tableau: Tableau,
     solve: StageSolver[S],
     start: State[S],
-    nodes: Sequence[float],
+    nodes: Sequence[float] | Array,
     tolerance: Callable[[S], float],
 ) -> Iterator[Taken[S]]:
     """Step by step from a state to the last of `nodes` (s), each of which ends a step.
