@@ -8,12 +8,13 @@ condition is p >= p_c, R >= 0, (p - p_c) R = 0; JFO is p >= p_c, theta <= 1, (p 
 
 from __future__ import annotations
 
-from dataclasses import replace
+from collections.abc import Callable
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from reynolds.balance import positive_share
+from reynolds.balance import State, positive_share
 from reynolds.cascade import COARSEST, Cascade, Obstacle, active_set
 from reynolds.errors import FilmInputError, FilmNotConverged
 from reynolds.film import LEAST_FRACTION, Cavitation, FilmProblem, FilmSolution
@@ -44,6 +45,7 @@ class FilmSolver:
         self._factor = Factor(self._grid)
         self._general = GeneralFactor(self._grid)
         self._cascade: Cascade | None = None
+        self._answers: _Answers | None = None
 
     def solve(self, problem: FilmProblem, start: FilmSolution | None = None) -> FilmSolution:
         """The film of `problem`; `start` warms pressures, film fractions and cavity.
@@ -82,7 +84,7 @@ class FilmSolver:
             path.append(imbalance)
             if (settled and imbalance < ROUND_OFF) or (imbalance < TOLERANCE and near):
                 _check_filled(at)
-                return _solution(problem, setting, at, path)
+                return self._found(_solution(problem, setting, at, path))
             # Under JFO an unknown next to zero may change sides for ever: either side is the solution.
             near = imbalance < (NEAR if settled else TOLERANCE if problem.cavitation is Cavitation.JFO else 0.0)
             cycles |= iteration >= FULL_STEPS or (not settled and at.cavity.tobytes() in seen)
@@ -124,21 +126,83 @@ class FilmSolver:
         guess = self._cascade.cavity(obstacle)
         return active_set(matrix, self._factor, obstacle, guess) if problem.cavitation is Cavitation.JFO else guess
 
+    def _found(self, solution: FilmSolution) -> FilmSolution:
+        assert self._answers is not None
+        self._answers = replace(self._answers, solution=solution)
+        return solution
+
+    def response(self, solution: FilmSolution, inflow: Array) -> tuple[Array, Array]:
+        """What inflows (size, m) m3/s add to pressures (Pa) and film fractions of a solution, (size, m) each.
+
+        By its linearised balance, held unknowns and cavity as they are: a free unknown changes pressure, one of
+        the cavity its film fraction. Where the last film solved is this one its last factor is used again, which
+        for a balance that is not linear was made some 1e-6 before the solution.
+        """
+        if self._answers is None or not self._answers.belong_to(solution):
+            problem, state = solution.problem, State(solution.pressure, solution.film_fraction, solution.opening)
+            setting = spread(problem)
+            self._linear(problem, setting, iterate_of(problem, state, solution.cavity))
+            self._found(solution)
+        assert self._answers is not None
+        return self._answers.to(inflow)
+
     def _step(self, problem: FilmProblem, setting: Setting, at: Iterate, tolerance: float) -> Array:
         """The signed unknowns after one Newton step of the free ones; held ones stay as they are."""
+        load = self._linear(problem, setting, at)
+        assert self._answers is not None
+        return signed_after(problem, at, self._answers.solve(load, tolerance), self._answers.scale)
+
+    def _linear(self, problem: FilmProblem, setting: Setting, at: Iterate) -> Array:
+        """Linearise the balance: afterwards `_answers` solves it. The load of a Newton step, scaled likewise."""
         carried = problem.cavitation is Cavitation.JFO and bool(at.cavity.any())
+        fixed = fixed_in(problem, setting, at)
         if is_linear(problem) and not carried:
-            matrix, load = symmetric_step(problem, setting, at, fixed_in(problem, setting, at))
+            matrix, load = symmetric_step(problem, setting, at, fixed)
             self._factor.update(matrix)
-            change, scale = self._factor.solve(load, tolerance), 0.0
-        else:
-            upper, lower, load, scale = general_step(problem, setting, at)
-            if problem.walls is None:
-                self._general.update(problem.space.matrix(upper), lower, at.cavity)
-                change = self._general.solve(load, tolerance)
-            else:
-                change = compliant_step(problem, setting, at, upper, lower, load)
-        return signed_after(problem, at, change, scale)
+            self._answers = _Answers(self._factor.solve, at, fixed, 0.0)
+            return load
+        upper, lower, load, scale = general_step(problem, setting, at)
+        if problem.walls is None:
+            self._general.update(problem.space.matrix(upper), lower, at.cavity)
+            self._answers = _Answers(self._general.solve, at, fixed, scale)
+            return load
+
+        def compliant(load: Array, tolerance: float) -> Array:
+            return compliant_step(problem, setting, at, upper, lower, load)
+
+        self._answers = _Answers(compliant, at, fixed, scale)
+        return load
+
+
+@dataclass(frozen=True)
+class _Answers:
+    """The linearised balance of a film at an iterate, ready to be solved.
+
+    `solve(load, tolerance)`, both sides scaled; `scale` turns an unknown of the cavity into a film fraction;
+    `solution`: the film that came of it.
+    """
+
+    solve: Callable[[Array, float], Array]
+    at: Iterate
+    fixed: NDArray[np.bool_]
+    scale: float
+    solution: FilmSolution | None = None
+
+    def belong_to(self, solution: FilmSolution) -> bool:
+        """Whether they are of that film, and of its cavity but for what is full all the same."""
+        return self.solution is solution and bool(np.array_equal(self.at.cavity, solution.cavity))
+
+    def to(self, inflow: Array) -> tuple[Array, Array]:
+        """What inflows (size, m) m3/s change: pressures and film fractions, (size, m) each."""
+        unit = float(self.at.parts.stiffness.max())  # over which `newton` scales the balance
+        if unit == 0.0:
+            raise FilmInputError("response", "a film that is all pocket", "one in which pressure drives a flow")
+        load = np.where(self.fixed[:, None], 0.0, inflow / unit)
+        change = np.empty_like(load)
+        for column in range(load.shape[1]):
+            change[:, column] = self.solve(np.ascontiguousarray(load[:, column]), ITERATIVE_TOLERANCE)
+        cavity = self.at.cavity[:, None]
+        return np.where(cavity, 0.0, change), np.where(cavity, self.scale * change, 0.0)
 
 
 def _not_settled(problem: FilmProblem, at: Iterate, imbalance: float) -> FilmNotConverged:
