@@ -22,7 +22,8 @@ from swashfilm.pump_run import run_pump
 from swashfilm.pump_summary import pump_summary
 from swashfilm.study_case import load_film
 from system.assembly import PointWarning
-from system.description import dimension_of, section_models
+from system.description import section_models
+from system.fields import dimension_of
 from system.films import FilmsPoint, films_point
 from system.operating import operating_point
 from system.pairs import Pair
