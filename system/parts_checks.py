@@ -57,36 +57,36 @@ def centre_of_mass_lies_in_the_piston(pump: PumpDescription) -> Iterator[Finding
 
 @needs("piston.profile", "piston.radial_clearance", "piston.engaged_length")
 def piston_profile_fits(pump: PumpDescription) -> Iterator[Finding]:
-    """The piston's measured shape lies on it, and leaves a clearance everywhere."""
+    """The piston's measured shape reaches all along its engaged part, and leaves a clearance everywhere."""
     rows = pump.piston.profile or ()
-    yield from _places("piston.profile", rows, pump.piston.engaged_length, "engaged_length")
+    yield from _places("piston.profile", rows, 0.0, pump.piston.engaged_length)
     yield from _leaves_clearance("piston.profile", rows, pump.piston.radial_clearance)
 
 
-@needs("bore.profile", "piston.radial_clearance", *_BORE)
+@needs("bore.profile", "piston.radial_clearance", "piston.engaged_length")
 def bore_profile_fits(pump: PumpDescription) -> Iterator[Finding]:
-    """The bore's measured shape lies in it, and leaves a clearance everywhere."""
-    rows = pump.bore.profile or ()
-    yield from _places("bore.profile", rows, _bore_depth(pump), "the bore's depth")
+    """The bore's measured shape reaches all along the guide, and leaves a clearance everywhere."""
+    rows, part = pump.bore.profile or (), pump.piston
+    yield from _places("bore.profile", rows, 0.0, part.guide_length or part.engaged_length)
     yield from _leaves_clearance("bore.profile", rows, pump.piston.radial_clearance)
 
 
-@needs("slipper.profile", "slipper.land_outer_radius")
+@needs("slipper.profile", "slipper.land_inner_radius", "slipper.land_outer_radius")
 def slipper_profile_fits(pump: PumpDescription) -> Iterator[Finding]:
-    """The face's measured shape lies on the slipper."""
-    rows = pump.slipper.profile or ()
-    yield from _places("slipper.profile", rows, pump.slipper.land_outer_radius, "land_outer_radius")
+    """The face's measured shape reaches all over the sealing land."""
+    rows, part = pump.slipper.profile or (), pump.slipper
+    yield from _places("slipper.profile", rows, part.land_inner_radius, part.land_outer_radius)
 
 
-def _places(path: str, rows: tuple[tuple[float, ...], ...], end: float, name: str) -> Iterator[Finding]:
-    """Places of a profile grow from 0 to at most `end`."""
+def _places(path: str, rows: tuple[tuple[float, ...], ...], start: float, end: float) -> Iterator[Finding]:
+    """Places of a profile grow, and reach from `start` to `end`: what was not measured is not known."""
     places = [row[0] for row in rows]
     for before, after in pairwise(places):
         if before >= after:
             yield Fault(path, f"{length(after)} after {length(before)}", "places that grow from row to row")
-    if places and (min(places) < 0.0 or max(places) > end):
-        outside = min(places) if min(places) < 0.0 else max(places)
-        yield Fault(path, f"a place at {length(outside)}", f"0 to {name}, {length(end)}")
+    if places and (min(places) > start or max(places) < end):
+        found = f"places from {length(min(places))} to {length(max(places))}"
+        yield Fault(path, found, f"places from {length(start)} or less to {length(end)} or more")
 
 
 def _leaves_clearance(path: str, rows: tuple[tuple[float, ...], ...], clearance: float) -> Iterator[Finding]:

@@ -1,0 +1,193 @@
+"""The cylinder block that floats on the valve plate: film and outer forces by its film thickness and two tilts.
+
+Film plane: the pump's x, y (x to the inner dead centre), which does not turn; the mesh is the ring of `gaps.ring`
+and turns with the block. Coordinates q = (h on the shaft axis, rise along x, rise along y), m, rises over R4:
+
+    h = face(r, angle) + q0 + q1 x/R4 + q2 y/R4.
+
+The block is held sideways and turned at the spline, a point of the shaft: tilting about that point the shaft does
+no work on it, so that moments count about it. What presses are all forces from outside on block, pistons and
+slippers but those of film and kidneys, D'Alembert's included (`wrench_about`).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+
+from gaps.course import OverTurn
+from gaps.physics import FilmLaws, Physics, laws_left
+from gaps.profiles import PLAIN, Profile
+from gaps.ring import SEALED, Ring, ValvePlateGeometry
+from reynolds.contact import Asperities
+from reynolds.film import ZERO, Film, FilmProblem, FilmSolution, Held
+from reynolds.floating import Floating, Outer
+from reynolds.generalised import contact_force, modes_on
+from reynolds.loads import loads
+from reynolds.mesh import Array
+from reynolds.space import FilmSpace
+
+APART = 40.0  # standard deviations of the summits: walls that do not touch
+
+
+@dataclass(frozen=True)
+class BlockDrive:
+    """What drives the block over the turn, SI.
+
+    shaft_speed rad/s, viscosity Pa s, pressures Pa. chamber_pressure over a chamber's own angle, Pa. press over
+    the shaft angle, (3,): force along z (N, negative: towards the plate) and moments about x and y through the
+    spline (N m) of all that works on the rotating group besides film and kidneys (`wrench_about`).
+    """
+
+    shaft_speed: float
+    viscosity: float
+    suction_pressure: float
+    delivery_pressure: float
+    case_pressure: float
+    cavitation_pressure: float
+    chamber_pressure: OverTurn
+    press: OverTurn
+
+
+def wrench_about(places: Array, forces: Array, spline_height: float) -> Array:
+    """(sum of F_z N, moments about x and y N m) of forces (n, 3) N at places (n, 3) m, about the shaft's point S.
+
+    S lies on the z axis at `spline_height` (m) over the valve plate: where the shaft holds the block sideways.
+    """
+    levers = np.asarray(places) - np.array([0.0, 0.0, spline_height])
+    moment = np.cross(levers, forces).sum(axis=0)
+    return np.array([np.asarray(forces)[:, 2].sum(), moment[0], moment[1]])
+
+
+def generalised(wrench: Array, radius: float) -> Array:
+    """Generalised forces (3,) N of a wrench (F_z, M_x, M_y): a rise q1 over R4 along x turns by -q1/R4 about y."""
+    force, about_x, about_y = wrench
+    return np.array([force, -about_y / radius, about_x / radius])
+
+
+def kidney_wrench(geometry: ValvePlateGeometry, shaft_angle: float, above: Array) -> Array:
+    """(F_z, M_x, M_y) of kidney pressures (z,) Pa above case pressure on the block, sectors with square ends."""
+    places = geometry.kidney_places(shaft_angle)
+    lever = geometry.kidney_lever
+    return np.array(
+        [
+            float(np.sum(above)) * geometry.kidney_area,
+            float(above @ np.sin(places)) * lever,
+            -float(above @ np.cos(places)) * lever,
+        ]
+    )
+
+
+class BlockFilm:
+    """Films of the floating block on a ring; cells = (across a land, a kidney pitch), as `Ring` has them."""
+
+    def __init__(
+        self,
+        geometry: ValvePlateGeometry,
+        drive: BlockDrive,
+        face: Profile = PLAIN,
+        laws: FilmLaws | None = None,
+        physics: Physics | None = None,
+        cells: tuple[int, int] = (4, 16),
+    ) -> None:
+        self.geometry, self.drive = geometry, drive
+        self.ring = Ring(geometry, cells)
+        self._face = face
+        self._physics = Physics() if physics is None else physics
+        self._laws = laws_left(FilmLaws() if laws is None else laws, self._physics)
+        # A stage asks for the same instant many times over.
+        self._turned: Callable[[float], FilmSpace] = lru_cache(maxsize=4)(self.ring.turned)
+
+    @property
+    def space(self) -> FilmSpace:
+        """The mesh at shaft angle 0."""
+        return self.ring.space
+
+    def problem_at(self, time: float) -> FilmProblem:
+        """The film with the block's face on the plate (q = 0) at a time (s), velocities seen from the block."""
+        drive, laws, angle = self.drive, self._laws, self._angle(time)
+        space = self._turned(angle)
+        x, y = space.points
+        port = self.ring.over_port(space)
+        speed = np.where(port, 0.0, drive.shaft_speed)
+        film = Film(
+            thickness=self._shape(*space.points),
+            viscosity=np.where(port, SEALED * drive.viscosity, drive.viscosity),
+            velocity_moving=(ZERO, ZERO),
+            velocity_fixed=(speed * y, -speed * x),
+            squeeze=ZERO,
+            thickness_at_vertices=self._shape(*space.vertices.T),
+        )
+        case = Held(drive.case_pressure)
+        kidneys = zip(self.geometry.kidneys, self.chamber_pressures(angle), strict=True)
+        return FilmProblem(
+            space=space,
+            film=film,
+            boundary={"inner": case, "outer": case} | {name: Held(float(p)) for name, p in kidneys},
+            cavitation=self._physics.film_rupture,
+            cavitation_pressure=drive.cavitation_pressure,
+            held_nodes=self.ring.port_nodes(space, drive.suction_pressure, drive.delivery_pressure),
+            fluid=laws.fluid,
+            surface=laws.surface,
+            asperities=laws.asperities,
+            walls=laws.walls,
+        )
+
+    def modes_at(self, time: float) -> Array:
+        """Growth of the film by each coordinate at the vertices, (vertices, 3): 1, x/R4, y/R4."""
+        return self._modes(self._turned(self._angle(time)))
+
+    def outer_at(self, time: float, position: Array, rate: Array) -> Outer:
+        """What presses and the kidneys' lift at a time (s).
+
+        A web over a port touches nothing: what contact would bear there is taken off, as between rigid walls.
+        """
+        angle, radius = self._angle(time), self.geometry.land_radii[3]
+        above = self.chamber_pressures(angle) - self.drive.case_pressure
+        wrench = np.asarray(self.drive.press(angle)) + kidney_wrench(self.geometry, angle, above)
+        force, nothing = generalised(wrench, radius), np.zeros((3, 3))
+        if self._laws.asperities is None:
+            return Outer(force, nothing, nothing)
+        touching, slopes = self._over_ports(angle, position, self._laws.asperities)
+        return Outer(force - touching, -slopes, nothing)
+
+    def chamber_pressures(self, shaft_angle: float) -> Array:
+        """Pressures (z,) Pa of the chambers, chamber k at shaft angle + (k - 1) pitch."""
+        places = self.geometry.kidney_places(shaft_angle)
+        return np.array([float(self.drive.chamber_pressure(float(angle))) for angle in places])
+
+    def friction_power(self, solution: FilmSolution) -> float:
+        """Power (W) that the block spends on shearing the film and rubbing, webs over the ports left out."""
+        is_film = np.where(self.ring.over_port(solution.problem.space), 0.0, 1.0)
+        return -loads(solution, is_film).friction_torque_moving * self.drive.shaft_speed
+
+    def _over_ports(self, angle: float, position: Array, asperities: Asperities) -> tuple[Array, Array]:
+        """Force (3,) and slopes that contact would have where the plate has ports, between rigid walls."""
+        space = self._turned(angle)
+        modes = modes_on(space, self._modes(space))
+        gap = self._shape(*space.points) + modes.at_points @ position
+        far = asperities.summit_height + APART * asperities.height
+        contact = contact_force(asperities, np.where(self.ring.over_port(space), gap, far), modes)
+        return contact.force, contact.slopes
+
+    def _modes(self, space: FilmSpace) -> Array:
+        x, y = space.vertices.T / self.geometry.land_radii[3]
+        return np.column_stack([np.ones_like(x), x, y])
+
+    def _shape(self, x: Array, y: Array) -> Array:
+        """What is taken off the plate's face (m), by radius and pump angle."""
+        return np.asarray(self._face(np.hypot(x, y), np.arctan2(y, x)).depth)
+
+    def _angle(self, time: float) -> float:
+        return self.drive.shaft_speed * time
+
+
+def floating_block(film: BlockFilm) -> Floating:
+    """The block as `reynolds.floating` takes it: coordinates (h, rise x, rise y) m, massless.
+
+    Validity: small tilts; a plane valve plate but for its face and ports; a spline without friction.
+    """
+    return Floating("block", film.problem_at, film.modes_at, film.outer_at, reference=film.drive.case_pressure)

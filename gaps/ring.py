@@ -1,0 +1,147 @@
+"""The ring between cylinder block and valve plate: its mesh, which turns with the block, and the ports under it.
+
+Kidneys are holes of the mesh, kidney_1 about angle 0 at shaft angle 0; the film plane (pump's x, y, x to the inner
+dead centre) does not turn. Ports are sectors of the valve plate between R2 and R3. Webs between kidneys that lie
+over a port are at its pressure and are no film; a port's edge is taken at the next mesh line inside it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial import cKDTree
+
+from reynolds.mesh import Array, rename, ring
+from reynolds.space import FilmSpace, film_space
+
+SEALED = 1e9  # viscosity of a web over a port, in oil's: the film passes nothing there
+
+
+@dataclass(frozen=True)
+class ValvePlateGeometry:
+    """Land radii R1 < R2 < R3 < R4 (m), chambers, kidney arc (rad) and the ports' arcs (rad, from, to).
+
+    Ports are sectors of the valve plate between R2 and R3, in pump angle; kidneys are taken as sectors of the
+    same width (rounded ends are not modelled: their effect on the webs is under 0.1 of a web).
+    """
+
+    land_radii: tuple[float, float, float, float]
+    pistons: int
+    kidney_arc: float
+    suction_arc: tuple[float, float]
+    delivery_arc: tuple[float, float]
+
+    @property
+    def pitch(self) -> float:
+        """Angle from kidney to kidney, rad."""
+        return 2.0 * np.pi / self.pistons
+
+    @property
+    def kidneys(self) -> tuple[str, ...]:
+        """Names of the kidneys' boundaries, in the order of the chambers."""
+        return tuple(f"kidney_{k + 1}" for k in range(self.pistons))
+
+    def kidney_places(self, shaft_angle: float) -> Array:
+        """Middles of the kidneys in pump angle, (z,) rad."""
+        return np.asarray(shaft_angle + self.pitch * np.arange(self.pistons), dtype=float)
+
+    @property
+    def kidney_area(self) -> float:
+        """Area of a kidney, m2."""
+        _, r2, r3, _ = self.land_radii
+        return 0.5 * self.kidney_arc * (r3**2 - r2**2)
+
+    @property
+    def kidney_lever(self) -> float:
+        """Integral of the radius along its middle line over a kidney, m3: moment of a unit pressure."""
+        _, r2, r3, _ = self.land_radii
+        return float(2.0 * np.sin(0.5 * self.kidney_arc) * (r3**3 - r2**3) / 3.0)
+
+
+class Ring:
+    """The ring's space; cells = (cells across a land, cells a kidney pitch), mesh lines on the kidneys' edges."""
+
+    def __init__(self, geometry: ValvePlateGeometry, cells: tuple[int, int]) -> None:
+        self.geometry = geometry
+        self.space = _ring_space(geometry, cells)
+        _, r2, r3, _ = geometry.land_radii
+        radius = np.hypot(*self.space.vertices.T)
+        self._in_kidney_ring = (radius > r2 * (1.0 - 1e-9)) & (radius < r3 * (1.0 + 1e-9))
+
+    def turned(self, shaft_angle: float) -> FilmSpace:
+        """The space with the block at a shaft angle (rad)."""
+        return self.space.moved(_turned(self.space.vertices, shaft_angle))
+
+    def nodes_over(self, space: FilmSpace, arc: tuple[float, float]) -> NDArray[np.signedinteger]:
+        """Unknowns over a port's arc (rad), those of kidneys and of its edges included."""
+        return np.unique(space.vertex_dofs[self._vertices_in(space.vertices, arc)])
+
+    def over_port(self, space: FilmSpace) -> NDArray[np.bool_]:
+        """Cells that lie over a port with all their corners, (cells, 1)."""
+        arcs = (self.geometry.suction_arc, self.geometry.delivery_arc)
+        over = [self._vertices_in(space.vertices, arc)[space.cells].all(axis=1) for arc in arcs]
+        return np.any(over, axis=0)[:, None]
+
+    def port_nodes(self, space: FilmSpace, suction: float, delivery: float) -> Array:
+        """Pressure (size,) Pa of the unknowns over a port, NaN elsewhere and on the kidneys' edges."""
+        nodes = np.full(space.size, np.nan)
+        nodes[self.nodes_over(space, self.geometry.suction_arc)] = suction
+        nodes[self.nodes_over(space, self.geometry.delivery_arc)] = delivery
+        for name in self.geometry.kidneys:
+            nodes[space.edge_dofs[name]] = np.nan
+        return nodes
+
+    def after_pitch(self) -> NDArray[np.signedinteger]:
+        """Unknown (size,) that, one pitch on, stands where each unknown of the ring stands now.
+
+        With chambers alike the film repeats from pitch to pitch in space, not on the block:
+        `holds[ring.after_pitch()]` is what the next pitch starts from when its shaft angle is counted anew.
+        """
+        space = self.space
+        now = _turned(space.vertices, self.geometry.pitch)
+        partner = cKDTree(now).query(space.vertices)[1]
+        found = np.empty(space.size, dtype=np.int64)
+        found[space.vertex_dofs] = space.vertex_dofs[partner]
+        return found
+
+    def port_breaks(self) -> Array:
+        """Shaft angles (rad) within a pitch at which a mesh line passes a port's edge: there the film changes."""
+        lines = np.arctan2(self.space.vertices[:, 1], self.space.vertices[:, 0])[self._in_kidney_ring]
+        edges = np.array([*self.geometry.suction_arc, *self.geometry.delivery_arc])
+        met = np.unique(np.round((edges[:, None] - lines) % self.geometry.pitch, 9))
+        return met[met < self.geometry.pitch - 1e-8]
+
+    def _vertices_in(self, vertices: Array, arc: tuple[float, float]) -> NDArray[np.bool_]:
+        """Vertices of the kidney ring that lie over a port, its edges included."""
+        angle = np.arctan2(vertices[:, 1], vertices[:, 0])
+        span = (angle - arc[0] + 1e-9) % (2.0 * np.pi)
+        return self._in_kidney_ring & (span <= arc[1] - arc[0] + 2e-9)
+
+
+def _turned(vertices: Array, angle: float) -> Array:
+    """Points (n, 2) turned about the origin."""
+    c, s = np.cos(angle), np.sin(angle)
+    return np.asarray(vertices @ np.array([[c, s], [-s, c]]))
+
+
+def _ring_space(geometry: ValvePlateGeometry, cells: tuple[int, int]) -> FilmSpace:
+    """The ring at shaft angle 0 with kidneys left out, kidney_1 about angle 0; lines on the kidneys' edges."""
+    r1, r2, r3, r4 = geometry.land_radii
+    land, per_pitch = cells
+    lines = [np.linspace(a, b, land + 1) for a, b in ((r1, r2), (r2, r3), (r3, r4))]
+    pitch = geometry.pitch
+    per_kidney = min(max(round(per_pitch * geometry.kidney_arc / pitch), 1), per_pitch - 1)
+    around = per_pitch * geometry.pistons
+    keep = np.ones((3 * land, around), dtype=bool)
+    keep[land : 2 * land, np.arange(around) % per_pitch < per_kidney] = False
+    mesh = ring(np.concatenate([lines[0], lines[1][1:], lines[2][1:]]), around, keep=keep)
+    names = {f"hole_{k}": name for k, name in enumerate(geometry.kidneys)}
+    space = film_space(rename(mesh, names))
+    # Equal sectors become kidney and web of their own widths, the first kidney's middle at angle 0.
+    x, y = space.vertices.T
+    column = np.round(np.arctan2(y, x) / (2.0 * np.pi) * around) % around
+    within = np.interp(column % per_pitch, [0, per_kidney, per_pitch], [0.0, geometry.kidney_arc, pitch])
+    angle = column // per_pitch * pitch + within - 0.5 * geometry.kidney_arc
+    return space.moved(np.hypot(x, y)[:, None] * np.column_stack([np.cos(angle), np.sin(angle)]))

@@ -1,0 +1,296 @@
+"""The gaps: block floating on the valve plate.
+
+With all chambers and ports at one pressure the lands have closed forms, whose middle tells whether a block can
+stand under its pistons; a block that wobbles or turns meets the same film whichever frame it is computed in.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from scipy.integrate import quad
+
+from gaps.block_balance import BlockBalance, land_lift
+from gaps.block_motion import BlockDrive, BlockFilm, floating_block, generalised, kidney_wrench, wrench_about
+from gaps.course import constant
+from gaps.physics import FilmLaws
+from gaps.profiles import Profile, Waviness
+from gaps.ring import ValvePlateGeometry
+from gaps.valve_plate import ValvePlateGap, ValvePlatePosition, ValvePlateState
+from reynolds.contact import Asperities
+from reynolds.film import FilmProblem, Storage
+from reynolds.floating_stage import solve_stage, standing
+from reynolds.generalised import contact_force, generalised_force, modes_on
+from reynolds.solve import FilmSolver
+
+RADII = (26.5e-3, 31.5e-3, 40.5e-3, 45.7e-3)
+ARC, PISTONS, PITCH = np.radians(30.0), 9, np.radians(40.0)
+ALL_ROUND = ValvePlateGeometry(RADII, PISTONS, ARC, (0.0, np.pi), (np.pi, 2.0 * np.pi))
+SUCTION, DELIVERY = tuple(np.radians([25.0, 155.0])), tuple(np.radians([205.0, 335.0]))
+PORTS = ValvePlateGeometry(RADII, PISTONS, ARC, SUCTION, DELIVERY)
+PRESSURE, CASE, SPEED, VISCOSITY = 35e6, 0.15e6, 220.0, 0.0258
+PISTON_AREA, PITCH_RADIUS = np.pi * 22e-3**2 / 4.0, 45e-3
+
+
+def drive(press=(0.0, 0.0, 0.0), chamber=None, **changed) -> BlockDrive:
+    """A block at 35 MPa everywhere, but for what is changed."""
+    usual = {
+        "shaft_speed": SPEED,
+        "viscosity": VISCOSITY,
+        "suction_pressure": PRESSURE,
+        "delivery_pressure": PRESSURE,
+        "case_pressure": CASE,
+        "cavitation_pressure": -1e5,
+        "chamber_pressure": constant(PRESSURE) if chamber is None else chamber,
+        "press": constant(*press),
+    }
+    return BlockDrive(**(usual | changed))
+
+
+def half_and_half(angle: float) -> float:
+    """Delivery pressure past the outer dead centre, a ramp of 30 deg on either side."""
+    rise = np.clip(np.sin(-angle) / np.sin(np.radians(30.0)), -1.0, 1.0)
+    return float(2.5e6 + 32.5e6 * 0.5 * (1.0 + rise))
+
+
+RUNNING = {"suction_pressure": 2.5e6, "chamber": half_and_half}
+
+
+def posed(film: BlockFilm, time: float, position: np.ndarray) -> FilmProblem:
+    """The film at a position, without squeeze."""
+    problem = film.problem_at(time)
+    thick = problem.film.thickness + problem.space.sample_vertices(film.modes_at(time) @ position)
+    return replace(problem, film=replace(problem.film, thickness=thick, thickness_at_vertices=None))
+
+
+def lifted(film: BlockFilm, problem: FilmProblem, time: float, position: np.ndarray) -> np.ndarray:
+    """Generalised forces of film, kidneys and press of a film posed at a position."""
+    pressure = FilmSolver(film.space).solve(problem).pressure
+    force = generalised_force(pressure, modes_on(problem.space, film.modes_at(time)), CASE)
+    return np.asarray(force + film.outer_at(time, position, np.zeros(3)).force)
+
+
+# Closed forms
+
+
+def test_lands_under_one_pressure(validation):
+    """Log profiles: the radial integrals against quadrature of the profile."""
+    r1, r2, r3, r4 = RADII
+
+    def pressure(r: float) -> float:
+        if r < r2:
+            return float(np.log(r / r1) / np.log(r2 / r1))
+        return 1.0 if r < r3 else float(np.log(r4 / r) / np.log(r4 / r3))
+
+    lift = land_lift(RADII)
+    for name, power, got in (("force", 1, lift.force), ("moment", 2, lift.moment)):
+        exact = sum(quad(lambda r, n=power: pressure(r) * r**n, a, b)[0] for a, b in pairwise(RADII))
+        validation(
+            case="lands at one pressure", source="closed form", quantity=f"{name} per angle and pressure",
+            unit="m2" if power == 1 else "m3", expected=exact, obtained=got, relative_tolerance=1e-12,
+        )  # fmt: skip
+
+
+def test_film_and_kidneys_lift_as_the_lands_do(validation, refine):
+    """The floating film's own force (design 8.12): ports all round, parallel film, whatever its thickness."""
+    force = 2.0 * np.pi * land_lift(RADII).force * (PRESSURE - CASE)
+
+    def solve(n: int) -> float:
+        film, position = BlockFilm(ALL_ROUND, drive(), cells=(n, 4 * n)), np.array([9e-6, 0.0, 0.0])
+        return float(lifted(film, posed(film, 0.01, position), 0.01, position)[0])
+
+    got = refine(solve, (2, 4, 8))
+    validation(
+        case="parallel ring under one pressure", source="closed form", quantity="lift of film and kidneys",
+        unit="N", expected=force, obtained=got.finest, tolerance=got.tolerance(), order=got.order,
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("radii", "share", "middle", "moments"),
+    [(RADII, 0.933, 36.5e-3, 0.757), ((37e-3, 40.5e-3, 48e-3, 52.5e-3), 0.939, 44.8e-3, 0.935)],
+    ids=["ref90", "ref90_floating"],
+)
+def test_balance_of_the_block(validation, radii, share, middle, moments):
+    found = BlockBalance(radii, PISTONS, PISTON_AREA, PITCH_RADIUS)
+    rows = (
+        ("balance ratio", "1", share, found.force_ratio, 5e-4),
+        ("middle of the lift", "m", middle, found.lift_radius, 5e-5),
+        ("balance ratio of moments", "1", moments, found.moment_ratio, 5e-4),
+    )
+    for quantity, unit, expected, obtained, rounding in rows:
+        validation(
+            case="block under its pistons", source="REF90, closed form", quantity=f"{quantity}, R1 {radii[0]:g} m",
+            unit=unit, expected=expected, obtained=obtained, tolerance=rounding,
+        )  # fmt: skip
+
+
+def test_what_is_not_lifted_presses_at_one_place():
+    """Pistons, lift and spring as forces at their places: their resultant is where `pressed_at` says."""
+    block = BlockBalance(RADII, PISTONS, PISTON_AREA, PITCH_RADIUS)
+    high, low, spring = 34.85e6, 2.35e6, 1080.0
+    angle = np.linspace(0.0, 2.0 * np.pi, 7200, endpoint=False) + 1e-4
+    force = PISTONS * PISTON_AREA * np.where(angle > np.pi, high, low) / angle.size
+    down = force.sum() * (1.0 - block.force_ratio) + spring
+    moment = np.sum(force * np.sin(angle) * (PITCH_RADIUS - block.force_ratio * block.lift_radius))
+    assert block.pressed_at(high, low, spring) == pytest.approx(abs(moment) / down, rel=1e-5)
+    assert (
+        block.pressed_at(high, low, spring)
+        > RADII[3]
+        > BlockBalance((37e-3, 40.5e-3, 48e-3, 52.5e-3), PISTONS, PISTON_AREA, PITCH_RADIUS).pressed_at(
+            high, low, spring
+        )
+    )
+
+
+def test_kidneys_against_quadrature():
+    """Force and moments of sectors by the midpoint rule."""
+    above = np.linspace(1e6, 30e6, PISTONS)
+    angle = 0.3
+    r = RADII[1] + (RADII[2] - RADII[1]) * (np.arange(400) + 0.5) / 400
+    t = ARC * ((np.arange(400) + 0.5) / 400 - 0.5)
+    area = r[:, None] * (RADII[2] - RADII[1]) / 400 * ARC / 400
+    total = np.zeros(3)
+    for k, p in enumerate(above):
+        x, y = (r[:, None] * f(angle + k * PITCH + t) for f in (np.cos, np.sin))
+        total += p * np.array([np.sum(area * np.ones_like(x)), np.sum(area * y), -np.sum(area * x)])
+    assert kidney_wrench(PORTS, angle, above) == pytest.approx(total, rel=1e-5)
+
+
+# Work
+
+
+def test_generalised_forces_do_the_work_of_the_wrench():
+    """Forces at places of a body that rises and tilts about the spline's point do as much work as P dq."""
+    rng = np.random.default_rng(1)
+    places, forces = rng.normal(size=(2, 7, 3))
+    height, radius, moved = 0.08, RADII[3], rng.normal(size=3)
+    turn = np.array([moved[2] / radius, -moved[1] / radius, 0.0])
+    way = np.array([0.0, 0.0, moved[0]]) + np.cross(turn, places - np.array([0.0, 0.0, height]))
+    outer = generalised(wrench_about(places, forces, height), radius)
+    assert outer @ moved == pytest.approx(np.sum(forces * way), rel=1e-12)
+
+
+def test_asperities_do_not_touch_over_ports():
+    """Ports all round leave contact on the two lands alone."""
+    rough = Asperities(1.6e9, 50e-6, 0.5e-6, 80e9, 0.1)
+    film = BlockFilm(ALL_ROUND, drive(), laws=FilmLaws(asperities=rough), cells=(4, 16))
+    q = np.array([0.8e-6, 0.1e-6, 0.0])
+    problem = film.problem_at(0.0)
+    modes = modes_on(problem.space, film.modes_at(0.0))
+    gap = modes.at_points @ q
+    radius = np.hypot(*problem.space.points).mean(axis=1, keepdims=True)
+    land = np.where((radius < RADII[1]) | (radius > RADII[2]), gap, 1.0)
+    whole, lands = contact_force(rough, gap, modes), contact_force(rough, land, modes)
+    bare = BlockFilm(ALL_ROUND, drive(), cells=(4, 16)).outer_at(0.0, q, np.zeros(3))
+    touched = film.outer_at(0.0, q, np.zeros(3))
+    assert whole.force + touched.force - bare.force == pytest.approx(lands.force, rel=1e-9)
+    assert whole.slopes + touched.by_position == pytest.approx(lands.slopes, rel=1e-9, abs=1.0)
+    step = 1e-10 * np.eye(3)[1]
+    ahead, behind = (film.outer_at(0.0, q + d, np.zeros(3)).force for d in (step, -step))
+    assert (ahead - behind) / 2e-10 == pytest.approx(touched.by_position[:, 1], rel=1e-4, abs=1e-3)
+
+
+# Frames
+
+
+def test_a_tilt_that_stands_in_space_is_the_film_of_the_standing_frame(validation, refine):
+    """Oil stored on the mesh that turns with the block against the same film with a block that slides past."""
+    position = np.array([9e-6, 3e-6, -2e-6])
+    film = BlockFilm(PORTS, drive(**RUNNING), cells=(3, 12))
+    floating, time = floating_block(film), 0.3 / SPEED
+    gap = ValvePlateGap(PORTS, (3, 12))
+    state = ValvePlateState(0.3, film.chamber_pressures(0.3), 2.5e6, PRESSURE, CASE, -1e5, VISCOSITY, SPEED)
+    slopes = position[1:] / RADII[3]
+    steady = gap.at(state, ValvePlatePosition(position[0], *slopes), 0.0)
+    expected = generalised(np.array([steady.separating_force, *steady.separating_moment]), RADII[3])
+
+    def solve(steps: int) -> tuple[float, ...]:
+        step = 0.02 / SPEED / steps
+        problem = posed(film, time, position)
+        oil = standing(floating, time - step, position)[: problem.space.size]
+        stored = replace(problem, storage=Storage(oil, step))
+        return tuple(lifted(film, stored, time, position))
+
+    for name, got, want in zip(("lift", "x", "y"), refine(solve, (1, 2, 4), order=1.0), expected, strict=True):
+        validation(
+            case="tilted block, turning mesh", source="the film in the frame that stands", quantity=name, unit="N",
+            expected=want, obtained=got.finest, tolerance=got.tolerance(), order=got.order,
+        )  # fmt: skip
+
+
+def test_a_pitch_on_every_unknown_meets_its_like():
+    """What the block's mesh holds after a pitch, renumbered, stands where it stood."""
+    film = BlockFilm(PORTS, drive(**RUNNING), cells=(2, 8))
+    ring, period = film.ring, PITCH / SPEED
+    behind = ring.after_pitch()
+    now, later = ring.space.vertices, ring.turned(PITCH).vertices
+    assert later[behind] == pytest.approx(now, abs=1e-12)
+    first, then = film.problem_at(0.1 * period), film.problem_at(1.1 * period)
+    assert then.held_nodes is not None
+    assert np.array_equal(then.held_nodes[behind], first.held_nodes, equal_nan=True)
+    shift = [then.boundary[f"kidney_{k}"] for k in range(1, PISTONS)]
+    assert shift == [pytest.approx(first.boundary[f"kidney_{k}"]) for k in range(2, PISTONS + 1)]
+
+
+def test_the_film_changes_at_port_breaks_only():
+    """Between two breaks the same unknowns lie over the ports."""
+    ring = BlockFilm(PORTS, drive(**RUNNING), cells=(2, 8)).ring
+    breaks = np.array([*ring.port_breaks(), PITCH])
+    assert len(breaks) > 2
+
+    def covered(angle: float) -> np.ndarray:
+        return np.isnan(ring.port_nodes(ring.turned(angle), 1.0, 2.0))
+
+    for start, end in pairwise(breaks):
+        inside = np.linspace(start, end, 5)[1:-1]
+        assert all(np.array_equal(covered(a), covered(inside[0])) for a in inside[1:])
+
+
+# Floating
+
+
+def test_a_parallel_block_sinks_as_two_lands(validation, refine):
+    """Ports all round and one pressure: each land's squeeze film alone bears the excess load, at any shaft speed.
+
+    p = 6 mu V/h^3 (r^2 - a^2 - (b^2 - a^2) ln(r/a)/ln(b/a)), whose integral is
+    -(3 pi mu V/(2 h^3)) (b^4 - a^4 - (b^2 - a^2)^2/ln(b/a)) for V = dh/dt.
+    """
+    excess, film_thickness = 500.0, 9e-6
+    lands = ((RADII[0], RADII[1]), (RADII[2], RADII[3]))
+    damping = sum(1.5 * np.pi * VISCOSITY * (b**4 - a**4 - (b**2 - a**2) ** 2 / np.log(b / a)) for a, b in lands)
+
+    def solve(n: int) -> float:
+        start, step = np.array([film_thickness, 0.0, 0.0]), 1e-8
+        free = BlockFilm(ALL_ROUND, drive(), cells=(n, 4 * n))
+        lift = lifted(free, posed(free, 0.0, start), 0.0, start)[0]
+        film = BlockFilm(ALL_ROUND, drive(press=(-lift - excess, 0.0, 0.0)), cells=(n, 4 * n))
+        floating = floating_block(film)
+        before = standing(floating, 0.0, start)
+        stage = solve_stage(FilmSolver(film.space), floating, step, before, step, start, None)
+        return float(stage.q[0] - film_thickness) / step
+
+    got = refine(solve, (4, 8, 16))
+    validation(
+        case="parallel ring sinking under its load", source="closed form", quantity="rate of the film", unit="m/s",
+        expected=-excess * film_thickness**3 / damping, obtained=got.finest, tolerance=got.tolerance(),
+        order=got.order,
+    )  # fmt: skip
+
+
+def test_waves_of_the_plate_carry_the_block():
+    """A wavy plate has wedges, whose cavities leave a lift while the block turns; a flat one has none."""
+    still = {"suction_pressure": CASE, "delivery_pressure": CASE, "chamber": constant(CASE)}
+    position = np.array([3e-6, 0.0, 0.0])
+
+    def lift(face: Profile, speed: float) -> float:
+        film = BlockFilm(ALL_ROUND, drive(shaft_speed=speed, **still), face, cells=(3, 16))
+        return float(lifted(film, posed(film, 0.0, position), 0.0, position)[0])
+
+    wavy = Profile((Waviness(3, 1e-6),))
+    assert lift(wavy, 0.0) == pytest.approx(0.0, abs=1e-3)
+    assert lift(Profile(), SPEED) == pytest.approx(0.0, abs=1e-3)
+    assert lift(wavy, SPEED) > 1e3
