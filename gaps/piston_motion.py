@@ -20,11 +20,12 @@ import numpy as np
 from gaps.course import OverTurn
 from gaps.physics import FilmLaws, Physics, laws_left
 from gaps.profiles import PLAIN, Profile
+from gaps.rubbing import wall_shear
 from reynolds.errors import FilmInputError
-from reynolds.film import ZERO, Film, FilmProblem, FilmSolution, Held
+from reynolds.film import ZERO, Film, FilmProblem, Held
 from reynolds.floating import Floating, Outer, steady
+from reynolds.floating_stage import Stage
 from reynolds.laws import require_positive
-from reynolds.loads import point_fields
 from reynolds.mesh import Array, Cell, rectangle, rename
 from reynolds.space import FilmSpace, film_space
 
@@ -166,18 +167,19 @@ class PistonFilm:
         """Outer generalised forces; they depend on the shaft's angle alone."""
         return steady(self.drive.outer(self._angle(time)))
 
-    def friction(self, time: float, solution: FilmSolution) -> PistonFriction:
-        """What a film of this piston at a time (s) does to it along and around the bore."""
-        fields, area = point_fields(solution), solution.problem.space.area
-        radius, angle = 0.5 * self.shape.diameter, 2.0 * solution.problem.space.points[0] / self.shape.diameter
-        around, along = (part * area for part in fields.shear_moving)
-        stresses = (*fields.shear_moving, *fields.shear_fixed)
-        velocities = (part for wall in self._velocities(time) for part in wall)
+    def friction(self, stage: Stage) -> PistonFriction:
+        """What film and contact do to the piston along and around the bore."""
+        space = stage.solution.problem.space
+        radius, angle = 0.5 * self.shape.diameter, 2.0 * space.points[0] / self.shape.diameter
+        walls = self._velocities(stage.time)
+        on_piston, on_bore = wall_shear(stage.solution, self._laws.asperities, stage.gap)
+        around, along = (part * space.area for part in on_piston)
+        stresses, velocities = (*on_piston, *on_bore), (*walls[0], *walls[1])
         return PistonFriction(
             force=float(along.sum()),
             torque=radius * float(around.sum()),
             moment=radius * np.array([np.sum(along * np.sin(angle)), -np.sum(along * np.cos(angle))]),
-            power=-sum(float(np.sum(t * u * area)) for t, u in zip(stresses, velocities, strict=True)),
+            power=-sum(float(np.sum(t * u * space.area)) for t, u in zip(stresses, velocities, strict=True)),
         )
 
     def _angle(self, time: float) -> float:

@@ -20,10 +20,12 @@ import numpy as np
 from gaps.course import OverTurn
 from gaps.physics import FilmLaws, Physics, laws_left
 from gaps.profiles import PLAIN, Profile
+from gaps.rubbing import wall_shear
 from gaps.slipper import hagen_poiseuille_conductance
 from reynolds.errors import FilmInputError
 from reynolds.film import ZERO, Boundary, Film, FilmProblem, Held, Pocket, no_feed
 from reynolds.floating import Floating, Outer
+from reynolds.floating_stage import Stage
 from reynolds.laws import Tangent, require_positive
 from reynolds.mesh import Array, FilmMesh, ring
 from reynolds.space import FilmSpace, film_space
@@ -151,6 +153,19 @@ def retainer_force(retainer: Retainer, position: Array) -> Outer:
     return Outer(-retainer.stiffness * over * along, -retainer.stiffness * slopes, nothing)
 
 
+@dataclass(frozen=True)
+class SlipperFriction:
+    """What a film does to its slipper besides bearing it.
+
+    force (2,) N along the plate's x and y; torque N m about its normal; power W, what slipper and plate spend on
+    shearing the film, seen from the slipper.
+    """
+
+    force: Array
+    torque: float
+    power: float
+
+
 class SlipperFilm:
     """Films of one floating slipper on a ring mesh, cells = (across each land, around)."""
 
@@ -225,6 +240,21 @@ class SlipperFilm:
             return Outer(given, np.zeros((3, 3)), np.zeros((3, 3)))
         held = retainer_force(self.drive.retainer, position)
         return replace(held, force=given + held.force)
+
+    def friction(self, stage: Stage) -> SlipperFriction:
+        """What film and contact of the lands do to slipper and plate; the pocket's oil shears next to nothing."""
+        space = stage.solution.problem.space
+        x, y = space.points
+        on_slipper, on_plate = wall_shear(stage.solution, self._laws.asperities, stage.gap)
+        along, across = (part * space.area for part in on_slipper)
+        torque = float(np.sum(x * across - y * along))
+        plate = [float(np.sum(part * space.area)) for part in on_plate]
+        sliding = np.asarray(self.drive.sliding(self._angle(stage.time)))
+        return SlipperFriction(
+            force=np.array([along.sum(), across.sum()]),
+            torque=torque,
+            power=float(sliding @ plate) - self.drive.spin * torque,
+        )
 
     def _angle(self, time: float) -> float:
         return self.drive.shaft_speed * time
