@@ -1,0 +1,257 @@
+"""A gap over the revolution: its floating film marched from angle to angle until the turn closes."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from time import perf_counter
+
+import numpy as np
+
+from reynolds.dirk import ALEXANDER_2, State, Tableau, Taken, march, nodes_only
+from reynolds.errors import FilmInputError
+from reynolds.film import FilmSolution
+from reynolds.floating import Floating
+from reynolds.floating_stage import Stage, solve_stage
+from reynolds.floating_start import restarted, started
+from reynolds.loads import Loads, loads
+from reynolds.mesh import Array
+from reynolds.periodic import Periodic, periodic
+from reynolds.solve import FilmSolver
+
+
+@dataclass(frozen=True)
+class Accuracy:
+    """How exactly a revolution is marched and closed, as shares of the least film.
+
+    step, floor: error of one step in any coordinate, share and m beside it; closed: change of position, and of the
+    oil in the film, over a turn; reach: how far beyond a turn's end the next may start.
+    """
+
+    step: float = 1e-3
+    floor: float = 1e-8
+    closed: float = 1e-3
+    reach: float = 0.25
+
+
+@dataclass(frozen=True)
+class Schedule:
+    """Where a revolution stops: shaft speed rad/s, angles (n,) rad to report, `breaks` to step on, films to keep.
+
+    Angles rise from above 0 to the last, at which the turn closes (2 pi, or the pitch of alike pistons); `breaks`
+    are those at which the drive bends (a port opens), at or below the last. Every `keep`th reported film is kept.
+    """
+
+    speed: float
+    angles: Array
+    breaks: Array = field(default_factory=lambda: np.zeros(0))
+    keep: int = 10
+
+    @property
+    def times(self) -> Array:
+        """Nodes of the march, s: angles and breaks together."""
+        inside = self.breaks[(self.breaks > 0.0) & (self.breaks < self.angles[-1])]
+        return np.unique(np.concatenate([self.angles, inside])) / self.speed
+
+
+def evenly(speed: float, steps: int, span: float = 2.0 * np.pi) -> Schedule:
+    """Every span/steps (rad) of the turn."""
+    return Schedule(speed, span * np.arange(1, steps + 1) / steps)
+
+
+@dataclass(frozen=True)
+class GapInstant:
+    """A gap at one shaft angle (rad): position (k,) m, rate (k,) m/s, forces (k,) N along the position, film.
+
+    least_gap m is the least distance of the mean planes, negative where rough walls overlap; mean_film m the area
+    mean of the film's thickness; cavitated share of the area; loads as `reynolds.loads` gives them.
+    """
+
+    angle: float
+    position: Array
+    rate: Array
+    film_force: Array
+    contact_force: Array
+    outer_force: Array
+    least_gap: float
+    mean_film: float
+    loads: Loads
+
+
+@dataclass(frozen=True)
+class GapTurn:
+    """One turn: its start q, its instants, kept films by angle, its end, and what it cost.
+
+    times (s) of its steps; step_error: largest error of a step over what was allowed; allowed, reach, repeats: as
+    `reynolds.periodic.Turn` has them.
+    """
+
+    start: Array
+    instants: tuple[GapInstant, ...]
+    films: dict[float, FilmSolution] = field(repr=False)
+    last: State[Stage] = field(repr=False)
+    times: Array = field(repr=False)
+    step_error: float
+    allowed: float
+    reach: float
+    repeats: bool
+
+    @property
+    def end(self) -> Array:
+        """Position at its end, (k,) m."""
+        return self.last.q
+
+    @property
+    def slopes(self) -> Array:
+        """d end / d start, (k, k)."""
+        assert self.last.tangent is not None
+        return self.last.tangent.q
+
+
+@dataclass(frozen=True)
+class GapRevolution:
+    """A gap whose turn closes: the turn, and how it was found (turns, changes a turn, multipliers)."""
+
+    turn: GapTurn
+    closing: Periodic[GapTurn] = field(repr=False)
+    films_solved: int
+    seconds: float
+
+    @property
+    def angles(self) -> Array:
+        """Reported shaft angles (n,) rad."""
+        return np.array([instant.angle for instant in self.turn.instants])
+
+    @property
+    def positions(self) -> Array:
+        """Positions (n, k) m."""
+        return np.array([instant.position for instant in self.turn.instants])
+
+    @property
+    def least_film(self) -> GapInstant:
+        """The instant at which the film is thinnest."""
+        return min(self.turn.instants, key=lambda instant: instant.loads.film_thickness_min)
+
+
+def run_revolution(
+    solver: FilmSolver,
+    floating: Floating,
+    schedule: Schedule,
+    start: Array,
+    *,
+    accuracy: Accuracy | None = None,
+    method: Tableau = ALEXANDER_2,
+    before: GapRevolution | None = None,
+) -> GapRevolution:
+    """The periodic motion of a gap whose drive repeats with the schedule's last angle.
+
+    Starts as a full film at rest at `start` (k,) m, or goes on from a revolution `before` it. The steps of the
+    second turn are those of all that follow, so that the map of a turn is smooth. Afterwards the position repeats
+    to `closed` of the least film in every coordinate and the oil in the film to the same share. Raises
+    FilmInputError for a schedule that does not rise from 0, FilmNotConverged with part and time where a step or
+    the turn does not settle.
+    """
+    angles = np.concatenate([[0.0], schedule.angles])
+    if len(angles) < 2 or not np.all(np.diff(angles) > 0.0) or not schedule.speed > 0.0:
+        raise FilmInputError(
+            "revolution", f"angles {schedule.angles[:5]} rad at {schedule.speed:g} rad/s", "rising"
+        )
+    opening = None if before is None else before.turn
+    run = _Turns(solver, floating, schedule, accuracy or Accuracy(), method, opening)
+    began = perf_counter()
+    closing = periodic(run.turn, start if opening is None else opening.end)
+    return GapRevolution(closing.turn, closing, run.films_solved, perf_counter() - began)
+
+
+class _Turns:
+    """Turns of one gap, each from a start; counts what they cost."""
+
+    def __init__(
+        self,
+        solver: FilmSolver,
+        floating: Floating,
+        schedule: Schedule,
+        accuracy: Accuracy,
+        method: Tableau,
+        opening: GapTurn | None,
+    ) -> None:
+        self._solver, self._floating = solver, floating
+        self._accuracy, self._method, self._opening = accuracy, method, opening
+        self._times = schedule.times
+        self._angles = dict(zip(schedule.angles / schedule.speed, schedule.angles, strict=True))
+        self._kept = set(schedule.angles[schedule.keep - 1 :: schedule.keep])
+        self._adaptive = 2 if opening is None else 1  # turns left that choose their steps
+        self.films_solved = 0
+
+    def turn(self, start: Array, before: GapTurn | None) -> GapTurn:
+        """One turn from a start, on from what the turn before left in the film."""
+        state = begin = self._begin(start, before or self._opening)
+        again = before.times if before is not None and self._adaptive <= 0 else None
+        self._adaptive -= 1
+        instants: list[GapInstant] = []
+        films: dict[float, FilmSolution] = {}
+        times, errors = [], []
+        for taken in self._marched(begin, again):
+            state, stage = taken.state, taken.stage
+            times.append(state.time)
+            errors.append(taken.largest_error / self._allowed(stage))
+            if (angle := self._angles.get(state.time)) is None:
+                continue
+            instants.append(_seen(angle, state, stage))
+            if angle in self._kept:
+                films[angle] = stage.solution
+        least = instants[-1].loads.film_thickness_min
+        return GapTurn(
+            start=start,
+            instants=tuple(instants),
+            films=films,
+            last=state,
+            times=np.array(times),
+            step_error=max(errors),
+            allowed=self._accuracy.closed * least,
+            reach=self._accuracy.reach * least,
+            repeats=_oil_moved(begin, state) <= self._accuracy.closed,
+        )
+
+    def _marched(self, begin: State[Stage], again: Array | None) -> Iterator[Taken[Stage]]:
+        """Steps of a turn, chosen by their error or those of an earlier turn again."""
+        if again is None:
+            return march(self._method, self._stage, begin, self._times, self._allowed)
+        return march(self._method, self._stage, begin, again, nodes_only)
+
+    def _begin(self, start: Array, last: GapTurn | None) -> State[Stage]:
+        if last is None:
+            return started(self._floating, 0.0, start)
+        return restarted(self._floating, 0.0, last.last, start)
+
+    def _stage(self, time: float, before: Array, step: float, guess: Array, last: Stage | None) -> Stage:
+        stage = solve_stage(self._solver, self._floating, time, before, step, guess, last)
+        self.films_solved += stage.films
+        return stage
+
+    def _allowed(self, stage: Stage) -> float:
+        """Error of a step (m) that ends at a stage."""
+        return self._accuracy.step * float(stage.solution.film.thickness.min()) + self._accuracy.floor
+
+
+def _oil_moved(begin: State[Stage], end: State[Stage]) -> float:
+    """Oil that is elsewhere at the end, over all of it."""
+    assert end.stage is not None
+    oil = slice(len(end.stage.solution.pressure))
+    return float(np.abs(end.held[oil] - begin.held[oil]).sum() / np.abs(begin.held[oil]).sum())
+
+
+def _seen(angle: float, state: State[Stage], stage: Stage) -> GapInstant:
+    """What is reported of a stage."""
+    area, film = stage.solution.problem.space.area, stage.solution.film
+    return GapInstant(
+        angle=angle,
+        position=stage.q,
+        rate=state.rate,
+        film_force=stage.film_force,
+        contact_force=stage.contact_force,
+        outer_force=stage.outer.force,
+        least_gap=stage.least_gap,
+        mean_film=float(np.sum(film.thickness * area) / np.sum(area)),
+        loads=loads(stage.solution),
+    )
