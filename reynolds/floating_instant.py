@@ -53,13 +53,15 @@ def parted(floating: Floating, held: Array, size: int) -> Kept:
 class Trial:
     """A film at a position q (k,) m and rate m/s over the step.
 
-    gap (cells, points) m between the mean planes; thicker (cells, points, k): growth of the film by q; film_force
+    gap (cells, points) m between the mean planes, corner_gap (vertices,) m the same where it is known, least the
+    smallest of both; thicker (cells, points, k): growth of the film by q; film_force
     Q (k,) N without contact; missing (k,) N: what is left of the balance, and `size` (k,) N, the magnitudes in it.
     """
 
     q: Array
     rate: Array
     gap: Array
+    corner_gap: Array | None
     least: float
     thicker: Array
     solution: FilmSolution
@@ -89,14 +91,13 @@ class Instant:
 
     def tried(self, q: Array, warm: FilmSolution | None) -> Trial:
         """The film at a position; raises FilmNotConverged where walls overlap or the film does not settle."""
-        problem, gap, least, thicker = posed(self.shape, self.modes, q)
-        if not least > lowest_gap(self.shape):
-            raise FilmNotConverged(f"walls that overlap by {-least:.3g} m", "a shorter step")
-        boundary = self._with_volumes(q)
-        problem = replace(problem, boundary=boundary, storage=Storage(self.before.oil, self.step))
+        at = posed(self.shape, self.modes, q)
+        if not at.least > lowest_gap(self.shape):
+            raise FilmNotConverged(f"walls that overlap by {-at.least:.3g} m", "a shorter step")
+        storage = Storage(self.before.oil, self.step)
+        problem = replace(at.problem, boundary=self._with_volumes(q), storage=storage)
         solution = from_last_or_anew(lambda last: self.solver.solve(problem, last), warm)
-        rate = (q - self.before.position) / self.step
-        return self._balanced(q, rate, gap, least, thicker, solution)
+        return self._balanced(q, at, solution)
 
     def _with_volumes(self, q: Array) -> dict[str, Boundary]:
         """The boundaries, pockets fed with what their growing volume takes."""
@@ -110,30 +111,40 @@ class Instant:
             boundary[name] = Pocket(_less(condition.feed, taken))
         return boundary
 
-    def _balanced(
-        self, q: Array, rate: Array, gap: Array, least: float, thicker: Array, solution: FilmSolution
-    ) -> Trial:
+    def _balanced(self, q: Array, at: Posed, solution: FilmSolution) -> Trial:
         reference, asperities = self.floating.reference, self.shape.asperities
+        rate = (q - self.before.position) / self.step
         force = generalised_force(solution.pressure, self.modes, reference)
         size = np.abs(solution.pressure - reference) @ np.abs(self.modes.weights)
         outer = self.floating.outer_at(self.time, q, rate)
         missing, size = force + outer.force, size + np.abs(outer.force)
-        contact = None if asperities is None else contact_force(asperities, gap, self.modes)
+        contact = None if asperities is None else contact_force(asperities, at.gap, self.modes)
         if contact is not None:
             missing, size = missing + contact.force, size + contact.size
         if self.floating.inertia is not None:
             pushed = self.floating.inertia @ (rate - self.before.rate) / self.step
             missing, size = missing - pushed, size + np.abs(pushed)
-        return Trial(q, rate, gap, least, thicker, solution, force, contact, outer, missing, size)
+        return Trial(
+            q, rate, at.gap, at.corner_gap, at.least, at.thicker, solution, force, contact, outer, missing, size
+        )
 
-    def allowed(self, least: float) -> float:
-        """The least gap (m) that a step from a least gap may lead to."""
-        asperities = self.shape.asperities
+    def room(self, at: Trial, step: Array) -> float:
+        """The share of a step (k,) m, maybe more than one, that leaves as much gap as one step may take.
+
+        That is a fifth of the least gap, or of rough walls three standard deviations of the summits less than it.
+        """
         if self.shape.walls is not None:
-            return -np.inf
-        if asperities is None:
-            return LEAST_SHARE * least
-        return min(LEAST_SHARE * least, least - DEEPEST * asperities.height)
+            return np.inf
+        asperities, floor = self.shape.asperities, LEAST_SHARE * at.least
+        if asperities is not None:
+            floor = min(floor, at.least - DEEPEST * asperities.height)
+        falls = [(at.gap - floor, -(self.modes.at_points @ step))]
+        if at.corner_gap is not None:
+            falls.append((at.corner_gap - floor, -(self.modes.at_vertices @ step)))
+        return min(
+            float(np.min(np.divide(gap, fall, out=np.full(fall.shape, np.inf), where=fall > 0.0)))
+            for gap, fall in falls
+        )
 
     def by_position(self, at: Trial) -> Response:
         """How the film at a position answers to it, on the film's last factor."""
@@ -185,18 +196,27 @@ def instant_of(solver: FilmSolver, floating: Floating, time: float, step: float,
     return Instant(solver, floating, time, step, shape, modes, before)
 
 
-def posed(shape: FilmProblem, modes: Modes, q: Array) -> tuple[FilmProblem, Array, float, Array]:
-    """The film at a position: its problem, gap (cells, points) m, least gap m, and growth (cells, points, k)."""
-    gap = shape.film.thickness + modes.at_points @ q
-    between, corners = film_between(shape, gap), shape.film.thickness_at_vertices
-    least = float(gap.min())
+@dataclass(frozen=True)
+class Posed:
+    """A film at a position, before it is solved: see `Trial`."""
+
+    problem: FilmProblem
+    gap: Array
+    corner_gap: Array | None
+    least: float
+    thicker: Array
+
+
+def posed(shape: FilmProblem, modes: Modes, q: Array) -> Posed:
+    """The film of a shape at a position (k,) m; contact is left out of its problem: the gap counts there."""
+    gap, corners = shape.film.thickness + modes.at_points @ q, shape.film.thickness_at_vertices
+    between, at_corners, least = film_between(shape, gap), None, float(gap.min())
     if corners is not None:
         corners = corners + modes.at_vertices @ q
-        least = min(least, float(corners.min()))
-        corners = film_between(shape, corners).value
-    film = replace(shape.film, thickness=between.value, thickness_at_vertices=corners)
+        least, at_corners = min(least, float(corners.min())), film_between(shape, corners).value
+    film = replace(shape.film, thickness=between.value, thickness_at_vertices=at_corners)
     thicker = np.ascontiguousarray(between.slope[:, :, None] * modes.at_points)
-    return replace(shape, film=film, asperities=None), gap, least, thicker
+    return Posed(replace(shape, film=film, asperities=None), gap, corners, least, thicker)
 
 
 def lowest_gap(shape: FilmProblem) -> float:

@@ -114,29 +114,19 @@ def solve_stage(
     """The position at `time` (s), one implicit step (s) after `before` was held.
 
     Afterwards the generalised forces balance to 1e-8 of the magnitudes that meet there (1e-6 where the film's
-    round-off allows no less). Newton's method starts at `guess` (k,) m, or where that leaves no film, at the
-    position before; `last` warms the film. A Newton step is halved until it leaves a fifth of the least gap, or
-    presses rough walls by three standard deviations at most, and brings the forces nearer to balance. Raises
+    round-off allows no less). Newton's method starts at `guess` (k,) m, and where that leads nowhere, at the
+    position before; `last` warms the film. A Newton step leaves a fifth of the least gap, or presses rough walls
+    by three standard deviations at most, and is halved until it brings the forces nearer to balance. Raises
     FilmNotConverged where that leads nowhere, so that a shorter step may; FilmInputError as the film does.
     `functools.partial(solve_stage, solver, floating)` is a `dirk.StageSolver`.
     """
     instant = instant_of(solver, floating, time, step, before)
     search = _Search(instant, None if last is None else last.solution)
-    at = search.first(guess)
-    for steps in range(MOST_STEPS):
-        if at.missed <= TOLERANCE:
-            return Stage(time, at, instant, search.films, steps)
-        new = search.downhill(at)
-        if new is None and at.missed <= GOOD_ENOUGH:
-            return Stage(time, at, instant, search.films, steps)
-        if new is None:
-            break
-        at = new
-    raise FilmNotConverged(
-        f"{floating.name} at {time:.6g} s: forces out of balance by {at.missed:.2g}, least gap {at.least:.3g} m "
-        f"({search.why})",
-        "a shorter step, or less load",
-    )
+    if (found := search.balanced(guess)) is None:
+        found = search.balanced(instant.before.position)
+    if found is None:
+        raise FilmNotConverged(f"{floating.name} at {time:.6g} s: {search.why}", "a shorter step, or less load")
+    return Stage(time, found, instant, search.films, search.steps)
 
 
 def standing(floating: Floating, time: float, q: Array, rate: Array | None = None) -> Array:
@@ -146,54 +136,62 @@ def standing(floating: Floating, time: float, q: Array, rate: Array | None = Non
     rest). Raises FilmInputError where walls overlap.
     """
     shape = floating.shape_at(time)
-    problem, _, least, _ = posed(shape, modes_on(shape.space, floating.modes_at(time), floating.pockets), q)
-    if not least > lowest_gap(shape):
-        raise FilmInputError(f"{floating.name} at {time:.6g} s", f"a least gap of {least:.3g} m", "walls apart")
-    return joined(floating, Kept(oil_held(problem), q, np.zeros(len(q)) if rate is None else rate))
+    at = posed(shape, modes_on(shape.space, floating.modes_at(time), floating.pockets), q)
+    if not at.least > lowest_gap(shape):
+        raise FilmInputError(f"{floating.name} at {time:.6g} s", f"a least gap of {at.least:.3g} m", "walls apart")
+    return joined(floating, Kept(oil_held(at.problem), q, np.zeros(len(q)) if rate is None else rate))
 
 
 class _Search:
     """Films tried at one instant, each warming the next."""
 
     def __init__(self, instant: Instant, warm: FilmSolution | None) -> None:
-        self.instant, self._warm = instant, warm
-        self.films, self.why = 0, "after the most steps"
+        self._instant, self._warm = instant, warm
+        self.films = self.steps = 0
+        self.why = "no film tried"
 
-    def at(self, q: Array) -> Trial | None:
+    def balanced(self, start: Array) -> Trial | None:
+        """The film in balance that Newton's method reaches from a position (k,) m; else None, and `why`."""
+        at = self._tried(start)
+        for _ in range(MOST_STEPS):
+            if at is None or at.missed <= TOLERANCE:
+                return at
+            new = self._downhill(at)
+            if new is None:
+                return at if at.missed <= GOOD_ENOUGH else None
+            at = new
+            self.steps += 1
+        self.why = f"not settled after {MOST_STEPS} steps"
+        return None
+
+    def _tried(self, q: Array) -> Trial | None:
         """The film there, None where there is none."""
         self.films += 1
         try:
-            found = self.instant.tried(q, self._warm)
+            found = self._instant.tried(q, self._warm)
         except FilmNotConverged as reason:
             self.why = reason.what
             return None
         self._warm = found.solution
         return found
 
-    def first(self, guess: Array) -> Trial:
-        """The film at the guess, else at the position before."""
-        found = self.at(guess)
-        if found is None and not np.array_equal(guess, self.instant.before.position):
-            found = self.at(self.instant.before.position)
-        if found is None:
-            name = self.instant.floating.name
-            raise FilmNotConverged(f"{name} at {self.instant.time:.6g} s: {self.why}", "a shorter step")
-        return found
-
-    def downhill(self, at: Trial) -> Trial | None:
+    def _downhill(self, at: Trial) -> Trial | None:
         """The film one Newton step on, cut back until it is nearer to balance; None where no share is."""
-        instant = self.instant
-        slopes = instant.slopes(at, instant.by_position(at))
-        step = -solved(slopes, at.missing, instant.floating.name)
+        instant = self._instant
+        try:
+            step = -solved(instant.slopes(at, instant.by_position(at)), at.missing, instant.floating.name)
+        except FilmNotConverged as reason:
+            self.why = reason.what
+            return None
+        room = min(1.0, instant.room(at, step))
         size = np.maximum(at.size, 1e-300)
         before = float(np.max(np.abs(at.missing) / size))
-        self.why = "no step comes nearer to balance"
         for halvings in range(MOST_HALVINGS):
-            share = 0.5**halvings
-            q = at.q + share * step
-            if posed(instant.shape, instant.modes, q)[2] < instant.allowed(at.least):
-                continue
-            new = self.at(q)
-            if new is not None and float(np.max(np.abs(new.missing) / size)) < (1.0 - LEAST_GAIN * share) * before:
+            share = room * 0.5**halvings
+            new = self._tried(at.q + share * step)
+            # Walls too far apart to feel each other: a step that is cut at their gap brings them nearer.
+            wanted = before if share == room < 1.0 else (1.0 - LEAST_GAIN * share) * before
+            if new is not None and float(np.max(np.abs(new.missing) / size)) <= wanted:
                 return new
+        self.why = f"forces out of balance by {at.missed:.2g} of their magnitudes, least gap {at.least:.3g} m"
         return None
