@@ -244,6 +244,7 @@ def test_dynamically_loaded_journal(validation):
             unit="1",
             expected=listed,
             obtained=found,
-            relative_tolerance=0.01,
+            tolerance=0.01,
+            note="tolerance 1 % of the clearance",
             missed=missed,
         )
