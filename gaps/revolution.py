@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from time import perf_counter
+from typing import Generic, TypeVar
 
 import numpy as np
 
@@ -59,12 +60,16 @@ def evenly(speed: float, steps: int, span: float = 2.0 * np.pi) -> Schedule:
     return Schedule(speed, span * np.arange(1, steps + 1) / steps)
 
 
+Seen = TypeVar("Seen")
+
+
 @dataclass(frozen=True)
-class GapInstant:
+class GapInstant(Generic[Seen]):
     """A gap at one shaft angle (rad): position (k,) m, rate (k,) m/s, forces (k,) N along the position, film.
 
     least_gap m is the least distance of the mean planes, negative where rough walls overlap; mean_film m the area
-    mean of the film's thickness; cavitated share of the area; loads as `reynolds.loads` gives them.
+    mean of the film's thickness; loads as `reynolds.loads` gives them, of the film without contact; seen: what the
+    gap itself tells of the instant (friction).
     """
 
     angle: float
@@ -76,10 +81,11 @@ class GapInstant:
     least_gap: float
     mean_film: float
     loads: Loads
+    seen: Seen
 
 
 @dataclass(frozen=True)
-class GapTurn:
+class GapTurn(Generic[Seen]):
     """One turn: its start q, its instants, kept films by angle, its end, and what it cost.
 
     times (s) of its steps; step_error: largest error of a step over what was allowed; allowed, reach, repeats: as
@@ -87,7 +93,7 @@ class GapTurn:
     """
 
     start: Array
-    instants: tuple[GapInstant, ...]
+    instants: tuple[GapInstant[Seen], ...]
     films: dict[float, FilmSolution] = field(repr=False)
     last: State[Stage] = field(repr=False)
     times: Array = field(repr=False)
@@ -109,11 +115,11 @@ class GapTurn:
 
 
 @dataclass(frozen=True)
-class GapRevolution:
+class GapRevolution(Generic[Seen]):
     """A gap whose turn closes: the turn, and how it was found (turns, changes a turn, multipliers)."""
 
-    turn: GapTurn
-    closing: Periodic[GapTurn] = field(repr=False)
+    turn: GapTurn[Seen]
+    closing: Periodic[GapTurn[Seen]] = field(repr=False)
     films_solved: int
     seconds: float
 
@@ -128,7 +134,7 @@ class GapRevolution:
         return np.array([instant.position for instant in self.turn.instants])
 
     @property
-    def least_film(self) -> GapInstant:
+    def least_film(self) -> GapInstant[Seen]:
         """The instant at which the film is thinnest."""
         return min(self.turn.instants, key=lambda instant: instant.loads.film_thickness_min)
 
@@ -138,18 +144,19 @@ def run_revolution(
     floating: Floating,
     schedule: Schedule,
     start: Array,
+    look: Callable[[Stage], Seen],
     *,
     accuracy: Accuracy | None = None,
     method: Tableau = ALEXANDER_2,
-    before: GapRevolution | None = None,
-) -> GapRevolution:
+    before: GapRevolution[Seen] | None = None,
+) -> GapRevolution[Seen]:
     """The periodic motion of a gap whose drive repeats with the schedule's last angle.
 
-    Starts as a full film at rest at `start` (k,) m, or goes on from a revolution `before` it. The steps of the
-    second turn are those of all that follow, so that the map of a turn is smooth. Afterwards the position repeats
-    to `closed` of the least film in every coordinate and the oil in the film to the same share. Raises
-    FilmInputError for a schedule that does not rise from 0, FilmNotConverged with part and time where a step or
-    the turn does not settle.
+    Starts as a full film at rest at `start` (k,) m, or goes on from a revolution `before` it; `look` tells what
+    else to report of each angle. The steps of the second turn are those of all that follow, so that the map of a
+    turn is smooth. Afterwards each coordinate repeats to `closed` of the least film, and the oil in the film to
+    that share of all. Raises FilmInputError for a schedule that does not rise from 0, FilmNotConverged with part
+    and time where a step or the turn does not settle.
     """
     angles = np.concatenate([[0.0], schedule.angles])
     if len(angles) < 2 or not np.all(np.diff(angles) > 0.0) or not schedule.speed > 0.0:
@@ -157,13 +164,13 @@ def run_revolution(
             "revolution", f"angles {schedule.angles[:5]} rad at {schedule.speed:g} rad/s", "rising"
         )
     opening = None if before is None else before.turn
-    run = _Turns(solver, floating, schedule, accuracy or Accuracy(), method, opening)
+    run = _Turns(solver, floating, schedule, look, accuracy or Accuracy(), method, opening)
     began = perf_counter()
     closing = periodic(run.turn, start if opening is None else opening.end)
     return GapRevolution(closing.turn, closing, run.films_solved, perf_counter() - began)
 
 
-class _Turns:
+class _Turns(Generic[Seen]):
     """Turns of one gap, each from a start; counts what they cost."""
 
     def __init__(
@@ -171,11 +178,12 @@ class _Turns:
         solver: FilmSolver,
         floating: Floating,
         schedule: Schedule,
+        look: Callable[[Stage], Seen],
         accuracy: Accuracy,
         method: Tableau,
-        opening: GapTurn | None,
+        opening: GapTurn[Seen] | None,
     ) -> None:
-        self._solver, self._floating = solver, floating
+        self._solver, self._floating, self._look = solver, floating, look
         self._accuracy, self._method, self._opening = accuracy, method, opening
         self._times = schedule.times
         self._angles = dict(zip(schedule.angles / schedule.speed, schedule.angles, strict=True))
@@ -183,12 +191,12 @@ class _Turns:
         self._adaptive = 2 if opening is None else 1  # turns left that choose their steps
         self.films_solved = 0
 
-    def turn(self, start: Array, before: GapTurn | None) -> GapTurn:
+    def turn(self, start: Array, before: GapTurn[Seen] | None) -> GapTurn[Seen]:
         """One turn from a start, on from what the turn before left in the film."""
         state = begin = self._begin(start, before or self._opening)
         again = before.times if before is not None and self._adaptive <= 0 else None
         self._adaptive -= 1
-        instants: list[GapInstant] = []
+        instants: list[GapInstant[Seen]] = []
         films: dict[float, FilmSolution] = {}
         times, errors = [], []
         for taken in self._marched(begin, again):
@@ -197,7 +205,7 @@ class _Turns:
             errors.append(taken.largest_error / self._allowed(stage))
             if (angle := self._angles.get(state.time)) is None:
                 continue
-            instants.append(_seen(angle, state, stage))
+            instants.append(_instant(angle, state, self._look(stage)))
             if angle in self._kept:
                 films[angle] = stage.solution
         least = instants[-1].loads.film_thickness_min
@@ -219,7 +227,7 @@ class _Turns:
             return march(self._method, self._stage, begin, self._times, self._allowed)
         return march(self._method, self._stage, begin, again, nodes_only)
 
-    def _begin(self, start: Array, last: GapTurn | None) -> State[Stage]:
+    def _begin(self, start: Array, last: GapTurn[Seen] | None) -> State[Stage]:
         if last is None:
             return started(self._floating, 0.0, start)
         return restarted(self._floating, 0.0, last.last, start)
@@ -241,8 +249,10 @@ def _oil_moved(begin: State[Stage], end: State[Stage]) -> float:
     return float(np.abs(end.held[oil] - begin.held[oil]).sum() / np.abs(begin.held[oil]).sum())
 
 
-def _seen(angle: float, state: State[Stage], stage: Stage) -> GapInstant:
-    """What is reported of a stage."""
+def _instant(angle: float, state: State[Stage], seen: Seen) -> GapInstant[Seen]:
+    """What is reported of the end of a step."""
+    stage = state.stage
+    assert stage is not None
     area, film = stage.solution.problem.space.area, stage.solution.film
     return GapInstant(
         angle=angle,
@@ -254,4 +264,5 @@ def _seen(angle: float, state: State[Stage], stage: Stage) -> GapInstant:
         least_gap=stage.least_gap,
         mean_film=float(np.sum(film.thickness * area) / np.sum(area)),
         loads=loads(stage.solution),
+        seen=seen,
     )
