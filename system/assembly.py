@@ -9,8 +9,9 @@ from enum import Enum
 import numpy as np
 
 from system.bench import BenchReading, Efficiency, elastic_energy, iso_efficiency, paper_efficiency
-from system.chamber import ChamberCycle, ChamberProblem, LeakTable, Paths, flow_energy
+from system.chamber import ChamberCycle, Paths, flow_energy
 from system.chamber_kernel import CAVITY_PRESSURE
+from system.chamber_problem import ChamberProblem, LeakTable
 from system.kinematics import Array, stroke
 from system.operating import OperatingPoint
 from system.pairs import FrictionPairs, Pair, over_chambers

@@ -2,7 +2,8 @@
 
 As printed, Eq. (14) with (18) and (19) counts the displacement twice and the pump delivers nothing. Here the
 chamber keeps its mass: dp/dt = (K/V)(-Ap v - q_port - sum of leaks), V = V0 + Ap S, every q > 0 out of the
-chamber. The gaps' leakage is q(phi, p) = G(phi) (p - p_case) + C(phi) from a table, whoever filled it.
+chamber. The gaps' leakage is q(phi, p) = G(phi) (p - p_case) + C(phi) from a table, whoever filled it; V may
+grow besides by what the parts themselves move, and the pressures behind the ports may vary over the turn.
 """
 
 from __future__ import annotations
@@ -12,9 +13,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from system import chamber_kernel as kernel
+from system.chamber_course import Constants, Course, constants, turn_nodes
+from system.chamber_problem import ChamberProblem
 from system.errors import NotConverged
-from system.kinematics import Array, SwashDrive, piston_displacement, stroke
-from system.ports import TURN, PortOpening, as_array, break_angles
+from system.kinematics import Array, piston_displacement, stroke
+from system.ports import TURN
 
 TOLERANCE = 1e-6
 """Largest local error of a step, of the port pressure difference; the closed revolution is good to about this."""
@@ -22,56 +25,6 @@ PERIODICITY = 1e-8
 """Largest change of the pressure at shaft angle 0 from one revolution to the next, of the pressure difference."""
 REVOLUTION_LIMIT = 60
 RUN_IN_NODES = 6
-
-
-@dataclass(frozen=True)
-class LeakTable:
-    """Leakage of the piston, slipper and valve-plate gap of one chamber (rows 0, 1, 2) over one turn.
-
-    Columns: N equidistant shaft angles 2 pi j/N from 0; conductance in m3/(s Pa), all >= 0, carried_flow in m3/s,
-    both for flow out of the chamber. Between the columns runs a periodic cubic spline: with two continuous
-    derivatives it keeps the integrator's order, and steps need not end on the table's angles; a linear one would
-    bend at each of them. Raises ValueError for a wrong shape or a negative conductance.
-    """
-
-    conductance: Array
-    carried_flow: Array
-
-    def __post_init__(self) -> None:
-        shape = self.conductance.shape
-        if len(shape) != 2 or shape[0] != 3 or shape[1] < 4 or self.carried_flow.shape != shape:
-            raise ValueError(
-                f"leak table: found shapes {shape} and {self.carried_flow.shape}, expected (3, N) with N >= 4"
-            )
-        if np.any(self.conductance < 0.0):
-            raise ValueError(
-                f"leak table: found conductance {self.conductance.min():.3g} m3/(s Pa), expected 0 or more"
-            )
-
-
-@dataclass(frozen=True)
-class ChamberProblem:
-    """One chamber at one operating point: SI units, pressures gauge, oil properties constant."""
-
-    drive: SwashDrive
-    shaft_speed: float
-    piston_area: float
-    dead_volume: float
-    delivery_pressure: float
-    inlet_pressure: float
-    case_pressure: float
-    bulk_modulus: float
-    density: float
-    kinematic_viscosity: float
-    flow_coefficient: float
-    critical_reynolds: float
-    delivery_port: PortOpening
-    suction_port: PortOpening
-    leaks: LeakTable
-
-    def specific_volume(self, pressure: float) -> float:
-        """Volume of the oil at a pressure in Pa over its volume at zero gauge pressure."""
-        return float(kernel.oil_state(pressure, self.bulk_modulus)[0])
 
 
 @dataclass(frozen=True)
@@ -119,7 +72,9 @@ class ChamberCycle:
     pressure; `path_energy` in J, throttled in the ports and given off in the gaps; `carried_energy` in J (piston,
     slipper, valve plate), the part of it that carried oil gives to the walls that carry it, which is not lost
     (negative: the walls push the oil in); `indicated_work` in J, done by the piston on the chamber: -integral of
-    p dV.
+    p dV; `port_energy` (2,) in J, pressure work and elastic energy of the oil that goes into delivery and suction
+    port. `surge` (2, N) in m3 at zero gauge pressure: what has gone into delivery and suction port since shaft
+    angle 0 beyond the mean flow.
     """
 
     shaft_angle: Array
@@ -130,6 +85,8 @@ class ChamberCycle:
     path_energy: Paths
     carried_energy: Array
     indicated_work: float
+    port_energy: Array
+    surge: Array
     checks: ChamberChecks
     effort: Effort
 
@@ -147,12 +104,11 @@ def solve_cycle(problem: ChamberProblem, samples: int, tolerance: float = TOLERA
     REVOLUTION_LIMIT turns or when a step fails. Where the pressure falls to
     `chamber_kernel.CAVITY_PRESSURE` a cavity opens and fills again; the ports' and case's oil is always liquid.
     """
-    chamber, table = _constants(problem), _spline_table(problem.leaks)
-    nodes, sample_nodes = _nodes(problem, samples)
-    pressures, rates = np.empty(nodes.size - 1), np.empty((nodes.size - 1, kernel.PATHS))
-    totals = np.empty(2 * kernel.INTEGRALS)
-    limit = PERIODICITY * _pressure_span(problem)
-    start = _run_in(problem, chamber, table, nodes, tolerance)
+    given = constants(problem)
+    nodes, sample_nodes = turn_nodes(problem, samples)
+    course = Course.over(nodes)
+    limit = PERIODICITY * problem.pressure_span
+    start = _run_in(problem, given, nodes, tolerance)
     turns, change = 0, np.inf
     while abs(change) > limit:
         if turns == REVOLUTION_LIMIT:
@@ -160,73 +116,26 @@ def solve_cycle(problem: ChamberProblem, samples: int, tolerance: float = TOLERA
                 f"chamber pressure: after {turns} revolutions it still changes by {abs(change):.3g} Pa per "
                 f"revolution, expected at most {limit:.3g} Pa; check that both ports open"
             )
-        drift, steps, refused, status = kernel.revolution(
-            chamber, table, nodes, start, tolerance, pressures, rates, totals
-        )
+        drift, steps, refused, status = course.run(given, nodes, start, tolerance)
         if status != kernel.OK:
             raise NotConverged(_step_message(status, problem))
         turns += 1
-        change = float(pressures[-1] - start)
-        start = float(pressures[-1])
-    checks = _checks(problem, totals, drift, change)
+        change = float(course.pressures[-1] - start)
+        start = float(course.pressures[-1])
+    checks = _checks(problem, course.totals, drift, change)
     effort = Effort(turns, steps, refused)
-    return _cycle(problem, effort, pressures[sample_nodes], rates[sample_nodes], totals, checks)
+    return _cycle(problem, effort, course.at(nodes, sample_nodes), course.totals, checks)
 
 
-def _run_in(problem: ChamberProblem, chamber: np.ndarray, table: Array, nodes: Array, tolerance: float) -> float:
+def _run_in(problem: ChamberProblem, given: Constants, nodes: Array, tolerance: float) -> float:
     """A pressure at nodes[0] that an open port has already made its own: most pumps are periodic from there on."""
     before = nodes[-RUN_IN_NODES:] - TURN
-    start, found = kernel.slaved_pressure(chamber, table, before[0])
-    pressures, rates = np.empty(before.size - 1), np.empty((before.size - 1, kernel.PATHS))
-    totals = np.empty(2 * kernel.INTEGRALS)
+    start, found = kernel.slaved_pressure(*given, before[0])
     if not found:
         return problem.inlet_pressure
-    *_, status = kernel.revolution(chamber, table, before, start, tolerance, pressures, rates, totals)
-    return float(pressures[-1]) if status == kernel.OK else problem.inlet_pressure
-
-
-def _pressure_span(problem: ChamberProblem) -> float:
-    return abs(problem.delivery_pressure - problem.inlet_pressure) + 1e5
-
-
-def _constants(problem: ChamberProblem) -> np.ndarray:
-    chamber = np.zeros(1, dtype=kernel.CHAMBER)
-    chamber["stroke_scale"] = problem.drive.stroke_scale
-    chamber["cone_swash_product"] = problem.drive.cone_swash_product
-    chamber["delivery_port"] = as_array(problem.delivery_port)
-    chamber["suction_port"] = as_array(problem.suction_port)
-    for name in kernel.CHAMBER.names or ():
-        if name not in ("stroke_scale", "cone_swash_product", "delivery_port", "suction_port"):
-            chamber[name] = getattr(problem, name)
-    return chamber
-
-
-def _nodes(problem: ChamberProblem, samples: int) -> tuple[Array, np.ndarray]:
-    """One turn of angles that steps must end on, and where in nodes[1:] the samples from angle 0 lie.
-
-    The turn begins at the sample nearest the middle of the open suction kidney: the port holds the pressure there.
-    """
-    port = problem.suction_port
-    middle = port.dead_centre + 0.5 * (port.kidney_full_start + port.kidney_full_end)
-    first = round(middle / TURN * samples) % samples
-    grid = TURN * (first + np.arange(samples + 1)) / samples
-    breaks = np.concatenate([break_angles(problem.suction_port), break_angles(problem.delivery_port)])
-    breaks = (breaks - grid[0]) % TURN + grid[0]
-    apart = np.min(np.abs(breaks[:, None] - grid), axis=1) > 1e-9
-    nodes = np.unique(np.concatenate([grid, breaks[apart]]))
-    return nodes, np.roll(np.searchsorted(nodes, grid[1:]) - 1, first + 1)
-
-
-def _spline_table(leaks: LeakTable) -> Array:
-    """Periodic cubic spline of all six rows in unit cells, shape (N, 6, 4); solved by Fourier transform."""
-    rows = np.concatenate([leaks.conductance, leaks.carried_flow])
-    waves = TURN * np.fft.rfftfreq(rows.shape[1])
-    bend = 6.0 * (np.cos(waves) - 1.0) / (np.cos(waves) + 2.0)
-    curvature = np.fft.irfft(np.fft.rfft(rows) * bend, rows.shape[1])
-    after, curvature_after = np.roll(rows, -1, axis=1), np.roll(curvature, -1, axis=1)
-    slope = after - rows - (2.0 * curvature + curvature_after) / 6.0
-    cubic = np.stack([rows, slope, curvature / 2.0, (curvature_after - curvature) / 6.0], axis=-1)
-    return np.ascontiguousarray(cubic.transpose(1, 0, 2))
+    course = Course.over(before)
+    *_, status = course.run(given, before, start, tolerance)
+    return float(course.pressures[-1]) if status == kernel.OK else problem.inlet_pressure
 
 
 def _step_message(status: int, problem: ChamberProblem) -> str:
@@ -239,11 +148,10 @@ def _step_message(status: int, problem: ChamberProblem) -> str:
 
 def _checks(problem: ChamberProblem, totals: Array, drift: float, change: float) -> ChamberChecks:
     outflow, work, energy = totals[:5], totals[5], totals[6:11]
-    case = problem.case_pressure
-    outside = np.array([problem.delivery_pressure, problem.inlet_pressure, case, case, case])
-    carried_away = outflow @ flow_energy(outside, problem.bulk_modulus)
+    to_case = outflow[2:].sum() * flow_energy(problem.case_pressure, problem.bulk_modulus)
+    carried_away = totals[14:16].sum() + to_case
     swept = problem.piston_area * stroke(problem.drive)
-    ideal_work = swept * _pressure_span(problem)
+    ideal_work = swept * problem.pressure_span
     return ChamberChecks(
         mass_balance_error=float(abs(outflow.sum() + drift) / swept),
         energy_balance_error=float(abs(work - energy.sum() - carried_away) / ideal_work),
@@ -261,25 +169,22 @@ def flow_energy(pressure: Array | float, bulk_modulus: float) -> Array:
 
 
 def _cycle(
-    problem: ChamberProblem,
-    effort: Effort,
-    pressure: Array,
-    mass_rates: Array,
-    totals: Array,
-    checks: ChamberChecks,
+    problem: ChamberProblem, effort: Effort, course: Course, totals: Array, checks: ChamberChecks
 ) -> ChamberCycle:
-    samples = pressure.size
+    samples = course.pressures.size
     angle = TURN * np.arange(samples) / samples
-    liquid = np.exp(-np.maximum(pressure, kernel.CAVITY_PRESSURE) / problem.bulk_modulus)
+    liquid = np.exp(-np.maximum(course.pressures, kernel.CAVITY_PRESSURE) / problem.bulk_modulus)
     return ChamberCycle(
         shaft_angle=angle,
-        pressure=pressure,
+        pressure=course.pressures,
         volume=problem.dead_volume + problem.piston_area * piston_displacement(problem.drive, angle),
-        flow=Paths(*(mass_rates * problem.shaft_speed * liquid[:, None]).T),
+        flow=Paths(*(course.rates * problem.shaft_speed * liquid[:, None]).T),
         outflow=Paths(*totals[:5]),
         path_energy=Paths(*totals[6:11]),
         carried_energy=totals[11:14],
         indicated_work=float(totals[5]),
+        port_energy=totals[14:16],
+        surge=course.passed[:, :2].T,
         checks=checks,
         effort=effort,
     )

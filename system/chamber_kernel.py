@@ -9,6 +9,10 @@ Method: ESDIRK4(3)6L[2]SA of Kennedy and Carpenter (2003), Applied Numerical Mat
 an embedded order 3, L-stable, stiffly accurate, stage order 2 (a chamber open to its port is stiff, and methods
 of stage order 1 get its flow wrong by 0.5 % there). The integrals below are advanced with the same weights as M,
 so what enters the chamber leaves it to round-off whatever the step.
+
+What varies over the turn comes as periodic cubics on equal intervals of shaft angle, in unit cells: `table` (N, 7,
+4) has the gaps' conductances (0-2) and carried flows (3-5) and the growth of the volume by the parts' own motion
+(6, m3); `ports` (M, 2, 4) the pressures of delivery and suction port, M = 1 where held.
 """
 
 from __future__ import annotations
@@ -42,8 +46,10 @@ CHAMBER = np.dtype(
 
 PATHS = 5
 """Ways out of the chamber: delivery port, suction port, then the gaps of piston, slipper, valve plate."""
-INTEGRALS = 14
-"""Mass out by each path (0-4), work -p dV (5), energy left in each path (6-10), work of moving walls (11-13)."""
+INTEGRALS = 16
+"""Mass out by each path (0-4), work -p dV (5), energy left in each path (6-10), work of moving walls (11-13),
+energy carried into delivery and suction port (14, 15)."""
+WAYS = 12
 STAGES = 6
 
 # Butcher table: row i holds a_ij, the last row is also b; ERROR is b minus the embedded weights.
@@ -111,34 +117,42 @@ def liquid_volume(pressure, bulk_modulus):
     return np.exp(-max(pressure, CAVITY_PRESSURE) / bulk_modulus)
 
 
-@numba.njit(numba.types.UniTuple(_f8, 2)(_records, _f8), cache=True)
-def volume(chamber, shaft_angle):
-    """Chamber volume V0 + Ap S in m3 and dV/dphi in m3/rad; Eqs. (18), (6), (7)."""
+@numba.njit(numba.types.UniTuple(_f8, 2)(_cubics, _f8, numba.i8), cache=True)
+def periodic(cubics, shaft_angle, row):
+    """Value and slope per radian of one row of periodic cubics at a shaft angle."""
+    count = cubics.shape[0]
+    x = shaft_angle / (2.0 * np.pi) * count
+    cell = int(np.floor(x))
+    x -= cell
+    k = cubics[cell % count, row]
+    value = k[0] + x * (k[1] + x * (k[2] + x * k[3]))
+    return value, (k[1] + x * (2.0 * k[2] + 3.0 * x * k[3])) * count / (2.0 * np.pi)
+
+
+@numba.njit(numba.types.UniTuple(_f8, 2)(_records, _cubics, _f8), cache=True)
+def volume(chamber, table, shaft_angle):
+    """Chamber volume V0 + Ap S + growth in m3 and dV/dphi in m3/rad; Eqs. (18), (6), (7)."""
     c = chamber[0]
     t = c.cone_swash_product
     cosine = np.cos(shaft_angle)
     swing = 1.0 + t * cosine
     scale = c.piston_area * c.stroke_scale
+    growth, swell = periodic(table, shaft_angle, 6)
     content = c.dead_volume + scale * (1.0 - cosine) / ((1.0 + t) * swing)
-    return content, scale * np.sin(shaft_angle) / (swing * swing)
+    return content + growth, scale * np.sin(shaft_angle) / (swing * swing) + swell
 
 
-@numba.njit(numba.void(_records, _cubics, _f8, _vector), cache=True)
-def openings(chamber, table, shaft_angle, out):
-    """What lets oil out at a shaft angle.
+@numba.njit(numba.void(_records, _cubics, _cubics, _f8, _vector), cache=True)
+def openings(chamber, table, ports, shaft_angle, out):
+    """What lets oil out at a shaft angle, WAYS numbers.
 
-    Conductances (0-2) and carried flows (3-5) of the gaps, from periodic cubics on equal intervals of shaft angle;
-    then both orifice coefficients of the delivery (6, 7) and of the suction port (8, 9).
+    Conductances (0-2) and carried flows (3-5) of the gaps; then both orifice coefficients of the delivery (6, 7)
+    and of the suction port (8, 9), and the pressures in Pa behind them (10, 11).
     """
     c = chamber[0]
-    count = table.shape[0]
-    x = shaft_angle / (2.0 * np.pi) * count
-    cell = int(np.floor(x))
-    x -= cell
-    cell %= count
     for i in range(6):
-        k = table[cell, i]
-        out[i] = k[0] + x * (k[1] + x * (k[2] + x * k[3]))
+        out[i] = periodic(table, shaft_angle, i)[0]
+    out[10], out[11] = periodic(ports, shaft_angle, 0)[0], periodic(ports, shaft_angle, 1)[0]
     law = (c.flow_coefficient, c.density, c.kinematic_viscosity, c.critical_reynolds)
     out[6], out[7] = orifice_coefficients(section_area(shaft_angle, c.delivery_port), *law)
     out[8], out[9] = orifice_coefficients(section_area(shaft_angle, c.suction_port), *law)
@@ -148,8 +162,8 @@ def openings(chamber, table, shaft_angle, out):
 def outflows(chamber, pressure, ways, flows):
     """Fill the volume flows in m3/s of the five paths; return their sum and its slope in m3/(s Pa)."""
     c = chamber[0]
-    flows[0], slope_delivery = orifice(pressure - c.delivery_pressure, ways[6], ways[7])
-    flows[1], slope_suction = orifice(pressure - c.inlet_pressure, ways[8], ways[9])
+    flows[0], slope_delivery = orifice(pressure - ways[10], ways[6], ways[7])
+    flows[1], slope_suction = orifice(pressure - ways[11], ways[8], ways[9])
     total, slope = flows[0] + flows[1], slope_delivery + slope_suction
     for gap in range(3):
         flows[2 + gap] = ways[gap] * (pressure - c.case_pressure) + ways[3 + gap]
@@ -209,31 +223,34 @@ def integral_rates(chamber, pressure, swell, ways, flows, out):
     for path in range(PATHS):
         out[path] = flows[path] * per_radian
         out[6 + path] = out[path] * case
-    out[6] = out[0] * (energy - oil_state(c.delivery_pressure, c.bulk_modulus)[2])
-    out[7] = out[1] * (energy - oil_state(c.inlet_pressure, c.bulk_modulus)[2])
+    for port in range(2):
+        behind = oil_state(ways[10 + port], c.bulk_modulus)[2]
+        out[6 + port] = out[port] * (energy - behind)
+        out[14 + port] = out[port] * behind
     for gap in range(3):
         out[11 + gap] = ways[3 + gap] * per_radian * case
     out[5] = -pressure * swell
 
 
 @numba.njit(
-    numba.types.Tuple((_f8, _f8, _f8, numba.b1))(_records, _cubics, _f8, _f8, _f8, _f8, _matrix), cache=True
+    numba.types.Tuple((_f8, _f8, _f8, numba.b1))(_records, _cubics, _cubics, _f8, _f8, _f8, _f8, _matrix),
+    cache=True,
 )
-def step(chamber, table, shaft_angle, length, mass, pressure, rates):
+def step(chamber, table, ports, shaft_angle, length, mass, pressure, rates):
     """One step: new mass, new pressure, error of the mass (filtered for stiffness), success.
 
     `rates` (STAGES x INTEGRALS) brings the rates at the start in its first row and holds every stage's after; the
     last row is the solution at the step's end.
     """
     c = chamber[0]
-    ways = np.empty(10)
+    ways = np.empty(WAYS)
     flows = np.empty(PATHS)
     weight = GAMMA * length / c.shaft_speed
     stiffness = 0.0
     for stage in range(1, STAGES):
         angle = shaft_angle + NODES[stage] * length
-        content, swell = volume(chamber, angle)
-        openings(chamber, table, angle, ways)
+        content, swell = volume(chamber, table, angle)
+        openings(chamber, table, ports, angle, ways)
         base = mass
         for path in range(PATHS):
             for earlier in range(stage):
@@ -250,57 +267,59 @@ def step(chamber, table, shaft_angle, length, mass, pressure, rates):
     return new_mass, pressure, error / (1.0 + stiffness), True
 
 
-@numba.njit(numba.void(_records, _cubics, _f8, _f8, _vector), cache=True)
-def rates_at(chamber, table, shaft_angle, pressure, out):
+@numba.njit(numba.void(_records, _cubics, _cubics, _f8, _f8, _vector), cache=True)
+def rates_at(chamber, table, ports, shaft_angle, pressure, out):
     """Rates of the integrals at a shaft angle and pressure: the first row that `step` needs."""
-    ways, flows = np.empty(10), np.empty(PATHS)
-    openings(chamber, table, shaft_angle, ways)
+    ways, flows = np.empty(WAYS), np.empty(PATHS)
+    openings(chamber, table, ports, shaft_angle, ways)
     outflows(chamber, pressure, ways, flows)
-    integral_rates(chamber, pressure, volume(chamber, shaft_angle)[1], ways, flows, out)
+    integral_rates(chamber, pressure, volume(chamber, table, shaft_angle)[1], ways, flows, out)
 
 
-@numba.njit(numba.types.Tuple((_f8, numba.b1))(_records, _cubics, _f8), cache=True)
-def slaved_pressure(chamber, table, shaft_angle):
+@numba.njit(numba.types.Tuple((_f8, numba.b1))(_records, _cubics, _cubics, _f8), cache=True)
+def slaved_pressure(chamber, table, ports, shaft_angle):
     """Pressure at which the outflow just equals the displacement, and whether there is one.
 
     What an open port forces on the chamber whatever it did before: where a revolution is best begun.
     """
     c = chamber[0]
-    ways, flows = np.empty(10), np.empty(PATHS)
-    openings(chamber, table, shaft_angle, ways)
-    swept = volume(chamber, shaft_angle)[1] * c.shaft_speed
+    ways, flows = np.empty(WAYS), np.empty(PATHS)
+    openings(chamber, table, ports, shaft_angle, ways)
+    swept = volume(chamber, table, shaft_angle)[1] * c.shaft_speed
     pressure, _, found = stage_pressure(chamber, c.inlet_pressure, swept, 0.0, 1.0, ways, flows)
     return pressure, found
 
 
 @numba.njit(
     numba.types.Tuple((_f8, numba.i8, numba.i8, numba.i8))(
-        _records, _cubics, _vector, _f8, _f8, _vector, _matrix, _vector
+        _records, _cubics, _cubics, _vector, _f8, _f8, _vector, _matrix, _matrix, _vector
     ),
     cache=True,
 )
-def revolution(chamber, table, nodes, pressure, tolerance, pressures, path_rates, totals):
+def revolution(chamber, table, ports, nodes, pressure, tolerance, pressures, path_rates, passed, totals):
     """One turn from a pressure at nodes[0]: mass at the end less that at the start, steps taken, refused, status.
 
-    Steps end on every node (ascending shaft angles over one turn, breaks of the ports among them). `pressures` and
-    `path_rates` (mass per radian by path) receive the solution at nodes[1:], `totals` (2 x INTEGRALS) the
-    integrals and the sums of their local error estimates. Every step keeps the error of p, and of the work and
-    throttling energy relative to one stroke's, below `tolerance` times the port pressure difference.
+    Steps end on every node (ascending shaft angles over one turn, breaks of the ports among them). `pressures`,
+    `path_rates` (mass per radian by path) and `passed` (mass by path since nodes[0]) receive the solution at
+    nodes[1:], `totals` (2 x INTEGRALS) the integrals and the sums of their local error estimates. Every step keeps
+    the error of p, and of the work and throttling energy relative to one stroke's, below `tolerance` times the
+    port pressure difference.
     """
     c = chamber[0]
-    begin = volume(chamber, nodes[0])[0] / oil_state(pressure, c.bulk_modulus)[0]
+    begin = volume(chamber, table, nodes[0])[0] / oil_state(pressure, c.bulk_modulus)[0]
     mass = begin
     scale = tolerance * (abs(c.delivery_pressure - c.inlet_pressure) + 1e5)
     work_scale = scale * c.piston_area * 2.0 * c.stroke_scale
     rates = np.empty((STAGES, INTEGRALS))
-    rates_at(chamber, table, nodes[0], pressure, rates[0])
+    rates_at(chamber, table, ports, nodes[0], pressure, rates[0])
     totals[:] = 0.0
     taken, refused, wish = 0, 0, FIRST_STEP
     for node in range(1, nodes.size):
         angle = nodes[node - 1]
         while angle < nodes[node]:
             length = min(wish, nodes[node] - angle)
-            new_mass, new_pressure, error, found = step(chamber, table, angle, length, mass, pressure, rates)
+            state = mass, pressure
+            new_mass, new_pressure, error, fine = step(chamber, table, ports, angle, length, *state, rates)
             size = abs(error) / new_mass * c.bulk_modulus / scale
             for k in range(5, 8):
                 slip = 0.0
@@ -309,11 +328,11 @@ def revolution(chamber, table, nodes, pressure, tolerance, pressures, path_rates
                 size = max(size, abs(slip) / work_scale)
             if length > CAVITY_STEP and (pressure < CAVITY_PRESSURE) != (new_pressure < CAVITY_PRESSURE):
                 size = max(size, 1e3)
-            if not found or size > 1.0:
+            if not fine or size > 1.0:
                 refused += 1
-                wish = length * (max(0.2, 0.9 * size**-0.25) if found else 0.25)
+                wish = length * (max(0.2, 0.9 * size**-0.25) if fine else 0.25)
                 if wish < SMALLEST_STEP:
-                    return mass - begin, taken, refused, STEP_TOO_SMALL if found else NO_STAGE
+                    return mass - begin, taken, refused, STEP_TOO_SMALL if fine else NO_STAGE
                 continue
             for k in range(INTEGRALS):
                 for stage in range(STAGES):
@@ -327,4 +346,5 @@ def revolution(chamber, table, nodes, pressure, tolerance, pressures, path_rates
             wish = max(wish, grown) if length < wish else grown
         pressures[node - 1] = pressure
         path_rates[node - 1] = rates[0, :PATHS]
+        passed[node - 1] = totals[:PATHS]
     return mass - begin, taken, refused, OK

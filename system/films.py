@@ -11,7 +11,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from system.assembly import GapExchange, Gaps, PumpPoint, assemble
-from system.chamber import ChamberCycle, ChamberProblem, LeakTable, solve_cycle
+from system.chamber import ChamberCycle, solve_cycle
+from system.chamber_problem import ChamberProblem, LeakTable
 from system.description import PumpDescription
 from system.errors import NotConverged
 from system.gap_cycle import GapCycle, GapFilms, Report, silent

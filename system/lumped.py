@@ -8,7 +8,8 @@ import numpy as np
 
 from system import pairs
 from system.assembly import PumpPoint, assemble, chamber_exchange
-from system.chamber import TOLERANCE, ChamberCycle, ChamberProblem, LeakTable, solve_cycle
+from system.chamber import TOLERANCE, ChamberCycle, solve_cycle
+from system.chamber_problem import ChamberProblem, LeakTable
 from system.description import PumpDescription
 from system.kinematics import (
     Array,
