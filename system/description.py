@@ -84,7 +84,7 @@ class PistonSection(Section):
     centre_of_mass: Length | None = None  # from the ball centre into the bore
     profile: Profile | None = None  # from the chamber's end
     barrel: Length | None = None  # fall of a crowned piston from its middle to its ends
-    edge_relief: ReliefSection | None = None  # at both ends
+    edge_relief: ReliefSection | None = None  # at the chamber's end
     grooves: Grooves | None = None  # rings; places from the chamber's end
 
 

@@ -118,10 +118,17 @@ def piston_grooves_lie_apart(pump: PumpDescription) -> Iterator[Finding]:
 
 
 @needs("piston.edge_relief", "piston.engaged_length")
-def piston_edges_leave_a_land(pump: PumpDescription) -> Iterator[Finding]:
-    """The relieved edges do not meet in the piston's middle."""
+def piston_edge_leaves_a_land(pump: PumpDescription) -> Iterator[Finding]:
+    """The relieved edge of the piston is shorter than half of what the bore holds of it."""
     relief = pump.piston.edge_relief
     yield from _relief("piston.edge_relief", relief, pump.piston.engaged_length / 2, "half of engaged_length")
+
+
+@needs("bore.edge_relief", "piston.engaged_length")
+def bore_edge_leaves_a_land(pump: PumpDescription) -> Iterator[Finding]:
+    """The relieved edge of the bore is shorter than half of the guide."""
+    guide = pump.piston.guide_length or pump.piston.engaged_length
+    yield from _relief("bore.edge_relief", pump.bore.edge_relief, guide / 2, "half of the guide")
 
 
 @needs("slipper.rim_relief", "slipper.land_inner_radius", "slipper.land_outer_radius")
@@ -197,7 +204,8 @@ PARTS_CHECKS = (
     bore_profile_fits,
     slipper_profile_fits,
     piston_grooves_lie_apart,
-    piston_edges_leave_a_land,
+    piston_edge_leaves_a_land,
+    bore_edge_leaves_a_land,
     slipper_rim_lies_on_the_land,
     barrel_is_shallow,
     crown_is_shallow,

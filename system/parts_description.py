@@ -45,6 +45,7 @@ class BoreSection(Section):
     """[bore]: the bore's own shape."""
 
     profile: Profile | None = None  # from the case edge inwards
+    edge_relief: ReliefSection | None = None  # of the guide's case edge
 
 
 class RetainerKind(Enum):
@@ -87,7 +88,6 @@ class SurfaceSection(Section):
     """[surfaces.PAIR]: both faces of a gap together, as `reynolds.roughness` and `reynolds.contact` take them."""
 
     composite_roughness: Length | None = None
-    peklenik: Annotated[float, Field(ge=1 / 9, le=9.0)] | None = None
     asperity_density: ArealDensity | None = None
     asperity_radius: Length | None = None
     friction_coefficient: Coefficient | None = None  # of the boundary layer
