@@ -96,14 +96,15 @@ class Tangent:
 class State(Generic[S]):
     """Between two steps: time s, position q (k,) m, what is held (size,), rate dq/dt (k,) m/s, the last stage.
 
-    The rate enters the error of the step to come and its first guess, not its result: zero where it is not known.
-    The tangent, where there is one, is carried along.
+    The rate enters the error of the step to come and, with its own rate `bend` (k,) m/s2, the guess of it, not its
+    result: zero where they are not known. The tangent, where there is one, is carried along.
     """
 
     time: float
     q: Array
     held: Array
     rate: Array
+    bend: Array | float = 0.0
     stage: S | None = None
     tangent: Tangent | None = None
 
@@ -138,22 +139,25 @@ def advance(tableau: Tableau, solve: StageSolver[S], state: State[S], step: floa
     tangent = state.tangent
     held = _beside(state.held, None if tangent is None else tangent.held)  # column 0, its tangents after it
     held_rates: list[Array] = []
-    q_rates = [state.rate]
+    q_rates, bend, at = [state.rate], state.bend, 0.0
     stage = state.stage
     for number, (row, place) in enumerate(zip(tableau.matrix, tableau.places, strict=True)):
         own = row[number] * step
         before = held + _sum(row[:number], held_rates, step)
         q_before = state.q + _sum(row[:number], q_rates[1:], step)
         held_before = np.ascontiguousarray(before[:, 0])
-        stage = solve(state.time + place * step, held_before, own, q_before + own * q_rates[-1], stage)
+        passed, at = (place - at) * step, place
+        guess = q_before + own * (q_rates[-1] + passed * bend)
+        stage = solve(state.time + place * step, held_before, own, guess, stage)
         after = stage.holds[:, None]
         if tangent is not None:
             tangent = Tangent(*stage.carried(before[:, 1:]))
             after = _beside(stage.holds, tangent.held)
         held_rates.append((after - before) / own)
         q_rates.append((stage.q - q_before) / own)
+        bend = (q_rates[-1] - q_rates[-2]) / passed
     assert stage is not None
-    end = State(state.time + step, stage.q, stage.holds, q_rates[-1], stage, tangent)
+    end = State(state.time + step, stage.q, stage.holds, q_rates[-1], bend, stage, tangent)
     return Taken(end, step, np.asarray(_sum(tableau.error, q_rates, step)))
 
 

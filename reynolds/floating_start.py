@@ -27,7 +27,7 @@ def started(floating: Floating, time: float, q: Array) -> State[Stage]:
         ahead, behind = (standing(floating, time, q + sign * nudge) for sign in (1.0, -1.0))
         columns.append((ahead - behind) / (2.0 * NUDGE))
     tangent = Tangent(np.eye(len(q)), np.column_stack(columns))
-    return State(time, q, standing(floating, time, q), np.zeros(len(q)), None, tangent)
+    return State(time, q, standing(floating, time, q), np.zeros(len(q)), tangent=tangent)
 
 
 def restarted(floating: Floating, time: float, last: State[Stage], q: Array) -> State[Stage]:
@@ -50,4 +50,4 @@ def restarted(floating: Floating, time: float, last: State[Stage], q: Array) -> 
     if least < min(0.0, float(last.held[: len(oil)].min())):
         found = f"{least:.3g} m3 of oil at an unknown, {np.abs(q - stage.q).max():.3g} m from the last position"
         raise FilmInputError(f"{floating.name}, start of a turn", found, "a position nearer to it")
-    return State(time, np.asarray(q, dtype=float), held, last.rate, stage, Tangent(np.eye(k), slopes))
+    return State(time, np.asarray(q, dtype=float), held, last.rate, last.bend, stage, Tangent(np.eye(k), slopes))

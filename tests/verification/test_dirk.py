@@ -204,7 +204,7 @@ def test_tangent(tableau):
         return taken.state.q
 
     tangent = Tangent(np.eye(2), np.eye(2))
-    marched = march(tableau, _stages(_van_der_pol), State(0.0, start.q, start.q, start.rate, None, tangent), nodes,
+    marched = march(tableau, _stages(_van_der_pol), State(0.0, start.q, start.q, start.rate, tangent=tangent), nodes,
                     nodes_only)  # fmt: skip
     *_, taken = marched
     differences = np.column_stack([(end(start.q + d) - end(start.q - d)) / 2e-5 for d in 1e-5 * np.eye(2)])

@@ -60,7 +60,7 @@ def _turn(rate: Callable, period: float, steps: int, *, reach: float = 1.0, allo
 
     def run(start: np.ndarray, before: Turn | None) -> Turn:
         one = np.eye(len(start))
-        state = State(0.0, start, start, np.zeros(len(start)), None, Tangent(one, one))
+        state = State(0.0, start, start, np.zeros(len(start)), tangent=Tangent(one, one))
         nodes = period * np.arange(1, steps + 1) / steps
         path = [taken.state for taken in march(ALEXANDER_2, solve, state, nodes, nodes_only)]
         return Turn(path[-1].q, path[-1].tangent.q, np.array([at.q for at in path]), allowed, reach)
