@@ -6,14 +6,16 @@ from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import csc_array
+from scipy.sparse import csc_array, csr_array
 
 from reynolds import kernels
 from reynolds.balance import NOTHING, by_opening, flow_balance, full_matrix, slopes
+from reynolds.compliant import Answer, compliant_answer
 from reynolds.film import Cavitation, FilmProblem
 from reynolds.iterate import Iterate, with_pockets
+from reynolds.linear import ITERATIVE_TOLERANCE
 from reynolds.mesh import Array
-from reynolds.opening import opening_slope, solved
+from reynolds.opening import opening_slope
 from reynolds.setting import Setting
 
 TIE = 1e-9  # of the flows that meet at an unknown
@@ -63,16 +65,27 @@ def _largest(values: Array) -> float:
 
 
 def compliant_step(
-    problem: FilmProblem, setting: Setting, at: Iterate, upper: Array, lower: Array, load: Array
+    problem: FilmProblem,
+    setting: Setting,
+    at: Iterate,
+    upper: Array,
+    lower: Array,
+    load: Array,
+    tolerance: float = ITERATIVE_TOLERANCE,
 ) -> Array:
-    """The same step where each pressure opens the film everywhere: dR/dp + dR/dh dh/dp."""
-    wider = opening_slope(problem, at.state.opening)
-    rigid = full_matrix(problem.space, upper, lower)
+    """One such step: see `compliant`."""
+    return compliant(problem, setting, at, upper, lower)(load, tolerance)
+
+
+def compliant(problem: FilmProblem, setting: Setting, at: Iterate, upper: Array, lower: Array) -> Answer:
+    """The general step where each pressure opens the film everywhere, dR/dp + dR/dh dh/dp, for any load.
+
+    Raises FilmNotConverged where that is singular.
+    """
     free = (~fixed_in(problem, setting, at)).astype(float)
-    pressures = free * ~at.cavity
     slope = by_opening(problem, at.parts, at.state) * (free / np.abs(at.parts.stiffness).max())[:, None]
-    matrix = rigid + slope @ (wider * pressures[None, :])
-    return solved(matrix, load)
+    rigid, wider = full_matrix(problem.space, upper, lower), opening_slope(problem, at.state.opening)
+    return compliant_answer(rigid, csr_array(slope), wider, free * ~at.cavity)
 
 
 def signed_after(problem: FilmProblem, at: Iterate, change: Array, scale: float) -> Array:

@@ -6,11 +6,13 @@ import numpy as np
 from scipy.sparse import csc_array, csr_array, eye_array, issparse
 from scipy.sparse.linalg import splu
 
+from reynolds.compliant import singular
 from reynolds.contact import contact_pressure
 from reynolds.errors import FilmInputError, FilmNotConverged
 from reynolds.film import FilmProblem
 from reynolds.mesh import Array
 from reynolds.space import FilmSpace
+from reynolds.walls import LowRank, WallMatrix, full
 
 MAX_STEPS = 30
 TOLERANCE = 1e-12  # of film thickness and asperities' height
@@ -40,23 +42,37 @@ def opening(problem: FilmProblem, pressure: Array, start: Array | None = None) -
         rest = found - alone - compliance @ _to_unknowns(problem.space, bears.value)
         if np.max(np.abs(rest)) < TOLERANCE * (np.max(np.abs(given)) + problem.asperities.height):
             return found
-        found = np.maximum(found - solved(_with_contact(problem, bears.slope), rest), deepest - given)
+        found = np.maximum(found - _settled(problem, bears.slope, rest), deepest - given)
     raise FilmNotConverged(
         f"the opening of walls in contact not settled after {MAX_STEPS} steps", "a thicker film, or stiffer walls"
     )
 
 
-def opening_slope(problem: FilmProblem, found: Array) -> Array | csr_array:
+def opening_slope(problem: FilmProblem, found: Array) -> WallMatrix:
     """dg/dp at an opening (vertices,) m: (vertices, size) m/Pa, the compliance where nothing touches."""
     assert problem.walls is not None
     compliance = problem.walls.matrix
     if problem.asperities is None:
         return compliance
     bears = contact_pressure(problem.asperities, _given_thickness(problem) + found)
-    system = _with_contact(problem, bears.slope)
+    if isinstance(compliance, LowRank):
+        stiffer = _within_rank(compliance, _spread(problem.space, bears.slope))
+        return LowRank(compliance.left, solved(stiffer, full(compliance.right)))
+    system = _with_contact(problem.space, compliance, bears.slope)
     if not isinstance(compliance, np.ndarray):
         return csr_array(solved(system, compliance.toarray()))
     return solved(system, compliance)
+
+
+def _settled(problem: FilmProblem, slope: Array, rest: Array) -> Array:
+    """(I - C dp_c/dh)^-1 times what is missing (vertices,)."""
+    assert problem.walls is not None
+    compliance = problem.walls.matrix
+    if isinstance(compliance, LowRank):
+        spread = _spread(problem.space, slope)
+        pressed = compliance.right @ (spread @ rest)
+        return np.asarray(rest + compliance.left @ solved(_within_rank(compliance, spread), pressed))
+    return solved(_with_contact(problem.space, compliance, slope), rest)
 
 
 def _given_thickness(problem: FilmProblem) -> Array:
@@ -66,18 +82,24 @@ def _given_thickness(problem: FilmProblem) -> Array:
     return problem.space.to_vertices(problem.film.thickness) if known is None else known
 
 
-def _with_contact(problem: FilmProblem, slope: Array) -> Array | csr_array:
+def _with_contact(space: FilmSpace, compliance: Array | csr_array, slope: Array) -> Array | csr_array:
     """I - C dp_c/dh over the vertices."""
-    assert problem.walls is not None
-    compliance = problem.walls.matrix
-    spread = csr_array(
-        (slope / np.bincount(problem.space.vertex_dofs)[problem.space.vertex_dofs],
-         (problem.space.vertex_dofs, np.arange(len(slope)))),
-        shape=(problem.space.size, len(slope)),
-    )  # fmt: skip
+    change = compliance @ _spread(space, slope)
     if issparse(compliance):
-        return csr_array(eye_array(len(slope)) - compliance @ spread)
-    return np.asarray(np.eye(len(slope)) - compliance @ spread)
+        return csr_array(eye_array(len(slope)) - change)
+    return np.asarray(np.eye(len(slope)) - change)
+
+
+def _within_rank(compliance: LowRank, spread: csr_array) -> Array:
+    """I - R dp_c/dh L, (rank, rank): (I - L R S)^-1 L R = L (I - R S L)^-1 R (Woodbury 1950)."""
+    return np.asarray(np.eye(compliance.rank) - compliance.right @ (spread @ compliance.left))
+
+
+def _spread(space: FilmSpace, slope: Array) -> csr_array:
+    """dp_c/dh of the vertices (vertices,) Pa/m as pressure of the unknowns by the opening, (size, vertices)."""
+    shared = np.bincount(space.vertex_dofs)[space.vertex_dofs]
+    entries = (slope / shared, (space.vertex_dofs, np.arange(len(slope))))
+    return csr_array(entries, shape=(space.size, len(slope)))
 
 
 def solved(system: Array | csr_array, load: Array) -> Array:
@@ -87,9 +109,7 @@ def solved(system: Array | csr_array, load: Array) -> Array:
             return np.asarray(splu(csc_array(system)).solve(load))
         return np.asarray(np.linalg.solve(system, load))
     except (np.linalg.LinAlgError, RuntimeError) as reason:  # SuperLU: "Factor is exactly singular"
-        raise FilmNotConverged(
-            f"the balance between walls that give way is singular ({reason})", "stiffer walls, or a thicker film"
-        ) from None
+        raise singular(str(reason)) from None
 
 
 def _to_unknowns(space: FilmSpace, at_vertices: Array) -> Array:

@@ -2,16 +2,63 @@
 
 from __future__ import annotations
 
-from typing import Protocol
+from dataclasses import dataclass
+from typing import Protocol, TypeAlias
 
-from scipy.sparse import csr_array
+import numpy as np
+from scipy.sparse import csr_array, issparse, vstack
 
 from reynolds.mesh import Array
+
+
+@dataclass(frozen=True)
+class LowRank:
+    """A compliance as a product, left (vertices, rank) @ right (rank, size): never multiplied out.
+
+    The two together have the unit m/Pa. Exact for a body whose face has fewer nodes than the film has unknowns
+    (`reynolds.bodies.wall.face_wall`), else as good as `reynolds.low_rank` says.
+    """
+
+    left: Array
+    right: Array | csr_array
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """(vertices, size), as of the matrix that it stands for."""
+        return self.left.shape[0], self.right.shape[1]
+
+    @property
+    def rank(self) -> int:
+        """Columns of the left factor, no less than the rank of the product."""
+        return int(self.left.shape[1])
+
+    def __matmul__(self, pressure: Array) -> Array:
+        """Opening (vertices, ...) m by pressures (size, ...) Pa."""
+        return self.left @ (self.right @ pressure)
+
+    def toarray(self) -> Array:
+        """The matrix itself, (vertices, size) m/Pa."""
+        return self.left @ full(self.right)
+
+    def beside(self, other: LowRank) -> LowRank:
+        """Both walls of a film: their openings add up."""
+        both = self.right, other.right
+        sparse = all(issparse(part) for part in both)
+        right = csr_array(vstack(both)) if sparse else np.vstack([full(part) for part in both])
+        return LowRank(np.hstack([self.left, other.left]), right)
+
+
+WallMatrix: TypeAlias = Array | csr_array | LowRank
+
+
+def full(matrix: WallMatrix) -> Array:
+    """A compliance multiplied out, as an array."""
+    return matrix if isinstance(matrix, np.ndarray) else np.asarray(matrix.toarray())
 
 
 class Walls(Protocol):
     """Both walls of a film together, as one linear operator."""
 
     @property
-    def matrix(self) -> Array | csr_array:
+    def matrix(self) -> WallMatrix:
         """Opening of the film at the mesh's vertices by unit pressure at each unknown, (vertices, size) m/Pa."""

@@ -5,13 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.sparse import coo_array, csr_array, issparse
+from scipy.sparse import coo_array, csr_array
 
 from reynolds.bodies.elasticity import Elastic
 from reynolds.errors import FilmInputError
 from reynolds.mesh import Array
 from reynolds.space import FilmSpace
-from reynolds.walls import Walls
+from reynolds.walls import LowRank, WallMatrix, Walls, full
 
 BLOCK = 128  # points at a time: bounds the memory beside the result
 
@@ -20,7 +20,7 @@ BLOCK = 128  # points at a time: bounds the memory beside the result
 class Compliance:
     """Opening at the film's vertices by unit pressure at each unknown, (vertices, size) m/Pa."""
 
-    matrix: Array | csr_array
+    matrix: WallMatrix
 
 
 def winkler(space: FilmSpace, stiffness: float) -> Compliance:
@@ -85,10 +85,11 @@ def _potential(points: Array, corners: Array) -> Array:
 def both(first: Walls, second: Walls) -> Compliance:
     """Both walls of one film: their openings add up."""
     one, two = first.matrix, second.matrix
-    if issparse(one) and issparse(two):
+    if isinstance(one, LowRank) and isinstance(two, LowRank):
+        return Compliance(one.beside(two))
+    if isinstance(one, csr_array) and isinstance(two, csr_array):
         return Compliance(csr_array(one + two))
-    dense = [np.asarray(part.toarray() if isinstance(part, csr_array) else part) for part in (one, two)]
-    return Compliance(dense[0] + dense[1])
+    return Compliance(full(one) + full(two))
 
 
 def _cross(one: Array, two: Array) -> Array:

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+from scipy.sparse import csr_array, vstack
 
 from reynolds.bodies.body_mesh import BodyMesh
 from reynolds.bodies.body_space import BodySpace, Face, body_space
@@ -30,6 +31,7 @@ from reynolds.bodies.transfer import Transfer, transfer
 from reynolds.errors import FilmInputError
 from reynolds.mesh import Array
 from reynolds.space import FilmSpace
+from reynolds.walls import LowRank
 
 
 @dataclass(frozen=True)
@@ -72,6 +74,14 @@ class BodyWall:
 
 
 @dataclass(frozen=True)
+class FaceWall:
+    """The same as `BodyWall`, its matrix of the rank of the face's nodes."""
+
+    matrix: LowRank
+    origin: Origin
+
+
+@dataclass(frozen=True)
 class FilmResponse:
     """At the film's vertices: reference (vertices,) + matrix (vertices, vertices) @ flux into the body (W/m2)."""
 
@@ -96,6 +106,14 @@ def body_wall(
     `pockets` names, for a pocket of the film, the body's face that its pressure fills: it has no film cells of its
     own. Raises FilmInputError where the face does not lie under the film, or for a name that is not there.
     """
+    found = face_wall(body, film, pockets=pockets, folder=folder)
+    return BodyWall(found.matrix.toarray(), found.origin)
+
+
+def face_wall(
+    body: Body, film: FilmSpace, *, pockets: Mapping[str, str] | None = None, folder: Path | None = None
+) -> FaceWall:
+    """The wall of `body_wall` by the nodes of the body's face: for films with more unknowns than it has nodes."""
     space = body_space(body.mesh)
     face = space.face(body.face)
     normals = face_normals(body.chart, face.places)
@@ -105,13 +123,14 @@ def body_wall(
 
     found = kept(_key("compliance", body), compute, folder)
     meeting = transfer(film, face, body.chart)
-    matrix = meeting.opening_by_force(found.arrays["compliance"])
+    left, right = meeting.opening(found.arrays["compliance"]), meeting.force
     for name, filled in (pockets or {}).items():
         if name not in film.edge_dofs or len(film.edge_dofs[name]) != 1:
             raise FilmInputError(f"pocket {name}", "no such pocket of the film", "a boundary that is one unknown")
         nodal = _load_case(body, space, face, FacePressure(filled, 1.0), folder)
-        matrix[:, film.edge_dofs[name][0]] += meeting.opening(nodal)
-    return BodyWall(matrix, found.origin)
+        alone = csr_array(([1.0], ([0], [film.edge_dofs[name][0]])), shape=(1, film.size))
+        left, right = np.column_stack([left, meeting.opening(nodal)]), csr_array(vstack([right, alone]))
+    return FaceWall(LowRank(left, right), found.origin)
 
 
 def load_opening(body: Body, film: FilmSpace, load: FacePressure | Spin, *, folder: Path | None = None) -> Array:
