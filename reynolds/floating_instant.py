@@ -12,6 +12,7 @@ from reynolds.errors import FilmInputError, FilmNotConverged
 from reynolds.film import LEAST_FRACTION, Boundary, FilmProblem, FilmSolution, Pocket, Storage
 from reynolds.floating import Floating, Outer
 from reynolds.generalised import ContactForce, Modes, contact_force, generalised_force, modes_on
+from reynolds.linear import ITERATIVE_TOLERANCE
 from reynolds.mesh import Array
 from reynolds.overlap import film_between
 from reynolds.sensitivity import Response, oil_slopes, response, thickness_load
@@ -146,10 +147,10 @@ class Instant:
             for gap, fall in falls
         )
 
-    def by_position(self, at: Trial) -> Response:
-        """How the film at a position answers to it, on the film's last factor."""
+    def by_position(self, at: Trial, tolerance: float = ITERATIVE_TOLERANCE) -> Response:
+        """How the film at a position answers to it, on the film's last factor, to a tolerance of linear solves."""
         load = thickness_load(at.solution, at.thicker) + self.modes.pockets / self.step
-        return response(self.solver, at.solution, -load)
+        return response(self.solver, at.solution, -load, tolerance)
 
     def slopes(self, at: Trial, film: Response) -> Array:
         """d missing/dq, (k, k) N/m."""

@@ -27,6 +27,7 @@ from reynolds.transient import oil_held
 
 TOLERANCE = 1e-8  # of the magnitudes that balance in a generalised force
 GOOD_ENOUGH = 1e-6  # where no step comes nearer to balance: round-off of the film's pressures
+LOOSE = 1e-5  # of the linear solves for a Newton step's slopes
 MOST_STEPS = 40
 MOST_HALVINGS = 12
 LEAST_GAIN = 1e-4  # of the imbalance, by a full step
@@ -179,7 +180,7 @@ class _Search:
         """The film one Newton step on, cut back until it is nearer to balance; None where no share is."""
         instant = self._instant
         try:
-            step = -solved(instant.slopes(at, instant.by_position(at)), at.missing, instant.floating.name)
+            step = -solved(instant.slopes(at, instant.by_position(at, LOOSE)), at.missing, instant.floating.name)
         except FilmNotConverged as reason:
             self.why = reason.what
             return None

@@ -6,21 +6,16 @@ J d(p, theta) = - R_h dh + d(held before)/step, one right-hand side for each cha
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
 from reynolds import generalised_kernels
 from reynolds import kernels as film_kernels
-from reynolds.balance import (
-    Operators,
-    State,
-    cavity_density,
-    density,
-    operators,
-    steep_gradient,
-)
+from reynolds.balance import Operators, State, cavity_density, convection, density, operators, steep_gradient
+from reynolds.balance import _sends_nothing as sends_nothing
 from reynolds.film import Cavitation, FilmSolution
+from reynolds.linear import ITERATIVE_TOLERANCE
 from reynolds.mesh import Array
 from reynolds.solve import FilmSolver
 from reynolds.transport import along, at_points
@@ -36,18 +31,23 @@ class Response:
     film_fraction: Array
 
 
-def thickness_slopes(solver: FilmSolver, solution: FilmSolution, thicker: Array) -> Response:
+def thickness_slopes(
+    solver: FilmSolver, solution: FilmSolution, thicker: Array, tolerance: float = ITERATIVE_TOLERANCE
+) -> Response:
     """dp/dq_j and dtheta/dq_j of a film whose thickness grows by `thicker` (cells, points, k) per unit of q_j.
 
     Exact for the set of cavitated unknowns of the solution, all other things (boundaries, what was held before,
-    wall speeds) as they are. `solver` is the one that gave the solution: its factor is used again.
+    wall speeds) as they are, to a tolerance of the linear solves. `solver` is the one that gave the solution: its
+    factor is used again.
     """
-    return response(solver, solution, -thickness_load(solution, thicker))
+    return response(solver, solution, -thickness_load(solution, thicker), tolerance)
 
 
-def response(solver: FilmSolver, solution: FilmSolution, inflow: Array) -> Response:
-    """What inflows (size, m) m3/s into the unknowns change; held ones keep their pressure."""
-    return Response(*solver.response(solution, inflow))
+def response(
+    solver: FilmSolver, solution: FilmSolution, inflow: Array, tolerance: float = ITERATIVE_TOLERANCE
+) -> Response:
+    """What inflows (size, m) m3/s into the unknowns change, to a tolerance; held ones keep their pressure."""
+    return Response(*solver.response(solution, inflow, tolerance))
 
 
 def thickness_load(solution: FilmSolution, thicker: Array) -> Array:
@@ -73,19 +73,24 @@ def thickness_load(solution: FilmSolution, thicker: Array) -> Array:
 
 def _mixing_load(solution: FilmSolution, parts: Operators, thicker: Array) -> Array:
     """The share of upwinding, whose diffusion grows with the flow that the walls carry, (size, k)."""
-    problem, pattern = solution.problem, solution.problem.space.pattern
+    problem, space, pattern = solution.problem, solution.problem.space, solution.problem.space.pattern
     level = cavity_density(problem) * solution.film_fraction
-    out = np.empty((problem.space.size, thicker.shape[2]))
+    leaves = sends_nothing(problem, parts.transport.flux)
+    out, met = np.zeros((thicker.shape[2], space.size)), np.zeros(space.size)
+    grown = np.empty_like(parts.diffusion)
     for j in range(thicker.shape[2]):
         mode = thicker[:, :, j]
-        size = DIFFERENCE * float(np.abs(solution.film.thickness).min()) / max(float(np.abs(mode).max()), 1e-300)
-        film = replace(problem.film, thickness=problem.film.thickness + size * mode)
-        beside = operators(replace(problem, film=film), _state(solution))
-        flow, met = np.zeros(problem.space.size), np.zeros(problem.space.size)
-        grown = (beside.diffusion - parts.diffusion) / size
-        film_kernels.exchange(pattern.indptr, pattern.indices, grown, level, flow, met)
-        out[:, j] = flow
-    return out
+        size = DIFFERENCE * float(solution.film.thickness.min()) / max(float(np.abs(mode).max()), 1e-300)
+        steeper = [size * mode * part for part in parts.transport.flux_slope]
+        carried = (
+            one + two
+            for one, two in zip(parts.convection, convection(space, (steeper[0], steeper[1])), strict=True)
+        )
+        film_kernels.upwinding(pattern.indptr, pattern.indices, *carried, leaves, grown)
+        film_kernels.exchange(
+            pattern.indptr, pattern.indices, (grown - parts.diffusion) / size, level, out[j], met
+        )
+    return out.T
 
 
 def oil_slopes(solution: FilmSolution, thicker: Array, changed: Response) -> Array:

@@ -131,7 +131,9 @@ class FilmSolver:
         self._answers = replace(self._answers, solution=solution)
         return solution
 
-    def response(self, solution: FilmSolution, inflow: Array) -> tuple[Array, Array]:
+    def response(
+        self, solution: FilmSolution, inflow: Array, tolerance: float = ITERATIVE_TOLERANCE
+    ) -> tuple[Array, Array]:
         """What inflows (size, m) m3/s add to pressures (Pa) and film fractions of a solution, (size, m) each.
 
         By its linearised balance, held unknowns and cavity as they are: a free unknown changes pressure, one of
@@ -144,7 +146,7 @@ class FilmSolver:
             self._linear(problem, setting, iterate_of(problem, state, solution.cavity))
             self._found(solution)
         assert self._answers is not None
-        return self._answers.to(inflow)
+        return self._answers.to(inflow, tolerance)
 
     def _step(self, problem: FilmProblem, setting: Setting, at: Iterate, tolerance: float) -> Array:
         """The signed unknowns after one Newton step of the free ones; held ones stay as they are."""
@@ -192,7 +194,7 @@ class _Answers:
         """Whether they are of that film, and of its cavity but for what is full all the same."""
         return self.solution is solution and bool(np.array_equal(self.at.cavity, solution.cavity))
 
-    def to(self, inflow: Array) -> tuple[Array, Array]:
+    def to(self, inflow: Array, tolerance: float) -> tuple[Array, Array]:
         """What inflows (size, m) m3/s change: pressures and film fractions, (size, m) each."""
         unit = float(self.at.parts.stiffness.max())  # over which `newton` scales the balance
         if unit == 0.0:
@@ -200,7 +202,7 @@ class _Answers:
         load = np.where(self.fixed[:, None], 0.0, inflow / unit)
         change = np.empty_like(load)
         for column in range(load.shape[1]):
-            change[:, column] = self.solve(np.ascontiguousarray(load[:, column]), ITERATIVE_TOLERANCE)
+            change[:, column] = self.solve(np.ascontiguousarray(load[:, column]), tolerance)
         cavity = self.at.cavity[:, None]
         return np.where(cavity, 0.0, change), np.where(cavity, self.scale * change, 0.0)
 
