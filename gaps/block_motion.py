@@ -157,7 +157,10 @@ class BlockFilm:
     def chamber_pressures(self, shaft_angle: float) -> Array:
         """Pressures (z,) Pa of the chambers, chamber k at shaft angle + (k - 1) pitch."""
         places = self.geometry.kidney_places(shaft_angle)
-        return np.array([float(self.drive.chamber_pressure(float(angle))) for angle in places])
+        pressure = np.array([float(self.drive.chamber_pressure(float(angle))) for angle in places])
+        # Between two angles at the cavity's pressure interpolation may round below it.
+        at_cavity = np.isclose(pressure, self.drive.cavitation_pressure, rtol=1e-12, atol=0.0)
+        return np.where(at_cavity, self.drive.cavitation_pressure, pressure)
 
     def friction_power(self, solution: FilmSolution) -> float:
         """Power (W) that the block spends on shearing the film and rubbing, webs over the ports left out."""

@@ -16,7 +16,7 @@ from scipy.spatial import cKDTree
 from reynolds.mesh import Array, rename, ring
 from reynolds.space import FilmSpace, film_space
 
-SEALED = 1e9  # viscosity of a web over a port, in oil's: the film passes nothing there
+SEALED = 1e6  # viscosity of a web over a port, in oil's: the film passes nothing there; laws of oil reach that far
 
 
 @dataclass(frozen=True)

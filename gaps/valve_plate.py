@@ -20,14 +20,6 @@ from reynolds.loads import boundary_flows, loads, pressure_integrals
 from reynolds.mesh import Array
 from reynolds.solve import FilmSolver
 
-__all__ = [
-    "ValvePlateFilm",
-    "ValvePlateGap",
-    "ValvePlateGeometry",
-    "ValvePlatePosition",
-    "ValvePlateState",
-]
-
 
 @dataclass(frozen=True)
 class ValvePlateState:
