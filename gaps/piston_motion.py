@@ -220,16 +220,9 @@ class PistonFilm:
         return np.asarray(shape.radial_clearance + bore + piston)
 
 
-def floating_piston(
-    shape: PistonShape,
-    drive: PistonDrive,
-    laws: FilmLaws | None = None,
-    physics: Physics | None = None,
-    cells: tuple[int, int] = (48, 16),
-) -> Floating:
+def floating_piston(film: PistonFilm) -> Floating:
     """A piston as `reynolds.floating` takes it: coordinates (ex0, ey0, ex1, ey1) m, massless across the bore.
 
     Validity: eccentricities and clearance small beside the radius; forces above case pressure.
     """
-    film = PistonFilm(shape, drive, laws, physics, cells)
-    return Floating("piston", film.problem_at, film.modes_at, film.outer_at, reference=drive.case_pressure)
+    return Floating("piston", film.problem_at, film.modes_at, film.outer_at, reference=film.drive.case_pressure)

@@ -30,6 +30,8 @@ from reynolds.laws import Tangent, require_positive
 from reynolds.mesh import Array, FilmMesh, ring
 from reynolds.space import FilmSpace, film_space
 
+RIM_PLACES = 48  # around a slipper, at which its retainer presses
+
 
 @dataclass(frozen=True)
 class Orifice:
@@ -67,7 +69,10 @@ class SlipperShape:
 
 @dataclass(frozen=True)
 class Retainer:
-    """A plate over the slippers: reached where the film at the rim exceeds `clearance` (m), of a stiffness N/m."""
+    """A plate over the slippers: reached where the film at the rim exceeds `clearance` (m).
+
+    stiffness N/m, of the whole rim together.
+    """
 
     clearance: float
     stiffness: float
@@ -136,21 +141,17 @@ def supply(shape: Orifice, viscosity: float, density: float) -> Callable[[float]
 
 
 def retainer_force(retainer: Retainer, position: Array) -> Outer:
-    """What a retainer that the rim reaches does: P = -k <rise - clearance> (1, q1/t, q2/t), t = |(q1, q2)|.
+    """What a retainer around the rim does: springs k/N at N places there, where the film exceeds the clearance.
 
-    rise = q0 + t is the film at the rim's highest place; a spring k that is never pulled, with a potential, so
-    that it spends no work over a turn.
+    P = -k mean <rise - clearance> (1, cos, sin) over the rim, rise = q0 + q1 cos + q2 sin: pushed and never
+    pulled, with a potential, so that it spends no work over a turn.
     """
-    tilt = float(np.hypot(position[1], position[2]))
-    along = np.array([1.0, *(position[1:] / tilt if tilt > 0.0 else (0.0, 0.0))])
-    over = float(position[0]) + tilt - retainer.clearance
-    nothing = np.zeros((3, 3))
-    if over <= 0.0:
-        return Outer(np.zeros(3), nothing, nothing)
-    slopes = np.outer(along, along)
-    if tilt > 0.0:
-        slopes[1:, 1:] += over / tilt * (np.eye(2) - np.outer(along[1:], along[1:]))
-    return Outer(-retainer.stiffness * over * along, -retainer.stiffness * slopes, nothing)
+    angle = 2.0 * np.pi * np.arange(RIM_PLACES) / RIM_PLACES
+    places = np.column_stack([np.ones(RIM_PLACES), np.cos(angle), np.sin(angle)])
+    over = np.maximum(places @ position - retainer.clearance, 0.0)
+    reached = places[over > 0.0]
+    stiffness = retainer.stiffness / RIM_PLACES
+    return Outer(-stiffness * over @ places, -stiffness * reached.T @ reached, np.zeros((3, 3)))
 
 
 @dataclass(frozen=True)
@@ -297,23 +298,16 @@ def slipper_mesh(lands: tuple[tuple[float, float], ...], cells: tuple[int, int])
     return replace(whole, mesh=replace(mesh, _boundaries=edges))
 
 
-def floating_slipper(
-    shape: SlipperShape,
-    drive: SlipperDrive,
-    laws: FilmLaws | None = None,
-    physics: Physics | None = None,
-    cells: tuple[int, int] = (12, 48),
-) -> Floating:
+def floating_slipper(film: SlipperFilm) -> Floating:
     """A slipper as `reynolds.floating` takes it: coordinates (h, rise x, rise y) m, massless across the film.
 
     Validity: film thin beside the land's width; forces above case pressure.
     """
-    film = SlipperFilm(shape, drive, laws, physics, cells)
     return Floating(
         "slipper",
         film.problem_at,
         film.modes_at,
         film.outer_at,
-        reference=drive.case_pressure,
+        reference=film.drive.case_pressure,
         pockets=film.pockets,
     )

@@ -164,7 +164,7 @@ def _first_step(floating: Floating, step: float) -> Stage:
 
 def _film_growth(shape: PistonShape, n: int) -> np.ndarray:
     """The same by stiffness K and damping C of the finite elements: exact slopes of two steps are K - C/step."""
-    floating = floating_piston(shape, DRIVE, physics=FULL, cells=(2 * n, n))
+    floating = floating_piston(PistonFilm(shape, DRIVE, physics=FULL, cells=(2 * n, n)))
     long, short = 1e-2, 1e-4
     slow, fast = (_first_step(floating, step).force_slopes[::2, ::2] for step in (long, short))
     damping = (slow - fast) / (1.0 / short - 1.0 / long)
@@ -198,7 +198,7 @@ def test_rates_of_small_motions(name, shape, validation, refine):
 
 def _let_go(shape: PistonShape, laws: FilmLaws, at: float, times: np.ndarray) -> list[Taken[Stage]]:
     """The way of a piston let go at an eccentricity (m) parallel to its bore."""
-    floating = floating_piston(shape, DRIVE, laws, FULL, cells=(24, 12))
+    floating = floating_piston(PistonFilm(shape, DRIVE, laws, FULL, (24, 12)))
     start = started(floating, 0.0, at * np.array([1.0, 0.0, 1.0, 0.0]))
     solve = partial(solve_stage, FilmSolver(floating.shape_at(0.0).space), floating)
     return list(march(ALEXANDER_2, solve, start, times[1:], nodes_only))
