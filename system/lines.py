@@ -1,0 +1,122 @@
+"""What hangs on a port of the pump: a held pressure, a volume that an orifice empties, a line of given impedance.
+
+A line's flow is counted out of the port, m3/s of oil at the port's pressure; a suction line's is negative. The
+volume belongs to the port: pipe and passages up to where the orifice sits or the impedance was measured.
+"""
+
+from __future__ import annotations
+
+import csv
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from system.faults import Fault, InputFaults
+from system.kinematics import Array
+
+COLUMNS = ("frequency [Hz]", "real [Pa s/m3]", "imaginary [Pa s/m3]")
+"""Head of an impedance file."""
+
+
+@dataclass(frozen=True)
+class HeldPressure:
+    """A pressure that is the same whatever flows: a volume without end."""
+
+
+@dataclass(frozen=True)
+class OrificeLine:
+    """A volume (m3) that an orifice of `area` (m2) joins to a tank at a pressure (Pa gauge).
+
+    area None: the one with which the port keeps its stated mean pressure.
+    """
+
+    volume: float
+    tank_pressure: float
+    area: float | None = None
+
+    def __post_init__(self) -> None:
+        _hold("orifice line, volume", self.volume, self.volume > 0.0, "m3", "above 0")
+        if self.area is not None:
+            _hold("orifice line, area", self.area, self.area > 0.0, "m2", "above 0")
+
+
+@dataclass(frozen=True)
+class Impedance:
+    """Z = pressure over flow into the line by harmonics, Pa s/m3, at rising frequencies (Hz); between them linear.
+
+    Complex amplitudes of exp(+i w t). Raises ValueError for other shapes, frequencies that do not rise from above
+    zero, or Z = 0.
+    """
+
+    frequency: Array
+    value: NDArray[np.complex128]
+
+    def __post_init__(self) -> None:
+        rises = self.frequency.ndim == 1 and np.all(np.diff(self.frequency, prepend=0.0) > 0.0)
+        if not rises or self.value.shape != self.frequency.shape or np.any(self.value == 0.0):
+            raise ValueError(
+                f"impedance: found {self.frequency.size} frequencies and {self.value.size} values, expected as "
+                "many, frequencies rising from above zero and no value zero"
+            )
+
+    def at(self, frequency: Array) -> NDArray[np.complex128]:
+        """Z at frequencies in Hz; raises ValueError outside the table."""
+        lowest, highest = self.frequency[0], self.frequency[-1]
+        if frequency.min() < lowest or frequency.max() > highest:
+            raise ValueError(
+                f"impedance: found a table from {lowest:.4g} to {highest:.4g} Hz, expected one that holds "
+                f"{frequency.min():.4g} to {frequency.max():.4g} Hz, the harmonics of the pump's ripple"
+            )
+        real, imaginary = (np.interp(frequency, self.frequency, part(self.value)) for part in (np.real, np.imag))
+        return np.asarray(real + 1j * imaginary)
+
+
+@dataclass(frozen=True)
+class ImpedanceLine:
+    """A volume (m3, 0: none), behind it a line known by its impedance; throttling holds the mean pressure."""
+
+    volume: float
+    impedance: Impedance
+
+    def __post_init__(self) -> None:
+        _hold("impedance line, volume", self.volume, self.volume >= 0.0, "m3", "0 or more")
+
+
+Line = HeldPressure | OrificeLine | ImpedanceLine
+
+
+@dataclass(frozen=True)
+class Lines:
+    """What hangs on delivery and suction port."""
+
+    delivery: Line = HeldPressure()
+    suction: Line = HeldPressure()
+
+
+def read_impedance(path: Path) -> Impedance:
+    """The impedance in a CSV file with the columns COLUMNS; raises InputFaults for what is not one."""
+    try:
+        rows = list(csv.reader(path.read_text(encoding="utf-8").splitlines()))
+    except (OSError, UnicodeDecodeError) as error:
+        raise InputFaults(str(path), [Fault("file", str(error), "a CSV file of an impedance")]) from error
+    head = tuple(cell.strip() for cell in rows[0]) if rows else ()
+    if head != COLUMNS:
+        raise InputFaults(str(path), [Fault("head", ", ".join(head) or "nothing", ", ".join(COLUMNS))])
+    try:
+        numbers = np.array([[float(cell) for cell in row] for row in rows[1:] if row]).reshape(-1, 3)
+        return Impedance(numbers[:, 0].copy(), numbers[:, 1] + 1j * numbers[:, 2])
+    except ValueError as error:
+        expected = "three numbers a row, frequencies rising"
+        raise InputFaults(str(path), [Fault("rows", str(error), expected)]) from error
+
+
+def volume_impedance(volume: float, bulk_modulus: float, frequency: Array) -> NDArray[np.complex128]:
+    """Z = K/(i w V), Pa s/m3, of a closed volume V (m3) of oil at frequencies in Hz; small ripple, no waves."""
+    return np.asarray(bulk_modulus / (2j * np.pi * frequency * volume))
+
+
+def _hold(where: str, found: float, holds: bool, unit: str, expected: str) -> None:
+    if not holds:
+        raise ValueError(f"{where}: found {found:.3g} {unit}, expected {expected}")
