@@ -9,7 +9,7 @@ from numba import njit
 
 from reynolds.coarsest_kernels import eliminate_blocks
 from reynolds.lanes import WIDTH, all_lanes, apart, lanes, put_lanes, where_positive
-from reynolds.line_kernels import coloured, eliminate, factorise, repeat_last, substitute, width
+from reynolds.line_kernels import coloured, eliminate, factorise, plain, repeat_last, substitute, width
 
 _FAST = {"cache": True, "error_model": "numpy", "fastmath": {"contract"}}
 
@@ -19,11 +19,11 @@ def set_up(fine, coarse, coarsest):
     """Coarse operators and factors of all levels from the finest stencil; False where it is not positive."""
     levels = coarse.lines.shape[0]
     if fine.around:
-        _repeat_stencils(fine, 0)
+        _repeat_stencils(fine, plain(0))
     if levels == 0:
-        return eliminate_blocks(coarsest, fine, 0)
-    _coarsen(fine, 0, coarse, 0)
-    good = _factorise(fine, 0)
+        return eliminate_blocks(coarsest, fine, plain(0))
+    _coarsen(fine, plain(0), coarse, plain(0))
+    good = _factorise(fine, plain(0))
     for level in range(levels - 1):
         _coarsen(coarse, level, coarse, level + 1)
         good = good and _factorise(coarse, level)

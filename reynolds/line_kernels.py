@@ -44,6 +44,12 @@ class Levels(NamedTuple):
     around: bool
 
 
+@njit(**_FAST)
+def plain(number):
+    """A number that the compiler does not know: for each that it does, a function called with it is made anew."""
+    return number + 0
+
+
 @njit(inline="always")
 def coloured(a, level, odd):
     """Number of even (odd = 0) or odd (1) lines of a level."""

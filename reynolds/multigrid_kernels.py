@@ -11,7 +11,7 @@ from numba import njit
 
 from reynolds.coarsest_kernels import solve_blocks
 from reynolds.lanes import WIDTH, all_lanes, apart, lanes, lanes_like, put_lanes, together
-from reynolds.line_kernels import coloured, repeat_lines, substitute, width
+from reynolds.line_kernels import coloured, plain, repeat_lines, substitute, width
 
 _FAST = {"cache": True, "error_model": "numpy", "fastmath": {"contract"}}
 
@@ -121,11 +121,11 @@ def _ascend(a, level, b, below):
 def cycle(fine, coarse, coarsest):
     """answer of the finest level = M load: a symmetric V-cycle from nothing."""
     if coarse.lines.shape[0] == 0:
-        solve_blocks(coarsest, fine, 0)
+        solve_blocks(coarsest, fine, plain(0))
     else:
-        _descend(fine, 0, coarse, 0)
-        _cycle_from(coarse, 0, coarsest)
-        _ascend(fine, 0, coarse, 0)
+        _descend(fine, plain(0), coarse, plain(0))
+        _cycle_from(coarse, plain(0), coarsest)
+        _ascend(fine, plain(0), coarse, plain(0))
 
 
 @njit(**_FAST)
@@ -144,9 +144,9 @@ def full_cycle(fine, coarse, coarsest):
     """answer of the finest level: full multigrid, a cycle on every level from the coarsest up (Brandt 1977)."""
     last = coarse.lines.shape[0] - 1
     if last < 0:
-        solve_blocks(coarsest, fine, 0)
+        solve_blocks(coarsest, fine, plain(0))
         return
-    _first_load(fine, 0, coarse, 0)
+    _first_load(fine, plain(0), coarse, plain(0))
     for level in range(last):
         _first_load(coarse, level, coarse, level + 1)
     solve_blocks(coarsest, coarse, last)
@@ -154,9 +154,9 @@ def full_cycle(fine, coarse, coarsest):
         _improve(coarse, level, coarse, level + 1)
         _cycle_from(coarse, level + 1, coarsest)
         _ascend(coarse, level, coarse, level + 1)
-    _improve(fine, 0, coarse, 0)
-    _cycle_from(coarse, 0, coarsest)
-    _ascend(fine, 0, coarse, 0)
+    _improve(fine, plain(0), coarse, plain(0))
+    _cycle_from(coarse, plain(0), coarsest)
+    _ascend(fine, plain(0), coarse, plain(0))
 
 
 @njit(**_FAST)
@@ -179,8 +179,8 @@ def _improve(a, level, b, below):
 def apply(a, x, out):
     """out = A x on the finest level; repeats of x are filled, out has none."""
     if a.around:
-        repeat_lines(x, a, 0, 0)
-        repeat_lines(x, a, 0, 1)
+        for odd in range(2):
+            repeat_lines(x, a, plain(0), odd)
     slots = a.slots[0]
     for odd in range(2):
         begin, wide = a.start[0, odd] + odd, width(a, 0, odd)
