@@ -119,7 +119,7 @@ def solve_stage(
     round-off allows no less). Newton's method starts at `guess` (k,) m, and where that leads nowhere, at the
     position before; `last` warms the film. A Newton step leaves a fifth of the least gap, or presses rough walls
     by three standard deviations at most, and is halved until it brings the forces nearer to balance. Raises
-    FilmNotConverged where that leads nowhere, so that a shorter step may; FilmInputError as the film does.
+    FilmNotConverged where that leads nowhere, so that a shorter step may; what the film refuses is its reason.
     `functools.partial(solve_stage, solver, floating)` is a `dirk.StageSolver`.
     """
     instant = instant_of(solver, floating, time, step, before)
@@ -173,6 +173,9 @@ class _Search:
             found = self._instant.tried(q, self._warm)
         except FilmNotConverged as reason:
             self.why, self.remedy = reason.what, reason.remedy
+            return None
+        except FilmInputError as reason:  # a law of oil or contact does not reach there; nearer by it may
+            self.why = str(reason)
             return None
         self._warm = found.solution
         return found
