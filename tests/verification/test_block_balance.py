@@ -293,6 +293,23 @@ def test_a_parallel_block_sinks_as_two_lands(validation, refine):
     )  # fmt: skip
 
 
+def test_a_parallel_block_rubs_as_two_rings(validation, refine):
+    """Ports all round: shear of the lands alone, mu w^2 pi (b^4 - a^4)/(2 h) each; webs over ports rub nowhere."""
+    position = np.array([9e-6, 0.0, 0.0])
+    fourth = np.array(RADII) ** 4
+    power = 0.5 * np.pi * VISCOSITY * SPEED**2 / position[0] * (fourth[1] - fourth[0] + fourth[3] - fourth[2])
+
+    def solve(n: int) -> float:
+        film = BlockFilm(ALL_ROUND, drive(), cells=(n, 4 * n))
+        return film.friction_power(FilmSolver(film.space).solve(posed(film, 0.0, position)))
+
+    got = refine(solve, (2, 4, 8))
+    validation(
+        case="parallel ring turning", source="closed form", quantity="power of shear", unit="W",
+        expected=power, obtained=got.finest, tolerance=got.tolerance(), order=got.order,
+    )  # fmt: skip
+
+
 def test_waves_of_the_plate_carry_the_block():
     """A wavy plate has wedges, whose cavities leave a lift while the block turns; a flat one has none."""
     still = {"suction_pressure": CASE, "delivery_pressure": CASE, "chamber": constant(CASE)}
