@@ -1,8 +1,7 @@
 """Can a block stand on its valve plate? Closed forms of the lift of a parallel film against the pistons.
 
 Kidneys and webs at the chambers' pressure, spread evenly around; a logarithm over either land. Half a turn at
-delivery pressure, half at suction pressure; a cylindrical block, forces along the shaft, the spline in the plane of
-the ball centres.
+delivery pressure, half at suction pressure; a cylindrical block, the spline in the plane of the ball centres.
 """
 
 from __future__ import annotations

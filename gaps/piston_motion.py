@@ -118,14 +118,17 @@ class PistonFilm:
         self._physics = Physics() if physics is None else physics
         self._laws = laws_left(FilmLaws() if laws is None else laws, self._physics)
         mesh = rectangle((np.pi * shape.diameter, 1.0), cells, cell=Cell.QUADRILATERAL, periodic_x=True)
+        # Of length one; what is engaged stretches its places and keeps their angles.
         self._unit = film_space(rename(mesh, {"bottom": "chamber", "top": "case"}))
         self._space = self._unit
+        self._points, self._vertices = self._unit.points, self._unit.vertices.T
+        angle = 2.0 * self._vertices[0] / shape.diameter
+        self._towards = np.column_stack([np.cos(angle), np.sin(angle)])
 
     def space_at(self, time: float) -> FilmSpace:
         """The mesh over what is engaged at a time (s); raises FilmInputError where nothing is."""
-        engaged = self._engaged(time)
-        around, along = self._unit.vertices.T
-        axial = self.shape.guide_length - engaged * (1.0 - along)
+        around, along = self._vertices
+        axial = self.shape.guide_length - self._engaged(time) * (1.0 - along)
         if not np.array_equal(self._space.vertices[:, 1], axial):
             self._space = self._unit.moved(np.column_stack([around, axial]))
         return self._space
@@ -134,14 +137,14 @@ class PistonFilm:
         """The film of the piston in the middle of its bore at a time (s), walls relative to the mesh."""
         space, drive, laws = self.space_at(time), self.drive, self._laws
         moving, fixed = self._velocities(time)
-        carried = self._mesh_velocity(time, space)
+        carried = self._mesh_velocity(time)
         film = Film(
-            thickness=self._thickness(time, *space.points),
+            thickness=self._thickness(time, *self._points),
             viscosity=np.full((1, 1), drive.viscosity),
             velocity_moving=(moving[0], moving[1] - carried),
             velocity_fixed=(fixed[0], fixed[1] - carried),
             squeeze=ZERO,
-            thickness_at_vertices=self._thickness(time, *space.vertices.T),
+            thickness_at_vertices=self._thickness(time, *self._vertices),
         )
         pressure = float(drive.chamber_pressure(self._angle(time)))
         return FilmProblem(
@@ -158,10 +161,8 @@ class PistonFilm:
 
     def modes_at(self, time: float) -> Array:
         """Growth of the film by each coordinate at the vertices, (vertices, 4): -(cos, sin) (s, Lg - s)/Lg."""
-        x, y = self.space_at(time).vertices.T
-        angle, share = 2.0 * x / self.shape.diameter, 1.0 - y / self.shape.guide_length
-        towards = np.column_stack([np.cos(angle), np.sin(angle)])
-        return -np.hstack([share[:, None] * towards, (1.0 - share)[:, None] * towards])
+        share = (self._engaged(time) / self.shape.guide_length * (1.0 - self._vertices[1]))[:, None]
+        return -np.hstack([share * self._towards, (1.0 - share) * self._towards])
 
     def outer_at(self, time: float, position: Array, rate: Array) -> Outer:
         """Outer generalised forces; they depend on the shaft's angle alone."""
@@ -200,20 +201,22 @@ class PistonFilm:
         piston, bore = (np.full((1, 1), spin * radius) for spin in (drive.piston_spin, drive.bore_spin))
         return (piston, axial), (bore, ZERO)
 
-    def _mesh_velocity(self, time: float, space: FilmSpace) -> Array:
+    def _mesh_velocity(self, time: float) -> Array:
         """Velocity of the mesh along the bore, m/s: that of the piston at its end, none at the case edge.
 
         As the mesh's own rate it is what makes a stretching film store as much oil as the walls bring.
         """
         if float(self.drive.reach(self._angle(time))) >= self.shape.guide_length:
             return ZERO
-        share = (self.shape.guide_length - space.points[1]) / self._engaged(time)
-        return np.asarray(float(self.drive.velocity(self._angle(time))) * share)
+        return np.asarray(float(self.drive.velocity(self._angle(time))) * (1.0 - self._points[1]))
 
-    def _thickness(self, time: float, x: Array, y: Array) -> Array:
-        """Film (m) of a centred piston; its profile moves and turns with it, the bore's turns with the block."""
+    def _thickness(self, time: float, around: Array, along: Array) -> Array:
+        """Film (m) of a centred piston at places of the unit mesh.
+
+        The piston's profile moves and turns with it, the bore's turns with the block.
+        """
         shape, drive = self.shape, self.drive
-        angle, depth = 2.0 * x / shape.diameter, shape.guide_length - y
+        angle, depth = 2.0 * around / shape.diameter, self._engaged(time) * (1.0 - along)
         reach = float(drive.reach(self._angle(time)))
         bore = shape.bore(depth, angle - drive.bore_spin * time).depth
         piston = shape.piston(reach - depth, angle - drive.piston_spin * time).depth

@@ -21,7 +21,12 @@ from reynolds.transient import from_last_or_anew
 
 LEAST_SHARE = 0.2  # of the least gap that a step may leave
 DEEPEST = 3.0  # standard deviations of the summits by which a step may press the walls together
+THINNEST = 1e-9  # m: of a film between walls without asperities, some molecules of oil
+NEXT = 1e-2  # of the least film or of the summits' height
 SOLID = 1.0 - 1e-6  # of the overlap at which the law of contact ends
+
+
+TOUCHING = "asperities that bear where walls touch, an edge relief, or less load"
 
 
 @dataclass(frozen=True)
@@ -94,7 +99,7 @@ class Instant:
         """The film at a position; raises FilmNotConverged where walls overlap or the film does not settle."""
         at = posed(self.shape, self.modes, q)
         if not at.least > lowest_gap(self.shape):
-            raise FilmNotConverged(f"walls that overlap by {-at.least:.3g} m", "a shorter step")
+            raise FilmNotConverged(f"walls that touch: least gap {at.least:.3g} m", TOUCHING)
         storage = Storage(self.before.oil, self.step)
         problem = replace(at.problem, boundary=self._with_volumes(q), storage=storage)
         solution = from_last_or_anew(lambda last: self.solver.solve(problem, last), warm)
@@ -139,6 +144,7 @@ class Instant:
         asperities, floor = self.shape.asperities, LEAST_SHARE * at.least
         if asperities is not None:
             floor = min(floor, at.least - DEEPEST * asperities.height)
+        floor = max(floor, lowest_gap(self.shape))
         falls = [(at.gap - floor, -(self.modes.at_points @ step))]
         if at.corner_gap is not None:
             falls.append((at.corner_gap - floor, -(self.modes.at_vertices @ step)))
@@ -146,6 +152,12 @@ class Instant:
             float(np.min(np.divide(gap, fall, out=np.full(fall.shape, np.inf), where=fall > 0.0)))
             for gap, fall in falls
         )
+
+    def touching(self, at: Trial) -> bool:
+        """Whether walls are next to where there is no film between them, or no law of contact."""
+        asperities = self.shape.asperities
+        height = THINNEST if asperities is None else asperities.height
+        return at.least - lowest_gap(self.shape) < NEXT * height
 
     def by_position(self, at: Trial, tolerance: float = ITERATIVE_TOLERANCE) -> Response:
         """How the film at a position answers to it, on the film's last factor, to a tolerance of linear solves."""
@@ -221,11 +233,11 @@ def posed(shape: FilmProblem, modes: Modes, q: Array) -> Posed:
 
 
 def lowest_gap(shape: FilmProblem) -> float:
-    """The gap (m) above which walls are apart: zero, or where the law of contact ends."""
+    """The gap (m) above which there is a film: next to zero, or where the law of contact ends."""
     if shape.walls is not None:
         return -np.inf
     if shape.asperities is None:
-        return 0.0
+        return THINNEST
     return shape.asperities.summit_height + SOLID * LOWEST_RATIO * shape.asperities.height
 
 

@@ -10,6 +10,7 @@ from reynolds.errors import FilmInputError, FilmNotConverged
 from reynolds.film import FilmSolution
 from reynolds.floating import Floating, Outer
 from reynolds.floating_instant import (
+    TOUCHING,
     Instant,
     Kept,
     Trial,
@@ -29,7 +30,7 @@ TOLERANCE = 1e-8  # of the magnitudes that balance in a generalised force
 GOOD_ENOUGH = 1e-6  # where no step comes nearer to balance: round-off of the film's pressures
 LOOSE = 1e-5  # of the linear solves for a Newton step's slopes
 MOST_STEPS = 40
-MOST_HALVINGS = 12
+MOST_HALVINGS = 8
 LEAST_GAIN = 1e-4  # of the imbalance, by a full step
 
 
@@ -118,7 +119,7 @@ def solve_stage(
     round-off allows no less). Newton's method starts at `guess` (k,) m, and where that leads nowhere, at the
     position before; `last` warms the film. A Newton step leaves a fifth of the least gap, or presses rough walls
     by three standard deviations at most, and is halved until it brings the forces nearer to balance. Raises
-    FilmNotConverged where that leads nowhere, so that a shorter step may; FilmInputError as the film does.
+    FilmNotConverged where that leads nowhere, so that a shorter step may; what the film refuses is its reason.
     `functools.partial(solve_stage, solver, floating)` is a `dirk.StageSolver`.
     """
     instant = instant_of(solver, floating, time, step, before)
@@ -126,7 +127,7 @@ def solve_stage(
     if (found := search.balanced(guess)) is None:
         found = search.balanced(instant.before.position)
     if found is None:
-        raise FilmNotConverged(f"{floating.name} at {time:.6g} s: {search.why}", "a shorter step, or less load")
+        raise FilmNotConverged(f"{floating.name} at {time:.6g} s: {search.why}", search.remedy)
     return Stage(time, found, instant, search.films, search.steps)
 
 
@@ -149,7 +150,7 @@ class _Search:
     def __init__(self, instant: Instant, warm: FilmSolution | None) -> None:
         self._instant, self._warm = instant, warm
         self.films = self.steps = 0
-        self.why = "no film tried"
+        self.why, self.remedy = "no film tried", "a shorter step, or less load"
 
     def balanced(self, start: Array) -> Trial | None:
         """The film in balance that Newton's method reaches from a position (k,) m; else None, and `why`."""
@@ -171,7 +172,10 @@ class _Search:
         try:
             found = self._instant.tried(q, self._warm)
         except FilmNotConverged as reason:
-            self.why = reason.what
+            self.why, self.remedy = reason.what, reason.remedy
+            return None
+        except FilmInputError as reason:  # a law of oil or contact does not reach there; nearer by it may
+            self.why = str(reason)
             return None
         self._warm = found.solution
         return found
@@ -182,9 +186,12 @@ class _Search:
         try:
             step = -solved(instant.slopes(at, instant.by_position(at, LOOSE)), at.missing, instant.floating.name)
         except FilmNotConverged as reason:
-            self.why = reason.what
+            self.why, self.remedy = reason.what, reason.remedy
             return None
         room = min(1.0, instant.room(at, step))
+        if instant.touching(at):
+            self.why, self.remedy = f"walls that touch: least gap {at.least:.3g} m", TOUCHING
+            return None
         size = np.maximum(at.size, 1e-300)
         before = float(np.max(np.abs(at.missing) / size))
         for halvings in range(MOST_HALVINGS):

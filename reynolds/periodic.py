@@ -37,7 +37,7 @@ class Turn(Protocol):
 
     @property
     def allowed(self) -> float:
-        """Largest |end - start| of a turn that counts as closed, m."""
+        """Distance (m) from the periodic motion at which a turn counts as closed."""
 
     @property
     def reach(self) -> float:
@@ -77,10 +77,10 @@ class Periodic(Generic[T]):
 def periodic(turn_from: TurnFrom[T], start: Array) -> Periodic[T]:
     """The periodic motion that turns from `start` (k,) m lead to.
 
-    Afterwards |end - start| <= allowed in every coordinate and the turn repeats. A start lies no further than
-    `reach` from the end of the turn before; one from which the turn goes back, and further than it came, is taken
-    back for a nearer one. Raises FilmNotConverged after MOST_TURNS: the motion is not periodic, unstable, or its
-    start far away.
+    Afterwards neither the turn nor all linearised ones after it lead further than `allowed` from its start in any
+    coordinate, and the turn repeats. A start lies no further than `reach` from the end of the turn before; one
+    from which the turn goes back, and further than it came, is taken back for a nearer one. Raises
+    FilmNotConverged after MOST_TURNS: the motion is not periodic, unstable, or its start far away.
     """
     at, share = np.asarray(start, dtype=float), 1.0
     before: T | None = None
@@ -88,9 +88,9 @@ def periodic(turn_from: TurnFrom[T], start: Array) -> Periodic[T]:
     changes: list[float] = []
     while len(changes) < MOST_TURNS:
         turn = turn_from(at, before)
-        change = float(np.abs(turn.end - at).max())
-        changes.append(change)
-        if change <= turn.allowed and turn.repeats:
+        changes.append(float(np.abs(turn.end - at).max()))
+        away = np.abs(_next(at, turn, 1.0) - at).max()
+        if max(away, changes[-1]) <= turn.allowed and turn.repeats:
             return Periodic(turn, at, tuple(changes), np.linalg.eigvals(turn.slopes).astype(complex))
         before = turn
         if last is not None and _too_far(*last, at, turn):

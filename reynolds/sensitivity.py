@@ -1,7 +1,9 @@
 """How a solved film answers to its thickness and to what it held: slopes on the solver's last factor.
 
 The balance R(p, theta; h, held before) = 0 of every unknown, differentiated with the cavity as it is:
-J d(p, theta) = - R_h dh + d(held before)/step, one right-hand side for each change.
+J d(p, theta) = - R_h dh + d(held before)/step, one right-hand side for each change. Exact between rigid walls;
+where walls give way J leaves out how a cavity's upwinding changes with the opening (`balance.slopes`): some 1e-4
+of dQ/dq.
 """
 
 from __future__ import annotations
@@ -17,6 +19,7 @@ from reynolds.balance import _sends_nothing as sends_nothing
 from reynolds.film import Cavitation, FilmSolution
 from reynolds.linear import ITERATIVE_TOLERANCE
 from reynolds.mesh import Array
+from reynolds.opening import opening_slope
 from reynolds.solve import FilmSolver
 from reynolds.transport import along, at_points
 
@@ -96,12 +99,16 @@ def _mixing_load(solution: FilmSolution, parts: Operators, thicker: Array) -> Ar
 def oil_slopes(solution: FilmSolution, thicker: Array, changed: Response) -> Array:
     """Change of what each unknown holds, (size, k) m3 per unit of q_j at reference density.
 
-    `thicker` as above; `changed` is what pressures and film fractions do meanwhile.
+    `thicker` as above; `changed` is what pressures and film fractions do meanwhile, the pressures opening walls
+    that give way.
     """
     problem, space = solution.problem, solution.problem.space
     ratio, ratio_slope = density(problem, solution.pressure)
     terms = operators(problem, _state(solution)).transport
     grown = np.empty((space.size, thicker.shape[2]))
+    if problem.walls is not None:
+        opened = opening_slope(problem, solution.opening) @ changed.pressure
+        thicker = thicker + space.reference.geometry_value @ opened[space.cells]
     wider = np.ascontiguousarray(terms.content_slope[:, :, None] * thicker)
     generalised_kernels.weigh(space.dofs, space.reference.value, space.area, wider, *space.reference.loops, grown)
     content, fraction = space.lumped(solution.content)[:, None], solution.film_fraction[:, None]

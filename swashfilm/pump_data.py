@@ -45,8 +45,9 @@ def gap_films(films: FilmsPoint) -> dict[str, tuple[GapFilm, ...]]:
 def point_dataset(point: PumpPoint, name: str) -> xarray.Dataset:
     """Chamber, ports, flows and pair losses over `shaft_angle` (rad), SI units in the attributes.
 
-    Chamber quantities belong to one chamber, pair losses to one piston, slipper or socket; the delivery ripple and
-    the other pairs to the whole pump.
+    Chamber quantities belong to one chamber, pair losses to one piston, slipper or socket; port pressures, flows
+    of the lines, torque and the other pairs to the whole pump. pump_delivery_flow is the volume at chamber
+    pressure that passes the delivery port, the line flows what leaves and enters the pump, at port pressure.
     """
     import xarray
 
@@ -62,6 +63,11 @@ def point_dataset(point: PumpPoint, name: str) -> xarray.Dataset:
         "slipper_leakage": (cycle.flow.slipper, "m3/s"),
         "valve_plate_leakage": (cycle.flow.valve_plate, "m3/s"),
         "pump_delivery_flow": (point.delivery_flow_ripple, "m3/s"),
+        "delivery_pressure": (point.delivery.pressure, "Pa"),
+        "inlet_pressure": (point.suction.pressure, "Pa"),
+        "delivery_line_flow": (point.delivery.line_flow, "m3/s"),
+        "inlet_line_flow": (-point.suction.line_flow, "m3/s"),
+        "shaft_torque": (point.shaft_torque, "N m"),
     }
     return xarray.Dataset(
         {
@@ -73,7 +79,7 @@ def point_dataset(point: PumpPoint, name: str) -> xarray.Dataset:
             "shaft_angle": ("shaft_angle", cycle.shaft_angle, {"units": "rad"}),
             "pair": [pair.value for pair in Pair],
         },
-        attrs={"name": name, "kind": "pump", "pressures": "gauge"},
+        attrs={"name": name, "kind": "pump", "pressures": "gauge", "pitch_deg": 360.0 / point.pistons},
     )
 
 

@@ -44,6 +44,7 @@ def write_pump_page(folder: Path) -> Path:
         pairs=pair_rows(summary),
         power=power_rows(summary),
         gaps=gap_rows(summary),
+        ripple=ripple_rows(summary),
         checks=check_rows(summary),
         pictures=_pictures(data, summary),
         gap_maps={map_caption(data, gap): _inline(png) for gap, png in pump_plots.gap_maps(data).items()},
@@ -67,6 +68,7 @@ def map_caption(data: Any, gap: str) -> str:
 def headline_rows(summary: Mapping[str, Any]) -> Rows:
     """(what, value with its unit): the operating point and what comes out of it."""
     at, flow, torque = summary["operating_point"], summary["flow"], summary["torque"]
+    ripple, errors = summary["ripple"], summary["checks"]
     return [
         ("shaft speed", f"{at['shaft_speed_rad_per_s'] * 30 / np.pi:.1f} r/min"),
         ("delivery pressure (gauge)", f"{at['delivery_pressure_Pa'] * 1e-6:.3f} MPa"),
@@ -86,6 +88,13 @@ def headline_rows(summary: Mapping[str, Any]) -> Rows:
         ("torque, shaft", f"{torque['shaft_Nm']:.2f} N m"),
         ("torque, ideal at delivery pressure", f"{torque['ideal_delivery_Nm']:.2f} N m"),
         ("torque, ideal at pressure difference", f"{torque['ideal_difference_Nm']:.2f} N m"),
+        (
+            "ripple, delivery pressure",
+            f"{ripple['delivery_pressure_peak_to_peak_Pa'] * 1e-6:.4f} MPa peak to peak",
+        ),
+        ("ripple, delivery flow", f"{ripple['delivery_flow_peak_to_peak_m3_per_s'] * LPM:.3f} L/min peak to peak"),
+        ("ripple, shaft torque", f"{ripple['shaft_torque_peak_to_peak_Nm']:.2f} N m peak to peak"),
+        ("energy balance error, torque from forces", f"{errors['energy_balance_error']:.2g} of the shaft power"),
     ]
 
 
@@ -149,6 +158,24 @@ def gap_rows(summary: Mapping[str, Any]) -> Rows:
     return rows
 
 
+def ripple_rows(summary: Mapping[str, Any]) -> Rows:
+    """(what pulses, peak to peak, its orders z, 2 z and 3 z)."""
+    ripple = summary["ripple"]
+    units = {"Pa": (1e-6, "MPa"), "m3_per_s": (LPM, "L/min"), "Nm": (1.0, "N m")}
+    rows: Rows = []
+    for name, unit in (
+        ("delivery_pressure", "Pa"),
+        ("delivery_flow", "m3_per_s"),
+        ("inlet_pressure", "Pa"),
+        ("inlet_flow", "m3_per_s"),
+        ("shaft_torque", "Nm"),
+    ):
+        scale, shown = units[unit]
+        keys = [key for key in ripple if key.startswith(name)]
+        rows.append((name.replace("_", " "), *(f"{scale * ripple[key]:.3g} {shown}" for key in keys)))
+    return rows
+
+
 def check_rows(summary: Mapping[str, Any]) -> Rows:
     """(check, value): balances, convergence and effort of the solvers, those of the gaps included."""
     rows: Rows = [(key.replace("_", " "), f"{value:.3g}") for key, value in summary["checks"].items()]
@@ -169,6 +196,7 @@ def _pictures(data: Any, summary: Mapping[str, Any]) -> dict[str, str]:
         "losses": pump_plots.loss_bar(summary),
         "chamber": pump_plots.chamber_plot(data, summary),
         "flows": pump_plots.flow_plot(data),
+        "ripple": pump_plots.ripple_plot(data),
     }
     if "piston_film_pressure" in data:
         pictures["films"] = pump_plots.film_series(data)

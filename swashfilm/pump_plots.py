@@ -79,6 +79,27 @@ def flow_plot(data: xarray.Dataset) -> bytes:
     return _png(figure)
 
 
+def ripple_plot(data: xarray.Dataset) -> bytes:
+    """Port pressures (MPa, off their means), line flows (L/min) and shaft torque (N m) over two piston pitches."""
+    figure = _figure(10.0, 3.4)
+    left, middle, right = figure.subplots(1, 3)
+    angle = np.degrees(data["shaft_angle"].values)
+    for name, colour in (("delivery", "#b8862b"), ("inlet", "#5b9a5b")):
+        pressure = data[f"{name}_pressure"].values * 1e-6
+        label = f"{name}, mean {pressure.mean():.2f} MPa"
+        left.plot(angle, pressure - pressure.mean(), color=colour, label=label)
+        middle.plot(angle, data[f"{name}_line_flow"].values * LPM, color=colour, label=name)
+    right.plot(angle, data["shaft_torque"].values, color="#1c2328")
+    left.set(ylabel="port pressure off its mean / MPa", title="ports")
+    middle.set(ylabel="flow / L/min", title="lines, at port pressure")
+    right.set(ylabel="torque / N m", title="shaft")
+    for axes in (left, middle, right):
+        axes.set(xlabel="shaft angle / deg", xlim=(0, 2.0 * data.attrs["pitch_deg"]))
+    left.legend()
+    middle.legend()
+    return _png(figure)
+
+
 def gap_maps(data: xarray.Dataset) -> dict[str, bytes]:
     """Film pressure (MPa) and film thickness (um) of each gap at the pictured angle, by the gap's name."""
     return {gap: _gap_map(data, gap) for gap in GAPS if f"{gap}_film_pressure" in data}

@@ -50,6 +50,7 @@ def pump_summary(
             "case_m3_per_s": point.bench.drain_flow,
             "geometric_m3_per_s": ideal_flow(point.geometric_displacement, point.point.shaft_speed),
         },
+        "ripple": _ripple(point),
         "leakage": {f"{gap}_m3_per_s": flow for gap, flow in asdict(point.leakage_flow).items()},
         "torque": {
             "shaft_Nm": point.bench.shaft_torque,
@@ -142,6 +143,25 @@ def _operating_point(point: PumpPoint) -> dict[str, float]:
     }
 
 
+def _ripple(point: PumpPoint) -> dict[str, float | None]:
+    """What pulses over the turn: peak to peak, and amplitudes of the orders z, 2 z and 3 z."""
+    series = {
+        "delivery_pressure": (point.delivery.pressure, "Pa"),
+        "delivery_flow": (point.delivery.line_flow, "m3_per_s"),
+        "inlet_pressure": (point.suction.pressure, "Pa"),
+        "inlet_flow": (-point.suction.line_flow, "m3_per_s"),
+        "shaft_torque": (point.shaft_torque, "Nm"),
+    }
+    found: dict[str, float | None] = {}
+    for name, (values, unit) in series.items():
+        found[f"{name}_peak_to_peak_{unit}"] = float(np.ptp(values))
+        amplitudes = 2.0 / values.size * np.abs(np.fft.rfft(values))
+        for order, multiple in (("z", 1), ("2z", 2), ("3z", 3)):
+            found[f"{name}_order_{order}_{unit}"] = float(amplitudes[multiple * point.pistons])
+    found["delivery_orifice_area_m2"] = point.delivery.orifice_area
+    return found
+
+
 def _pair(point: PumpPoint, pair: Pair) -> dict[str, float]:
     loss = point.pairs.loss(pair)
     return {
@@ -159,6 +179,7 @@ def _power(point: PumpPoint) -> dict[str, float]:
         "shaft_W": power.shaft,
         "hydraulic_W": power.hydraulic,
         "elastic_W": power.elastic,
+        "ripple_W": power.ripple,
         **parts,
         "throttling_delivery_W": power.throttling_delivery,
         "throttling_suction_W": power.throttling_suction,
@@ -171,6 +192,8 @@ def _checks(point: PumpPoint, films: FilmsPoint | None) -> dict[str, float]:
     checks = {
         "mass_balance_error": point.checks.mass_balance_error,
         "energy_balance_error": point.checks.energy_balance_error,
+        "work_balance_error": point.checks.work_balance_error,
+        "port_balance_error": max(point.delivery.balance_error, point.suction.balance_error),
         "quadrature_error": point.checks.quadrature_error,
         "chamber_work_error": cycle.checks.work_error,
         "chamber_periodicity_error_Pa": cycle.checks.periodicity_error,

@@ -3,19 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import Enum
 
 import numpy as np
 
-from system.bench import BenchReading, Efficiency, elastic_energy, iso_efficiency, paper_efficiency
-from system.chamber import ChamberCycle, Paths, flow_energy
+from system.bench import BenchReading, Efficiency, iso_efficiency, paper_efficiency
+from system.chamber import ChamberCycle, Paths
 from system.chamber_kernel import CAVITY_PRESSURE
 from system.chamber_problem import ChamberProblem, LeakTable
 from system.kinematics import Array, stroke
 from system.operating import OperatingPoint
 from system.pairs import FrictionPairs, Pair, over_chambers
 from system.ports import TURN, opening_area
+from system.ports_coupling import Port, PortedCycle
+from system.power import GapExchange, Gaps, PowerBalance, port_draw, power_balance, shaft_work
+from system.shaft_torque import GroupMasses, shaft_torque
 from system.units import STANDARD_ATMOSPHERE
 
 
@@ -25,6 +28,7 @@ class PointWarning(Enum):
     CHAMBER_CAVITATES = "chamber_cavitates"
     CHAMBER_OVERPRESSURE = "chamber_overpressure"
     NO_DELIVERY = "no_delivery"
+    PORT_PRESSURE_FOLLOWS_LINE = "port_pressure_follows_line"
 
 
 @dataclass(frozen=True)
@@ -39,80 +43,25 @@ class Remark:
         return f"{self.warning.value}: {self.text}"
 
 
+PORT_PRESSURE_MET = 1e-3
+"""Part of the ports' pressure difference by which a port's mean pressure may miss the operating point untold."""
 OVERPRESSURE = 1.1
 """Chamber peak over the higher port pressure (both absolute) from which trapped oil is told."""
-
-
-@dataclass(frozen=True)
-class Gaps:
-    """One number for each of the three gaps."""
-
-    piston: float
-    slipper: float
-    valve_plate: float
-
-    @property
-    def total(self) -> float:
-        """All three together."""
-        return self.piston + self.slipper + self.valve_plate
-
-
-@dataclass(frozen=True)
-class GapExchange:
-    """What the gaps exchange beside one chamber's leakage, mean over the revolution.
-
-    carried: power in W that oil dragged along by moving walls gives them back, all chambers; delivery_draw,
-    suction_draw: flow in m3/s (at port pressure) that the valve plate's film takes from the ports themselves.
-    """
-
-    carried: Gaps
-    delivery_draw: float
-    suction_draw: float
-
-
-def chamber_exchange(cycle: ChamberCycle, rate: float) -> GapExchange:
-    """The exchange of gaps that know nothing but their own chamber; `rate` is chambers times turns per second."""
-    return GapExchange(Gaps(*(rate * float(work) for work in cycle.carried_energy)), 0.0, 0.0)
-
-
-@dataclass(frozen=True)
-class PowerBalance:
-    """Where the shaft power goes, mean over a revolution, in W: the fields but `shaft` add up to it.
-
-    hydraulic: p Q summed over delivery, inlet (negative) and case; elastic: stored in the oil that leaves, less
-    that which enters (compression: a machine downstream can take it back); leakage: turned into heat in each gap
-    by the pressure; throttling_delivery, throttling_suction: in the ports; friction: the seven pairs.
-    """
-
-    shaft: float
-    hydraulic: float
-    elastic: float
-    leakage: Gaps
-    throttling_delivery: float
-    throttling_suction: float
-    friction: float
-
-    @property
-    def throttling(self) -> float:
-        """Both ports together."""
-        return self.throttling_delivery + self.throttling_suction
-
-    @property
-    def accounted(self) -> float:
-        """All that the shaft power goes into."""
-        return self.hydraulic + self.elastic + self.leakage.total + self.throttling + self.friction
 
 
 @dataclass(frozen=True)
 class PointChecks:
     """Relative errors of a point; those of the chamber are in its cycle.
 
-    mass_balance_error of the delivered mass; energy_balance_error of the shaft power; quadrature_error: of the
-    friction power, estimated from every second shaft angle.
+    mass_balance_error of the delivered mass; energy_balance_error: mean torque from the forces on the rotating
+    group times shaft speed against all that the shaft power goes into, each computed on its own, of the shaft
+    power; work_balance_error: the same with the work that the pistons do by the chambers' integration, friction in
+    either; quadrature_error: of the friction power, estimated from every second shaft angle.
     """
 
     mass_balance_error: float
     energy_balance_error: float
+    work_balance_error: float
     quadrature_error: float
 
 
@@ -122,16 +71,22 @@ class PumpPoint:
 
     Per chamber, arrays over `cycle.shaft_angle`: `cycle`, `delivery_area`, `suction_area` in m2. Whole pump:
     `delivery_flow_ripple` in m3/s over the same angles (volume at chamber pressure through the delivery port);
-    `leakage_flow` of each gap (mean over the revolution, all chambers, volume at case pressure); `bench`, what a
-    test bench reads; `geometric_displacement` and `derived_displacement` in m3 per revolution.
+    `delivery`, `suction`: pressure of either port and what its line takes; `shaft_torque` in N m, from the forces
+    on the rotating group; `leakage_flow` of each gap (mean over the revolution, all chambers, volume at case
+    pressure); `bench`, what a test bench reads; `geometric_displacement` and `derived_displacement` in m3 per
+    revolution.
     """
 
     point: OperatingPoint
+    pistons: int
     swash_angle: float
     cycle: ChamberCycle
     delivery_area: Array
     suction_area: Array
     delivery_flow_ripple: Array
+    delivery: Port
+    suction: Port
+    shaft_torque: Array
     leakage_flow: Gaps
     leaks: LeakTable
     pairs: FrictionPairs
@@ -155,30 +110,38 @@ class PumpPoint:
 
 def assemble(
     point: OperatingPoint,
-    problem: ChamberProblem,
-    cycle: ChamberCycle,
+    ported: PortedCycle,
     pairs: FrictionPairs,
     pistons: int,
     derived_displacement: float,
     exchange: GapExchange,
+    masses: GroupMasses,
 ) -> PumpPoint:
     """The pump's flows, torque and powers from one chamber's periodic cycle and the friction of its pairs.
 
-    Shaft torque = (indicated power - power that carried oil gives to the moving walls + friction)/w. The second
-    term is the pull of the gap's pressure gradient on the piston: with it the torque, like the flow, belongs to
-    the mean of piston and bore area, and the energy balance closes.
+    The bench reads the torque of `power.shaft_work`, good to the chambers' integration; the torque from forces is
+    good to the sampled angles. Where a line of stated orifice sets a port's pressure, the point is given at that
+    pressure.
     """
+    problem, cycle, asked = ported.problem, ported.cycle, point
+    point = met_point(point, ported)
     rate = pistons * point.shaft_speed / TURN
-    power = _power_balance(point, problem, cycle, rate, pairs.power, exchange)
-    reading = _reading(point, problem, cycle.outflow, rate, power.shaft, exchange)
+    torque = shaft_torque(problem, cycle, pairs, masses, pistons, exchange.carried.valve_plate)
+    work = shaft_work(cycle, rate, pairs.power, exchange)
+    reading = _reading(point, problem, cycle.outflow, rate, work, exchange)
+    power = power_balance(ported, reading, rate, pairs.power, exchange)
     quadrature = sum(pairs.loss(pair).quadrature_error for pair in Pair)
     return PumpPoint(
         point=point,
+        pistons=pistons,
         swash_angle=problem.drive.swash_angle,
         cycle=cycle,
         delivery_area=opening_area(problem.delivery_port, cycle.shaft_angle),
         suction_area=opening_area(problem.suction_port, cycle.shaft_angle),
         delivery_flow_ripple=over_chambers(cycle.flow.delivery, pistons),
+        delivery=ported.delivery,
+        suction=ported.suction,
+        shaft_torque=torque,
         leakage_flow=_leakage_flow(problem, cycle.outflow, rate, exchange),
         leaks=problem.leaks,
         pairs=pairs,
@@ -188,11 +151,19 @@ def assemble(
         derived_displacement=derived_displacement,
         checks=PointChecks(
             mass_balance_error=cycle.checks.mass_balance_error,
-            energy_balance_error=abs(power.shaft - power.accounted) / abs(power.shaft),
+            energy_balance_error=abs(point.shaft_speed * float(np.mean(torque)) - power.accounted)
+            / abs(power.shaft),
+            work_balance_error=abs(power.shaft - power.accounted) / abs(power.shaft),
             quadrature_error=quadrature / pairs.power,
         ),
-        warnings=tuple(_remarks(point, cycle, reading)),
+        warnings=tuple(_remarks(asked, ported, reading)),
     )
+
+
+def met_point(point: OperatingPoint, ported: PortedCycle) -> OperatingPoint:
+    """The operating point at the ports' mean pressures as chambers and lines have settled them."""
+    problem = ported.problem
+    return replace(point, delivery_pressure=problem.delivery_pressure, inlet_pressure=problem.inlet_pressure)
 
 
 def pumps(reading: BenchReading) -> bool:
@@ -200,7 +171,9 @@ def pumps(reading: BenchReading) -> bool:
     return reading.shaft_power > 0.0 and reading.inlet_flow > 0.0 and reading.delivery_flow > 0.0
 
 
-def _remarks(point: OperatingPoint, cycle: ChamberCycle, reading: BenchReading) -> Iterator[Remark]:
+def _remarks(asked: OperatingPoint, ported: PortedCycle, reading: BenchReading) -> Iterator[Remark]:
+    cycle = ported.cycle
+    yield from _ports_off(asked, ported)
     if not pumps(reading):
         yield Remark(
             PointWarning.NO_DELIVERY,
@@ -217,7 +190,7 @@ def _remarks(point: OperatingPoint, cycle: ChamberCycle, reading: BenchReading) 
             f"{low.min():.0f} to {low.max():.0f} deg): a starved inlet, or both ports shut while the piston moves "
             "out; air release is not modelled; raise the inlet pressure, or let the ports change over sooner",
         )
-    highest = max(point.delivery_pressure, point.inlet_pressure)
+    highest = max(float(ported.delivery.pressure.max()), float(ported.suction.pressure.max()))
     limit = OVERPRESSURE * (highest + STANDARD_ATMOSPHERE) - STANDARD_ATMOSPHERE
     peak = int(np.argmax(cycle.pressure))
     if cycle.pressure[peak] > limit:
@@ -229,19 +202,25 @@ def _remarks(point: OperatingPoint, cycle: ChamberCycle, reading: BenchReading) 
         )
 
 
+def _ports_off(asked: OperatingPoint, ported: PortedCycle) -> Iterator[Remark]:
+    """A remark for each port whose line keeps another mean pressure than was asked for."""
+    allowed = PORT_PRESSURE_MET * ported.problem.pressure_span
+    wanted = (asked.delivery_pressure, asked.inlet_pressure)
+    for name, port, pressure in zip(("delivery", "inlet"), (ported.delivery, ported.suction), wanted, strict=True):
+        if abs(port.mean_pressure - pressure) > allowed:
+            yield Remark(
+                PointWarning.PORT_PRESSURE_FOLLOWS_LINE,
+                f"the mean {name} pressure is {port.mean_pressure * 1e-6:.4g} MPa, what the orifice of its line "
+                f"makes of the flow, not {pressure * 1e-6:.4g} MPa (limit {allowed * 1e-6:.2g} MPa off); leave "
+                "the orifice's area out and it is found",
+            )
+
+
 def _leakage_flow(problem: ChamberProblem, outflow: Paths, rate: float, exchange: GapExchange) -> Gaps:
     scale = rate * problem.specific_volume(problem.case_pressure)
-    draw = problem.specific_volume(problem.case_pressure) * sum(_port_draw(problem, exchange))
+    draw = problem.specific_volume(problem.case_pressure) * sum(port_draw(problem, exchange))
     return Gaps(
         scale * float(outflow.piston), scale * float(outflow.slipper), scale * float(outflow.valve_plate) + draw
-    )
-
-
-def _port_draw(problem: ChamberProblem, exchange: GapExchange) -> tuple[float, float]:
-    """What the valve plate's film takes from delivery and suction port, m3/s at zero gauge pressure."""
-    return (
-        exchange.delivery_draw / problem.specific_volume(problem.delivery_pressure),
-        exchange.suction_draw / problem.specific_volume(problem.inlet_pressure),
     )
 
 
@@ -264,41 +243,4 @@ def _reading(
         delivery_flow=delivered - exchange.delivery_draw,
         inlet_flow=drawn_in + exchange.suction_draw,
         drain_flow=_leakage_flow(problem, outflow, rate, exchange).total,
-    )
-
-
-def _power_balance(
-    point: OperatingPoint,
-    problem: ChamberProblem,
-    cycle: ChamberCycle,
-    rate: float,
-    friction: float,
-    exchange: GapExchange,
-) -> PowerBalance:
-    reading = _reading(point, problem, cycle.outflow, rate, 0.0, exchange)
-    ports = (
-        (reading.delivery_flow, point.delivery_pressure),
-        (-reading.inlet_flow, point.inlet_pressure),
-        (reading.drain_flow, point.case_pressure),
-    )
-    energy, carried = cycle.path_energy, exchange.carried
-    modulus = problem.bulk_modulus
-    from_ports = sum(
-        draw * float(flow_energy(pressure, modulus) - flow_energy(point.case_pressure, modulus))
-        for draw, pressure in zip(
-            _port_draw(problem, exchange), (point.delivery_pressure, point.inlet_pressure), strict=True
-        )
-    )
-    return PowerBalance(
-        shaft=rate * cycle.indicated_work - carried.total + friction,
-        hydraulic=sum(flow * pressure for flow, pressure in ports),
-        elastic=sum(flow * elastic_energy(pressure, modulus) for flow, pressure in ports),
-        leakage=Gaps(
-            rate * float(energy.piston) - carried.piston,
-            rate * float(energy.slipper) - carried.slipper,
-            rate * float(energy.valve_plate) + from_ports - carried.valve_plate,
-        ),
-        throttling_delivery=rate * float(energy.delivery),
-        throttling_suction=rate * float(energy.suction),
-        friction=friction,
     )

@@ -109,3 +109,11 @@ def periodic_cubics(rows: Array) -> Array:
     slope = after - rows - (2.0 * curvature + curvature_after) / 6.0
     cubic = np.stack([rows, slope, curvature / 2.0, (curvature_after - curvature) / 6.0], axis=-1)
     return np.ascontiguousarray(cubic.transpose(1, 0, 2))
+
+
+def periodic_values(rows: Array, samples: int) -> Array:
+    """The periodic cubic splines of rows (n, N) at `samples` equidistant angles from 0, shape (n, samples)."""
+    place = np.arange(samples) * (rows.shape[1] / samples)
+    cell = place.astype(int)
+    cubic, x = periodic_cubics(rows)[cell], (place - cell)[:, None]
+    return np.asarray((cubic[..., 0] + x * (cubic[..., 1] + x * (cubic[..., 2] + x * cubic[..., 3]))).T)

@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from system.assembly import GapExchange, Gaps, PumpPoint, assemble
+from system.assembly import PumpPoint, assemble, met_point
 from system.chamber import ChamberCycle, solve_cycle
 from system.chamber_problem import ChamberProblem, LeakTable
 from system.description import PumpDescription
@@ -21,14 +21,18 @@ from system.kinematics import Array
 from system.lumped import (
     SAMPLES_PER_PITCH,
     chamber_problem,
+    group_masses,
     lumped_pairs,
     lumped_point,
     piston_motion,
+    port_lines,
     swept_displacement,
 )
 from system.operating import OperatingPoint
 from system.pairs import FrictionPairs
 from system.ports import TURN
+from system.ports_coupling import ported_cycle
+from system.power import GapExchange, Gaps
 
 POSITIONS_PER_PITCH = 4
 """Block angles a piston pitch at which films are solved: 10 deg on nine pistons; an even divisor of
@@ -70,16 +74,19 @@ def films_point(
         raise ValueError(
             f"positions per pitch: found {positions_per_pitch}, expected an even divisor of {SAMPLES_PER_PITCH}"
         )
-    group, motion = rotor(pump, point), piston_motion(pump, point)
+    motion, lines = piston_motion(pump, point), port_lines(pump, point)
     every = SAMPLES_PER_PITCH // positions_per_pitch
-    cycle = lumped_point(pump, point).cycle
-    films, gaps, rounds = GapFilms(group), None, 0
+    lumped = lumped_point(pump, point)
+    films, gaps, rounds, cycle = GapFilms(rotor(pump, lumped.point)), None, 0, lumped.cycle
     limit = TOLERANCE * (abs(point.delivery_pressure - point.inlet_pressure) + 1e5)
     while rounds < ROUND_LIMIT:
         rounds += 1
         gaps = films.cycle(cycle.shaft_angle[::every], cycle.pressure[::every], gaps, report)
         problem = chamber_problem(pump, point, motion, leak_table(gaps, point.case_pressure))
-        before, cycle = cycle, solve_cycle(problem, motion.shaft_angle.size)
+        draws = port_draws(gaps, films.rotor.point, pump.oil.bulk_modulus)
+        ported = ported_cycle(problem, lines, pump.pump.pistons, motion.shaft_angle.size, draws=draws)
+        films.rotor = rotor(pump, met_point(point, ported))
+        before, cycle = cycle, ported.cycle
         change = float(np.max(np.abs(cycle.pressure - before.pressure)))
         if change <= limit:
             break
@@ -91,8 +98,8 @@ def films_point(
     exchange = gap_exchange(gaps, cycle, pump.pump.pistons, point)
     losses = with_film_shear(lumped_pairs(pump, point, motion, cycle), gaps, point.case_pressure)
     derived = swept_displacement(pump, motion.drive)
-    pump_point = assemble(point, problem, cycle, losses, pump.pump.pistons, derived, exchange)
-    return FilmsPoint(group, pump_point, gaps, rounds, change, _sampling_error(problem, cycle))
+    pump_point = assemble(point, ported, losses, pump.pump.pistons, derived, exchange, group_masses(pump))
+    return FilmsPoint(films.rotor, pump_point, gaps, rounds, change, _sampling_error(ported.problem, cycle))
 
 
 def leak_table(gaps: GapCycle, case_pressure: float) -> LeakTable:
@@ -110,6 +117,14 @@ def gap_exchange(gaps: GapCycle, cycle: ChamberCycle, pistons: int, point: Opera
         delivery_draw=float(np.mean([film.delivery_flow for film in gaps.valve_plate])),
         suction_draw=float(np.mean([film.suction_flow for film in gaps.valve_plate])),
     )
+
+
+def port_draws(gaps: GapCycle, point: OperatingPoint, bulk_modulus: float) -> tuple[float, float]:
+    """What the valve plate's film takes from delivery and suction port, mean, m3/s at zero gauge pressure."""
+    delivery = float(np.mean([film.delivery_flow for film in gaps.valve_plate]))
+    suction = float(np.mean([film.suction_flow for film in gaps.valve_plate]))
+    dense = np.exp(np.array([point.delivery_pressure, point.inlet_pressure]) / bulk_modulus)
+    return delivery * float(dense[0]), suction * float(dense[1])
 
 
 def film_shear(gaps: GapCycle, case_pressure: float) -> tuple[Array, Array, Array]:

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import assert_never
 
 import numpy as np
 
 from system import pairs
-from system.assembly import PumpPoint, assemble, chamber_exchange
-from system.chamber import TOLERANCE, ChamberCycle, solve_cycle
+from system.assembly import PumpPoint, assemble
+from system.chamber import TOLERANCE, ChamberCycle
 from system.chamber_problem import ChamberProblem, LeakTable
 from system.description import PumpDescription
 from system.kinematics import (
@@ -27,10 +28,15 @@ from system.leakage import (
     slipper_conductance,
     valve_plate_conductance,
 )
+from system.lines import Lines, OrificeLine
 from system.operating import OperatingPoint
 from system.pairs import FrictionPairs, PairLoss
+from system.parts_description import DeliveryLineKind
 from system.ports import TURN, PortOpening
+from system.ports_coupling import ported_cycle
+from system.power import chamber_exchange
 from system.retainer import BallGuide, mean_sliding_speed, spring_force
+from system.shaft_torque import GroupMasses
 
 SAMPLES_PER_PITCH = 40
 """Sampled shaft angles for each piston pitch: 1 deg on nine pistons; even, so the quadrature can be halved."""
@@ -59,11 +65,36 @@ def lumped_point(pump: PumpDescription, point: OperatingPoint, tolerance: float 
     """
     motion = piston_motion(pump, point)
     problem = chamber_problem(pump, point, motion, lumped_leaks(pump, point, motion))
-    cycle = solve_cycle(problem, motion.shaft_angle.size, tolerance)
-    losses = lumped_pairs(pump, point, motion, cycle)
-    exchange = chamber_exchange(cycle, pump.pump.pistons * point.shaft_speed / TURN)
+    lines, pistons = port_lines(pump, point), pump.pump.pistons
+    ported = ported_cycle(problem, lines, pistons, motion.shaft_angle.size, tolerance)
+    losses = lumped_pairs(pump, point, motion, ported.cycle)
+    exchange = chamber_exchange(ported.cycle, pistons * point.shaft_speed / TURN)
     derived = swept_displacement(pump, motion.drive)
-    return assemble(point, problem, cycle, losses, pump.pump.pistons, derived, exchange)
+    return assemble(point, ported, losses, pistons, derived, exchange, group_masses(pump))
+
+
+def port_lines(pump: PumpDescription, point: OperatingPoint) -> Lines:
+    """What hangs on the ports by [delivery_line]; the inlet pressure is held.
+
+    A tank pressure left out is the inlet's: the low-pressure side of a circuit. Raises ValueError for an orifice
+    without a volume before it.
+    """
+    stated = pump.delivery_line
+    match stated.kind:
+        case None | DeliveryLineKind.HELD:
+            return Lines()
+        case DeliveryLineKind.ORIFICE:
+            if stated.volume is None:
+                raise ValueError("delivery_line.volume: found none, expected the volume before the orifice")
+            tank = point.inlet_pressure if stated.tank_pressure is None else stated.tank_pressure
+            return Lines(delivery=OrificeLine(stated.volume, tank, stated.orifice_area))
+        case _:
+            assert_never(stated.kind)
+
+
+def group_masses(pump: PumpDescription) -> GroupMasses:
+    """Masses of piston and slipper as the lumped fidelity has them: together at the ball."""
+    return GroupMasses(pump.piston.mass, pump.slipper.mass)
 
 
 def piston_area(pump: PumpDescription) -> float:

@@ -123,7 +123,8 @@ def test_ref90_floating_differs_where_it_says():
     assert floating.valve_plate.film_thickness == ref90.valve_plate.film_thickness
     assert {row.split(" = ")[0] for row in set(_rows(floating)) ^ set(_rows(ref90))} == {
         "name", "width", "depth", "kidney_pitch_radius", "kidney_width", "[piston.edge_relief]",
-        "[bore.edge_relief]", "[slipper.rim_relief]", *(f"land_radius_{n}" for n in (1, 2, 3, 4)),
+        "[bore.edge_relief]", "[slipper.rim_relief]", "[valve_plate.waviness]",
+        "waves", "amplitude", *(f"land_radius_{n}" for n in (1, 2, 3, 4)),
     }  # fmt: skip
 
 

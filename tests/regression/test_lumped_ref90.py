@@ -22,6 +22,9 @@ RANGES = {
     Pair.SLIPPER_SWASH_PLATE: (28.97, 53.25),
     Pair.VALVE_PLATE_CYLINDER: (5.97, 23.25),
 }
+FORCES = 1e-3
+"""Mean torque from 360 sampled forces: the pressure bends by 35 MPa within 2 deg where a port opens, 15 deg from
+the dead centre, and the trapezoidal rule errs by step^2/12 of the bends: 1e-4 to 1e-3 of the mean."""
 PAPER, SHEET = "seed/paper.txt", "physics/ref90.md"
 
 
@@ -198,7 +201,8 @@ def test_ball_guide_loss_does_not_know_the_pressure(validation):
 def test_mass_and_energy_balances(delivery, rpm, ratio):
     point = run(delivery, rpm, ratio)
     assert point.checks.mass_balance_error < 1e-6
-    assert point.checks.energy_balance_error < 1e-6
+    assert point.checks.work_balance_error < 1e-6
+    assert point.checks.energy_balance_error < FORCES
     assert point.checks.quadrature_error < 1e-3
     assert point.power.leakage.piston > 0.0
     density = point.cycle.outflow

@@ -174,6 +174,18 @@ def test_generalised_forces_do_the_work_of_the_wrench():
     assert outer @ moved == pytest.approx(np.sum(forces * way), rel=1e-12)
 
 
+def test_a_cylindrical_block_is_pressed_in_closed_form():
+    """Plate forces A p/cos(g) along the normal at balls in a plane through S: A p (-1, -y, x/cos(g)^2)."""
+    swash, spline = np.radians(16.2), 0.09
+    angle = 0.2 + PITCH * np.arange(PISTONS)
+    press = PISTON_AREA * np.linspace(0.0, 35e6, PISTONS)
+    x, y = PITCH_RADIUS * np.cos(angle), PITCH_RADIUS * np.sin(angle)
+    places = np.column_stack([x, y, spline - x * np.tan(swash)])
+    forces = -np.outer(press / np.cos(swash), [np.sin(swash), 0.0, np.cos(swash)])
+    closed = press @ np.column_stack([-np.ones(PISTONS), -y, x / np.cos(swash) ** 2])
+    assert wrench_about(places, forces, spline) == pytest.approx(closed, rel=1e-12)
+
+
 def test_asperities_do_not_touch_over_ports():
     """Ports all round leave contact on the two lands alone."""
     rough = Asperities(1.6e9, 50e-6, 0.5e-6, 80e9, 0.1)
@@ -278,6 +290,23 @@ def test_a_parallel_block_sinks_as_two_lands(validation, refine):
         case="parallel ring sinking under its load", source="closed form", quantity="rate of the film", unit="m/s",
         expected=-excess * film_thickness**3 / damping, obtained=got.finest, tolerance=got.tolerance(),
         order=got.order,
+    )  # fmt: skip
+
+
+def test_a_parallel_block_rubs_as_two_rings(validation, refine):
+    """Ports all round: shear of the lands alone, mu w^2 pi (b^4 - a^4)/(2 h) each; webs over ports rub nowhere."""
+    position = np.array([9e-6, 0.0, 0.0])
+    fourth = np.array(RADII) ** 4
+    power = 0.5 * np.pi * VISCOSITY * SPEED**2 / position[0] * (fourth[1] - fourth[0] + fourth[3] - fourth[2])
+
+    def solve(n: int) -> float:
+        film = BlockFilm(ALL_ROUND, drive(), cells=(n, 4 * n))
+        return film.friction_power(FilmSolver(film.space).solve(posed(film, 0.0, position)))
+
+    got = refine(solve, (2, 4, 8))
+    validation(
+        case="parallel ring turning", source="closed form", quantity="power of shear", unit="W",
+        expected=power, obtained=got.finest, tolerance=got.tolerance(), order=got.order,
     )  # fmt: skip
 
 

@@ -34,6 +34,7 @@ from system.pump_file import load_pump
 RPM = np.pi / 30.0
 EXAMPLES = Path(__file__).resolve().parents[2] / "examples" / "pumps"
 LITRES_A_MINUTE = 6e4
+FORCES = 1e-3  # trapezoidal rule over 360 angles of a pressure that bends by 35 MPa within 2 deg at the ports
 
 
 @pytest.fixture(scope="module")
@@ -57,7 +58,8 @@ def assert_closed(point: FilmsPoint) -> None:
     """Mass and energy of the pump and of every film, and the coupling."""
     checks, at = point.pump_point.checks, point.pump_point.point
     assert checks.mass_balance_error <= 1e-6
-    assert checks.energy_balance_error <= 1e-6
+    assert checks.work_balance_error <= 1e-6
+    assert checks.energy_balance_error <= FORCES
     assert point.pressure_change <= TOLERANCE * (at.delivery_pressure - at.inlet_pressure + 1e5)
     assert max(film.loads.mass_balance_error for film in films_of(point)) < 1e-10
     assert max(film.loads.energy_balance_error for film in films_of(point)) < 1e-10
@@ -66,9 +68,10 @@ def assert_closed(point: FilmsPoint) -> None:
 def test_balances_close(rated, validation):
     assert_closed(rated)
     checks = rated.pump_point.checks
-    for quantity, obtained in (
-        ("mass balance error over the revolution", checks.mass_balance_error),
-        ("energy balance error of the shaft power", checks.energy_balance_error),
+    for quantity, obtained, tolerance in (
+        ("mass balance error over the revolution", checks.mass_balance_error, 1e-6),
+        ("energy balance error of the work on the chambers", checks.work_balance_error, 1e-6),
+        ("energy balance error of the torque from forces", checks.energy_balance_error, FORCES),
     ):
         validation(
             case="REF90 films, balances, 35 MPa, 2100 r/min",
@@ -77,7 +80,7 @@ def test_balances_close(rated, validation):
             unit="1",
             expected=0.0,
             obtained=obtained,
-            tolerance=1e-6,
+            tolerance=tolerance,
         )
 
 
@@ -340,7 +343,8 @@ def test_cylindrical_block_in_both_fidelities():
     films, lumped = films_point(pump, point, positions_per_pitch=2), lumped_point(pump, point)
     assert_closed(films)
     assert lumped.checks.mass_balance_error <= 1e-6
-    assert lumped.checks.energy_balance_error <= 1e-6
+    assert lumped.checks.work_balance_error <= 1e-6
+    assert lumped.checks.energy_balance_error <= FORCES
     assert films.pump_point.leakage_flow.slipper == pytest.approx(lumped.leakage_flow.slipper, rel=5e-3)
     assert films.pump_point.leakage_flow.valve_plate == pytest.approx(lumped.leakage_flow.valve_plate, rel=0.05)
     # Oil that crosses the lands between the ports is lost to delivery and never seen at the drain.

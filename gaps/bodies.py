@@ -1,0 +1,238 @@
+"""The parts that deform: meshed from their sizes, held as they are held in the pump, loaded by their film.
+
+    piston      hollow or solid cylinder, free: films and the ball hold it, and its rigid motion is the gap's own
+    bushing     ring in the block out to the middle of the web, where it slides on what the next bore presses back
+    slipper     flange on its socket: what is over the ball does not give way, the rim bends about it
+    plate       swash plate or valve plate, its back on the cradle or on the end case
+
+A part lies in its film's own axes. Cells are enough for the shapes in which parts bend; a body's finer dents have
+the size of its face's cells. `body_of_file` takes a user's own mesh in place of any of them.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from reynolds.bodies.body_file import body_from_file
+from reynolds.bodies.body_mesh import BodyMesh, disc, ring
+from reynolds.bodies.chart import Chart, Cylinder, Plane, Side
+from reynolds.bodies.elasticity import Elastic
+from reynolds.bodies.foundation import both
+from reynolds.bodies.supports import Supports
+from reynolds.bodies.wall import Body, body_wall, face_wall
+from reynolds.errors import FilmInputError
+from reynolds.laws import require_positive
+from reynolds.space import FilmSpace
+from reynolds.walls import Walls
+
+FILM, HELD, POCKET, CHAMBER = "film", "held", "pocket", "chamber"
+TOWARDS_FILM = Plane((0.0, 0.0, 1.0))
+PINHOLE = 0.05  # of a pocket's radius
+NEAR = 1e-6  # of a radius: on a mesh line or not
+Cells = tuple[int, int, int]
+
+
+@dataclass(frozen=True)
+class PistonPart:
+    """A piston's outer and inner diameter (m, inner 0: solid) and length from its chamber end (m)."""
+
+    diameter: float
+    inner_diameter: float
+    length: float
+    elastic: Elastic
+
+    def __post_init__(self) -> None:
+        require_positive("piston body", diameter=self.diameter, length=self.length)
+        if not 0.0 <= self.inner_diameter < self.diameter:
+            raise FilmInputError("piston body", f"inner diameter {self.inner_diameter:.4g} m", "0 to the diameter")
+
+
+@dataclass(frozen=True)
+class BushingPart:
+    """A bore's diameter, the wall around it and the guide's length (m).
+
+    `wall` reaches to the middle of the web between two bores.
+    """
+
+    diameter: float
+    wall: float
+    length: float
+    elastic: Elastic
+
+    def __post_init__(self) -> None:
+        require_positive("bushing body", diameter=self.diameter, wall=self.wall, length=self.length)
+
+
+@dataclass(frozen=True)
+class SlipperPart:
+    """A slipper's flange (m): radii of orifice, pocket, socket and rim, and its thickness."""
+
+    orifice_radius: float
+    pocket_radius: float
+    socket_radius: float
+    outer_radius: float
+    thickness: float
+    elastic: Elastic
+
+    def __post_init__(self) -> None:
+        require_positive("slipper body", orifice=self.orifice_radius, thickness=self.thickness)
+        radii = np.array([self.orifice_radius, self.pocket_radius, self.outer_radius])
+        if not (np.all(np.diff(radii) > 0.0) and self.orifice_radius < self.socket_radius <= self.outer_radius):
+            found = f"orifice, pocket, rim {radii.tolist()} m, socket {self.socket_radius:.4g} m"
+            raise FilmInputError("slipper body", found, "radii that rise, the socket between orifice and rim")
+
+
+@dataclass(frozen=True)
+class PlatePart:
+    """A plate under a film (m): inner (0: none) and outer radius about the film's origin, thickness.
+
+    `pocket_radius`: of the pocket that presses on it beside the film (0: none).
+    """
+
+    inner_radius: float
+    outer_radius: float
+    thickness: float
+    elastic: Elastic
+    pocket_radius: float = 0.0
+
+    def __post_init__(self) -> None:
+        require_positive("plate body", radius=self.outer_radius, thickness=self.thickness)
+        if not 0.0 <= max(self.inner_radius, self.pocket_radius) < self.outer_radius:
+            found = f"inner radius {self.inner_radius:.4g} m, pocket {self.pocket_radius:.4g} m"
+            raise FilmInputError("plate body", found, "0 to the outer radius")
+
+
+def piston_body(part: PistonPart, cells: Cells = (2, 24, 8)) -> Body:
+    """The piston about z, its chamber end at z = 0; faces outer (film), bottom, top and, hollow, inner.
+
+    `chamber` is its end and its inside: where the chamber's pressure is.
+
+    Free: no point of it is held in the pump. What films, ball and inertia leave over bends nothing (inertia
+    relief), and rigid motion is the gap's own coordinates. The ball's force, which the film's balances, is spread
+    over the volume: the bending that it causes between ball and bore is left out.
+    """
+    radius = 0.5 * part.diameter
+    if part.inner_diameter > 0.0:
+        mesh = ring((0.5 * part.inner_diameter, radius), part.length, cells)
+    else:
+        mesh = disc(radius, part.length, (max(cells[1] // 4, 1), cells[0], cells[2]))
+    wet = [mesh.mesh.boundaries[name] for name in ("bottom", "inner") if name in mesh.face_names]
+    mesh = _named(mesh, {CHAMBER: np.concatenate(wet)})
+    return Body(mesh, part.elastic, Supports(), "outer", Cylinder(radius, Side.SHAFT))
+
+
+def bushing_body(part: BushingPart, cells: Cells = (2, 24, 8)) -> Body:
+    """The bore's wall about z from the guide's inner end, z = 0, to its case edge; faces inner (film), outer.
+
+    Its outer face slides: between two bores alike the middle of the web moves to neither. Stiffer than a bore
+    beside one at low pressure, far stiffer than a ring of its own (Lame's).
+    """
+    radius = 0.5 * part.diameter
+    mesh = ring((radius, radius + part.wall), part.length, cells)
+    return Body(mesh, part.elastic, Supports(symmetry=("outer",)), "inner", Cylinder(radius, Side.BORE))
+
+
+def slipper_body(part: SlipperPart, cells: Cells = (8, 24, 2)) -> Body:
+    """The slipper's flange under z = 0; faces film (on top, from just inside the pocket's edge), pocket, held.
+
+    Held where the ball presses, on the back up to the socket's radius: the gap's coordinates are those of the
+    socket. Mesh lines lie on the pocket's and the socket's edge.
+    """
+    edges = part.pocket_radius, part.socket_radius
+    mesh = _rings(part.orifice_radius, edges, part.outer_radius, part.thickness, cells)
+    mesh = _named(
+        mesh,
+        {
+            FILM: _facets(mesh, "top", from_cell_over=part.pocket_radius),
+            POCKET: _facets(mesh, "top", up_to=part.pocket_radius),
+            HELD: _facets(mesh, "bottom", up_to=part.socket_radius),
+        },
+    )
+    return Body(mesh, part.elastic, Supports(clamped=(HELD,)), FILM, TOWARDS_FILM)
+
+
+def plate_body(part: PlatePart, cells: Cells = (6, 36, 2)) -> Body:
+    """A plate under z = 0; faces top (film), bottom, outer and, with a hole, inner; with a pocket, pocket.
+
+    Its back is held: the swash plate's on the cradle bearing, the valve plate's on the end case. Ports are not cut
+    out: a valve plate is taken for its solid ring. About a pocket's middle the mesh leaves a pinhole.
+    """
+    if part.pocket_radius > part.inner_radius:
+        hole = part.inner_radius or PINHOLE * part.pocket_radius
+        mesh = _rings(hole, (part.pocket_radius,), part.outer_radius, part.thickness, cells)
+        mesh = _named(mesh, {POCKET: _facets(mesh, "top", up_to=part.pocket_radius)})
+    elif part.inner_radius > 0.0:
+        mesh = _rings(part.inner_radius, (), part.outer_radius, part.thickness, cells)
+    else:
+        across = max(cells[1] // 4, 1)
+        mesh = disc(part.outer_radius, part.thickness, (across, cells[0], cells[2]), bottom=-part.thickness)
+    return Body(mesh, part.elastic, Supports(clamped=("bottom",)), "top", TOWARDS_FILM)
+
+
+def body_of_file(path: Path, elastic: Elastic, chart: Chart) -> Body:
+    """A part from a user's mesh in metres, in the axes of the part that it stands for.
+
+    Named faces: `film`, where the film lies; `held`, where the part is held fast (none: a free body); `pocket`,
+    what a slipper's pocket presses on; `chamber`, where a piston's chamber does. Raises FilmInputError as
+    `body_from_file`, and without a face `film`.
+    """
+    mesh = body_from_file(path)
+    if FILM not in mesh.face_names:
+        raise FilmInputError("body mesh", f"{path} names {', '.join(mesh.face_names)}", f"a face named {FILM}")
+    held = (HELD,) if HELD in mesh.face_names else ()
+    return Body(mesh, elastic, Supports(clamped=held), FILM, chart)
+
+
+def part_wall(body: Body, film: FilmSpace, *, folder: Path | None = None) -> Walls:
+    """One part as its film feels it, by whichever is smaller: its face's nodes or the film's unknowns.
+
+    A pocket of the film presses on the part's face of that name, where it has one. Raises FilmInputError where the
+    face does not lie under the film.
+    """
+    pockets = {POCKET: POCKET} if POCKET in film.edge_dofs and POCKET in body.mesh.face_names else {}
+    found = face_wall(body, film, pockets=pockets, folder=folder)
+    if 2 * found.matrix.rank < film.size:
+        return found
+    return body_wall(body, film, pockets=pockets, folder=folder)
+
+
+def slipper_walls(slipper: Body, plate: Body, film: FilmSpace, *, folder: Path | None = None) -> Walls:
+    """Slipper and swash plate together, the pocket pressing on both.
+
+    The plate is one about the slipper's middle, with the slipper's pocket: what gives way is near the film.
+    """
+    return both(part_wall(slipper, film, folder=folder), part_wall(plate, film, folder=folder))
+
+
+def _rings(start: float, edges: tuple[float, ...], end: float, thickness: float, cells: Cells) -> BodyMesh:
+    """An annular plate under z = 0 with mesh lines at radii `edges`, about cells[0] in all across it."""
+    knots = np.unique([start, *edges, end])
+    spaces = np.maximum(1, np.round(cells[0] * np.diff(knots) / (end - start))).astype(int)
+    within = [np.linspace(a, b, n + 1)[1:] for a, b, n in zip(knots[:-1], knots[1:], spaces, strict=True)]
+    lines = np.concatenate([knots[:1], *within])
+    body = ring((start, end), thickness, (len(lines) - 1, *cells[1:]), bottom=-thickness)
+    # Moved radius by radius, arcs stay arcs.
+    places = body.mesh.doflocs.copy()
+    radius = np.hypot(*places[:2])
+    places[:2] *= np.interp(radius, np.linspace(start, end, len(lines)), lines) / radius
+    return replace(body, mesh=replace(body.mesh, doflocs=places))
+
+
+def _facets(body: BodyMesh, face: str, *, up_to: float = np.inf, from_cell_over: float = 0.0) -> NDArray[np.int64]:
+    """Facets of a face within a radius, and from the ring of cells on that ends at another.
+
+    A film's sectors are straight: their middles lie a little inside the radius at which the film begins.
+    """
+    mesh = body.mesh
+    facets = np.asarray(mesh.boundaries[face])
+    outer = np.hypot(*mesh.p[:2])[mesh.facets[:, facets]].max(axis=0)
+    return facets[(outer < up_to * (1.0 + NEAR)) & (outer > from_cell_over * (1.0 - NEAR))]
+
+
+def _named(body: BodyMesh, faces: dict[str, NDArray[np.int64]]) -> BodyMesh:
+    """The same body with more faces, by their facets."""
+    return replace(body, mesh=replace(body.mesh, _boundaries={**body.mesh.boundaries, **faces}))

@@ -1,0 +1,154 @@
+"""Piston and bushing as the film between them feels them, wherever the piston stands.
+
+The film's mesh stretches as the piston moves; each part's compliance is built once, on a film over all of its
+face, and met there by the film's rows along the bore: with hats psi of the face and phi of the film,
+
+    M_psi P = G p,   M_phi w = G^T W,   G = int psi phi dy,
+
+so that force and work are the same on both (`reynolds.bodies.transfer` in one dimension). What no film covers is
+loaded too: bore and piston beyond the film, and the piston's own chamber faces, by the chamber's pressure.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gaps.bodies import CHAMBER
+from reynolds.bodies.foundation import Compliance
+from reynolds.bodies.wall import Body, FacePressure, body_wall, load_opening
+from reynolds.errors import FilmInputError
+from reynolds.mesh import Array, Cell, rectangle
+from reynolds.space import FilmSpace, film_space
+
+POINTS, WEIGHTS = np.polynomial.legendre.leggauss(2)  # exact for the product of two hats
+
+
+@dataclass(frozen=True)
+class FaceGrid:
+    """A cylindrical part's whole face as rows along the bore and columns around it.
+
+    rows (n,) m from the part's end; influence (n, columns + 1, n, columns) m/Pa: opening by pressure, the seam's
+    column twice in the opening; by_chamber (n, columns + 1) m/Pa, by the pressure on its chamber faces.
+    """
+
+    rows: Array
+    influence: Array
+    by_chamber: Array
+
+    @property
+    def columns(self) -> int:
+        """Cells around."""
+        return int(self.influence.shape[3])
+
+
+def face_grid(
+    body: Body, radius: float, length: float, cells: tuple[int, int] = (48, 24), folder: Path | None = None
+) -> FaceGrid:
+    """The face of a part of such radius and length (m) on cells (around, along); kept as `body_wall` keeps it."""
+    space = film_space(rectangle((2.0 * np.pi * radius, length), cells, cell=Cell.QUADRILATERAL, periodic_x=True))
+    vertices, unknowns = _numbers(space)
+    matrix = body_wall(body, space, folder=folder).matrix
+    influence = matrix[np.ix_(vertices.ravel(), unknowns.ravel())].reshape(*vertices.shape, *unknowns.shape)
+    opened = np.zeros(len(space.vertices))
+    if CHAMBER in body.mesh.face_names:
+        opened = load_opening(body, space, FacePressure(CHAMBER, 1.0), folder=folder)
+    return FaceGrid(space.vertices[vertices[:, 0], 1], influence, opened[vertices])
+
+
+@dataclass(frozen=True)
+class PistonWalls:
+    """Both parts by their faces: rows of the bushing from the guide's inner end, of the piston from its own."""
+
+    guide_length: float
+    bushing: FaceGrid
+    piston: FaceGrid
+
+    def at(self, film: FilmSpace, reach: float) -> Compliance:
+        """Both walls of a film on that mesh, the piston's end `reach` (m) inside the guide's case edge.
+
+        The film plane is that of `gaps.piston_motion`. Raises FilmInputError for a film with other columns than
+        the faces have, and for one that reaches beyond a part.
+        """
+        vertices, unknowns = _numbers(film)
+        matrix = np.empty((len(film.vertices), film.size))
+        total = sum(_met(grid, film, start) for grid, start in self._parts(reach))
+        matrix[np.ix_(vertices.ravel(), unknowns.ravel())] = total
+        return Compliance(matrix)
+
+    def by_chamber(self, film: FilmSpace, reach: float) -> Array:
+        """Opening (vertices,) m by unit pressure (Pa) in the chamber, on what the film leaves bare."""
+        vertices, _ = _numbers(film)
+        opened = np.empty(len(film.vertices))
+        total = np.zeros(vertices.shape)
+        for grid, start in self._parts(reach):
+            rows = film.vertices[vertices[:, 0], 1] - start
+            _, back = _between(grid.rows, rows)
+            bare = _bare(grid.rows, float(rows[0]))
+            whole = grid.by_chamber + np.einsum("icjd,j->ic", grid.influence, bare)
+            total += back @ whole
+        opened[vertices.ravel()] = total.ravel()
+        return opened
+
+    def _parts(self, reach: float) -> tuple[tuple[FaceGrid, float], tuple[FaceGrid, float]]:
+        """Each part with the place (m) in the film plane from which its rows count."""
+        return (self.bushing, 0.0), (self.piston, self.guide_length - reach)
+
+
+def _met(grid: FaceGrid, film: FilmSpace, start: float) -> Array:
+    """The part's compliance on the film's rows and columns, (rows (columns + 1), rows columns) m/Pa."""
+    vertices, unknowns = _numbers(film)
+    if unknowns.shape[1] != grid.columns:
+        found = f"{unknowns.shape[1]} cells around a film"
+        raise FilmInputError("piston walls", found, f"{grid.columns}, as around the parts' faces")
+    there, back = _between(grid.rows, film.vertices[vertices[:, 0], 1] - start)
+    opened = np.tensordot(back, grid.influence, axes=1)
+    return np.einsum("icjd,jk->ickd", opened, there, optimize=True).reshape(vertices.size, unknowns.size)
+
+
+def _numbers(space: FilmSpace) -> tuple[NDArray[np.signedinteger], NDArray[np.signedinteger]]:
+    """Vertices (rows, columns + 1) and unknowns (rows, columns) of an unrolled film, row by row along the bore."""
+    x, y = space.vertices.T
+    columns = len(np.unique(x))
+    vertices = np.lexsort((x, y)).reshape(-1, columns)
+    return vertices, space.vertex_dofs[vertices[:, :-1]]
+
+
+def _between(face: Array, film: Array) -> tuple[Array, Array]:
+    """Rows of a face (n,) and of a film on it (m,): pressures there (n, m) and openings back (m, n)."""
+    slack = 1e-9 * float(face[-1] - face[0])
+    if not (film[0] >= face[0] - slack and film[-1] <= face[-1] + slack):
+        found = f"a film from {film[0]:.6g} to {film[-1]:.6g} m"
+        raise FilmInputError("piston walls", found, f"within the part, {face[0]:.6g} to {face[-1]:.6g} m")
+    shared = _products(face, film, film[0], film[-1])
+    there = np.linalg.solve(_products(face, face, face[0], face[-1]), shared)
+    back = np.linalg.solve(_products(film, film, film[0], film[-1]), shared.T)
+    return np.asarray(there), np.asarray(back)
+
+
+def _bare(face: Array, end: float) -> Array:
+    """Unit pressure from a face's start to `end` (m) as nodal pressures on its rows, (n,), in mean square."""
+    if end <= face[0]:
+        return np.zeros(len(face))
+    one = np.array([face[0], end])
+    return np.asarray(
+        np.linalg.solve(_products(face, face, face[0], face[-1]), _products(face, one, face[0], end).sum(axis=1))
+    )
+
+
+def _products(first: Array, second: Array, start: float, end: float) -> Array:
+    """Integrals from start to end of the products of hats on two sets of rows, (len(first), len(second)) m."""
+    knots = np.union1d(first, second)
+    knots = np.unique(np.clip(knots, start, end))
+    middle, half = 0.5 * (knots[1:] + knots[:-1]), 0.5 * np.diff(knots)
+    at = (middle[:, None] + half[:, None] * POINTS).ravel()
+    weight = (half[:, None] * WEIGHTS).ravel()
+    return np.asarray((_hats(first, at) * weight) @ _hats(second, at).T)
+
+
+def _hats(rows: Array, at: Array) -> Array:
+    """Hat functions of rows at places, (rows, places)."""
+    return np.array([np.interp(at, rows, unit) for unit in np.eye(len(rows))])

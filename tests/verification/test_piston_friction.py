@@ -1,0 +1,124 @@
+"""Friction of film and contact on a floating piston: closed forms of the parallel piston."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from gaps.course import constant
+from gaps.physics import Effect, FilmLaws, Physics
+from gaps.piston_motion import PistonDrive, PistonFilm, PistonFriction, PistonShape, floating_piston
+from reynolds.contact import Asperities, contact_pressure
+from reynolds.floating_stage import Stage, solve_stage
+from reynolds.floating_start import started
+from reynolds.loads import loads
+from reynolds.solve import FilmSolver
+
+DIAMETER, CLEARANCE, LENGTH, VISCOSITY = 22e-3, 15e-6, 40e-3, 0.0258
+PRESSURE, CASE, OUTWARDS, PISTON, BORE = 20e6, 1e6, 2.89, 300.0, 220.0
+RADIUS, AREA = 0.5 * DIAMETER, np.pi * DIAMETER * LENGTH
+
+
+def _at(
+    eccentricity: float, cells: tuple[int, int], rough: Asperities | None = None
+) -> tuple[Stage, PistonFriction]:
+    """A parallel piston that moves out of a bore longer than it is engaged, a moment after it was let go."""
+    drive = PistonDrive(
+        shaft_speed=1.0,
+        viscosity=VISCOSITY,
+        case_pressure=CASE,
+        cavitation_pressure=-1e5,
+        piston_spin=PISTON,
+        bore_spin=BORE,
+        chamber_pressure=constant(PRESSURE),
+        reach=lambda time: np.asarray(LENGTH - OUTWARDS * time),
+        velocity=constant(OUTWARDS),
+        outer=constant(0.0, 0.0, 0.0, 0.0),
+    )
+    shape = PistonShape(DIAMETER, CLEARANCE, 45e-3)
+    film = PistonFilm(shape, drive, FilmLaws(asperities=rough), Physics().without(Effect.CAVITATION), cells)
+    start = started(floating_piston(film), 0.0, eccentricity * CLEARANCE * np.array([1.0, 0.0, 1.0, 0.0]))
+    step = 1e-10
+    stage = solve_stage(
+        FilmSolver(film.space_at(0.0)), floating_piston(film), step, start.held, step, start.q, None
+    )
+    return stage, film.friction(stage)
+
+
+@pytest.mark.parametrize("eccentricity", [0.0, 0.6])
+def test_friction_of_a_parallel_piston(eccentricity, validation, refine):
+    """h = c (1 - eps cos): int dphi/h = 2 pi/(c root), int cos dphi/h = 2 pi (1 - root)/(c eps root)."""
+    root = np.sqrt(1.0 - eccentricity**2)
+    wet, drop = AREA / (CLEARANCE * root), PRESSURE - CASE
+    sliding = -VISCOSITY * OUTWARDS * wet
+    force = sliding + 0.5 * np.pi * DIAMETER * CLEARANCE * drop
+    # Along each line the pressure falls by the same drop, whatever spin makes of it in between.
+    lopsided = 0.0 if eccentricity == 0.0 else (1.0 - root) / eccentricity
+    turning = RADIUS * (-sliding * lopsided + 0.25 * np.pi * DIAMETER * CLEARANCE * drop * eccentricity)
+
+    def solve(n: int) -> tuple[float, float]:
+        found = _at(eccentricity, (4 * n, n))[1]
+        return found.force, float(found.moment[1])
+
+    along, moment = refine(solve, (6, 12, 24))
+    rows = [("force along the bore", "N", force, along), ("moment of the axial shear", "N m", turning, moment)]
+    for quantity, unit, expected, obtained in rows:
+        if expected == 0.0:
+            assert abs(obtained.finest) < 1e-9 * abs(force) * RADIUS
+            continue
+        validation(
+            case="Floating piston, friction of the parallel piston",
+            source="closed form, -mu v/h - h/2 dp/dy",
+            quantity=f"{quantity}, eccentricity {eccentricity:g}",
+            unit=unit,
+            expected=expected,
+            obtained=obtained.finest,
+            # A step of 1e-10 s leaves a position as it was to 1e-8 of the clearance.
+            tolerance=obtained.tolerance() + 1e-7 * abs(expected),
+            order=obtained.order,
+        )
+
+
+def test_torque_and_power_of_a_centred_piston():
+    stage, found = _at(0.0, (16, 4))
+    assert found.torque == pytest.approx(-VISCOSITY * (PISTON - BORE) * RADIUS**2 * AREA / CLEARANCE, rel=1e-6)
+    # Both walls feel the pressure's pull; only the piston moves along the bore.
+    turned = -found.torque * (PISTON - BORE)
+    assert found.power == pytest.approx(turned - found.force * OUTWARDS, rel=1e-6)
+    assert stage.solution.problem.space.vertices[:, 1].min() == pytest.approx(5e-3, abs=1e-8)
+
+
+def test_contact_rubs_against_the_sliding(validation):
+    """Touching asperities bear by their own law and rub with 0.1 of it, against v along and R (w1 - w2) around."""
+    rough = Asperities(density=1e10, radius=1e-5, height=4e-7, modulus=8e10, friction_coefficient=0.1)
+    stage, found = _at(0.97, (48, 4), rough)
+    bare = PistonFriction(*_film_alone(stage))
+    # All that presses presses at angle 0, where the film is thin: pressure times area is next to the force.
+    pressed, slip = _pressed(stage, rough), (RADIUS * (PISTON - BORE), OUTWARDS)
+    speed = float(np.hypot(*slip))
+    validation(
+        case="Floating piston, friction of contact",
+        source="boundary friction times the contact's pressure over the film",
+        quantity="axial force of contact",
+        unit="N",
+        expected=-0.1 * pressed * slip[1] / speed,
+        obtained=found.force - bare.force,
+        relative_tolerance=1e-9,
+    )
+    assert found.torque - bare.torque == pytest.approx(-0.1 * pressed * RADIUS * slip[0] / speed, rel=1e-9)
+    spent = found.power - bare.power
+    assert spent == pytest.approx(0.1 * pressed * speed, rel=1e-9)
+
+
+def _pressed(stage: Stage, rough: Asperities) -> float:
+    """Contact pressure over the film, N."""
+    return float(np.sum(contact_pressure(rough, stage.gap).value * stage.solution.problem.space.area))
+
+
+def _film_alone(stage: Stage) -> tuple[float, float, np.ndarray, float]:
+    """Force, torque, moment and power of the oil, by `reynolds.loads`."""
+    found = loads(stage.solution)
+    around, along = found.friction_moving
+    fixed = found.friction_fixed[0]
+    power = -along * OUTWARDS - RADIUS * (PISTON * around + BORE * fixed)
+    return along, RADIUS * around, np.zeros(2), power
