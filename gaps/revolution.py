@@ -23,10 +23,11 @@ from reynolds.solve import FilmSolver
 
 @dataclass(frozen=True)
 class Accuracy:
-    """How exactly a revolution is marched and closed, as shares of the least film.
+    """How exactly a revolution is marched and closed.
 
-    step, floor: error of one step in any coordinate, share and m beside it; closed: change of position, and of the
-    oil in the film, over a turn; reach: how far beyond a turn's end the next may start.
+    step, floor: largest error of the film by one step, share of the least film and m beside it; closed: distance
+    from the periodic motion, share of the mean film, and oil that is elsewhere after a turn, share of all; reach:
+    how far beyond a turn's end the next may start, share of the least film there.
     """
 
     step: float = 1e-3
@@ -154,9 +155,9 @@ def run_revolution(
 
     Starts as a full film at rest at `start` (k,) m, or goes on from a revolution `before` it; `look` tells what
     else to report of each angle. The steps of the second turn are those of all that follow, so that the map of a
-    turn is smooth. Afterwards each coordinate repeats to `closed` of the least film, and the oil in the film to
-    that share of all. Raises FilmInputError for a schedule that does not rise from 0, FilmNotConverged with part
-    and time where a step or the turn does not settle.
+    turn is smooth. Afterwards each coordinate is as near to the periodic motion as `closed` says, and the oil in
+    the film repeats as well. Raises FilmInputError for a schedule that does not rise from 0, FilmNotConverged with
+    part and time where a step or the turn does not settle.
     """
     angles = np.concatenate([[0.0], schedule.angles])
     if len(angles) < 2 or not np.all(np.diff(angles) > 0.0) or not schedule.speed > 0.0:
@@ -202,13 +203,13 @@ class _Turns(Generic[Seen]):
         for taken in self._marched(begin, again):
             state, stage = taken.state, taken.stage
             times.append(state.time)
-            errors.append(taken.largest_error / self._allowed(stage))
+            errors.append(self._excess(taken))
             if (angle := self._angles.get(state.time)) is None:
                 continue
             instants.append(_instant(angle, state, self._look(stage)))
             if angle in self._kept:
                 films[angle] = stage.solution
-        least = instants[-1].loads.film_thickness_min
+        end = instants[-1]
         return GapTurn(
             start=start,
             instants=tuple(instants),
@@ -216,15 +217,15 @@ class _Turns(Generic[Seen]):
             last=state,
             times=np.array(times),
             step_error=max(errors),
-            allowed=self._accuracy.closed * least,
-            reach=self._accuracy.reach * least,
+            allowed=self._accuracy.closed * end.mean_film,
+            reach=self._accuracy.reach * end.loads.film_thickness_min,
             repeats=_oil_moved(begin, state) <= self._accuracy.closed,
         )
 
     def _marched(self, begin: State[Stage], again: Array | None) -> Iterator[Taken[Stage]]:
         """Steps of a turn, chosen by their error or those of an earlier turn again."""
         if again is None:
-            return march(self._method, self._stage, begin, self._times, self._allowed)
+            return march(self._method, self._stage, begin, self._times, self._excess)
         return march(self._method, self._stage, begin, again, nodes_only)
 
     def _begin(self, start: Array, last: GapTurn[Seen] | None) -> State[Stage]:
@@ -237,9 +238,11 @@ class _Turns(Generic[Seen]):
         self.films_solved += stage.films
         return stage
 
-    def _allowed(self, stage: Stage) -> float:
-        """Error of a step (m) that ends at a stage."""
-        return self._accuracy.step * float(stage.solution.film.thickness.min()) + self._accuracy.floor
+    def _excess(self, taken: Taken[Stage]) -> float:
+        """Largest error of the film by a step, over what is allowed."""
+        stage = taken.stage
+        error = float(np.abs(stage.instant.modes.at_vertices @ taken.error).max())
+        return error / (self._accuracy.step * float(stage.solution.film.thickness.min()) + self._accuracy.floor)
 
 
 def _oil_moved(begin: State[Stage], end: State[Stage]) -> float:

@@ -10,8 +10,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from math import inf, sqrt
-from typing import Generic, Protocol, TypeVar
+from math import sqrt
+from typing import Any, Generic, Protocol, TypeVar
 
 import numpy as np
 
@@ -169,9 +169,14 @@ def _sum(weights: Sequence[float], rates: Sequence[Array], step: float) -> Array
     return step * sum((weight * rate for weight, rate in zip(weights, rates, strict=True)), 0.0)
 
 
-def nodes_only(_: Stage) -> float:
-    """Tolerance of a march whose steps are given: from node to node, halved only where a stage has no solution."""
-    return inf
+def nodes_only(_: Taken[Any]) -> float:
+    """Excess of a march whose steps are given: from node to node, halved only where a stage has no solution."""
+    return 0.0
+
+
+def within(tolerance: float) -> Callable[[Taken[Any]], float]:
+    """Excess over a tolerance (m) that every coordinate keeps at every step."""
+    return lambda taken: taken.largest_error / tolerance
 
 
 def march(
@@ -179,11 +184,11 @@ def march(
     solve: StageSolver[S],
     start: State[S],
     nodes: Sequence[float] | Array,
-    tolerance: Callable[[S], float],
+    excess: Callable[[Taken[S]], float],
 ) -> Iterator[Taken[S]]:
     """Step by step from a state to the last of `nodes` (s), each of which ends a step.
 
-    Each step's error estimate stays below `tolerance(stage)` (m) of the stage at its end; the first step tries to
+    Each step's error estimate over what is tolerated, `excess(step)`, is at most one; the first step tries to
     reach the first node. A step on which a stage has no solution is halved. Raises FilmInputError for nodes that
     do not rise from the state's time on, FilmNotConverged where no step is short enough.
     """
@@ -195,7 +200,7 @@ def march(
     state, pace = start, Pace(times[1] - times[0])
     for node in times[1:]:
         while node - state.time > 0.0:
-            taken, pace = _kept(tableau, solve, state, node, tolerance, pace)
+            taken, pace = _kept(tableau, solve, state, node, excess, pace)
             state = taken.state
             yield taken
 
@@ -224,7 +229,7 @@ def _kept(
     solve: StageSolver[S],
     state: State[S],
     node: float,
-    tolerance: Callable[[S], float],
+    excess: Callable[[Taken[S]], float],
     pace: Pace,
 ) -> tuple[Taken[S], Pace]:
     """A step towards the node that keeps the tolerance, and the pace after it."""
@@ -237,7 +242,7 @@ def _kept(
             reason, pace = failure, pace.refused(step, 0.5)
             continue
         taken = replace(taken, state=replace(taken.state, time=node)) if step == node - state.time else taken
-        error = taken.largest_error / tolerance(taken.stage)
+        error = excess(taken)
         if error <= 1.0:
             return taken, pace.kept(step, error, order)
         reason = FilmNotConverged(

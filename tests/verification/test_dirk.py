@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 
-from reynolds.dirk import ALEXANDER_2, BACKWARD_EULER, State, Tableau, Tangent, advance, march, nodes_only
+from reynolds.dirk import ALEXANDER_2, BACKWARD_EULER, State, Tableau, Tangent, advance, march, nodes_only, within
 from reynolds.errors import FilmInputError, FilmNotConverged
 
 METHODS = pytest.mark.parametrize("tableau", [BACKWARD_EULER, ALEXANDER_2], ids=["euler", "alexander"])
@@ -160,9 +160,7 @@ def test_error_control(tableau, relaxed):
     """Van der Pol, eps = 1e-3: each step keeps its tolerance, and the end that of all of them."""
     errors, steps = [], []
     for tolerance in (1e-4, 1e-5):
-        taken = list(
-            march(tableau, _stages(_van_der_pol), _start(2.0, -0.66), [0.5], lambda _, tol=tolerance: tol)
-        )
+        taken = list(march(tableau, _stages(_van_der_pol), _start(2.0, -0.66), [0.5], within(tolerance)))
         errors.append(np.abs(taken[-1].state.q - relaxed).max())
         steps.append(len(taken))
         assert all(step.largest_error <= tolerance for step in taken)
@@ -178,10 +176,10 @@ def test_steps_grow_and_shrink():
         return np.array([np.exp(-(((t - 5.0) / 0.05) ** 2))]), np.zeros((1, 1))
 
     nodes = np.arange(1.0, 10.5)
-    taken = list(march(ALEXANDER_2, _stages(rate), _start(0.0), nodes, lambda _: 1e-6))
-    within = [step.step for step in taken if abs(step.state.time - 5.0) < 0.1]
+    taken = list(march(ALEXANDER_2, _stages(rate), _start(0.0), nodes, within(1e-6)))
+    short = [step.step for step in taken if abs(step.state.time - 5.0) < 0.1]
     beside = [step.step for step in taken if step.state.time < 4.0]
-    assert max(within) < 0.02
+    assert max(short) < 0.02
     assert max(beside) == 1.0
     assert taken[-1].state.q[0] == pytest.approx(0.05 * np.sqrt(np.pi), abs=1e-5)
 
@@ -189,7 +187,7 @@ def test_steps_grow_and_shrink():
 @METHODS
 def test_nodes_are_met(tableau):
     nodes = [0.1, 0.1001, 0.7, 1.3]
-    taken = march(tableau, _stages(_swinging), _start(2.0), nodes, lambda _: 1e-4)
+    taken = march(tableau, _stages(_swinging), _start(2.0), nodes, within(1e-4))
     assert set(nodes) <= {step.state.time for step in taken}
 
 
@@ -204,9 +202,8 @@ def test_tangent(tableau):
         return taken.state.q
 
     tangent = Tangent(np.eye(2), np.eye(2))
-    marched = march(tableau, _stages(_van_der_pol), State(0.0, start.q, start.q, start.rate, tangent=tangent), nodes,
-                    nodes_only)  # fmt: skip
-    *_, taken = marched
+    begin = State(0.0, start.q, start.q, start.rate, tangent=tangent)
+    *_, taken = march(tableau, _stages(_van_der_pol), begin, nodes, nodes_only)
     differences = np.column_stack([(end(start.q + d) - end(start.q - d)) / 2e-5 for d in 1e-5 * np.eye(2)])
     assert taken.state.tangent is not None
     np.testing.assert_allclose(taken.state.tangent.q, differences, rtol=1e-6, atol=1e-9)

@@ -13,7 +13,7 @@ from functools import partial
 import numpy as np
 import pytest
 
-from reynolds.dirk import ALEXANDER_2, BACKWARD_EULER, Tableau, Taken, march, nodes_only
+from reynolds.dirk import ALEXANDER_2, BACKWARD_EULER, Tableau, Taken, march, nodes_only, within
 from reynolds.film import ZERO, Cavitation, FilmProblem, Held, film
 from reynolds.floating import Floating, steady
 from reynolds.floating_stage import Stage, solve_stage
@@ -210,7 +210,7 @@ def test_dynamically_loaded_journal(validation):
     start = replace(started(floating, 0.2, np.array([0.5, 0.5])), tangent=None)
     nodes = np.array([0.6, 0.75, 0.9, 1.25, 1.4, 1.5, 1.6])
     solve, places, ratios, steps = partial(solve_stage, FilmSolver(space), floating), {}, [], 0
-    for taken in march(ALEXANDER_2, solve, start, nodes, lambda _: 3e-3):
+    for taken in march(ALEXANDER_2, solve, start, nodes, within(3e-3)):
         assert loads(taken.stage.solution).mass_balance_error < 1e-10
         assert taken.stage.solution.pressure.min() >= 0.0
         if taken.state.time > 0.6:
