@@ -17,7 +17,6 @@ from reynolds.mesh import Array
 from reynolds.overlap import film_between
 from reynolds.sensitivity import Response, oil_slopes, response, thickness_load
 from reynolds.solve import FilmSolver
-from reynolds.transient import from_last_or_anew
 
 LEAST_SHARE = 0.2  # of the least gap that a step may leave
 DEEPEST = 3.0  # standard deviations of the summits by which a step may press the walls together
@@ -102,8 +101,7 @@ class Instant:
             raise FilmNotConverged(f"walls that touch: least gap {at.least:.3g} m", TOUCHING)
         storage = Storage(self.before.oil, self.step)
         problem = replace(at.problem, boundary=self._with_volumes(q), storage=storage)
-        solution = from_last_or_anew(lambda last: self.solver.solve(problem, last), warm)
-        return self._balanced(q, at, solution)
+        return self._balanced(q, at, self.solver.solve(problem, warm))
 
     def _with_volumes(self, q: Array) -> dict[str, Boundary]:
         """The boundaries, pockets fed with what their growing volume takes."""

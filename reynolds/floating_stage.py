@@ -31,6 +31,7 @@ GOOD_ENOUGH = 1e-6  # where no step comes nearer to balance: round-off of the fi
 LOOSE = 1e-5  # of the linear solves for a Newton step's slopes
 MOST_STEPS = 40
 MOST_HALVINGS = 8
+MOST_FAILED = 5  # films that have not settled, in one stage
 LEAST_GAIN = 1e-4  # of the imbalance, by a full step
 
 
@@ -149,12 +150,15 @@ class _Search:
 
     def __init__(self, instant: Instant, warm: FilmSolution | None) -> None:
         self._instant, self._warm = instant, warm
-        self.films = self.steps = 0
+        self.films = self.steps = self._failed = 0
         self.why, self.remedy = "no film tried", "a shorter step, or less load"
 
     def balanced(self, start: Array) -> Trial | None:
         """The film in balance that Newton's method reaches from a position (k,) m; else None, and `why`."""
         at = self._tried(start)
+        if at is None and self._warm is not None:  # a cavity that opens everywhere at once settles from nothing
+            self._warm = None
+            at = self._tried(start)
         for _ in range(MOST_STEPS):
             if at is None or at.missed <= TOLERANCE:
                 return at
@@ -172,9 +176,11 @@ class _Search:
         try:
             found = self._instant.tried(q, self._warm)
         except FilmNotConverged as reason:
+            self._failed += 1
             self.why, self.remedy = reason.what, reason.remedy
             return None
         except FilmInputError as reason:  # a law of oil or contact does not reach there; nearer by it may
+            self._failed += 1
             self.why = str(reason)
             return None
         self._warm = found.solution
@@ -201,5 +207,7 @@ class _Search:
             wanted = before if share == room < 1.0 else (1.0 - LEAST_GAIN * share) * before
             if new is not None and float(np.max(np.abs(new.missing) / size)) <= wanted:
                 return new
+            if self._failed > MOST_FAILED:  # dear: a shorter step in time is the shorter way
+                return None
         self.why = f"forces out of balance by {at.missed:.2g} of their magnitudes, least gap {at.least:.3g} m"
         return None
