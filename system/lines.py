@@ -46,19 +46,23 @@ class OrificeLine:
 class Impedance:
     """Z = pressure over flow into the line by harmonics, Pa s/m3, at rising frequencies (Hz); between them linear.
 
-    Complex amplitudes of exp(+i w t). Raises ValueError for other shapes, frequencies that do not rise from above
-    zero, or Z = 0.
+    Complex amplitudes of exp(+i w t). Raises ValueError for fewer than two frequencies, those that do not rise
+    from above zero, other shapes, or Z = 0.
     """
 
     frequency: Array
     value: NDArray[np.complex128]
 
     def __post_init__(self) -> None:
-        rises = self.frequency.ndim == 1 and np.all(np.diff(self.frequency, prepend=0.0) > 0.0)
+        rises = (
+            self.frequency.ndim == 1
+            and self.frequency.size > 1
+            and np.all(np.diff(self.frequency, prepend=0.0) > 0.0)
+        )
         if not rises or self.value.shape != self.frequency.shape or np.any(self.value == 0.0):
             raise ValueError(
                 f"impedance: found {self.frequency.size} frequencies and {self.value.size} values, expected as "
-                "many, frequencies rising from above zero and no value zero"
+                "many, two or more, frequencies rising from above zero and no value zero"
             )
 
     def at(self, frequency: Array) -> NDArray[np.complex128]:

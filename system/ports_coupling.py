@@ -103,6 +103,8 @@ def _agree(
         if change <= limit:
             return problem, cycle, pressure, rounds, change
         pressure = history.extrapolate(pressure, image)
+    for side, found in zip(sides, pressure, strict=True):
+        side.hold_liquid(found)
     raise NotConverged(
         f"port pressures: after {ROUND_LIMIT} rounds of chambers and ports they still change by {change:.3g} Pa, "
         f"expected at most {limit:.3g} Pa; give a larger volume behind the port"
@@ -151,12 +153,7 @@ class _Side:
 
     def port(self, pressure: Array, problem: ChamberProblem, cycle: ChamberCycle) -> Port:
         """The port as it was found; raises NotConverged where it cavitates."""
-        if pressure.min() < CAVITY_PRESSURE:
-            name = ("delivery", "suction")[self.index]
-            raise NotConverged(
-                f"{name} port: its pressure falls to {pressure.min() * 1e-6:.3g} MPa, expected liquid oil, above "
-                f"{CAVITY_PRESSURE * 1e-6:.3g} MPa; give a larger volume, orifice or mean pressure"
-            )
+        self.hold_liquid(pressure)
         if isinstance(self.line, HeldPressure):
             return Port(
                 np.tile(pressure, self.pistons), self._through(pressure[0], problem, cycle), None, 0.0, 0.0
@@ -173,6 +170,15 @@ class _Side:
             ripple_power=line_power(flow, pressure, problem) - float(steady),
             balance_error=lost / (abs(supply.mean) * supply.period),
         )
+
+    def hold_liquid(self, pressure: Array) -> None:
+        """Raise NotConverged where the port's oil would not stay liquid."""
+        if pressure.min() < CAVITY_PRESSURE:
+            name = ("delivery", "suction")[self.index]
+            raise NotConverged(
+                f"{name} port: its pressure falls to {pressure.min() * 1e-6:.3g} MPa, expected liquid oil, above "
+                f"{CAVITY_PRESSURE * 1e-6:.3g} MPa; give a larger volume, orifice or mean pressure"
+            )
 
     def _through(self, pressure: float, problem: ChamberProblem, cycle: ChamberCycle) -> Array:
         """What all chambers push through the port, m3/s at its pressure, less what films draw."""
