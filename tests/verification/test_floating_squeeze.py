@@ -258,3 +258,12 @@ def test_nothing_to_float_on():
 def test_walls_that_overlap_at_the_start():
     with pytest.raises(FilmInputError, match="wall at 0 s: a least gap of -1e-06 m; expected walls apart"):
         standing(_sinking(_film(_strip(), SHORE)), 0.0, np.array([-1e-6]))
+
+
+def test_smooth_walls_that_touch():
+    """A step after which a film of some molecules would be left names that, and what would bear the load."""
+    floating = _sinking(_film(_strip(), SHORE))
+    before = standing(floating, 0.0, np.array([START]))
+    solver = FilmSolver(floating.shape_at(0.0).space)
+    with pytest.raises(FilmNotConverged, match=r"walls that touch: least gap 1.*asperities"):
+        solve_stage(solver, floating, 1e13, before, 1e13, np.array([START]), None)
