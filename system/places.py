@@ -21,7 +21,7 @@ def bore_frame(rotor: Rotor, shaft_angle: float) -> Frame:
     axis = bore_axis(rotor.drive, shaft_angle)
     reach = rotor.pump.piston.engaged_length + rotor.pump.piston.overhang
     x, y = bore_sides(rotor.drive, shaft_angle)
-    return Frame(_ball_centre(rotor, shaft_angle) - reach * axis, x, y, axis)
+    return Frame(ball_centre(rotor, shaft_angle) - reach * axis, x, y, axis)
 
 
 def slipper_frame(rotor: Rotor, shaft_angle: float) -> Frame:
@@ -30,11 +30,12 @@ def slipper_frame(rotor: Rotor, shaft_angle: float) -> Frame:
     velocity = slipper_sliding_velocity(rotor.drive, shaft_angle, rotor.point.shaft_speed)
     forward = (velocity[0] * steepest + velocity[1] * across) / np.hypot(*velocity)
     # The sliding face lies beyond the ball by about the distance of the slipper's centre of mass.
-    face = _ball_centre(rotor, shaft_angle) + rotor.pump.slipper.centre_of_mass_to_ball * normal
+    face = ball_centre(rotor, shaft_angle) + rotor.pump.slipper.centre_of_mass_to_ball * normal
     return Frame(face, forward, np.cross(normal, forward), normal)
 
 
-def _ball_centre(rotor: Rotor, shaft_angle: float) -> Array:
+def ball_centre(rotor: Rotor, shaft_angle: float) -> Array:
+    """Centre (3,) m of a ball joint in the pump frame."""
     radius = float(ball_radius(rotor.drive, shaft_angle))
     height = _ball_height(rotor, shaft_angle)
     return np.array([radius * np.cos(shaft_angle), radius * np.sin(shaft_angle), height])
