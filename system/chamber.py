@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from system import chamber_kernel as kernel
-from system.chamber_course import Constants, Course, constants, turn_nodes
+from system.chamber_course import Constants, Course, constants, periodic_values, turn_nodes
 from system.chamber_problem import ChamberProblem
 from system.errors import NotConverged
 from system.kinematics import Array, piston_displacement, stroke
@@ -71,10 +71,10 @@ class ChamberCycle:
     m3/s of liquid at chamber pressure, positive out. Per revolution: `outflow` in m3 at the density of zero gauge
     pressure; `path_energy` in J, throttled in the ports and given off in the gaps; `carried_energy` in J (piston,
     slipper, valve plate), the part of it that carried oil gives to the walls that carry it, which is not lost
-    (negative: the walls push the oil in); `indicated_work` in J, done by the piston on the chamber: -integral of
-    p dV; `port_energy` (2,) in J, pressure work and elastic energy of the oil that goes into delivery and suction
-    port. `surge` (2, N) in m3 at zero gauge pressure: what has gone into delivery and suction port since shaft
-    angle 0 beyond the mean flow.
+    (negative: the walls push the oil in); `indicated_work` in J, done on the chamber: -integral of p dV, and
+    `growth_work`, the part of it that the growth of the volume does in place of the piston's way; `port_energy`
+    (2,) in J, pressure work and elastic energy of the oil that goes into delivery and suction port. `surge` (2, N)
+    in m3 at zero gauge pressure: what has gone into either since shaft angle 0 beyond the mean flow.
     """
 
     shaft_angle: Array
@@ -85,6 +85,7 @@ class ChamberCycle:
     path_energy: Paths
     carried_energy: Array
     indicated_work: float
+    growth_work: float
     port_energy: Array
     surge: Array
     checks: ChamberChecks
@@ -173,18 +174,28 @@ def _cycle(
 ) -> ChamberCycle:
     samples = course.pressures.size
     angle = TURN * np.arange(samples) / samples
+    growth = 0.0 if problem.growth is None else periodic_values(problem.growth[None], samples)[0]
     liquid = np.exp(-np.maximum(course.pressures, kernel.CAVITY_PRESSURE) / problem.bulk_modulus)
     return ChamberCycle(
         shaft_angle=angle,
         pressure=course.pressures,
-        volume=problem.dead_volume + problem.piston_area * piston_displacement(problem.drive, angle),
+        volume=problem.dead_volume + problem.piston_area * piston_displacement(problem.drive, angle) + growth,
         flow=Paths(*(course.rates * problem.shaft_speed * liquid[:, None]).T),
         outflow=Paths(*totals[:5]),
         path_energy=Paths(*totals[6:11]),
         carried_energy=totals[11:14],
         indicated_work=float(totals[5]),
+        growth_work=_growth_work(problem, course.pressures),
         port_energy=totals[14:16],
         surge=course.passed[:, :2].T,
         checks=checks,
         effort=effort,
     )
+
+
+def _growth_work(problem: ChamberProblem, pressure: Array) -> float:
+    """-integral of p d(growth) in J by the trapezoidal rule over the sampled pressures (N,)."""
+    if problem.growth is None:
+        return 0.0
+    growth = periodic_values(problem.growth[None], pressure.size)[0]
+    return float(0.5 * np.sum(pressure * (np.roll(growth, 1) - np.roll(growth, -1))))

@@ -82,12 +82,12 @@ def port_draw(problem: ChamberProblem, exchange: GapExchange) -> tuple[float, fl
 
 
 def shaft_work(cycle: ChamberCycle, rate: float, friction: float, exchange: GapExchange) -> float:
-    """Shaft power in W by the work on the chambers: indicated, less what carried oil gives back, and friction.
+    """Shaft power in W by the pistons' work on the chambers, less what carried oil gives back, and friction.
 
     What carried oil gives is the pull of the gap's pressure gradient on the piston: with it the torque, like the
     flow, belongs to the mean of piston and bore area.
     """
-    return rate * cycle.indicated_work - exchange.carried.total + friction
+    return rate * (cycle.indicated_work - cycle.growth_work) - exchange.carried.total + friction
 
 
 def power_balance(

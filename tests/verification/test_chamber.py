@@ -10,7 +10,7 @@ from scipy.integrate import solve_ivp
 from system import chamber_kernel as kernel
 from system.chamber import solve_cycle
 from system.chamber_course import periodic_cubics
-from system.chamber_problem import ChamberProblem, LeakTable
+from system.chamber_problem import ChamberProblem, LeakTable, PortPressure
 from system.errors import NotConverged
 from system.kinematics import SwashDrive, drive_at_ratio, piston_displacement, piston_velocity, stand_out
 from system.leakage import piston_carried_flow, piston_conductance
@@ -102,6 +102,60 @@ def test_a_closed_chamber_follows_the_bulk_modulus():
     np.testing.assert_allclose(cycle.pressure, expected, atol=1.0)  # Newton's tolerance, some mPa, per step
     np.testing.assert_allclose(cycle.volume, volume, rtol=1e-14)
     assert np.ptp(cycle.pressure) > 15e6
+
+
+def test_growth_of_a_closed_chamber_counts_as_volume():
+    """Parts that move by micrometres: p = p0 + K ln(V0/V) with their volume in V, and their work in the work."""
+    angle = 2 * np.pi * np.arange(COLUMNS) / COLUMNS
+    growth = 2e-6 * np.sin(angle + 0.7) ** 3
+    leaks = LeakTable(np.zeros((3, COLUMNS)), np.zeros((3, COLUMNS)))
+    problem = replace(sealed(0.0), dead_volume=1e-3, drive=FULL, leaks=leaks, growth=growth)
+    cycle = solve_cycle(problem, 4 * COLUMNS)
+    volume = problem.dead_volume + AREA * piston_displacement(FULL, cycle.shaft_angle)
+    volume[::4] += growth
+    expected = cycle.pressure[0] + problem.bulk_modulus * np.log(volume[0] / volume)
+    np.testing.assert_allclose(cycle.pressure[::4], expected[::4], atol=1.0)
+    np.testing.assert_allclose(cycle.volume[::4], volume[::4], rtol=1e-14)
+    swell = AREA * piston_velocity(FULL, cycle.shaft_angle, 1.0)
+    piston_work = -np.mean(cycle.pressure * swell) * 2 * np.pi
+    # a closed chamber takes no work in all; sin^3 by trapezoids of 1 deg is good to (3 deg)^2/6 = 5e-4
+    assert abs(cycle.growth_work) > 1.0
+    assert cycle.indicated_work == pytest.approx(0.0, abs=1e-6 * abs(cycle.growth_work))
+    assert piston_work == pytest.approx(-cycle.growth_work, rel=5e-4)
+
+
+def test_growth_and_leaks_have_the_same_angles():
+    with pytest.raises(ValueError, match=r"growth of the chamber: found shape \(5,\)"):
+        solve_cycle(replace(sealed(0.0), growth=np.zeros(5)), 36)
+
+
+@pytest.mark.parametrize("columns", [120, 360])
+def test_mass_and_energy_close_with_pulsing_ports(columns):
+    angle = 2 * np.pi * np.arange(columns) / columns
+    ports = PortPressure(35e6 + 1e6 * np.sin(9 * angle), 2.5e6 + 2e5 * np.cos(9 * angle))
+    problem = replace(pump(35e6, 1.0), port_pressure=ports)
+    cycle = solve_cycle(problem, 360)
+    assert cycle.checks.mass_balance_error < 1e-12
+    assert cycle.checks.energy_balance_error < 1e-6
+    held = solve_cycle(pump(35e6, 1.0), 360)
+    delivering = (cycle.shaft_angle > 230 * DEGREES) & (cycle.shaft_angle < 310 * DEGREES)
+    behind = 1e6 * np.sin(9 * cycle.shaft_angle)
+    # between its ends an open chamber follows its port, but for the drop of the orifice
+    follows = (cycle.pressure - held.pressure)[delivering]
+    np.testing.assert_allclose(follows, behind[delivering], atol=0.02e6)
+    # what the ports have passed since shaft angle 0 and the mean flow make up the samples' integral
+    passed = np.gradient(cycle.surge[0], cycle.shaft_angle) * problem.shaft_speed
+    passed += float(cycle.outflow.delivery) * problem.shaft_speed / (2 * np.pi)
+    dense = np.exp(cycle.pressure / problem.bulk_modulus)
+    np.testing.assert_allclose(passed[delivering], (cycle.flow.delivery * dense)[delivering], rtol=2e-2)
+
+
+def test_constant_port_pressures_are_held_ones():
+    ports = PortPressure(np.full(12, 35e6), np.full(12, 2.5e6))
+    held, same = (solve_cycle(replace(pump(35e6, 1.0), port_pressure=p), 360) for p in (None, ports))
+    np.testing.assert_allclose(same.pressure, held.pressure, atol=1.0)
+    with pytest.raises(ValueError, match="port pressures"):
+        PortPressure(np.zeros(3), np.zeros(3))
 
 
 def test_a_linear_leak_gives_the_closed_periodic_answer():
