@@ -14,11 +14,12 @@ from reynolds.errors import FilmInputError
 from reynolds.film import FilmSolution
 from reynolds.floating import Floating
 from reynolds.floating_stage import Stage, solve_stage
-from reynolds.floating_start import restarted, started
+from reynolds.floating_start import restarted, seats_of, started
 from reynolds.loads import Loads, loads
 from reynolds.mesh import Array
 from reynolds.periodic import Periodic, periodic
 from reynolds.solve import FilmSolver
+from reynolds.space import FilmSpace
 
 
 @dataclass(frozen=True)
@@ -40,8 +41,8 @@ class Accuracy:
 class Schedule:
     """Where a revolution stops: shaft speed rad/s, angles (n,) rad to report, `breaks` to step on, films to keep.
 
-    Angles rise from above 0 to the last, at which the turn closes (2 pi, or the pitch of alike pistons); `breaks`
-    are those at which the drive bends (a port opens), at or below the last. Every `keep`th reported film is kept.
+    Angles rise from above 0 to the last, at which the turn closes: 2 pi, or a pitch where parts and mesh repeat
+    with it. `breaks` are those at which the drive bends (a port opens). Every `keep`th reported film is kept.
     """
 
     speed: float
@@ -219,7 +220,7 @@ class _Turns(Generic[Seen]):
             step_error=max(errors),
             allowed=self._accuracy.closed * end.mean_film,
             reach=self._accuracy.reach * end.loads.film_thickness_min,
-            repeats=_oil_moved(begin, state) <= self._accuracy.closed,
+            repeats=_oil_moved(self._floating.shape_at(0.0).space, begin, state) <= self._accuracy.closed,
         )
 
     def _marched(self, begin: State[Stage], again: Array | None) -> Iterator[Taken[Stage]]:
@@ -245,11 +246,12 @@ class _Turns(Generic[Seen]):
         return error / (self._accuracy.step * float(stage.solution.film.thickness.min()) + self._accuracy.floor)
 
 
-def _oil_moved(begin: State[Stage], end: State[Stage]) -> float:
+def _oil_moved(first: FilmSpace, begin: State[Stage], end: State[Stage]) -> float:
     """Oil that is elsewhere at the end, over all of it."""
     assert end.stage is not None
     oil = slice(len(end.stage.solution.pressure))
-    return float(np.abs(end.held[oil] - begin.held[oil]).sum() / np.abs(begin.held[oil]).sum())
+    came, went = end.held[oil][seats_of(first, end.stage.solution.problem.space)], begin.held[oil]
+    return float(np.abs(came - went).sum() / np.abs(went).sum())
 
 
 def _instant(angle: float, state: State[Stage], seen: Seen) -> GapInstant[Seen]:

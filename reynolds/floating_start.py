@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial import cKDTree
 
 from reynolds.dirk import State, Tangent
 from reynolds.errors import FilmInputError
@@ -10,10 +12,13 @@ from reynolds.floating import Floating
 from reynolds.floating_stage import Stage, standing
 from reynolds.mesh import Array
 from reynolds.sensitivity import Response, oil_slopes
+from reynolds.space import FilmSpace
 
 NUDGE = (
     1e-9  # m: of the position, for the slope of what a film holds, which is linear but for rough walls that touch
 )
+
+NEAR = 1e-9  # of the mesh: round-off of a place
 
 
 def started(floating: Floating, time: float, q: Array) -> State[Stage]:
@@ -33,8 +38,9 @@ def started(floating: Floating, time: float, q: Array) -> State[Stage]:
 def restarted(floating: Floating, time: float, last: State[Stage], q: Array) -> State[Stage]:
     """What the end of a march holds, moved to a position (k,) m: the start of the next one, with its tangent.
 
-    The film fraction of each unknown stays, and its oil changes with the film over it; so does the rate. Raises
-    FilmInputError where that leaves less than no oil somewhere.
+    The film fraction of each place stays, and its oil changes with the film over it; so does the rate. A mesh that
+    turned by a pitch has other unknowns in each place. Raises FilmInputError where that leaves less than no oil
+    somewhere, and for a mesh that did not come back.
     """
     stage = last.stage
     if stage is None:
@@ -44,10 +50,29 @@ def restarted(floating: Floating, time: float, last: State[Stage], q: Array) -> 
     oil = oil_slopes(stage.solution, stage.trial.thicker, Response(nothing, nothing))
     beside = np.zeros((len(last.held) - len(oil), k))  # position, and rates where walls have inertia
     beside[:k] = np.eye(k)
-    slopes = np.vstack([oil, beside])
-    held = last.held + slopes @ (q - stage.q)
+    seats = seats_of(floating.shape_at(time).space, stage.solution.problem.space)
+    slopes = np.vstack([oil[seats], beside])
+    held = np.concatenate([last.held[: len(oil)][seats], last.held[len(oil) :]]) + slopes @ (q - stage.q)
     least = float(held[: len(oil)].min())
     if least < min(0.0, float(last.held[: len(oil)].min())):
         found = f"{least:.3g} m3 of oil at an unknown, {np.abs(q - stage.q).max():.3g} m from the last position"
         raise FilmInputError(f"{floating.name}, start of a turn", found, "a position nearer to it")
-    return State(time, np.asarray(q, dtype=float), held, last.rate, last.bend, stage, Tangent(np.eye(k), slopes))
+    warm = stage if np.array_equal(seats, np.arange(len(oil))) else None
+    return State(time, np.asarray(q, dtype=float), held, last.rate, last.bend, warm, Tangent(np.eye(k), slopes))
+
+
+def seats_of(space: FilmSpace, other: FilmSpace) -> NDArray[np.intp]:
+    """Unknown of another placing of a mesh that stands where each unknown of the mesh does, (size,).
+
+    Raises FilmInputError where places differ by more than round-off.
+    """
+    near = NEAR * float(np.ptp(space.vertices, axis=0).max())
+    if np.abs(space.vertices - other.vertices).max() <= near:
+        return np.arange(space.size)
+    distance, vertex = cKDTree(other.vertices).query(space.vertices)
+    if distance.max() > near or space.degree > 1:
+        found = f"vertices up to {distance.max():.3g} m away"
+        raise FilmInputError("mesh at the end of a turn", found, "those of its start, or turned by a pitch")
+    seats = np.empty(space.size, dtype=np.intp)
+    seats[space.vertex_dofs] = other.vertex_dofs[vertex]
+    return seats

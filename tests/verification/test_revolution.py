@@ -17,8 +17,8 @@ from reynolds.errors import FilmInputError, FilmNotConverged
 from reynolds.film import ZERO, Cavitation, FilmProblem, Held, film
 from reynolds.floating import Floating, Outer, steady
 from reynolds.floating_stage import Stage, solve_stage
-from reynolds.floating_start import restarted, started
-from reynolds.mesh import Array, Cell, rectangle
+from reynolds.floating_start import restarted, seats_of, started
+from reynolds.mesh import Array, Cell, rectangle, ring
 from reynolds.solve import FilmSolver
 from reynolds.space import FilmSpace, film_space
 
@@ -181,3 +181,18 @@ def test_a_plate_without_spring_never_closes():
     plate = replace(_plate(space, 0.0), outer_at=lambda t, q, rate: steady(np.array([-5.0])))
     with pytest.raises(FilmNotConverged, match="not periodic after 30 turns"):
         run_revolution(FilmSolver(space), plate, evenly(SPEED, 4), np.array([1e-5]), _power)
+
+
+def test_seats_of_a_mesh_that_turned_by_a_pitch():
+    """A ring of nine alike sectors: what its film holds goes over to the sector before."""
+    space = film_space(ring(np.array([0.03, 0.035, 0.05]), 18))
+    assert np.array_equal(seats_of(space, space), np.arange(space.size))
+    c, s = np.cos(2.0 * np.pi / 9.0), np.sin(2.0 * np.pi / 9.0)
+    turned = space.moved(space.vertices @ np.array([[c, s], [-s, c]]))
+    seats = seats_of(space, turned)
+    field = np.empty(space.size)
+    field[turned.vertex_dofs] = np.arctan2(*turned.vertices.T[::-1])
+    there = np.arctan2(*space.vertices.T[::-1])
+    np.testing.assert_allclose(np.exp(1j * field[seats][space.vertex_dofs]), np.exp(1j * there), atol=1e-12)
+    with pytest.raises(FilmInputError, match="mesh at the end of a turn"):
+        seats_of(space, space.moved(1.01 * space.vertices))
