@@ -47,7 +47,7 @@ def test_lumped_folder_holds_what_the_contract_says(lumped):
 
 
 def test_every_headline_number_carries_its_unit(lumped):
-    units = re.compile(r"_(Pa|Pa_s|W|K|Nm|rad|m|m3_per_s|m3_per_rev|rad_per_s)$")
+    units = re.compile(r"_(Pa|Pa_s|W|K|Nm|rad|m|m2|m3_per_s|m3_per_rev|rad_per_s)$")
     bare = re.compile(
         r"(^format$|ratio$|share$|error$|error_max$|overall|volumetric|hydromechanical|revolutions|steps|rounds"
         r"|fraction|angles|unknowns)"
@@ -72,6 +72,44 @@ def test_tables_carry_units_and_agree_with_the_summary(lumped):
     for name, loss in summary(lumped)["pair_loss"].items():
         assert pairs.loc[name, "total [W]"] == pytest.approx(loss["total_W"], rel=1e-5)
     assert pairs["share [%]"].sum() == pytest.approx(100.0, abs=0.01)
+
+
+def test_a_delivery_line_ripples(lumped, tmp_path):
+    """[delivery_line] in the pump file, its ripple in summary, table and page; a held pressure has none."""
+    held = summary(lumped)["ripple"]
+    assert held["delivery_pressure_peak_to_peak_Pa"] == 0.0
+    assert held["delivery_orifice_area_m2"] is None
+    assert held["shaft_torque_peak_to_peak_Nm"] > 0.0
+    text = (lumped / "resolved.toml").read_text("utf-8")
+    stated = tmp_path / "line.toml"
+    stated.write_text(text + '\n[delivery_line]\nkind = "orifice"\nvolume = "1 L"\n', "utf-8")
+    assert main(["run", str(stated), "--fidelity", "lumped", "-o", str(tmp_path / "run")]) == 0
+    found = summary(tmp_path / "run")
+    assert found["operating_point"]["delivery_pressure_Pa"] == pytest.approx(20e6, rel=1e-5)
+    ripple = found["ripple"]
+    revolution = pandas.read_csv(tmp_path / "run" / "revolution.csv")
+    swing = np.ptp(revolution["delivery_pressure [Pa]"])
+    assert ripple["delivery_pressure_peak_to_peak_Pa"] == pytest.approx(swing, rel=1e-6)
+    assert 0.0 < ripple["delivery_pressure_order_z_Pa"] < swing
+    assert 1e-6 < ripple["delivery_orifice_area_m2"] < 1e-4
+    assert np.mean(revolution["delivery_line_flow [m3/s]"]) == pytest.approx(
+        found["flow"]["delivery_m3_per_s"], rel=1e-3
+    )
+    assert np.mean(revolution["shaft_torque [N m]"]) == pytest.approx(found["torque"]["shaft_Nm"], rel=1e-3)
+    assert found["checks"]["energy_balance_error"] < 1e-3
+    assert "What pulses" in (tmp_path / "run" / "report.html").read_text("utf-8")
+
+
+def test_a_stated_orifice_sets_the_pressure(lumped, tmp_path, capsys):
+    stated = tmp_path / "line.toml"
+    line = '\n[delivery_line]\nkind = "orifice"\nvolume = "1 L"\norifice_area = "16 mm2"\n'
+    stated.write_text((lumped / "resolved.toml").read_text("utf-8") + line, "utf-8")
+    assert main(["run", str(stated), "--fidelity", "lumped", "-o", str(tmp_path / "run")]) == 0
+    found = summary(tmp_path / "run")
+    assert any(text.startswith("port_pressure_follows_line") for text in found["warnings"])
+    flow, point = found["flow"]["delivery_m3_per_s"], found["operating_point"]
+    expected = 0.5 * 860.0 * (flow / (0.7 * 16e-6)) ** 2 + point["inlet_pressure_Pa"]
+    assert point["delivery_pressure_Pa"] == pytest.approx(expected, rel=1e-2)
 
 
 def test_results_carry_units(lumped):
