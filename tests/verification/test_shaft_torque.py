@@ -23,6 +23,7 @@ from system.kinematics import (
 )
 from system.lumped import chamber_problem, group_masses, lumped_leaks, lumped_point, piston_motion
 from system.operating import operating_point
+from system.pairs import over_chambers
 from system.parts_description import DeliveryLineKind, DeliveryLineSection
 from system.pump_file import load_pump
 from system.shaft_torque import ChamberForces, GroupMasses, chamber_torque, shaft_torque
@@ -58,6 +59,22 @@ def test_lever_of_a_frictionless_piston(validation):
         expected=force * 45e-3 * np.tan(16.2 * DEGREES),
         obtained=torque[540],
         relative_tolerance=1e-12,
+    )
+
+
+def test_torque_ripple_of_nine_pistons(validation):
+    """Delivery pressure on half of a turn, none on the other: the strokes' ripple (pi/2z) tan(pi/4z)."""
+    pressed = replace(NONE, along_bore=np.where(np.sin(ANGLE) < 0.0, 13e3, 0.0))
+    torque = over_chambers(chamber_torque(CYLINDER, ANGLE, SPEED, GroupMasses(0.0, 0.0), pressed), 9)
+    assert np.mean(torque) == pytest.approx(9 / np.pi * 13e3 * 45e-3 * np.tan(16.2 * DEGREES), rel=1e-4)
+    validation(
+        case="kinematic torque ripple of nine pistons",
+        source="(pi/2z) tan(pi/4z), closed form",
+        quantity="peak to peak of the mean torque",
+        unit="%",
+        expected=100 * np.pi / 18 * np.tan(np.pi / 36),
+        obtained=100 * np.ptp(torque) / np.mean(torque),
+        tolerance=100 * (np.pi / 720) ** 2,  # extremes half a sample away at most, on curves of unit bend
     )
 
 
