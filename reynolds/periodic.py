@@ -70,7 +70,7 @@ class Periodic(Generic[T]):
 
     @property
     def largest_multiplier(self) -> float:
-        """Share of a small disturbance that a turn leaves; above one it grows, and the motion is unstable."""
+        """Share of a small disturbance of q that a turn leaves; above one it grows, and the motion is unstable."""
         return float(np.abs(self.multipliers).max())
 
 
