@@ -65,7 +65,7 @@ class Operators:
         """D, m3/s; zero where no film fraction is carried along."""
         diffusion = np.zeros(len(self.problem.space.pattern.indices))
         if self.problem.cavitation is Cavitation.JFO:
-            leaves = _sends_nothing(self.problem, self.transport.flux)
+            leaves = sends_nothing(self.problem, self.transport.flux)
             pattern = self.problem.space.pattern
             kernels.upwinding(pattern.indptr, pattern.indices, *self.convection, leaves, diffusion)
         return diffusion
@@ -119,7 +119,7 @@ def operators(problem: FilmProblem, state: State) -> Operators:
     return Operators(problem, transport(problem, state.pressure, state.opening))
 
 
-def _sends_nothing(problem: FilmProblem, flux: tuple[Array, Array]) -> NDArray[np.bool_]:
+def sends_nothing(problem: FilmProblem, flux: tuple[Array, Array]) -> NDArray[np.bool_]:
     """Unknowns of held edges over which the walls carry no oil into the film, (size,).
 
     Their film fraction is of no matter: upwinding across the way of the walls would bring it in all the same, and
