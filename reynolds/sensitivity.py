@@ -14,8 +14,16 @@ import numpy as np
 
 from reynolds import generalised_kernels
 from reynolds import kernels as film_kernels
-from reynolds.balance import Operators, State, cavity_density, convection, density, operators, steep_gradient
-from reynolds.balance import sends_nothing as sends_nothing
+from reynolds.balance import (
+    Operators,
+    State,
+    cavity_density,
+    convection,
+    density,
+    operators,
+    sends_nothing,
+    steep_gradient,
+)
 from reynolds.film import Cavitation, FilmSolution
 from reynolds.linear import ITERATIVE_TOLERANCE
 from reynolds.mesh import Array
