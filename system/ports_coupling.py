@@ -68,19 +68,21 @@ def ported_cycle(
     pistons: int,
     samples: int,
     tolerance: float = TOLERANCE,
-    draws: tuple[float, float] = (0.0, 0.0),
+    draws: tuple[Array | float, Array | float] = (0.0, 0.0),
 ) -> PortedCycle:
     """The periodic revolution of a pump's chambers together with the volumes behind its ports.
 
     `problem` gives the ports' mean pressures: held, met by an orifice of free area, or where an orifice of stated
-    area begins its search. draws in m3/s at zero gauge pressure: what films take from delivery and suction port.
+    area begins its search. draws in m3/s at zero gauge pressure: what films take from delivery and suction port, a
+    mean or (samples/pistons,) over a pitch from shaft angle 0.
     Raises NotConverged when ports and chambers do not agree within ROUND_LIMIT rounds, where a port cavitates, and
     as `solve_cycle`.
     """
     cycle = solve_cycle(problem, samples, tolerance)
+    drawn = [np.broadcast_to(np.asarray(draw, dtype=float), samples // pistons) for draw in draws]
     sides = (
-        _Side(lines.delivery, 0, problem.delivery_pressure, problem.delivery_port, draws[0], pistons),
-        _Side(lines.suction, 1, problem.inlet_pressure, problem.suction_port, draws[1], pistons),
+        _Side(lines.delivery, 0, problem.delivery_pressure, problem.delivery_port, drawn[0], pistons),
+        _Side(lines.suction, 1, problem.inlet_pressure, problem.suction_port, drawn[1], pistons),
     )
     pressure = np.stack([side.first_pressure(problem, cycle) for side in sides])
     rounds, change = 0, 0.0
@@ -119,7 +121,7 @@ class _Side:
     index: int
     wanted: float
     opening: PortOpening
-    draw: float
+    draw: Array
     pistons: int
 
     def supply(self, problem: ChamberProblem, cycle: ChamberCycle) -> Supply:
@@ -139,7 +141,7 @@ class _Side:
         """The wanted pressure over a pitch, or Bernoulli's for its flow through an orifice of stated area."""
         pitch, first = cycle.shaft_angle.size // self.pistons, self.wanted
         if isinstance(self.line, OrificeLine) and self.line.area is not None:
-            flow = self.supply(problem, cycle).mean - self.draw
+            flow = self.supply(problem, cycle).mean - float(np.mean(self.draw))
             speed = flow / (problem.flow_coefficient * self.line.area)
             first = self.line.tank_pressure + 0.5 * problem.density * speed * abs(speed)
         return np.full(pitch, first)
@@ -185,7 +187,7 @@ class _Side:
         flow = (cycle.flow.delivery, cycle.flow.suction)[self.index]
         mass_flow = flow * np.exp(np.maximum(cycle.pressure, CAVITY_PRESSURE) / problem.bulk_modulus)
         thin = np.exp(-pressure / problem.bulk_modulus)
-        return np.asarray((over_chambers(mass_flow, self.pistons) - self.draw) * thin)
+        return np.asarray((over_chambers(mass_flow, self.pistons) - np.tile(self.draw, self.pistons)) * thin)
 
 
 def _with_ports(problem: ChamberProblem, pressure: Array, pistons: int) -> ChamberProblem:

@@ -32,13 +32,13 @@ class Supply:
     """What the chambers do to a port over one period (s), oil at zero gauge pressure.
 
     mean inflow in m3/s, negative at a suction port; surge (M,) m3, what has come in since shaft angle 0 beyond the
-    mean; draw m3/s, taken from the port by films; open_volume m3 of the chambers that stand open to it, mean.
+    mean; draw (M,) m3/s, taken from the port by films; open_volume m3 of the chambers that stand open to it, mean.
     """
 
     period: float
     mean: float
     surge: Array
-    draw: float
+    draw: Array
     open_volume: float
 
 
@@ -80,13 +80,13 @@ def port_balance(
     taken = line_flow(line, pressure, supply, oil)
     dense = np.exp(pressure / oil.bulk_modulus)
     waves = np.arange(pressure.size // 2 + 1) * TURN / supply.period
-    mass_flow = np.fft.rfft(dense * taken.flow)
+    mass_flow = np.fft.rfft(dense * taken.flow + supply.draw)
     gone = np.zeros_like(mass_flow)
     gone[1:] = mass_flow[1:] / (1j * waves[1:])
     if pressure.size % 2 == 0:
         gone[-1] = 0.0  # of the shortest wave only the cosine is seen, its integral is not
     rest = np.fft.rfft(line.volume * dense - supply.surge) + gone
-    mean_rest = float(mass_flow[0].real) / pressure.size + supply.draw - supply.mean
+    mean_rest = float(mass_flow[0].real) / pressure.size - supply.mean
     step = np.zeros_like(rest)
     thickness = float(np.mean(dense))
     give = (line.volume + supply.open_volume) * thickness / oil.bulk_modulus
@@ -139,7 +139,7 @@ def _through(area: float, drop: Array, oil: ChamberProblem) -> tuple[Array, Arra
 def _area_for(line: OrificeLine, pressure: Array, supply: Supply, oil: ChamberProblem) -> float:
     """Area (m2) through which the line takes all that comes: the flow is nearly proportional to it."""
     dense, drop = np.exp(pressure / oil.bulk_modulus), pressure - line.tank_pressure
-    needed = supply.mean - supply.draw
+    needed = supply.mean - float(np.mean(supply.draw))
     area = 1e-5
     for _ in range(AREA_LIMIT):
         ratio = needed / float(np.mean(dense * _through(area, drop, oil)[0]))
@@ -161,5 +161,5 @@ def _impedance_flow(line: ImpedanceLine, pressure: Array, supply: Supply, oil: C
     slope[1:] = 1.0 / line.impedance.at(orders / supply.period)
     waves = np.fft.irfft(slope * np.fft.rfft(pressure), pressure.size)
     dense = np.exp(pressure / oil.bulk_modulus)
-    mean = (supply.mean - supply.draw - float(np.mean(dense * waves))) / float(np.mean(dense))
+    mean = (supply.mean - float(np.mean(supply.draw + dense * waves))) / float(np.mean(dense))
     return LineFlow(mean + waves, slope, None)

@@ -76,7 +76,7 @@ def settled(line: Line, supply: Supply, wanted: float) -> tuple[np.ndarray, floa
 def pulsing(mean: float, amplitude: float, order: int = 1) -> Supply:
     """An inflow mean + amplitude cos(order w t), m3/s at zero gauge pressure."""
     wave = 2 * np.pi * order / PERIOD
-    return Supply(PERIOD, mean, amplitude / wave * np.sin(wave * TIMES), 0.0, 0.0)
+    return Supply(PERIOD, mean, amplitude / wave * np.sin(wave * TIMES), 0.0 * TIMES, 0.0)
 
 
 def test_a_closed_volume_answers_with_its_modulus(validation):
@@ -103,7 +103,7 @@ def test_a_closed_volume_answers_with_its_modulus(validation):
 
 def test_an_orifice_passes_the_mean_flow(validation):
     flow, oil = 3e-3, pump()
-    supply = Supply(PERIOD, flow, np.zeros(TIMES.size), 0.0, 0.0)
+    supply = Supply(PERIOD, flow, 0.0 * TIMES, 0.0 * TIMES, 0.0)
     pressure, area = settled(OrificeLine(1e-3, 2.5e6), supply, 35e6)
     assert np.ptp(pressure) == 0.0
     at_port = flow * np.exp(-35e6 / oil.bulk_modulus)
@@ -145,10 +145,14 @@ def test_a_small_pulse_on_volume_and_orifice(validation):
 
 
 def test_films_draw_from_the_port():
-    drawn = replace(pulsing(3e-3, 0.0), draw=1e-3)
+    drawn = replace(pulsing(3e-3, 0.0), draw=np.full(TIMES.size, 1e-3))
     _, area = settled(OrificeLine(1e-3, 0.0), drawn, 35e6)
     _, whole = settled(OrificeLine(1e-3, 0.0), pulsing(3e-3, 0.0), 35e6)
     assert area / whole == pytest.approx(2 / 3, rel=1e-3)
+    wave = 1e-5 * np.cos(2 * np.pi * TIMES / PERIOD)
+    taken, _ = settled(OrificeLine(1e-3, 0.0), replace(pulsing(3e-3, 0.0), draw=wave), 35e6)
+    lacking, _ = settled(OrificeLine(1e-3, 0.0), pulsing(3e-3, -1e-5), 35e6)
+    np.testing.assert_allclose(taken, lacking, rtol=1e-9)  # a draw is an inflow that is missing
 
 
 def test_kinematic_flow_ripple(validation):
