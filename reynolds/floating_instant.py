@@ -23,9 +23,8 @@ DEEPEST = 3.0  # standard deviations of the summits by which a step may press th
 THINNEST = 1e-9  # m: of a film between walls without asperities, some molecules of oil
 NEXT = 1e-2  # of the least film or of the summits' height
 SOLID = 1.0 - 1e-6  # of the overlap at which the law of contact ends
-
-
 TOUCHING = "asperities that bear where walls touch, an edge relief, or less load"
+ROUNDING = 1e-6  # share of the largest magnitude below which another one is none
 
 
 @dataclass(frozen=True)
@@ -79,7 +78,12 @@ class Trial:
     @property
     def missed(self) -> float:
         """Largest imbalance over the magnitudes that balance."""
-        return float(np.max(np.abs(self.missing) / np.maximum(self.size, 1e-300)))
+        return float(np.max(np.abs(self.missing) / self.scale))
+
+    @property
+    def scale(self) -> Array:
+        """Magnitudes that balance (k,) N; where next to nothing does, round-off of the largest."""
+        return np.maximum(self.size, ROUNDING * float(np.max(self.size)) + 1e-300)
 
 
 @dataclass(frozen=True)

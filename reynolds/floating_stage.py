@@ -198,7 +198,7 @@ class _Search:
         if instant.touching(at):
             self.why, self.remedy = f"walls that touch: least gap {at.least:.3g} m", TOUCHING
             return None
-        size = np.maximum(at.size, 1e-300)
+        size = at.scale
         before = float(np.max(np.abs(at.missing) / size))
         for halvings in range(MOST_HALVINGS):
             share = room * 0.5**halvings

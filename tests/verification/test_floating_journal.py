@@ -218,14 +218,11 @@ def test_dynamically_loaded_journal(validation):
             ratios.append(float(np.hypot(*taken.state.q)))
             steps += 1
     assert steps < 100
-    case, source = (
-        "Dynamically loaded journal bearing, floating",
-        "verification cases 3.6, Ausas 2009, 200 x 20 cells",
-    )
+    source = "verification cases 3.6, Ausas 2009, 200 x 20 cells"
     for time, x, y, x_met, y_met in PLACES:
         for name, listed, found, met in zip("XY", (x, y), places[time], (x_met, y_met), strict=True):
             validation(
-                case=case,
+                case="Dynamically loaded journal bearing, floating",
                 source=source,
                 quantity=f"{name} at t = {time:g}",
                 unit="1",
@@ -238,7 +235,7 @@ def test_dynamically_loaded_journal(validation):
     extremes = (("largest", 0.93841, max(ratios), UPWIND), ("least", 0.35071, min(ratios), ""))
     for quantity, listed, found, missed in extremes:
         validation(
-            case=case,
+            case="Dynamically loaded journal bearing, floating",
             source=source,
             quantity=f"{quantity} eccentricity ratio",
             unit="1",

@@ -90,16 +90,36 @@ def test_film_that_sways(stiffness, validation):
     h, time = found.turn.path[:, 0], TURN * np.arange(1, 361) / 360
     wave = 2.0 * np.mean(h * np.exp(-1j * speed * time))
     exact = LOAD / (stiffness + 1j * speed * DAMPING)
-    case, source = "Hydrostatic film under a swaying load, periodic", "closed form: c h' + k h = W cos wt"
+    source = "closed form: c h' + k h = W cos wt"
     what = f"k/(c w) = {stiffness / (DAMPING * speed):.3g}"
     tolerance = 1e-3  # of two stages and 360 steps: (2 pi/360)^2 = 3e-4
-    validation(case=case, source=source, quantity=f"amplitude, {what}", unit="m",
-               expected=abs(exact), obtained=abs(wave), relative_tolerance=tolerance)  # fmt: skip
-    validation(case=case, source=source, quantity=f"phase, {what}", unit="rad",
-               expected=np.angle(exact), obtained=np.angle(wave), tolerance=tolerance)  # fmt: skip
-    validation(case=case, source=source, quantity=f"what a turn leaves of a disturbance, {what}", unit="1",
-               expected=np.exp(-stiffness * TURN / DAMPING), obtained=found.multipliers[0].real,
-               tolerance=tolerance)  # fmt: skip
+    validation(
+        case="Hydrostatic film under a swaying load, periodic",
+        source=source,
+        quantity=f"amplitude, {what}",
+        unit="m",
+        expected=abs(exact),
+        obtained=abs(wave),
+        relative_tolerance=tolerance,
+    )
+    validation(
+        case="Hydrostatic film under a swaying load, periodic",
+        source=source,
+        quantity=f"phase, {what}",
+        unit="rad",
+        expected=np.angle(exact),
+        obtained=np.angle(wave),
+        tolerance=tolerance,
+    )
+    validation(
+        case="Hydrostatic film under a swaying load, periodic",
+        source=source,
+        quantity=f"what a turn leaves of a disturbance, {what}",
+        unit="1",
+        expected=np.exp(-stiffness * TURN / DAMPING),
+        obtained=found.multipliers[0].real,
+        tolerance=tolerance,
+    )
 
 
 def _sinking(t: float, h: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

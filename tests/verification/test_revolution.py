@@ -65,16 +65,36 @@ def test_plate_on_a_spring(share, validation):
     found = _swayed(share, evenly(SPEED, 90))
     wave = 2.0 * np.mean((found.positions[:, 0] - THICKNESS) * np.exp(-1j * found.angles))
     exact = SWAY / (DAMPING * SPEED * (share + 1j))
-    case, source = "Plate on a spring and an oil film, over the revolution", "closed form: c h' + k h = W cos wt"
+    source = "closed form: c h' + k h = W cos wt"
     # Cells 1/32 (squared), steps 2 pi/90 (squared, over three), and the film's stiffening by a thousandth.
     tolerance = 2e-3
-    validation(case=case, source=source, quantity=f"amplitude, k/(c w) = {share:g}", unit="m",
-               expected=abs(exact), obtained=abs(wave), relative_tolerance=tolerance)  # fmt: skip
-    validation(case=case, source=source, quantity=f"phase, k/(c w) = {share:g}", unit="rad",
-               expected=np.angle(exact), obtained=np.angle(wave), tolerance=tolerance)  # fmt: skip
-    validation(case=case, source=source, quantity=f"left of a disturbance, k/(c w) = {share:g}", unit="1",
-               expected=np.exp(-2.0 * np.pi * share), obtained=found.closing.multipliers[0].real,
-               tolerance=tolerance)  # fmt: skip
+    validation(
+        case="Plate on a spring and an oil film, over the revolution",
+        source=source,
+        quantity=f"amplitude, k/(c w) = {share:g}",
+        unit="m",
+        expected=abs(exact),
+        obtained=abs(wave),
+        relative_tolerance=tolerance,
+    )
+    validation(
+        case="Plate on a spring and an oil film, over the revolution",
+        source=source,
+        quantity=f"phase, k/(c w) = {share:g}",
+        unit="rad",
+        expected=np.angle(exact),
+        obtained=np.angle(wave),
+        tolerance=tolerance,
+    )
+    validation(
+        case="Plate on a spring and an oil film, over the revolution",
+        source=source,
+        quantity=f"left of a disturbance, k/(c w) = {share:g}",
+        unit="1",
+        expected=np.exp(-2.0 * np.pi * share),
+        obtained=found.closing.multipliers[0].real,
+        tolerance=tolerance,
+    )
     assert found.closing.turns <= 3
     assert found.turn.step_error < 1.0
 
