@@ -12,9 +12,10 @@ from collections.abc import Callable
 import numpy as np
 from scipy.linalg import lapack
 from scipy.sparse import csc_array, csr_array
-from scipy.sparse.linalg import LinearOperator, SuperLU, gmres, splu
+from scipy.sparse.linalg import SuperLU, splu
 
 from reynolds.errors import FilmNotConverged
+from reynolds.krylov import gmres
 from reynolds.mesh import Array
 from reynolds.walls import WallMatrix, full
 
@@ -50,13 +51,12 @@ def _iterated(rigid: csc_array, slope: csr_array, wider: WallMatrix, pressures: 
     def image(part: Array) -> Array:
         return np.asarray(part + slope @ (wider @ (pressures * factor.solve(part))))
 
-    operator = LinearOperator(rigid.shape, matvec=image, dtype=float)
     direct: list[Answer] = []
 
     def answer(load: Array, tolerance: float) -> Array:
         if not direct:
-            part, missed = gmres(operator, load, rtol=tolerance, atol=0.0, restart=MOST_STEPS, maxiter=1)
-            if missed == 0 or np.linalg.norm(image(part) - load) <= GOOD_ENOUGH * np.linalg.norm(load):
+            part, left = gmres(image, load, tolerance, MOST_STEPS)
+            if left <= max(tolerance, GOOD_ENOUGH):
                 return np.asarray(factor.solve(part))
             direct.append(_dense(_multiplied(rigid, slope, wider, pressures)))
         return direct[0](load, tolerance)

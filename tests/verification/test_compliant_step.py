@@ -23,6 +23,7 @@ from reynolds.compliant import compliant_answer
 from reynolds.contact import Asperities
 from reynolds.errors import FilmInputError, FilmNotConverged
 from reynolds.film import ZERO, Cavitation, FilmProblem, FilmSolution, Held, film
+from reynolds.krylov import gmres
 from reynolds.loads import loads
 from reynolds.low_rank import low_rank
 from reynolds.mesh import Array, Cell, annulus, rectangle
@@ -116,6 +117,28 @@ def test_solves_a_step_do_not_grow_with_the_mesh(monkeypatch):
             assert found.pressure == pytest.approx(dense.pressure, abs=1e-9 * dense.pressure.max())
             assert found.film_fraction == pytest.approx(dense.film_fraction, abs=1e-9)
     assert uses[1] < 1.2 * uses[0] < 80.0
+
+
+def test_gmres_keeps_its_tolerance_and_ends():
+    random = np.random.default_rng(5)
+    matrix = np.eye(60) + 0.5 * random.normal(size=(60, 60)) / np.sqrt(60.0)
+    load = random.normal(size=60)
+    for tolerance in (1e-2, 1e-6, 1e-12):
+        found, left = gmres(lambda v: matrix @ v, load, tolerance, 60)
+        assert left <= tolerance
+        missed = np.linalg.norm(matrix @ found - load) / np.linalg.norm(load)
+        assert missed == pytest.approx(left, rel=1e-2, abs=1e-14)
+    found, left = gmres(lambda v: matrix @ v, load, 0.0, 60)  # the whole space
+    assert found == pytest.approx(np.linalg.solve(matrix, load), rel=1e-10)
+    found, left = gmres(lambda v: matrix @ v, load, 1e-12, 5)
+    least = [np.linalg.matrix_power(matrix, k) @ load for k in range(5)]  # the best of Krylov's space, no better
+    best = np.linalg.lstsq(matrix @ np.array(least).T, load, rcond=None)[0]
+    assert found == pytest.approx(np.array(least).T @ best, rel=1e-8)
+    assert left == pytest.approx(np.linalg.norm(matrix @ found - load) / np.linalg.norm(load), rel=1e-9)
+    found, left = gmres(lambda v: 3.0 * v, load, 1e-12, 60)  # an eigenvector: there at once
+    assert left == 0.0
+    assert found == pytest.approx(load / 3.0)
+    assert np.array_equal(gmres(lambda v: v, np.zeros(4), 1e-12, 4)[0], np.zeros(4))
 
 
 def linear_balance(size: int) -> tuple[csc_array, csr_array, Array, Array]:
