@@ -305,6 +305,20 @@ def test_pocket_presses_on_slipper_and_plate(tmp_path):
     assert isinstance(part_wall(large, fine, folder=tmp_path), BodyWall)
 
 
+def test_faces_have_the_areas_of_their_loads():
+    """Pocket, socket and chamber: what a pressure on them presses with, to the arcs of 30 degrees."""
+    slipper = slipper_body(SlipperPart(0.5e-3, 8e-3, 7e-3, 14e-3, 5e-3, BRONZE), (6, 12, 1))
+    plate = plate_body(PlatePart(0.0, 20e-3, 10e-3, STEEL, pocket_radius=8e-3), (4, 12, 1))
+    piston = piston_body(PISTON, (1, 12, 2))
+    for body, name, area in (
+        (slipper, "pocket", np.pi * (8e-3**2 - 0.5e-3**2)),
+        (slipper, "held", np.pi * (7e-3**2 - 0.5e-3**2)),
+        (plate, "pocket", np.pi * (8e-3**2 - 0.4e-3**2)),
+        (piston, "chamber", np.pi * (BORE**2 - 5e-3**2 + 10e-3 * PISTON.length)),
+    ):
+        assert body_space(body.mesh).face(name).gathered(1.0).sum() == pytest.approx(area, rel=1e-3, abs=0.0), name
+
+
 def test_own_mesh_stands_for_a_part(tmp_path):
     """A bushing written to a file and read back is the same bushing, but for straight arcs."""
     import meshio
