@@ -13,7 +13,6 @@ from reynolds.balance import NOTHING, by_opening, flow_balance, full_matrix, slo
 from reynolds.compliant import Answer, compliant_answer
 from reynolds.film import Cavitation, FilmProblem
 from reynolds.iterate import Iterate, with_pockets
-from reynolds.linear import ITERATIVE_TOLERANCE
 from reynolds.mesh import Array
 from reynolds.opening import opening_slope
 from reynolds.setting import Setting
@@ -62,19 +61,6 @@ def general_step(problem: FilmProblem, setting: Setting, at: Iterate) -> tuple[A
 def _largest(values: Array) -> float:
     """Largest magnitude."""
     return float(max(values.max(), -values.min()))
-
-
-def compliant_step(
-    problem: FilmProblem,
-    setting: Setting,
-    at: Iterate,
-    upper: Array,
-    lower: Array,
-    load: Array,
-    tolerance: float = ITERATIVE_TOLERANCE,
-) -> Array:
-    """One such step: see `compliant`."""
-    return compliant(problem, setting, at, upper, lower)(load, tolerance)
 
 
 def compliant(problem: FilmProblem, setting: Setting, at: Iterate, upper: Array, lower: Array) -> Answer:
