@@ -244,5 +244,5 @@ def _not_alike(single: str) -> CheckWarning:
         single,
         "a part unlike the others",
         "alike parts in the fidelities lumped and films, which take the common table for every chamber",
-        "let the gaps float to see what it does",
+        "give every chamber that part to see what it does",
     )
