@@ -16,7 +16,7 @@ class LowRank:
     """A compliance as a product, left (vertices, rank) @ right (rank, size): never multiplied out.
 
     The two together have the unit m/Pa. Exact for a body whose face has fewer nodes than the film has unknowns
-    (`reynolds.bodies.wall.face_wall`), else as good as `reynolds.low_rank` says.
+    (`reynolds.bodies.wall.face_wall`).
     """
 
     left: Array

@@ -13,7 +13,7 @@ import pytest
 from scipy.sparse import csc_array, csr_array
 
 from reynolds import compliant
-from reynolds.bodies.body_mesh import block, ring
+from reynolds.bodies.body_mesh import block
 from reynolds.bodies.chart import Plane
 from reynolds.bodies.elasticity import Elastic
 from reynolds.bodies.foundation import Compliance, both, half_space, winkler
@@ -21,12 +21,11 @@ from reynolds.bodies.supports import Supports
 from reynolds.bodies.wall import Body, body_wall, face_wall
 from reynolds.compliant import compliant_answer
 from reynolds.contact import Asperities
-from reynolds.errors import FilmInputError, FilmNotConverged
+from reynolds.errors import FilmNotConverged
 from reynolds.film import ZERO, Cavitation, FilmProblem, FilmSolution, Held, film
 from reynolds.krylov import gmres
 from reynolds.loads import loads
-from reynolds.low_rank import low_rank
-from reynolds.mesh import Array, Cell, annulus, rectangle
+from reynolds.mesh import Array, Cell, rectangle
 from reynolds.solve import FilmSolver
 from reynolds.space import FilmSpace, film_space
 from reynolds.transient import march
@@ -179,39 +178,6 @@ def test_a_singular_balance_is_refused(form, size):
     nothing = csc_array((size, size))
     with pytest.raises(FilmNotConverged, match=r"singular.*Try: stiffer walls"):
         compliant_answer(nothing, csr_array((size, size)), form(np.eye(size)), np.ones(size))(np.ones(size), 1e-11)
-
-
-@pytest.mark.parametrize("keep", [3, 20])
-def test_low_rank_holds_its_bound(keep):
-    """The worst pressure of all meets the bound, no pressure exceeds it, and one rank less would break it."""
-    space = film_space(annulus(4e-3, 10e-3, (6, 24)))
-    flange = Body(
-        ring((3.9e-3, 10e-3), 2e-3, (3, 8, 1), bottom=-2e-3), BRONZE, Supports(clamped=("inner",)), "top",
-        Plane((0.0, 0.0, 1.0)),
-    )  # fmt: skip
-    matrix = body_wall(flange, space).matrix
-    sizes = np.linalg.svd(matrix, compute_uv=False)
-    tolerance = 1.0001 * sizes[keep] / sizes[0]
-    cut = low_rank(matrix, tolerance)
-    largest, missed = np.linalg.norm(matrix, 2), matrix - cut.toarray()
-    assert cut.rank <= keep
-    assert sizes[cut.rank - 1] > tolerance * largest
-    worst = np.linalg.svd(missed)[2][0]
-    assert np.linalg.norm(matrix @ worst - cut @ worst) == pytest.approx(sizes[cut.rank], rel=1e-6, abs=0.0)
-    assert sizes[cut.rank] <= tolerance * largest
-    random = np.random.default_rng(0).normal(size=(space.size, 20))
-    opened = np.linalg.norm(matrix @ random - cut @ random, axis=0)
-    assert np.all(opened <= tolerance * largest * np.linalg.norm(random, axis=0))
-    assert low_rank(matrix, 0.9998 * tolerance).rank > cut.rank
-
-
-def test_low_rank_refuses_what_it_cannot_bound():
-    for matrix, tolerance, wanted in (
-        (np.eye(3), 0.0, "tolerance"), (np.eye(3), 1.0, "tolerance"), (np.eye(3), np.nan, "tolerance"),
-        (np.full((3, 3), np.nan), 0.1, "not finite"), (np.zeros((3, 3)), 0.1, "zero"),
-    ):  # fmt: skip
-        with pytest.raises(FilmInputError, match=wanted):
-            low_rank(matrix, tolerance)
 
 
 def plate(space: FilmSpace, cells: int) -> Body:
