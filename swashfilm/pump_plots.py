@@ -86,7 +86,7 @@ def ripple_plot(data: xarray.Dataset) -> bytes:
     angle = np.degrees(data["shaft_angle"].values)
     for name, colour in (("delivery", "#b8862b"), ("inlet", "#5b9a5b")):
         pressure = data[f"{name}_pressure"].values * 1e-6
-        label = f"{name}, mean {pressure.mean():.2f} MPa"
+        label = f"{name}, {pressure.mean():.2f} MPa"
         left.plot(angle, pressure - pressure.mean(), color=colour, label=label)
         middle.plot(angle, data[f"{name}_line_flow"].values * LPM, color=colour, label=name)
     right.plot(angle, data["shaft_torque"].values, color="#1c2328")
@@ -95,8 +95,8 @@ def ripple_plot(data: xarray.Dataset) -> bytes:
     right.set(ylabel="torque / N m", title="shaft")
     for axes in (left, middle, right):
         axes.set(xlabel="shaft angle / deg", xlim=(0, 2.0 * data.attrs["pitch_deg"]))
-    left.legend()
-    middle.legend()
+    for axes in (left, middle):  # below, where no curve runs
+        axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.22), ncols=2, fontsize="small", frameon=False)
     return _png(figure)
 
 
