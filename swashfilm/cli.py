@@ -157,7 +157,7 @@ def _pump(options: argparse.Namespace) -> PumpDescription:
     if options.fidelity not in _FIDELITIES:
         nearest = nearest_choice(options.fidelity, _FIDELITIES)
         faults.append(Fault("--fidelity", repr(options.fidelity), f"one of {', '.join(_FIDELITIES)}", nearest))
-    _expect(options.pump, "pump", "film", "film")
+    _expect(options.pump, "pump", "film")
     try:
         pump = load_pump(options.pump, stated)
     except InputFaults as reason:
@@ -167,15 +167,16 @@ def _pump(options: argparse.Namespace) -> PumpDescription:
     return pump
 
 
-def _expect(path: str | Path, wanted: str, other: str, command: str) -> None:
-    """Raise InputFaults for a file of the other kind, with the command that takes it."""
+def _expect(path: str | Path, wanted: str, command: str) -> None:
+    """Raise InputFaults for a file of the other kind ("pump" or "film"), with the command that takes it."""
     from swashfilm.case_table import read_toml
 
     if not Path(path).is_file():
         return
     _, tables = read_toml(Path(path))
-    if isinstance(tables.get(other), dict) and not {wanted, "gap"} & set(tables):
-        fault = Fault("file", f"a file with [{other}]", f"a file with [{wanted}]", f"swashfilm {command} {path}")
+    found = next((kind for kind in ("film", "pump") if isinstance(tables.get(kind), dict)), wanted)
+    if found != wanted and "gap" not in tables:
+        fault = Fault("file", f"a file with [{found}]", f"a file with [{wanted}]", f"swashfilm {command} {path}")
         raise InputFaults(str(path), [fault])
 
 
@@ -251,7 +252,7 @@ def _at_options(reason: InputFaults, stated: dict[str, object], faults: list[Fau
 def _film(options: argparse.Namespace) -> int:
     from swashfilm.cli_film import run_film
 
-    _expect(options.case, "film", "pump", "run")
+    _expect(options.case, "film", "run")
     return run_film(options)
 
 
@@ -291,8 +292,9 @@ def _check(options: argparse.Namespace) -> int:
     is_pump = options.file in builtin_pumps()
     if not is_pump:
         _, tables = read_toml(Path(options.file))
-        is_pump = "pump" in tables and isinstance(tables["pump"], dict)
-        if not is_pump and not {"film", "gap"} & set(tables):
+        is_film = bool({"film", "gap"} & set(tables))
+        is_pump = isinstance(tables.get("pump"), dict) and not is_film
+        if not is_pump and not is_film:
             fault = Fault(
                 "file", f"tables {', '.join(tables) or 'none'}", "a pump file ([pump]) or a film case ([film])"
             )

@@ -12,8 +12,8 @@ from gaps.piston import PistonLoad, PistonState, eccentric
 from gaps.slipper import SlipperLoad, SlipperPosition, SlipperState
 from gaps.valve_plate import ValvePlatePosition, ValvePlateState
 from reynolds.mesh import Array
+from swashfilm.case_pump import CasePump, operating_rows, own_rows, read_case_pump
 from swashfilm.case_table import Table, quoted
-from system.faults import Fault, InputFaults
 from system.instants import (
     Rotor,
     piston_geometry,
@@ -25,7 +25,7 @@ from system.instants import (
     valve_plate_instant,
 )
 from system.operating import operating_point
-from system.pump_file import builtin_pumps, load_pump
+from system.pump_file import load_pump
 from system.units import Dimension, format_quantity
 
 FORMAT = 1
@@ -103,7 +103,9 @@ def read_gap_case(name: str, text: str, top: Table, film: Table, folder: Path) -
     description gives it (valve plate).
     """
     gap = film.choice("gap", Gap)
-    parts = _rotor(top, film, folder)
+    film.get("revolution")
+    pump = read_case_pump(top, film, folder)
+    parts = pump.rotor if pump else None
     shaft_angle = film.quantity("shaft_angle", Dimension.ANGLE, 0.0)
     position, load = top.table("position"), top.table("load")
     if position and load:
@@ -122,31 +124,10 @@ def read_gap_case(name: str, text: str, top: Table, film: Table, folder: Path) -
     for table in (film, position, load):
         if table and table is not top:
             table.close()
-    if parts is None or instant is None or not _is_possible(top, film, parts, pressures, instant):
+    if pump is None or instant is None or not _is_possible(top, film, pump.rotor, pressures, instant):
         return None
-    case = GapCase(name, text, "", gap, parts, angle, pressures, instant, load is not None)
-    source = str(film.values["pump"])
-    return replace(case, resolved=_resolved(case, source if source in builtin_pumps() else str(folder / source)))
-
-
-def _rotor(top: Table, film: Table, folder: Path) -> Rotor | None:
-    source = film.get("pump")
-    operating = top.table("operating")
-    if not isinstance(source, str):
-        found = "no such key" if source is None else repr(source)
-        film.fault("pump", found, f"a built-in pump ({', '.join(builtin_pumps())}) or a pump file beside the case")
-        return None
-    overrides = {f"operating.{key}": value for key, value in operating.values.items()} if operating else {}
-    try:
-        pump = load_pump(source if source in builtin_pumps() else folder / source, overrides)
-    except InputFaults as reason:
-        for fault in reason.faults:
-            here = fault.path.startswith("operating.") or fault.path == "pump"
-            path = f"film.{fault.path}" if fault.path == "pump" else fault.path
-            where = path if here else f"film.pump ({fault.path})"
-            top.faults.append(Fault(where, fault.found, fault.expected, fault.nearest))
-        return None
-    return rotor(pump, operating_point(pump))
+    case = GapCase(name, text, "", gap, pump.rotor, angle, pressures, instant, load is not None)
+    return replace(case, resolved=_resolved(case, pump))
 
 
 def _chamber_pressure(film: Table, gap: Gap, parts: Rotor, angle: float, *, count_pistons: bool) -> Array:
@@ -266,24 +247,16 @@ def _least_film(parts: Rotor, instant: Instant) -> float:
     return float(at.film_thickness - radius * np.hypot(at.slope_x, at.slope_y))
 
 
-def _resolved(case: GapCase, source: str) -> str:
+def _resolved(case: GapCase, pump: CasePump) -> str:
     """A case file that gives this very case: operating point, pressures, and the position or the load."""
-    point, angle = case.rotor.point, format_quantity(case.shaft_angle, Dimension.ANGLE)
+    angle = format_quantity(case.shaft_angle, Dimension.ANGLE)
     pressures = [quoted(format_quantity(value, Dimension.PRESSURE)) for value in case.chamber_pressure]
     stated = pressures[0] if len(pressures) == 1 else f"[{', '.join(pressures)}]"
     rows = [
-        f"format = {FORMAT}", "", "[film]", f'gap = "{case.gap.value}"', f"pump = {quoted(source)}",
-        f'shaft_angle = "{angle}"', f"chamber_pressure = {stated}", "", "[operating]",
+        f"format = {FORMAT}", "", "[film]", f'gap = "{case.gap.value}"', f"pump = {quoted(pump.source)}",
+        f'shaft_angle = "{angle}"', f"chamber_pressure = {stated}", *own_rows(pump.stated), "",
+        *operating_rows(case.rotor.point), "", *_stated_rows(case),
     ]  # fmt: skip
-    for key, value, dimension in (
-        ("speed", point.shaft_speed, Dimension.ANGULAR_SPEED),
-        ("pressure", point.delivery_pressure, Dimension.PRESSURE),
-        ("inlet_pressure", point.inlet_pressure, Dimension.PRESSURE),
-        ("case_pressure", point.case_pressure, Dimension.PRESSURE),
-        ("temperature", point.temperature, Dimension.TEMPERATURE),
-    ):
-        rows.append(f'{key} = "{format_quantity(value, dimension)}"')
-    rows += [f"displacement_ratio = {point.displacement_ratio!r}", "", *_stated_rows(case)]
     return "\n".join(rows) + "\n"
 
 

@@ -1,0 +1,95 @@
+"""The pump that a gap case is of: a built-in one or a file, with what the case puts in place of its values."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from swashfilm.case_table import Table, quoted
+from system.faults import Fault, InputFaults
+from system.instants import Rotor, rotor
+from system.operating import OperatingPoint, operating_point
+from system.pump_file import builtin_pumps, load_pump
+from system.units import Dimension, format_quantity
+
+OPERATING = "operating"
+
+
+@dataclass(frozen=True)
+class CasePump:
+    """A pump at its operating point, what it was read from, and the case's own values by path (`piston.mass`)."""
+
+    rotor: Rotor
+    source: str
+    stated: Mapping[str, Any]
+
+
+def read_case_pump(top: Table, film: Table, folder: Path) -> CasePump | None:
+    """The pump of `film.pump` with [operating] and [pump.SECTION] of the case; None with the faults told.
+
+    A value of the case stands in place of the pump file's, written as it would stand there.
+    """
+    source = film.get("pump")
+    operating = top.table(OPERATING)
+    own = top.table("pump") if top is not film else None
+    if not isinstance(source, str):
+        found = "no such key" if source is None else repr(source)
+        film.fault("pump", found, f"a built-in pump ({', '.join(builtin_pumps())}) or a pump file beside the case")
+        return None
+    if own and OPERATING in own.values:
+        top.fault(f"pump.{OPERATING}", "the operating point", f"a table [{OPERATING}] of the case")
+        return None
+    stated = dict(_flat(own.values)) if own else {}
+    at_point = {f"{OPERATING}.{key}": value for key, value in operating.values.items()} if operating else {}
+    place = source if source in builtin_pumps() else str(folder / source)
+    try:
+        pump = load_pump(place, stated | at_point)
+    except InputFaults as reason:
+        top.faults += [_at_case(fault, stated) for fault in reason.faults]
+        return None
+    return CasePump(rotor(pump, operating_point(pump)), place, stated)
+
+
+def own_rows(stated: Mapping[str, Any]) -> list[str]:
+    """The table [pump] of a resolved case; none where the case has no values of its own."""
+    if not stated:
+        return []
+    return ["", "[pump]", *(f"{path} = {json.dumps(value)}" for path, value in stated.items())]
+
+
+def operating_rows(point: OperatingPoint) -> list[str]:
+    """The table [operating] of a resolved case."""
+    rows = ["[operating]"]
+    for key, value, dimension in (
+        ("speed", point.shaft_speed, Dimension.ANGULAR_SPEED),
+        ("pressure", point.delivery_pressure, Dimension.PRESSURE),
+        ("inlet_pressure", point.inlet_pressure, Dimension.PRESSURE),
+        ("case_pressure", point.case_pressure, Dimension.PRESSURE),
+        ("temperature", point.temperature, Dimension.TEMPERATURE),
+    ):
+        rows.append(f"{key} = {quoted(format_quantity(value, dimension))}")
+    return [*rows, f"displacement_ratio = {point.displacement_ratio!r}"]
+
+
+def _flat(tables: Mapping[str, Any], above: str = "") -> Iterator[tuple[str, Any]]:
+    """(dotted path, value) of everything that is no table."""
+    for key, value in tables.items():
+        if isinstance(value, dict):
+            yield from _flat(value, f"{above}{key}.")
+        else:
+            yield above + key, value
+
+
+def _at_case(fault: Fault, stated: Mapping[str, Any]) -> Fault:
+    """A fault of the pump told at the key of the case that brought it, or at `film.pump`."""
+    path = fault.path
+    if any(own == path or own.startswith(f"{path}.") for own in stated):
+        where = f"pump.{path}"
+    elif path.startswith(f"{OPERATING}."):
+        where = path
+    else:
+        where = "film.pump" if path == "pump" else f"film.pump ({path})"
+    return Fault(where, fault.found, fault.expected, fault.nearest)

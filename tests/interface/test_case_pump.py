@@ -1,0 +1,62 @@
+"""Values of the pump that a gap case states itself, in place of the pump file's."""
+
+import pytest
+
+from swashfilm.__main__ import main
+from swashfilm.gap_case import GapCase
+from swashfilm.study_case import StudyCase, load_film
+from system.faults import InputFaults
+
+GAP = 'format = 1\n[film]\ngap = "piston"\npump = "ref90"\n'
+
+
+@pytest.fixture(autouse=True)
+def here(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def loaded(here, text):
+    path = here / "gap.toml"
+    path.write_text(GAP + text, encoding="utf-8")
+    return load_film(path)
+
+
+def test_a_case_puts_its_values_in_place_of_the_pumps(here):
+    case = loaded(here, '[pump.piston]\nradial_clearance = "20 um"\n[pump.ports]\ngroove_area = "2 mm2"\n')
+    assert isinstance(case, GapCase)
+    assert case.rotor.pump.piston.radial_clearance == 20e-6
+    assert case.rotor.pump.ports.groove_area == 2e-6
+    again = here / "again.toml"
+    again.write_text(case.resolved, encoding="utf-8")
+    resolved = load_film(again)
+    assert isinstance(resolved, GapCase)
+    assert resolved.rotor == case.rotor
+
+
+def test_a_study_varies_a_value_of_the_pump(here):
+    study = loaded(here, '[study]\n"pump.piston.radial_clearance" = ["15 um", "20 um"]\n')
+    assert isinstance(study, StudyCase)
+    found = [study.case(point).rotor.pump.piston.radial_clearance for point in study.points]
+    assert found == [15e-6, 20e-6]
+
+
+def test_faults_stand_at_the_cases_own_keys(here):
+    with pytest.raises(InputFaults) as raised:
+        loaded(here, '[pump.piston]\nradial_clearence = "20 um"\nmass = 3\n[operating]\nspeed = "3 kg"\n')
+    faults = {fault.path: fault for fault in raised.value.faults}
+    assert set(faults) == {"pump.piston.radial_clearence", "pump.piston.mass", "operating.speed"}
+    assert faults["pump.piston.radial_clearence"].nearest == "radial_clearance"
+    assert raised.value.lines["pump.piston.mass"] == 7
+    with pytest.raises(InputFaults, match=r"pump\.operating"):
+        loaded(here, '[pump.operating]\nspeed = "1000 rpm"\n')
+    with pytest.raises(InputFaults, match=r'study\."pump\.piston\.radial_clearence"'):
+        loaded(here, '[study]\n"pump.piston.radial_clearence" = ["15 um", "20 um"]\n')
+
+
+def test_a_case_with_values_of_a_pump_is_no_pump_file(here, capsys):
+    loaded(here, '[pump.piston]\nradial_clearance = "20 um"\n')
+    assert main(["check", "gap.toml"]) == 0
+    assert "[pump]\npiston.radial_clearance" in capsys.readouterr().out
+    assert main(["run", "gap.toml"]) == 2
+    assert "swashfilm film gap.toml" in capsys.readouterr().err
