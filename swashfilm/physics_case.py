@@ -1,0 +1,61 @@
+"""Which physics floating gaps have, as the keys of a table choose it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from enum import Enum
+
+from gaps.physics import Effect, Physics
+from swashfilm.case_table import Table
+
+
+class Walls(Enum):
+    """Whether the parts give way under film and contact."""
+
+    ELASTIC = "elastic"
+    RIGID = "rigid"
+
+
+class Oil(Enum):
+    """Whether oil stiffens with pressure."""
+
+    PRESSURE_VISCOSITY = "pressure_viscosity"
+    ISOVISCOUS = "isoviscous"
+
+
+class Surfaces(Enum):
+    """Whether walls are rough: flow factors and contact of asperities."""
+
+    ROUGH = "rough"
+    SMOOTH = "smooth"
+
+
+class Rupture(Enum):
+    """Whether the film cavitates, oil conserved, or is pulled below the cavity's pressure."""
+
+    JFO = "jfo"
+    NONE = "none"
+
+
+# Effect: key, the choice with it, the choice without it.
+_KEYS: dict[Effect, tuple[str, Enum, Enum]] = {
+    Effect.ELASTIC_WALLS: ("walls", Walls.ELASTIC, Walls.RIGID),
+    Effect.PRESSURE_VISCOSITY: ("oil", Oil.PRESSURE_VISCOSITY, Oil.ISOVISCOUS),
+    Effect.ROUGHNESS: ("surfaces", Surfaces.ROUGH, Surfaces.SMOOTH),
+    Effect.CAVITATION: ("cavitation", Rupture.JFO, Rupture.NONE),
+}
+
+
+def read_physics(table: Table) -> Physics:
+    """The physics that `walls`, `oil`, `surfaces` and `cavitation` of a table choose, all on where left out.
+
+    Faults are told in the table's list. Of a command line: `read_physics(Table("", switched_keys(options), []))`.
+    """
+    chosen = {effect: table.choice(key, type(on), on) for effect, (key, on, _) in _KEYS.items()}
+    return Physics().without(*(effect for effect, choice in chosen.items() if choice is _KEYS[effect][2]))
+
+
+def physics_rows(physics: Physics) -> Iterator[str]:
+    """The keys that `read_physics` reads back to this physics."""
+    for effect, (key, on, off) in _KEYS.items():
+        yield f'{key} = "{(off if effect in physics.left_out else on).value}"'
