@@ -22,11 +22,12 @@ from gaps.course import OverTurn
 from gaps.physics import FilmLaws, Physics, laws_left
 from gaps.profiles import PLAIN, Profile
 from gaps.ring import SEALED, Ring, ValvePlateGeometry
+from gaps.rubbing import wall_shear
 from reynolds.contact import Asperities
 from reynolds.film import ZERO, Film, FilmProblem, FilmSolution, Held
 from reynolds.floating import Floating, Outer
 from reynolds.generalised import contact_force, modes_on
-from reynolds.loads import loads
+from reynolds.loads import boundary_flows
 from reynolds.mesh import Array
 from reynolds.space import FilmSpace
 
@@ -162,10 +163,34 @@ class BlockFilm:
         at_cavity = np.isclose(pressure, self.drive.cavitation_pressure, rtol=1e-12, atol=0.0)
         return np.where(at_cavity, self.drive.cavitation_pressure, pressure)
 
-    def friction_power(self, solution: FilmSolution) -> float:
-        """Power (W) that the block spends on shearing the film and rubbing, webs over the ports left out."""
-        is_film = np.where(self.ring.over_port(solution.problem.space), 0.0, 1.0)
-        return -loads(solution, is_film).friction_torque_moving * self.drive.shaft_speed
+    def friction_torque(self, solution: FilmSolution, gap: Array) -> float:
+        """Torque (N m) of film and contact against the block's turning, webs over the ports left out.
+
+        `gap` (cells, points) m: distance of the mean planes, as `gaps.rubbing.wall_shear` takes it.
+        """
+        space = solution.problem.space
+        (along_x, along_y), _ = wall_shear(solution, self._laws.asperities, gap)
+        x, y = space.points
+        return -float(np.sum((x * along_y - y * along_x) * space.area * self.is_film(space)))
+
+    def is_film(self, space: FilmSpace) -> Array:
+        """One where there is a film, zero in webs over a port, (cells, 1)."""
+        return np.where(self.ring.over_port(space), 0.0, 1.0)
+
+    def inflows(self, solution: FilmSolution) -> tuple[Array, float, float]:
+        """Flow into the film from each kidney (z,), and from suction and delivery port at their edges, m3/s."""
+        flow, space = boundary_flows(solution), solution.problem.space
+        named = np.unique(np.concatenate(list(space.edge_dofs.values())))
+        suction, delivery = (
+            -float(solution.outflow[np.setdiff1d(self.ring.nodes_over(space, arc), named)].sum())
+            for arc in (self.geometry.suction_arc, self.geometry.delivery_arc)
+        )
+        return np.array([-flow[name] for name in self.geometry.kidneys]), suction, delivery
+
+    @property
+    def asperities(self) -> Asperities | None:
+        """What touches where the walls do."""
+        return self._laws.asperities
 
     def _over_ports(self, angle: float, position: Array, asperities: Asperities) -> tuple[Array, Array]:
         """Force (3,) and slopes that contact would have where the plate has ports, between rigid walls."""

@@ -21,11 +21,13 @@ from gaps.course import OverTurn
 from gaps.physics import FilmLaws, Physics, laws_left
 from gaps.profiles import PLAIN, Profile
 from gaps.rubbing import wall_shear
+from reynolds.contact import Asperities
 from reynolds.errors import FilmInputError
-from reynolds.film import ZERO, Film, FilmProblem, Held
+from reynolds.film import ZERO, Film, FilmProblem, Held, vertex_thickness
 from reynolds.floating import Floating, Outer, steady
 from reynolds.floating_stage import Stage
 from reynolds.laws import require_positive
+from reynolds.loads import boundary_flows
 from reynolds.mesh import Array, Cell, rectangle, rename
 from reynolds.space import FilmSpace, film_space
 
@@ -182,6 +184,26 @@ class PistonFilm:
             moment=radius * np.array([np.sum(along * np.sin(angle)), -np.sum(along * np.cos(angle))]),
             power=-sum(float(np.sum(t * u * space.area)) for t, u in zip(stresses, velocities, strict=True)),
         )
+
+    def chamber_flow(self, stage: Stage) -> float:
+        """Flow (m3/s) out of the chamber, whose volume grows with the piston's own area alone.
+
+        The film's boundary moves with the piston's end and sweeps the clearance there, which flows out besides.
+        """
+        solution, (_, velocity) = stage.solution, self._velocities(stage.time)[0]
+        through = -boundary_flows(solution)["chamber"]
+        if float(self.drive.reach(self._angle(stage.time))) >= self.shape.guide_length:
+            return through
+        space = solution.problem.space
+        end = np.zeros(space.size)
+        end[space.vertex_dofs] = vertex_thickness(solution)
+        nodes = space.edge_dofs["chamber"]
+        return through + float(velocity.item()) * float(end[nodes] @ space.edge_share["chamber"])
+
+    @property
+    def asperities(self) -> Asperities | None:
+        """What touches where the walls do."""
+        return self._laws.asperities
 
     def _angle(self, time: float) -> float:
         return self.drive.shaft_speed * time

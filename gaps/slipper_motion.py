@@ -22,6 +22,7 @@ from gaps.physics import FilmLaws, Physics, laws_left
 from gaps.profiles import PLAIN, Profile
 from gaps.rubbing import wall_shear
 from gaps.slipper import hagen_poiseuille_conductance
+from reynolds.contact import Asperities
 from reynolds.errors import FilmInputError
 from reynolds.film import ZERO, Boundary, Film, FilmProblem, Held, Pocket, no_feed
 from reynolds.floating import Floating, Outer
@@ -257,11 +258,26 @@ class SlipperFilm:
             power=float(sliding @ plate) - self.drive.spin * torque,
         )
 
+    def supplied(self, stage: Stage) -> tuple[float, float]:
+        """Pressure (Pa) in the pocket and flow (m3/s) through the orifice into it."""
+        solution = stage.solution
+        pocket = float(solution.pressure[solution.problem.space.edge_dofs["pocket"][0]])
+        return pocket, float(self._supply(self.chamber_pressure(stage.time) - pocket)[0])
+
+    def chamber_pressure(self, time: float) -> float:
+        """Pressure (Pa) of the chamber at a time (s)."""
+        return float(self.drive.chamber_pressure(self._angle(time)))
+
+    @property
+    def asperities(self) -> Asperities | None:
+        """What touches where the walls do."""
+        return self._laws.asperities
+
     def _angle(self, time: float) -> float:
         return self.drive.shaft_speed * time
 
     def _boundary(self, time: float) -> dict[str, Boundary]:
-        chamber = float(self.drive.chamber_pressure(self._angle(time)))
+        chamber = self.chamber_pressure(time)
 
         def feed(pressure: float) -> tuple[float, float]:
             flow, slope = self._supply(chamber - pressure)

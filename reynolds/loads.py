@@ -171,7 +171,7 @@ def loads(solution: FilmSolution, weight: Array | None = None) -> Loads:
         squeeze_flow=squeeze_flow,
         cavity_flow=cavity_flow,
         film_fraction_min=float(solution.film_fraction.min()),
-        cavitated_area_fraction=_cavitated_fraction(solution),
+        cavitated_area_fraction=cavitated_fraction(solution),
         mass_balance_error=abs(out + squeeze_flow - cavity_flow) / max(through, _root_sum(solution.meeting)),
         energy_balance_error=_energy_error(solution, fields),
     )
@@ -303,7 +303,8 @@ def _energy_error(solution: FilmSolution, fields: PointFields) -> float:
     return abs(walls + flow - squeeze - spent) / scale
 
 
-def _cavitated_fraction(solution: FilmSolution) -> float:
+def cavitated_fraction(solution: FilmSolution) -> float:
+    """Share of the film's area that its cavity takes."""
     if not solution.cavity.any():
         return 0.0
     space = solution.problem.space

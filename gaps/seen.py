@@ -1,0 +1,163 @@
+"""What is told of a floating gap at each reported angle: flows, friction, heat, contact and what limits it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from enum import Enum
+from typing import TypeVar
+
+import numpy as np
+
+from gaps.block_motion import BlockFilm
+from gaps.piston_motion import PistonFilm, PistonFriction
+from gaps.revolution import GapRevolution
+from gaps.rubbing import Heat, contact_load, heat
+from gaps.slipper_motion import SlipperFilm, SlipperFriction
+from reynolds.contact import Asperities
+from reynolds.floating_stage import Stage
+from reynolds.loads import boundary_flows, cavitated_fraction
+from reynolds.mesh import Array
+
+SHARE = 0.01  # of the load or of the film's area, from which contact or cavities count
+
+
+class Active(Enum):
+    """What holds a part in its place; LIFT where nothing but the film does."""
+
+    LIFT = "lift"
+    CONTACT = "contact"
+    CAVITATION = "cavitation"
+    RETAINER = "retainer"
+
+
+@dataclass(frozen=True)
+class GapSeen:
+    """What every gap tells of an instant.
+
+    flow (n,) m3/s out of the chambers that feed it (one, or z of the block); leakage m3/s into the case; heat W;
+    contact_load N, int of the asperities' pressure; active: contact where it gives over a hundredth of the largest
+    generalised force from outside, cavitation where it takes over a hundredth of the film's area, the retainer
+    where it presses; else lift.
+    """
+
+    flow: Array
+    leakage: float
+    heat: Heat
+    contact_load: float
+    active: tuple[Active, ...]
+
+
+@dataclass(frozen=True)
+class PistonSeen(GapSeen):
+    """A piston's film with what it does to the piston."""
+
+    friction: PistonFriction
+
+
+@dataclass(frozen=True)
+class SlipperSeen(GapSeen):
+    """A slipper's film with what it does to the slipper; pocket Pa; throttled W, heat of the orifice."""
+
+    friction: SlipperFriction
+    pocket_pressure: float
+    throttled: float
+
+
+@dataclass(frozen=True)
+class BlockSeen(GapSeen):
+    """The block's film: torque N m against its turning, what it takes from suction and delivery port, m3/s."""
+
+    torque: float
+    suction_draw: float
+    delivery_draw: float
+
+
+def piston_seen(film: PistonFilm) -> Callable[[Stage], PistonSeen]:
+    """What `run_revolution` looks at on a piston."""
+
+    def look(stage: Stage) -> PistonSeen:
+        return PistonSeen(
+            flow=np.array([film.chamber_flow(stage)]),
+            leakage=boundary_flows(stage.solution)["case"],
+            heat=heat(stage.solution, film.asperities, stage.gap),
+            contact_load=contact_load(stage.solution.problem.space.area, film.asperities, stage.gap),
+            active=active(stage, film.asperities),
+            friction=film.friction(stage),
+        )
+
+    return look
+
+
+def slipper_seen(film: SlipperFilm) -> Callable[[Stage], SlipperSeen]:
+    """What `run_revolution` looks at on a slipper."""
+
+    def look(stage: Stage) -> SlipperSeen:
+        pocket, fed = film.supplied(stage)
+        return SlipperSeen(
+            flow=np.array([fed]),
+            leakage=boundary_flows(stage.solution)["case"],
+            heat=heat(stage.solution, film.asperities, stage.gap),
+            contact_load=contact_load(stage.solution.problem.space.area, film.asperities, stage.gap),
+            active=active(stage, film.asperities, held=bool(np.any(stage.outer.by_position))),
+            friction=film.friction(stage),
+            pocket_pressure=pocket,
+            throttled=fed * (film.chamber_pressure(stage.time) - pocket),
+        )
+
+    return look
+
+
+def block_seen(film: BlockFilm) -> Callable[[Stage], BlockSeen]:
+    """What `run_revolution` looks at on the block; webs over the ports touch nothing and heat nothing."""
+
+    def look(stage: Stage) -> BlockSeen:
+        solution = stage.solution
+        space, flow = solution.problem.space, boundary_flows(solution)
+        is_film = film.is_film(space)
+        chambers, suction, delivery = film.inflows(solution)
+        return BlockSeen(
+            flow=chambers,
+            leakage=flow["inner"] + flow["outer"],
+            heat=heat(solution, film.asperities, stage.gap, is_film),
+            contact_load=contact_load(space.area * is_film, film.asperities, stage.gap),
+            active=active(stage, film.asperities),
+            torque=film.friction_torque(solution, stage.gap),
+            suction_draw=suction,
+            delivery_draw=delivery,
+        )
+
+    return look
+
+
+def active(stage: Stage, asperities: Asperities | None, held: bool = False) -> tuple[Active, ...]:
+    """What limits an instant; `held`: a retainer presses."""
+    found = []
+    contact, outer = np.abs(stage.contact_force).max(), np.abs(stage.outer.force).max()
+    if asperities is not None and contact > SHARE * outer:
+        found.append(Active.CONTACT)
+    if cavitated_fraction(stage.solution) > SHARE:
+        found.append(Active.CAVITATION)
+    if held:
+        found.append(Active.RETAINER)
+    return tuple(found) or (Active.LIFT,)
+
+
+Seen = TypeVar("Seen", bound=GapSeen)
+
+
+def mass_balance_error(revolution: GapRevolution[Seen]) -> float:
+    """Oil that entered a gap over the turn and did not leave it, of all that passed, by the reported angles.
+
+    The march itself keeps its oil to round-off; this is what sampling at the reported angles leaves of it.
+    """
+    came = np.array([drawn(instant.seen) for instant in revolution.turn.instants])
+    left = np.array([instant.seen.leakage for instant in revolution.turn.instants])
+    passed = 0.5 * float(np.mean(np.abs(came)) + np.mean(np.abs(left)))
+    return abs(float(np.mean(came) - np.mean(left))) / max(passed, 1e-300)
+
+
+def drawn(seen: GapSeen) -> float:
+    """All that a gap takes from chambers and ports, m3/s."""
+    ports = seen.suction_draw + seen.delivery_draw if isinstance(seen, BlockSeen) else 0.0
+    return float(seen.flow.sum()) + ports

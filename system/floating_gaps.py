@@ -1,0 +1,138 @@
+"""One floating gap of a pump over the revolution: the pump's parts and drives put on its films."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from gaps.block_motion import BlockDrive, BlockFilm, floating_block
+from gaps.physics import Effect, Physics
+from gaps.piston_motion import PistonDrive, PistonFilm, floating_piston
+from gaps.revolution import Accuracy, GapRevolution, Schedule, evenly, run_revolution
+from gaps.seen import BlockSeen, PistonSeen, Seen, SlipperSeen, block_seen, piston_seen, slipper_seen
+from gaps.slipper_motion import SlipperDrive, SlipperFilm, floating_slipper
+from reynolds.floating import Floating
+from reynolds.floating_stage import Stage
+from reynolds.mesh import Array
+from reynolds.solve import FilmSolver
+from reynolds.space import FilmSpace
+from system.floating_drives import piston_shape, slipper_shape
+from system.floating_parts import FloatingParts
+from system.gap_cycle import Report, silent
+from system.instants import Rotor, valve_plate_geometry
+
+RIGID = Physics().without(Effect.ELASTIC_WALLS, Effect.PRESSURE_VISCOSITY)
+"""Rigid walls and oil of constant viscosity: what settles without bodies that give way."""
+MARCHED = Accuracy(step=1e-2)
+PISTON_CELLS, SLIPPER_CELLS, BLOCK_CELLS = (48, 16), (12, 40), (4, 16)
+SLIPPER_START = BLOCK_START = 1e-5  # m: a film that every pump starts with
+
+
+@dataclass(frozen=True)
+class FloatingOptions:
+    """How the gaps float: what physics, in how many steps a turn, how exactly, meshes how many times `finer`."""
+
+    physics: Physics = RIGID
+    steps: int = 360
+    accuracy: Accuracy = field(default=MARCHED)
+    finer: int = 1
+
+    def cells(self, cells: tuple[int, int]) -> tuple[int, int]:
+        """Cells of a mesh."""
+        return self.finer * cells[0], self.finer * cells[1]
+
+
+def piston_revolution(
+    rotor: Rotor,
+    parts: FloatingParts,
+    drive: PistonDrive,
+    options: FloatingOptions,
+    before: GapRevolution[PistonSeen] | None = None,
+    report: Report = silent,
+) -> GapRevolution[PistonSeen]:
+    """The piston over the turn, from the middle of its bore or on from a revolution `before`.
+
+    Raises as `run_revolution`.
+    """
+    cells = options.cells(PISTON_CELLS)
+    film = PistonFilm(piston_shape(rotor, parts), drive, parts.piston.laws, options.physics, cells)
+    floating, schedule = floating_piston(film), evenly(drive.shaft_speed, options.steps)
+    start, look = np.zeros(4), _told(piston_seen(film), options.steps, "piston", report)
+    return _run(film.space_at(0.0), floating, schedule, start, look, options, before)
+
+
+def slipper_revolution(
+    rotor: Rotor,
+    parts: FloatingParts,
+    drive: SlipperDrive,
+    options: FloatingOptions,
+    before: GapRevolution[SlipperSeen] | None = None,
+    report: Report = silent,
+) -> GapRevolution[SlipperSeen]:
+    """The slipper over the turn, from a film of SLIPPER_START without tilt or on from a revolution `before`.
+
+    Raises as `run_revolution`.
+    """
+    cells = options.cells(SLIPPER_CELLS)
+    film = SlipperFilm(slipper_shape(rotor, parts), drive, parts.slipper.laws, options.physics, cells)
+    floating, schedule = floating_slipper(film), evenly(drive.shaft_speed, options.steps)
+    start, look = (
+        np.array([SLIPPER_START, 0.0, 0.0]),
+        _told(slipper_seen(film), options.steps, "slipper", report),
+    )
+    return _run(film.space, floating, schedule, start, look, options, before)
+
+
+def block_revolution(
+    rotor: Rotor,
+    parts: FloatingParts,
+    drive: BlockDrive,
+    options: FloatingOptions,
+    before: GapRevolution[BlockSeen] | None = None,
+    report: Report = silent,
+) -> GapRevolution[BlockSeen]:
+    """The block over the turn, or over a piston pitch where chambers are alike, after which all repeats.
+
+    From a film of BLOCK_START without tilt or on from a revolution `before`. Raises ValueError where the steps do
+    not divide among the pitches, else as `run_revolution`.
+    """
+    pistons, pump = rotor.pump.pump.pistons, rotor.pump
+    if options.steps % pistons:
+        raise ValueError(f"steps: found {options.steps}, expected a multiple of the {pistons} pistons")
+    alike = not pump.single_pistons and not pump.single_slippers
+    steps, span = (options.steps // pistons, 2.0 * np.pi / pistons) if alike else (options.steps, 2.0 * np.pi)
+    geometry, cells = valve_plate_geometry(pump), options.cells(BLOCK_CELLS)
+    film = BlockFilm(geometry, drive, parts.block.plate, parts.block.laws, options.physics, cells)
+    schedule = evenly(drive.shaft_speed, steps, span)
+    look = _told(block_seen(film), steps, "block", report)
+    start = np.array([BLOCK_START, 0.0, 0.0])
+    return _run(film.space, floating_block(film), schedule, start, look, options, before)
+
+
+def _run(
+    space: FilmSpace,
+    floating: Floating,
+    schedule: Schedule,
+    start: Array,
+    look: Callable[[Stage], Seen],
+    options: FloatingOptions,
+    before: GapRevolution[Seen] | None,
+) -> GapRevolution[Seen]:
+    return run_revolution(
+        FilmSolver(space), floating, schedule, start, look, accuracy=options.accuracy, before=before
+    )
+
+
+def _told(look: Callable[[Stage], Seen], steps: int, name: str, report: Report) -> Callable[[Stage], Seen]:
+    """The same, telling each angle: how many of a turn's are done, and which turn."""
+    looks = 0
+
+    def told(stage: Stage) -> Seen:
+        nonlocal looks
+        looks += 1
+        report((looks - 1) % steps + 1, steps, f"{name}, turn {(looks - 1) // steps + 1}")
+        return look(stage)
+
+    return told
