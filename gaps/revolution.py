@@ -57,9 +57,9 @@ class Schedule:
         return np.unique(np.concatenate([self.angles, inside])) / self.speed
 
 
-def evenly(speed: float, steps: int, span: float = 2.0 * np.pi) -> Schedule:
-    """Every span/steps (rad) of the turn."""
-    return Schedule(speed, span * np.arange(1, steps + 1) / steps)
+def evenly(speed: float, steps: int, span: float = 2.0 * np.pi, keep: int = 10) -> Schedule:
+    """Every span/steps (rad) of the turn, every `keep`th film kept."""
+    return Schedule(speed, span * np.arange(1, steps + 1) / steps, keep=keep)
 
 
 Seen = TypeVar("Seen")

@@ -32,12 +32,16 @@ SLIPPER_START = BLOCK_START = 1e-5  # m: a film that every pump starts with
 
 @dataclass(frozen=True)
 class FloatingOptions:
-    """How the gaps float: what physics, in how many steps a turn, how exactly, meshes how many times `finer`."""
+    """How the gaps float: what physics, in how many steps a turn, how exactly, meshes how many times `finer`.
+
+    Every `keep`th film is kept.
+    """
 
     physics: Physics = RIGID
     steps: int = 360
     accuracy: Accuracy = field(default=MARCHED)
     finer: int = 1
+    keep: int = 10
 
     def cells(self, cells: tuple[int, int]) -> tuple[int, int]:
         """Cells of a mesh."""
@@ -58,7 +62,7 @@ def piston_revolution(
     """
     cells = options.cells(PISTON_CELLS)
     film = PistonFilm(piston_shape(rotor, parts), drive, parts.piston.laws, options.physics, cells)
-    floating, schedule = floating_piston(film), evenly(drive.shaft_speed, options.steps)
+    floating, schedule = floating_piston(film), evenly(drive.shaft_speed, options.steps, keep=options.keep)
     start, look = np.zeros(4), _told(piston_seen(film), options.steps, "piston", report)
     return _run(film.space_at(0.0), floating, schedule, start, look, options, before)
 
@@ -77,7 +81,7 @@ def slipper_revolution(
     """
     cells = options.cells(SLIPPER_CELLS)
     film = SlipperFilm(slipper_shape(rotor, parts), drive, parts.slipper.laws, options.physics, cells)
-    floating, schedule = floating_slipper(film), evenly(drive.shaft_speed, options.steps)
+    floating, schedule = floating_slipper(film), evenly(drive.shaft_speed, options.steps, keep=options.keep)
     start, look = (
         np.array([SLIPPER_START, 0.0, 0.0]),
         _told(slipper_seen(film), options.steps, "slipper", report),
@@ -105,7 +109,7 @@ def block_revolution(
     steps, span = (options.steps // pistons, 2.0 * np.pi / pistons) if alike else (options.steps, 2.0 * np.pi)
     geometry, cells = valve_plate_geometry(pump), options.cells(BLOCK_CELLS)
     film = BlockFilm(geometry, drive, parts.block.plate, parts.block.laws, options.physics, cells)
-    schedule = evenly(drive.shaft_speed, steps, span)
+    schedule = evenly(drive.shaft_speed, steps, span, options.keep)
     look = _told(block_seen(film), steps, "block", report)
     start = np.array([BLOCK_START, 0.0, 0.0])
     return _run(film.space, floating_block(film), schedule, start, look, options, before)
