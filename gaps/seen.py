@@ -94,9 +94,10 @@ def slipper_seen(film: SlipperFilm) -> Callable[[Stage], SlipperSeen]:
 
     def look(stage: Stage) -> SlipperSeen:
         pocket, fed = film.supplied(stage)
+        flows = boundary_flows(stage.solution)
         return SlipperSeen(
             flow=np.array([fed]),
-            leakage=boundary_flows(stage.solution)["case"],
+            leakage=sum(flows[edge] for edge in film.shape.lands.open),
             heat=heat(stage.solution, film.asperities, stage.gap),
             contact_load=contact_load(stage.solution.problem.space.area, film.asperities, stage.gap),
             active=active(stage, film.asperities, held=bool(np.any(stage.outer.by_position))),

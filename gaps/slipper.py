@@ -1,7 +1,7 @@
-"""The gap between slipper and swash plate: a sealing land around a pocket fed through the piston.
+"""The gap between slipper and swash plate: sealing lands around a pocket fed through the piston.
 
 Film plane: origin under the ball joint, x along the sliding velocity, z the plate's normal away from the block,
-y = z cross x. The frame does not turn. Boundaries: pocket, case.
+y = z cross x. The frame does not turn. Boundaries: pocket, case, and groove_1, .. between lands.
 """
 
 from __future__ import annotations
@@ -12,19 +12,19 @@ import numpy as np
 
 from gaps.balance import START_WITHIN, find_equilibrium, into_disc, start_towards
 from gaps.result import SMALLEST_FILM, GapFilm, PositionSource, wall_power
-from reynolds.film import ZERO, Cavitation, FilmProblem, FilmSolution, Held, Pocket, film
+from gaps.slipper_lands import SlipperLands, slipper_mesh
+from reynolds.film import ZERO, Boundary, Cavitation, FilmProblem, FilmSolution, Held, Pocket, film, no_feed
 from reynolds.loads import boundary_flows, loads, pressure_integrals
-from reynolds.mesh import Array, rename, ring
+from reynolds.mesh import Array
 from reynolds.solve import FilmSolver
 from reynolds.space import FilmSpace, film_space
 
 
 @dataclass(frozen=True)
 class SlipperGeometry:
-    """Land radii, and diameter and length of the orifice that feeds the pocket (m)."""
+    """Sealing lands, and diameter and length of the orifice that feeds the pocket (m)."""
 
-    land_inner_radius: float
-    land_outer_radius: float
+    lands: SlipperLands
     orifice_diameter: float
     orifice_length: float
 
@@ -73,12 +73,10 @@ def hagen_poiseuille_conductance(diameter: float, length: float, viscosity: floa
 def hydrostatic_film(geometry: SlipperGeometry, state: SlipperState, force: float) -> float:
     """Film thickness (m) at which a parallel slipper carries a force by its pocket; 0 where no pocket can.
 
-    Lift pi (r2^2 - r1^2)/(2 ln(r2/r1)) p gives the pocket's pressure p above case; orifice and land, in series,
-    pass the same flow: pi h^3 p/(6 mu ln(r2/r1)) = G_orifice (p_chamber - p_case - p).
+    Lift `effective_area` p gives the pocket's pressure p above case; orifice and lands, in series, pass the same
+    flow: pi h^3 p/(6 mu ln(r2/r1)) = G_orifice (p_chamber - p_case - p).
     """
-    inner, outer = geometry.land_inner_radius, geometry.land_outer_radius
-    log = np.log(outer / inner)
-    pocket = force * 2.0 * log / (np.pi * (outer**2 - inner**2))
+    log, pocket = geometry.lands.log_ratio, force / geometry.lands.effective_area
     left = max(state.chamber_pressure - state.case_pressure - pocket, 0.0)
     orifice = hagen_poiseuille_conductance(geometry.orifice_diameter, geometry.orifice_length, state.viscosity)
     return float(np.cbrt(6.0 * state.viscosity * log * orifice * left / (np.pi * pocket)))
@@ -89,17 +87,9 @@ class SlipperGap:
 
     def __init__(self, geometry: SlipperGeometry, cells: tuple[int, int] = (12, 48)) -> None:
         self.geometry = geometry
-        # Geometric spacing: the pressure falls with the logarithm of the radius.
-        radii = np.geomspace(geometry.land_inner_radius, geometry.land_outer_radius, cells[0] + 1)
-        mesh = rename(ring(radii, cells[1]), {"inner": "pocket", "outer": "case"})
-        self._space = film_space(mesh, pockets=["pocket"])
+        self._space = film_space(slipper_mesh(geometry.lands.radii, cells), pockets=geometry.lands.closed)
         self._solver = FilmSolver(self._space)
         self._last: FilmSolution | None = None
-
-    @property
-    def pocket_area(self) -> float:
-        """Area under the pocket's pressure (m2)."""
-        return float(np.pi * self.geometry.land_inner_radius**2)
 
     def thickness(self, space: FilmSpace, position: SlipperPosition) -> Array:
         """h = h0 + slope_x x + slope_y y (m)."""
@@ -124,26 +114,33 @@ class SlipperGap:
                 velocity_moving=(-state.spin * y, state.spin * x),
                 velocity_fixed=(np.full((1, 1), -state.sliding_speed), ZERO),
             ),
-            boundary={"pocket": Pocket(feed), "case": Held(state.case_pressure)},
+            boundary=self._boundary(Pocket(feed), Held(state.case_pressure)),
             cavitation=Cavitation.JFO,
             cavitation_pressure=state.cavitation_pressure,
         )
+
+    def _boundary(self, pocket: Boundary, case: Held) -> dict[str, Boundary]:
+        """Edges by name: pocket, closed grooves without supply, vented grooves and rim."""
+        lands = self.geometry.lands
+        still = {name: Pocket(no_feed) for name in lands.closed}
+        return still | {"pocket": pocket} | dict.fromkeys(lands.open, case)
 
     def solve(self, state: SlipperState, position: SlipperPosition) -> FilmSolution:
         """The film at a position, warm from the last one."""
         self._last = self._solver.solve(self.problem(state, position), self._last)
         return self._last
 
-    def pocket_pressure(self, solution: FilmSolution) -> float:
-        """Pressure in the pocket (Pa)."""
-        return float(solution.pressure[self._space.edge_dofs["pocket"][0]])
+    def pocket_pressure(self, solution: FilmSolution, name: str = "pocket") -> float:
+        """Pressure in the pocket, or in a closed groove (Pa)."""
+        return float(solution.pressure[self._space.edge_dofs[name][0]])
 
     def force(self, solution: FilmSolution, state: SlipperState) -> Array:
-        """Lift of film and pocket above case pressure and its moments: (F, Mx, My), N and N m."""
+        """Lift of film, pocket and closed grooves above case pressure and its moments: (F, Mx, My), N and N m."""
         load, moment_x, moment_y = pressure_integrals(solution)
         lift = load - state.case_pressure * float(self._space.area.sum())
-        pocket = (self.pocket_pressure(solution) - state.case_pressure) * self.pocket_area
-        return np.array([lift + pocket, moment_x, moment_y])
+        for name, area in self.geometry.lands.closed_areas().items():
+            lift += (self.pocket_pressure(solution, name) - state.case_pressure) * area
+        return np.array([lift, moment_x, moment_y])
 
     def at(self, state: SlipperState, load: SlipperLoad, position: SlipperPosition) -> GapFilm:
         """The gap at a given position; the film need not balance the load, and the result says how far."""
@@ -161,7 +158,7 @@ class SlipperGap:
         Quasi-static (no squeeze). `near` is tried first. Where no film of at least SMALLEST_FILM balances, the
         gap stands at `given` and the verdict says why.
         """
-        radius = self.geometry.land_outer_radius
+        radius = self.geometry.lands.outer_radius
         if load.force <= 0.0:
             verdict = f"the slipper is pulled off the plate ({-load.force:.0f} N held by the retainer)"
             return self._report(state, load, given, PositionSource.GIVEN, verdict)
@@ -169,7 +166,7 @@ class SlipperGap:
         scales = load.force * np.array([1.0, radius, radius])
 
         # Between the smallest film and a twentieth of the land's width (thin film) in the logarithm.
-        low, high = np.log(SMALLEST_FILM), np.log(0.05 * (radius - self.geometry.land_inner_radius))
+        low, high = np.log(SMALLEST_FILM), np.log(0.05 * (radius - self.geometry.lands.inner_radius))
         middle, half = 0.5 * (low + high), 0.5 * (high - low)
 
         def position(free: Array) -> SlipperPosition:
@@ -208,10 +205,9 @@ class SlipperGap:
         """Pressure flow from chamber through orifice and land per pressure difference, m3/(s Pa), at rest."""
         problem = self.problem(state, position)
         still = replace(problem.film, velocity_moving=(ZERO, ZERO), velocity_fixed=(ZERO, ZERO))
-        answer = self._solver.solve(
-            FilmProblem(problem.space, still, {"pocket": Held(1.0), "case": Held(0.0)}, Cavitation.NONE)
-        )
-        land = boundary_flows(answer)["case"]
+        edges = self._boundary(Held(1.0), Held(0.0))
+        flows = boundary_flows(self._solver.solve(FilmProblem(problem.space, still, edges, Cavitation.NONE)))
+        land = sum(flows[name] for name in self.geometry.lands.open)
         orifice = hagen_poiseuille_conductance(
             self.geometry.orifice_diameter, self.geometry.orifice_length, state.viscosity
         )
@@ -233,7 +229,7 @@ class SlipperGap:
             source=source,
             position=np.array([position.film_thickness, position.slope_x, position.slope_y]),
             chamber_flow=-integrals.flow["pocket"],
-            leakage_flow=integrals.flow["case"],
+            leakage_flow=sum(integrals.flow[name] for name in self.geometry.lands.open),
             conductance=self.conductance(state, position),
             friction_power=wall_power(solution),
             required_load=max(load.force, 0.0),

@@ -6,14 +6,13 @@ rise along y), m, rises over the outer radius r2 of the last land:
 
     h = face(r) + q0 + q1 x/r2 + q2 y/r2.
 
-Boundaries: pocket, case, and groove_1, groove_2, .. between lands: grooves of one pressure without supply.
+Boundaries: pocket, case, and groove_1, groove_2, .. between lands (`gaps.slipper_lands`).
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from itertools import pairwise
 
 import numpy as np
 
@@ -22,13 +21,13 @@ from gaps.physics import FilmLaws, Physics, laws_left
 from gaps.profiles import PLAIN, Profile
 from gaps.rubbing import wall_shear
 from gaps.slipper import hagen_poiseuille_conductance
+from gaps.slipper_lands import SlipperLands, slipper_mesh
 from reynolds.contact import Asperities
-from reynolds.errors import FilmInputError
 from reynolds.film import ZERO, Boundary, Film, FilmProblem, Held, Pocket, no_feed
 from reynolds.floating import Floating, Outer
 from reynolds.floating_stage import Stage
 from reynolds.laws import Tangent, require_positive
-from reynolds.mesh import Array, FilmMesh, ring
+from reynolds.mesh import Array
 from reynolds.space import FilmSpace, film_space
 
 RIM_PLACES = 48  # around a slipper, at which its retainer presses
@@ -48,24 +47,16 @@ class Orifice:
 
 @dataclass(frozen=True)
 class SlipperShape:
-    """Sealing lands (inner, outer radius) m from the pocket outwards, the orifice, and what is taken off the face.
+    """Lands and their grooves, the orifice, and what is taken off the face; `face` counts places by the radius."""
 
-    `face` counts places by the radius. Raises FilmInputError for lands that do not follow each other.
-    """
-
-    lands: tuple[tuple[float, float], ...]
+    lands: SlipperLands
     orifice: Orifice
     face: Profile = PLAIN
-
-    def __post_init__(self) -> None:
-        radii = np.array(self.lands).ravel()
-        if not (len(radii) and radii[0] > 0.0 and np.all(np.diff(radii) > 0.0)):
-            raise FilmInputError("slipper, lands", f"radii {radii.tolist()} m", "rising from above zero")
 
     @property
     def outer_radius(self) -> float:
         """Outer radius of the last land (m)."""
-        return self.lands[-1][1]
+        return self.lands.outer_radius
 
 
 @dataclass(frozen=True)
@@ -183,9 +174,7 @@ class SlipperFilm:
         self._physics = Physics() if physics is None else physics
         self._laws = laws_left(FilmLaws() if laws is None else laws, self._physics)
         self._around = cells[1]
-        mesh = slipper_mesh(shape.lands, cells)
-        self._grooves = tuple(name for name in mesh.boundary_names if name.startswith("groove_"))
-        self._space = film_space(mesh, pockets=["pocket", *self._grooves])
+        self._space = film_space(slipper_mesh(shape.lands.radii, cells), pockets=shape.lands.closed)
         self._supply = supply(shape.orifice, drive.viscosity, drive.density)
 
     @property
@@ -225,15 +214,10 @@ class SlipperFilm:
 
     @property
     def pockets(self) -> dict[str, Array]:
-        """Area (3,) m2 by which the volume of pocket and grooves grows with each coordinate.
-
-        Polygons, as the mesh has them: film, grooves and pocket leave nothing out and count nothing twice.
-        """
-        sector = 0.5 * self._around * np.sin(2.0 * np.pi / self._around)
-        radii = [0.0, *(radius for land in self.shape.lands for radius in land)]
-        areas = [sector * (end**2 - start**2) for start, end in zip(radii[::2], radii[1::2], strict=False)]
-        names = ["pocket", *(f"groove_{n + 1}" for n in range(len(self._grooves)))]
-        return {name: np.array([area, 0.0, 0.0]) for name, area in zip(names, areas, strict=True)}
+        """Area (3,) m2 by which the volume of pocket and closed grooves grows with each coordinate."""
+        polygon = 0.5 * self._around * np.sin(2.0 * np.pi / self._around)
+        areas = self.shape.lands.closed_areas(float(polygon))
+        return {name: np.array([area, 0.0, 0.0]) for name, area in areas.items()}
 
     def outer_at(self, time: float, position: Array, rate: Array) -> Outer:
         """Outer generalised forces at a time (s) and position, with the retainer's."""
@@ -283,35 +267,15 @@ class SlipperFilm:
             flow, slope = self._supply(chamber - pressure)
             return float(flow), -float(slope)
 
-        grooves = {name: Pocket(no_feed) for name in self._grooves}
-        return {"pocket": Pocket(feed), **grooves, "case": Held(self.drive.case_pressure)}
+        lands = self.shape.lands
+        still = {name: Pocket(no_feed) for name in lands.closed}
+        return still | {"pocket": Pocket(feed)} | dict.fromkeys(lands.open, Held(self.drive.case_pressure))
 
     def _face(self, time: float, x: Array, y: Array) -> Array:
         """What is taken off the face (m) at places; it turns with the slipper."""
-        lands = self.shape.lands
         # The mesh's sectors are straight: between their corners the radius is a little less than the land's.
-        radius = np.maximum(np.hypot(x, y), lands[0][0])
+        radius = np.maximum(np.hypot(x, y), self.shape.lands.inner_radius)
         return np.asarray(self.shape.face(radius, np.arctan2(y, x) - self.drive.spin * time).depth)
-
-
-def slipper_mesh(lands: tuple[tuple[float, float], ...], cells: tuple[int, int]) -> FilmMesh:
-    """Rings of quadrilaterals, one a land, `cells` (across each, around), with boundaries pocket, groove_k, case.
-
-    Radii of each land rise by one ratio, as the pressure falls with the logarithm. A groove is one boundary: both
-    its edges. Raises FilmInputError as `reynolds.mesh.ring`.
-    """
-    radii = np.concatenate([np.geomspace(*land, cells[0] + 1) for land in lands])
-    keep = np.ones((len(radii) - 1, cells[1]), dtype=bool)
-    keep[cells[0] :: cells[0] + 1] = False
-    whole = ring(radii, cells[1], keep=keep)
-    mesh, middle = whole.mesh, [0.5 * (one[1] + two[0]) for one, two in pairwise(lands)]
-    facets = mesh.boundary_facets()
-    distance = np.hypot(*mesh.p[:, mesh.facets[0, facets]])
-    # Land k's inner edge and the land before's outer one lie on either side of the middle of groove k.
-    number = np.searchsorted([0.5 * sum(land) for land in lands], distance)
-    names = ["pocket", *(f"groove_{n + 1}" for n in range(len(middle))), "case"]
-    edges = {name: facets[number == n] for n, name in enumerate(names)}
-    return replace(whole, mesh=replace(mesh, _boundaries=edges))
 
 
 def floating_slipper(film: SlipperFilm) -> Floating:

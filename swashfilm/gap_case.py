@@ -19,7 +19,6 @@ from system.instants import (
     piston_geometry,
     piston_instant,
     rotor,
-    slipper_geometry,
     slipper_instant,
     valve_plate_geometry,
     valve_plate_instant,
@@ -241,7 +240,7 @@ def _least_film(parts: Rotor, instant: Instant) -> float:
             clearance = piston_geometry(parts.pump).radial_clearance
             return float(clearance - max(np.hypot(*ends[:2]), np.hypot(*ends[2:])))
         case SlipperInstant(position=at):
-            radius = slipper_geometry(parts.pump).land_outer_radius
+            radius = parts.pump.slipper.land_outer_radius
         case ValvePlateInstant(position=at):
             radius = valve_plate_geometry(parts.pump).land_radii[3]
     return float(at.film_thickness - radius * np.hypot(at.slope_x, at.slope_y))

@@ -12,6 +12,7 @@ from typing import Annotated
 
 from pydantic import Field
 
+from gaps.slipper_lands import SlipperLands, lands_between
 from reynolds.oil import Oil
 from system.fields import (
     AcuteAngle,
@@ -37,6 +38,7 @@ from system.fields import (
     PressureCoefficient,
     Profile,
     Section,
+    SlipperGrooves,
     SpecificHeat,
     Stiffness,
     Temperature,
@@ -107,6 +109,14 @@ class SlipperSection(Section):
     profile: Profile | None = None  # over the radius
     crown: AnyLength | None = None  # of the face over its outer radius; negative: dished
     rim_relief: ReliefSection | None = None  # at the outer radius
+    grooves: SlipperGrooves | None = None  # closed rings in the land
+    vented_grooves: SlipperGrooves | None = None  # rings open to the case
+
+    @property
+    def lands(self) -> SlipperLands:
+        """The sealing lands that the grooves leave; raises FilmInputError for grooves that do not lie apart."""
+        grooves, vented = self.grooves or (), self.vented_grooves or ()
+        return lands_between(self.land_inner_radius, self.land_outer_radius, grooves, vented)
 
 
 class ValvePlateSection(Section):

@@ -63,6 +63,11 @@ Grooves = Annotated[
     Points((Dimension.LENGTH,) * 3, ("middle", "width", "depth"), ("10 mm", "0.5 mm", "0.3 mm")),
     Field(min_length=1),
 ]
+SlipperGrooves = Annotated[
+    tuple[tuple[float, float], ...],
+    Points((Dimension.LENGTH,) * 2, ("inner radius", "outer radius"), ("10 mm", "11 mm")),
+    Field(min_length=1),
+]
 
 
 class Section(BaseModel):

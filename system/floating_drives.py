@@ -234,4 +234,4 @@ def slipper_shape(rotor: Rotor, parts: FloatingParts) -> SlipperShape:
     """The slipper's face and feed."""
     slipper = rotor.pump.slipper
     orifice = Orifice(slipper.orifice_diameter, slipper.orifice_length, parts.slipper.orifice_flow_coefficient)
-    return SlipperShape(((slipper.land_inner_radius, slipper.land_outer_radius),), orifice, parts.slipper.face)
+    return SlipperShape(slipper.lands, orifice, parts.slipper.face)

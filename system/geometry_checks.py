@@ -9,7 +9,7 @@ from itertools import pairwise
 import numpy as np
 
 from system.checks import CheckWarning, Finding, angle, length, needs
-from system.description import PumpDescription
+from system.description import PumpDescription, SlipperSection
 from system.faults import Fault
 from system.kinematics import SwashDrive, ball_radius, displacement, stroke
 from system.units import Dimension, format_quantity
@@ -106,6 +106,28 @@ def slipper_land_has_a_width(pump: PumpDescription) -> Iterator[Finding]:
         yield Fault("slipper.land_inner_radius", length(inner), f"less than land_outer_radius, {length(outer)}")
 
 
+@needs("slipper.land_inner_radius", "slipper.land_outer_radius")
+def slipper_grooves_lie_in_the_land(pump: PumpDescription) -> Iterator[Finding]:
+    """Closed and vented grooves lie between pocket and rim, with land between them."""
+    if pump.slipper.land_inner_radius < pump.slipper.land_outer_radius:
+        yield from groove_faults(pump.slipper)
+
+
+def groove_faults(part: SlipperSection) -> Iterator[Fault]:
+    """Yield the faults of a slipper's grooves, by the key that each stands in."""
+    stated = {"grooves": part.grooves or (), "vented_grooves": part.vented_grooves or ()}
+    cut = sorted((*groove, key) for key, grooves in stated.items() for groove in grooves)
+    last = part.land_inner_radius
+    for inner, outer, key in cut:
+        found = f"a groove from radius {length(inner)} to {length(outer)}"
+        if inner >= outer:
+            yield Fault(f"slipper.{key}", found, "an inner radius below the outer one")
+        elif inner <= last or outer >= part.land_outer_radius:
+            within = f"between {length(last)} and {length(part.land_outer_radius)}, land on both sides"
+            yield Fault(f"slipper.{key}", found, within)
+        last = max(last, outer)
+
+
 @needs("slipper.orifice_diameter", "slipper.land_inner_radius")
 def orifice_opens_into_the_pocket(pump: PumpDescription) -> Iterator[Finding]:
     """The orifice is narrower than the pocket that it feeds."""
@@ -119,11 +141,9 @@ def orifice_opens_into_the_pocket(pump: PumpDescription) -> Iterator[Finding]:
 @needs("pump.piston_diameter", "slipper.land_inner_radius", "slipper.land_outer_radius")
 def slipper_is_not_lifted_off(pump: PumpDescription) -> Iterator[Finding]:
     """The hydrostatic force of a parallel slipper at full pocket pressure stays below the piston force."""
-    inner, outer = pump.slipper.land_inner_radius, pump.slipper.land_outer_radius
-    if inner >= outer:
+    if pump.slipper.land_inner_radius >= pump.slipper.land_outer_radius or any(groove_faults(pump.slipper)):
         return
-    effective = math.pi * (outer**2 - inner**2) / (2 * math.log(outer / inner))
-    balance = effective / (math.pi * pump.pump.piston_diameter**2 / 4)
+    balance = pump.slipper.lands.effective_area / (math.pi * pump.pump.piston_diameter**2 / 4)
     if balance > 1.0:
         yield CheckWarning(
             "slipper.land_outer_radius",
@@ -323,6 +343,7 @@ GEOMETRY_CHECKS = (
     displacement_is_that_of_the_geometry,
     slippers_clear_each_other,
     slipper_land_has_a_width,
+    slipper_grooves_lie_in_the_land,
     orifice_opens_into_the_pocket,
     slipper_is_not_lifted_off,
     valve_plate_lands_are_in_order,

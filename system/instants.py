@@ -92,9 +92,7 @@ def piston_instant(
 def slipper_geometry(pump: PumpDescription) -> SlipperGeometry:
     """The slipper gap's geometry."""
     part = pump.slipper
-    return SlipperGeometry(
-        part.land_inner_radius, part.land_outer_radius, part.orifice_diameter, part.orifice_length
-    )
+    return SlipperGeometry(part.lands, part.orifice_diameter, part.orifice_length)
 
 
 def slipper_instant(

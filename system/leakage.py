@@ -41,19 +41,19 @@ def piston_carried_flow(piston_diameter: float, radial_clearance: float, velocit
 
 
 def slipper_conductance(
-    land_inner_radius: float,
-    land_outer_radius: float,
+    log_ratio: float,
     film_thickness: float,
     orifice_diameter: float,
     orifice_length: float,
     viscosity: float,
 ) -> float:
-    """Leakage of one slipper per pascal: capillary orifice and parallel disc land in series; paper Eq. (16).
+    """Leakage of one slipper per pascal: capillary orifice and parallel disc lands in series; paper Eq. (16).
 
-    G = pi d^4 h^3/(mu [6 d^4 ln(r2/r1) + 128 h^3 l_o]). Laminar in both; see `slipper_leakage_short_orifice`.
+    G = pi d^4 h^3/(mu [6 d^4 ln(r2/r1) + 128 h^3 l_o]), ln(r2/r1) the log_ratio, of several lands the sum.
+    Laminar in both; see `slipper_leakage_short_orifice`.
     """
     d4, h3 = orifice_diameter**4, film_thickness**3
-    resistance = 6.0 * d4 * np.log(land_outer_radius / land_inner_radius) + 128.0 * h3 * orifice_length
+    resistance = 6.0 * d4 * log_ratio + 128.0 * h3 * orifice_length
     return float(np.pi * d4 * h3 / (viscosity * resistance))
 
 

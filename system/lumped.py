@@ -148,9 +148,7 @@ def lumped_leaks(pump: PumpDescription, point: OperatingPoint, motion: PistonMot
     p, s, v, mu = pump.piston, pump.slipper, pump.valve_plate, point.viscosity
     diameter = pump.pump.piston_diameter
     radii = (v.land_radius_1, v.land_radius_2, v.land_radius_3, v.land_radius_4)
-    slipper = slipper_conductance(
-        s.land_inner_radius, s.land_outer_radius, s.film_thickness, s.orifice_diameter, s.orifice_length, mu
-    )
+    slipper = slipper_conductance(s.lands.log_ratio, s.film_thickness, s.orifice_diameter, s.orifice_length, mu)
     plate = valve_plate_conductance(radii, v.film_thickness, pump.pump.pistons, mu)
     ones = np.ones_like(motion.shaft_angle)
     piston = piston_conductance(diameter, p.radial_clearance, motion.engaged_length, p.eccentricity_ratio, mu)
@@ -250,9 +248,7 @@ def _slipper_swash_plate(
     coulomb = pairs.slipper_swash_plate_coulomb(
         pump.friction.slipper_swash_plate, axial, motion.drive.swash_angle, speed
     )
-    viscous = pairs.slipper_swash_plate_shear(
-        point.viscosity, s.land_inner_radius, s.land_outer_radius, speed, s.film_thickness
-    )
+    viscous = pairs.slipper_swash_plate_shear(point.viscosity, s.lands.land_area, speed, s.film_thickness)
     return PairLoss(pump.pump.pistons, coulomb, viscous)
 
 

@@ -137,11 +137,9 @@ def slipper_swash_plate_coulomb(friction: float, axial: Array, swash_angle: floa
     return friction * np.abs(axial) / np.cos(swash_angle) * speed
 
 
-def slipper_swash_plate_shear(
-    viscosity: float, inner_radius: float, outer_radius: float, speed: Array, film_thickness: float
-) -> Array:
-    """Shear loss mu pi (r2^2 - r1^2) v_s^2/delta of one slipper's land."""
-    return viscosity * np.pi * (outer_radius**2 - inner_radius**2) * speed**2 / film_thickness
+def slipper_swash_plate_shear(viscosity: float, land_area: float, speed: Array, film_thickness: float) -> Array:
+    """Shear loss mu A v_s^2/delta of one slipper's lands, A = pi (r2^2 - r1^2) in m2 of a single one."""
+    return viscosity * land_area * speed**2 / film_thickness
 
 
 def piston_slipper_socket_coulomb(

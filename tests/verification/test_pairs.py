@@ -66,7 +66,7 @@ def test_axial_force_of_newtons_law():
 def test_slipper_shear_against_quadrature_over_the_land():
     r = np.linspace(8.2e-3, 14e-3, 2001)
     force = np.trapezoid(MU * 9.9 / 10e-6 * 2 * np.pi * r, r)
-    found = pairs.slipper_swash_plate_shear(MU, 8.2e-3, 14e-3, np.array([9.9]), 10e-6)
+    found = pairs.slipper_swash_plate_shear(MU, np.pi * (14e-3**2 - 8.2e-3**2), np.array([9.9]), 10e-6)
     assert found[0] == pytest.approx(force * 9.9, rel=1e-6)
 
 

@@ -280,7 +280,7 @@ def test_faces_a_piston_cannot_meet():
 
 def test_pocket_presses_on_slipper_and_plate(tmp_path):
     """A pocket's column is what its face alone does, both walls added; the cheaper form is chosen by size."""
-    from gaps.slipper_motion import slipper_mesh
+    from gaps.slipper_lands import slipper_mesh
 
     film = film_space(slipper_mesh(((8e-3, 14e-3),), (3, 24)), pockets=["pocket"])
     slipper = slipper_body(SlipperPart(0.5e-3, 8e-3, 7e-3, 14e-3, 5e-3, BRONZE), (6, 12, 1))

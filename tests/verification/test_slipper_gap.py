@@ -20,14 +20,15 @@ from gaps.slipper import (
     SlipperState,
     hagen_poiseuille_conductance,
 )
+from gaps.slipper_lands import SlipperLands
 from system.instants import rotor, slipper_instant
 from system.leakage import slipper_conductance
 from system.operating import operating_point
 from system.pump_file import load_pump
 
 INNER, OUTER, ORIFICE, ORIFICE_LENGTH = 8.2e-3, 14e-3, 0.9e-3, 5e-3
-GEOMETRY = SlipperGeometry(INNER, OUTER, ORIFICE, ORIFICE_LENGTH)
-TABLES = SlipperGeometry(5e-3, 10e-3, 2e-3, 5e-3)
+GEOMETRY = SlipperGeometry(SlipperLands(((INNER, OUTER),)), ORIFICE, ORIFICE_LENGTH)
+TABLES = SlipperGeometry(SlipperLands(((5e-3, 10e-3),)), 2e-3, 5e-3)
 VISCOSITY, PRESSURE, CASE = 0.0258, 35e6, 0.15e6
 LOG = np.log(OUTER / INNER)
 EFFECTIVE_AREA = np.pi * (OUTER**2 - INNER**2) / (2.0 * LOG)
@@ -49,7 +50,7 @@ def land_conductance(thickness: float) -> float:
 def test_parallel_slipper_at_rest(validation, refine):
     """Orifice and land in series share the pressure as their resistances; the land's profile is logarithmic."""
     orifice = hagen_poiseuille_conductance(ORIFICE, ORIFICE_LENGTH, VISCOSITY)
-    series = slipper_conductance(INNER, OUTER, 40e-6, ORIFICE, ORIFICE_LENGTH, VISCOSITY)
+    series = slipper_conductance(LOG, 40e-6, ORIFICE, ORIFICE_LENGTH, VISCOSITY)
     flow = series * (PRESSURE - CASE)
     pocket = PRESSURE - flow / orifice
     assert (PRESSURE - pocket) / PRESSURE > 0.01  # thick enough a film for the orifice to count
