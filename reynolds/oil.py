@@ -109,5 +109,16 @@ def dynamic_viscosity(oil: Oil, temperature: float) -> float:
     return float(walther(temperature, oil)) * oil.density
 
 
+def temperature_of(oil: Oil, viscosity: float) -> float:
+    """Return the temperature in K at which `dynamic_viscosity` is `viscosity` in Pa s: Walther's law solved for T.
+
+    Raises FilmInputError where that is outside the range of `walther`.
+    """
+    intercept, slope = walther_coefficients(oil)
+    kelvin = 10.0 ** ((intercept - _double_log(viscosity / oil.density)) / slope)
+    walther(kelvin, oil)
+    return float(kelvin)
+
+
 def _double_log(kinematic_viscosity: float) -> float:
     return float(np.log10(np.log10(kinematic_viscosity * 1e6 + WALTHER_SHIFT)))

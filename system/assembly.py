@@ -73,7 +73,7 @@ class PumpPoint:
     `delivery_flow_ripple` in m3/s over the same angles (volume at chamber pressure through the delivery port);
     `delivery`, `suction`: pressure of either port and what its line takes; `shaft_torque` in N m, from the forces
     on the rotating group; `leakage_flow` of each gap (mean over the revolution, all chambers, volume at case
-    pressure); `bench`, what a test bench reads; `geometric_displacement` and `derived_displacement` in m3 per
+    pressure); `exchange`, what the gaps exchange beside; `bench`, what a test bench reads; `geometric_displacement` and `derived_displacement` in m3 per
     revolution.
     """
 
@@ -90,6 +90,7 @@ class PumpPoint:
     leakage_flow: Gaps
     leaks: LeakTable
     pairs: FrictionPairs
+    exchange: GapExchange
     bench: BenchReading
     power: PowerBalance
     geometric_displacement: float
@@ -145,6 +146,7 @@ def assemble(
         leakage_flow=_leakage_flow(problem, cycle.outflow, rate, exchange),
         leaks=problem.leaks,
         pairs=pairs,
+        exchange=exchange,
         bench=reading,
         power=power,
         geometric_displacement=pistons * problem.piston_area * stroke(problem.drive),

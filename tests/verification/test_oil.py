@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from reynolds.errors import FilmInputError
-from reynolds.oil import ISO_GRADES, Oil, dynamic_viscosity, walther, walther_coefficients
+from reynolds.oil import ISO_GRADES, Oil, dynamic_viscosity, temperature_of, walther, walther_coefficients
 
 VG46 = Oil(46e-6, 6.8e-6, density=860.0, bulk_modulus=1.6e9, specific_heat=1950.0)
 
@@ -63,6 +63,17 @@ def test_grades_have_viscosity_index_100(grade):
 def _viscosity_index(at_40, at_100):
     poor, good = next((low, high) for start, end, low, high in D2270 if start <= at_100 < end)
     return 100 * (np.polyval(poor, at_100) - at_40) / (np.polyval(poor, at_100) - np.polyval(good, at_100))
+
+
+@pytest.mark.parametrize("celsius", [-20.0, 50.0, 120.0])
+def test_a_viscosity_leads_back_to_its_temperature(celsius):
+    kelvin = celsius + 273.15
+    assert temperature_of(VG46, dynamic_viscosity(VG46, kelvin)) == pytest.approx(kelvin, rel=1e-12)
+
+
+def test_no_temperature_of_an_oil_too_thin():
+    with pytest.raises(FilmInputError):
+        temperature_of(VG46, 1.5e-3)
 
 
 @pytest.mark.parametrize("celsius", [-41.0, 151.0, np.nan])
