@@ -17,7 +17,7 @@ from reynolds import carried_kernels as kernels
 from reynolds.grid import Grid
 from reynolds.kernels import norm
 from reynolds.mesh import Array
-from reynolds.multigrid import Effort, Multigrid
+from reynolds.multigrid import Effort, Multigrid, Precision
 from reynolds.triangles import both_triangles
 
 DIRECTIONS = 30  # of GMRES, kept between restarts
@@ -33,7 +33,7 @@ class CarriedFilm:
     def __init__(self, grid: Grid, upper: csc_array) -> None:
         """`upper` has the pattern to come. Raises FilmInputError as `Multigrid` does."""
         size, entries = grid.unknowns.size, 2 * len(upper.indices)
-        self._film = Multigrid(grid, upper)
+        self._film = Multigrid(grid, upper, Precision.DOUBLE)
         self._upper = upper
         self._both = both_triangles(upper)
         self._part = np.empty(len(upper.indices))

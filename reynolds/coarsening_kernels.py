@@ -15,19 +15,35 @@ _FAST = {"cache": True, "error_model": "numpy", "fastmath": {"contract"}}
 
 
 @njit(**_FAST)
-def set_up(fine, coarse, coarsest):
-    """Coarse operators and factors of all levels from the finest stencil; False where it is not positive."""
+def set_up(fine, top, coarse, coarsest):
+    """Coarse operators and factors of all levels from the finest stencil; False where it is not positive.
+
+    `top` is `fine`, or rounded from it.
+    """
     levels = coarse.lines.shape[0]
     if fine.around:
         _repeat_stencils(fine, plain(0))
+    if top.centre.itemsize < fine.centre.itemsize:
+        _round_stencils(fine, top)
     if levels == 0:
-        return eliminate_blocks(coarsest, fine, plain(0))
-    _coarsen(fine, plain(0), coarse, plain(0))
-    good = _factorise(fine, plain(0))
+        return eliminate_blocks(coarsest, top, plain(0))
+    _coarsen(top, plain(0), coarse, plain(0))
+    good = _factorise(top, plain(0))
     for level in range(levels - 1):
         _coarsen(coarse, level, coarse, level + 1)
         good = good and _factorise(coarse, level)
     return good and eliminate_blocks(coarsest, coarse, levels - 1)
+
+
+@njit(**_FAST)
+def _round_stencils(fine, top):
+    """The stencils of one level in the precision of another."""
+    for k in range(0, fine.centre.shape[0], WIDTH):
+        put_lanes(top.centre, k, lanes(fine.centre, k))
+        put_lanes(top.east, k, lanes(fine.east, k))
+        put_lanes(top.north, k, lanes(fine.north, k))
+        put_lanes(top.north_east, k, lanes(fine.north_east, k))
+        put_lanes(top.north_west, k, lanes(fine.north_west, k))
 
 
 @njit(**_FAST)

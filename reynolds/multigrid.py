@@ -4,13 +4,14 @@ Lines are relaxed as a whole, odd ones and even ones in turn, and every second o
 coarse operators follow from the entries of the matrix alone (semicoarsening: Dendy, McCormick, Ruge, Russell and
 Schaffer 1989; Schaffer 1998). So cells of any aspect ratio, films that jump, nodes that are held and cavities
 (rows of the identity) need no word about them. The cycle is symmetric positive definite and preconditions
-conjugate gradients. Coarse levels of large films are kept in single precision, unless a film jumps by more than
-that holds.
+conjugate gradients. All of it is in single precision, unless a film jumps by more than that holds or who cycles
+asks for more; the residual and the steps are in double.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from enum import Enum
 from typing import Any
 
 import numpy as np
@@ -27,8 +28,8 @@ from reynolds.line_kernels import Levels
 from reynolds.mesh import Array
 
 MAX_STEPS = 60  # some 10 are usual: beyond these the operator is not one for multigrid
-IN_CACHE = 200_000  # unknowns: above, what coarse levels take to read counts, and they are of single precision
-SLOW = 30  # steps after which coarse levels of single precision are made anew in double
+IN_CACHE = 200_000  # unknowns: above, the finest level is kept once, in double precision, to hold less memory
+SLOW = 30  # steps after which levels of single precision are made anew in double
 
 
 @dataclass(frozen=True)
@@ -39,13 +40,20 @@ class Effort:
     left: float
 
 
+class Precision(Enum):
+    """Of the cycle, which only preconditions. DOUBLE: for those that ask it to be linear to more than 1e-7."""
+
+    SINGLE = "single"
+    DOUBLE = "double"
+
+
 class Multigrid:
     """The operator of one grid on all its levels: `update` with new entries, then `solve` any number of times.
 
-    Memory: 21 doubles an unknown, 17 above IN_CACHE.
+    Memory: 21 doubles an unknown, 18 in single precision, 17 above IN_CACHE.
     """
 
-    def __init__(self, grid: Grid, upper: csc_array) -> None:
+    def __init__(self, grid: Grid, upper: csc_array, precision: Precision = Precision.SINGLE) -> None:
         """`upper` has the pattern of the upper triangles to come.
 
         Raises FilmInputError where it couples unknowns that are not neighbours on the grid.
@@ -55,14 +63,20 @@ class Multigrid:
             lines.append((lines[-1] + 1) // 2)
         self._lines = np.array(lines, dtype=np.int64)
         self._fine, self._entries = _levels(self._grid, self._lines[:1], np.float64)
-        self._take_coarse(np.float32 if grid.unknowns.size > IN_CACHE else np.float64)
+        large = grid.unknowns.size > IN_CACHE
+        self._take_levels(Precision.SINGLE if large else precision)
         self._slots, self._places = _places(self._grid, upper, self._fine)
         self._work = np.zeros((2, self._fine.load.size))
 
     @property
+    def fine(self) -> Levels:
+        """The finest level in double precision."""
+        return self._fine
+
+    @property
     def levels(self) -> tuple[Levels, Levels, Coarsest]:
-        """The finest level, the others and what solves the last, for kernels that cycle themselves."""
-        return self._fine, self._coarse, self._coarsest
+        """The cycle: its finest level, the others and what solves the last, for kernels that cycle themselves."""
+        return self._top, self._coarse, self._coarsest
 
     @property
     def slots(self) -> NDArray[np.int32]:
@@ -72,56 +86,62 @@ class Multigrid:
     def update(self, data: Array) -> bool:
         """Take the entries of the upper triangle; False where the matrix is not positive definite on some line."""
         kernels.put(data, self._places, self._entries)
-        return bool(coarsening_kernels.set_up(*self.levels)) or self._precise()
+        return bool(coarsening_kernels.set_up(self._fine, *self.levels)) or self._precise()
 
     def _precise(self) -> bool:
-        """Coarse levels in double precision from here on; False where they have been, or do not help."""
+        """All levels in double precision from here on; False where they have been, or do not help."""
         if self._coarse.load.dtype == np.float64:
             return False
-        self._take_coarse(np.float64)
-        return bool(coarsening_kernels.set_up(*self.levels))
+        self._take_levels(Precision.DOUBLE)
+        return bool(coarsening_kernels.set_up(self._fine, *self.levels))
 
-    def _take_coarse(self, precision: type[np.floating[Any]]) -> None:
-        self._coarse, _ = _levels(self._grid, self._lines[1:], precision)
+    def _take_levels(self, precision: Precision) -> None:
+        single = precision is Precision.SINGLE
+        dtype: type[np.floating[Any]] = np.float32 if single else np.float64
+        twice = single and self._grid.unknowns.size <= IN_CACHE
+        self._top = _levels(self._grid, self._lines[:1], dtype)[0] if twice else self._fine
+        self._coarse, _ = _levels(self._grid, self._lines[1:], dtype)
         blocks = self._fine.length + 2
-        inverse, onward, back = np.zeros((3, blocks * SQUARE), dtype=precision)
-        self._coarsest = Coarsest(inverse, onward, back, np.zeros(blocks * WIDTH, dtype=precision))
+        inverse, onward, back = np.zeros((3, blocks * SQUARE), dtype=dtype)
+        self._coarsest = Coarsest(inverse, onward, back, np.zeros(blocks * WIDTH, dtype=dtype))
 
-    def solve(self, load: Array, tolerance: float) -> tuple[Array, Effort]:
-        """x with |A x - load| <= tolerance |load|, (n,), or as near as round-off and MAX_STEPS let it come."""
-        answer, effort = self._iterated(load, tolerance)
+    def solve(self, load: Array, tolerance: float, start: Array | None = None) -> tuple[Array, Effort]:
+        """x with |A x - load| <= tolerance |load|, (n,), or as near as round-off and MAX_STEPS let it come.
+
+        From `start` (n,), or from nothing.
+        """
+        answer, effort = self._iterated(load, tolerance, start)
         if effort.steps > SLOW and self._precise():
-            answer, effort = self._iterated(load, tolerance)
+            answer, effort = self._iterated(load, tolerance, start)
         return answer, effort
 
-    def _iterated(self, load: Array, tolerance: float) -> tuple[Array, Effort]:
+    def _iterated(self, load: Array, tolerance: float, start: Array | None) -> tuple[Array, Effort]:
         x, direction = self._work
         kernels.put(load, self._slots, self._fine.load)
-        steps, size = kernels.conjugate_gradients(*self.levels, x, direction, tolerance, MAX_STEPS)
-        if size == 0.0:
-            return np.zeros(len(load)), Effort(0, 0.0)
+        size = kernels.size_of(self._fine.load)
+        if not 0.0 < size < np.inf:
+            return np.zeros(len(load)), Effort(0, 0.0 if size == 0.0 else np.inf)
+        if start is None:
+            x[:] = 0.0
+        else:
+            kernels.put(start, self._slots, x)
+            kernels.left_of(self._fine, x, self._fine.answer)
+        steps = kernels.conjugate_gradients(self._fine, *self.levels, x, direction, tolerance * size, MAX_STEPS)
         kernels.put(load, self._slots, self._fine.load)
         left = kernels.left_of(self._fine, x, direction)
         return self._taken(x), Effort(steps, float(left / size))
 
-    def residual(self, load: Array, x: Array) -> Array:
-        """load - A x, (n,)."""
-        kernels.put(load, self._slots, self._fine.load)
-        kernels.put(x, self._slots, self._work[0])
-        kernels.left_of(self._fine, *self._work)
-        return self._taken(self._fine.load)
-
     def full_pass(self, load: Array) -> Array:
         """x to about the error of the mesh, (n,): one pass of full multigrid (Brandt 1977), without a check."""
-        kernels.put(load, self._slots, self._fine.load)
+        kernels.put(load, self._slots, self._top.load)
         kernels.full_cycle(*self.levels)
-        return self._taken(self._fine.answer)
+        return self._taken(self._top.answer)
 
     def cycle(self, load: Array) -> Array:
         """M load, (n,): the preconditioner, one V-cycle from nothing."""
-        kernels.put(load, self._slots, self._fine.load)
+        kernels.put(load, self._slots, self._top.load)
         kernels.cycle(*self.levels)
-        return self._taken(self._fine.answer)
+        return self._taken(self._top.answer)
 
     def _taken(self, flat: NDArray[np.floating[Any]]) -> Array:
         values = np.empty(len(self._slots))

@@ -2,8 +2,9 @@
 
 Every second line is coarsened away (semicoarsening), lines are solved as a whole, even ones and odd ones in turn:
 fast whatever the anisotropy, for a strong coupling along the lines is solved and one across them is coarsened.
-The layout is that of `line_kernels`. The finest level is a `Levels` of one, in double precision; `coarse` holds
-the others, which only precondition; the last of them, of at most eight lines, is solved as a whole.
+The layout is that of `line_kernels`. Cycles only precondition, in any precision: `top` is their finest level,
+`coarse` holds the others; the last of them, of at most eight lines, is solved as a whole. `fine` is the operator
+in double precision: `top` itself, or what that is rounded from.
 """
 
 import numpy as np
@@ -118,14 +119,14 @@ def _ascend(a, level, b, below):
 
 
 @njit(**_FAST)
-def cycle(fine, coarse, coarsest):
+def cycle(top, coarse, coarsest):
     """answer of the finest level = M load: a symmetric V-cycle from nothing."""
     if coarse.lines.shape[0] == 0:
-        solve_blocks(coarsest, fine, plain(0))
+        solve_blocks(coarsest, top, plain(0))
     else:
-        _descend(fine, plain(0), coarse, plain(0))
+        _descend(top, plain(0), coarse, plain(0))
         _cycle_from(coarse, plain(0), coarsest)
-        _ascend(fine, plain(0), coarse, plain(0))
+        _ascend(top, plain(0), coarse, plain(0))
 
 
 @njit(**_FAST)
@@ -140,13 +141,13 @@ def _cycle_from(a, top, coarsest):
 
 
 @njit(**_FAST)
-def full_cycle(fine, coarse, coarsest):
+def full_cycle(top, coarse, coarsest):
     """answer of the finest level: full multigrid, a cycle on every level from the coarsest up (Brandt 1977)."""
     last = coarse.lines.shape[0] - 1
     if last < 0:
-        solve_blocks(coarsest, fine, plain(0))
+        solve_blocks(coarsest, top, plain(0))
         return
-    _first_load(fine, plain(0), coarse, plain(0))
+    _first_load(top, plain(0), coarse, plain(0))
     for level in range(last):
         _first_load(coarse, level, coarse, level + 1)
     solve_blocks(coarsest, coarse, last)
@@ -154,9 +155,9 @@ def full_cycle(fine, coarse, coarsest):
         _improve(coarse, level, coarse, level + 1)
         _cycle_from(coarse, level + 1, coarsest)
         _ascend(coarse, level, coarse, level + 1)
-    _improve(fine, plain(0), coarse, plain(0))
+    _improve(top, plain(0), coarse, plain(0))
     _cycle_from(coarse, plain(0), coarsest)
-    _ascend(fine, plain(0), coarse, plain(0))
+    _ascend(top, plain(0), coarse, plain(0))
 
 
 @njit(**_FAST)
@@ -195,33 +196,32 @@ def apply(a, x, out):
 
 
 @njit(**_FAST)
-def conjugate_gradients(fine, coarse, coarsest, x, direction, tolerance, most):
-    """Solve A x = load of the finest level, which is lost; returns steps and |load|.
+def conjugate_gradients(fine, top, coarse, coarsest, x, direction, goal, most):
+    """Add to x what solves A x = load of `fine`, to |load - A x| <= goal; returns steps.
 
-    Hestenes and Stiefel 1952. Stops short where the operator or the cycle is not positive.
+    The load is what is left of it afterwards. Hestenes and Stiefel 1952. Stops short where the operator or the
+    cycle is not positive.
     """
-    load, answer = fine.load, fine.answer
-    size = _dot(load, load)
-    x[:] = 0.0
-    if not 0.0 < size < np.inf:
-        return 0, size
-    goal = tolerance * tolerance * size
-    left, steps, before = size, 0, 1.0
-    while left > goal and steps < most:
-        cycle(fine, coarse, coarsest)
-        now = _dot(load, answer)  # no load stands in pads
+    load, single = fine.load, top.load.itemsize < fine.load.itemsize
+    left, steps, before, unit = _dot(load, load), 0, 1.0, 1.0
+    while goal * goal < left < np.inf and steps < most:
+        if single:
+            unit = np.sqrt(left)  # of what is left, whose numbers may be too small for single precision
+            _rounded(load, 1.0 / unit, top.load)
+        cycle(top, coarse, coarsest)
+        now = unit * _dot(load, top.answer)  # no load stands in pads
         if not now > 0.0:
             break
-        _combine(direction, answer, now / before if steps else 0.0)
-        apply(fine, direction, answer)  # the cycle's answer is no longer needed
-        curvature = _dot(direction, answer)
+        _combine(direction, top.answer, unit, now / before if steps else 0.0)
+        apply(fine, direction, fine.answer)  # the cycle's answer is no longer needed
+        curvature = _dot(direction, fine.answer)
         if not curvature > 0.0:
             break
         length = now / curvature
-        left = _advance(x, direction, load, answer, length)
+        left = _advance(x, direction, load, fine.answer, length)
         before = now
         steps += 1
-    return steps, np.sqrt(size)
+    return steps
 
 
 @njit(**_FAST)
@@ -229,6 +229,12 @@ def left_of(fine, x, image):
     """|load - A x| on the finest level, whose load ends as that residual; `image` is lost."""
     apply(fine, x, image)
     return np.sqrt(_less(fine.load, image))
+
+
+@njit(**_FAST)
+def size_of(values):
+    """Euclidean norm of a vector of the finest level."""
+    return np.sqrt(_dot(values, values))
 
 
 @njit(inline="always")
@@ -243,8 +249,16 @@ def _sum(parts):
 def _dot(a, b):
     total = all_lanes(a, 0.0)
     for k in range(0, a.shape[0], WIDTH):
-        total += lanes(a, k) * lanes(b, k)
+        total += lanes(a, k) * lanes_like(a, lanes(b, k))
     return _sum(total)
+
+
+@njit(**_FAST)
+def _rounded(values, factor, out):
+    """out = factor values, in the precision of out."""
+    much = all_lanes(values, factor)
+    for k in range(0, values.shape[0], WIDTH):
+        put_lanes(out, k, much * lanes(values, k))
 
 
 @njit(**_FAST)
@@ -259,11 +273,12 @@ def _less(a, b):
 
 
 @njit(**_FAST)
-def _combine(direction, answer, beta):
-    """direction = answer + beta direction."""
-    much = all_lanes(direction, beta)
+def _combine(direction, answer, unit, beta):
+    """direction = unit answer + beta direction."""
+    one, much = all_lanes(direction, unit), all_lanes(direction, beta)
     for k in range(0, answer.shape[0], WIDTH):
-        put_lanes(direction, k, lanes(answer, k) + much * lanes(direction, k))
+        more = one * lanes_like(direction, lanes(answer, k))
+        put_lanes(direction, k, more + much * lanes(direction, k))
 
 
 @njit(**_FAST)

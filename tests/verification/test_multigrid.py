@@ -11,7 +11,7 @@ from reynolds.balance import stiffness
 from reynolds.errors import FilmInputError
 from reynolds.grid import Grid, grid_of
 from reynolds.mesh import Cell, annulus, rectangle
-from reynolds.multigrid import MAX_STEPS, Multigrid
+from reynolds.multigrid import MAX_STEPS, Multigrid, Precision
 from reynolds.space import FilmSpace, film_space
 from reynolds.transport import isotropic
 
@@ -28,8 +28,8 @@ def operator(space: FilmSpace, thickness: np.ndarray, fixed: np.ndarray) -> csc_
     return space.matrix(data)
 
 
-def solver(space: FilmSpace, upper: csc_array) -> Multigrid:
-    multigrid = Multigrid(grid_of(space), upper)
+def solver(space: FilmSpace, upper: csc_array, precision: Precision = Precision.SINGLE) -> Multigrid:
+    multigrid = Multigrid(grid_of(space), upper, precision)
     assert multigrid.update(upper.data)
     return multigrid
 
@@ -64,16 +64,17 @@ def test_it_agrees_with_a_direct_solve(cell, cells, around_x, around_y):
 
 
 @pytest.mark.parametrize("mesh", [annulus(1.0, 2.0, (9, 31)), rectangle((1.0, 2.0), (9, 10), periodic_x=True)])
-@pytest.mark.parametrize("single", [False, True])
-def test_the_cycle_is_symmetric_and_positive(mesh, single, monkeypatch):
+@pytest.mark.parametrize(("precision", "large"), [(one, large) for one in Precision for large in (False, True)])
+def test_the_cycle_is_symmetric_and_positive(mesh, precision, large, monkeypatch):
     """What conjugate gradients ask of a preconditioner, and that it never makes an error larger: M A < 2."""
     space = film_space(mesh)
     fixed = np.zeros(space.size, dtype=bool)
     fixed[:4] = True
     upper = operator(space, np.exp(np.random.default_rng(2).standard_normal((len(space.cells), 1))), fixed)
-    if single:
+    if large:
         monkeypatch.setattr(multigrid_module, "IN_CACHE", 0)
-    multigrid = solver(space, upper)
+    multigrid = solver(space, upper, precision)
+    single = large or precision is Precision.SINGLE
     cycle = np.column_stack([multigrid.cycle(unit) for unit in np.eye(space.size)])
     # Round-off of the coarse operators, times what these amplify it by.
     lost = np.finfo(np.float32 if single else np.float64).eps * np.linalg.cond(whole(upper).toarray())
@@ -82,6 +83,31 @@ def test_the_cycle_is_symmetric_and_positive(mesh, single, monkeypatch):
     values = np.linalg.eigvals(cycle @ whole(upper).toarray()).real
     assert values.min() > 0.0
     assert values.max() < 1.0 + max(1e-9, lost)  # the smoothing is a product of projections
+
+
+def test_from_a_start_only_the_rest_is_solved():
+    """From the answer itself no step is left to do; from near it fewer than from nothing."""
+    space = film_space(rectangle((1.0, 1.0), (20, 24), cell=Cell.QUADRILATERAL))
+    x, _ = space.points
+    multigrid = solver(space, operator(space, 1.0 + x, at_edges(space, "left")))
+    load = np.random.default_rng(3).standard_normal(space.size)
+    answer, cold = multigrid.solve(load, TOLERANCE)
+    assert multigrid.solve(load, 1.01 * TOLERANCE, answer)[1].steps == 0
+    again, warm = multigrid.solve(load, TOLERANCE, 1.001 * answer)
+    assert 0 < warm.steps < cold.steps
+    assert warm.left <= TOLERANCE
+    np.testing.assert_allclose(again, answer, rtol=0.0, atol=1e-5 * np.abs(answer).max())
+
+
+@pytest.mark.parametrize("size", [1e-100, 1e-60, 1e100])
+def test_loads_that_single_precision_does_not_hold_are_solved_alike(size):
+    space = film_space(rectangle((1.0, 1.0), (20, 24), cell=Cell.QUADRILATERAL))
+    multigrid = solver(space, operator(space, np.ones((1, 1)), at_edges(space, "left")))
+    load = np.random.default_rng(3).standard_normal(space.size)
+    answer, effort = multigrid.solve(load, 1e-12)
+    scaled, again = multigrid.solve(size * load, 1e-12)
+    assert again.steps == effort.steps
+    np.testing.assert_allclose(scaled / size, answer, rtol=0.0, atol=1e-9 * np.abs(answer).max())
 
 
 def _pocket(x, y):
