@@ -8,6 +8,7 @@ since fill grows faster than the mesh. Where a rung stalls, the next one does it
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -16,6 +17,7 @@ from numpy.typing import NDArray
 from scipy.sparse import csc_array, csc_matrix, csr_array, triu
 from scipy.sparse.linalg import SuperLU, splu
 
+from reynolds.band import BandedFactor, banded
 from reynolds.carried import CarriedFilm
 from reynolds.errors import FilmNotConverged
 from reynolds.grid import Grid
@@ -30,6 +32,21 @@ ITERATIVE_TOLERANCE = 1e-11
 STALLED = 1e3  # times the tolerance: what round-off may leave; beyond, the next rung of the ladder
 ROUND_OFF = 1e-13  # of the answer, in units of the scaled matrix
 GENERAL_TOLERANCE = 1e-10  # residual over load beyond which an elimination without pivots is done again with them
+
+
+Solve = Callable[[Array, float], Array]
+"""(load, tolerance) -> x with A x = load."""
+
+
+def row_by_row(solve: Solve) -> Solve:
+    """The same for a load (n,) and for rows of loads (m, n)."""
+
+    def solved(load: Array, tolerance: float) -> Array:
+        if load.ndim == 1:
+            return solve(load, tolerance)
+        return np.array([solve(np.ascontiguousarray(row), tolerance) for row in load]).reshape(load.shape)
+
+    return solved
 
 
 class Factor:
@@ -119,14 +136,16 @@ class GeneralFactor:
     """A matrix of symmetric pattern and any values, factorised: `update`, then `solve` any number of times.
 
     Made for the film whose cavities carry oil, with columns symmetric in the film and upwind transport in the
-    cavity. On a grid an iteration does it (`CarriedFilm`). Else, and where that stalls, an elimination with
-    pivots on the diagonal, and where those do not do either, with pivots.
+    cavity. A small one is eliminated in its band (`band`), on a grid an iteration does it (`CarriedFilm`). Else,
+    and where those fail, an elimination with pivots on the diagonal, and where those do not do, with pivots.
     """
 
     def __init__(self, grid: Grid | None = None) -> None:
         """`grid`: the rows and columns of the unknowns (`grid_of`), None where there are none."""
         self._grid = grid if grid is not None and grid.unknowns.size >= GRID_LEAST else None
         self._on_grid: CarriedFilm | None = None
+        self._band: BandedFactor | None = None
+        self._patterned = self._in_band = False
         self._both: BothTriangles | None = None
         self._given: tuple[csc_array, Array] | None = None
         self._matrix: csc_array | None = None
@@ -141,29 +160,40 @@ class GeneralFactor:
         row or column of zeros.
         """
         self._given, self._matrix = (upper, lower), None
+        if not self._patterned:
+            self._patterned, self._band = True, banded(upper)
+        self._in_band = self._band is not None and self._band.update(upper.data, lower)
+        if self._in_band:
+            return
         if self._grid is not None and cavity is not None:
             if self._on_grid is None:
                 self._on_grid = CarriedFilm(self._grid, upper)
             if self._on_grid.update(upper.data, lower, cavity):
                 return
             self._leave_grid()
-        self._scaled()
-        assert self._matrix is not None
-        self._lu = _eliminate(self._matrix, threshold=1e-3)
+        self._eliminated()
 
     def solve(self, load: Array, tolerance: float = ITERATIVE_TOLERANCE) -> Array:
-        """x with A x = load, (n,), at least to |A x - load| = tolerance |load|.
+        """x with A x = load, (n,) or rows (m, n), at least to |A x - load| = tolerance |load|.
 
         Raises FilmNotConverged where the matrix is singular.
         """
+        if self._in_band:
+            assert self._band is not None
+            answers, left = self._band.solve(np.atleast_2d(load), tolerance)
+            if left <= max(GENERAL_TOLERANCE, tolerance):
+                return answers.reshape(load.shape)
+            self._in_band = False
+            self._eliminated()
+        return row_by_row(self._solved)(load, tolerance)
+
+    def _solved(self, load: Array, tolerance: float) -> Array:
         if self._on_grid is not None and self._matrix is None:
             answer, effort = self._on_grid.solve(load, tolerance)
             if effort.left <= max(GENERAL_TOLERANCE, tolerance):
                 return answer
             self._leave_grid()
-            self._scaled()
-            assert self._matrix is not None
-            self._lu = _eliminate(self._matrix, threshold=1e-3)
+            self._eliminated()
         assert self._matrix is not None
         assert self._scale is not None
         rows, columns = self._scale
@@ -177,6 +207,12 @@ class GeneralFactor:
 
     def _leave_grid(self) -> None:
         self._grid = self._on_grid = None
+
+    def _eliminated(self) -> None:
+        """Afterwards `_lu` is an elimination with pivots on the diagonal."""
+        self._scaled()
+        assert self._matrix is not None
+        self._lu = _eliminate(self._matrix, threshold=1e-3)
 
     def _scaled(self) -> None:
         """Both triangles, with rows and columns scaled to a largest entry of one."""

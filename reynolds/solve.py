@@ -8,7 +8,6 @@ condition is p >= p_c, R >= 0, (p - p_c) R = 0; JFO is p >= p_c, theta <= 1, (p 
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -21,7 +20,7 @@ from reynolds.film import LEAST_FRACTION, Cavitation, FilmProblem, FilmSolution
 from reynolds.fluid import CONSTANT
 from reynolds.grid import grid_of
 from reynolds.iterate import Iterate, advanced, imbalance_of, is_linear, iterate_of, opened
-from reynolds.linear import ITERATIVE_TOLERANCE, Factor, GeneralFactor
+from reynolds.linear import ITERATIVE_TOLERANCE, Factor, GeneralFactor, Solve, row_by_row
 from reynolds.mesh import Array
 from reynolds.newton import compliant, fixed_in, general_step, signed_after, symmetric_step
 from reynolds.setting import Setting, spread
@@ -164,15 +163,15 @@ class FilmSolver:
         if is_linear(problem) and not carried:
             matrix, load = symmetric_step(problem, setting, at, fixed)
             self._factor.update(matrix)
-            self._answers = _Answers(self._factor.solve, at, fixed, 0.0)
+            self._answers = _Answers(row_by_row(self._factor.solve), at, fixed, 0.0)
             return load
         upper, lower, load, scale = general_step(problem, setting, at)
         if problem.walls is None:
             self._general.update(problem.space.matrix(upper), lower, at.cavity)
             self._answers = _Answers(self._general.solve, at, fixed, scale)
             return load
-
-        self._answers = _Answers(compliant(problem, setting, at, upper, lower), at, fixed, scale)
+        answer = compliant(problem, setting, at, upper, lower)
+        self._answers = _Answers(row_by_row(answer), at, fixed, scale)
         return load
 
 
@@ -180,11 +179,11 @@ class FilmSolver:
 class _Answers:
     """The linearised balance of a film at an iterate, ready to be solved.
 
-    `solve(load, tolerance)`, both sides scaled; `scale` turns an unknown of the cavity into a film fraction;
-    `solution`: the film that came of it.
+    `solve(load or rows of them, tolerance)`, both sides scaled; `scale` turns an unknown of the cavity into a film
+    fraction; `solution`: the film that came of it.
     """
 
-    solve: Callable[[Array, float], Array]
+    solve: Solve
     at: Iterate
     fixed: NDArray[np.bool_]
     scale: float
@@ -200,9 +199,7 @@ class _Answers:
         if unit == 0.0:
             raise FilmInputError("response", "a film that is all pocket", "one in which pressure drives a flow")
         load = np.where(self.fixed[:, None], 0.0, inflow / unit)
-        change = np.empty_like(load)
-        for column in range(load.shape[1]):
-            change[:, column] = self.solve(np.ascontiguousarray(load[:, column]), tolerance)
+        change = self.solve(np.ascontiguousarray(load.T), tolerance).T
         cavity = self.at.cavity[:, None]
         return np.where(cavity, 0.0, change), np.where(cavity, self.scale * change, 0.0)
 

@@ -1,0 +1,174 @@
+"""Time floating gaps over a turn: `python benchmarks/revolution.py [--gap GAP] [--growth] [--save DIR]`.
+
+Prints for each gap of ref90_floating at 35 MPa (rigid, isothermal, JFO, rough) what the periodic turn costs and
+where the time goes; with --growth how that grows with mesh and reported angles. --save keeps positions and loads
+of the periodic turn as DIR/<gap>.npz, against which a change of the program can be held. Nothing in it runs in
+parallel; times are those of the process, the first turn of a smaller mesh having compiled everything.
+"""
+
+import argparse
+import cProfile
+import pstats
+import time
+from collections import Counter
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+from rich.console import Console
+from rich.table import Table
+
+from gaps.block_motion import BlockFilm, floating_block
+from gaps.physics import Physics
+from gaps.piston_motion import PistonFilm, floating_piston
+from gaps.revolution import Accuracy, GapRevolution, evenly, run_revolution
+from gaps.slipper_motion import SlipperFilm, floating_slipper
+from reynolds.floating import Floating
+from reynolds.loads import Loads, loads
+from reynolds.mesh import Array
+from reynolds.solve import FilmSolver
+from system.floating_drives import drives, no_rubbing, piston_shape, slipper_shape
+from system.floating_parts import floating_parts
+from system.instants import rotor, valve_plate_geometry
+from system.lumped import lumped_point
+from system.operating import operating_point
+from system.pump_file import load_pump
+
+PUMP, PRESSURE = "ref90_floating", "35 MPa"
+CELLS = {"slipper": (12, 40), "piston": (48, 16), "block": (4, 16)}
+COARSE = {"slipper": (6, 20), "piston": (24, 8), "block": (2, 8)}
+PARTS = {
+    "linear solves": ("linear.py", "carried", "multigrid", "band", "qdldl", "superlu", "line_kernels", "coars"),
+    "laws of oil, roughness and contact": ("roughness.py", "patir_cheng.py", "contact", "overlap", "transport"),
+    "assembly": ("balance.py", "kernels.py", "newton.py", "space.py", "pattern.py", "tensors.py", "sensitivity"),
+    "iteration of a film": ("solve.py", "iterate.py", "film.py", "setting.py", "opening.py"),
+    "motion": ("floating", "dirk.py", "generalised", "periodic.py", "gaps/"),
+    "loads": ("loads.py", "rubbing.py"),
+}
+
+
+def floating_gap(gap: str, cells: tuple[int, int]) -> tuple[Floating, Array, float]:
+    """A gap of the pump, where its search starts (k,) m, and the shaft's speed rad/s."""
+    pump = load_pump(PUMP, {"operating.pressure": PRESSURE})
+    point = operating_point(pump)
+    parts, shaft = floating_parts(pump), rotor(pump, point)
+    cycle = lumped_point(pump, point).cycle
+    drive = drives(shaft, parts, cycle.shaft_angle, cycle.pressure, no_rubbing(len(cycle.shaft_angle)))
+    physics = Physics(elastic_walls=False, pressure_viscosity=False)
+    if gap == "slipper":
+        slipper = SlipperFilm(slipper_shape(shaft, parts), drive.slipper, parts.slipper.laws, physics, cells=cells)
+        return floating_slipper(slipper), np.array([10e-6, 0.0, 0.0]), point.shaft_speed
+    if gap == "piston":
+        piston = PistonFilm(piston_shape(shaft, parts), drive.piston, parts.piston.laws, physics, cells=cells)
+        return floating_piston(piston), np.zeros(4), point.shaft_speed
+    plate = parts.block
+    block = BlockFilm(valve_plate_geometry(pump), drive.block, plate.plate, plate.laws, physics, cells=cells)
+    return floating_block(block), np.array([8e-6, 0.0, 0.0]), point.shaft_speed
+
+
+def turned(gap: str, cells: tuple[int, int], angles: int, step: float) -> Callable[[], GapRevolution[Loads]]:
+    """The search of the gap's periodic turn, ready to run."""
+    floating, start, speed = floating_gap(gap, cells)
+    solver = FilmSolver(floating.shape_at(0.0).space)
+    return lambda: run_revolution(
+        solver,
+        floating,
+        evenly(speed, angles),
+        start,
+        lambda stage: loads(stage.solution),
+        accuracy=Accuracy(step=step),
+    )
+
+
+def timed(work: Callable[[], GapRevolution[Loads]]) -> tuple[GapRevolution[Loads], float]:
+    """The result and the process time it took, s."""
+    began = time.process_time()
+    found = work()
+    return found, time.process_time() - began
+
+
+def shares(work: Callable[[], object]) -> dict[str, float]:
+    """Share of the time by parts of the program; of what is not ours, by who called it."""
+    profile = cProfile.Profile()
+    profile.runcall(work)
+    spent: Counter[str] = Counter()
+    for (file, _, name), (_, _, own, _, callers) in pstats.Stats(profile).stats.items():  # type: ignore[attr-defined]
+        if (part := part_of(f"{file}:{name}")) or not callers:
+            spent[part or "other"] += own
+            continue
+        for (caller, _, by), (_, _, theirs, _) in callers.items():
+            spent[part_of(f"{caller}:{by}") or "other"] += theirs
+    total = sum(spent.values())
+    return {part: seconds / total for part, seconds in spent.most_common()}
+
+
+def part_of(place: str) -> str | None:
+    """The part of the program to which a function belongs, by its file and name."""
+    return next((part for part, marks in PARTS.items() if any(mark in place for mark in marks)), None)
+
+
+def row_of(
+    gap: str, cells: tuple[int, int], angles: int, found: GapRevolution[Loads], seconds: float
+) -> list[str]:
+    """One line of the table of costs."""
+    unknowns = len(found.turn.last.held)
+    steps, turns = len(found.turn.times), found.closing.turns
+    each = 1e3 * seconds / found.films_solved
+    numbers = (unknowns, angles, turns, steps, found.films_solved)
+    return [gap, f"{cells[0]} x {cells[1]}", *map(str, numbers), f"{each:.2f}", f"{seconds:.1f}"]
+
+
+def save(found: GapRevolution[Loads], file: Path) -> None:
+    """Angles rad, positions m, forces N, leakage m3/s, least film m and pressure Pa of the periodic turn."""
+    instants = found.turn.instants
+    np.savez(
+        file,
+        angle=found.angles,
+        position=found.positions,
+        film_force=np.array([at.film_force for at in instants]),
+        contact_force=np.array([at.contact_force for at in instants]),
+        least_film=np.array([at.loads.film_thickness_min for at in instants]),
+        pressure_max=np.array([at.loads.pressure_max for at in instants]),
+        flow=np.array([list(at.loads.flow.values()) for at in instants]),
+        dissipation=np.array([at.loads.dissipation for at in instants]),
+    )
+
+
+def main() -> None:
+    """Time the gaps named, all without one, and print them."""
+    parser = argparse.ArgumentParser(description="Time the floating gaps of a pump over a turn.")
+    parser.add_argument("--gap", choices=list(CELLS), action="append", help="one of the gaps, and so on")
+    parser.add_argument("--angles", type=int, default=360, help="reported angles a turn")
+    parser.add_argument("--step", type=float, default=1e-2, help="error a step may make, of the least film")
+    parser.add_argument("--growth", action="store_true", help="also other meshes and angles")
+    parser.add_argument("--save", type=Path, help="folder for the periodic turns")
+    asked = parser.parse_args()
+    gaps = asked.gap or list(CELLS)
+    costs = Table(title=f"{PUMP} at {PRESSURE}: the periodic turn")
+    for head in ("gap", "cells", "held", "angles", "turns", "steps", "films", "film / ms", "process / s"):
+        costs.add_column(head, justify="right")
+    where = Table(title="where the time goes")
+    for head in ("part", *gaps):
+        where.add_column(head, justify="right")
+    parts: dict[str, dict[str, float]] = {}
+    for gap in gaps:
+        turned(gap, COARSE[gap], 12, 0.1)()
+        series = [(CELLS[gap], asked.angles)]
+        if asked.growth:
+            a, b = CELLS[gap]
+            series += [(COARSE[gap], asked.angles), ((3 * a // 2, 3 * b // 2), asked.angles), (CELLS[gap], 72)]
+        for cells, angles in series:
+            found, seconds = timed(turned(gap, cells, angles, asked.step))
+            costs.add_row(*row_of(gap, cells, angles, found, seconds))
+            if asked.save and cells == CELLS[gap] and angles == asked.angles:
+                save(found, asked.save / f"{gap}.npz")
+        parts[gap] = shares(turned(gap, CELLS[gap], 36, asked.step))
+    for part in [*PARTS, "other"]:
+        where.add_row(part, *(f"{parts[gap].get(part, 0.0):.0%}" for gap in gaps))
+    console = Console()
+    console.print(costs)
+    console.print(where)
+
+
+if __name__ == "__main__":
+    main()
