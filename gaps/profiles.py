@@ -7,7 +7,7 @@ shape's depth or slope jumps it has a knee, at which a mesh does well to have a 
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple, Protocol
 
@@ -232,6 +232,23 @@ class PointsAround:
         along = ((1 - v) * (two - one) + v * (four - three)) / np.diff(places)[i]
         around = ((1 - u) * (three - one) + u * (four - two)) / np.diff(angles)[j]
         return Relief(depth, along, around)
+
+
+def measured(rows: Sequence[Sequence[float]]) -> Points | PointsAround:
+    """The shape of measured rows: (place, depth), or (place, angle, depth) of every pair of place and angle.
+
+    Raises as `Points` and `PointsAround`, and FilmInputError for a net with holes or with places told twice.
+    """
+    if len(rows[0]) == 2:
+        return Points(tuple(row[0] for row in rows), tuple(row[1] for row in rows))
+    places, angles = (tuple(sorted({row[column] for row in rows})) for column in (0, 1))
+    depths = {(row[0], row[1]): row[2] for row in rows}
+    if not len(depths) == len(rows) == len(places) * len(angles):
+        found = f"{len(rows)} rows at {len(places)} places and {len(angles)} angles"
+        raise FilmInputError(
+            "profile", found, f"{len(places) * len(angles)} rows, each place with each angle once"
+        )
+    return PointsAround(places, angles, tuple(tuple(depths[i, j] for j in angles) for i in places))
 
 
 def ring_grooves(grooves: Iterable[tuple[float, float, float]]) -> Profile:

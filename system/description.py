@@ -134,6 +134,7 @@ class ValvePlateSection(Section):
     tilt_y: Angle
     residual_clamping: Coefficient  # fraction of the pressure force
     waviness: WavinessSection | None = None
+    profile: Profile | None = None  # over the radius
 
 
 class PortsSection(Section):

@@ -18,7 +18,10 @@ from system.units import Dimension
 
 @dataclass(frozen=True)
 class Points:
-    """Marks a field that is a list of rows, one quantity a column, with an example row."""
+    """Marks a field that is a list of rows, one quantity a column, with an example row.
+
+    A field may have several: rows are all of one of these layouts.
+    """
 
     columns: tuple[Dimension, ...]
     heads: tuple[str, ...]
@@ -54,8 +57,22 @@ Fraction = Annotated[float, Field(ge=0.0, le=1.0)]
 Coefficient = Annotated[float, NotNegative]
 
 Profile = Annotated[
-    tuple[tuple[float, float], ...],
+    tuple[tuple[float, ...], ...],
     Points((Dimension.LENGTH, Dimension.LENGTH), ("place", "material taken off"), ("3 mm", "2 um")),
+    Points(
+        (Dimension.LENGTH, Dimension.ANGLE, Dimension.LENGTH),
+        ("place", "angle", "material taken off"),
+        ("3 mm", "90 deg", "2 um"),
+    ),
+    Field(min_length=2),
+]
+ImpedanceRows = Annotated[
+    tuple[tuple[float, float, float], ...],
+    Points(
+        (Dimension.FREQUENCY, Dimension.HYDRAULIC_IMPEDANCE, Dimension.HYDRAULIC_IMPEDANCE),
+        ("frequency", "real", "imaginary"),
+        ("315 Hz", "1e9 Pa s/m3", "-2e9 Pa s/m3"),
+    ),
     Field(min_length=2),
 ]
 Grooves = Annotated[
@@ -81,9 +98,9 @@ def dimension_of(field: FieldInfo) -> Dimension | None:
     return next((mark for mark in _marks(field) if isinstance(mark, Dimension)), None)
 
 
-def points_of(field: FieldInfo) -> Points | None:
-    """Return the columns of a field that is a list of rows, or None for another."""
-    return next((mark for mark in _marks(field) if isinstance(mark, Points)), None)
+def layouts_of(field: FieldInfo) -> tuple[Points, ...]:
+    """Return the layouts of the rows of a field that is a list of rows; none for another."""
+    return tuple(mark for mark in _marks(field) if isinstance(mark, Points))
 
 
 def choice_of(field: FieldInfo) -> type[Enum] | None:

@@ -10,7 +10,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 from gaps.physics import FilmLaws
-from gaps.profiles import Barrel, Crown, EdgeRelief, Points, Profile, Shape, Waviness, ring_grooves
+from gaps.profiles import Barrel, Crown, EdgeRelief, Profile, Shape, Waviness, measured, ring_grooves
 from reynolds.contact import Asperities, composite_modulus
 from reynolds.fluid import CONSTANT, Fluid
 from reynolds.roughness import Surface
@@ -179,7 +179,7 @@ def _piston(pump: PumpDescription, laws: FilmLaws, taken: _Taken) -> PistonParts
         "piston.centre_of_mass", part.centre_of_mass, 0.5 * (part.overhang + part.engaged_length),
         "the middle from ball centre to inner end, as of a plain rod", length,
     )  # fmt: skip
-    shapes: list[Shape] = [] if part.profile is None else [_points(part.profile)]
+    shapes: list[Shape] = [] if part.profile is None else [measured(part.profile)]
     if part.barrel is not None:
         shapes.append(Barrel(part.engaged_length, part.barrel))
     if part.edge_relief is not None:
@@ -188,7 +188,7 @@ def _piston(pump: PumpDescription, laws: FilmLaws, taken: _Taken) -> PistonParts
         shapes += ring_grooves(part.grooves).shapes
     if not shapes:
         taken.note("piston.profile", "a cylinder with sharp edges", "no shape is stated")
-    bore: list[Shape] = [] if pump.bore.profile is None else [_points(pump.bore.profile)]
+    bore: list[Shape] = [] if pump.bore.profile is None else [measured(pump.bore.profile)]
     if pump.bore.edge_relief is not None:
         bore.append(EdgeRelief(0.0, pump.bore.edge_relief.width, pump.bore.edge_relief.depth))
     if not bore:
@@ -206,7 +206,7 @@ def _slipper(pump: PumpDescription, laws: FilmLaws, taken: _Taken) -> SlipperPar
         "slipper.orifice_flow_coefficient", part.orifice_flow_coefficient, 1.5**-0.5,
         "a sharp entry and a free exit take 1.5 velocity heads, Idelchik 1960",
     )  # fmt: skip
-    shapes: list[Shape] = [] if part.profile is None else [_points(part.profile)]
+    shapes: list[Shape] = [] if part.profile is None else [measured(part.profile)]
     if part.crown is not None:
         shapes.append(Crown(rim, part.crown))
     if part.rim_relief is not None:
@@ -244,15 +244,13 @@ def _block(pump: PumpDescription, laws: FilmLaws, taken: _Taken) -> BlockParts:
         "block.spline_position", pump.block.spline_position, ball_plane_height(pump),
         "where the plane of the ball centres cuts the shaft", Dimension.LENGTH,
     )  # fmt: skip
-    waves = pump.valve_plate.waviness
-    if waves is None:
+    waves, rows = pump.valve_plate.waviness, pump.valve_plate.profile
+    shapes: list[Shape] = [] if rows is None else [measured(rows)]
+    if waves is not None:
+        shapes.append(Waviness(waves.waves, waves.amplitude))
+    if not shapes:
         taken.note("valve_plate.waviness", "none", "no shape is stated; a flat ring sinks until contact bears")
-        return BlockParts(height, Profile(), laws)
-    return BlockParts(height, Profile((Waviness(waves.waves, waves.amplitude),)), laws)
-
-
-def _points(rows: tuple[tuple[float, float], ...]) -> Points:
-    return Points(tuple(place for place, _ in rows), tuple(depth for _, depth in rows))
+    return BlockParts(height, Profile(tuple(shapes)), laws)
 
 
 def _laws(

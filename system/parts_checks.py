@@ -3,18 +3,20 @@
 from __future__ import annotations
 
 import math
+from collections import Counter
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from itertools import pairwise
 from typing import TypeVar
 
-from system.checks import Check, CheckReport, CheckWarning, Finding, length, needs, run_checks
+from system.checks import Check, CheckReport, CheckWarning, Finding, angle, length, needs, run_checks
 from system.description import SINGLE_PARTS, PumpDescription
 from system.faults import Fault
 from system.parts_description import DeliveryLineKind, ReliefSection, RetainerKind
 
 _Found = TypeVar("_Found", Fault, CheckWarning)
 
+Rows = tuple[tuple[float, ...], ...]
 STEEPEST = 0.01  # depth of a shape over its width; above it the film is no thin film
 
 _BORE = ("piston.engaged_length", "pump.dead_volume", "pump.piston_diameter")
@@ -78,19 +80,47 @@ def slipper_profile_fits(pump: PumpDescription) -> Iterator[Finding]:
     yield from _places("slipper.profile", rows, part.land_inner_radius, part.land_outer_radius)
 
 
-def _places(path: str, rows: tuple[tuple[float, ...], ...], start: float, end: float) -> Iterator[Finding]:
-    """Places of a profile grow, and reach from `start` to `end`: what was not measured is not known."""
+@needs("valve_plate.profile", "valve_plate.land_radius_1", "valve_plate.land_radius_4")
+def valve_plate_profile_fits(pump: PumpDescription) -> Iterator[Finding]:
+    """The plate's measured shape reaches all over both sealing lands."""
+    rows, part = pump.valve_plate.profile or (), pump.valve_plate
+    yield from _places("valve_plate.profile", rows, part.land_radius_1, part.land_radius_4)
+
+
+def _places(path: str, rows: Rows, start: float, end: float) -> Iterator[Finding]:
+    """Places of a profile grow, and reach from `start` to `end`: what was not measured is not known.
+
+    Of a profile with angles each place has each angle once, within less than a turn.
+    """
     places = [row[0] for row in rows]
-    for before, after in pairwise(places):
-        if before >= after:
-            yield Fault(path, f"{length(after)} after {length(before)}", "places that grow from row to row")
+    if rows and len(rows[0]) == 3:
+        yield from _net(path, rows)
+    else:
+        for before, after in pairwise(places):
+            if before >= after:
+                yield Fault(path, f"{length(after)} after {length(before)}", "places that grow from row to row")
     if places and (min(places) > start or max(places) < end):
         found = f"places from {length(min(places))} to {length(max(places))}"
         yield Fault(path, found, f"places from {length(start)} or less to {length(end)} or more")
 
 
-def _leaves_clearance(path: str, rows: tuple[tuple[float, ...], ...], clearance: float) -> Iterator[Finding]:
-    least = min((row[1] for row in rows), default=0.0)
+def _net(path: str, rows: Rows) -> Iterator[Finding]:
+    places, angles = sorted({row[0] for row in rows}), sorted({row[1] for row in rows})
+    known = Counter(row[:2] for row in rows)
+    for place, turned in ((place, turned) for place in places for turned in angles):
+        if known[place, turned] != 1:
+            found = f"{known[place, turned]} rows at {length(place)}, {angle(turned)}"
+            yield Fault(path, found, "each place with each angle once")
+            break
+    if len(places) < 2 or len(angles) < 2:
+        yield Fault(path, f"{len(places)} places, {len(angles)} angles", "two or more of both")
+    elif angles[-1] - angles[0] >= 2.0 * math.pi:
+        found = f"angles from {angle(angles[0])} to {angle(angles[-1])}"
+        yield Fault(path, found, "less than a turn; the profile closes by itself")
+
+
+def _leaves_clearance(path: str, rows: Rows, clearance: float) -> Iterator[Finding]:
+    least = min((row[-1] for row in rows), default=0.0)
     if least <= -clearance:
         yield Fault(
             path,
@@ -203,6 +233,7 @@ PARTS_CHECKS = (
     piston_profile_fits,
     bore_profile_fits,
     slipper_profile_fits,
+    valve_plate_profile_fits,
     piston_grooves_lie_apart,
     piston_edge_leaves_a_land,
     bore_edge_leaves_a_land,

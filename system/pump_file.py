@@ -22,7 +22,7 @@ from system.film_checks import FILM_CHECKS
 from system.geometry_checks import GEOMETRY_CHECKS
 from system.operating_checks import OPERATING_CHECKS
 from system.parts_checks import PARTS_CHECKS, single_parts_checked
-from system.pump_values import bound, read_value, wanted, written_value
+from system.pump_values import HERE, bound, read_value, wanted, written_value
 from system.units import Dimension, QuantityError, to_gauge
 
 ABSOLUTE = "_abs"  # a pressure key that ends so is absolute
@@ -41,6 +41,7 @@ def load_pump(source: str | Path, overrides: Mapping[str, object] | None = None)
     """Return the description of a built-in pump (by name) or of a pump file (by path), in SI.
 
     `overrides` puts values in place of the file's, as they would stand there: {"operating.speed": "1500 rpm"}.
+    A file that a value names is looked for beside the pump file; with a built-in pump, in the working directory.
     Raises InputFaults with everything that is wrong: in the file's form, its units, its values and its
     geometry. Doubtful values raise nothing; `check_pump` tells them.
     """
@@ -56,7 +57,8 @@ def load_pump(source: str | Path, overrides: Mapping[str, object] | None = None)
             table.pop(key + ABSOLUTE, None)
             table[key] = value
         lines[path] = None
-    return _describe(label, tables, lines)
+    folder = HERE if str(source) in builtin_pumps() else Path(source).parent
+    return _describe(label, tables, lines, folder)
 
 
 def check_pump(pump: PumpDescription) -> CheckReport:
@@ -139,8 +141,12 @@ def _parse(label: str, text: str) -> dict[str, Any]:
 
 @dataclass
 class _Reading:
-    """What has been made of a file so far: its faults, the paths these tell of, and the paths to be trusted."""
+    """What has been made of a file so far: its faults, the paths these tell of, and the paths to be trusted.
 
+    `folder`: from where the paths of files in it are counted.
+    """
+
+    folder: Path
     faults: list[Fault] = field(default_factory=list)
     told: set[str] = field(default_factory=set)
     trusted: set[str] = field(default_factory=set)
@@ -156,9 +162,11 @@ class _Reading:
         self.told.add(f"{section}{near}")
 
 
-def _describe(label: str, tables: Mapping[str, Any], lines: Mapping[str, int | None]) -> PumpDescription:
+def _describe(
+    label: str, tables: Mapping[str, Any], lines: Mapping[str, int | None], folder: Path
+) -> PumpDescription:
     """Return the description of the tables, or raise all their faults, those of the checks included."""
-    reading = _Reading()
+    reading = _Reading(folder)
     name = tables.get("name")
     known = ["name", "format", *_TABLES]
     for key in tables:
@@ -253,7 +261,7 @@ def _values(name: str, model: type[Section], table: Mapping[str, object], readin
                 reading.told.add(path)
         else:
             try:
-                value = read_value(info, raw)
+                value = read_value(info, raw, reading.folder)
             except QuantityError as reason:
                 reading.fault(path, reason.found, reason.expected, reason.nearest)
                 reading.told.add(f"{name}.{key}")

@@ -3,29 +3,34 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from enum import Enum
+from pathlib import Path
 from typing import Any
 
 from pydantic.fields import FieldInfo
 
 from system.faults import nearest_choice
-from system.fields import Points, choice_of, dimension_of, points_of, whole
+from system.fields import Points, choice_of, dimension_of, layouts_of, whole
+from system.point_files import read_rows, wanted_file
 from system.units import Dimension, QuantityError, format_quantity, parse_quantity
 
+HERE = Path()
+"""Where files are looked for that a built-in pump's own values name: the working directory."""
 _BOUNDS = {"gt": "more than", "ge": "at least", "lt": "less than", "le": "at most"}
 
 
-def read_value(info: FieldInfo, raw: object) -> object:
+def read_value(info: FieldInfo, raw: object, folder: Path = HERE) -> object:
     """Return what an entry of a table means, in SI: a number, a choice, or rows of numbers.
 
-    Raises QuantityError (found, expected, nearest) for what the field does not hold.
+    Rows may stand in a CSV file named by its path from the folder. Raises QuantityError (found, expected, nearest)
+    for what the field does not hold.
     """
-    dimension, points, choice = dimension_of(info), points_of(info), choice_of(info)
+    dimension, layouts, choice = dimension_of(info), layouts_of(info), choice_of(info)
     if dimension is not None:
         return parse_quantity(raw, dimension)
-    if points is not None:
-        return _rows(raw, points)
+    if layouts:
+        return read_rows(folder / raw, layouts) if isinstance(raw, str) else _rows(raw, layouts)
     if choice is not None:
         return _choice(raw, choice)
     if isinstance(raw, bool) or not isinstance(raw, (int, float)):
@@ -35,9 +40,10 @@ def read_value(info: FieldInfo, raw: object) -> object:
 
 def written_value(info: FieldInfo, value: object) -> str:
     """Return a value as TOML, so that `read_value` gives it back to the last bit."""
-    dimension, points = dimension_of(info), points_of(info)
-    if points is not None and isinstance(value, tuple):
-        rows = (", ".join(map(_written_quantity, row, points.columns)) for row in value)
+    dimension, layouts = dimension_of(info), layouts_of(info)
+    if layouts and isinstance(value, tuple):
+        columns = _layout(layouts, value).columns
+        rows = (", ".join(map(_written_quantity, row, columns)) for row in value)
         return "[" + ", ".join(f"[{row}]" for row in rows) + "]"
     if isinstance(value, Enum):
         return json.dumps(value.value)
@@ -48,11 +54,11 @@ def written_value(info: FieldInfo, value: object) -> str:
 
 def wanted(info: FieldInfo) -> str:
     """Return what a key holds, in words."""
-    dimension, points, choice = dimension_of(info), points_of(info), choice_of(info)
+    dimension, layouts, choice = dimension_of(info), layouts_of(info), choice_of(info)
     if dimension is not None:
         return f"{dimension.noun} with its unit, such as '{dimension.example}'"
-    if points is not None:
-        return _wanted_rows(points)
+    if layouts:
+        return f"{_wanted_rows(layouts)}; or {wanted_file(layouts)}"
     if choice is not None:
         return f"one of {_names(choice)}"
     return "a whole number" if whole(info) else "a bare number (the value has no unit)"
@@ -73,21 +79,27 @@ def bound(info: FieldInfo, limits: Mapping[str, Any]) -> str:
 
 def units_shown(info: FieldInfo) -> str:
     """Return the example units of a key's columns, such as "mm" or "mm, um"; "-" for what has none."""
-    points, dimension = points_of(info), dimension_of(info)
-    examples = points.example if points else (dimension.example,) if dimension else ()
+    layouts, dimension = layouts_of(info), dimension_of(info)
+    examples = layouts[0].example if layouts else (dimension.example,) if dimension else ()
     return ", ".join(example.split(" ", 1)[1] for example in examples) or "-"
 
 
-def _rows(raw: object, points: Points) -> tuple[tuple[float, ...], ...]:
-    """Return a list of rows in SI; a fault names the row, counted from 1, and its column."""
+def _rows(raw: object, layouts: tuple[Points, ...]) -> tuple[tuple[float, ...], ...]:
+    """Return a list of rows in SI, of the layout of the first; a fault names the row, from 1, and its column."""
     if not isinstance(raw, list) or not all(isinstance(row, list) for row in raw):
-        raise QuantityError(repr(raw), _wanted_rows(points))
-    return tuple(_row(number, row, points) for number, row in enumerate(raw, start=1))
+        raise QuantityError(repr(raw), f"{_wanted_rows(layouts)}; or {wanted_file(layouts)}")
+    layout = _layout(layouts, raw)
+    return tuple(_row(number, row, layout) for number, row in enumerate(raw, start=1))
+
+
+def _layout(layouts: tuple[Points, ...], rows: Sequence[Sequence[object]]) -> Points:
+    """Return the layout with as many columns as the first row has; the first one where none has."""
+    return next((one for one in layouts if rows and len(one.columns) == len(rows[0])), layouts[0])
 
 
 def _row(number: int, row: list[object], points: Points) -> tuple[float, ...]:
     if len(row) != len(points.columns):
-        raise QuantityError(f"{len(row)} values in row {number}, {row!r}", _wanted_rows(points))
+        raise QuantityError(f"{len(row)} values in row {number}, {row!r}", _wanted_rows((points,)))
     found = []
     for cell, dimension, head in zip(row, points.columns, points.heads, strict=True):
         try:
@@ -110,9 +122,9 @@ def _names(choices: type[Enum]) -> str:
     return ", ".join(f"'{member.value}'" for member in choices)
 
 
-def _wanted_rows(points: Points) -> str:
-    heads = ", ".join(points.heads)
-    return f"rows of {heads}, each with its unit, such as [{list(points.example)}, ...]"
+def _wanted_rows(layouts: tuple[Points, ...]) -> str:
+    heads = ", or of ".join(", ".join(points.heads) for points in layouts)
+    return f"rows of {heads}, each with its unit, such as [{list(layouts[0].example)}, ...]"
 
 
 def _written_quantity(value: float, dimension: Dimension) -> str:

@@ -64,6 +64,8 @@ class Dimension(Enum):
     CONDUCTIVITY = ("a thermal conductivity", "W/(m K)", ("W/(m K)",), "0.13 W/(m K)")
     HEAT_TRANSFER = ("a heat transfer coefficient", "W/(m2 K)", ("W/(m2 K)",), "80 W/(m2 K)")
     FOUNDATION = ("a stiffness per area", "Pa/m", ("GPa/m",), "1e13 Pa/m")
+    FREQUENCY = ("a frequency", "Hz", ("kHz", "Hz"), "315 Hz")
+    HYDRAULIC_IMPEDANCE = ("a hydraulic impedance", "Pa s/m3", ("Pa s/m3",), "1e9 Pa s/m3")
     AREAL_DENSITY = ("a number per area", "1/m2", ("1/mm2",), "2e10 1/m2")
 
     def __init__(self, noun: str, si_unit: str, reading_units: tuple[str, ...], example: str) -> None:
