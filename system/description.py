@@ -45,9 +45,9 @@ from system.fields import (
     Volume,
     table_of,
 )
+from system.line_description import LineSection
 from system.parts_description import (
     BoreSection,
-    DeliveryLineSection,
     MaterialsSection,
     ReliefSection,
     RetainerSection,
@@ -242,7 +242,8 @@ class PumpDescription(Section):
     retainer: RetainerSection = RetainerSection()
     materials: MaterialsSection = MaterialsSection()
     surfaces: SurfacesSection = SurfacesSection()
-    delivery_line: DeliveryLineSection = DeliveryLineSection()
+    delivery_line: LineSection = LineSection()
+    suction_line: LineSection = LineSection()
     single_pistons: tuple[tuple[int, PistonSection], ...] = ()  # by chamber, complete
     single_slippers: tuple[tuple[int, SlipperSection], ...] = ()
 

@@ -17,8 +17,9 @@ from reynolds.roughness import Surface
 from reynolds.viscosity import Roelands
 from system.description import PumpDescription
 from system.kinematics import piston_displacement
+from system.line_description import LineKind
 from system.lumped import full_drive, piston_area
-from system.parts_description import DeliveryLineKind, MaterialSection, RetainerKind, SurfaceSection
+from system.parts_description import MaterialSection, RetainerKind, SurfaceSection
 from system.units import Dimension, format_quantity
 
 SUMMIT_PRODUCT = 0.04  # eta beta sigma of finished surfaces, 0.03 .. 0.05 (Greenwood and Tripp 1970-71)
@@ -119,7 +120,6 @@ class FloatingParts:
     slipper: SlipperParts
     block: BlockParts
     materials: Mapping[str, Material]
-    delivery_line: DeliveryLineKind
     taken: tuple[Assumption, ...]
 
 
@@ -148,12 +148,12 @@ def floating_parts(pump: PumpDescription) -> FloatingParts:
     taken = _Taken()
     materials = {name: _material(pump, name, taken) for name in _USUAL}
     oil = _fluid(pump, taken)
+    _tell_lines(pump, taken)
     return FloatingParts(
         piston=_piston(pump, _laws(pump, "piston_cylinder", oil, materials, taken), taken),
         slipper=_slipper(pump, _laws(pump, "slipper_swash_plate", oil, materials, taken), taken),
         block=_block(pump, _laws(pump, "valve_plate_cylinder", oil, materials, taken), taken),
         materials=materials,
-        delivery_line=_delivery_line(pump, taken),
         taken=tuple(taken.assumptions),
     )
 
@@ -307,10 +307,8 @@ def _material(pump: PumpDescription, name: str, taken: _Taken) -> Material:
     return replace(usual, **given)
 
 
-def _delivery_line(pump: PumpDescription, taken: _Taken) -> DeliveryLineKind:
-    if pump.delivery_line.kind is None:
-        taken.note(
-            "delivery_line.kind", DeliveryLineKind.HELD.value, "the delivery port's pressure does not ripple"
-        )
-        return DeliveryLineKind.HELD
-    return pump.delivery_line.kind
+def _tell_lines(pump: PumpDescription, taken: _Taken) -> None:
+    for name in ("delivery", "suction"):
+        if getattr(pump, f"{name}_line").kind is None:
+            reason = f"the {name} port's pressure does not ripple"
+            taken.note(f"{name}_line.kind", LineKind.HELD.value, reason)

@@ -6,18 +6,12 @@ volume belongs to the port: pipe and passages up to where the orifice sits or th
 
 from __future__ import annotations
 
-import csv
 from dataclasses import dataclass
-from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
-from system.faults import Fault, InputFaults
 from system.kinematics import Array
-
-COLUMNS = ("frequency [Hz]", "real [Pa s/m3]", "imaginary [Pa s/m3]")
-"""Head of an impedance file."""
 
 
 @dataclass(frozen=True)
@@ -97,23 +91,6 @@ class Lines:
 
     delivery: Line = HeldPressure()
     suction: Line = HeldPressure()
-
-
-def read_impedance(path: Path) -> Impedance:
-    """The impedance in a CSV file with the columns COLUMNS; raises InputFaults for what is not one."""
-    try:
-        rows = list(csv.reader(path.read_text(encoding="utf-8").splitlines()))
-    except (OSError, UnicodeDecodeError) as error:
-        raise InputFaults(str(path), [Fault("file", str(error), "a CSV file of an impedance")]) from error
-    head = tuple(cell.strip() for cell in rows[0]) if rows else ()
-    if head != COLUMNS:
-        raise InputFaults(str(path), [Fault("head", ", ".join(head) or "nothing", ", ".join(COLUMNS))])
-    try:
-        numbers = np.array([[float(cell) for cell in row] for row in rows[1:] if row]).reshape(-1, 3)
-        return Impedance(numbers[:, 0].copy(), numbers[:, 1] + 1j * numbers[:, 2])
-    except ValueError as error:
-        expected = "three numbers a row, frequencies rising"
-        raise InputFaults(str(path), [Fault("rows", str(error), expected)]) from error
 
 
 def volume_impedance(volume: float, bulk_modulus: float, frequency: Array) -> NDArray[np.complex128]:

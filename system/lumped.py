@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import assert_never
 
 import numpy as np
 
@@ -28,10 +27,10 @@ from system.leakage import (
     slipper_conductance,
     valve_plate_conductance,
 )
-from system.lines import Lines, OrificeLine
+from system.line_description import line_of
+from system.lines import Lines
 from system.operating import OperatingPoint
 from system.pairs import FrictionPairs, PairLoss
-from system.parts_description import DeliveryLineKind
 from system.ports import TURN, PortOpening
 from system.ports_coupling import ported_cycle
 from system.power import chamber_exchange
@@ -74,22 +73,12 @@ def lumped_point(pump: PumpDescription, point: OperatingPoint, tolerance: float 
 
 
 def port_lines(pump: PumpDescription, point: OperatingPoint) -> Lines:
-    """What hangs on the ports by [delivery_line]; the inlet pressure is held.
+    """What hangs on the ports by [delivery_line] and [suction_line].
 
-    A tank pressure left out is the inlet's: the low-pressure side of a circuit. Raises ValueError for an orifice
-    without a volume before it.
+    A tank pressure left out is the inlet's: the low-pressure side of a circuit, or what the pump draws from.
     """
-    stated = pump.delivery_line
-    match stated.kind:
-        case None | DeliveryLineKind.HELD:
-            return Lines()
-        case DeliveryLineKind.ORIFICE:
-            if stated.volume is None:
-                raise ValueError("delivery_line.volume: found none, expected the volume before the orifice")
-            tank = point.inlet_pressure if stated.tank_pressure is None else stated.tank_pressure
-            return Lines(delivery=OrificeLine(stated.volume, tank, stated.orifice_area))
-        case _:
-            assert_never(stated.kind)
+    tank = point.inlet_pressure
+    return Lines(delivery=line_of(pump.delivery_line, tank), suction=line_of(pump.suction_line, tank))
 
 
 def group_masses(pump: PumpDescription) -> GroupMasses:

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 
 from reynolds.oil import walther
 from system.checks import CheckReport, CheckWarning, Finding, needs, pressure, run_checks
 from system.description import OperatingSection, PumpDescription
 from system.faults import Fault
+from system.line_description import LineKind, ripple_faults
+from system.lumped import SAMPLES_PER_PITCH
 from system.operating import OperatingPoint
 from system.units import Dimension, format_quantity, to_absolute, to_gauge
 
@@ -142,6 +145,23 @@ def oil_has_a_viscosity(pump: PumpDescription) -> Iterator[Finding]:
         yield Fault("operating.temperature", shown, f"a temperature at which the oil's law holds: {reason}")
 
 
+@needs("pump.pistons", "operating.speed")
+def impedances_reach_the_ripple(pump: PumpDescription) -> Iterator[Finding]:
+    """A line of given impedance is known at all harmonics of the ripple that the sampled angles resolve."""
+    lowest = pump.pump.pistons * pump.operating.speed / (2.0 * math.pi)
+    for name in ("delivery_line", "suction_line"):
+        yield from ripple_faults(name, getattr(pump, name), lowest, lowest * (SAMPLES_PER_PITCH // 2))
+
+
+@needs("operating.inlet_pressure")
+def suction_flows_from_its_tank(pump: PumpDescription) -> Iterator[Finding]:
+    """A suction orifice of free area lies between a tank and a lower inlet pressure."""
+    line, inlet = pump.suction_line, pump.operating.inlet_pressure
+    tank = line.tank_pressure
+    if line.kind is LineKind.ORIFICE and line.orifice_area is None and tank is not None and tank <= inlet:
+        yield Fault("suction_line.tank_pressure", pressure(tank), f"more than inlet_pressure, {pressure(inlet)}")
+
+
 OPERATING_CHECKS = (
     delivery_is_above_cavitation,
     inlet_is_above_cavitation,
@@ -152,6 +172,8 @@ OPERATING_CHECKS = (
     speed_is_within_rating,
     displacement_ratio_is_possible,
     oil_has_a_viscosity,
+    impedances_reach_the_ripple,
+    suction_flows_from_its_tank,
 )
 
 

@@ -12,7 +12,8 @@ from typing import TypeVar
 from system.checks import Check, CheckReport, CheckWarning, Finding, angle, length, needs, run_checks
 from system.description import SINGLE_PARTS, PumpDescription
 from system.faults import Fault
-from system.parts_description import DeliveryLineKind, ReliefSection, RetainerKind
+from system.line_description import LineKind, line_faults
+from system.parts_description import ReliefSection, RetainerKind
 
 _Found = TypeVar("_Found", Fault, CheckWarning)
 
@@ -215,16 +216,15 @@ def retainer_keys_belong_to_its_kind(pump: PumpDescription) -> Iterator[Finding]
             yield Fault(f"retainer.{key}", "beside kind = 'spring'", f"no {key}, or kind = 'clearance'")
 
 
-@needs("delivery_line.kind")
-def delivery_line_keys_belong_to_its_kind(pump: PumpDescription) -> Iterator[Finding]:
-    """An orifice needs a volume before it; a held pressure has neither."""
-    line = pump.delivery_line
-    if line.kind is DeliveryLineKind.ORIFICE and line.volume is None:
-        yield Fault("delivery_line.volume", "no such key", "the volume between pump and orifice, such as '1 L'")
-    if line.kind is DeliveryLineKind.HELD:
-        for key in ("volume", "orifice_area", "tank_pressure"):
-            if getattr(line, key) is not None:
-                yield Fault(f"delivery_line.{key}", "beside kind = 'held'", f"no {key}, or kind = 'orifice'")
+@needs()
+def lines_have_the_keys_of_their_kinds(pump: PumpDescription) -> Iterator[Finding]:
+    """Each kind of line has its own keys; a suction orifice has an area, or lies between two pressures."""
+    yield from line_faults("delivery_line", pump.delivery_line)
+    yield from line_faults("suction_line", pump.suction_line)
+    suction = pump.suction_line
+    if suction.kind is LineKind.ORIFICE and suction.orifice_area is None and suction.tank_pressure is None:
+        expected = "the area, such as '200 mm2', or the tank_pressure with which inlet_pressure gives it"
+        yield Fault("suction_line.orifice_area", "no such key", expected)
 
 
 PARTS_CHECKS = (
@@ -242,7 +242,7 @@ PARTS_CHECKS = (
     crown_is_shallow,
     waves_are_shallow,
     retainer_keys_belong_to_its_kind,
-    delivery_line_keys_belong_to_its_kind,
+    lines_have_the_keys_of_their_kinds,
 )
 
 

@@ -11,7 +11,6 @@ from typing import Annotated
 from pydantic import Field
 
 from system.fields import (
-    Area,
     ArealDensity,
     Coefficient,
     Conductivity,
@@ -19,11 +18,9 @@ from system.fields import (
     Elasticity,
     Expansion,
     Length,
-    Pressure,
     Profile,
     Section,
     Stiffness,
-    Volume,
 )
 
 
@@ -99,19 +96,3 @@ class SurfacesSection(Section):
     piston_cylinder: SurfaceSection | None = None
     slipper_swash_plate: SurfaceSection | None = None
     valve_plate_cylinder: SurfaceSection | None = None
-
-
-class DeliveryLineKind(Enum):
-    """What the pump delivers into: a pressure held by all means, or a volume that an orifice empties."""
-
-    HELD = "held"
-    ORIFICE = "orifice"
-
-
-class DeliveryLineSection(Section):
-    """[delivery_line]: from the delivery port on."""
-
-    kind: DeliveryLineKind | None = None
-    volume: Volume | None = None
-    orifice_area: Area | None = None  # left out: that which gives [operating] pressure
-    tank_pressure: Pressure | None = None

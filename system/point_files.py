@@ -1,4 +1,4 @@
-"""Rows of quantities in a CSV file whose head names each column with its unit: `place [mm], material taken off [um]`."""
+"""Rows of quantities in a CSV file whose head names each column with its unit: `place [mm], taken off [um]`."""
 
 from __future__ import annotations
 

@@ -183,7 +183,7 @@ def _describe(
     }
     pump = PumpDescription.model_construct(name=name, format=FORMAT, **sections, **singles)
     report = run_checks(_CHECKS, pump, reading.trusted)
-    reading.faults += report.faults
+    reading.faults += [fault for fault in report.faults if fault.path not in reading.told]
     if not reading.faults:
         reading.faults += single_parts_checked(_CHECKS, pump, report).faults
     if reading.faults:

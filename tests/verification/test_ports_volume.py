@@ -12,7 +12,6 @@ from scipy.integrate import solve_ivp
 
 from system.chamber_problem import ChamberProblem, LeakTable
 from system.errors import NotConverged
-from system.faults import InputFaults
 from system.kinematics import SwashDrive, drive_at_ratio, piston_displacement, piston_velocity, stand_out
 from system.lines import (
     HeldPressure,
@@ -21,7 +20,6 @@ from system.lines import (
     Line,
     Lines,
     OrificeLine,
-    read_impedance,
     volume_impedance,
 )
 from system.ports import PortOpening, opening_area, orifice_flow
@@ -281,21 +279,3 @@ def test_what_cannot_be_is_refused(tmp_path):
         ported_cycle(pump(), Lines(ImpedanceLine(1e-3, narrow)), PISTONS, SAMPLES)
     with pytest.raises(ValueError, match="rising from above zero"):
         Impedance(np.array([2.0, 1.0]), np.ones(2) + 0j)
-
-
-def test_an_impedance_comes_from_a_file(tmp_path):
-    path = tmp_path / "line.csv"
-    path.write_text("frequency [Hz],real [Pa s/m3],imaginary [Pa s/m3]\n100,1e8,-2e8\n200,3e8,4e8\n", "utf-8")
-    found = read_impedance(path)
-    assert found.at(np.array([150.0]))[0] == pytest.approx(2e8 + 1e8j)
-    for text, what in (
-        ("f,re,im\n1,2,3\n", "head"),
-        ("frequency [Hz],real [Pa s/m3],imaginary [Pa s/m3]\n100,x,1\n", "rows"),
-        ("frequency [Hz],real [Pa s/m3],imaginary [Pa s/m3]\n100,1\n", "rows"),
-        ("frequency [Hz],real [Pa s/m3],imaginary [Pa s/m3]\n", "rows"),
-    ):
-        path.write_text(text, "utf-8")
-        with pytest.raises(InputFaults, match=what):
-            read_impedance(path)
-    with pytest.raises(InputFaults, match="file"):
-        read_impedance(tmp_path / "none.csv")

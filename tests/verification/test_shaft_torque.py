@@ -21,10 +21,10 @@ from system.kinematics import (
     slipper_acceleration,
     slipper_sliding_velocity,
 )
+from system.line_description import LineKind, LineSection
 from system.lumped import chamber_problem, group_masses, lumped_leaks, lumped_point, piston_motion
 from system.operating import operating_point
 from system.pairs import over_chambers
-from system.parts_description import DeliveryLineKind, DeliveryLineSection
 from system.pump_file import load_pump
 from system.shaft_torque import ChamberForces, GroupMasses, chamber_torque, shaft_torque
 
@@ -118,13 +118,13 @@ def test_against_the_balance_of_the_joint(k):
     assert found == pytest.approx(held[2] + forces.joint[k], rel=1e-11, abs=1e-9)
 
 
-def run(name: str, line: DeliveryLineSection | None = None, **point: float) -> PumpPoint:
+def run(name: str, line: LineSection | None = None, **point: float) -> PumpPoint:
     pump = load_pump(name)
-    pump = pump.model_copy(update={"delivery_line": line or DeliveryLineSection()})
+    pump = pump.model_copy(update={"delivery_line": line or LineSection()})
     return lumped_point(pump, operating_point(pump, **point))
 
 
-LINE = DeliveryLineSection(kind=DeliveryLineKind.ORIFICE, volume=0.2e-3)
+LINE = LineSection(kind=LineKind.ORIFICE, volume=0.2e-3)
 
 
 @pytest.mark.parametrize(
