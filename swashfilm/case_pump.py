@@ -41,8 +41,7 @@ def read_case_pump(top: Table, film: Table, folder: Path) -> CasePump | None:
         return None
     if own and OPERATING in own.values:
         top.fault(f"pump.{OPERATING}", "the operating point", f"a table [{OPERATING}] of the case")
-        return None
-    stated = dict(_flat(own.values)) if own else {}
+    stated = dict(_flat({key: part for key, part in own.values.items() if key != OPERATING})) if own else {}
     at_point = {f"{OPERATING}.{key}": value for key, value in operating.values.items()} if operating else {}
     place = source if source in builtin_pumps() else str(folder / source)
     try:

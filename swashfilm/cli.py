@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn
 
 from swashfilm.fidelity import Fidelity
+from swashfilm.physics_switches import SWITCHES, add_switches
 from swashfilm.terminal import show, show_table
 from system.faults import Fault, InputFaults, nearest_choice
 
@@ -28,7 +29,7 @@ _OVERRIDES = {
     "--inlet-pressure": ("operating.inlet_pressure", "25bar", "pressure at the inlet, gauge"),
     "--case-pressure": ("operating.case_pressure", "1.5bar", "pressure in the case, gauge"),
 }
-_FILM_OPTIONS = ["--refine", "--csv", "--resume", "--workers"]
+_FILM_OPTIONS = ["--refine", "--csv", "--resume", "--workers", "--animate", *SWITCHES]
 _FIDELITIES = [fidelity.value for fidelity in Fidelity]
 
 
@@ -109,6 +110,10 @@ def build_parser() -> argparse.ArgumentParser:
     )
     film.add_argument("--workers", metavar="N", help="of a study: processes that solve points side by side (1)")
     film.add_argument("--csv", action="store_true", help="write the fields as a table too, fields.csv")
+    film.add_argument(
+        "--animate", action="store_true", help="of a revolution: a moving picture, animation.gif (.mp4 by ffmpeg)"
+    )
+    add_switches(film)
     _output(film)
     report = _command(commands, "report", "make the report of a run folder anew")
     report.add_argument("folder", type=Path, metavar="DIR", help="the run folder")
@@ -268,14 +273,15 @@ def _report(options: argparse.Namespace) -> int:
         raise InputFaults(str(options.folder), [fault]) from None
     if kind == "film":
         from swashfilm.film_page import write_film_page as write_page
+    elif kind == "film_revolution":
+        from swashfilm.revolution_page import write_revolution_page as write_page
     elif kind == "film_study":
         from swashfilm.series_page import write_study_page as write_page
     elif kind == "pump":
         from swashfilm.pump_page import write_pump_page as write_page
     else:
-        raise InputFaults(
-            str(options.folder), [Fault("summary.json", f"kind {kind!r}", "'film', 'film_study' or 'pump'")]
-        )
+        expected = "'film', 'film_revolution', 'film_study' or 'pump'"
+        raise InputFaults(str(options.folder), [Fault("summary.json", f"kind {kind!r}", expected)])
     try:
         page = write_page(options.folder)
     except (KeyError, OSError) as reason:

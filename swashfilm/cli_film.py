@@ -5,10 +5,13 @@ from __future__ import annotations
 import argparse
 from typing import TYPE_CHECKING
 
+from swashfilm.physics_switches import switched_keys
 from swashfilm.terminal import show, show_table
 from system.faults import Fault, InputFaults
 
 if TYPE_CHECKING:
+    from swashfilm.film_case import Case
+    from swashfilm.revolution_case import RevolutionCase
     from swashfilm.study_case import StudyCase
 
 COMMAND_LINE = "command line"
@@ -21,20 +24,42 @@ def run_film(options: argparse.Namespace) -> int:
     from swashfilm.film_refine import check_refinement, refinement_head, refinement_rows
     from swashfilm.film_run import run_case
     from swashfilm.progress import progress
+    from swashfilm.revolution_case import RevolutionCase
     from swashfilm.run_folder import final_folder, run_folder
     from swashfilm.study_case import StudyCase, load_film
 
     meshes = _count("--refine", options.refine, "a number of meshes", 2, 5)
     workers = _count("--workers", options.workers, "a number of processes", 1, 64)
-    case = load_film(options.case)
-    _check_options(options, study=isinstance(case, StudyCase))
+    case = load_film(options.case, switched_keys(options))
+    _check_options(options, case)
     if isinstance(case, StudyCase):
         return _study(case, options, workers)
+    if isinstance(case, RevolutionCase):
+        return _revolution(case, options, meshes)
     if meshes > 1:
         check_refinement(case, meshes)
     with run_folder(case.name, options.output) as folder, progress(3, f"film {case.name}") as report:
         summary = run_case(case, folder, report, meshes=meshes, as_table=options.csv)
     show_table(f"Film {case.name}", summary_rows(summary))
+    if found := summary.get("refinement"):
+        show_table("On finer meshes", [refinement_head(found), *refinement_rows(found)])
+    for warning in summary["warnings"]:
+        show(f"warning: {warning['name']}: {warning['text']}")
+    show(f"results in {final_folder(folder)}")
+    return 0
+
+
+def _revolution(case: RevolutionCase, options: argparse.Namespace, meshes: int) -> int:
+    from swashfilm.film_refine import refinement_head, refinement_rows
+    from swashfilm.progress import progress
+    from swashfilm.revolution_page import revolution_rows
+    from swashfilm.revolution_run import run_revolution_case
+    from swashfilm.run_folder import final_folder, run_folder
+
+    label = f"film {case.name}"
+    with run_folder(case.name, options.output) as folder, progress(case.options.steps, label) as report:
+        summary = run_revolution_case(case, folder, report, meshes=meshes, animated=options.animate)
+    show_table(f"Film {case.name}", revolution_rows(summary))
     if found := summary.get("refinement"):
         show_table("On finer meshes", [refinement_head(found), *refinement_rows(found)])
     for warning in summary["warnings"]:
@@ -63,17 +88,27 @@ def _study(study: StudyCase, options: argparse.Namespace, workers: int) -> int:
     return 0 if summary["solved"] else EXIT_NOT_CONVERGED
 
 
-def _check_options(options: argparse.Namespace, *, study: bool) -> None:
+def _check_options(options: argparse.Namespace, case: Case | StudyCase) -> None:
     """Raise InputFaults for options that are not for this kind of case."""
-    unfit = {"--refine": options.refine, "--csv": options.csv or None}
-    kind, other = "a study", "a single film"
-    if not study:
-        unfit, kind, other = (
-            {"--resume": options.resume, "--workers": options.workers},
-            other,
-            "a case with [study]",
-        )
-    faults = [Fault(name, f"an option beside {kind}", other) for name, given in unfit.items() if given is not None]
+    from swashfilm.revolution_case import RevolutionCase
+    from swashfilm.study_case import StudyCase
+
+    single, study, turn = "a single film", "a case with [study]", "a single case with revolution = true"
+    for_study = {"--resume": options.resume, "--workers": options.workers}
+    for_turn, for_instant = {"--animate": options.animate or None}, {"--csv": options.csv or None}
+    match case:
+        case StudyCase():
+            kind, unfit = study, [({"--refine": options.refine} | for_instant, single), (for_turn, turn)]
+        case RevolutionCase():
+            kind, unfit = turn, [(for_study, study), (for_instant, "a film at one instant")]
+        case _:
+            kind, unfit = single, [(for_study, study), (for_turn, turn)]
+    faults = [
+        Fault(name, f"an option beside {kind}", fit)
+        for stated, fit in unfit
+        for name, given in stated.items()
+        if given is not None
+    ]
     if faults:
         raise InputFaults(COMMAND_LINE, faults)
 

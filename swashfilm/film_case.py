@@ -25,6 +25,7 @@ from swashfilm.gap_case import FORMAT, GapCase, read_gap_case
 from swashfilm.load_case import read_load
 from swashfilm.mesh_case import read_mesh
 from swashfilm.oil_case import OilStatement, oil_viscosity, read_oil
+from swashfilm.revolution_case import RevolutionCase, read_revolution_case
 from swashfilm.roughness_case import read_roughness
 from swashfilm.thermal_case import check_bodies, read_thermal
 from swashfilm.time_case import initial_film_fraction, read_time
@@ -48,7 +49,10 @@ class FilmCase:
         return replace(self, stated=stated, problem=film_problem(stated), resolved=resolved_text(stated))
 
 
-def load_case(path: Path) -> FilmCase | GapCase:
+Case = FilmCase | GapCase | RevolutionCase
+
+
+def load_case(path: Path) -> Case:
     """The case of a file, ready to be solved: a free film, or a pump gap where it names one.
 
     Raises InputFaults with everything that is wrong: form, units, formulas, names of boundaries and data, a
@@ -58,13 +62,15 @@ def load_case(path: Path) -> FilmCase | GapCase:
     return read_case(path, text, tables)
 
 
-def read_case(path: Path, text: str, tables: Mapping[str, Any]) -> FilmCase | GapCase:
+def read_case(path: Path, text: str, tables: Mapping[str, Any]) -> Case:
     """The case of a file's tables; `text` and `path` are for its name, its faults and the files beside it."""
     top = Table("", tables, [])
     _check_format(top)
     film = top if "gap" in tables else top.table("film", needed="that describes the film")
     if film and "gap" in film.values:
-        case: FilmCase | GapCase | None = read_gap_case(path.stem, text, top, film, path.parent)
+        over_turn = film.values.get("revolution", False) is not False
+        read_gap = read_revolution_case if over_turn else read_gap_case
+        case: Case | None = read_gap(path.stem, text, top, film, path.parent)
     else:
         case = _free_film(path, text, top, film) if film else None
     top.close()

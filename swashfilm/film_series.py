@@ -11,11 +11,14 @@ from pathlib import Path
 from typing import Any
 
 from reynolds.errors import FilmInputError, FilmNotConverged
-from swashfilm.film_case import FilmCase
+from swashfilm.film_case import Case
 from swashfilm.film_study import film_summary, solve_case
 from swashfilm.gap_case import GapCase
 from swashfilm.progress import Report
+from swashfilm.revolution_case import RevolutionCase
+from swashfilm.revolution_study import revolution_summary, solve_revolution
 from swashfilm.study_case import Point, StudyCase
+from system.errors import NotConverged
 from system.faults import Fault, InputFaults
 
 POINTS = "points"
@@ -80,10 +83,10 @@ def solve_point(study: StudyCase, folder: Path, point: Point) -> Outcome:
     """One point solved and kept in `folder`; a fault or a solve that does not converge is its reason."""
     try:
         case = study.case(point)
-        summary = film_summary(solve_case(case))
+        summary = _summary(case)
     except (InputFaults, FilmInputError) as reason:
         return Outcome(point, Status.FAULTY, _line(reason), {})
-    except FilmNotConverged as reason:
+    except (FilmNotConverged, NotConverged) as reason:
         outcome = Outcome(point, Status.NOT_CONVERGED, str(reason), {})
     else:
         outcome = Outcome(point, Status.SOLVED, "", summary)
@@ -91,11 +94,19 @@ def solve_point(study: StudyCase, folder: Path, point: Point) -> Outcome:
     return outcome
 
 
-def digest(case: FilmCase | GapCase) -> str:
+def _summary(case: Case) -> dict[str, Any]:
+    if isinstance(case, RevolutionCase):
+        return revolution_summary(solve_revolution(case))
+    return film_summary(solve_case(case))
+
+
+def digest(case: Case) -> str:
     """A name for the content of a case: its resolved text, and what that takes from other files."""
     content = hashlib.sha256(case.resolved.encode())
     if isinstance(case, GapCase):
         content.update(repr((case.rotor.pump, case.instant)).encode())
+    elif isinstance(case, RevolutionCase):
+        content.update(repr((case.rotor.pump, case.chamber_pressure)).encode())
     else:
         film = case.problem.film
         for part in (case.problem.space.vertices, film.thickness, film.viscosity):

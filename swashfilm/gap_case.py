@@ -103,6 +103,8 @@ def read_gap_case(name: str, text: str, top: Table, film: Table, folder: Path) -
     """
     gap = film.choice("gap", Gap)
     film.get("revolution")
+    if film is not top and top.get("revolution") is not None:
+        top.fault("revolution", "a table beside a single instant", "revolution = true in [film]")
     pump = read_case_pump(top, film, folder)
     parts = pump.rotor if pump else None
     shaft_angle = film.quantity("shaft_angle", Dimension.ANGLE, 0.0)

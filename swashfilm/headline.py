@@ -7,12 +7,13 @@ from typing import Any
 
 UNITS = {
     "_m3_per_s": "m3/s", "_Nm": "N m", "_Pa": "Pa", "_N": "N", "_W": "W", "_K": "K", "_m": "m", "_kg": "kg",
-    "_rad": "rad", "_seconds": "s", "_s": "s",
+    "_rad": "rad", "_seconds": "s", "_s": "s", "_deg": "deg",
 }  # fmt: skip
 EFFORT = (
     "format", "kind", "name", "warnings", "mass_balance_error", "energy_balance_error", "imbalance", "dofs",
     "iterations", "solve_seconds", "pressure_max_at_m", "temperature_max_at_m", "time_s", "thermal_rounds",
-    "load_rest", "films_solved",
+    "load_rest", "films_solved", "span_deg", "turns", "turn_change_m", "step_error", "steps", "physics_left_out",
+    "assumptions",
 )  # fmt: skip
 # Numbers that belong together: the largest of them is the size against which round-off counts.
 _FAMILIES = {

@@ -15,19 +15,38 @@ def draw_map(
     title: str,
     labels: tuple[str, str] = ("x / mm", "y / mm"),
     colours: str = "viridis",
-) -> None:
-    """Draw a field of vertices (smooth) or cells (flat) over `place` with a colour bar; texts carry the units."""
+    limits: tuple[float, float] | None = None,
+) -> Any:
+    """Draw a field of vertices (smooth) or cells (flat) over `place` with a colour bar; texts carry the units.
+
+    `limits`: ends of the colours' scale, the field's own where left out. Returns what was painted.
+    """
+    x, y = place
+    drawn = paint(axes, place, cells, values, colours, limits)
+    axes.set(xlabel=labels[0], ylabel=labels[1], title=title)
+    if labels == ("x / mm", "y / mm") and np.ptp(x) < 5.0 * np.ptp(y) and np.ptp(y) < 5.0 * np.ptp(x):
+        axes.set_aspect("equal")
+    axes.figure.colorbar(drawn, ax=axes)
+    return drawn
+
+
+def paint(
+    axes: Any,
+    place: tuple[np.ndarray, np.ndarray],
+    cells: np.ndarray,
+    values: np.ndarray,
+    colours: str,
+    limits: tuple[float, float] | None = None,
+) -> Any:
+    """The field alone, as `draw_map` draws it; returns the artist."""
     from matplotlib.tri import Triangulation
 
     x, y = place
     quads = cells.shape[1] == 4
     triangles = np.concatenate([cells[:, [0, 1, 2]], cells[:, [0, 2, 3]]]) if quads else cells
     mesh = Triangulation(x, y, triangles)
+    least, most = limits or (None, None)
     if len(values) == len(x):
-        drawn = axes.tripcolor(mesh, values, shading="gouraud", cmap=colours)
-    else:
-        drawn = axes.tripcolor(mesh, facecolors=np.tile(values, 2 if quads else 1), cmap=colours)
-    axes.set(xlabel=labels[0], ylabel=labels[1], title=title)
-    if labels == ("x / mm", "y / mm") and np.ptp(x) < 5.0 * np.ptp(y) and np.ptp(y) < 5.0 * np.ptp(x):
-        axes.set_aspect("equal")
-    axes.figure.colorbar(drawn, ax=axes)
+        return axes.tripcolor(mesh, values, shading="gouraud", cmap=colours, vmin=least, vmax=most)
+    faces = np.tile(values, 2 if quads else 1)
+    return axes.tripcolor(mesh, facecolors=faces, cmap=colours, vmin=least, vmax=most)

@@ -23,3 +23,8 @@ def switched_keys(options: argparse.Namespace) -> dict[str, str]:
     """What the command line says of the keys that `physics_case.read_physics` reads: `walls` to "rigid"."""
     on = {switch for switch in SWITCHES if getattr(options, switch[2:].replace("-", "_"))}
     return {key: value for switch, (key, value, _) in SWITCHES.items() if switch in on}
+
+
+def switch_of(key: str) -> str:
+    """The switch that stands for a key."""
+    return next(switch for switch, (own, *_) in SWITCHES.items() if own == key)

@@ -15,8 +15,8 @@ from system.floating_gaps import MARCHED, FloatingOptions
 from system.instants import Rotor
 
 STEPS = 360
-FILMS = 36
-_LIMITS = {"steps": (STEPS, 24, 7200), "finer": (1, 1, 8), "films": (FILMS, 1, 7200)}
+FILMS, RING_FILMS = 36, 180  # kept of a turn; the ring's repeat with the pitch
+_LIMITS = {"steps": (STEPS, 24, 7200), "finer": (1, 1, 8)}
 _LARGEST_TOLERANCE = 0.1
 
 
@@ -74,7 +74,8 @@ def _refuse_instants(top: Table, film: Table) -> None:
 
 def _options(table: Table, gap: Gap | None, pump: CasePump | None) -> FloatingOptions | None:
     faults = len(table.faults)
-    steps, finer, films = (_whole(table, key, *limits) for key, limits in _LIMITS.items())
+    steps, finer = (_whole(table, key, *limits) for key, limits in _LIMITS.items())
+    films = _whole(table, "films", RING_FILMS if gap is Gap.VALVE_PLATE else FILMS, 1, 7200)
     tolerance = table.number("tolerance", MARCHED.step)
     if tolerance is not None and not 0.0 < tolerance <= _LARGEST_TOLERANCE:
         table.fault("tolerance", repr(tolerance), f"above 0, at most {_LARGEST_TOLERANCE:g} of the least film")

@@ -1,4 +1,4 @@
-"""The pressure of a chamber over the turn, as a case gives it: the pump's own cycle, rows, a file, one pressure."""
+"""The pressure of a chamber over the turn, as a case gives it: the pump's own cycle, rows, a file, one value."""
 
 from __future__ import annotations
 
@@ -21,7 +21,9 @@ from system.units import Dimension, QuantityError, format_quantity, parse_quanti
 
 CYCLE = "cycle"
 LEAST_ROWS = 4
-_EXPECTED = f'"{CYCLE}", a pressure, pressures at equal steps from 0 deg, rows of angle and pressure, or a CSV file'
+_EXPECTED = (
+    f'"{CYCLE}", a pressure, pressures at equal steps from 0 deg, rows of angle and pressure, or a CSV file'
+)
 _COLUMNS = {"shaft_angle": Dimension.ANGLE, "chamber_pressure": Dimension.PRESSURE}
 _SHORT = {"angle": "shaft_angle", "pressure": "chamber_pressure"}
 Row = tuple[float, float]
@@ -130,9 +132,7 @@ def _of_file(film: Table, path: Path) -> ChamberPressure | None:
         lines = list(csv.reader(path.read_text("utf-8-sig").splitlines()))
     except FileNotFoundError:
         beside = [item.name for item in path.parent.glob("*.csv")] if path.parent.is_dir() else []
-        film.fault(
-            "chamber_pressure", f"{path}: no such file", "a CSV file", nearest_choice(path.name, beside)
-        )
+        film.fault("chamber_pressure", f"{path}: no such file", "a CSV file", nearest_choice(path.name, beside))
         return None
     except (OSError, UnicodeDecodeError) as reason:
         film.fault("chamber_pressure", f"{path}: cannot be read: {reason}", "a CSV file in UTF-8")

@@ -14,8 +14,8 @@ from typing import Any
 import numpy as np
 
 from swashfilm.case_table import Table, fault_lines, quoted, read_toml
-from swashfilm.film_case import FilmCase, read_case
-from swashfilm.gap_case import GapCase
+from swashfilm.film_case import Case, read_case
+from swashfilm.physics_switches import switch_of
 from system.faults import Fault, InputFaults, nearest_choice
 from system.units import Dimension, QuantityError, format_quantity, parse_quantity
 
@@ -85,7 +85,7 @@ class StudyCase:
         """The varied keys of a point and their values as a case writes them."""
         return {axis.key: axis.values[k] for axis, k in zip(self.axes, point, strict=True)}
 
-    def case(self, point: Point) -> FilmCase | GapCase:
+    def case(self, point: Point) -> Case:
         """The case of a point; raises InputFaults with what is wrong with it."""
         tables = copy.deepcopy(dict(self.tables))
         for key, value in self.values(point).items():
@@ -94,10 +94,27 @@ class StudyCase:
         return read_case(self.path, text, tables)
 
 
-def load_film(path: Path) -> FilmCase | GapCase | StudyCase:
-    """What a film case file holds: a film, a pump gap, or a study of one. Raises InputFaults with every fault."""
+def load_film(path: Path, switched: Mapping[str, str] | None = None) -> Case | StudyCase:
+    """What a film case file holds: a film, a pump gap, or a study of one. Raises InputFaults with every fault.
+
+    `switched`: values of [revolution], by key, that the command line puts in place of the file's.
+    """
     text, tables = read_toml(path)
+    if switched:
+        _switch(tables, switched)
+        text = "".join([f"{text.rstrip()}\n", *(f"# command line: {k} = {v}\n" for k, v in switched.items())])
     return read_study(path, text, tables) if "study" in tables else read_case(path, text, tables)
+
+
+def _switch(tables: dict[str, Any], switched: Mapping[str, str]) -> None:
+    """Put values in [revolution]; raises InputFaults for a case that has no revolution."""
+    film = tables.get("film")
+    if not isinstance(film, dict) or film.get("revolution") is not True:
+        case = "a case with revolution = true in [film]"
+        faults = [Fault(switch_of(key), "a switch of floating gaps", case) for key in switched]
+        raise InputFaults("command line", faults)
+    for key, value in switched.items():
+        _put(tables, f"revolution.{key}", value)
 
 
 def read_study(path: Path, text: str, tables: Mapping[str, Any]) -> StudyCase:

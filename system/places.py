@@ -34,6 +34,23 @@ def slipper_frame(rotor: Rotor, shaft_angle: float) -> Frame:
     return Frame(face, forward, np.cross(normal, forward), normal)
 
 
+def guide_frame(rotor: Rotor, guide_length: float, shaft_angle: float) -> Frame:
+    """Frame of a floating piston's film: origin on the bore axis at the guide's inner end, fixed in the block.
+
+    guide_length m, from the bore's case edge inwards.
+    """
+    axis = bore_axis(rotor.drive, shaft_angle)
+    depth = rotor.pump.piston.overhang + travel(rotor, shaft_angle) + guide_length
+    x, y = bore_sides(rotor.drive, shaft_angle)
+    return Frame(ball_centre(rotor, shaft_angle) - depth * axis, x, y, axis)
+
+
+def face_frame(rotor: Rotor, ball_height: float, shaft_angle: float) -> Frame:
+    """Frame of a floating slipper's film: under the ball, `ball_height` (m) beyond it, along the plate's axes."""
+    steepest, across, normal = plate_axes(rotor.drive)
+    return Frame(ball_centre(rotor, shaft_angle) + ball_height * normal, steepest, across, normal)
+
+
 def ball_centre(rotor: Rotor, shaft_angle: float) -> Array:
     """Centre (3,) m of a ball joint in the pump frame."""
     radius = float(ball_radius(rotor.drive, shaft_angle))

@@ -1,0 +1,194 @@
+"""Pictures of a gap over the revolution, drawn from results.nc alone."""
+
+from __future__ import annotations
+
+import io
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from gaps.seen import Active
+from swashfilm.gap_case import Gap
+from swashfilm.maps import draw_map
+from swashfilm.revolution_data import POSITIONS, SHOWN
+
+if TYPE_CHECKING:
+    import xarray
+    from matplotlib.figure import Figure
+
+MAPS = 4  # kept films shown as maps
+INK, FILM, SECOND, THIRD = "#1c2328", "#3c7a8c", "#b8862b", "#8c5a3c"
+BANDS = {
+    Active.CONTACT: "#b33a3a", Active.CAVITATION: "#7fb2d6", Active.RETAINER: "#b8862b", Active.LIFT: "#5b9a5b",
+}  # fmt: skip
+MEANING = {
+    Active.CONTACT: "contact bears", Active.CAVITATION: "film cavitates", Active.RETAINER: "retainer presses",
+    Active.LIFT: "the film alone",
+}  # fmt: skip
+
+
+def revolution_plots(data: xarray.Dataset) -> dict[str, bytes]:
+    """A PNG of each picture, by its name: film, path, motion, losses, contact, maps."""
+    return {
+        "film": _film(data),
+        "path": _path(data),
+        "losses": _losses(data),
+        "contact": _contact(data),
+        "maps": _maps(data),
+    }
+
+
+def _film(data: xarray.Dataset) -> bytes:
+    """Least to mean film (um) over the shaft angle, the chamber's pressure beside it, what limits it below."""
+    figure = _figure(9.0, 4.6)
+    axes, bands = figure.subplots(2, 1, sharex=True, height_ratios=(5, 1))
+    angle = degrees(data)
+    least, mean = (shown(data, name) for name in ("film_thickness_min", "film_thickness_mean"))
+    axes.fill_between(angle, least, mean, color=FILM, alpha=0.2, linewidth=0.0)
+    axes.plot(angle, mean, color=FILM, label="mean film")
+    axes.plot(angle, least, color=INK, label="least film")
+    at = int(np.argmin(least))
+    axes.plot(angle[at], least[at], "v", color=INK)
+    axes.annotate(f"{least[at]:.3g} um at {angle[at]:.0f} deg", (angle[at], least[at]), (0, 8), ha="center",
+                  fontsize=8, textcoords="offset points")  # fmt: skip
+    axes.set(ylabel="film / um", ylim=(0.0, None))
+    beside = axes.twinx()
+    beside.plot(angle, shown(data, "chamber_pressure"), color=SECOND, linewidth=0.9, linestyle="--")
+    beside.set_ylabel("chamber pressure, gauge / MPa", color=SECOND)
+    axes.legend(loc="upper right", fontsize=8)
+    draw_bands(bands, data)
+    bands.set(xlabel="shaft angle from inner dead centre / deg", xlim=(0.0, span(data)))
+    return _png(figure)
+
+
+def draw_bands(axes: Any, data: xarray.Dataset) -> None:
+    """A row for each limit that is active somewhere, coloured where it is."""
+    angle = degrees(data)
+    step = angle[1] - angle[0] if len(angle) > 1 else span(data)
+    kinds = [kind for kind in BANDS if data[f"active_{kind.value}"].values.any()]
+    for row, kind in enumerate(kinds):
+        on = data[f"active_{kind.value}"].values.astype(bool)
+        axes.broken_barh([(end - step, step) for end in angle[on]], (row - 0.4, 0.8), color=BANDS[kind])
+    axes.set_yticks(range(len(kinds)), [MEANING[kind] for kind in kinds], fontsize=8)
+    axes.set_ylim(len(kinds) - 0.4, -0.6)
+
+
+def _path(data: xarray.Dataset) -> bytes:
+    """The piston's two ends in the clearance circle (um), or the tilt of slipper or block as rises (um)."""
+    figure = _figure(9.0, 4.4)
+    gap, angle = Gap(data.attrs["gap"]), degrees(data)
+    names = POSITIONS[gap]
+    if gap is Gap.PISTON:
+        clearance = data.attrs["clearance_m"] * 1e6
+        circle = np.linspace(0.0, 2.0 * np.pi, 181)
+        ends = zip(("inner end of the guide", "case edge of the guide"), (names[:2], names[2:]), strict=True)
+        for axes, (title, pair) in zip(figure.subplots(1, 2), ends, strict=True):
+            axes.plot(clearance * np.cos(circle), clearance * np.sin(circle), color="#9aa4ab", linewidth=1.0)
+            _orbit(axes, shown(data, pair[0]), shown(data, pair[1]), angle)
+            axes.set(title=title, xlabel="eccentricity, to inner dead centre / um", ylabel="across / um")
+        return _png(figure)
+    orbit, course = figure.subplots(1, 2)
+    _orbit(orbit, shown(data, "rise_x"), shown(data, "rise_y"), angle)
+    orbit.set(title="tilt", xlabel="rise along x over the rim's radius / um", ylabel="rise along y / um")
+    for name, colour in zip(names, (INK, FILM, SECOND), strict=True):
+        course.plot(angle, shown(data, name), color=colour, label=name.replace("_", " "))
+    course.set(xlabel="shaft angle / deg", ylabel="coordinate / um", xlim=(0.0, span(data)))
+    course.legend(fontsize=8)
+    return _png(figure)
+
+
+def _orbit(axes: Any, x: np.ndarray, y: np.ndarray, angle: np.ndarray) -> None:
+    """A closed path with its angle as colour and four of them written on it."""
+    axes.plot(np.append(x, x[0]), np.append(y, y[0]), color="#c9d0d5", linewidth=0.8)
+    dots = axes.scatter(x, y, c=angle, cmap="twilight_shifted", s=9, vmin=0.0, vmax=angle[-1])
+    for at in angle[-1] * np.array([0.25, 0.5, 0.75, 1.0]):
+        k = int(np.argmin(np.abs(angle - at)))
+        axes.annotate(f"{angle[k]:.0f}", (x[k], y[k]), (4, 4), fontsize=7, textcoords="offset points")
+    axes.axhline(0.0, color="#e3e7ea", linewidth=0.8, zorder=0)
+    axes.axvline(0.0, color="#e3e7ea", linewidth=0.8, zorder=0)
+    axes.set_aspect("equal", adjustable="datalim")
+    axes.figure.colorbar(dots, ax=axes, label="shaft angle / deg", shrink=0.8)
+
+
+def _losses(data: xarray.Dataset) -> bytes:
+    """Tilt (mrad), leakage (L/min) and friction (W) over the shaft angle."""
+    figure = _figure(9.0, 5.6)
+    tilt, leakage, friction = figure.subplots(3, 1, sharex=True)
+    angle = degrees(data)
+    tilt.plot(angle, shown(data, "tilt"), color=INK)
+    tilt.set_ylabel("tilt / mrad")
+    leakage.plot(angle, shown(data, "leakage_flow"), color=FILM, label="into the case")
+    leakage.plot(angle, shown(data, "chamber_flow"), color=SECOND, linewidth=0.9, label="out of the chambers")
+    leakage.set_ylabel("flow / L/min")
+    leakage.legend(fontsize=8)
+    friction.plot(angle, shown(data, "friction_power"), color=THIRD, label="walls' power")
+    friction.plot(angle, shown(data, "rubbing"), color="#b33a3a", linewidth=0.9, label="of it contact")
+    friction.set_ylabel("friction / W")
+    friction.legend(fontsize=8)
+    friction.set(xlabel="shaft angle / deg", xlim=(0.0, span(data)))
+    return _png(figure)
+
+
+def _contact(data: xarray.Dataset) -> bytes:
+    """Contact load (N), cavitated share of the area and largest film pressure (MPa) over the shaft angle."""
+    figure = _figure(9.0, 5.0)
+    rows = {
+        "contact_load": ("contact / N", "#b33a3a"),
+        "cavitated_area_fraction": ("cavitated share", "#4d8bb8"),
+        "film_pressure_max": ("film pressure max / MPa", INK),
+    }
+    for axes, (name, (title, colour)) in zip(figure.subplots(3, 1, sharex=True), rows.items(), strict=True):
+        axes.fill_between(degrees(data), shown(data, name), color=colour, alpha=0.25, linewidth=0.0)
+        axes.plot(degrees(data), shown(data, name), color=colour)
+        axes.set(ylabel=title, ylim=(0.0, None), xlim=(0.0, span(data)))
+    axes.set_xlabel("shaft angle / deg")
+    return _png(figure)
+
+
+def _maps(data: xarray.Dataset) -> bytes:
+    """Film pressure (MPa) and thickness (um) at some of the kept angles."""
+    count = data.sizes["film_angle"]
+    chosen = np.unique(np.linspace(0, count - 1, min(MAPS, count)).round().astype(int))
+    figure = _figure(3.3 * len(chosen), 5.6)
+    rows = figure.subplots(2, len(chosen), squeeze=False)
+    for column, k in enumerate(chosen):
+        draw_film(rows[0, column], data, int(k), "film_pressure")
+        draw_film(rows[1, column], data, int(k), "film_thickness")
+    return _png(figure)
+
+
+def draw_film(axes: Any, data: xarray.Dataset, k: int, name: str) -> None:
+    """Map of a field of the k-th kept film."""
+    place = data["x"].values[k] * 1e3, data["y"].values[k] * 1e3
+    unit, factor = SHOWN[data[name].attrs["units"]]
+    at = np.degrees(data["film_angle"].values[k])
+    title = f"{'pressure' if name == 'film_pressure' else 'film'} / {unit} at {at:.0f} deg"
+    colours = "viridis" if name == "film_pressure" else "cividis"
+    draw_map(axes, place, data["cells"].values, data[name].values[k] * factor, title, colours=colours)
+
+
+def shown(data: xarray.Dataset, name: str) -> np.ndarray:
+    """A series in the unit that people read it in."""
+    return np.asarray(data[name].values * SHOWN[data[name].attrs["units"]][1])
+
+
+def degrees(data: xarray.Dataset) -> np.ndarray:
+    """The reported shaft angles, deg."""
+    return np.asarray(np.degrees(data["shaft_angle"].values))
+
+
+def span(data: xarray.Dataset) -> float:
+    """Shaft angle after which all repeats, deg."""
+    return float(degrees(data)[-1])
+
+
+def _figure(width: float, height: float) -> Figure:
+    from matplotlib.figure import Figure
+
+    return Figure(figsize=(width, height), layout="constrained")
+
+
+def _png(figure: Figure) -> bytes:
+    picture = io.BytesIO()
+    figure.savefig(picture, format="png", dpi=110)
+    return picture.getvalue()

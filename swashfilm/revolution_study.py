@@ -1,0 +1,141 @@
+"""One gap over the revolution solved: what it is of, its films, and its headline numbers."""
+
+from __future__ import annotations
+
+import time
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from gaps.revolution import GapRevolution
+from gaps.seen import Active, BlockSeen, GapSeen, PistonSeen, SlipperSeen, mass_balance_error
+from reynolds.mesh import Array
+from swashfilm.gap_case import Gap
+from swashfilm.progress import Report
+from swashfilm.revolution_case import RevolutionCase
+from swashfilm.revolution_warnings import revolution_warnings
+from system.floating_drives import drives, no_rubbing, slipper_shape
+from system.floating_gaps import block_revolution, piston_revolution, slipper_revolution
+from system.floating_parts import FloatingParts, floating_parts
+from system.instants import valve_plate_geometry
+
+NO_RUBBING = "friction of the films on the parts: left out of the forces between them (one gap alone)"
+
+
+def silent(done: int, steps: int, what: str) -> None:
+    """A report that tells nobody."""
+
+
+@dataclass(frozen=True)
+class RevolutionStudy:
+    """A gap's periodic motion, the parts with every value taken, its chamber's pressure, and the seconds it took.
+
+    chamber_pressure (n,) Pa at the reported angles; of the block, that of the chamber at shaft angle 0.
+    """
+
+    case: RevolutionCase
+    parts: FloatingParts
+    revolution: GapRevolution[Any] = field(repr=False)
+    chamber_pressure: Array
+    solve_seconds: float
+
+    @property
+    def span(self) -> float:
+        """Shaft angle (rad) after which all repeats: a turn, or a piston pitch."""
+        return float(self.revolution.angles[-1])
+
+
+def solve_revolution(case: RevolutionCase, report: Report = silent) -> RevolutionStudy:
+    """The gap over the turn under its chamber's pressure, from rest until the turn repeats.
+
+    Raises FilmNotConverged with the angle and a remedy where it does not, NotConverged for the pump's own cycle.
+    """
+    began = time.perf_counter()
+    rotor, parts = case.rotor, floating_parts(case.rotor.pump)
+    angles, pressure = case.chamber_pressure.over_turn(rotor)
+    driven = drives(rotor, parts, angles, pressure, no_rubbing(len(angles)))
+    found: GapRevolution[Any]
+    match case.gap:
+        case Gap.PISTON:
+            found = piston_revolution(rotor, parts, driven.piston, case.options, report=report)
+        case Gap.SLIPPER:
+            found = slipper_revolution(rotor, parts, driven.slipper, case.options, report=report)
+        case Gap.VALVE_PLATE:
+            found = block_revolution(rotor, parts, driven.block, case.options, report=report)
+    chamber = driven.piston.chamber_pressure
+    at_angles = np.array([float(chamber(angle)) for angle in found.angles])
+    return RevolutionStudy(case, parts, found, at_angles, time.perf_counter() - began)
+
+
+def tilt(study: RevolutionStudy) -> Array:
+    """Angle (n,) rad between the axes of piston and bore, or the two faces."""
+    q = study.revolution.positions
+    if study.case.gap is Gap.PISTON:
+        return np.asarray(np.hypot(*(q[:, 2:] - q[:, :2]).T) / study.parts.piston.guide_length)
+    return np.asarray(np.hypot(q[:, 1], q[:, 2]) / _radius(study))
+
+
+def _radius(study: RevolutionStudy) -> float:
+    """Radius (m) over which the rises of slipper or block are counted."""
+    if study.case.gap is Gap.SLIPPER:
+        return slipper_shape(study.case.rotor, study.parts).outer_radius
+    return valve_plate_geometry(study.case.rotor.pump).land_radii[3]
+
+
+def friction_power(study: RevolutionStudy, seen: GapSeen) -> float:
+    """Power (W) that the parts spend on shearing the film and rubbing."""
+    match seen:
+        case PistonSeen() | SlipperSeen():
+            return seen.friction.power
+        case BlockSeen():
+            return seen.torque * study.case.rotor.point.shaft_speed
+    raise AssertionError(seen)
+
+
+def revolution_summary(study: RevolutionStudy) -> dict[str, Any]:
+    """Every headline number in SI, the unit in the key, the solver's own checks, and what was taken.
+
+    Means over the turn are of the reported angles, which are equally far apart.
+    """
+    turn, closing = study.revolution.turn, study.revolution.closing
+    seen = [instant.seen for instant in turn.instants]
+    least = study.revolution.least_film
+    contact = np.array([one.contact_load for one in seen])
+    balance = mass_balance_error(study.revolution)
+    tilts, friction = tilt(study), np.array([friction_power(study, one) for one in seen])
+    return {
+        "format": 1,
+        "kind": "film_revolution",
+        "name": study.case.name,
+        "gap": study.case.gap.value,
+        "film_thickness_min_m": least.loads.film_thickness_min,
+        "film_thickness_min_at_deg": float(np.degrees(least.angle)),
+        "film_thickness_mean_m": float(np.mean([instant.mean_film for instant in turn.instants])),
+        "film_thickness_mean_min_m": min(instant.mean_film for instant in turn.instants),
+        "least_gap_m": min(instant.least_gap for instant in turn.instants),
+        "tilt_max_rad": float(tilts.max()),
+        "leakage_flow_m3_per_s": float(np.mean([one.leakage for one in seen])),
+        "leakage_flow_max_m3_per_s": max(one.leakage for one in seen),
+        "friction_power_W": float(friction.mean()),
+        "friction_power_max_W": float(friction.max()),
+        "rubbing_power_W": float(np.mean([one.heat.rubbing for one in seen])),
+        "contact_load_max_N": float(contact.max()),
+        "contact_load_mean_N": float(contact.mean()),
+        "share_of_turn": {kind.value: float(np.mean([kind in one.active for one in seen])) for kind in Active},
+        "cavitated_area_fraction_max": max(instant.loads.cavitated_area_fraction for instant in turn.instants),
+        "pressure_max_Pa": max(instant.loads.pressure_max for instant in turn.instants),
+        "span_deg": float(np.degrees(study.span)),
+        "turns": closing.turns,
+        "turn_change_m": closing.changes[-1],
+        "largest_multiplier": closing.largest_multiplier,
+        "step_error": turn.step_error,
+        "steps": len(turn.times),
+        "films_solved": study.revolution.films_solved,
+        "dofs": next(iter(turn.films.values())).problem.space.size,
+        "mass_balance_error": balance,
+        "solve_seconds": study.solve_seconds,
+        "physics_left_out": [effect.value for effect in study.case.options.physics.left_out],
+        "assumptions": [NO_RUBBING, *(str(taken) for taken in study.parts.taken)],
+        "warnings": revolution_warnings(study.case, study.parts, study.revolution, balance),
+    }
