@@ -23,12 +23,13 @@ from gaps.profiles import PLAIN, Profile
 from gaps.rubbing import wall_shear
 from reynolds.contact import Asperities
 from reynolds.errors import FilmInputError
-from reynolds.film import ZERO, Film, FilmProblem, Held, vertex_thickness
+from reynolds.film import ZERO, Film, FilmProblem, Held
 from reynolds.floating import Floating, Outer, steady
 from reynolds.floating_stage import Stage
 from reynolds.laws import require_positive
 from reynolds.loads import boundary_flows
 from reynolds.mesh import Array, Cell, rectangle, rename
+from reynolds.overlap import vertex_thickness
 from reynolds.space import FilmSpace, film_space
 
 

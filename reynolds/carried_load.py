@@ -323,6 +323,6 @@ def _borne(solution: FilmSolution) -> tuple[float, float, float]:
     force, moment_x, moment_y = pressure_integrals(solution)
     problem = solution.problem
     if problem.asperities is not None:
-        pressed = contact_pressure(problem.asperities, solution.film.thickness).value
+        pressed = contact_pressure(problem.asperities, solution.gap).value
         force += float(np.sum(np.broadcast_to(pressed, problem.space.area.shape) * problem.space.area))
     return force, moment_x, moment_y

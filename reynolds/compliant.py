@@ -2,12 +2,15 @@
 
 A, sparse, is the balance between rigid walls, B, sparse, its slope by the opening, C the walls' compliance. A film
 smooths what a wall feeds back to it: but for a few smooth pressures A^-1 B C is small, on any mesh, so that GMRES
-(Saad and Schultz 1986) on J A^-1 takes a few tens of solves with A, where a dense factor of J costs size^3.
+(Saad and Schultz 1986) on J A^-1 takes a few tens of solves with A, where a dense factor of J costs size^3. Where
+one balance is asked more often, or one after the other like it, the dense factor is made and kept: GMRES on
+J J_before^-1 takes a few steps.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
 
 import numpy as np
 from scipy.linalg import lapack
@@ -17,51 +20,91 @@ from scipy.sparse.linalg import SuperLU, splu
 from reynolds.errors import FilmNotConverged
 from reynolds.krylov import gmres
 from reynolds.mesh import Array
-from reynolds.walls import WallMatrix, full
+from reynolds.walls import Opens, full
 
 DENSE_LIMIT = 400  # unknowns up to which a dense factor is as fast
+KEPT_LIMIT = 4000  # unknowns up to which a dense factor is kept: 128 MB
 MOST_STEPS = 150  # of GMRES; one that needs more is cheaper with the dense factor
+WORTH = 1.0 / 30.0  # steps over unknowns that cost as much as the dense factor
 GOOD_ENOUGH = 1e-9  # residual over load, where round-off allows no less
 Answer = Callable[[Array, float], Array]
 """(load (size,), tolerance) -> change (size,) with |J change - load| <= tolerance |load|, round-off allowing."""
 
 
-def compliant_answer(rigid: csc_array, slope: csr_array, wider: WallMatrix, pressures: Array) -> Answer:
-    """The answer of J = A + B C P: A `rigid` (size, size), B `slope` (size, vertices), C `wider` (vertices, size).
+class NearFactor:
+    """The dense factor of a balance, kept for those that come after it."""
 
-    P is the diagonal `pressures` (size,), one where an unknown is a free pressure, else zero. What is factorised
-    is factorised once. Raises FilmNotConverged where J is singular.
+    def __init__(self) -> None:
+        self.answer: Answer | None = None
+
+
+@dataclass(frozen=True)
+class Balance:
+    """J = A + B C P: A `rigid` (size, size), B `slope` (size, vertices), C `wider` (vertices, size).
+
+    P is the diagonal `pressures` (size,), one where an unknown is a free pressure, else zero.
     """
-    if isinstance(wider, csr_array):
-        return _sparse(csc_array(rigid + slope @ (wider * pressures[None, :])))
-    if rigid.shape[0] <= DENSE_LIMIT:
-        return _dense(_multiplied(rigid, slope, wider, pressures))
-    return _iterated(rigid, slope, wider, pressures)
+
+    rigid: csc_array
+    slope: csr_array
+    wider: Opens
+    pressures: Array
+
+    def __matmul__(self, change: Array) -> Array:
+        """J change, (size,)."""
+        return np.asarray(self.rigid @ change + self.slope @ (self.wider @ (self.pressures * change)))
+
+    def toarray(self) -> Array:
+        """J itself."""
+        return np.asarray(self.rigid.toarray() + self.slope @ (full(self.wider) * self.pressures[None, :]))
 
 
-def _multiplied(rigid: csc_array, slope: csr_array, wider: WallMatrix, pressures: Array) -> Array:
-    return np.asarray(rigid.toarray() + slope @ (full(wider) * pressures[None, :]))
+def compliant_answer(balance: Balance, near: NearFactor | None = None) -> Answer:
+    """The answer of J; what is factorised is factorised once.
+
+    `near` keeps the dense factor of a balance for those to come, of one size. Raises FilmNotConverged where J is
+    singular.
+    """
+    if isinstance(balance.wider, csr_array):
+        return _sparse(csc_array(balance.rigid + balance.slope @ (balance.wider * balance.pressures[None, :])))
+    size = len(balance.pressures)
+    if size <= DENSE_LIMIT:
+        return dense_answer(balance.toarray())
+    return _Iterated(balance, NearFactor() if near is None or size > KEPT_LIMIT else near)
 
 
-def _iterated(rigid: csc_array, slope: csr_array, wider: WallMatrix, pressures: Array) -> Answer:
+class _Iterated:
+    """By GMRES, with the factor of a balance near it or of the rigid one, until its own is worth making."""
+
+    def __init__(self, balance: Balance, near: NearFactor) -> None:
+        self._balance, self._near = balance, near
+        self._size = len(balance.pressures)
+        self._before = near.answer or _rigid_answer(balance.rigid)
+        self._steps = 0
+        self._own: Answer | None = None
+
+    def __call__(self, load: Array, tolerance: float) -> Array:
+        if self._own is None and self._before is not None and self._steps < WORTH * self._size:
+            found = self._iterated(self._before, load, tolerance)
+            if found is not None:
+                return found
+        if self._own is None:  # J need not be singular where A is
+            self._own = self._near.answer = dense_answer(self._balance.toarray())
+        return self._own(load, tolerance)
+
+    def _iterated(self, before: Answer, load: Array, tolerance: float) -> Array | None:
+        def image(part: Array) -> Array:
+            self._steps += 1
+            return self._balance @ before(part, 0.0)
+
+        most = MOST_STEPS if self._near.answer is None else max(1, int(WORTH * self._size))
+        part, left = gmres(image, load, tolerance, most)
+        return before(part, 0.0) if left <= max(tolerance, GOOD_ENOUGH) else None
+
+
+def _rigid_answer(rigid: csc_array) -> Answer | None:
     factor = _eliminated(rigid)
-    if factor is None:  # J need not be singular where A is
-        return _dense(_multiplied(rigid, slope, wider, pressures))
-
-    def image(part: Array) -> Array:
-        return np.asarray(part + slope @ (wider @ (pressures * factor.solve(part))))
-
-    direct: list[Answer] = []
-
-    def answer(load: Array, tolerance: float) -> Array:
-        if not direct:
-            part, left = gmres(image, load, tolerance, MOST_STEPS)
-            if left <= max(tolerance, GOOD_ENOUGH):
-                return np.asarray(factor.solve(part))
-            direct.append(_dense(_multiplied(rigid, slope, wider, pressures)))
-        return direct[0](load, tolerance)
-
-    return answer
+    return None if factor is None else lambda load, _: np.asarray(factor.solve(load))
 
 
 def _eliminated(matrix: csc_array) -> SuperLU | None:
@@ -81,7 +124,8 @@ def _sparse(matrix: csc_array) -> Answer:
     return lambda load, tolerance: np.asarray(factor.solve(load))
 
 
-def _dense(matrix: Array) -> Answer:
+def dense_answer(matrix: Array) -> Answer:
+    """Of a dense matrix, factorised; for loads of any number of columns. Raises FilmNotConverged if singular."""
     factor, pivots, fault = lapack.dgetrf(matrix)
     if fault:
         raise singular("a pivot is zero")

@@ -8,9 +8,10 @@ from xml.sax.saxutils import quoteattr
 
 import numpy as np
 
-from reynolds.film import FilmSolution, vertex_thickness
+from reynolds.film import FilmSolution
 from reynolds.loads import point_fields
 from reynolds.mesh import Array
+from reynolds.overlap import vertex_thickness
 from reynolds.space import FilmSpace
 
 

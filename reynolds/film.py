@@ -223,14 +223,6 @@ class FilmProblem:
             raise FilmInputError("storage", f"{held.min():.3g} m3 of oil at an unknown", "none, or more than none")
 
 
-def vertex_thickness(solution: FilmSolution) -> Array:
-    """Film thickness at the vertices (vertices,) m: as known, else extrapolated; jumps are averaged (plots)."""
-    given = solution.problem.film
-    if given.thickness_at_vertices is None:
-        return solution.problem.space.to_vertices(solution.film.thickness)
-    return given.thickness_at_vertices + solution.opening
-
-
 @dataclass(frozen=True)
 class FilmSolution:
     """A pressure field and its quality.
@@ -263,6 +255,15 @@ class FilmSolution:
         """Oil of each unknown, (size,) m3 at reference density."""
         ratio = self.problem.fluid.density(self.pressure)[0]
         return self.problem.space.lumped(self.content) * self.film_fraction * ratio
+
+    @property
+    def gap(self) -> Array:
+        """Distance of the mean planes at the quadrature points, (cells | 1, points | 1) m: what asperities feel.
+
+        The film's thickness but for rough walls that overlap (`overlap`).
+        """
+        given = self.problem.film.thickness
+        return given if self.problem.walls is None else given + self.problem.space.sample_vertices(self.opening)
 
     @property
     def imbalance(self) -> float:

@@ -10,8 +10,9 @@ import numpy as np
 from reynolds import kernels
 from reynolds.balance import steep_gradient
 from reynolds.contact import boundary_shear, contact_pressure
-from reynolds.film import Cavitation, FilmSolution, Pocket, vertex_thickness
+from reynolds.film import Cavitation, FilmSolution, Pocket
 from reynolds.mesh import Array
+from reynolds.overlap import vertex_thickness
 from reynolds.roughness import Directional, flow_factors, shear_factors
 from reynolds.transport import at_points
 
@@ -114,7 +115,7 @@ def _contact(solution: FilmSolution, slip: tuple[Array, ...]) -> tuple[Array, tu
     if asperities is None:
         nothing = np.zeros(shape)
         return nothing, (nothing, nothing)
-    bears = np.broadcast_to(contact_pressure(asperities, solution.film.thickness).value, shape)
+    bears = np.broadcast_to(contact_pressure(asperities, solution.gap).value, shape)
     rubs = boundary_shear(asperities, bears).value
     speed = np.hypot(*(np.broadcast_to(part, shape) for part in slip))
     along = [np.divide(part, speed, out=np.zeros(shape), where=speed > 0.0) for part in slip]
@@ -187,7 +188,7 @@ def pressure_integrals(solution: FilmSolution) -> tuple[float, float, float]:
     x, y = space.points
     both = weighted
     if solution.problem.asperities is not None:
-        both = weighted + contact_pressure(solution.problem.asperities, solution.film.thickness).value * space.area
+        both = weighted + contact_pressure(solution.problem.asperities, solution.gap).value * space.area
     return float(weighted.sum()), float(np.sum(both * y)), -float(np.sum(both * x))
 
 

@@ -10,7 +10,7 @@ from scipy.sparse import csc_array, csr_array
 
 from reynolds import kernels
 from reynolds.balance import NOTHING, by_opening, flow_balance, full_matrix, slopes
-from reynolds.compliant import Answer, compliant_answer
+from reynolds.compliant import Answer, Balance, NearFactor, compliant_answer
 from reynolds.film import Cavitation, FilmProblem
 from reynolds.iterate import Iterate, with_pockets
 from reynolds.mesh import Array
@@ -63,15 +63,17 @@ def _largest(values: Array) -> float:
     return float(max(values.max(), -values.min()))
 
 
-def compliant(problem: FilmProblem, setting: Setting, at: Iterate, upper: Array, lower: Array) -> Answer:
+def compliant(
+    problem: FilmProblem, setting: Setting, at: Iterate, upper: Array, lower: Array, near: NearFactor
+) -> Answer:
     """The general step where each pressure opens the film everywhere, dR/dp + dR/dh dh/dp, for any load.
 
-    Raises FilmNotConverged where that is singular.
+    `near` keeps what serves the steps to come. Raises FilmNotConverged where the step is singular.
     """
     free = (~fixed_in(problem, setting, at)).astype(float)
     slope = by_opening(problem, at.parts, at.state) * (free / np.abs(at.parts.stiffness).max())[:, None]
     rigid, wider = full_matrix(problem.space, upper, lower), opening_slope(problem, at.state.opening)
-    return compliant_answer(rigid, csr_array(slope), wider, free * ~at.cavity)
+    return compliant_answer(Balance(rigid, csr_array(slope), wider, free * ~at.cavity), near)
 
 
 def signed_after(problem: FilmProblem, at: Iterate, change: Array, scale: float) -> Array:

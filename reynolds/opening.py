@@ -1,22 +1,31 @@
-"""How far walls that give way open under a film's pressure and, where they touch, under their contact."""
+"""How far walls that give way open under a film's pressure and, where they touch, under their contact.
+
+g = C (p + p_c(h + g)): contact presses on the walls as the film does, p_c the mean of the vertices that share an
+unknown. What is a pocket's unknown has no contact of its own: oil fills it.
+"""
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+from functools import cached_property
+
 import numpy as np
+from numpy.typing import NDArray
 from scipy.sparse import csc_array, csr_array, eye_array, issparse
 from scipy.sparse.linalg import splu
 
-from reynolds.compliant import singular
-from reynolds.contact import contact_pressure
+from reynolds.compliant import Answer, dense_answer, singular
+from reynolds.contact import Asperities, contact_pressure
 from reynolds.errors import FilmInputError, FilmNotConverged
-from reynolds.film import FilmProblem
+from reynolds.film import FilmProblem, Pocket
+from reynolds.laws import Tangent
 from reynolds.mesh import Array
-from reynolds.space import FilmSpace
-from reynolds.walls import LowRank, WallMatrix, full
+from reynolds.walls import LowRank, Opens, WallMatrix, full
 
 MAX_STEPS = 30
 TOLERANCE = 1e-12  # of film thickness and asperities' height
 DEEPEST = 5.0  # standard deviations of the summits by which a step may press them into each other
+FELT = 1e-10  # of a displacement, by which a contact answers that counts as one
 
 
 def opening(problem: FilmProblem, pressure: Array, start: Array | None = None) -> Array:
@@ -33,85 +42,144 @@ def opening(problem: FilmProblem, pressure: Array, start: Array | None = None) -
         raise FilmInputError("walls", "a compliance that is not finite", "numbers, m/Pa")
     if problem.asperities is None:
         return alone
-    given = _given_thickness(problem)
+    meeting, given = meeting_of(problem), _given_gap(problem)
     # Contact closes as the film opens, without bound: from where it barely resists, Newton's steps lead up.
     deepest = problem.asperities.summit_height - DEEPEST * problem.asperities.height
     found = np.maximum(alone if start is None else start, deepest - given)
     for _ in range(MAX_STEPS):
-        bears = contact_pressure(problem.asperities, given + found)
-        rest = found - alone - compliance @ _to_unknowns(problem.space, bears.value)
+        touch = meeting.at(given + found)
+        rest = found - alone - compliance @ touch.on_unknowns
         if np.max(np.abs(rest)) < TOLERANCE * (np.max(np.abs(given)) + problem.asperities.height):
             return found
-        found = np.maximum(found - _settled(problem, bears.slope, rest), deepest - given)
+        found = np.maximum(found - touch.settled(rest), deepest - given)
     raise FilmNotConverged(
         f"the opening of walls in contact not settled after {MAX_STEPS} steps", "a thicker film, or stiffer walls"
     )
 
 
-def opening_slope(problem: FilmProblem, found: Array) -> WallMatrix:
+def opening_slope(problem: FilmProblem, found: Array) -> Opens:
     """dg/dp at an opening (vertices,) m: (vertices, size) m/Pa, the compliance where nothing touches."""
     assert problem.walls is not None
     compliance = problem.walls.matrix
     if problem.asperities is None:
         return compliance
-    bears = contact_pressure(problem.asperities, _given_thickness(problem) + found)
-    if isinstance(compliance, LowRank):
-        stiffer = _within_rank(compliance, _spread(problem.space, bears.slope))
-        return LowRank(compliance.left, solved(stiffer, full(compliance.right)))
-    system = _with_contact(problem.space, compliance, bears.slope)
-    if not isinstance(compliance, np.ndarray):
-        return csr_array(solved(system, compliance.toarray()))
-    return solved(system, compliance)
+    touch = touch_at(problem, found)
+    if not touch.felt.size:
+        return compliance
+    if isinstance(compliance, csr_array):
+        return csr_array(touch.settled(compliance.toarray()))
+    return Resisted(touch)
 
 
-def _settled(problem: FilmProblem, slope: Array, rest: Array) -> Array:
-    """(I - C dp_c/dh)^-1 times what is missing (vertices,)."""
+@dataclass(frozen=True)
+class Touch:
+    """Contact of walls that give way, at one opening.
+
+    bears: pressure (vertices,) Pa and its slope by the gap, Pa/m; felt: vertices at which it resists.
+    """
+
+    meeting: Meeting
+    bears: Tangent
+    felt: NDArray[np.intp]
+
+    @property
+    def compliance(self) -> WallMatrix:
+        """C."""
+        return self.meeting.compliance
+
+    @property
+    def on_unknowns(self) -> Array:
+        """Its pressure on the unknowns, (size,) Pa."""
+        return np.asarray(self.meeting.shares @ self.bears.value)
+
+    @cached_property
+    def stiffness(self) -> csr_array:
+        """Pressure of the unknowns by the opening where contact is felt, (size, felt) Pa/m."""
+        return csr_array(self.meeting.shares[:, self.felt] * self.bears.slope[self.felt][None, :])
+
+    def settled(self, displaced: Array) -> Array:
+        """x with x - C dp_c/dh x = displaced, (vertices, ...) m: a displacement that contact resists."""
+        if not self.felt.size:
+            return displaced
+        pressed = self.stiffness @ self._within(np.ascontiguousarray(displaced[self.felt]), 0.0)
+        return np.asarray(displaced + self.compliance @ pressed)
+
+    @cached_property
+    def _within(self) -> Answer:
+        """The same where contact is felt: elsewhere it follows."""
+        here = _rows(self.compliance, self.felt) @ self.stiffness
+        if not issparse(here):
+            return dense_answer(np.eye(self.felt.size) - here)
+        try:
+            factor = splu(csc_array(eye_array(self.felt.size) - here))
+        except RuntimeError as reason:  # SuperLU: "Factor is exactly singular"
+            raise singular(str(reason)) from None
+        return lambda load, _: np.asarray(factor.solve(load))
+
+
+@dataclass(frozen=True)
+class Resisted:
+    """(I - C dp_c/dh)^-1 C, (vertices, size) m/Pa: a compliance that contact resists, never multiplied out."""
+
+    touch: Touch
+
+    def __matmul__(self, pressure: Array) -> Array:
+        """Opening (vertices, ...) m by pressures (size, ...) Pa."""
+        return self.touch.settled(np.asarray(self.touch.compliance @ pressure))
+
+    def toarray(self) -> Array:
+        """The matrix itself."""
+        return self.touch.settled(full(self.touch.compliance))
+
+
+@dataclass(frozen=True)
+class Meeting:
+    """Where rough walls that give way can touch.
+
+    oil (vertices,): of a pocket; shares (size, vertices): pressure of the unknowns by that of the vertices;
+    softest: largest opening by unit pressure everywhere, m/Pa.
+    """
+
+    compliance: WallMatrix
+    asperities: Asperities
+    oil: NDArray[np.bool_]
+    shares: csr_array
+    softest: float
+
+    def at(self, gap: Array) -> Touch:
+        """Contact at a gap between the mean planes (vertices,) m; raises as the law of contact does."""
+        found = contact_pressure(self.asperities, gap[~self.oil])
+        value, slope = np.zeros(len(gap)), np.zeros(len(gap))
+        value[~self.oil], slope[~self.oil] = found
+        return Touch(self, Tangent(value, slope), np.flatnonzero(-slope * self.softest > FELT))
+
+
+def meeting_of(problem: FilmProblem) -> Meeting:
+    """Where the walls of a problem with walls that give way and asperities can touch."""
     assert problem.walls is not None
-    compliance = problem.walls.matrix
-    if isinstance(compliance, LowRank):
-        spread = _spread(problem.space, slope)
-        pressed = compliance.right @ (spread @ rest)
-        return np.asarray(rest + compliance.left @ solved(_within_rank(compliance, spread), pressed))
-    return solved(_with_contact(problem.space, compliance, slope), rest)
+    assert problem.asperities is not None
+    space, compliance = problem.space, problem.walls.matrix
+    count = len(space.vertex_dofs)
+    pockets = [space.edge_dofs[name] for name, at in problem.boundary.items() if isinstance(at, Pocket)]
+    oil = np.isin(space.vertex_dofs, np.concatenate([[-1], *pockets]))
+    share = np.where(oil, 0.0, 1.0 / np.bincount(space.vertex_dofs)[space.vertex_dofs])
+    shares = csr_array((share, (space.vertex_dofs, np.arange(count))), shape=(space.size, count))
+    softest = float(np.abs(compliance @ np.ones(space.size)).max())
+    return Meeting(compliance, problem.asperities, oil, shares, softest)
 
 
-def _given_thickness(problem: FilmProblem) -> Array:
+def touch_at(problem: FilmProblem, found: Array) -> Touch:
+    """Contact of rough walls that give way, open by (vertices,) m; raises as the law of contact does."""
+    return meeting_of(problem).at(_given_gap(problem) + found)
+
+
+def _given_gap(problem: FilmProblem) -> Array:
     if problem.space.degree != 1:
         raise FilmInputError("film_space", "quadratic pressure between walls that touch", "degree 1")
     known = problem.film.thickness_at_vertices
     return problem.space.to_vertices(problem.film.thickness) if known is None else known
 
 
-def _with_contact(space: FilmSpace, compliance: Array | csr_array, slope: Array) -> Array | csr_array:
-    """I - C dp_c/dh over the vertices."""
-    change = compliance @ _spread(space, slope)
-    if issparse(compliance):
-        return csr_array(eye_array(len(slope)) - change)
-    return np.asarray(np.eye(len(slope)) - change)
-
-
-def _within_rank(compliance: LowRank, spread: csr_array) -> Array:
-    """I - R dp_c/dh L, (rank, rank): (I - L R S)^-1 L R = L (I - R S L)^-1 R (Woodbury 1950)."""
-    return np.asarray(np.eye(compliance.rank) - compliance.right @ (spread @ compliance.left))
-
-
-def _spread(space: FilmSpace, slope: Array) -> csr_array:
-    """dp_c/dh of the vertices (vertices,) Pa/m as pressure of the unknowns by the opening, (size, vertices)."""
-    shared = np.bincount(space.vertex_dofs)[space.vertex_dofs]
-    entries = (slope / shared, (space.vertex_dofs, np.arange(len(slope))))
-    return csr_array(entries, shape=(space.size, len(slope)))
-
-
-def solved(system: Array | csr_array, load: Array) -> Array:
-    """x with A x = load for a dense or sparse A; raises FilmNotConverged for a singular one."""
-    try:
-        if issparse(system):
-            return np.asarray(splu(csc_array(system)).solve(load))
-        return np.asarray(np.linalg.solve(system, load))
-    except (np.linalg.LinAlgError, RuntimeError) as reason:  # SuperLU: "Factor is exactly singular"
-        raise singular(str(reason)) from None
-
-
-def _to_unknowns(space: FilmSpace, at_vertices: Array) -> Array:
-    total = np.bincount(space.vertex_dofs, weights=at_vertices, minlength=space.size)
-    return total / np.maximum(np.bincount(space.vertex_dofs, minlength=space.size), 1)
+def _rows(matrix: WallMatrix, rows: NDArray[np.intp]) -> WallMatrix:
+    """Some rows of a compliance."""
+    return LowRank(matrix.left[rows], matrix.right) if isinstance(matrix, LowRank) else matrix[rows]

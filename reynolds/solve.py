@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from reynolds.balance import State, positive_share
 from reynolds.cascade import COARSEST, Cascade, Obstacle, active_set
+from reynolds.compliant import NearFactor
 from reynolds.errors import FilmInputError, FilmNotConverged
 from reynolds.film import LEAST_FRACTION, Cavitation, FilmProblem, FilmSolution
 from reynolds.fluid import CONSTANT
@@ -44,6 +45,7 @@ class FilmSolver:
         self._grid = grid_of(space)
         self._factor = Factor(self._grid)
         self._general = GeneralFactor(self._grid)
+        self._near = NearFactor()
         self._cascade: Cascade | None = None
         self._answers: _Answers | None = None
 
@@ -170,7 +172,7 @@ class FilmSolver:
             self._general.update(problem.space.matrix(upper), lower, at.cavity)
             self._answers = _Answers(self._general.solve, at, fixed, scale)
             return load
-        answer = compliant(problem, setting, at, upper, lower)
+        answer = compliant(problem, setting, at, upper, lower, self._near)
         self._answers = _Answers(row_by_row(answer), at, fixed, scale)
         return load
 

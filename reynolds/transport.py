@@ -16,6 +16,7 @@ from reynolds.film import Film, FilmProblem
 from reynolds.fluid import CONSTANT
 from reynolds.laws import Tangent
 from reynolds.mesh import Array
+from reynolds.overlap import film_between
 from reynolds.roughness import FlowFactors, Surface, flow_factors
 from reynolds.space import FilmSpace
 
@@ -37,7 +38,8 @@ class Transport:
     """Flow terms, each (cells | 1, points | 1); *_slope by thickness, by_pressure the relative one by pressure.
 
     film: as it is under pressure; smooth: r h^3/(12 mu), m3/(Pa s), the conductance between smooth walls; factors:
-    what roughness makes of it and of the flow with the walls.
+    what roughness makes of it and of the flow with the walls; widening: slope of the film by the gap between walls
+    that give way and overlap, by which *_slope count then (None: one).
     """
 
     film: Film
@@ -45,6 +47,7 @@ class Transport:
     by_pressure: Array
     surface: Surface | None
     factors: FlowFactors | None
+    widening: Array | None = None
 
     @cached_property
     def conductance(self) -> Tensor:
@@ -59,8 +62,9 @@ class Transport:
         """Its slope, m2/(Pa s)."""
         steeper = 3.0 / self.film.thickness
         if self.factors is None:
-            return isotropic(steeper * self.smooth)
-        x, xy, y = (self.smooth * (part.slope + steeper * part.value) for part in self.factors.pressure)
+            return isotropic(self._by_gap(steeper * self.smooth))
+        smooth = self._by_gap(self.smooth)
+        x, xy, y = (smooth * (part.slope + steeper * part.value) for part in self.factors.pressure)
         return x, y, xy
 
     @cached_property
@@ -71,7 +75,8 @@ class Transport:
     @cached_property
     def flux_slope(self) -> tuple[Array, Array]:
         """Its slope, m/s."""
-        return self._with_walls(self._content.slope, lambda part: part.slope)
+        x, y = self._with_walls(self._content.slope, lambda part: part.slope)
+        return self._by_gap(x), self._by_gap(y)
 
     @property
     def content(self) -> Array:
@@ -81,12 +86,15 @@ class Transport:
     @property
     def content_slope(self) -> Array:
         """Its slope."""
-        return self._content.slope
+        return self._by_gap(self._content.slope)
 
     @property
     def squeeze(self) -> Array:
         """Its rate, m/s."""
-        return self._content.slope * self.film.squeeze
+        return self.content_slope * self.film.squeeze
+
+    def _by_gap(self, slope: Array) -> Array:
+        return slope if self.widening is None else slope * self.widening
 
     @cached_property
     def _content(self) -> Tangent:
@@ -110,9 +118,10 @@ def transport(problem: FilmProblem, pressure: Array, opening: Array) -> Transpor
     Raises FilmInputError where the conductance is no number of full precision and where a law of the oil or of the
     walls does not hold, FilmNotConverged where no film is left between walls that give way.
     """
-    film = problem.film
+    film, widening = problem.film, None
     if problem.walls is not None:
-        film = replace(film, thickness=_parted(problem, opening))
+        parted = _parted(problem, opening)
+        film, widening = replace(film, thickness=parted.value), parted.slope
     ratio, by_pressure = np.ones((1, 1)), np.zeros((1, 1))
     if problem.fluid is not CONSTANT:
         at = at_points(problem.space, pressure)
@@ -126,19 +135,20 @@ def transport(problem: FilmProblem, pressure: Array, opening: Array) -> Transpor
         smooth = h * h * h * (ratio / (12.0 * film.viscosity))
     _check_conductance(smooth)
     factors = None if problem.surface is None else flow_factors(problem.surface, h)
-    return Transport(film, smooth, by_pressure, problem.surface, factors)
+    return Transport(film, smooth, by_pressure, problem.surface, factors, widening)
 
 
-def _parted(problem: FilmProblem, opening: Array) -> Array:
-    """Thickness of a film whose walls give way by an opening at the vertices (vertices,) m."""
+def _parted(problem: FilmProblem, opening: Array) -> Tangent:
+    """Thickness of a film whose walls give way by an opening at the vertices (vertices,) m, its slope by that."""
     given = problem.film.thickness
-    h = np.asarray(given + problem.space.sample_vertices(opening))
-    if not (h.min() > 0.0 and h.max() < WIDEST * np.abs(given).max()):
+    film = film_between(problem, np.asarray(given + problem.space.sample_vertices(opening)))
+    least, most = float(film.value.min()), float(film.value.max())
+    if not (least > 0.0 and most < WIDEST * np.abs(given).max()):
         raise FilmNotConverged(
-            f"walls that give way leave {h.min():.3g} to {h.max():.3g} m of film",
+            f"walls that give way leave {least:.3g} to {most:.3g} m of film",
             "a thicker film, stiffer walls, or contact",
         )
-    return h
+    return film
 
 
 def along(tensor: Tensor, gradient: tuple[Array, Array]) -> tuple[Array, Array]:

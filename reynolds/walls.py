@@ -51,7 +51,20 @@ class LowRank:
 WallMatrix: TypeAlias = Array | csr_array | LowRank
 
 
-def full(matrix: WallMatrix) -> Array:
+class Product(Protocol):
+    """An opening by pressures that is never multiplied out unless asked to."""
+
+    def __matmul__(self, pressure: Array) -> Array:
+        """Opening (vertices, ...) m by pressures (size, ...) Pa."""
+
+    def toarray(self) -> Array:
+        """The matrix itself, (vertices, size) m/Pa."""
+
+
+Opens: TypeAlias = WallMatrix | Product
+
+
+def full(matrix: Opens) -> Array:
     """A compliance multiplied out, as an array."""
     return matrix if isinstance(matrix, np.ndarray) else np.asarray(matrix.toarray())
 

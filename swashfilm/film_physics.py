@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from reynolds.contact import boundary_shear, contact_area, contact_pressure, lambda_ratio
-from reynolds.film import vertex_thickness
+from reynolds.overlap import vertex_thickness
 from reynolds.roughness import beyond_range
 from swashfilm.film_transient import Moment
 from swashfilm.headline import titled

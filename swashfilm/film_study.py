@@ -11,8 +11,9 @@ import numpy as np
 from gaps.result import GapFilm
 from reynolds.carried_load import Carried
 from reynolds.energy import FilmTemperature
-from reynolds.film import FilmSolution, vertex_thickness
+from reynolds.film import FilmSolution
 from reynolds.loads import Loads, loads, point_fields
+from reynolds.overlap import vertex_thickness
 from swashfilm.film_carried import carried_summary, solve_carried
 from swashfilm.film_case import FilmCase
 from swashfilm.film_oil import film_of, heat_of, oil_solver

@@ -19,7 +19,7 @@ from reynolds.bodies.elasticity import Elastic
 from reynolds.bodies.foundation import Compliance, both, half_space, winkler
 from reynolds.bodies.supports import Supports
 from reynolds.bodies.wall import Body, body_wall, face_wall
-from reynolds.compliant import compliant_answer
+from reynolds.compliant import Balance, compliant_answer
 from reynolds.contact import Asperities
 from reynolds.errors import FilmNotConverged
 from reynolds.film import ZERO, Cavitation, FilmProblem, FilmSolution, Held, film
@@ -153,7 +153,7 @@ def linear_balance(size: int) -> tuple[csc_array, csr_array, Array, Array]:
 @pytest.mark.parametrize("form", [np.asarray, csr_array, product])
 def test_any_load_is_answered(size, form):
     rigid, slope, bends, free = linear_balance(size)
-    answer = compliant_answer(rigid, slope, form(bends), free)
+    answer = compliant_answer(Balance(rigid, slope, form(bends), free))
     full = rigid.toarray() + slope.toarray() @ bends * free
     for load in (np.ones(size), np.random.default_rng(1).normal(size=size), np.zeros(size)):
         left = np.linalg.norm(full @ answer(load, 1e-11) - load)
@@ -163,12 +163,12 @@ def test_any_load_is_answered(size, form):
 def test_a_balance_that_iterates_badly_is_factorised(monkeypatch):
     rigid, slope, bends, free = linear_balance(500)
     monkeypatch.setattr(compliant, "MOST_STEPS", 3)
-    answer = compliant_answer(rigid, slope, product(bends), free)
+    answer = compliant_answer(Balance(rigid, slope, product(bends), free))
     full = rigid.toarray() + slope.toarray() @ bends * free
     load = np.random.default_rng(2).normal(size=500)
     assert answer(load, 1e-11) == pytest.approx(np.linalg.solve(full, load), rel=1e-8, abs=1e-8)
     stuck = csc_array(np.diag(np.r_[0.0, np.ones(499)]))  # what the rigid balance leaves open, the walls close
-    by_walls = compliant_answer(stuck, csr_array(np.eye(500)), np.eye(500), np.ones(500))
+    by_walls = compliant_answer(Balance(stuck, csr_array(np.eye(500)), np.eye(500), np.ones(500)))
     assert by_walls(np.ones(500), 1e-11)[0] == pytest.approx(1.0)
 
 
@@ -177,7 +177,9 @@ def test_a_balance_that_iterates_badly_is_factorised(monkeypatch):
 def test_a_singular_balance_is_refused(form, size):
     nothing = csc_array((size, size))
     with pytest.raises(FilmNotConverged, match=r"singular.*Try: stiffer walls"):
-        compliant_answer(nothing, csr_array((size, size)), form(np.eye(size)), np.ones(size))(np.ones(size), 1e-11)
+        compliant_answer(Balance(nothing, csr_array((size, size)), form(np.eye(size)), np.ones(size)))(
+            np.ones(size), 1e-11
+        )
 
 
 def plate(space: FilmSpace, cells: int) -> Body:
