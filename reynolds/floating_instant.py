@@ -11,9 +11,18 @@ from reynolds.contact import LOWEST_RATIO
 from reynolds.errors import FilmInputError, FilmNotConverged
 from reynolds.film import LEAST_FRACTION, Boundary, FilmProblem, FilmSolution, Pocket, Storage
 from reynolds.floating import Floating, Outer
-from reynolds.generalised import ContactForce, Modes, contact_force, generalised_force, modes_on
+from reynolds.generalised import (
+    ContactForce,
+    Modes,
+    SoftContact,
+    contact_force,
+    generalised_force,
+    modes_on,
+    soft_contact,
+)
 from reynolds.linear import ITERATIVE_TOLERANCE
 from reynolds.mesh import Array
+from reynolds.opening import opening_slope, touch_at
 from reynolds.overlap import film_between
 from reynolds.sensitivity import Response, oil_slopes, response, thickness_load
 from reynolds.solve import FilmSolver
@@ -57,9 +66,10 @@ def parted(floating: Floating, held: Array, size: int) -> Kept:
 class Trial:
     """A film at a position q (k,) m and rate m/s over the step.
 
-    gap (cells, points) m between the mean planes, corner_gap (vertices,) m the same where it is known, least the
-    smallest of both; thicker (cells, points, k): growth of the film by q; film_force
-    Q (k,) N without contact; missing (k,) N: what is left of the balance, and `size` (k,) N, the magnitudes in it.
+    gap (cells, points) m between the mean planes, walls having given way, corner_gap (vertices,) m the same where
+    it is known, least the smallest of both; thicker (cells, points, k): growth of the film by q at its pressure;
+    film_force Q (k,) N without contact; missing (k,) N: what is left of the balance, and `size` (k,) N, the
+    magnitudes in it.
     """
 
     q: Array
@@ -101,7 +111,7 @@ class Instant:
     def tried(self, q: Array, warm: FilmSolution | None) -> Trial:
         """The film at a position; raises FilmNotConverged where walls overlap or the film does not settle."""
         at = posed(self.shape, self.modes, q)
-        if not at.least > lowest_gap(self.shape):
+        if self.shape.walls is None and not at.least > lowest_gap(self.shape):
             raise FilmNotConverged(f"walls that touch: least gap {at.least:.3g} m", TOUCHING)
         storage = Storage(self.before.oil, self.step)
         problem = replace(at.problem, boundary=self._with_volumes(q), storage=storage)
@@ -120,13 +130,14 @@ class Instant:
         return boundary
 
     def _balanced(self, q: Array, at: Posed, solution: FilmSolution) -> Trial:
-        reference, asperities = self.floating.reference, self.shape.asperities
+        reference, contact = self.floating.reference, self._contact(at, solution)
+        if self.shape.walls is not None:
+            at = given_way(at, solution, contact)
         rate = (q - self.before.position) / self.step
         force = generalised_force(solution.pressure, self.modes, reference)
         size = np.abs(solution.pressure - reference) @ np.abs(self.modes.weights)
         outer = self.floating.outer_at(self.time, q, rate)
         missing, size = force + outer.force, size + np.abs(outer.force)
-        contact = None if asperities is None else contact_force(asperities, at.gap, self.modes)
         if contact is not None:
             missing, size = missing + contact.force, size + contact.size
         if self.floating.inertia is not None:
@@ -136,24 +147,40 @@ class Instant:
             q, rate, at.gap, at.corner_gap, at.least, at.thicker, solution, force, contact, outer, missing, size
         )
 
-    def room(self, at: Trial, step: Array) -> float:
+    def _contact(self, at: Posed, solution: FilmSolution) -> ContactForce | None:
+        if self.shape.asperities is None:
+            return None
+        if self.shape.walls is None:
+            return contact_force(self.shape.asperities, at.gap, self.modes)
+        return soft_contact(touch_at(solution.problem, solution.opening), self.modes)
+
+    def room(self, at: Trial, step: Array, film: Response) -> float:
         """The share of a step (k,) m, maybe more than one, that leaves as much gap as one step may take.
 
         That is a fifth of the least gap, or of rough walls three standard deviations of the summits less than it.
+        Walls that give way follow the pressure that the step brings, `film` per unit of it; smooth ones the
+        further the nearer they come.
         """
-        if self.shape.walls is not None:
+        if self.shape.walls is not None and self.shape.asperities is None:
             return np.inf
         asperities, floor = self.shape.asperities, LEAST_SHARE * at.least
         if asperities is not None:
             floor = min(floor, at.least - DEEPEST * asperities.height)
         floor = max(floor, lowest_gap(self.shape))
-        falls = [(at.gap - floor, -(self.modes.at_points @ step))]
+        grows = self.modes.at_vertices if self.shape.walls is None else self._grown(at, film)
+        falls = []
         if at.corner_gap is not None:
-            falls.append((at.corner_gap - floor, -(self.modes.at_vertices @ step)))
+            falls.append((at.corner_gap - floor, -(grows @ step)))
+        falls.append((at.gap - floor, -self.shape.space.sample_vertices(grows @ step)))
         return min(
             float(np.min(np.divide(gap, fall, out=np.full(fall.shape, np.inf), where=fall > 0.0)))
             for gap, fall in falls
         )
+
+    def _grown(self, at: Trial, film: Response) -> Array:
+        """Growth of the gap by each coordinate between walls that give way, (vertices, k)."""
+        opened = opening_slope(at.solution.problem, at.solution.opening) @ film.pressure
+        return opened + (at.contact.grown if isinstance(at.contact, SoftContact) else self.modes.at_vertices)
 
     def touching(self, at: Trial) -> bool:
         """Whether walls are next to where there is no film between them, or no law of contact."""
@@ -170,7 +197,7 @@ class Instant:
         """d missing/dq, (k, k) N/m."""
         total = self.modes.weights.T @ film.pressure + at.outer.by_position + at.outer.by_rate / self.step
         if at.contact is not None:
-            total = total + at.contact.slopes
+            total = total + at.contact.slopes + at.contact.by_pressure(film.pressure)
         if self.floating.inertia is not None:
             total = total - self.floating.inertia / self.step**2
         return np.asarray(total)
@@ -181,6 +208,8 @@ class Instant:
             self.solver, at.solution, (changed.oil + self.modes.pockets @ changed.position) / self.step
         )
         missing = self.modes.weights.T @ film.pressure - at.outer.by_rate @ changed.position / self.step
+        if at.contact is not None:
+            missing += at.contact.by_pressure(film.pressure)
         if self.floating.inertia is not None:
             missing += self.floating.inertia @ (changed.position / self.step + changed.rate) / self.step
         return film, missing
@@ -200,9 +229,6 @@ def instant_of(solver: FilmSolver, floating: Floating, time: float, step: float,
     shape = floating.shape_at(time)
     modes = modes_on(shape.space, floating.modes_at(time), floating.pockets)
     before = parted(floating, held, shape.space.size)
-    if shape.walls is not None and shape.asperities is not None:
-        found = "walls that give way and asperities"
-        raise FilmInputError(floating.name, found, "one of them: contact between elastic walls is not floated")
     if not before.oil.min() >= LEAST_FRACTION * before.oil.max():
         raise FilmNotConverged(
             f"{floating.name}: {before.oil.min():.3g} m3 of oil left in a cavity between two stages",
@@ -223,8 +249,15 @@ class Posed:
 
 
 def posed(shape: FilmProblem, modes: Modes, q: Array) -> Posed:
-    """The film of a shape at a position (k,) m; contact is left out of its problem: the gap counts there."""
+    """The film of a shape at a position (k,) m.
+
+    Between rigid walls contact is left out of its problem: the gap counts there. Walls that give way feel it.
+    """
     gap, corners = shape.film.thickness + modes.at_points @ q, shape.film.thickness_at_vertices
+    if shape.walls is not None:
+        corners = None if corners is None else corners + modes.at_vertices @ q
+        film = replace(shape.film, thickness=gap, thickness_at_vertices=corners)
+        return Posed(replace(shape, film=film), gap, corners, float(gap.min()), modes.at_points)
     between, at_corners, least = film_between(shape, gap), None, float(gap.min())
     if corners is not None:
         corners = corners + modes.at_vertices @ q
@@ -234,9 +267,24 @@ def posed(shape: FilmProblem, modes: Modes, q: Array) -> Posed:
     return Posed(replace(shape, film=film, asperities=None), gap, corners, least, thicker)
 
 
+def given_way(at: Posed, solution: FilmSolution, contact: ContactForce | None) -> Posed:
+    """What a position leaves once the walls have given way: their gap, and how it grows with the position."""
+    gap = np.broadcast_to(solution.gap, solution.problem.space.area.shape)
+    corners = None if at.corner_gap is None else at.corner_gap + solution.opening
+    thicker = at.thicker
+    if isinstance(contact, SoftContact):
+        space = solution.problem.space
+        thicker = np.ascontiguousarray(space.reference.geometry_value @ contact.grown[space.cells])
+    least = min(float(part.min()) for part in (gap, corners) if part is not None)
+    return Posed(at.problem, gap, corners, least, thicker)
+
+
 def lowest_gap(shape: FilmProblem) -> float:
-    """The gap (m) above which there is a film: next to zero, or where the law of contact ends."""
-    if shape.walls is not None:
+    """The gap (m) above which there is a film: next to zero, or where the law of contact ends.
+
+    Smooth walls that give way keep any film open.
+    """
+    if shape.walls is not None and shape.asperities is None:
         return -np.inf
     if shape.asperities is None:
         return THINNEST

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
 
@@ -23,6 +24,7 @@ from reynolds.floating_instant import (
 )
 from reynolds.generalised import modes_on
 from reynolds.mesh import Array
+from reynolds.overlap import as_shaped
 from reynolds.solve import FilmSolver
 from reynolds.transient import oil_held
 
@@ -53,14 +55,14 @@ class Stage:
         """Position (k,), m."""
         return self.trial.q
 
-    @property
+    @cached_property
     def solution(self) -> FilmSolution:
-        """The film, with its storage."""
-        return self.trial.solution
+        """The film, with its storage, as between rigid walls of the shape that it has."""
+        return as_shaped(self.trial.solution)
 
     @property
     def gap(self) -> Array:
-        """Distance of the mean planes at the quadrature points (cells, points), m; before walls give way."""
+        """Distance of the mean planes at the quadrature points (cells, points), m; walls having given way."""
         return self.trial.gap
 
     @property
@@ -87,7 +89,7 @@ class Stage:
     @property
     def holds(self) -> Array:
         """What is carried on, one vector: oil (size,) m3, q (k,) m and, with inertia, dq/dt (k,) m/s."""
-        return joined(self.instant.floating, Kept(self.solution.holds, self.q, self.trial.rate))
+        return joined(self.instant.floating, Kept(self.trial.solution.holds, self.q, self.trial.rate))
 
     @property
     def force_slopes(self) -> Array:
@@ -124,7 +126,7 @@ def solve_stage(
     `functools.partial(solve_stage, solver, floating)` is a `dirk.StageSolver`.
     """
     instant = instant_of(solver, floating, time, step, before)
-    search = _Search(instant, None if last is None else last.solution)
+    search = _Search(instant, None if last is None else last.trial.solution)
     if (found := search.balanced(guess)) is None:
         found = search.balanced(instant.before.position)
     if found is None:
@@ -140,7 +142,7 @@ def standing(floating: Floating, time: float, q: Array, rate: Array | None = Non
     """
     shape = floating.shape_at(time)
     at = posed(shape, modes_on(shape.space, floating.modes_at(time), floating.pockets), q)
-    if not at.least > lowest_gap(shape):
+    if shape.walls is None and not at.least > lowest_gap(shape):
         raise FilmInputError(f"{floating.name} at {time:.6g} s", f"a least gap of {at.least:.3g} m", "walls apart")
     return joined(floating, Kept(oil_held(at.problem), q, np.zeros(len(q)) if rate is None else rate))
 
@@ -190,11 +192,12 @@ class _Search:
         """The film one Newton step on, cut back until it is nearer to balance; None where no share is."""
         instant = self._instant
         try:
-            step = -solved(instant.slopes(at, instant.by_position(at, LOOSE)), at.missing, instant.floating.name)
+            film = instant.by_position(at, LOOSE)
+            step = -solved(instant.slopes(at, film), at.missing, instant.floating.name)
         except FilmNotConverged as reason:
             self.why, self.remedy = reason.what, reason.remedy
             return None
-        room = min(1.0, instant.room(at, step))
+        room = min(1.0, instant.room(at, step, film))
         if instant.touching(at):
             self.why, self.remedy = f"walls that touch: least gap {at.least:.3g} m", TOUCHING
             return None

@@ -16,6 +16,7 @@ from reynolds import generalised_kernels as kernels
 from reynolds.contact import Asperities, contact_pressure
 from reynolds.errors import FilmInputError
 from reynolds.mesh import Array
+from reynolds.opening import Touch
 from reynolds.space import FilmSpace
 
 NO_CONTACT = 8.0  # standard deviations from the summits' mean: beyond, less than 1e-15 of E' K is borne
@@ -41,9 +42,14 @@ class Modes:
     @cached_property
     def weights(self) -> Array:
         """int f_i phi_j and the pockets' areas, (size, k) m2: Q by nodal pressure."""
+        return self.film_weights + self.pockets
+
+    @cached_property
+    def film_weights(self) -> Array:
+        """int f_i phi_j over the film alone, (size, k) m2."""
         space, out = self.space, np.empty(self.pockets.shape)
         kernels.weigh(space.dofs, space.reference.value, space.area, self.at_points, *space.reference.loops, out)
-        return out + self.pockets
+        return out
 
 
 def modes_on(space: FilmSpace, at_vertices: Array, pockets: Mapping[str, Array] | None = None) -> Modes:
@@ -77,11 +83,18 @@ def generalised_force(pressure: Array, modes: Modes, reference: float) -> Array:
 
 @dataclass(frozen=True)
 class ContactForce:
-    """What touching asperities add: force (k,) N, its slopes by position (k, k) N/m, its magnitudes (k,) N."""
+    """What touching asperities add: force (k,) N, its slopes by position (k, k) N/m, its magnitudes (k,) N.
+
+    Slopes at the film's pressure as it is, which opens no rigid wall.
+    """
 
     force: Array
     slopes: Array
     size: Array
+
+    def by_pressure(self, changed: Array) -> Array:
+        """Change of the force by changes (size, m) Pa of the film's pressure, (k, m) N."""
+        return np.zeros((len(self.force), changed.shape[1]))
 
 
 def contact_force(asperities: Asperities, gap: Array, modes: Modes) -> ContactForce:
@@ -94,3 +107,31 @@ def contact_force(asperities: Asperities, gap: Array, modes: Modes) -> ContactFo
     bears, phi, area = contact_pressure(asperities, gap[near]), modes.at_points[near], modes.space.area[near]
     weighted = area * bears.value
     return ContactForce(weighted @ phi, phi.T @ ((area * bears.slope)[:, None] * phi), weighted @ np.abs(phi))
+
+
+@dataclass(frozen=True)
+class SoftContact(ContactForce):
+    """The same between walls that give way.
+
+    touch: contact at the vertices; grown (vertices, k): growth of the gap by each coordinate, the film's pressure
+    as it is; lever (vertices, k) N/m: slopes of the force by the gap at the vertices.
+    """
+
+    touch: Touch
+    grown: Array
+    lever: Array
+
+    def by_pressure(self, changed: Array) -> Array:
+        """Change of the force by changes (size, m) Pa of the film's pressure, which opens the walls, (k, m) N."""
+        return np.asarray(self.lever.T @ self.touch.settled(self.touch.compliance @ changed))
+
+
+def soft_contact(touch: Touch, modes: Modes) -> SoftContact:
+    """int p_c phi_j dA with contact as it presses on walls that give way: the pressure of the film's unknowns.
+
+    The gap grows by (I - C dp_c/dh)^-1 phi: contact stiffens the walls.
+    """
+    bears, weights = touch.on_unknowns, modes.film_weights
+    lever = touch.bears.slope[:, None] * (touch.meeting.shares.T @ weights)
+    grown = touch.settled(modes.at_vertices)
+    return SoftContact(bears @ weights, lever.T @ grown, bears @ np.abs(weights), touch, grown, lever)

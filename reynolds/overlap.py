@@ -6,6 +6,8 @@ stored there is oil between the summits.
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from reynolds.film import FilmProblem, FilmSolution
@@ -41,3 +43,15 @@ def vertex_thickness(solution: FilmSolution) -> Array:
     if solution.problem.walls is None:
         return given.thickness_at_vertices
     return film_between(solution.problem, given.thickness_at_vertices + solution.opening).value
+
+
+def as_shaped(solution: FilmSolution) -> FilmSolution:
+    """The same film between rigid walls of the shape that it has now, contact left out: for what its oil does."""
+    problem = solution.problem
+    if problem.walls is None and problem.asperities is None:
+        return solution
+    shaped = replace(problem.film, thickness=solution.film.thickness)
+    if shaped.thickness_at_vertices is not None:
+        shaped = replace(shaped, thickness_at_vertices=vertex_thickness(solution))
+    rigid = replace(problem, film=shaped, walls=None, asperities=None)
+    return replace(solution, problem=rigid, opening=np.zeros_like(solution.opening))

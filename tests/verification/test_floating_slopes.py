@@ -60,6 +60,11 @@ CASES = {
     "oil": Case(9e3, fluid=OIL),
     "soft walls": Case(2e2, 5e6, softness=2e-12, cavitates=False),
     "contact": Case(3e5, asperities=ROUGH),
+    "soft contact": Case(2e4, 5e6, softness=2e-13, asperities=ROUGH, cavitates=False),
+    "soft rough": Case(
+        2e4, 5e6, softness=2e-13, surface=Surface(4e-7, 3e-7, 3.0, 1.0 / 3.0, 0.3), asperities=ROUGH, fluid=OIL,
+        cavitates=False,
+    ),
     "rough": Case(6e5, surface=Surface(4e-7, 3e-7, 3.0, 1.0 / 3.0, 0.3), asperities=ROUGH),
 }
 
