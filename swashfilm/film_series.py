@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from enum import Enum
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -20,6 +21,7 @@ from swashfilm.revolution_study import revolution_summary, solve_revolution
 from swashfilm.study_case import Point, StudyCase
 from system.errors import NotConverged
 from system.faults import Fault, InputFaults
+from system.side_by_side import side_by_side
 
 POINTS = "points"
 
@@ -53,30 +55,11 @@ def run_points(
     kept = _kept(study, folder, resumed) if resumed else {}
     todo = [point for point in study.points if point not in kept]
     report(0, len(todo), f"{len(kept)} points kept" if kept else "solving")
-    for done, outcome in enumerate(_solved(study, folder, todo, workers), start=1):
+    for done, outcome in enumerate(side_by_side(partial(solve_point, study, folder), todo, workers), start=1):
         kept[outcome.point] = outcome
         values = ", ".join(f"{key} = {value}" for key, value in study.values(outcome.point).items())
         report(done, len(todo), f"{values}: {outcome.status.value}")
     return [kept[point] for point in study.points]
-
-
-def _solved(study: StudyCase, folder: Path, todo: list[Point], workers: int) -> Iterator[Outcome]:
-    if workers == 1 or len(todo) < 2:
-        yield from (solve_point(study, folder, point) for point in todo)
-        return
-    import multiprocessing
-    import signal
-    from concurrent.futures import ProcessPoolExecutor, as_completed
-
-    # Ctrl-C is for this process alone, which then stops the others after the points they are at.
-    pool = ProcessPoolExecutor(
-        workers, multiprocessing.get_context("spawn"), signal.signal, (signal.SIGINT, signal.SIG_IGN)
-    )
-    try:
-        for done in as_completed([pool.submit(solve_point, study, folder, point) for point in todo]):
-            yield done.result()
-    finally:
-        pool.shutdown(cancel_futures=True)
 
 
 def solve_point(study: StudyCase, folder: Path, point: Point) -> Outcome:

@@ -73,8 +73,8 @@ class PumpPoint:
     `delivery_flow_ripple` in m3/s over the same angles (volume at chamber pressure through the delivery port);
     `delivery`, `suction`: pressure of either port and what its line takes; `shaft_torque` in N m, from the forces
     on the rotating group; `leakage_flow` of each gap (mean over the revolution, all chambers, volume at case
-    pressure); `exchange`, what the gaps exchange beside; `bench`, what a test bench reads; `geometric_displacement` and `derived_displacement` in m3 per
-    revolution.
+    pressure); `exchange`, what the gaps exchange beside; `bench`, what a test bench reads;
+    `geometric_displacement` and `derived_displacement` in m3 per revolution.
     """
 
     point: OperatingPoint

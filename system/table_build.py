@@ -1,0 +1,202 @@
+"""Building a response table: a box of inputs, its points solved and kept one by one, what they teach."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import partial
+from importlib.metadata import version
+from pathlib import Path
+
+import numpy as np
+
+from gaps.response import Axis, Response, Samples, Spacing, held_out_points, learnt_points
+from reynolds.bodies.cache import content_key, kept
+from reynolds.errors import FilmNotConverged
+from reynolds.mesh import Array
+from reynolds.oil import dynamic_viscosity, temperature_of
+from system.description import PumpDescription
+from system.errors import NotConverged
+from system.gap_cycle import Report, silent
+from system.operating import OperatingPoint
+from system.parts_description import DeliveryLineSection
+from system.response_tables import (
+    PRESSURE,
+    RATIO,
+    SPEED,
+    VISCOSITY,
+    Failed,
+    Origin,
+    ResponseTable,
+)
+from system.side_by_side import side_by_side
+from system.table_means import OUTPUTS, TABLE_FORMAT, mean_ratios
+from system.table_sources import PointSolver
+from system.table_store import KEY_LENGTH, keep_table, pump_key, tables_folder
+
+LEARNT, HELD_OUT = 120, 30
+SPEEDS = (0.2, 1.2)
+"""Of the rated speed: the box where nothing else is stated."""
+PRESSURES = (0.05, 1.15)
+"""Of the rated pressure, the lower one above the inlet's."""
+RATIOS = (0.1, 1.0)
+TEMPERATURES = (293.15, 373.15)
+"""K: 20 .. 100 degC, as viscosities of the pump's oil."""
+
+Range = tuple[float, float]
+
+
+@dataclass(frozen=True)
+class TableCase:
+    """What to condense: a pump, who solves its points, the box, how many points to learn from and to hold out."""
+
+    pump: PumpDescription
+    solver: PointSolver
+    axes: tuple[Axis, ...]
+    learnt: int = LEARNT
+    held_out: int = HELD_OUT
+
+    @property
+    def points(self) -> Array:
+        """All points (n, 4), the learnt ones first."""
+        learnt = learnt_points(self.axes, self.learnt)
+        return np.concatenate([learnt, held_out_points(self.axes, self.learnt, self.held_out)])
+
+
+@dataclass(frozen=True)
+class Solved:
+    """What a point gave: where it stands among the case's, its OUTPUTS or why there are none, seconds it took."""
+
+    index: int
+    means: Array | None
+    reason: str
+    seconds: float
+
+
+def table_axes(
+    pump: PumpDescription,
+    speeds: Range | None = None,
+    pressures: Range | None = None,
+    ratios: Range | None = None,
+    temperatures: Range | None = None,
+) -> tuple[Axis, ...]:
+    """The box of a pump's table, SI, temperatures standing for the viscosities of its oil.
+
+    What is None is taken from the rating (SPEEDS, PRESSURES) or as RATIOS and TEMPERATURES. Raises FilmInputError
+    for a range that is none and where the oil's law is void.
+    """
+    rated = pump.pump
+    low, high = speeds or (SPEEDS[0] * rated.rated_speed, SPEEDS[1] * rated.rated_speed)
+    lowest = max(pump.operating.inlet_pressure, 0.0) + PRESSURES[0] * rated.rated_pressure
+    cold, hot = temperatures or TEMPERATURES
+    return (
+        Axis(SPEED, low, high, Spacing.LOGARITHMIC),
+        Axis(PRESSURE, *(pressures or (lowest, PRESSURES[1] * rated.rated_pressure)), Spacing.LOGARITHMIC),
+        Axis(RATIO, *(ratios or RATIOS), Spacing.LOGARITHMIC),
+        Axis(
+            VISCOSITY,
+            dynamic_viscosity(pump.oil.fluid, hot),
+            dynamic_viscosity(pump.oil.fluid, cold),
+            Spacing.LOGARITHMIC,
+        ),
+    )
+
+
+def build_table(
+    case: TableCase, *, workers: int = 1, report: Report = silent, folder: Path | None = None
+) -> ResponseTable:
+    """The table of a case, kept in the cache; points that are kept there already are not solved again.
+
+    Interrupted, it goes on where it was at the next call. Raises FilmInputError where fewer points than an
+    interpolant needs have a result.
+    """
+    points, key = case.points, pump_key(case.pump)
+    place = tables_folder(folder) / "points"
+    task = partial(solve_point, case, place)
+    parts = list(enumerate(points))
+    known = [(k, x) for k, x in parts if (place / f"{point_key(case, x)}.npz").is_file()]
+    found = {k: task((k, x)) for k, x in known}
+    todo = [(k, x) for k, x in parts if k not in found]
+    report(0, len(todo), f"{len(known)} points kept" if known else "solving")
+    for done, solved in enumerate(side_by_side(task, todo, workers), start=1):
+        found[solved.index] = solved
+        report(done, len(todo), "point failed" if solved.reason else "point solved")
+    table = ResponseTable(_origin(case, key, points, found), _response(case, points, found))
+    keep_table(table, tables_folder(folder) / f"{key}-{case_key(case)}")
+    return table
+
+
+def solve_point(case: TableCase, folder: Path, part: tuple[int, Array]) -> Solved:
+    """A point of a case by its index and place, solved and kept in `folder`, or taken from there.
+
+    One that does not converge says why; that too is kept.
+    """
+    index, x = part
+    arrays = kept(point_key(case, x), partial(_solve, case, x), folder).arrays
+    reason = str(arrays["reason"])
+    return Solved(index, None if reason else arrays["means"], reason, float(arrays["seconds"]))
+
+
+def _solve(case: TableCase, x: Array) -> Mapping[str, Array]:
+    began = time.process_time()
+    means, reason = np.zeros(0), ""
+    held = case.pump.model_copy(update={"delivery_line": DeliveryLineSection()})
+    try:
+        means = mean_ratios(held, case.solver.solve(held, point_at(case.pump, x)))
+    except (NotConverged, FilmNotConverged) as fault:
+        reason = str(fault)
+    return {"means": means, "reason": np.array(reason), "seconds": np.array(time.process_time() - began)}
+
+
+def point_at(pump: PumpDescription, x: Array) -> OperatingPoint:
+    """The operating point of a place (4,) in the box: at the temperature at which the oil has its viscosity."""
+    speed, pressure, ratio, viscosity = (float(value) for value in x)
+    return OperatingPoint(
+        shaft_speed=speed,
+        delivery_pressure=pressure,
+        inlet_pressure=pump.operating.inlet_pressure,
+        case_pressure=pump.operating.case_pressure,
+        displacement_ratio=ratio,
+        temperature=temperature_of(pump.oil.fluid, viscosity),
+        viscosity=viscosity,
+    )
+
+
+def point_key(case: TableCase, x: Array) -> str:
+    """Name of a point's content: the pump, the solver with what it states, the format, the place."""
+    solver = case.solver
+    return content_key(pump_key(case.pump), TABLE_FORMAT, solver.source.value, sorted(solver.stated.items()), x)
+
+
+def case_key(case: TableCase) -> str:
+    """Name of a case among those of its pump."""
+    content = (case.solver.source.value, sorted(case.solver.stated.items()), case.axes, case.learnt, case.held_out)
+    return content_key(*content)[:KEY_LENGTH]
+
+
+def _origin(case: TableCase, key: str, points: Array, found: Mapping[int, Solved]) -> Origin:
+    failed = (Failed(tuple(map(float, points[k])), found[k].reason) for k in sorted(found) if found[k].reason)
+    return Origin(
+        pump=case.pump.name,
+        pump_key=key,
+        source=case.solver.source,
+        stated=dict(case.solver.stated),
+        package=version("swashfilm"),
+        inlet_pressure=case.pump.operating.inlet_pressure,
+        case_pressure=case.pump.operating.case_pressure,
+        failed=tuple(failed),
+        seconds=float(np.mean([solved.seconds for solved in found.values()])),
+    )
+
+
+def _response(case: TableCase, points: Array, found: Mapping[int, Solved]) -> Response:
+    """Learnt and held-out points that have a result."""
+
+    def samples(indices: range) -> Samples:
+        good = [k for k in indices if found[k].means is not None]
+        values = np.array([found[k].means for k in good]).reshape(-1, len(OUTPUTS))
+        return Samples(points[good], values)
+
+    learnt, held_out = samples(range(case.learnt)), samples(range(case.learnt, len(points)))
+    return Response(case.axes, OUTPUTS, learnt, held_out)

@@ -1,0 +1,132 @@
+"""The table fidelity: the lumped kernel with film physics inside, by the ratios of a response table."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from system.assembly import PumpPoint, assemble, met_point
+from system.chamber_problem import LeakTable
+from system.description import PumpDescription
+from system.errors import NotConverged
+from system.kinematics import Array
+from system.lumped import (
+    PistonMotion,
+    chamber_problem,
+    group_masses,
+    lumped_leaks,
+    lumped_pairs,
+    piston_motion,
+    port_lines,
+    swept_displacement,
+)
+from system.operating import OperatingPoint
+from system.pairs import FrictionPairs, PairLoss
+from system.ports import TURN
+from system.ports_coupling import PortedCycle, ported_cycle
+from system.power import GapExchange, Gaps, chamber_exchange, port_draw
+from system.response_tables import ResponseTable
+from system.table_means import GAP_PAIRS, given_films, plate_flow
+
+ROUND_LIMIT = 12
+SETTLED = 1e-6
+"""Part of the ports' pressure difference by which the delivery pressure may miss the one that the table was asked
+at: only an orifice of stated area moves it."""
+
+
+@dataclass(frozen=True)
+class TablePoint:
+    """A point by a table: the pump, and each gap's films (m) and contact share over the turn."""
+
+    pump_point: PumpPoint
+    table: ResponseTable
+    film_mean: Gaps
+    film_least: Gaps
+    contact_share: Gaps
+
+
+def table_point(pump: PumpDescription, point: OperatingPoint, table: ResponseTable) -> TablePoint:
+    """One periodic operating point by the lumped kernel, its gaps leaking and rubbing as the table says.
+
+    Raises FilmInputError outside the table's box or at another inlet or case pressure, NotConverged as
+    `ported_cycle` and where an orifice line does not settle.
+    """
+    motion, lines, pistons = piston_motion(pump, point), port_lines(pump, point), pump.pump.pistons
+    asked = point
+    for _ in range(ROUND_LIMIT):
+        means = table.at(asked)
+        problem = chamber_problem(pump, point, motion, _leaks(pump, asked, motion, means))
+        draws = _draws(pump, asked, means)
+        none = GapExchange(Gaps(0.0, 0.0, 0.0), *draws)
+        ported = ported_cycle(problem, lines, pistons, motion.shaft_angle.size, draws=port_draw(problem, none))
+        before, asked = asked, met_point(point, ported)
+        if abs(asked.delivery_pressure - before.delivery_pressure) <= SETTLED * problem.pressure_span:
+            break
+    else:
+        raise NotConverged(
+            f"table and delivery line: after {ROUND_LIMIT} rounds the delivery pressure still moves, expected at "
+            f"most {SETTLED:g} of the pressure difference; leave delivery_line.orifice_area out"
+        )
+    losses = _losses(pump, asked, motion, ported, means)
+    exchange = replace(
+        chamber_exchange(ported.cycle, pistons * point.shaft_speed / TURN),
+        delivery_draw=draws[0],
+        suction_draw=draws[1],
+    )
+    found = assemble(
+        point, ported, losses, pistons, swept_displacement(pump, motion.drive), exchange, group_masses(pump)
+    )
+    given = given_films(pump)
+    return TablePoint(
+        pump_point=found,
+        table=table,
+        film_mean=Gaps(*(getattr(given, gap) * means[f"{gap}.film_mean"] for gap in GAP_PAIRS)),
+        film_least=Gaps(*(getattr(given, gap) * means[f"{gap}.film_least"] for gap in GAP_PAIRS)),
+        contact_share=Gaps(*(means[f"{gap}.contact_share"] for gap in GAP_PAIRS)),
+    )
+
+
+def _leaks(
+    pump: PumpDescription, point: OperatingPoint, motion: PistonMotion, means: Mapping[str, float]
+) -> LeakTable:
+    """The lumped law's leakage times the table's ratios; only the piston carries oil."""
+    law = lumped_leaks(pump, point, motion)
+    leakage = np.array([means[f"{gap}.leakage"] for gap in GAP_PAIRS])
+    carried = np.array([means["piston.carried"], 0.0, 0.0])
+    return LeakTable(leakage[:, None] * law.conductance, carried[:, None] * law.carried_flow)
+
+
+def _draws(pump: PumpDescription, point: OperatingPoint, means: Mapping[str, float]) -> tuple[float, float]:
+    """What the valve plate's film takes from delivery and suction port, m3/s at port pressure."""
+    scale = plate_flow(pump, point)
+    return scale * means["valve_plate.delivery_draw"], scale * means["valve_plate.suction_draw"]
+
+
+def _losses(
+    pump: PumpDescription,
+    point: OperatingPoint,
+    motion: PistonMotion,
+    ported: PortedCycle,
+    means: Mapping[str, float],
+) -> FrictionPairs:
+    """The lumped pairs at the cycle's pressure, those of the three gaps with the table's means."""
+    by_law = lumped_pairs(pump, point, motion, ported.cycle)
+    told = {
+        pair.value: _with_mean(by_law.loss(pair), means[f"{gap}.friction"], means[f"{gap}.contact_share"])
+        for gap, pair in GAP_PAIRS.items()
+    }
+    return replace(by_law, **told)
+
+
+def _with_mean(law: PairLoss, ratio: float, contact: float) -> PairLoss:
+    """A pair with the table's mean, over the angle as the law has its Coulomb and its viscous part."""
+    mean = ratio * law.mean / law.count
+    return PairLoss(law.count, _scaled(law.coulomb, contact * mean), _scaled(law.viscous, (1.0 - contact) * mean))
+
+
+def _scaled(course: Array, mean: float) -> Array:
+    """A course over the angle with another mean; flat where it is nothing (a coefficient of 0)."""
+    own = float(np.mean(course))
+    return course * (mean / own) if own > 0.0 else np.full_like(course, mean)

@@ -1,0 +1,156 @@
+"""Response tables on disk: written beside each other, found by the content of the pump they belong to."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator, Mapping
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from gaps.response import Axis, Measure, Output, Response, Samples, Spacing
+from reynolds.bodies.cache import cache_folder, content_key
+from reynolds.mesh import Array
+from system.description import PumpDescription
+from system.faults import Fault, InputFaults
+from system.operating import OperatingPoint
+from system.parts_description import DeliveryLineSection
+from system.response_tables import Failed, Origin, ResponseTable, box_text, point_text
+from system.table_means import OUTPUTS, TABLE_FORMAT
+from system.table_sources import Source
+
+KEY_LENGTH = 24
+
+
+def pump_key(pump: PumpDescription) -> str:
+    """Hash of all that a pump's gaps depend on beside the axes: not its name, not its lines."""
+    stated = pump.operating.model_copy(
+        update={"speed": 0.0, "pressure": 0.0, "displacement_ratio": 1.0, "temperature": 0.0}
+    )
+    bare = pump.model_copy(update={"name": "", "operating": stated, "delivery_line": DeliveryLineSection()})
+    return content_key("pump of a response table", TABLE_FORMAT, repr(bare))[:KEY_LENGTH]
+
+
+def tables_folder(folder: Path | None = None) -> Path:
+    """Where tables are kept."""
+    return cache_folder(folder) / "tables"
+
+
+def keep_table(table: ResponseTable, place: Path) -> None:
+    """Write `place`.npz, the points with their values, and `place`.json, all that says what they are."""
+    response = table.response
+    place.parent.mkdir(parents=True, exist_ok=True)
+    np.savez(
+        place.with_suffix(".npz"),
+        learnt_points=response.learnt.points,
+        learnt_values=response.learnt.values,
+        held_out_points=response.held_out.points,
+        held_out_values=response.held_out.values,
+    )
+    place.with_suffix(".json").write_text(json.dumps(table_record(table), indent=2) + "\n", encoding="utf-8")
+
+
+def read_table(path: Path) -> ResponseTable:
+    """The table that `keep_table` wrote, by its .json or .npz; raises InputFaults where it is none."""
+    try:
+        record = json.loads(path.with_suffix(".json").read_text("utf-8"))
+        if record["table_format"] != TABLE_FORMAT:
+            found = f"format {record['table_format']} of {path.with_suffix('.json')}"
+            raise InputFaults("response table", [Fault("table_format", found, str(TABLE_FORMAT), "build it anew")])
+        with np.load(path.with_suffix(".npz"), allow_pickle=False) as arrays:
+            learnt = Samples(arrays["learnt_points"], arrays["learnt_values"])
+            held_out = Samples(arrays["held_out_points"], arrays["held_out_values"])
+        return ResponseTable(_origin(record), Response(_axes(record), _outputs(record), learnt, held_out))
+    except (OSError, ValueError, KeyError, TypeError) as reason:
+        expected = "the .json and .npz that `swashfilm table` wrote, side by side"
+        raise InputFaults("response table", [Fault(str(path), repr(reason), expected)]) from None
+
+
+def tables_of(pump: PumpDescription, folder: Path | None = None) -> Iterator[ResponseTable]:
+    """Every kept table of a pump; one that cannot be read raises as `read_table`."""
+    for path in sorted(tables_folder(folder).glob(f"{pump_key(pump)}-*.json")):
+        yield read_table(path)
+
+
+def find_table(pump: PumpDescription, point: OperatingPoint, folder: Path | None = None) -> ResponseTable:
+    """The kept table of a pump that holds a point: of the last source in `Source`, then with the most points.
+
+    Raises InputFaults where there is none, telling the boxes of those that do not hold it.
+    """
+    tables = list(tables_of(pump, folder))
+    fit = [table for table in tables if table.holds(point)]
+    if fit:
+        sources = list(Source)
+        return max(fit, key=lambda t: (sources.index(t.origin.source), len(t.response.learnt.points)))
+    boxes = " or ".join(box_text(table.response.axes) for table in tables)
+    if tables:
+        fault = Fault("--fidelity table", point_text(point), f"a point in the box of a table: {boxes}")
+    else:
+        fault = Fault(
+            "--fidelity table",
+            f"no table of this pump at its inlet and case pressure in {tables_folder(folder)}",
+            "one built before",
+            "swashfilm table PUMP, with the same inlet and case pressure",
+        )
+    raise InputFaults("response table", [fault])
+
+
+def own_table(path: Path, pump: PumpDescription) -> ResponseTable:
+    """The table of a file, which must be this pump's; raises InputFaults where it is another's."""
+    table = read_table(path)
+    if table.origin.pump_key != pump_key(pump):
+        found = f"{path}, a table of {table.origin.pump} as it was then"
+        fault = Fault(
+            "--table", found, "a table of this very pump, inlet and case pressure", "swashfilm table PUMP"
+        )
+        raise InputFaults("response table", [fault])
+    return table
+
+
+def table_record(table: ResponseTable) -> dict[str, Any]:
+    """What the .json says: origin, box, outputs with their errors."""
+    origin, response = table.origin, table.response
+    error = response.held_out_error
+    return {
+        "kind": "response_table_data",
+        "table_format": TABLE_FORMAT,
+        **{key: value for key, value in asdict(origin).items() if key not in ("source", "failed")},
+        "source": origin.source.value,
+        "units": "SI: rad/s, Pa gauge, 1, Pa s; outputs 1",
+        "axes": [asdict(axis) | {"spacing": axis.spacing.value} for axis in response.axes],
+        "outputs": [
+            {
+                "name": output.name,
+                "measure": output.measure.value,
+                "held_out_rms": float(error.rms[k]),
+                "held_out_largest": float(error.largest[k]),
+                "held_out_worst_at": _row(response.held_out.points[error.worst[k]]),
+            }
+            for k, output in enumerate(response.outputs)
+        ],
+        "points": {"learnt": len(response.learnt.points), "held_out": len(response.held_out.points)},
+        "failed": [{"at": list(one.at), "reason": one.reason} for one in origin.failed],
+    }
+
+
+def _origin(record: Mapping[str, Any]) -> Origin:
+    plain = ("pump", "pump_key", "stated", "package", "inlet_pressure", "case_pressure", "seconds")
+    failed = tuple(Failed(tuple(one["at"]), one["reason"]) for one in record["failed"])
+    return Origin(source=Source(record["source"]), failed=failed, **{key: record[key] for key in plain})
+
+
+def _axes(record: Mapping[str, Any]) -> tuple[Axis, ...]:
+    return tuple(Axis(row["name"], row["lower"], row["upper"], Spacing(row["spacing"])) for row in record["axes"])
+
+
+def _outputs(record: Mapping[str, Any]) -> tuple[Output, ...]:
+    found = tuple(Output(row["name"], Measure(row["measure"])) for row in record["outputs"])
+    if found != OUTPUTS:
+        raise ValueError(f"outputs {', '.join(output.name for output in found)}")
+    return found
+
+
+def _row(values: Array) -> list[float]:
+    return [float(value) for value in values]

@@ -1,0 +1,262 @@
+"""Response tables: a pump's gaps condensed.
+
+The fidelity that is condensed here is a stand-in: the lumped law with films that thin under load as a power of the
+Hersey number, which takes milliseconds. What a table must give back, and how far off it may be, is then known.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import pickle
+from dataclasses import asdict, dataclass
+
+import numpy as np
+import pytest
+
+from reynolds.errors import FilmInputError, FilmNotConverged
+from system.assembly import PumpPoint
+from system.faults import InputFaults
+from system.lumped import lumped_point
+from system.operating import operating_point
+from system.pairs import Pair
+from system.power import Gaps
+from system.pump_file import load_pump
+from system.side_by_side import side_by_side
+from system.table_build import TableCase, build_table, point_at, point_key, table_axes
+from system.table_means import GAP_PAIRS, OUTPUTS, SolvedPoint, mean_ratios
+from system.table_point import TablePoint, table_point
+from system.table_sources import FilmsSolver, Source
+from system.table_store import find_table, keep_table, own_table, pump_key, read_table, table_record
+
+PUMP = load_pump("ref90")
+NAMES = [output.name for output in OUTPUTS]
+
+
+@dataclass(frozen=True)
+class Thinning:
+    """Films of (Hersey number)^exponent times the given ones; `broken`: none converges at high pressure."""
+
+    exponent: float = 0.1
+    broken: bool = False
+    source = Source.FILMS
+
+    @property
+    def stated(self):
+        return {"physics": f"thinning films, {self.exponent}", "mesh": "none", "accuracy": "that of lumped"}
+
+    def solve(self, pump, point):
+        if self.broken and point.delivery_pressure > 35e6:
+            raise FilmNotConverged("made to fail", "nothing")
+        hersey = point.viscosity / 0.03 * point.shaft_speed / 220.0 * 35e6 / point.delivery_pressure
+        thin = hersey**self.exponent
+        films = {
+            "slipper": pump.slipper.model_copy(update={"film_thickness": thin * pump.slipper.film_thickness}),
+            "valve_plate": pump.valve_plate.model_copy(
+                update={"film_thickness": thin * pump.valve_plate.film_thickness}
+            ),
+        }
+        found = lumped_point(pump.model_copy(update=films), point)
+        clearance = pump.piston.radial_clearance
+        mean = Gaps(clearance, films["slipper"].film_thickness, films["valve_plate"].film_thickness)
+        return SolvedPoint(found, mean, Gaps(*(0.5 * value for value in asdict(mean).values())))
+
+
+@dataclass(frozen=True)
+class NeverCalled(Thinning):
+    """The same content as `Thinning`, but solving is a fault."""
+
+    def solve(self, pump, point):
+        raise AssertionError("a kept point was solved again")
+
+
+@dataclass(frozen=True)
+class Stops(Thinning):
+    """Breaks off with Ctrl-C at the points of full displacement, the upper half of the corners."""
+
+    def solve(self, pump, point):
+        if point.displacement_ratio > 0.9:
+            raise KeyboardInterrupt
+        return super().solve(pump, point)
+
+
+def case(solver=None, learnt=48, held_out=12, pump=PUMP):
+    return TableCase(pump, solver or Thinning(), table_axes(pump), learnt, held_out)
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    return tmp_path_factory.mktemp("cache")
+
+
+@pytest.fixture(scope="module")
+def table(folder):
+    return build_table(case(), folder=folder)
+
+
+def numbers(point: PumpPoint) -> dict[str, float]:
+    """What a table must give back."""
+    flows = {f"leakage {gap}": flow for gap, flow in asdict(point.leakage_flow).items()}
+    losses = {pair.value: point.pairs.loss(pair).mean for pair in Pair}
+    return flows | losses | {"torque": point.bench.shaft_torque, "delivery": point.bench.delivery_flow}
+
+
+def test_a_learnt_point_comes_back(table):
+    """Ratios and their inverse: only the pressure's own small change by other leakage is left."""
+    x = table.response.learnt.points[20]
+    point = point_at(PUMP, x)
+    direct, told = Thinning().solve(PUMP, point), table_point(PUMP, point, table)
+    assert numbers(told.pump_point) == pytest.approx(numbers(direct.pump_point), rel=1e-3)
+    assert asdict(told.film_mean) == pytest.approx(asdict(direct.film_mean), rel=1e-9)
+    assert asdict(told.film_least) == pytest.approx(asdict(direct.film_least), rel=1e-9)
+    assert told.pump_point.checks.energy_balance_error < 1e-3
+
+
+def test_an_unseen_point_is_within_the_stated_error(table):
+    """At every held-out point, leakage and losses of the pump against the direct run of the same point."""
+    largest = dict(zip(NAMES, table.response.held_out_error.largest, strict=True))
+    for x in table.response.held_out.points:
+        point = point_at(PUMP, x)
+        direct, told = Thinning().solve(PUMP, point).pump_point, table_point(PUMP, point, table).pump_point
+        for gap, pair in GAP_PAIRS.items():
+            flow, friction = (
+                (getattr(p.leakage_flow, gap) for p in (told, direct)),
+                (p.pairs.loss(pair).mean for p in (told, direct)),
+            )
+            for (got, true), name in ((flow, "leakage"), (friction, "friction")):
+                assert abs(got / true - 1.0) <= largest[f"{gap}.{name}"] + 1e-3, (gap, name)
+
+
+def test_the_stand_in_is_learnt(table):
+    """Films over a factor of three, leakage over thirty: the held-out points find them to some per cent."""
+    error = dict(zip(NAMES, table.response.held_out_error.largest, strict=True))
+    assert error["slipper.film_mean"] < 1e-6  # a power of the inputs: linear in their logarithms
+    assert error["slipper.leakage"] < 0.01
+    assert error["slipper.friction"] < 0.1
+
+
+def test_kept_points_are_not_solved_again(table, folder):
+    again = build_table(case(NeverCalled()), folder=folder)
+    assert np.array_equal(again.response.learnt.values, table.response.learnt.values)
+    more = build_table(case(Thinning(), learnt=60), folder=folder)  # the held-out 12 are the next to learn
+    assert len(list((folder / "tables" / "points").glob("*.npz"))) == 72
+    assert np.array_equal(more.response.learnt.values[48:], table.response.held_out.values)
+
+
+def test_other_content_is_another_point(table, folder):
+    """Another solver, part, oil or case pressure finds nothing; name, operating point and line do not matter."""
+    with pytest.raises(AssertionError, match="kept point"):
+        build_table(case(NeverCalled(exponent=0.2)), folder=folder)
+    thinner = load_pump("ref90", {"slipper.film_thickness": "9 um"})
+    with pytest.raises(AssertionError, match="kept point"):
+        build_table(case(NeverCalled(), pump=thinner), folder=folder)
+    keys = {
+        pump_key(load_pump("ref90", stated))
+        for stated in (
+            {}, {"operating.case_pressure": "2 bar"}, {"oil.density": "870 kg/m3"}, {"piston.mass": "150 g"},
+        )
+    }  # fmt: skip
+    assert len(keys) == 4
+    same = load_pump("ref90", {"name": "other", "operating.speed": "900 rpm", "operating.temperature": "60 degC"})
+    assert pump_key(same) == pump_key(PUMP)
+
+
+def test_an_interrupted_table_goes_on(tmp_path):
+    with pytest.raises(KeyboardInterrupt):
+        build_table(case(Stops()), folder=tmp_path)
+    kept = len(list((tmp_path / "tables" / "points").glob("*.npz")))
+    assert kept > 0
+    told = []
+    build_table(case(), folder=tmp_path, report=lambda done, total, what: told.append((done, total, what)))
+    assert told[0] == (0, 60 - kept, f"{kept} points kept")
+    assert told[-1][:2] == (60 - kept, 60 - kept)
+
+
+def test_points_that_fail_are_told(tmp_path):
+    table = build_table(case(Thinning(broken=True)), folder=tmp_path)
+    assert table.origin.failed
+    assert all("made to fail" in one.reason for one in table.origin.failed)
+    assert all(one.at[1] > 35e6 for one in table.origin.failed)
+    count = len(table.response.learnt.points) + len(table.response.held_out.points)
+    assert count + len(table.origin.failed) == 60
+
+
+def test_a_case_can_be_sent_to_another_process():
+    """What workers get: the same points by the same names there."""
+    here = case(FilmsSolver())
+    there = pickle.loads(pickle.dumps(here))
+    assert there == here
+    assert point_key(there, there.points[0]) == point_key(here, here.points[0])
+    assert sorted(side_by_side(math.sqrt, [1.0, 4.0, 9.0], 2)) == [1.0, 2.0, 3.0]
+
+
+def test_a_table_is_found_by_its_pump(table, folder, tmp_path):
+    point = operating_point(PUMP, delivery_pressure=20e6)
+    assert len(find_table(PUMP, point, folder).response.learnt.points) == 60  # that of the most points
+    with pytest.raises(InputFaults, match="delivery pressure"):
+        find_table(PUMP, operating_point(PUMP, delivery_pressure=60e6), folder)
+    with pytest.raises(InputFaults, match="swashfilm table PUMP"):
+        find_table(PUMP, point, tmp_path)
+
+
+def test_a_table_comes_back_from_its_files(table, tmp_path):
+    keep_table(table, tmp_path / "mine")
+    back = read_table(tmp_path / "mine.npz")
+    assert back.origin == table.origin
+    assert table_record(back) == table_record(table)
+    point = operating_point(PUMP)
+    assert back.at(point) == table.at(point)
+    assert own_table(tmp_path / "mine.json", PUMP).origin == table.origin
+    with pytest.raises(InputFaults, match="this very pump"):
+        own_table(tmp_path / "mine.json", load_pump("ref90", {"piston.mass": "150 g"}))
+    record = json.loads((tmp_path / "mine.json").read_text())
+    (tmp_path / "mine.json").write_text(json.dumps(record | {"table_format": 0}))
+    with pytest.raises(InputFaults, match="build it anew"):
+        read_table(tmp_path / "mine.json")
+    (tmp_path / "mine.json").write_text("{")
+    with pytest.raises(InputFaults, match="side by side"):
+        read_table(tmp_path / "mine.json")
+
+
+def test_another_inlet_pressure_is_refused(table):
+    with pytest.raises(FilmInputError, match="inlet pressure"):
+        table_point(PUMP, operating_point(PUMP, inlet_pressure=1e6), table)
+    with pytest.raises(FilmInputError, match="nothing is extrapolated"):
+        table_point(PUMP, operating_point(PUMP, shaft_speed=1.0), table)
+
+
+def test_a_line_of_stated_orifice_is_met(table):
+    """The delivery pressure that the orifice makes of the flow is the one that the table is asked at."""
+    held = table_point(PUMP, operating_point(PUMP, delivery_pressure=20e6), table)
+    lined = {"delivery_line.kind": "orifice", "delivery_line.volume": "1 L"}
+    free = table_point(load_pump("ref90", lined), operating_point(PUMP, delivery_pressure=20e6), table)
+    area = free.pump_point.delivery.orifice_area
+    pump = load_pump("ref90", lined | {"delivery_line.orifice_area": f"{area * 1e6!r} mm2"})
+    found = table_point(pump, operating_point(PUMP, delivery_pressure=26e6), table).pump_point
+    assert found.point.delivery_pressure == pytest.approx(20e6, rel=1e-3)
+    assert numbers(found) == pytest.approx(numbers(held.pump_point), rel=2e-3)
+
+
+@pytest.mark.slow
+def test_films_point_by_its_own_ratios():
+    """A table that knows a point of the films fidelity gives its leakage, losses and torque back to 0.2 %.
+
+    What is lost is the course over the angle of each gap's conductance and friction; means are kept.
+    """
+    solver, point = FilmsSolver(positions_per_pitch=2), operating_point(PUMP, delivery_pressure=20e6)
+    solved = solver.solve(PUMP, point)
+    told = at_ratios(point, mean_ratios(PUMP, solved))
+    direct = solved.pump_point
+    assert numbers(told.pump_point) == pytest.approx(numbers(direct), rel=2e-3)
+    assert told.pump_point.checks.energy_balance_error < 1e-3
+
+
+def at_ratios(point, ratios) -> TablePoint:
+    """A point by a table that has the same ratios everywhere."""
+
+    @dataclass(frozen=True)
+    class Everywhere:
+        def at(self, point):
+            return dict(zip(NAMES, ratios, strict=True))
+
+    return table_point(PUMP, point, Everywhere())
