@@ -33,12 +33,12 @@ class Transmission:
 
     @property
     def volumetric_efficiency(self) -> float:
-        """Speed ratio over what the geometric displacements would make of it: 1 without leakage and compression."""
+        """Speed ratio over that of the geometric displacements: 1 without leakage and compression."""
         return self.speed_ratio * self.motor.geometric_displacement / self.pump.geometric_displacement
 
 
 def transmission(pump: PumpDescription, motor: PumpDescription, point: OperatingPoint) -> Transmission:
-    """The transmission at the pump's operating point: `delivery_pressure` is the high one, `inlet_pressure` the low.
+    """The transmission at the pump's operating point, whose `inlet_pressure` is that of the low-pressure line.
 
     The motor takes at full displacement, temperature and case pressure being the same, what the pump delivers;
     nothing is lost between them. What a line to line relief valve, a flushing valve or the control take is not in

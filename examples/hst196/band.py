@@ -1,0 +1,177 @@
+"""Band of volumetric efficiency that its drawing leaves open for the HST 196 transmission, beside 399 measured.
+
+    python examples/hst196/band.py [MEASURED.csv]
+
+Two like machines of ../pumps/hst196.toml, pump and motor in a closed circuit, at the end-of-line test point: 1780
+rpm, 207 against 14 bar, oil of 60 degC. Given are the piston clearances by the drawing's tolerances; what else
+leakage and compression hang on is not given and is drawn from the range that each `Unknown` names with its source.
+None of the ranges was chosen by what comes out. MEASURED.csv: recordings/hst196/hst196_production_tests.csv.
+"""
+
+from __future__ import annotations
+
+import csv
+import sys
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+from scipy.stats import qmc
+
+from reynolds.mesh import Array
+from system.operating import operating_point
+from system.pump_file import load_pump
+from system.transmission import transmission
+from system.units import STANDARD_ATMOSPHERE
+
+PUMP = Path(__file__).resolve().parents[1] / "pumps" / "hst196.toml"
+INCH = 25.4e-3
+SWEPT = 21.78e-6  # m3: 196 cm3/rev over nine pistons
+MACHINES = ("pump", "motor")
+HIGH, CHARGE = 207e5, 14e5  # Pa
+LOAD = HIGH / 35e6
+SAMPLES = 256
+
+
+@dataclass(frozen=True)
+class Unknown:
+    """What is not known and evenly likely from `low` to `high`, SI; `each`: of either machine on its own."""
+
+    name: str
+    low: float
+    high: float
+    each: bool
+    source: str
+
+
+DRAWING = (
+    Unknown("piston diameter", 1.1650 * INCH, 1.1653 * INCH, True, "the drawing"),
+    Unknown("bore diameter", 1.1671 * INCH, 1.1677 * INCH, True, "the drawing"),
+)
+NOT_GIVEN = (
+    Unknown("slipper film", 8e-6, 15e-6, True, "seed paper at 35 and 5 MPa; the data's author 15 um"),
+    Unknown("valve plate film", 8e-6, 15e-6, True, "seed paper 8 um, the data's author 15 um"),
+    Unknown("piston eccentricity", 0.0, 1.0, True, "anywhere in the bore"),
+    Unknown("bore opening at 35 MPa", 1.5e-6, 4e-6, False, "left_out_physics B2"),
+    Unknown("slipper opening at 35 MPa", 1e-6, 3e-6, False, "left_out_physics B2"),
+    Unknown("valve plate opening at 35 MPa", 2e-6, 5e-6, False, "left_out_physics B2"),
+    Unknown("film heating", 0.0, 20.0, False, "0.45 K/MPa by throttling and as much by shear, at most"),
+    Unknown("viscosity factor", 0.9, 1.1, False, "spread of a grade, left_out_physics A1"),
+    Unknown("bulk modulus", 1.3e9, 1.7e9, False, "the data's author 1.5 GPa, REF90 1.6 GPa, warm or cold"),
+    Unknown("free air", 0.005, 0.02, False, "usual in circuits, left_out_physics A5"),
+    Unknown("dead volume over swept volume", 0.3, 1.3, False, "solid pistons to hollow ones; REF90 0.6"),
+    Unknown("swash droop at 35 MPa", 0.002, 0.01, False, "left_out_physics D5"),
+)
+UNKNOWNS = (*DRAWING, *NOT_GIVEN)
+
+
+def columns(unknowns: Sequence[Unknown]) -> list[str]:
+    """Names of the numbers that are drawn: 'slipper film, pump' where either machine has its own."""
+    return [name for unknown in unknowns for name in _names(unknown)]
+
+
+def draw(unknowns: Sequence[Unknown], count: int, seed: int) -> Array:
+    """Values (count, columns) of a Latin hypercube over the ranges."""
+    ends = np.array([(u.low, u.high) for u in unknowns for _ in _names(u)])
+    cube = qmc.LatinHypercube(len(ends), seed=seed).random(count)
+    return np.asarray(ends[:, 0] + cube * (ends[:, 1] - ends[:, 0]))
+
+
+def middle(unknowns: Sequence[Unknown]) -> dict[str, float]:
+    """The middle of every range."""
+    return {name: 0.5 * (u.low + u.high) for u in unknowns for name in _names(u)}
+
+
+def efficiency(value: Mapping[str, float]) -> float:
+    """What the test bench calls volumetric efficiency: motor over pump speed of two machines of one displacement.
+
+    `value` holds every column of DRAWING and NOT_GIVEN.
+    """
+    pump, motor = (load_pump(PUMP, _machine(value, name)) for name in MACHINES)
+    droop = 1.0 - value["swash droop at 35 MPa"] * LOAD
+    point = operating_point(pump, displacement_ratio=droop)
+    point = replace(point, viscosity=point.viscosity * value["viscosity factor"])
+    return transmission(pump, motor, point).speed_ratio
+
+
+def by_clearance() -> Array:
+    """Efficiency (2,) at the least and the largest clearance of every piston, all else in the middle."""
+    ends = ((DRAWING[0].high, DRAWING[1].low), (DRAWING[0].low, DRAWING[1].high))
+    known = middle(NOT_GIVEN)
+    return np.array(
+        [
+            efficiency(known | {name: piston if "piston" in name else bore for name in columns(DRAWING)})
+            for piston, bore in ends
+        ]
+    )
+
+
+def sample(count: int, seed: int = 196) -> tuple[Array, Array]:
+    """Values (count, columns) of all unknowns and the efficiency (count,) of each."""
+    names = columns(UNKNOWNS)
+    values = draw(UNKNOWNS, count, seed)
+    return values, np.array([efficiency(dict(zip(names, row, strict=True))) for row in values])
+
+
+def shares(values: Array, found: Array) -> Array:
+    """Part of the variance of `found` (n,) that goes with each column of `values` (n, k).
+
+    Standardised slope times correlation (Pratt 1987): together what a linear law explains, at most 1.
+    """
+    scaled = (values - values.mean(axis=0)) / values.std(axis=0)
+    off = (found - found.mean()) / found.std()
+    slopes, *_ = np.linalg.lstsq(scaled, off)
+    return np.asarray(slopes * (off @ scaled) / len(off))
+
+
+def measured(file: Path) -> Array:
+    """Motor over pump speed (n,) forward of every unit tested."""
+    with file.open(encoding="utf-8") as rows:
+        speeds = np.array([float(row["forward_speed_rpm"] or 0.0) for row in csv.DictReader(rows)])
+    return np.asarray(speeds[speeds > 0.0] / 1780.0)
+
+
+def _names(unknown: Unknown) -> list[str]:
+    return [f"{unknown.name}, {machine}" for machine in MACHINES] if unknown.each else [unknown.name]
+
+
+def _machine(value: Mapping[str, float], machine: str) -> dict[str, object]:
+    """Keys of the pump file for one of the two machines."""
+    piston, bore = value[f"piston diameter, {machine}"], value[f"bore diameter, {machine}"]
+    films = {
+        "piston.radial_clearance": 0.5 * (bore - piston) + LOAD * value["bore opening at 35 MPa"],
+        "slipper.film_thickness": value[f"slipper film, {machine}"] + LOAD * value["slipper opening at 35 MPa"],
+        "valve_plate.film_thickness": value[f"valve plate film, {machine}"]
+        + LOAD * value["valve plate opening at 35 MPa"],
+    }
+    # Free air at one atmosphere, pressed as slowly as isothermally, gives way beside the oil.
+    low, high = CHARGE + STANDARD_ATMOSPHERE, HIGH + STANDARD_ATMOSPHERE
+    air = value["free air"] * STANDARD_ATMOSPHERE / (low * high)
+    return {
+        **{key: f"{film * 1e6} um" for key, film in films.items()},
+        "piston.eccentricity_ratio": min(value[f"piston eccentricity, {machine}"], 0.999),
+        "pump.dead_volume": f"{value['dead volume over swept volume'] * SWEPT * 1e6} cm3",
+        "oil.bulk_modulus": f"{1e-9 / (1.0 / value['bulk modulus'] + air)} GPa",
+        "operating.temperature": f"{60.0 + value['film heating']} degC",
+    }
+
+
+def main(arguments: list[str]) -> None:
+    """Print the band, where it comes from, and the measured spread beside it."""
+    tight, wide = 100.0 * by_clearance()
+    print(f"clearance alone, 22.9 .. 34.3 um, the rest in the middle: {tight:.2f} .. {wide:.2f} %")
+    values, found = sample(SAMPLES)
+    low, high = 100.0 * np.quantile(found, (0.05, 0.95))
+    print(f"with all that is not given, 90 %: {low:.2f} .. {high:.2f} %")
+    parts = dict(zip(columns(UNKNOWNS), shares(values, found), strict=True))
+    print("share of the variance, both machines together:")
+    for unknown in UNKNOWNS:
+        print(f"  {sum(parts[name] for name in _names(unknown)):6.1%}  {unknown.name} ({unknown.source})")
+    if arguments:
+        told = measured(Path(arguments[0]))
+        print(f"measured on {told.size} units: {told.mean():.2%}, standard deviation {told.std(ddof=1):.2%}")
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])
