@@ -20,7 +20,6 @@ from system.description import PumpDescription
 from system.errors import NotConverged
 from system.gap_cycle import Report, silent
 from system.operating import OperatingPoint
-from system.parts_description import DeliveryLineSection
 from system.response_tables import (
     PRESSURE,
     RATIO,
@@ -32,7 +31,7 @@ from system.response_tables import (
 )
 from system.side_by_side import side_by_side
 from system.table_means import OUTPUTS, TABLE_FORMAT, mean_ratios
-from system.table_sources import PointSolver
+from system.table_sources import PointSolver, with_held_ports
 from system.table_store import KEY_LENGTH, keep_table, pump_key, tables_folder
 
 LEARNT, HELD_OUT = 120, 30
@@ -141,7 +140,7 @@ def solve_point(case: TableCase, folder: Path, part: tuple[int, Array]) -> Solve
 def _solve(case: TableCase, x: Array) -> Mapping[str, Array]:
     began = time.process_time()
     means, reason = np.zeros(0), ""
-    held = case.pump.model_copy(update={"delivery_line": DeliveryLineSection()})
+    held = with_held_ports(case.pump)
     try:
         means = mean_ratios(held, case.solver.solve(held, point_at(case.pump, x)))
     except (NotConverged, FilmNotConverged) as fault:

@@ -61,15 +61,16 @@ def table_point(pump: PumpDescription, point: OperatingPoint, table: ResponseTab
         draws = _draws(pump, asked, means)
         none = GapExchange(Gaps(0.0, 0.0, 0.0), *draws)
         ported = ported_cycle(problem, lines, pistons, motion.shaft_angle.size, draws=port_draw(problem, none))
-        before, asked = asked, met_point(point, ported)
-        if abs(asked.delivery_pressure - before.delivery_pressure) <= SETTLED * problem.pressure_span:
+        met = met_point(point, ported).delivery_pressure
+        if abs(met - asked.delivery_pressure) <= SETTLED * problem.pressure_span:
             break
+        asked = replace(point, delivery_pressure=met)
     else:
         raise NotConverged(
             f"table and delivery line: after {ROUND_LIMIT} rounds the delivery pressure still moves, expected at "
             f"most {SETTLED:g} of the pressure difference; leave delivery_line.orifice_area out"
         )
-    losses = _losses(pump, asked, motion, ported, means)
+    losses = _losses(pump, met_point(point, ported), motion, ported, means)
     exchange = replace(
         chamber_exchange(ported.cycle, pistons * point.shaft_speed / TURN),
         delivery_draw=draws[0],

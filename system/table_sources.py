@@ -11,6 +11,7 @@ import numpy as np
 
 from system.description import PumpDescription
 from system.films import POSITIONS_PER_PITCH, TOLERANCE, films_point
+from system.line_description import LineSection
 from system.operating import OperatingPoint
 from system.power import Gaps
 from system.table_means import SolvedPoint
@@ -67,3 +68,8 @@ class FilmsSolver:
         mean = (float(np.mean([film.film_thickness_mean for film in films])) for films in series)
         least = (min(film.loads.film_thickness_min for film in films) for films in series)
         return SolvedPoint(found.pump_point, Gaps(*mean), Gaps(*least))
+
+
+def with_held_ports(pump: PumpDescription) -> PumpDescription:
+    """The pump without its lines: points of a table are solved at held port pressures."""
+    return pump.model_copy(update={"delivery_line": LineSection(), "suction_line": LineSection()})

@@ -16,10 +16,9 @@ from reynolds.mesh import Array
 from system.description import PumpDescription
 from system.faults import Fault, InputFaults
 from system.operating import OperatingPoint
-from system.parts_description import DeliveryLineSection
 from system.response_tables import Failed, Origin, ResponseTable, box_text, point_text
 from system.table_means import OUTPUTS, TABLE_FORMAT
-from system.table_sources import Source
+from system.table_sources import Source, with_held_ports
 
 KEY_LENGTH = 24
 
@@ -29,7 +28,7 @@ def pump_key(pump: PumpDescription) -> str:
     stated = pump.operating.model_copy(
         update={"speed": 0.0, "pressure": 0.0, "displacement_ratio": 1.0, "temperature": 0.0}
     )
-    bare = pump.model_copy(update={"name": "", "operating": stated, "delivery_line": DeliveryLineSection()})
+    bare = with_held_ports(pump).model_copy(update={"name": "", "operating": stated})
     return content_key("pump of a response table", TABLE_FORMAT, repr(bare))[:KEY_LENGTH]
 
 
