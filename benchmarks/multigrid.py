@@ -105,7 +105,7 @@ def operator(space: FilmSpace, case: Case, eccentricity: float) -> tuple[Array, 
     if case.cavity:
         fixed |= where > 1.2 * np.pi
     data, pattern = np.empty_like(entries), space.pattern
-    kernels.hold(pattern.indptr, pattern.indices, entries / entries.max(), fixed, np.zeros(space.size), data)
+    kernels.hold(pattern.indptr, pattern.indices, entries, 1.0 / entries.max(), fixed, np.zeros(space.size), data)
     return data, np.where(fixed, 0.0, case.eccentricity * np.sin(where) / space.size)
 
 

@@ -108,9 +108,11 @@ class Operators:
         """
         space = self.problem.space
         net, meeting = self.rate.copy(), np.abs(self.rate)
-        flux = (space.everywhere(part) for part in self.transport.flux)
         tensors, loops = space.tensors, space.reference.loops
-        kernels.carried(space.dofs, tensors.shape, tensors.gradient, *flux, *loops, net, meeting)
+        for axis, part in enumerate(self.transport.flux):
+            if part.size > 1 or part.item() != 0.0:
+                gradient, flux = tensors.gradient[..., axis], space.everywhere(part)
+                kernels.carried(space.dofs, tensors.shape, gradient, flux, *loops, net, meeting)
         return net, meeting
 
 

@@ -106,7 +106,7 @@ def active_set(
     upper, nothing = copy(pattern), np.zeros(len(load))
     upper.data = np.empty_like(problem.entries)
     for _ in range(MAX_STEPS):
-        kernels.hold(indptr, indices, problem.entries, cavity | problem.held, nothing, upper.data)
+        kernels.hold(indptr, indices, problem.entries, 1.0, cavity | problem.held, nothing, upper.data)
         factor.update(upper)
         answer = factor.solve(np.where(cavity | problem.held, 0.0, load), ROUGHLY)
         lack, size = -load, np.zeros(len(load))

@@ -76,20 +76,22 @@ def close_rows(indptr, indices, data):
 
     Corners tied to one unknown (seam, pocket) have put their coupling on the diagonal; it is overwritten.
     """
+    diagonal = np.zeros(indptr.shape[0] - 1)
     for j in range(indptr.shape[0] - 1):
-        last = indptr[j + 1] - 1
         total = 0.0
-        for k in range(indptr[j], last):
+        for k in range(indptr[j], indptr[j + 1] - 1):
             total += data[k]
-            data[indptr[indices[k] + 1] - 1] -= data[k]
-        data[last] = -total
+            diagonal[indices[k]] -= data[k]
+        diagonal[j] -= total
+    for j in range(indptr.shape[0] - 1):
+        data[indptr[j + 1] - 1] = diagonal[j]
 
 
 @njit(**_FAST)
-def carried(dofs, shape, gradient, flux_x, flux_y, basis, points, out, size):
-    """out_i += - int (flux_x, flux_y) . grad f_i, what the walls carry out of each unknown of a full film.
+def carried(dofs, shape, gradient, flux, basis, points, out, size):
+    """out_i += - int flux df_i/dx, what the walls carry out of each unknown of a full film along one axis.
 
-    gradient[shape, q, i] is the area element times grad f_i, as `ElementTensors` has it. size adds up the
+    gradient[shape, q, i] is the area element times df_i/dx, as `ElementTensors` has it. size adds up the
     magnitudes of the cells: in a uniform film they cancel, and are no less for that.
     """
     for e in range(dofs.shape[0]):
@@ -97,7 +99,7 @@ def carried(dofs, shape, gradient, flux_x, flux_y, basis, points, out, size):
         for i in range(len(basis)):
             flow = 0.0
             for q in range(len(points)):
-                flow -= flux_x[e, q] * gradient[s, q, i, 0] + flux_y[e, q] * gradient[s, q, i, 1]
+                flow -= flux[e, q] * gradient[s, q, i]
             out[dofs[e, i]] += flow
             size[dofs[e, i]] += abs(flow)
 
@@ -295,17 +297,21 @@ def evaluate(vertices, cells, dofs, value, gradient, geometry_gradient, weights,
 
 
 @njit(**_FAST)
-def hold(indptr, indices, data, held, gain, data_out):
-    """Replace rows and columns of held unknowns by the identity, add gain to the diagonal of the others.
+def hold(indptr, indices, data, unit, held, gain, data_out):
+    """unit times a matrix with gain on its diagonal, the identity in rows and columns of held unknowns.
 
     Upper triangle by columns (CSC), diagonal last in its column. The pattern stays, so that the symbolic
     part of a factorisation is kept while nodes enter and leave the cavity.
     """
+    for k in range(data.shape[0]):
+        data_out[k] = 0.0 if held[indices[k]] else unit * data[k]
     for j in range(indptr.shape[0] - 1):
         last = indptr[j + 1] - 1
-        for k in range(indptr[j], last):
-            data_out[k] = 0.0 if held[j] or held[indices[k]] else data[k]
-        data_out[last] = 1.0 if held[j] else data[last] + gain[j]
+        if held[j]:
+            data_out[indptr[j] : last] = 0.0
+            data_out[last] = 1.0
+        else:
+            data_out[last] += unit * gain[j]
 
 
 @njit(**_FAST)

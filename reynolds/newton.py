@@ -29,7 +29,7 @@ def symmetric_step(
     scale = float(at.parts.stiffness.max()) or float(gain.max()) or 1.0  # a film all pocket conducts nothing
     data = np.empty_like(at.parts.stiffness)
     pattern = problem.space.pattern
-    kernels.hold(pattern.indptr, pattern.indices, at.parts.stiffness / scale, fixed, gain / scale, data)
+    kernels.hold(pattern.indptr, pattern.indices, at.parts.stiffness, 1.0 / scale, fixed, gain, data)
     return problem.space.matrix(data), np.where(fixed, 0.0, -rest / scale)
 
 

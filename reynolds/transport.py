@@ -103,13 +103,18 @@ class Transport:
     def _with_walls(self, content: Array, of: Callable[[Tangent], Array]) -> tuple[Array, Array]:
         u, v = self.film.mean_velocity
         if self.surface is None or self.factors is None:
-            return content * u, content * v
+            return _times(content, u), _times(content, v)
         half, shear = 0.5 * self.surface.composite_roughness, self.factors.shear
         slip_x, slip_y = (a - b for a, b in zip(self.film.velocity_moving, self.film.velocity_fixed, strict=True))
         return (
             content * u + half * (of(shear.x) * slip_x + of(shear.xy) * slip_y),
             content * v + half * (of(shear.xy) * slip_x + of(shear.y) * slip_y),
         )
+
+
+def _times(content: Array, velocity: Array) -> Array:
+    """Their product, (1, 1) where nothing moves."""
+    return velocity if velocity.size == 1 and velocity.item() == 0.0 else content * velocity
 
 
 def transport(problem: FilmProblem, pressure: Array, opening: Array) -> Transport:

@@ -71,7 +71,7 @@ def test_a_pocket_five_hundred_times_deeper_stays_on_the_grid():
     held, data = np.zeros(space.size, dtype=bool), np.empty_like(entries)
     held[space.edge_dofs["left"]] = True
     pattern = space.pattern
-    kernels.hold(pattern.indptr, pattern.indices, entries, held, np.zeros(space.size), data)
+    kernels.hold(pattern.indptr, pattern.indices, entries, 1.0, held, np.zeros(space.size), data)
     load = np.where(held, 0.0, np.random.default_rng(1).standard_normal(space.size))
     answers = []
     for grid in (grid_of(space), None):
