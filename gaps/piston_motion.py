@@ -19,15 +19,15 @@ import numpy as np
 
 from gaps.course import OverTurn
 from gaps.physics import FilmLaws, Physics, laws_left
-from gaps.profiles import PLAIN, Profile
+from gaps.profiles import PLAIN, Profile, Relief
 from gaps.rubbing import wall_shear
-from reynolds.contact import Asperities
+from reynolds.contact import Asperities, contact_pressure
 from reynolds.errors import FilmInputError
 from reynolds.film import ZERO, Film, FilmProblem, Held
 from reynolds.floating import Floating, Outer, steady
 from reynolds.floating_stage import Stage
 from reynolds.laws import require_positive
-from reynolds.loads import boundary_flows
+from reynolds.loads import boundary_flows, evaluate
 from reynolds.mesh import Array, Cell, rectangle, rename
 from reynolds.overlap import vertex_thickness
 from reynolds.space import FilmSpace, film_space
@@ -96,8 +96,8 @@ def lateral_moment(guide_length: float, moment: Array) -> Array:
 class PistonFriction:
     """What a film does to its piston besides bearing it.
 
-    force N along the bore, out of the block; torque N m about its axis; moment (2,) N m of the axial shear about
-    axes across the bore; power W, what piston and bore spend on shearing the film.
+    force N along the bore, out of the block, beside the chamber's pressure on the nominal section; torque N m
+    about its axis; moment (2,) N m of the axial shear about axes across the bore; power W, what both parts spend.
     """
 
     force: float
@@ -179,27 +179,54 @@ class PistonFilm:
         on_piston, on_bore = wall_shear(stage.solution, self._laws.asperities, stage.gap)
         around, along = (part * space.area for part in on_piston)
         stresses, velocities = (*on_piston, *on_bore), (*walls[0], *walls[1])
+        flank = self._flank_force(stage)
+        sheared = sum(float(np.sum(t * u * space.area)) for t, u in zip(stresses, velocities, strict=True))
         return PistonFriction(
-            force=float(along.sum()),
+            force=float(along.sum()) + flank,
             torque=radius * float(around.sum()),
             moment=radius * np.array([np.sum(along * np.sin(angle)), -np.sum(along * np.cos(angle))]),
-            power=-sum(float(np.sum(t * u * space.area)) for t, u in zip(stresses, velocities, strict=True)),
+            power=-sheared - flank * float(walls[0][1].item()),
         )
 
-    def chamber_flow(self, stage: Stage) -> float:
-        """Flow (m3/s) out of the chamber, whose volume grows with the piston's own area alone.
+    def _flank_force(self, stage: Stage) -> float:
+        """Force (N) out of the block of pressure on the piston's profile, beside a plain piston's.
 
-        The film's boundary moves with the piston's end and sweeps the clearance there, which flows out besides.
+        -int (p - p_case) d relief/dy dA of film and contact, and the chamber's pressure on what is taken off where
+        the film begins: a groove filled with one pressure pushes nowhere.
         """
-        solution, (_, velocity) = stage.solution, self._velocities(stage.time)[0]
-        through = -boundary_flows(solution)["chamber"]
-        if float(self.drive.reach(self._angle(stage.time))) >= self.shape.guide_length:
-            return through
-        space = solution.problem.space
-        end = np.zeros(space.size)
-        end[space.vertex_dofs] = vertex_thickness(solution)
-        nodes = space.edge_dofs["chamber"]
-        return through + float(velocity.item()) * float(end[nodes] @ space.edge_share["chamber"])
+        solution, drive = stage.solution, self.drive
+        space, (around, along) = solution.problem.space, self._points
+        above = evaluate(solution, solution.pressure)[0] - drive.case_pressure
+        if self.asperities is not None:
+            above = above + contact_pressure(self.asperities, stage.gap).value
+        chamber = float(drive.chamber_pressure(self._angle(stage.time))) - drive.case_pressure
+        taken_off = float(self._on_chamber_edge(self._relief(stage.time, *self._vertices).depth))
+        slope = self._relief(stage.time, around, along).along
+        return -float(np.sum(above * slope * space.area)) - chamber * taken_off
+
+    def _relief(self, time: float, around: Array, along: Array) -> Relief:
+        """What is taken off the piston at places of the unit mesh; it moves and turns with the piston."""
+        reach = float(self.drive.reach(self._angle(time)))
+        depth = self._engaged(time) * (1.0 - along)
+        return self.shape.piston(reach - depth, 2.0 * around / self.shape.diameter - self.drive.piston_spin * time)
+
+    def _on_chamber_edge(self, at_vertices: Array) -> float:
+        """Integral (m2) along the film's edge at the chamber of lengths (vertices,) m."""
+        nodal = np.zeros(self._unit.size)
+        nodal[self._unit.vertex_dofs] = at_vertices
+        return float(nodal[self._unit.edge_dofs["chamber"]] @ self._unit.edge_share["chamber"])
+
+    def chamber_flow(self, stage: Stage) -> float:
+        """Flow (m3/s) out of the chamber, whose volume grows with the piston's nominal section alone.
+
+        The film's edge moves with the piston's end and sweeps the clearance there, which flows out besides; what
+        is taken off the piston never was part of the section.
+        """
+        velocity = float(self.drive.velocity(self._angle(stage.time)))
+        swept = -self._on_chamber_edge(self._relief(stage.time, *self._vertices).depth)
+        if float(self.drive.reach(self._angle(stage.time))) < self.shape.guide_length:
+            swept += self._on_chamber_edge(vertex_thickness(stage.solution))
+        return velocity * swept - boundary_flows(stage.solution)["chamber"]
 
     @property
     def asperities(self) -> Asperities | None:
@@ -236,13 +263,12 @@ class PistonFilm:
     def _thickness(self, time: float, around: Array, along: Array) -> Array:
         """Film (m) of a centred piston at places of the unit mesh.
 
-        The piston's profile moves and turns with it, the bore's turns with the block.
+        The bore's profile turns with the block.
         """
         shape, drive = self.shape, self.drive
         angle, depth = 2.0 * around / shape.diameter, self._engaged(time) * (1.0 - along)
-        reach = float(drive.reach(self._angle(time)))
         bore = shape.bore(depth, angle - drive.bore_spin * time).depth
-        piston = shape.piston(reach - depth, angle - drive.piston_spin * time).depth
+        piston = self._relief(time, around, along).depth
         return np.asarray(shape.radial_clearance + bore + piston)
 
 

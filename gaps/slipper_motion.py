@@ -150,8 +150,9 @@ def retainer_force(retainer: Retainer, position: Array) -> Outer:
 class SlipperFriction:
     """What a film does to its slipper besides bearing it.
 
-    force (2,) N along the plate's x and y; torque N m about its normal; power W, what slipper and plate spend on
-    shearing the film, seen from the slipper.
+    force (2,) N along the plate's x and y: the opposite of what the plate feels, so that pressure on the slope of
+    the slipper's face counts; torque N m about its normal; power W, what slipper and plate spend on shearing the
+    film, seen from the slipper.
     """
 
     force: Array
@@ -234,10 +235,10 @@ class SlipperFilm:
         on_slipper, on_plate = wall_shear(stage.solution, self._laws.asperities, stage.gap)
         along, across = (part * space.area for part in on_slipper)
         torque = float(np.sum(x * across - y * along))
-        plate = [float(np.sum(part * space.area)) for part in on_plate]
+        plate = np.array([np.sum(part * space.area) for part in on_plate])
         sliding = np.asarray(self.drive.sliding(self._angle(stage.time)))
         return SlipperFriction(
-            force=np.array([along.sum(), across.sum()]),
+            force=-plate,
             torque=torque,
             power=float(sliding @ plate) - self.drive.spin * torque,
         )

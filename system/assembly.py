@@ -17,7 +17,7 @@ from system.operating import OperatingPoint
 from system.pairs import FrictionPairs, Pair, over_chambers
 from system.ports import TURN, opening_area
 from system.ports_coupling import Port, PortedCycle
-from system.power import GapExchange, Gaps, PowerBalance, port_draw, power_balance, shaft_work
+from system.power import GapExchange, Gaps, PowerBalance, leakage_by_flow, port_draw, power_balance, shaft_work
 from system.shaft_torque import GroupMasses, shaft_torque
 from system.units import STANDARD_ATMOSPHERE
 
@@ -120,6 +120,27 @@ def assemble(
 ) -> PumpPoint:
     """The pump's flows, torque and powers from one chamber's periodic cycle and the friction of its pairs.
 
+    Gaps leak heat by their flow, and the torque comes from the forces behind the losses: `put_together`.
+    """
+    problem, cycle = ported.problem, ported.cycle
+    torque = shaft_torque(problem, cycle, pairs, masses, pistons, exchange.carried.valve_plate)
+    leakage = leakage_by_flow(ported, pistons * point.shaft_speed / TURN, exchange)
+    return put_together(point, ported, pairs, pistons, derived_displacement, exchange, torque, leakage)
+
+
+def put_together(
+    point: OperatingPoint,
+    ported: PortedCycle,
+    pairs: FrictionPairs,
+    pistons: int,
+    derived_displacement: float,
+    exchange: GapExchange,
+    torque: Array,
+    leakage: Gaps,
+) -> PumpPoint:
+    """The pump from its chambers' cycle, the friction of its pairs, the shaft's torque (N,) N m by forces and the
+    heat (W) of the flow through each gap.
+
     The bench reads the torque of `power.shaft_work`, good to the chambers' integration; the torque from forces is
     good to the sampled angles. Where a line of stated orifice sets a port's pressure, the point is given at that
     pressure.
@@ -127,10 +148,9 @@ def assemble(
     problem, cycle, asked = ported.problem, ported.cycle, point
     point = met_point(point, ported)
     rate = pistons * point.shaft_speed / TURN
-    torque = shaft_torque(problem, cycle, pairs, masses, pistons, exchange.carried.valve_plate)
     work = shaft_work(cycle, rate, pairs.power, exchange)
     reading = _reading(point, problem, cycle.outflow, rate, work, exchange)
-    power = power_balance(ported, reading, rate, pairs.power, exchange)
+    power = power_balance(ported, reading, rate, pairs.power, leakage)
     quadrature = sum(pairs.loss(pair).quadrature_error for pair in Pair)
     return PumpPoint(
         point=point,

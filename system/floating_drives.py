@@ -54,14 +54,15 @@ def no_rubbing(count: int) -> Rubbing:
 class GroupInstant:
     """One piston with its slipper at a shaft angle.
 
-    forces at the joint; ball_moment (3,) N m of its friction on the slipper; pressed (2,) N m: int p (x, y) dA
-    that the slipper's film must give; held N, force of the spring on the slipper besides `forces.lift`; inertia
+    forces at the joint; ball_moment (3,) N m of its friction on the slipper; joint_loss W, what that takes;
+    pressed (2,) N m: int p (x, y) dA that the slipper's film must give; held N, force of the spring on the slipper besides `forces.lift`; inertia
     (2, 3) N of piston and slipper, -m a; plate (3,) N of the swash plate on the slipper; places (3, 3) m of both
     centres of mass and of the plate's force.
     """
 
     forces: BallForces
     ball_moment: Array
+    joint_loss: float
     pressed: Array
     held: float
     inertia: Array
@@ -105,6 +106,7 @@ def group_instant(
     return GroupInstant(
         forces=forces,
         ball_moment=moment,
+        joint_loss=-float(moment @ spin),
         pressed=pressed,
         held=held,
         inertia=-np.stack([pump.piston.mass * piston_rate, pump.slipper.mass * slipper_rate]),

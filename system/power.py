@@ -90,33 +90,42 @@ def shaft_work(cycle: ChamberCycle, rate: float, friction: float, exchange: GapE
     return rate * (cycle.indicated_work - cycle.growth_work) - exchange.carried.total + friction
 
 
+def leakage_by_flow(ported: PortedCycle, rate: float, exchange: GapExchange) -> Gaps:
+    """What pressure turns into heat in each gap (W), from what flows and what that gives the walls it meets."""
+    problem, energy, carried = ported.problem, ported.cycle.path_energy, exchange.carried
+    modulus = problem.bulk_modulus
+    pressures = (problem.delivery_pressure, problem.inlet_pressure)
+    from_ports = sum(
+        draw * float(flow_energy(pressure, modulus) - flow_energy(problem.case_pressure, modulus))
+        for draw, pressure in zip(port_draw(problem, exchange), pressures, strict=True)
+    )
+    return Gaps(
+        rate * float(energy.piston) - carried.piston,
+        rate * float(energy.slipper) - carried.slipper,
+        rate * float(energy.valve_plate) + from_ports - carried.valve_plate,
+    )
+
+
 def power_balance(
-    ported: PortedCycle, reading: BenchReading, rate: float, friction: float, exchange: GapExchange
+    ported: PortedCycle, reading: BenchReading, rate: float, friction: float, leakage: Gaps
 ) -> PowerBalance:
-    """A reading's shaft power and its sinks; rate: chambers times turns per second, friction: W of all pairs."""
+    """A reading's shaft power and its sinks.
+
+    rate: chambers times turns per second; friction: W of all pairs; leakage: W of each gap.
+    """
     problem, cycle = ported.problem, ported.cycle
     ports = (
         (reading.delivery_flow, reading.delivery_pressure),
         (-reading.inlet_flow, reading.inlet_pressure),
         (reading.drain_flow, reading.drain_pressure),
     )
-    energy, carried = cycle.path_energy, exchange.carried
-    modulus = problem.bulk_modulus
-    pressures = (reading.delivery_pressure, reading.inlet_pressure)
-    from_ports = sum(
-        draw * float(flow_energy(pressure, modulus) - flow_energy(reading.drain_pressure, modulus))
-        for draw, pressure in zip(port_draw(problem, exchange), pressures, strict=True)
-    )
+    energy, modulus = cycle.path_energy, problem.bulk_modulus
     return PowerBalance(
         shaft=reading.shaft_power,
         hydraulic=sum(flow * pressure for flow, pressure in ports),
         elastic=sum(flow * elastic_energy(pressure, modulus) for flow, pressure in ports),
         ripple=ported.delivery.ripple_power + ported.suction.ripple_power,
-        leakage=Gaps(
-            rate * float(energy.piston) - carried.piston,
-            rate * float(energy.slipper) - carried.slipper,
-            rate * float(energy.valve_plate) + from_ports - carried.valve_plate,
-        ),
+        leakage=leakage,
         throttling_delivery=rate * float(energy.delivery),
         throttling_suction=rate * float(energy.suction),
         friction=friction,

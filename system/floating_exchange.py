@@ -1,0 +1,203 @@
+"""What three floating gaps tell chambers, shaft and power balance, over the turn.
+
+Arrays over n equidistant shaft angles from 0, those of the gaps' reported angles. Of the block only a pitch is known
+where chambers are alike; then it repeats.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from gaps.revolution import GapRevolution
+from gaps.seen import BlockSeen, GapSeen, PistonSeen, Seen, SlipperSeen
+from system.chamber_problem import LeakTable
+from system.directions import bore_axis, bore_sides, plate_axes
+from system.floating_drives import GroupInstant, Rubbing
+from system.floating_parts import FloatingParts
+from system.instants import Rotor, travel, valve_plate_geometry
+from system.kinematics import Array
+from system.lumped import piston_area
+from system.pairs import FrictionPairs, PairLoss, over_chambers
+from system.ports import TURN
+from system.power import GapExchange, Gaps
+
+
+@dataclass(frozen=True)
+class FloatingGaps:
+    """The three gaps of a pump whose chambers are alike: one piston, one slipper, the block over a pitch."""
+
+    piston: GapRevolution[PistonSeen]
+    slipper: GapRevolution[SlipperSeen]
+    block: GapRevolution[BlockSeen]
+
+
+def of_each(revolution: GapRevolution[Seen], tell: Callable[[Seen], float | Array]) -> Array:
+    """What `tell` says of each reported angle, (n, ...), from shaft angle 0 on."""
+    return np.roll(np.array([tell(instant.seen) for instant in revolution.turn.instants]), 1, axis=0)
+
+
+def positions(revolution: GapRevolution[Seen]) -> Array:
+    """Positions (n, k) m from shaft angle 0 on."""
+    return np.roll(revolution.positions, 1, axis=0)
+
+
+def resampled(values: Array, samples: int) -> Array:
+    """Periodic values (n, ...) at as many equidistant angles as wanted; between those known linear."""
+    count = len(values)
+    if samples == count:
+        return values
+    place = np.arange(samples) * (count / samples)
+    before = np.floor(place + 1e-9).astype(int)
+    share = (place - before).reshape(-1, *[1] * (values.ndim - 1))
+    return np.asarray((1.0 - share) * values[before % count] + share * values[(before + 1) % count])
+
+
+def leak_table(gaps: FloatingGaps) -> LeakTable:
+    """Flow out of one chamber into each gap, by its angle; it answers to the pressure by the next round alone."""
+    piston, slipper = (of_each(gap, lambda seen: float(seen.flow[0])) for gap in (gaps.piston, gaps.slipper))
+    carried = np.stack([piston, slipper, chamber_draws(gaps.block)])
+    return LeakTable(np.zeros_like(carried), carried)
+
+
+def chamber_draws(block: GapRevolution[BlockSeen]) -> Array:
+    """Flow (n,) m3/s out of a chamber into the block's film, by the chamber's own angle."""
+    flow = np.array([instant.seen.flow for instant in block.turn.instants])
+    known, pistons = flow.shape
+    own = (np.arange(1, known + 1)[:, None] + known * np.arange(pistons)) % (known * pistons)
+    found = np.empty(known * pistons)
+    found[own] = flow
+    return found
+
+
+def ball_shift(gaps: FloatingGaps, rotor: Rotor, parts: FloatingParts) -> Array:
+    """How far the ball is from where rigid parts without films would have it, (n, 3) m.
+
+    The piston's axis leaves the bore's by e at the ball; the slipper keeps the ball on the swash plate, its film h
+    thick, so that it goes along the bore besides: d = e - a (n . e + h)/(n . a).
+    """
+    piston, slipper = positions(gaps.piston), positions(gaps.slipper)
+    normal, guide = plate_axes(rotor.drive)[2], parts.piston.guide_length
+    shift = np.empty((len(piston), 3))
+    for k, angle in enumerate(TURN * np.arange(len(piston)) / len(piston)):
+        axis, outside = bore_axis(rotor.drive, angle), -(rotor.pump.piston.overhang + travel(rotor, angle))
+        inner, case = piston[k, :2], piston[k, 2:]
+        across = (case + (inner - case) * outside / guide) @ bore_sides(rotor.drive, angle)
+        shift[k] = across - axis * (normal @ across + slipper[k, 0]) / (normal @ axis)
+    return shift
+
+
+def growth(gaps: FloatingGaps, rotor: Rotor, parts: FloatingParts) -> Array:
+    """Growth (n,) m3 of a chamber by the parts' small motion: the ball along its bore, and the block's lift.
+
+    Ap (d . a) - Ap z + A_kidney z_kidney, z the block's way off the plate at the bore's and at the kidney's place.
+    """
+    pump, plate = rotor.pump, valve_plate_geometry(rotor.pump)
+    block, rim = positions(gaps.block), plate.land_radii[3]
+    pistons, shift = pump.pump.pistons, ball_shift(gaps, rotor, parts)
+    block = np.tile(block, (pistons, 1))
+    angle = TURN * np.arange(len(shift)) / len(shift)
+    along = np.array([d @ bore_axis(rotor.drive, float(a)) for d, a in zip(shift, angle, strict=True)])
+    rise = (block[:, 1] * np.cos(angle) + block[:, 2] * np.sin(angle)) / rim
+    lifted, area = block[:, 0] + pump.pump.pitch_radius * rise, piston_area(pump)
+    kidney = plate.kidney_area * block[:, 0] + plate.kidney_lever * rise
+    return np.asarray(area * (along - lifted) + kidney)
+
+
+def rubbing(gaps: FloatingGaps, samples: int) -> Rubbing:
+    """What the films do to piston and slipper at `samples` angles."""
+    return Rubbing(
+        resampled(of_each(gaps.piston, lambda seen: seen.friction.force), samples),
+        resampled(of_each(gaps.piston, lambda seen: seen.friction.moment), samples),
+        resampled(of_each(gaps.slipper, lambda seen: seen.friction.force), samples),
+    )
+
+
+def shaft_moment(gaps: FloatingGaps, rotor: Rotor, parts: FloatingParts, group: tuple[GroupInstant, ...]) -> Array:
+    """Torque (N,) N m by which all pistons with slippers resist the shaft, from the forces on them.
+
+    The moment about the shaft of the swash plate's force and friction and of inertia, at the places where the
+    films hold the parts; the plate holds the joint's friction about its normal.
+    """
+    shift, normal = resampled(ball_shift(gaps, rotor, parts), len(group)), plate_axes(rotor.drive)[2]
+    one = [
+        -float(np.cross(at.places + moved, np.vstack([at.inertia, at.plate]))[:, 2].sum())
+        + float(at.ball_moment @ normal * normal[2])
+        for at, moved in zip(group, shift, strict=True)
+    ]
+    return over_chambers(np.array(one), rotor.pump.pump.pistons)
+
+
+def block_torque(gaps: FloatingGaps, samples: int) -> Array:
+    """Torque (samples,) N m of the valve plate's film against the block's turning."""
+    turns = round(TURN / gaps.block.angles[-1])
+    return resampled(np.tile(of_each(gaps.block, lambda seen: seen.torque), turns), samples)
+
+
+def with_floating_gaps(
+    losses: FrictionPairs, gaps: FloatingGaps, group: tuple[GroupInstant, ...]
+) -> FrictionPairs:
+    """The pairs with those of the three gaps from their films: shear of oil as viscous, rubbing as Coulomb's.
+
+    The joint rubs as its forces and spins have it. Ball guide and bearings stay.
+    """
+    pistons, samples = losses.piston_cylinder.count, len(group)
+    joint = np.array([at.joint_loss for at in group])
+    return replace(
+        losses,
+        piston_cylinder=_pair(pistons, gaps.piston, samples),
+        slipper_swash_plate=_pair(pistons, gaps.slipper, samples),
+        valve_plate_cylinder=_pair(1, gaps.block, samples),
+        piston_slipper_socket=PairLoss(pistons, joint, np.zeros_like(joint)),
+    )
+
+
+def _pair(count: int, revolution: GapRevolution[Seen], samples: int) -> PairLoss:
+    turns = round(TURN / revolution.angles[-1])
+    rubbed, sheared = (
+        resampled(np.tile(of_each(revolution, tell), turns), samples)
+        for tell in (lambda seen: seen.heat.rubbing, lambda seen: seen.heat.shear)
+    )
+    return PairLoss(count, rubbed, sheared)
+
+
+def leakage_heat(gaps: FloatingGaps, pistons: int) -> Gaps:
+    """Heat (W) of the flow that pressure drives through the gaps, the slippers' orifices with them, mean."""
+    return Gaps(
+        pistons * _mean(gaps.piston, lambda seen: seen.heat.flow),
+        pistons * _mean(gaps.slipper, lambda seen: seen.heat.flow + seen.throttled),
+        _mean(gaps.block, lambda seen: seen.heat.flow),
+    )
+
+
+def gap_exchange(gaps: FloatingGaps, pistons: int, shaft_speed: float) -> GapExchange:
+    """What oil gives the walls that drag it along, heat of shear less power of the walls, and the block's draws."""
+    return GapExchange(
+        carried=Gaps(
+            pistons * _mean(gaps.piston, lambda seen: _rubbed(seen) - seen.friction.power),
+            pistons * _mean(gaps.slipper, lambda seen: _rubbed(seen) - seen.friction.power),
+            _mean(gaps.block, lambda seen: _rubbed(seen) - seen.torque * shaft_speed),
+        ),
+        delivery_draw=_mean(gaps.block, lambda seen: seen.delivery_draw),
+        suction_draw=_mean(gaps.block, lambda seen: seen.suction_draw),
+    )
+
+
+def _rubbed(seen: GapSeen) -> float:
+    return seen.heat.shear + seen.heat.rubbing
+
+
+def _mean(revolution: GapRevolution[Seen], tell: Callable[[Seen], float]) -> float:
+    return float(np.mean([tell(instant.seen) for instant in revolution.turn.instants]))
+
+
+def port_draws(
+    gaps: FloatingGaps, pressures: tuple[float, float], modulus: float, pitch: int
+) -> tuple[Array, Array]:
+    """What the block's film takes from delivery and suction port over a pitch, (pitch,) m3/s at zero gauge."""
+    delivery = resampled(of_each(gaps.block, lambda seen: seen.delivery_draw), pitch)
+    suction = resampled(of_each(gaps.block, lambda seen: seen.suction_draw), pitch)
+    dense = np.exp(np.array(pressures) / modulus)
+    return np.asarray(delivery * dense[0]), np.asarray(suction * dense[1])
