@@ -173,8 +173,8 @@ def _not_settled(taken: Round) -> NotConverged:
     return NotConverged(
         f"floating gaps and chamber pressure: after {ROUND_LIMIT} rounds the pressure still changes by "
         f"{taken.pressure_change:.2g} of the ports' difference (expected at most {PRESSURE_TOLERANCE:g}), "
-        f"friction by {taken.friction_change:.2g} of the largest force (at most {FRICTION_TOLERANCE:g}); try more steps, a "
-        "lower pressure, or the films fidelity"
+        f"friction by {taken.friction_change:.2g} of the largest force (at most {FRICTION_TOLERANCE:g}); "
+        "try more steps, a lower pressure, or the films fidelity"
     )
 
 

@@ -55,9 +55,9 @@ class GroupInstant:
     """One piston with its slipper at a shaft angle.
 
     forces at the joint; ball_moment (3,) N m of its friction on the slipper; joint_loss W, what that takes;
-    pressed (2,) N m: int p (x, y) dA that the slipper's film must give; held N, force of the spring on the slipper besides `forces.lift`; inertia
-    (2, 3) N of piston and slipper, -m a; plate (3,) N of the swash plate on the slipper; places (3, 3) m of both
-    centres of mass and of the plate's force.
+    pressed (2,) N m: int p (x, y) dA that the slipper's film must give; held N, force of the spring on the slipper
+    besides `forces.lift`; inertia (2, 3) N of piston and slipper, -m a; plate (3,) N of the swash plate on the
+    slipper; places (3, 3) m of both centres of mass and of the plate's force.
     """
 
     forces: BallForces

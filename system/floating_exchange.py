@@ -1,7 +1,7 @@
 """What three floating gaps tell chambers, shaft and power balance, over the turn.
 
-Arrays over n equidistant shaft angles from 0, those of the gaps' reported angles. Of the block only a pitch is known
-where chambers are alike; then it repeats.
+Arrays over n equidistant shaft angles from 0, those of the gaps' reported angles. Of the block only a pitch is
+known where chambers are alike; then it repeats.
 """
 
 from __future__ import annotations
@@ -57,7 +57,8 @@ def resampled(values: Array, samples: int) -> Array:
 
 def leak_table(gaps: FloatingGaps) -> LeakTable:
     """Flow out of one chamber into each gap, by its angle; it answers to the pressure by the next round alone."""
-    piston, slipper = (of_each(gap, lambda seen: float(seen.flow[0])) for gap in (gaps.piston, gaps.slipper))
+    piston = of_each(gaps.piston, lambda seen: float(seen.flow[0]))
+    slipper = of_each(gaps.slipper, lambda seen: float(seen.flow[0]))
     carried = np.stack([piston, slipper, chamber_draws(gaps.block)])
     return LeakTable(np.zeros_like(carried), carried)
 
@@ -173,7 +174,7 @@ def leakage_heat(gaps: FloatingGaps, pistons: int) -> Gaps:
 
 
 def gap_exchange(gaps: FloatingGaps, pistons: int, shaft_speed: float) -> GapExchange:
-    """What oil gives the walls that drag it along, heat of shear less power of the walls, and the block's draws."""
+    """What oil gives the walls that drag it along (heat of shear less their power), and the block's draws."""
     return GapExchange(
         carried=Gaps(
             pistons * _mean(gaps.piston, lambda seen: _rubbed(seen) - seen.friction.power),
