@@ -30,7 +30,8 @@ class CasePump:
 def read_case_pump(top: Table, film: Table, folder: Path) -> CasePump | None:
     """The pump of `film.pump` with [operating] and [pump.SECTION] of the case; None with the faults told.
 
-    A value of the case stands in place of the pump file's, written as it would stand there.
+    A value of the case stands in place of the pump file's, written as it would stand there; a CSV file that it
+    names lies beside the case.
     """
     source = film.get("pump")
     operating = top.table(OPERATING)
@@ -41,7 +42,8 @@ def read_case_pump(top: Table, film: Table, folder: Path) -> CasePump | None:
         return None
     if own and OPERATING in own.values:
         top.fault(f"pump.{OPERATING}", "the operating point", f"a table [{OPERATING}] of the case")
-    stated = dict(_flat({key: part for key, part in own.values.items() if key != OPERATING})) if own else {}
+    ours = {key: part for key, part in own.values.items() if key != OPERATING} if own else {}
+    stated = {path: _beside(value, folder) for path, value in _flat(ours)}
     at_point = {f"{OPERATING}.{key}": value for key, value in operating.values.items()} if operating else {}
     place = source if source in builtin_pumps() else str(folder / source)
     try:
@@ -80,6 +82,11 @@ def _flat(tables: Mapping[str, Any], above: str = "") -> Iterator[tuple[str, Any
             yield from _flat(value, f"{above}{key}.")
         else:
             yield above + key, value
+
+
+def _beside(value: Any, folder: Path) -> Any:
+    """A value that names a file with its path from the case's folder."""
+    return str((folder / value).absolute()) if isinstance(value, str) and value.lower().endswith(".csv") else value
 
 
 def _at_case(fault: Fault, stated: Mapping[str, Any]) -> Fault:

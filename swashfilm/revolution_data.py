@@ -13,8 +13,10 @@ import numpy as np
 from gaps.revolution import GapInstant
 from gaps.seen import Active
 from reynolds.film import vertex_thickness
+from reynolds.mesh import Array
 from swashfilm.gap_case import Gap
 from swashfilm.revolution_study import RevolutionStudy, friction_power, tilt
+from system.instants import travel
 
 if TYPE_CHECKING:
     import xarray
@@ -25,6 +27,8 @@ POSITIONS = {
     Gap.VALVE_PLATE: ("film_thickness_on_axis", "rise_x", "rise_y"),
 }
 """Names of a gap's coordinates, m; rises over the outer radius of the last land."""
+PISTON_END = ("eccentricity_x_end", "eccentricity_y_end")
+"""Eccentricity of the piston's axis at the inner end of its film, m."""
 SHOWN = {
     "m": ("um", 1e6), "rad": ("mrad", 1e3), "m3/s": ("L/min", 6e4), "W": ("W", 1.0), "N": ("N", 1.0),
     "Pa": ("MPa", 1e-6), "1": ("-", 1.0),
@@ -63,6 +67,8 @@ def revolution_dataset(study: RevolutionStudy) -> xarray.Dataset:
     positions = zip(POSITIONS[study.case.gap], found.positions.T, strict=True)
     numbers: dict[str, tuple[Any, str]] = {name: (values, "m") for name, values in positions}
     numbers |= {name: ([one.value(at) for at in instants], one.unit) for name, one in SERIES.items()}
+    if study.case.gap is Gap.PISTON:
+        numbers |= {name: (values, "m") for name, values in zip(PISTON_END, piston_end(study), strict=True)}
     numbers |= {
         "tilt": (tilt(study), "rad"),
         "friction_power": ([friction_power(study, at.seen) for at in instants], "W"),
@@ -82,6 +88,15 @@ def revolution_dataset(study: RevolutionStudy) -> xarray.Dataset:
             "clearance_m": study.case.rotor.pump.piston.radial_clearance,
         },
     )
+
+
+def piston_end(study: RevolutionStudy) -> Array:
+    """Eccentricity (2, n) m of the piston's axis where its film ends inside: at its own end, or the guide's."""
+    pump, guide = study.case.rotor.pump, study.parts.piston.guide_length
+    reach = [pump.piston.engaged_length - travel(study.case.rotor, angle) for angle in study.revolution.angles]
+    share = np.minimum(np.array(reach) / guide, 1.0)
+    inner, case = study.revolution.positions.T[:2], study.revolution.positions.T[2:]
+    return np.asarray(case + (inner - case) * share)
 
 
 def _films(study: RevolutionStudy) -> dict[str, tuple[Any, ...]]:

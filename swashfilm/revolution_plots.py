@@ -10,13 +10,15 @@ import numpy as np
 from gaps.seen import Active
 from swashfilm.gap_case import Gap
 from swashfilm.maps import draw_map
-from swashfilm.revolution_data import POSITIONS, SHOWN
+from swashfilm.revolution_data import PISTON_END, POSITIONS, SHOWN
 
 if TYPE_CHECKING:
     import xarray
     from matplotlib.figure import Figure
 
 MAPS = 4  # kept films shown as maps
+LEAST_SHOWN = {"contact_load": 1.0, "cavitated_area_fraction": 0.01, "film_pressure_max": 0.1}
+"""Ends of axes where there is less: what is next to nothing looks so."""
 INK, FILM, SECOND, THIRD = "#1c2328", "#3c7a8c", "#b8862b", "#8c5a3c"
 BANDS = {
     Active.CONTACT: "#b33a3a", Active.CAVITATION: "#7fb2d6", Active.RETAINER: "#b8862b", Active.LIFT: "#5b9a5b",
@@ -55,7 +57,7 @@ def _film(data: xarray.Dataset) -> bytes:
     beside = axes.twinx()
     beside.plot(angle, shown(data, "chamber_pressure"), color=SECOND, linewidth=0.9, linestyle="--")
     beside.set_ylabel("chamber pressure, gauge / MPa", color=SECOND)
-    axes.legend(loc="upper right", fontsize=8)
+    figure.legend(loc="outside upper right", fontsize=8, ncols=2)
     draw_bands(bands, data)
     bands.set(xlabel="shaft angle from inner dead centre / deg", xlim=(0.0, span(data)))
     return _png(figure)
@@ -63,12 +65,13 @@ def _film(data: xarray.Dataset) -> bytes:
 
 def draw_bands(axes: Any, data: xarray.Dataset) -> None:
     """A row for each limit that is active somewhere, coloured where it is."""
-    angle = degrees(data)
-    step = angle[1] - angle[0] if len(angle) > 1 else span(data)
+    ends = degrees(data)[1:]
+    steps = np.diff(degrees(data))
     kinds = [kind for kind in BANDS if data[f"active_{kind.value}"].values.any()]
     for row, kind in enumerate(kinds):
         on = data[f"active_{kind.value}"].values.astype(bool)
-        axes.broken_barh([(end - step, step) for end in angle[on]], (row - 0.4, 0.8), color=BANDS[kind])
+        bars = list(zip(ends[on] - steps[on], steps[on], strict=True))
+        axes.broken_barh(bars, (row - 0.4, 0.8), color=BANDS[kind])
     axes.set_yticks(range(len(kinds)), [MEANING[kind] for kind in kinds], fontsize=8)
     axes.set_ylim(len(kinds) - 0.4, -0.6)
 
@@ -81,7 +84,7 @@ def _path(data: xarray.Dataset) -> bytes:
     if gap is Gap.PISTON:
         clearance = data.attrs["clearance_m"] * 1e6
         circle = np.linspace(0.0, 2.0 * np.pi, 181)
-        ends = zip(("inner end of the guide", "case edge of the guide"), (names[:2], names[2:]), strict=True)
+        ends = zip(("at the film's inner end", "at the bore's case edge"), (PISTON_END, names[2:]), strict=True)
         for axes, (title, pair) in zip(figure.subplots(1, 2), ends, strict=True):
             axes.plot(clearance * np.cos(circle), clearance * np.sin(circle), color="#9aa4ab", linewidth=1.0)
             _orbit(axes, shown(data, pair[0]), shown(data, pair[1]), angle)
@@ -99,7 +102,7 @@ def _path(data: xarray.Dataset) -> bytes:
 
 def _orbit(axes: Any, x: np.ndarray, y: np.ndarray, angle: np.ndarray) -> None:
     """A closed path with its angle as colour and four of them written on it."""
-    axes.plot(np.append(x, x[0]), np.append(y, y[0]), color="#c9d0d5", linewidth=0.8)
+    axes.plot(x, y, color="#c9d0d5", linewidth=0.8)
     dots = axes.scatter(x, y, c=angle, cmap="twilight_shifted", s=9, vmin=0.0, vmax=angle[-1])
     for at in angle[-1] * np.array([0.25, 0.5, 0.75, 1.0]):
         k = int(np.argmin(np.abs(angle - at)))
@@ -135,12 +138,13 @@ def _contact(data: xarray.Dataset) -> bytes:
     rows = {
         "contact_load": ("contact / N", "#b33a3a"),
         "cavitated_area_fraction": ("cavitated share", "#4d8bb8"),
-        "film_pressure_max": ("film pressure max / MPa", INK),
+        "film_pressure_max": ("highest pressure / MPa", INK),
     }
     for axes, (name, (title, colour)) in zip(figure.subplots(3, 1, sharex=True), rows.items(), strict=True):
         axes.fill_between(degrees(data), shown(data, name), color=colour, alpha=0.25, linewidth=0.0)
         axes.plot(degrees(data), shown(data, name), color=colour)
-        axes.set(ylabel=title, ylim=(0.0, None), xlim=(0.0, span(data)))
+        most = max(1.05 * float(shown(data, name).max()), LEAST_SHOWN[name])
+        axes.set(ylabel=title, ylim=(0.0, most), xlim=(0.0, span(data)))
     axes.set_xlabel("shaft angle / deg")
     return _png(figure)
 
@@ -168,13 +172,14 @@ def draw_film(axes: Any, data: xarray.Dataset, k: int, name: str) -> None:
 
 
 def shown(data: xarray.Dataset, name: str) -> np.ndarray:
-    """A series in the unit that people read it in."""
-    return np.asarray(data[name].values * SHOWN[data[name].attrs["units"]][1])
+    """A series in the unit that people read it in, from 0 to the end of the turn, where it begins again."""
+    values = data[name].values * SHOWN[data[name].attrs["units"]][1]
+    return np.append(values[-1], values)
 
 
 def degrees(data: xarray.Dataset) -> np.ndarray:
-    """The reported shaft angles, deg."""
-    return np.asarray(np.degrees(data["shaft_angle"].values))
+    """Shaft angles of `shown`, deg: 0 and the reported ones."""
+    return np.append(0.0, np.degrees(data["shaft_angle"].values))
 
 
 def span(data: xarray.Dataset) -> float:

@@ -30,7 +30,7 @@ def read_value(info: FieldInfo, raw: object, folder: Path = HERE) -> object:
     if dimension is not None:
         return parse_quantity(raw, dimension)
     if layouts:
-        return read_rows(folder / raw, layouts) if isinstance(raw, str) else _rows(raw, layouts)
+        return read_rows(folder / raw, layouts) if isinstance(raw, str) else listed_rows(raw, layouts)
     if choice is not None:
         return _choice(raw, choice)
     if isinstance(raw, bool) or not isinstance(raw, (int, float)):
@@ -84,7 +84,7 @@ def units_shown(info: FieldInfo) -> str:
     return ", ".join(example.split(" ", 1)[1] for example in examples) or "-"
 
 
-def _rows(raw: object, layouts: tuple[Points, ...]) -> tuple[tuple[float, ...], ...]:
+def listed_rows(raw: object, layouts: tuple[Points, ...]) -> tuple[tuple[float, ...], ...]:
     """Return a list of rows in SI, of the layout of the first; a fault names the row, from 1, and its column."""
     if not isinstance(raw, list) or not all(isinstance(row, list) for row in raw):
         raise QuantityError(repr(raw), f"{_wanted_rows(layouts)}; or {wanted_file(layouts)}")
