@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Protocol
 
 from gaps.revolution import Accuracy
 from swashfilm.case_pump import CasePump, operating_rows, own_rows, read_case_pump
@@ -18,6 +19,26 @@ STEPS = 360
 FILMS, RING_FILMS = 36, 180  # kept of a turn; the ring's repeat with the pitch
 _LIMITS = {"steps": (STEPS, 24, 7200), "finer": (1, 1, 8)}
 _LARGEST_TOLERANCE = 0.1
+
+
+class GapCase(Protocol):
+    """What a gap over the turn is of: a case, or a gap of a pump that floats as a whole."""
+
+    @property
+    def name(self) -> str:
+        """Of the case or pump."""
+
+    @property
+    def gap(self) -> Gap:
+        """Which of the three."""
+
+    @property
+    def rotor(self) -> Rotor:
+        """The pump at its operating point."""
+
+    @property
+    def options(self) -> FloatingOptions:
+        """Physics, steps, accuracy and mesh."""
 
 
 @dataclass(frozen=True)

@@ -12,8 +12,8 @@ import numpy as np
 
 from gaps.revolution import GapInstant
 from gaps.seen import Active
-from reynolds.film import vertex_thickness
 from reynolds.mesh import Array
+from reynolds.overlap import vertex_thickness
 from swashfilm.gap_case import Gap
 from swashfilm.revolution_study import RevolutionStudy, friction_power, tilt
 from system.instants import travel

@@ -19,7 +19,7 @@ from system.places import face_frame, guide_frame
 
 def write_revolution_fields(folder: Path, study: RevolutionStudy) -> None:
     """Write fields/<gap>_NNN.vtu of every kept film and, over them, <gap>.pvd (time = shaft angle in degrees)."""
-    (folder / FIELDS).mkdir()
+    (folder / FIELDS).mkdir(exist_ok=True)
     gap, entries = study.case.gap.value, []
     for k, (angle, film) in enumerate(study.revolution.turn.films.items()):
         name = f"{FIELDS}/{vtu_name(gap, k)}"

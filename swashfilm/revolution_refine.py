@@ -5,6 +5,7 @@ from __future__ import annotations
 from swashfilm.convergence import convergence
 from swashfilm.film_refine import Refinement
 from swashfilm.progress import Report
+from swashfilm.revolution_case import RevolutionCase
 from swashfilm.revolution_study import RevolutionStudy, revolution_summary, solve_revolution
 
 EXPECTED = (1.0, 2.0)
@@ -15,12 +16,12 @@ NUMBERS = (
 )  # fmt: skip
 
 
-def refine_revolution(study: RevolutionStudy, meshes: int, report: Report) -> Refinement:
+def refine_revolution(case: RevolutionCase, study: RevolutionStudy, meshes: int, report: Report) -> Refinement:
     """The case on `meshes` meshes, the first of which `study` is of; steps in time stay as they are.
 
     Raises FilmNotConverged where one of the meshes does.
     """
-    case, rows = study.case, [revolution_summary(study)]
+    rows = [revolution_summary(study)]
     for number in range(2, meshes + 1):
         case = case.refined()
         label = f"mesh {number} of {meshes}"

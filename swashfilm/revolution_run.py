@@ -30,7 +30,7 @@ def run_revolution_case(
     study = solve_revolution(case, report)
     summary = revolution_summary(study)
     if meshes > 1:
-        found = refine_revolution(study, meshes, report)
+        found = refine_revolution(case, study, meshes, report)
         summary["refinement"] = refinement_summary(found)
         write_refinement(folder / "refinement.csv", found)
     report(0, 1, "writing fields")

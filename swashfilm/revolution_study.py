@@ -13,7 +13,7 @@ from gaps.seen import Active, BlockSeen, GapSeen, PistonSeen, SlipperSeen, mass_
 from reynolds.mesh import Array
 from swashfilm.gap_case import Gap
 from swashfilm.progress import Report
-from swashfilm.revolution_case import RevolutionCase
+from swashfilm.revolution_case import GapCase, RevolutionCase
 from swashfilm.revolution_warnings import revolution_warnings
 from system.floating_drives import drives, no_rubbing, slipper_shape
 from system.floating_gaps import block_revolution, piston_revolution, slipper_revolution
@@ -31,14 +31,16 @@ def silent(done: int, steps: int, what: str) -> None:
 class RevolutionStudy:
     """A gap's periodic motion, the parts with every value taken, its chamber's pressure, and the seconds it took.
 
-    chamber_pressure (n,) Pa at the reported angles; of the block, that of the chamber at shaft angle 0.
+    left_out: what the forces between the parts leave out, in words; chamber_pressure (n,) Pa at the reported
+    angles; of the block, that of the chamber at shaft angle 0.
     """
 
-    case: RevolutionCase
+    case: GapCase
     parts: FloatingParts
     revolution: GapRevolution[Any] = field(repr=False)
     chamber_pressure: Array
     solve_seconds: float
+    left_out: tuple[str, ...] = ()
 
     @property
     def span(self) -> float:
@@ -65,7 +67,7 @@ def solve_revolution(case: RevolutionCase, report: Report = silent) -> Revolutio
             found = block_revolution(rotor, parts, driven.block, case.options, report=report)
     chamber = driven.piston.chamber_pressure
     at_angles = np.array([float(chamber(angle)) for angle in found.angles])
-    return RevolutionStudy(case, parts, found, at_angles, time.perf_counter() - began)
+    return RevolutionStudy(case, parts, found, at_angles, time.perf_counter() - began, (NO_RUBBING,))
 
 
 def tilt(study: RevolutionStudy) -> Array:
@@ -136,6 +138,6 @@ def revolution_summary(study: RevolutionStudy) -> dict[str, Any]:
         "mass_balance_error": balance,
         "solve_seconds": study.solve_seconds,
         "physics_left_out": [effect.value for effect in study.case.options.physics.left_out],
-        "assumptions": [NO_RUBBING, *(str(taken) for taken in study.parts.taken)],
+        "assumptions": [*study.left_out, *(str(taken) for taken in study.parts.taken)],
         "warnings": revolution_warnings(study.case, study.parts, study.revolution, balance),
     }

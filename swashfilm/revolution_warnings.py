@@ -9,7 +9,7 @@ from gaps.physics import Effect
 from gaps.revolution import GapRevolution
 from swashfilm.gap_case import Gap
 from swashfilm.pump_warnings import LARGEST_RIGID_PRESSURE
-from swashfilm.revolution_case import RevolutionCase
+from swashfilm.revolution_case import GapCase
 from system.checks import run_checks
 from system.floating_checks import block_tips, slipper_has_a_wedge
 from system.floating_parts import FloatingParts
@@ -21,7 +21,7 @@ _CHECKS = {Gap.SLIPPER: (slipper_has_a_wedge,), Gap.VALVE_PLATE: (block_tips,), 
 
 
 def revolution_warnings(
-    case: RevolutionCase, parts: FloatingParts, found: GapRevolution[Any], balance: float
+    case: GapCase, parts: FloatingParts, found: GapRevolution[Any], balance: float
 ) -> list[dict[str, str]]:
     """Name and text of each warning; `balance` is the turn's mass balance error."""
     told = [
@@ -33,7 +33,7 @@ def revolution_warnings(
     return [{"name": name, "text": text} for name, text in told]
 
 
-def _contact(case: RevolutionCase, parts: FloatingParts, found: GapRevolution[Any]) -> Iterator[tuple[str, str]]:
+def _contact(case: GapCase, parts: FloatingParts, found: GapRevolution[Any]) -> Iterator[tuple[str, str]]:
     """Mean planes that overlap by more than roughness can be pressed together."""
     laws = {
         Gap.PISTON: parts.piston.laws, Gap.SLIPPER: parts.slipper.laws, Gap.VALVE_PLATE: parts.block.laws,
@@ -51,7 +51,7 @@ def _contact(case: RevolutionCase, parts: FloatingParts, found: GapRevolution[An
         )
 
 
-def _pressures(case: RevolutionCase, found: GapRevolution[Any]) -> Iterator[tuple[str, str]]:
+def _pressures(case: GapCase, found: GapRevolution[Any]) -> Iterator[tuple[str, str]]:
     """Pressures that rigid walls and constant viscosity may not claim, and those below a cavity's."""
     left_out, turn = case.options.physics.left_out, found.turn
     peak = max(instant.loads.pressure_max for instant in turn.instants)
@@ -71,7 +71,7 @@ def _pressures(case: RevolutionCase, found: GapRevolution[Any]) -> Iterator[tupl
         )
 
 
-def _motion(case: RevolutionCase, found: GapRevolution[Any], balance: float) -> Iterator[tuple[str, str]]:
+def _motion(case: GapCase, found: GapRevolution[Any], balance: float) -> Iterator[tuple[str, str]]:
     """A motion that a disturbance would leave, steps that are too long, and oil that is lost between angles."""
     if (grows := found.closing.largest_multiplier) > 1.0:
         yield (
