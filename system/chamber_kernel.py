@@ -20,7 +20,7 @@ from __future__ import annotations
 import numba
 import numpy as np
 
-from system.ports import orifice, orifice_coefficients, section_area
+from system.ports import PORT_SIZE, orifice, orifice_coefficients, section_area
 
 CHAMBER = np.dtype(
     [
@@ -37,8 +37,8 @@ CHAMBER = np.dtype(
         ("delivery_pressure", "f8"),
         ("inlet_pressure", "f8"),
         ("case_pressure", "f8"),
-        ("delivery_port", "f8", (8,)),
-        ("suction_port", "f8", (8,)),
+        ("delivery_port", "f8", (PORT_SIZE,)),
+        ("suction_port", "f8", (PORT_SIZE,)),
     ],
     align=True,
 )

@@ -44,10 +44,13 @@ from system.fields import (
     Temperature,
     Volume,
     table_of,
+    tables_of,
 )
 from system.line_description import LineSection
 from system.parts_description import (
     BoreSection,
+    GrooveSection,
+    GrooveShape,
     MaterialsSection,
     ReliefSection,
     RetainerSection,
@@ -140,15 +143,26 @@ class ValvePlateSection(Section):
 class PortsSection(Section):
     """[ports]: opening of either port over the angle from its own dead centre."""
 
-    groove_start: Angle
-    groove_end: Angle
-    groove_area: Area
+    groove_start: Angle | None = None  # with groove_area: one groove of that area
+    groove_end: Angle  # the kidney begins to open
+    groove_area: Area | None = None
     kidney_full_start: Angle
     kidney_full_end: Angle
     kidney_end: Angle
     kidney_area: Area
     flow_coefficient: Annotated[float, Field(gt=0.0, le=1.0)]
     critical_reynolds: Annotated[float, Positive]  # laminar-turbulent transition of the orifice law
+    grooves: tuple[GrooveSection, ...] = ()  # in place of groove_start and groove_area
+
+    @property
+    def relief_grooves(self) -> tuple[GrooveSection, ...]:
+        """All grooves, [ports] groove_start and groove_area being one of a known area."""
+        if self.groove_start is None or self.groove_area is None:
+            return self.grooves
+        own = GrooveSection(
+            start=self.groove_start, end=self.groove_end, shape=GrooveShape.AREA, area=self.groove_area
+        )
+        return (own, *self.grooves)
 
 
 class BallGuideSection(Section):
@@ -260,13 +274,13 @@ class PumpDescription(Section):
 
 
 def section_models() -> Iterator[tuple[str, type[Section]]]:
-    """Yield the name and the model of every table, in the order of the file; one in another as `outer.inner`."""
+    """Yield name and model of every table in the order of the file; of one inside another as `outer.inner`."""
     yield from _tables_in(PumpDescription, "")
 
 
 def _tables_in(model: type[Section], above: str) -> Iterator[tuple[str, type[Section]]]:
     for name, field in model.model_fields.items():
-        inner = table_of(field)
+        inner = table_of(field) or tables_of(field)
         if inner is not None:
             yield above + name, inner
             yield from _tables_in(inner, f"{above}{name}.")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from difflib import get_close_matches
@@ -67,20 +68,27 @@ def nearest_choice(found: str, choices: Iterable[str]) -> str:
 
 
 _HEADER = re.compile(r"^\s*\[\s*([\w.\-]+)\s*\]")
+_LISTED = re.compile(r"^\s*\[\[\s*([\w.\-]+)\s*\]\]")
 _KEY = re.compile(r"^\s*([\w.\-]+)\s*=")
 
 
 def key_lines(text: str) -> dict[str, int]:
     """Return the line number (from 1) of every `section` and `section.key` of a TOML text.
 
-    Plain tables with bare keys, one key a line, are found; a path written otherwise has no entry.
+    Plain tables with bare keys, one key a line, are found, those of a list as `section.1`, `section.2`, ..; a path
+    written otherwise has no entry.
     """
     lines: dict[str, int] = {}
+    listed: Counter[str] = Counter()
     section = ""
     for number, line in enumerate(text.splitlines(), start=1):
         if header := _HEADER.match(line):
             section = header[1]
             lines.setdefault(section, number)
+        elif header := _LISTED.match(line):
+            listed[header[1]] += 1
+            section = f"{header[1]}.{listed[header[1]]}"
+            lines[section] = number
         elif key := _KEY.match(line):
             lines.setdefault(f"{section}.{key[1]}" if section else key[1], number)
     return lines

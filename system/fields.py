@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from enum import Enum
-from typing import Annotated
+from typing import Annotated, get_origin
 
 from pydantic import BaseModel, ConfigDict, Field
 from pydantic.fields import FieldInfo
@@ -110,6 +110,15 @@ def choice_of(field: FieldInfo) -> type[Enum] | None:
 
 def table_of(field: FieldInfo) -> type[Section] | None:
     """Return the model of a field that is a table of its own, or None for another."""
+    return None if get_origin(field.annotation) is tuple else _section_in(field)
+
+
+def tables_of(field: FieldInfo) -> type[Section] | None:
+    """Return the model of a field that is a list of tables, or None for another."""
+    return _section_in(field) if get_origin(field.annotation) is tuple else None
+
+
+def _section_in(field: FieldInfo) -> type[Section] | None:
     return next((part for part in _types(field) if issubclass(part, Section)), None)
 
 

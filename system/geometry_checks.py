@@ -15,7 +15,6 @@ from system.kinematics import SwashDrive, ball_radius, displacement, stroke
 from system.units import Dimension, format_quantity
 
 DISPLACEMENT_TOLERANCE = 0.01
-PORT_TOLERANCE = math.radians(1.0)
 ROUNDING = 1e-9  # relative; two lengths of a drawing that meet exactly do not overlap
 
 _CONE = ("pump.bore_cone_angle", "pump.swash_angle_max")
@@ -268,63 +267,6 @@ def piston_stays_in_its_bore(pump: PumpDescription) -> Iterator[Finding]:
         )
 
 
-_PORT_ANGLES = ("groove_start", "groove_end", "kidney_full_start", "kidney_full_end", "kidney_end")
-
-
-@needs(*(f"ports.{name}" for name in _PORT_ANGLES))
-def ports_open_in_order(pump: PumpDescription) -> Iterator[Finding]:
-    """The angles of a port grow, and it is shut before the other port, half a turn later, opens."""
-    angles = {name: getattr(pump.ports, name) for name in _PORT_ANGLES}
-    for before, after in pairwise(_PORT_ANGLES):
-        if angles[before] >= angles[after]:
-            yield Fault(f"ports.{after}", angle(angles[after]), f"more than {before}, {angle(angles[before])}")
-    shut, opens = angles["kidney_end"], math.pi + angles["groove_start"]
-    if shut >= opens:
-        yield Fault(
-            "ports.kidney_end",
-            f"{angle(shut)}: suction is still open when delivery opens",
-            f"less than {angle(opens)} (180 deg + groove_start), else the ports are short-circuited",
-            "a smaller kidney_end or a larger groove_start",
-        )
-
-
-@needs("valve_plate.kidney_arc", *(f"ports.{name}" for name in _PORT_ANGLES))
-def ports_belong_to_the_kidney(pump: PumpDescription) -> Iterator[Finding]:
-    """A kidney opens and shuts over its own arc, and that leaves a port between."""
-    arc, ports = pump.valve_plate.kidney_arc, pump.ports
-    if ports.kidney_end - ports.groove_end <= arc:
-        yield Fault(
-            "ports.kidney_end",
-            f"{angle(ports.kidney_end)} for a kidney of {angle(arc)} that opens at {angle(ports.groove_end)}",
-            f"more than {angle(ports.groove_end + arc)} (groove_end + kidney_arc), so that a port is left",
-        )
-        return
-    for key, follows in (
-        ("kidney_full_start", ports.groove_end + arc),
-        ("kidney_full_end", ports.kidney_end - arc),
-    ):
-        stated = getattr(ports, key)
-        if abs(stated - follows) > PORT_TOLERANCE:
-            yield CheckWarning(
-                f"ports.{key}",
-                f"{angle(stated)}, where the kidney's arc of {angle(arc)} gives {angle(follows)}",
-                f"{angle(PORT_TOLERANCE)} apart (the film's ports follow groove_end and kidney_end)",
-                f"{key} = '{angle(follows)}', or another kidney_arc",
-            )
-
-
-@needs("ports.groove_area", "ports.kidney_area")
-def groove_is_smaller_than_the_kidney(pump: PumpDescription) -> Iterator[Finding]:
-    """The relief groove opens less than the kidney does."""
-    groove, kidney = pump.ports.groove_area, pump.ports.kidney_area
-    if groove >= kidney:
-        yield Fault(
-            "ports.groove_area",
-            format_quantity(groove, Dimension.AREA, digits=4),
-            f"less than kidney_area, {format_quantity(kidney, Dimension.AREA, digits=4)}",
-        )
-
-
 @needs("bearings.front_share", "bearings.rear_share")
 def bearings_share_the_side_force(pump: PumpDescription) -> Iterator[Finding]:
     """The two bearings take the whole side force."""
@@ -352,8 +294,5 @@ GEOMETRY_CHECKS = (
     port_opening_fits_the_kidney,
     bores_clear_each_other,
     piston_stays_in_its_bore,
-    ports_open_in_order,
-    ports_belong_to_the_kidney,
-    groove_is_smaller_than_the_kidney,
     bearings_share_the_side_force,
 )

@@ -31,6 +31,7 @@ from system.line_description import line_of
 from system.lines import Lines
 from system.operating import OperatingPoint
 from system.pairs import FrictionPairs, PairLoss
+from system.port_description import relief_groove
 from system.ports import TURN, PortOpening
 from system.ports_coupling import ported_cycle
 from system.power import chamber_exchange
@@ -105,7 +106,7 @@ def swept_displacement(pump: PumpDescription, drive: SwashDrive) -> float:
     (+ 2 delta/dp, 0.14 %).
     """
     area = piston_area(pump) + np.pi * pump.pump.piston_diameter * pump.piston.radial_clearance / 2.0
-    shuts = pump.ports.kidney_end + np.array([0.0, np.pi])
+    shuts = port_opening(pump, 0.0).shuts + np.array([0.0, np.pi])
     suction, delivery = piston_displacement(drive, shuts)
     return float(pump.pump.pistons * area * (suction - delivery))
 
@@ -174,16 +175,15 @@ def chamber_problem(
 
 def port_opening(pump: PumpDescription, dead_centre: float) -> PortOpening:
     """The valve plate's port that opens at a dead centre: shaft angle 0 for suction, pi for delivery."""
-    p = pump.ports
+    p, radius = pump.ports, pump.valve_plate.kidney_pitch_radius
     return PortOpening(
         dead_centre=dead_centre,
-        groove_start=p.groove_start,
-        groove_end=p.groove_end,
+        kidney_start=p.groove_end,
         kidney_full_start=p.kidney_full_start,
         kidney_full_end=p.kidney_full_end,
         kidney_end=p.kidney_end,
-        groove_area=p.groove_area,
         kidney_area=p.kidney_area,
+        grooves=tuple(relief_groove(groove, p.kidney_full_end, radius) for groove in p.relief_grooves),
     )
 
 

@@ -5,12 +5,15 @@ Every key may be left out; `system.floating_parts` says what is then taken, and 
 
 from __future__ import annotations
 
+import math
 from enum import Enum
 from typing import Annotated
 
 from pydantic import Field
 
 from system.fields import (
+    Angle,
+    Area,
     ArealDensity,
     Coefficient,
     Conductivity,
@@ -22,6 +25,7 @@ from system.fields import (
     Section,
     Stiffness,
 )
+from system.units import Dimension
 
 
 class ReliefSection(Section):
@@ -43,6 +47,26 @@ class BoreSection(Section):
 
     profile: Profile | None = None  # from the case edge inwards
     edge_relief: ReliefSection | None = None  # of the guide's case edge
+
+
+class GrooveShape(Enum):
+    """Section of a relief groove: triangular, cut by a round tool, or known by its throat's area alone."""
+
+    V = "v"
+    ROUND = "round"
+    AREA = "area"
+
+
+class GrooveSection(Section):
+    """[[ports.grooves]]: a relief groove between two angles, ahead of the port's kidney or behind it."""
+
+    start: Angle
+    end: Angle
+    shape: GrooveShape
+    depth: Length | None = None  # at the kidney
+    angle: Annotated[float, Dimension.ANGLE, Field(gt=0.0, lt=math.pi)] | None = None  # between the flanks of a V
+    width: Length | None = None  # of the round tool
+    area: Area | None = None  # of the throat at the kidney
 
 
 class RetainerKind(Enum):

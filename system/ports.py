@@ -1,8 +1,8 @@
-"""Ports of the valve plate: the eight-section opening area and the orifice law, the paper's Eq. (20) made regular.
+"""Ports of the valve plate: the opening area and the orifice law, the paper's Eq. (20) made regular.
 
-Four sections for each port: relief groove growing with the square of the angle, kidney opening linearly, kidney
-open, kidney closing linearly; shut elsewhere. The suction port counts its angles from the inner dead centre
-(shaft angle 0), the delivery port from the outer one (pi).
+Over the turn a port opens by its relief grooves (the paper has one, growing with the square of the angle), its
+kidney opens linearly, stands open and closes linearly, and grooves behind it shut last; shut elsewhere. The
+suction port counts its angles from the inner dead centre (shaft angle 0), the delivery port from the outer (pi).
 """
 
 from __future__ import annotations
@@ -13,42 +13,68 @@ import numba
 import numpy as np
 
 from system.kinematics import Array
+from system.relief_grooves import SIZE, ReliefGroove, throat_area
 
 TURN = 2.0 * np.pi
+SAME_ANGLE = 1e-9  # rad
+MOST_GROOVES = 8
+NUMBERS = 8
+"""Of a port as compiled code reads it, before its grooves."""
+PORT_SIZE = NUMBERS + MOST_GROOVES * SIZE
 
 
 @dataclass(frozen=True)
 class PortOpening:
-    """One port: angles in rad from its own dead centre, in rising order, and areas in m2.
+    """One port: angles in rad from its own dead centre, in rising order, and the area of its kidney in m2.
 
-    `dead_centre` is the shaft angle of that dead centre: 0 for suction, pi for delivery.
+    `dead_centre` is the shaft angle of that dead centre: 0 for suction, pi for delivery. Grooves that sink with
+    the angle lie before `kidney_full_start`, those that rise after `kidney_full_end`. Raises ValueError for more
+    than MOST_GROOVES.
     """
 
     dead_centre: float
-    groove_start: float
-    groove_end: float
+    kidney_start: float
     kidney_full_start: float
     kidney_full_end: float
     kidney_end: float
-    groove_area: float
     kidney_area: float
+    grooves: tuple[ReliefGroove, ...] = ()
+
+    def __post_init__(self) -> None:
+        if len(self.grooves) > MOST_GROOVES:
+            raise ValueError(f"port: found {len(self.grooves)} grooves, expected at most {MOST_GROOVES}")
+
+    @property
+    def opens(self) -> float:
+        """Angle from the dead centre at which the port begins to open, rad."""
+        return min([self.kidney_start, *(groove.begins for groove in self.grooves)])
+
+    @property
+    def shuts(self) -> float:
+        """Angle from the dead centre at which the port is shut, rad."""
+        return max([self.kidney_end, *(groove.begins for groove in self.grooves)])
 
 
 @numba.njit("f8(f8,f8[:])", cache=True)
 def section_area(shaft_angle, port):  # type: ignore[no-untyped-def]
     """Opening area in m2 at one shaft angle; `port` is the array of `as_array`. For use inside compiled code."""
-    start = port[1]
+    start = port[6]
     x = (shaft_angle - port[0] - start) % TURN + start
-    if x < port[2]:
-        part = (x - start) / (port[2] - start)
-        return port[6] * part * part
-    if x < port[3]:
-        return port[6] + (port[7] - port[6]) * (x - port[2]) / (port[3] - port[2])
+    if port[2] <= x < port[3]:
+        return port[5]
+    opening = x < port[2]
+    area = 0.0
+    for n in range(int(port[7])):
+        groove = port[NUMBERS + n * SIZE : NUMBERS + (n + 1) * SIZE]
+        if (groove[0] < groove[1]) == opening:
+            area += throat_area(x, groove)
+    if opening:
+        if x < port[1]:
+            return area
+        return area + (port[5] - area) * (x - port[1]) / (port[2] - port[1])
     if x < port[4]:
-        return port[7]
-    if x < port[5]:
-        return port[7] * (port[5] - x) / (port[5] - port[4])
-    return 0.0
+        return area + (port[5] - area) * (port[4] - x) / (port[4] - port[3])
+    return area
 
 
 @numba.njit("f8(f8,f8,f8,f8,f8)", cache=True)
@@ -89,19 +115,21 @@ def section_areas(shaft_angles, port):  # type: ignore[no-untyped-def]
 
 
 def as_array(port: PortOpening) -> Array:
-    """The port as the flat array that the compiled functions read, fields in the order of `PortOpening`."""
-    return np.array(
-        [
-            port.dead_centre,
-            port.groove_start,
-            port.groove_end,
-            port.kidney_full_start,
-            port.kidney_full_end,
-            port.kidney_end,
-            port.groove_area,
-            port.kidney_area,
-        ]
+    """The port as the flat array (PORT_SIZE,) that the compiled functions read."""
+    found = np.zeros(PORT_SIZE)
+    found[:NUMBERS] = (
+        port.dead_centre,
+        port.kidney_start,
+        port.kidney_full_start,
+        port.kidney_full_end,
+        port.kidney_end,
+        port.kidney_area,
+        port.opens,
+        len(port.grooves),
     )
+    for n, groove in enumerate(port.grooves):
+        found[NUMBERS + n * SIZE : NUMBERS + (n + 1) * SIZE] = groove.row
+    return found
 
 
 def opening_area(port: PortOpening, shaft_angle: Array | float) -> Array:
@@ -112,10 +140,10 @@ def opening_area(port: PortOpening, shaft_angle: Array | float) -> Array:
 
 def break_angles(port: PortOpening) -> Array:
     """Shaft angles in [0, 2 pi), ascending, where the opening law changes: no integration step may cross one."""
-    own = np.array(
-        [port.groove_start, port.groove_end, port.kidney_full_start, port.kidney_full_end, port.kidney_end]
-    )
-    return np.sort((port.dead_centre + own) % TURN)
+    kidney = (port.kidney_start, port.kidney_full_start, port.kidney_full_end, port.kidney_end)
+    own = [*kidney, *(angle for groove in port.grooves for angle in groove.breaks)]
+    found = np.sort((port.dead_centre + np.array(own)) % TURN)
+    return found[np.diff(found, prepend=-1.0) > SAME_ANGLE]
 
 
 def orifice_flow(

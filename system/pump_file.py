@@ -17,16 +17,17 @@ from reynolds.oil import ISO_GRADES
 from system.checks import CheckReport, run_checks
 from system.description import FORMAT, SINGLE_PARTS, PumpDescription
 from system.faults import Fault, InputFaults, key_lines, nearest_choice
-from system.fields import Section, dimension_of, table_of
+from system.fields import Section, dimension_of, table_of, tables_of
 from system.film_checks import FILM_CHECKS
 from system.geometry_checks import GEOMETRY_CHECKS
 from system.operating_checks import OPERATING_CHECKS
 from system.parts_checks import PARTS_CHECKS, single_parts_checked
+from system.port_checks import PORT_CHECKS
 from system.pump_values import HERE, bound, read_value, wanted, written_value
 from system.units import Dimension, QuantityError, to_gauge
 
 ABSOLUTE = "_abs"  # a pressure key that ends so is absolute
-_CHECKS = GEOMETRY_CHECKS + FILM_CHECKS + OPERATING_CHECKS + PARTS_CHECKS
+_CHECKS = GEOMETRY_CHECKS + PORT_CHECKS + FILM_CHECKS + OPERATING_CHECKS + PARTS_CHECKS
 _VISCOSITIES = ("kinematic_viscosity_40C", "kinematic_viscosity_100C")
 _TABLES = {name: model for name, info in PumpDescription.model_fields.items() if (model := table_of(info))}
 
@@ -82,7 +83,7 @@ def _table_rows(name: str, section: Section, base: Section | None = None) -> Ite
     stated = {
         key: (info, value)
         for key, info in type(section).model_fields.items()
-        if (value := getattr(section, key)) is not None and value != getattr(base, key, None)
+        if (value := getattr(section, key)) not in (None, ()) and value != getattr(base, key, None)
     }
     own = {key: row for key, row in stated.items() if table_of(row[0]) is None}
     if own:
@@ -255,6 +256,8 @@ def _values(name: str, model: type[Section], table: Mapping[str, object], readin
             reading.unknown(f"{name}.", written, _keys(name, model))
         elif absolute and key in table:
             reading.fault(path, f"both {key} and {written}", "one of the two, gauge or absolute")
+        elif inner := tables_of(info):
+            values[key] = _inner_tables(path, inner, raw, reading)
         elif inner := table_of(info):
             values[key] = _section(path, inner, raw, reading)
             if any(fault.path.startswith(f"{path}.") for fault in reading.faults):
@@ -268,6 +271,18 @@ def _values(name: str, model: type[Section], table: Mapping[str, object], readin
             else:
                 values[key] = to_gauge(value) if absolute and isinstance(value, float) else value
     return values
+
+
+def _inner_tables(path: str, model: type[Section], raw: object, reading: _Reading) -> tuple[Section, ...]:
+    """Return the tables of a list of such; none where one has a fault."""
+    if not isinstance(raw, list):
+        reading.fault(path, repr(raw), f"a list of tables with {', '.join(_keys(path, model))}")
+        return ()
+    found = tuple(_section(f"{path}.{n}", model, table, reading) for n, table in enumerate(raw, start=1))
+    if any(fault.path.startswith(f"{path}.") for fault in reading.faults):
+        reading.told.add(path)
+        return ()
+    return found
 
 
 def _keys(name: str, model: type[Section]) -> list[str]:

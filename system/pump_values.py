@@ -11,7 +11,7 @@ from typing import Any
 from pydantic.fields import FieldInfo
 
 from system.faults import nearest_choice
-from system.fields import Points, choice_of, dimension_of, layouts_of, whole
+from system.fields import Points, Section, choice_of, dimension_of, layouts_of, tables_of, whole
 from system.point_files import read_rows, wanted_file
 from system.units import Dimension, QuantityError, format_quantity, parse_quantity
 
@@ -45,6 +45,8 @@ def written_value(info: FieldInfo, value: object) -> str:
         columns = _layout(layouts, value).columns
         rows = (", ".join(map(_written_quantity, row, columns)) for row in value)
         return "[" + ", ".join(f"[{row}]" for row in rows) + "]"
+    if tables_of(info) is not None and isinstance(value, tuple):
+        return "[" + ", ".join(map(_written_table, value)) + "]"
     if isinstance(value, Enum):
         return json.dumps(value.value)
     if dimension is not None and isinstance(value, float):
@@ -82,6 +84,12 @@ def units_shown(info: FieldInfo) -> str:
     layouts, dimension = layouts_of(info), dimension_of(info)
     examples = layouts[0].example if layouts else (dimension.example,) if dimension else ()
     return ", ".join(example.split(" ", 1)[1] for example in examples) or "-"
+
+
+def _written_table(table: Section) -> str:
+    stated = {key: value for key, value in dict(table).items() if value is not None}
+    fields = type(table).model_fields
+    return "{ " + ", ".join(f"{key} = {written_value(fields[key], value)}" for key, value in stated.items()) + " }"
 
 
 def listed_rows(raw: object, layouts: tuple[Points, ...]) -> tuple[tuple[float, ...], ...]:

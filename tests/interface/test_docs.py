@@ -236,6 +236,6 @@ def test_warnings_are_explained(films):
     )
     assert set(re.findall(r'"name": "(\w+)"', sources)) <= explained
     checks = "".join(
-        (ROOT / "system" / f"{kind}_checks.py").read_text("utf-8") for kind in ("geometry", "operating")
+        (ROOT / "system" / f"{kind}_checks.py").read_text("utf-8") for kind in ("geometry", "port", "operating")
     )
     assert set(re.findall(r'CheckWarning\(\s*"([\w.]+)"', checks)) <= explained

@@ -8,7 +8,7 @@ import pytest
 from system.checks import CheckReport
 from system.description import section_models
 from system.faults import InputFaults
-from system.fields import choice_of, dimension_of, layouts_of, table_of
+from system.fields import choice_of, dimension_of, layouts_of, table_of, tables_of
 from system.floating_checks import check_floating
 from system.floating_parts import BRASS, STEEL, ball_plane_height, floating_parts
 from system.instants import rotor
@@ -91,6 +91,8 @@ def test_every_key_of_the_floating_parts_is_read_and_written_back(tmp_path):
     """All optional keys at once come back from `resolved_toml`, and nothing is then left to be taken."""
     pump = load_pump("ref90", EVERY)
     for name, model in section_models():
+        if name == "ports.grooves":
+            continue  # in place of ref90's groove_start and groove_area
         section = pump
         for step in name.split("."):
             section = getattr(section, step)
@@ -394,5 +396,5 @@ def test_every_kind_of_field_is_one_kind():
     """A key is a quantity, rows, a choice, a table or a number, and no two of these."""
     for name, model in section_models():
         for key, field in model.model_fields.items():
-            kinds = [kind(field) for kind in (dimension_of, layouts_of, choice_of, table_of)]
+            kinds = [kind(field) for kind in (dimension_of, layouts_of, choice_of, table_of, tables_of)]
             assert sum(kind not in (None, ()) for kind in kinds) <= 1, f"{name}.{key}"

@@ -15,12 +15,15 @@ from system.errors import NotConverged
 from system.kinematics import SwashDrive, drive_at_ratio, piston_displacement, piston_velocity, stand_out
 from system.leakage import piston_carried_flow, piston_conductance
 from system.ports import PortOpening, opening_area, orifice_flow
+from system.relief_grooves import ReliefGroove
 
 DEGREES = np.pi / 180.0
 AREA = np.pi / 4 * 22e-3**2
 SPEED = 2100.0 * 2 * np.pi / 60
 FULL = SwashDrive(45e-3, 5 * DEGREES, 16.2 * DEGREES)
-SHUT = PortOpening(0.0, *(np.array([-5.0, 10.0, 40.0, 140.0, 170.0]) * DEGREES), 0.0, 0.0)
+ANGLES = np.array([-5.0, 10.0, 40.0, 140.0, 170.0]) * DEGREES
+SHUT = PortOpening(0.0, *ANGLES[1:], 0.0)
+GROOVE = ReliefGroove(ANGLES[0], ANGLES[1], 4e-6)
 COLUMNS = 90
 
 
@@ -38,7 +41,7 @@ def leak_table(drive: SwashDrive, shaft_speed: float) -> LeakTable:
 def pump(delivery_pressure: float, ratio: float, shaft_speed: float = SPEED) -> ChamberProblem:
     """A chamber of REF90."""
     drive = drive_at_ratio(FULL, ratio)
-    port = replace(SHUT, groove_area=4e-6, kidney_area=152e-6)
+    port = replace(SHUT, grooves=(GROOVE,), kidney_area=152e-6)
     return ChamberProblem(
         drive=drive,
         shaft_speed=shaft_speed,
@@ -264,7 +267,7 @@ def test_oil_bears_no_tension_and_the_cavity_keeps_its_mass():
 
 def test_a_starved_chamber_takes_in_what_its_orifice_passes():
     """A port of 20 mm2 at 3600 r/min: liquid comes in whatever void stands behind it (0.2 %: angles of 1 deg)."""
-    narrow = replace(SHUT, groove_area=4e-6, kidney_area=20e-6)
+    narrow = replace(SHUT, grooves=(GROOVE,), kidney_area=20e-6)
     problem = replace(
         pump(20e6, 1.0, 377.0),
         inlet_pressure=0.0,

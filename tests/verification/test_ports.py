@@ -12,12 +12,14 @@ from system.ports import (
     orifice_coefficients,
     orifice_flow,
 )
+from system.relief_grooves import ReliefGroove
 
 DEGREES = np.pi / 180.0
 GROOVE, KIDNEY = 4e-6, 152e-6
 ANGLES = np.array([-5.0, 10.0, 40.0, 140.0, 170.0]) * DEGREES
-DELIVERY = PortOpening(np.pi, *ANGLES, GROOVE, KIDNEY)
-SUCTION = PortOpening(0.0, *ANGLES, GROOVE, KIDNEY)
+PAPER = ReliefGroove(ANGLES[0], ANGLES[1], GROOVE)
+DELIVERY = PortOpening(np.pi, *ANGLES[1:], KIDNEY, (PAPER,))
+SUCTION = PortOpening(0.0, *ANGLES[1:], KIDNEY, (PAPER,))
 LAW = (0.7, 860.0, 30e-6, 150.0)
 
 

@@ -25,6 +25,7 @@ from system.lines import (
 from system.ports import PortOpening, opening_area, orifice_flow
 from system.ports_coupling import SETTLED, PortedCycle, ported_cycle
 from system.ports_volume import Supply, line_power, port_balance
+from system.relief_grooves import ReliefGroove
 
 DEGREES = np.pi / 180.0
 AREA = np.pi / 4 * 22e-3**2
@@ -39,7 +40,8 @@ CLOSED = Impedance(np.array([1.0, 1e6]), np.full(2, 1e30 + 0j))
 def pump(delivery_pressure: float = 35e6, ratio: float = 1.0) -> ChamberProblem:
     """A chamber of REF90, its leaks constant."""
     drive = drive_at_ratio(FULL, ratio)
-    port = PortOpening(0.0, *(np.array([-5.0, 10.0, 40.0, 140.0, 170.0]) * DEGREES), 4e-6, 152e-6)
+    angles = np.array([-5.0, 10.0, 40.0, 140.0, 170.0]) * DEGREES
+    port = PortOpening(0.0, *angles[1:], 152e-6, (ReliefGroove(angles[0], angles[1], 4e-6),))
     return ChamberProblem(
         drive=drive,
         shaft_speed=SPEED,
@@ -155,7 +157,8 @@ def test_films_draw_from_the_port():
 
 def test_kinematic_flow_ripple(validation):
     """Stiff oil, no leaks, ports wide open from dead centre to dead centre: the ripple of z sine strokes."""
-    port = PortOpening(0.0, *(np.array([0.0, 0.05, 0.1, 179.9, 180.0]) * DEGREES), 5e-3, 10e-3)
+    angles = np.array([0.0, 0.05, 0.1, 179.9, 180.0]) * DEGREES
+    port = PortOpening(0.0, *angles[1:], 10e-3, (ReliefGroove(angles[0], angles[1], 5e-3),))
     stiff = replace(
         pump(),
         drive=SwashDrive(45e-3, 0.0, 16.2 * DEGREES),
