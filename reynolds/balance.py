@@ -65,10 +65,14 @@ class Operators:
         """D, m3/s; zero where no film fraction is carried along."""
         diffusion = np.zeros(len(self.problem.space.pattern.indices))
         if self.problem.cavitation is Cavitation.JFO:
-            leaves = sends_nothing(self.problem, self.transport.flux)
             pattern = self.problem.space.pattern
-            kernels.upwinding(pattern.indptr, pattern.indices, *self.convection, leaves, diffusion)
+            kernels.upwinding(pattern.indptr, pattern.indices, *self.convection, self.leaves, diffusion)
         return diffusion
+
+    @cached_property
+    def leaves(self) -> NDArray[np.bool_]:
+        """Unknowns of edges over which no oil is carried in, (size,): see `sends_nothing`."""
+        return sends_nothing(self.problem, self.transport.flux)
 
     @cached_property
     def carriage(self) -> tuple[Array, Array]:

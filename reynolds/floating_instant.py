@@ -190,7 +190,8 @@ class Instant:
 
     def by_position(self, at: Trial, tolerance: float = ITERATIVE_TOLERANCE) -> Response:
         """How the film at a position answers to it, on the film's last factor, to a tolerance of linear solves."""
-        load = thickness_load(at.solution, at.thicker) + self.modes.pockets / self.step
+        parts = self.solver.operators(at.solution)
+        load = thickness_load(at.solution, at.thicker, parts) + self.modes.pockets / self.step
         return response(self.solver, at.solution, -load, tolerance)
 
     def slopes(self, at: Trial, film: Response) -> Array:
@@ -220,7 +221,7 @@ class Instant:
         own = self.by_position(at)
         q = -solved(self.slopes(at, own), missing, self.floating.name)
         both = Response(film.pressure + own.pressure @ q, film.film_fraction + own.film_fraction @ q)
-        oil = oil_slopes(at.solution, at.thicker @ q, both)
+        oil = oil_slopes(at.solution, at.thicker @ q, both, self.solver.operators(at.solution))
         return Kept(oil, q, (q - changed.position) / self.step)
 
 

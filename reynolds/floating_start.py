@@ -47,7 +47,8 @@ def restarted(floating: Floating, time: float, last: State[Stage], q: Array) -> 
         return started(floating, time, q)
     k = len(stage.q)
     nothing = np.zeros((len(stage.solution.pressure), k))
-    oil = oil_slopes(stage.trial.solution, stage.trial.thicker, Response(nothing, nothing))
+    film, parts = stage.trial.solution, stage.instant.solver.operators(stage.trial.solution)
+    oil = oil_slopes(film, stage.trial.thicker, Response(nothing, nothing), parts)
     beside = np.zeros((len(last.held) - len(oil), k))  # position, and rates where walls have inertia
     beside[:k] = np.eye(k)
     seats = seats_of(floating.shape_at(time).space, stage.solution.problem.space)

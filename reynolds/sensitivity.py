@@ -13,15 +13,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from reynolds import generalised_kernels
-from reynolds import kernels as film_kernels
 from reynolds.balance import (
     Operators,
     State,
     cavity_density,
-    convection,
     density,
-    operators,
-    sends_nothing,
     steep_gradient,
 )
 from reynolds.film import Cavitation, FilmSolution
@@ -30,8 +26,6 @@ from reynolds.mesh import Array
 from reynolds.opening import opening_slope
 from reynolds.solve import FilmSolver
 from reynolds.transport import along, at_points
-
-DIFFERENCE = 1e-6  # of the film, for the slope of upwinding: next to linear in the thickness, so exact
 
 
 @dataclass(frozen=True)
@@ -51,7 +45,7 @@ def thickness_slopes(
     wall speeds) as they are, to a tolerance of the linear solves. `solver` is the one that gave the solution: its
     factor is used again.
     """
-    return response(solver, solution, -thickness_load(solution, thicker), tolerance)
+    return response(solver, solution, -thickness_load(solution, thicker, solver.operators(solution)), tolerance)
 
 
 def response(
@@ -61,10 +55,12 @@ def response(
     return Response(*solver.response(solution, inflow, tolerance))
 
 
-def thickness_load(solution: FilmSolution, thicker: Array) -> Array:
-    """dR/dq_j at constant pressures and film fractions, (size, k) m3/s per unit of q_j."""
+def thickness_load(solution: FilmSolution, thicker: Array, parts: Operators) -> Array:
+    """dR/dq_j at constant pressures and film fractions, (size, k) m3/s per unit of q_j.
+
+    `parts`: the operators of the solution's balance (`FilmSolver.operators`).
+    """
     problem, state = solution.problem, _state(solution)
-    parts = operators(problem, state)
     space, terms, tensors = problem.space, parts.transport, problem.space.tensors
     filling = state.film_fraction * density(problem, state.pressure)[0]
     driven = along(terms.conductance_slope, steep_gradient(space, state.pressure))
@@ -78,41 +74,25 @@ def thickness_load(solution: FilmSolution, thicker: Array) -> Array:
         filling, thicker, *space.reference.loops, out,
     )  # fmt: skip
     if problem.cavitation is Cavitation.JFO and bool(np.any(state.film_fraction != 1.0)):
-        out += _mixing_load(solution, parts, thicker)
+        # Upwinding's diffusion grows with the flow that the walls carry.
+        generalised_kernels.mixed_more(
+            space.dofs, space.pattern.slots, tensors.shape, space.reference.value, tensors.gradient,
+            *(space.everywhere(part) for part in terms.flux_slope), thicker, *space.reference.loops,
+            space.pattern.indptr, space.pattern.indices, *parts.convection, parts.leaves,
+            cavity_density(problem) * solution.film_fraction, out,
+        )  # fmt: skip
     return out
 
 
-def _mixing_load(solution: FilmSolution, parts: Operators, thicker: Array) -> Array:
-    """The share of upwinding, whose diffusion grows with the flow that the walls carry, (size, k)."""
-    problem, space, pattern = solution.problem, solution.problem.space, solution.problem.space.pattern
-    level = cavity_density(problem) * solution.film_fraction
-    leaves = sends_nothing(problem, parts.transport.flux)
-    out, met = np.zeros((thicker.shape[2], space.size)), np.zeros(space.size)
-    grown = np.empty_like(parts.diffusion)
-    for j in range(thicker.shape[2]):
-        mode = thicker[:, :, j]
-        size = DIFFERENCE * float(solution.film.thickness.min()) / max(float(np.abs(mode).max()), 1e-300)
-        steeper = [size * mode * part for part in parts.transport.flux_slope]
-        carried = (
-            one + two
-            for one, two in zip(parts.convection, convection(space, (steeper[0], steeper[1])), strict=True)
-        )
-        film_kernels.upwinding(pattern.indptr, pattern.indices, *carried, leaves, grown)
-        film_kernels.exchange(
-            pattern.indptr, pattern.indices, (grown - parts.diffusion) / size, level, out[j], met
-        )
-    return out.T
-
-
-def oil_slopes(solution: FilmSolution, thicker: Array, changed: Response) -> Array:
+def oil_slopes(solution: FilmSolution, thicker: Array, changed: Response, parts: Operators) -> Array:
     """Change of what each unknown holds, (size, k) m3 per unit of q_j at reference density.
 
-    `thicker` as above; `changed` is what pressures and film fractions do meanwhile, the pressures opening walls
-    that give way.
+    `thicker` and `parts` as above; `changed` is what pressures and film fractions do meanwhile, the pressures
+    opening walls that give way.
     """
     problem, space = solution.problem, solution.problem.space
     ratio, ratio_slope = density(problem, solution.pressure)
-    terms = operators(problem, _state(solution)).transport
+    terms = parts.transport
     grown = np.empty((space.size, thicker.shape[2]))
     if problem.walls is not None:
         opened = opening_slope(problem, solution.opening) @ changed.pressure

@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from reynolds.balance import State, positive_share
+from reynolds.balance import Operators, State, operators, positive_share
 from reynolds.cascade import COARSEST, Cascade, Obstacle, active_set
 from reynolds.compliant import NearFactor
 from reynolds.errors import FilmInputError, FilmNotConverged
@@ -134,6 +134,12 @@ class FilmSolver:
         assert self._answers is not None
         self._answers = replace(self._answers, solution=solution)
         return solution
+
+    def operators(self, solution: FilmSolution) -> Operators:
+        """The operators of a solution's balance; those of the last film are known."""
+        if self._answers is not None and self._answers.belong_to(solution) and is_linear(solution.problem):
+            return self._answers.at.parts
+        return operators(solution.problem, State(solution.pressure, solution.film_fraction, solution.opening))
 
     def response(
         self, solution: FilmSolution, inflow: Array, tolerance: float = ITERATIVE_TOLERANCE

@@ -62,7 +62,12 @@ CASES = {
     "contact": Case(3e5, asperities=ROUGH),
     "soft contact": Case(2e4, 5e6, softness=2e-13, asperities=ROUGH, cavitates=False),
     "soft rough": Case(
-        2e4, 5e6, softness=2e-13, surface=Surface(4e-7, 3e-7, 3.0, 1.0 / 3.0, 0.3), asperities=ROUGH, fluid=OIL,
+        2e4,
+        5e6,
+        softness=2e-13,
+        surface=Surface(4e-7, 3e-7, 3.0, 1.0 / 3.0, 0.3),
+        asperities=ROUGH,
+        fluid=OIL,
         cavitates=False,
     ),
     "rough": Case(6e5, surface=Surface(4e-7, 3e-7, 3.0, 1.0 / 3.0, 0.3), asperities=ROUGH),
@@ -197,7 +202,7 @@ def test_what_flows_in_is_stored_or_leaves():
     inflow = np.where(free, 1e-9, 0.0)[:, None]
     changed = response(solver, solution, inflow)
     still = np.zeros((*solution.problem.space.area.shape, 1))
-    stored = oil_slopes(solution, still, changed)[:, 0].sum() / storage.step
+    stored = oil_slopes(solution, still, changed, solver.operators(solution))[:, 0].sum() / storage.step
     more = replace(
         solution.problem, storage=replace(storage, held_before=storage.held_before + 1e-4 * inflow[:, 0])
     )
