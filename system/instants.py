@@ -16,8 +16,8 @@ from system.directions import plate_force, side_force
 from system.kinematics import (
     Array,
     SwashDrive,
+    ball_acceleration_along_bore,
     drive_at_ratio,
-    piston_acceleration,
     piston_displacement,
     piston_velocity,
     slipper_acceleration,
@@ -52,7 +52,7 @@ def travel(rotor: Rotor, shaft_angle: float) -> float:
 def axial_force(rotor: Rotor, shaft_angle: float, chamber_pressure: float) -> float:
     """Fa = Ap (p - p_case) - m a (N) on piston with slipper, towards the swash plate."""
     mass = rotor.pump.piston.mass + rotor.pump.slipper.mass
-    acceleration = piston_acceleration(rotor.drive, shaft_angle, rotor.point.shaft_speed)
+    acceleration = ball_acceleration_along_bore(rotor.drive, shaft_angle, rotor.point.shaft_speed)
     area = piston_area(rotor.pump)
     return float(
         pairs.axial_force(np.asarray(chamber_pressure), rotor.point.case_pressure, area, mass, acceleration)

@@ -84,6 +84,16 @@ def piston_acceleration(drive: SwashDrive, shaft_angle: Array | float, shaft_spe
     )
 
 
+def ball_acceleration_along_bore(drive: SwashDrive, shaft_angle: Array | float, shaft_speed: float) -> Array:
+    """Acceleration of the ball centre along its bore in m/s2, out of the block, in a frame that does not turn.
+
+    Eq. (8) less the bore's share of the centripetal acceleration, w^2 r sin(b): the block carries an inclined bore
+    round. Equals Eq. (8) for a cylindrical block.
+    """
+    swept = shaft_speed**2 * ball_radius(drive, shaft_angle) * np.sin(drive.bore_cone_angle)
+    return np.asarray(piston_acceleration(drive, shaft_angle, shaft_speed) - swept)
+
+
 def slipper_sliding_velocity(drive: SwashDrive, shaft_angle: Array | float, shaft_speed: float) -> Array:
     """Velocity of the slipper's ball centre on the swash plate in m/s; paper Eq. (9), corrected.
 

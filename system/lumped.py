@@ -14,8 +14,8 @@ from system.description import PumpDescription
 from system.kinematics import (
     Array,
     SwashDrive,
+    ball_acceleration_along_bore,
     drive_at_ratio,
-    piston_acceleration,
     piston_displacement,
     piston_velocity,
     slipper_sliding_speed,
@@ -44,7 +44,7 @@ SAMPLES_PER_PITCH = 40
 
 @dataclass(frozen=True)
 class PistonMotion:
-    """One piston over N equidistant shaft angles, SI: drive, way from inner dead centre, velocity, acceleration,
+    """One piston over N equidistant shaft angles, SI: drive, velocity, acceleration along the bore,
     slipper sliding speed, engaged length and overhang of the ball.
     """
 
@@ -126,7 +126,7 @@ def piston_motion(pump: PumpDescription, point: OperatingPoint) -> PistonMotion:
         drive=drive,
         shaft_angle=angle,
         velocity=piston_velocity(drive, angle, point.shaft_speed),
-        acceleration=piston_acceleration(drive, angle, point.shaft_speed),
+        acceleration=ball_acceleration_along_bore(drive, angle, point.shaft_speed),
         sliding_speed=slipper_sliding_speed(drive, angle, point.shaft_speed),
         engaged_length=pump.piston.engaged_length - out,
         overhang=pump.piston.overhang + out,

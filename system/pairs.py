@@ -103,7 +103,10 @@ def over_chambers(values: Array, pistons: int) -> Array:
 def axial_force(
     pressure: Array, case_pressure: float, piston_area: float, mass: float, acceleration: Array
 ) -> Array:
-    """Force Fa = Ap (p - p_case) - m a of a piston with its slipper on the swash plate, along the bore."""
+    """Force Fa = Ap (p - p_case) - m a of a piston with its slipper on the swash plate, along the bore.
+
+    `acceleration` m/s2 is `kinematics.ball_acceleration_along_bore`: the mass counts at the ball.
+    """
     return piston_area * (pressure - case_pressure) - mass * acceleration
 
 

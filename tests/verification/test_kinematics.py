@@ -3,7 +3,13 @@
 import numpy as np
 import pytest
 
+from gaps.ball_joint import DrivenBody, ball_forces, swept_acceleration
 from system import kinematics as kin
+from system.directions import bore_axis, plate_axes, plate_force
+from system.instants import axial_force, rotor
+from system.lumped import piston_area
+from system.operating import operating_point
+from system.pump_file import load_pump
 
 RATED_SPEED = 2100.0 * 2.0 * np.pi / 60.0
 ANGLES = np.linspace(0.0, 2.0 * np.pi, 721)
@@ -111,3 +117,39 @@ def test_swash_angle_at_reduced_displacement(ratio, degrees):
 def test_a_swash_plane_that_misses_a_bore_axis_is_refused():
     with pytest.raises(ValueError, match="below 1"):
         kin.SwashDrive(45e-3, np.radians(60.0), np.radians(60.0))
+
+
+@pytest.mark.parametrize("cone", [0.0, 5.0, 12.0])
+def test_acceleration_along_the_bore_is_that_of_the_ball_in_space(cone):
+    """Second differences of the ball's place, along the bore: Eq. (8) alone misses the turning of the bore."""
+    drive = kin.SwashDrive(45e-3, np.radians(cone), np.radians(16.2))
+    step = 1e-4
+    for angle in (0.3, 2.0, 4.5):
+        phi = angle + step * np.array([-1.0, 0.0, 1.0])
+        radius = kin.ball_radius(drive, phi)
+        place = np.stack(
+            [radius * np.cos(phi), radius * np.sin(phi), -radius * np.cos(phi) * np.tan(drive.swash_angle)]
+        )
+        rate = RATED_SPEED**2 * (place[:, 0] - 2.0 * place[:, 1] + place[:, 2]) / step**2
+        along = float(bore_axis(drive, angle) @ rate)
+        found = float(kin.ball_acceleration_along_bore(drive, angle, RATED_SPEED))
+        assert found == pytest.approx(along, abs=1e-5 * RATED_SPEED**2 * drive.pitch_radius)
+    if cone:
+        sliding = float(kin.piston_acceleration(drive, 2.0, RATED_SPEED))
+        assert abs(float(kin.ball_acceleration_along_bore(drive, 2.0, RATED_SPEED)) - sliding) > 100.0
+
+
+def test_force_on_the_plate_is_that_of_the_ball_joint_on_a_conical_block():
+    """ref90's plate force by Fa against the balance of a body at the ball, in vectors."""
+    group, angle, above = rotor(load_pump("ref90"), operating_point(load_pump("ref90"))), 4.0, 30e6
+    drive, speed, pump = group.drive, group.point.shaft_speed, group.pump
+    axis, plate = bore_axis(drive, angle), plate_axes(drive)
+    velocity, sliding = (float(law(drive, angle, speed)) for law in (kin.piston_velocity, kin.piston_acceleration))
+    radius = float(kin.ball_radius(drive, angle))
+    ball = radius * np.array([np.cos(angle), np.sin(angle), 0.0])
+    rate = swept_acceleration(ball, axis, velocity, sliding, speed)
+    push = piston_area(pump) * above * axis
+    both = DrivenBody(pump.piston.mass + pump.slipper.mass, rate, push)
+    lift = ball_forces(axis, plate[2], both, DrivenBody(0.0, np.zeros(3), np.zeros(3))).lift
+    fa = axial_force(group, angle, above + group.point.case_pressure)
+    assert plate_force(drive, angle, fa) == pytest.approx(lift, rel=1e-12)
