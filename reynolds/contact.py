@@ -10,7 +10,9 @@ from numpy.polynomial import chebyshev
 from numpy.typing import ArrayLike
 from scipy.special import ndtr
 
+from reynolds import contact_kernels
 from reynolds.errors import FilmInputError
+from reynolds.lanes import WIDTH
 from reynolds.laws import Tangent, require_positive, within
 from reynolds.mesh import Array
 
@@ -132,10 +134,11 @@ def gaussian_moment(order: float, ratio: ArrayLike) -> Tangent:
     """
     h = within("Gaussian moment, H", ratio, LOWEST_RATIO, np.inf, "1")
     if order == 1.0:
-        return Tangent(_moment(1.0, h), -ndtr(-h))
+        return Tangent(_moments(h, order)[0], -ndtr(-h))
     if order < 1.0:
         raise FilmInputError("Gaussian moment, order", f"{order:g}", "1 or more: below, its slope is none")
-    return Tangent(_moment(order, h), -order * _moment(order - 1.0, h))
+    value, slope = _moments(h, order, order - 1.0)
+    return Tangent(value, -order * slope)
 
 
 def _ratio(asperities: Asperities, h: ArrayLike) -> Array:
@@ -145,11 +148,18 @@ def _ratio(asperities: Asperities, h: ArrayLike) -> Array:
 _MIDDLE = 6.0  # H + 6 = 6 is the middle of the mapped range
 
 
-def _moment(order: float, h: Array) -> Array:
-    """F_n by its series. ln F_n + H^2/2 + (n + 1) ln(H + 12) is smooth on -6 .. infinity, with a limit."""
-    mapped = (h - LOWEST_RATIO - _MIDDLE) / (h - LOWEST_RATIO + _MIDDLE)
-    smooth = chebyshev.chebval(mapped, _series(order))
-    return np.asarray(np.exp(smooth - 0.5 * h**2 - (order + 1.0) * np.log(h - LOWEST_RATIO + _MIDDLE)))
+def _moments(h: Array, *orders: float) -> list[Array]:
+    """F_n of some orders by their series. ln F_n + H^2/2 + (n + 1) ln(H + 12) is smooth on -6 .. infinity."""
+    far = h - LOWEST_RATIO + _MIDDLE
+    twice = np.zeros(-(-h.size // WIDTH) * WIDTH)
+    twice[: h.size] = (2.0 - 4.0 * _MIDDLE / far).ravel()
+    smooth = np.empty((len(orders), len(twice)))
+    contact_kernels.chebyshev_sums(np.array([_series(order) for order in orders]), twice, smooth)
+    square, logarithm = 0.5 * h * h, np.log(far)
+    return [
+        np.exp(part[: h.size].reshape(h.shape) - square - (order + 1.0) * logarithm)
+        for part, order in zip(smooth, orders, strict=True)
+    ]
 
 
 @lru_cache(maxsize=16)

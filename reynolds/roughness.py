@@ -19,12 +19,14 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.special import ndtr
 
+from reynolds import roughness_kernels
 from reynolds.errors import FilmInputError
 from reynolds.laws import Tangent, require_positive
 from reynolds.mesh import Array
 from reynolds.patir_cheng import phi_f, phi_fp, phi_fs, phi_s, phi_x, require_peklenik
+
+NOTHING = np.zeros(())
 
 
 @dataclass(frozen=True)
@@ -74,7 +76,10 @@ class Surface:
 
 
 class Directional(NamedTuple):
-    """A symmetric tensor in the film plane, each part with its slope: flux_x = x g_x + xy g_y, and so on."""
+    """A symmetric tensor in the film plane, each part with its slope: flux_x = x g_x + xy g_y, and so on.
+
+    Where it is the same in every direction, y is the very x, and xy is zero.
+    """
 
     x: Tangent
     xy: Tangent
@@ -153,10 +158,10 @@ def mean_thickness(composite_roughness: float, h: ArrayLike) -> Tangent:
 
     The mean of what is left between the walls where asperities that would overlap are cut off; any h, even < 0.
     """
-    ratio = np.asarray(h, dtype=float) / composite_roughness
-    share = ndtr(ratio)
-    density = np.exp(-0.5 * ratio**2) / np.sqrt(2.0 * np.pi)
-    return Tangent(composite_roughness * (ratio * share + density), share)
+    gap = np.asarray(h, dtype=float, order="C")
+    mean, share = np.empty(gap.shape), np.empty(gap.shape)
+    roughness_kernels.cut_off(gap.ravel(), composite_roughness, mean.ravel(), share.ravel())
+    return Tangent(mean, share)
 
 
 def _ratio(surface: Surface, h: ArrayLike) -> Array:
@@ -170,13 +175,14 @@ def _directed(
     factor: Callable[[ArrayLike, float], Tangent], surface: Surface, ratio: Array, weights: tuple[float, float]
 ) -> Directional:
     """Weighted sum of both walls' factors along and across the lay, turned to x and y; slopes over h."""
-    along = _weighted(factor, ratio, weights, surface.peklenik)
-    isotropic = surface.peklenik == (1.0, 1.0)
+    along, sigma = _weighted(factor, ratio, weights, surface.peklenik), surface.composite_roughness
+    if surface.peklenik == (1.0, 1.0):
+        same = Tangent(along.value, along.slope / sigma)
+        return Directional(same, Tangent(NOTHING, NOTHING), same)
     inverse = (1.0 / surface.peklenik_moving, 1.0 / surface.peklenik_fixed)
-    across = along if isotropic else _weighted(factor, ratio, weights, inverse)
+    across = _weighted(factor, ratio, weights, inverse)
     cosine, sine = np.cos(surface.lay_direction), np.sin(surface.lay_direction)
     parts = ((cosine**2, sine**2), (cosine * sine, -cosine * sine), (sine**2, cosine**2))
-    sigma = surface.composite_roughness
     x, xy, y = (
         Tangent(a * along.value + b * across.value, (a * along.slope + b * across.slope) / sigma) for a, b in parts
     )

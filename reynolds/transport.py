@@ -54,7 +54,10 @@ class Transport:
         """r h^3/(12 mu) times the pressure flow factors, m3/(Pa s)."""
         if self.factors is None:
             return isotropic(self.smooth)
-        x, xy, y = (self.smooth * part.value for part in self.factors.pressure)
+        factor = self.factors.pressure
+        if factor.x is factor.y:
+            return isotropic(self.smooth * factor.x.value)
+        x, xy, y = (self.smooth * part.value for part in factor)
         return x, y, xy
 
     @cached_property
@@ -63,8 +66,10 @@ class Transport:
         steeper = 3.0 / self.film.thickness
         if self.factors is None:
             return isotropic(self._by_gap(steeper * self.smooth))
-        smooth = self._by_gap(self.smooth)
-        x, xy, y = (smooth * (part.slope + steeper * part.value) for part in self.factors.pressure)
+        smooth, factor = self._by_gap(self.smooth), self.factors.pressure
+        if factor.x is factor.y:
+            return isotropic(smooth * (factor.x.slope + steeper * factor.x.value))
+        x, xy, y = (smooth * (part.slope + steeper * part.value) for part in factor)
         return x, y, xy
 
     @cached_property
