@@ -17,7 +17,8 @@ from system.instants import Rotor
 
 STEPS = 360
 FILMS, RING_FILMS = 36, 180  # kept of a turn; the ring's repeat with the pitch
-_LIMITS = {"steps": (STEPS, 24, 7200), "finer": (1, 1, 8)}
+_MOST = 7200  # steps or films of a turn
+_FINER = (0.25, 8.0)
 _LARGEST_TOLERANCE = 0.1
 
 
@@ -95,18 +96,22 @@ def _refuse_instants(top: Table, film: Table) -> None:
 
 def _options(table: Table, gap: Gap | None, pump: CasePump | None) -> FloatingOptions | None:
     faults = len(table.faults)
-    steps, finer = (_whole(table, key, *limits) for key, limits in _LIMITS.items())
-    films = _whole(table, "films", RING_FILMS if gap is Gap.VALVE_PLATE else FILMS, 1, 7200)
-    tolerance = table.number("tolerance", MARCHED.step)
+    steps = _whole(table, "steps", STEPS, 24, _MOST)
+    films = _whole(table, "films", RING_FILMS if gap is Gap.VALVE_PLATE else FILMS, 1, _MOST)
+    tolerance, finer = table.number("tolerance", MARCHED.step), table.number("finer", 1.0)
     if tolerance is not None and not 0.0 < tolerance <= _LARGEST_TOLERANCE:
         table.fault("tolerance", repr(tolerance), f"above 0, at most {_LARGEST_TOLERANCE:g} of the least film")
+    if finer is not None and not _FINER[0] <= finer <= _FINER[1]:
+        table.fault("finer", repr(finer), f"{_FINER[0]:g} to {_FINER[1]:g} times the usual cells each way")
     physics = read_physics(table)
-    if steps and gap is Gap.VALVE_PLATE and pump and steps % (pistons := pump.rotor.pump.pump.pistons):
+    pistons = pump.rotor.pump.pump.pistons if pump else 1
+    if steps and gap is Gap.VALVE_PLATE and steps % pistons:
         nearest = max(1, round(steps / pistons)) * pistons
         table.fault("steps", str(steps), f"a multiple of the {pistons} pistons", str(nearest))
     if len(table.faults) > faults or not (steps and finer and films and tolerance):
         return None
-    return FloatingOptions(physics, steps, Accuracy(step=tolerance), finer, max(1, steps // films))
+    distinct = steps // pistons if gap is Gap.VALVE_PLATE else steps
+    return FloatingOptions(physics, steps, Accuracy(step=tolerance), finer, min(max(1, steps // films), distinct))
 
 
 def _whole(table: Table, key: str, usual: int, least: int, most: int) -> int | None:
@@ -126,7 +131,8 @@ def _resolved(case: RevolutionCase, pump: CasePump) -> str:
         f"format = {FORMAT}", "", "[film]", f'gap = "{case.gap.value}"', f"pump = {quoted(pump.source)}",
         "revolution = true", f"chamber_pressure = {case.chamber_pressure.text}", *own_rows(pump.stated), "",
         *operating_rows(case.rotor.point), "", "[revolution]", f"steps = {options.steps}",
-        f"tolerance = {options.accuracy.step!r}  # of the least film, a step's error", f"finer = {options.finer}",
+        f"tolerance = {options.accuracy.step!r}  # of the least film, a step's error",
+        f"finer = {options.finer!r}  # times the usual cells each way",
         f"films = {options.steps // options.keep}", *physics_rows(options.physics),
     ]  # fmt: skip
     return "\n".join(rows) + "\n"

@@ -27,6 +27,7 @@ RIGID = Physics().without(Effect.ELASTIC_WALLS, Effect.PRESSURE_VISCOSITY)
 """Rigid walls and oil of constant viscosity: what settles without bodies that give way."""
 MARCHED = Accuracy(step=1e-2)
 PISTON_CELLS, SLIPPER_CELLS, BLOCK_CELLS = (48, 16), (12, 40), (4, 16)
+LEAST_CELLS = 2
 SLIPPER_START = BLOCK_START = 1e-5  # m: a film that every pump starts with
 
 
@@ -34,18 +35,18 @@ SLIPPER_START = BLOCK_START = 1e-5  # m: a film that every pump starts with
 class FloatingOptions:
     """How the gaps float: what physics, in how many steps a turn, how exactly, meshes how many times `finer`.
 
-    Every `keep`th film is kept.
+    A mesh less than one time finer is coarser. Every `keep`th film is kept.
     """
 
     physics: Physics = RIGID
     steps: int = 360
     accuracy: Accuracy = field(default=MARCHED)
-    finer: int = 1
+    finer: float = 1.0
     keep: int = 10
 
     def cells(self, cells: tuple[int, int]) -> tuple[int, int]:
         """Cells of a mesh."""
-        return self.finer * cells[0], self.finer * cells[1]
+        return max(LEAST_CELLS, round(self.finer * cells[0])), max(LEAST_CELLS, round(self.finer * cells[1]))
 
 
 def piston_revolution(
