@@ -97,6 +97,15 @@ class HeldOutError:
 
 
 @dataclass(frozen=True)
+class Region:
+    """The box around the held-out points with an error above a limit: how many, lower and upper ends (d,), SI."""
+
+    count: int
+    lower: Array
+    upper: Array
+
+
+@dataclass(frozen=True)
 class Response:
     """Outputs over a box of inputs: learnt at some points, tried at others.
 
@@ -141,6 +150,11 @@ class Response:
         """What the held-out points say of the interpolant."""
         off = np.abs(self.errors(self.held_out))
         return HeldOutError(np.sqrt(np.mean(off**2, axis=0)), np.max(off, axis=0), np.argmax(off, axis=0))
+
+    def large_error(self, column: int, limit: float) -> Region | None:
+        """Where an output is learnt badly: a kink shows as a region of large error. None where it is nowhere."""
+        above = self.held_out.points[np.abs(self.errors(self.held_out)[:, column]) > limit]
+        return Region(len(above), above.min(axis=0), above.max(axis=0)) if len(above) else None
 
     @property
     def _logarithmic(self) -> np.ndarray:

@@ -13,7 +13,7 @@ import numpy as np
 
 from gaps.response import Axis, Response, Samples, Spacing, held_out_points, learnt_points
 from reynolds.bodies.cache import content_key, kept
-from reynolds.errors import FilmNotConverged
+from reynolds.errors import FilmInputError, FilmNotConverged
 from reynolds.mesh import Array
 from reynolds.oil import dynamic_viscosity, temperature_of
 from system.description import PumpDescription
@@ -33,12 +33,13 @@ from system.side_by_side import side_by_side
 from system.table_means import OUTPUTS, TABLE_FORMAT, mean_ratios
 from system.table_sources import PointSolver, with_held_ports
 from system.table_store import KEY_LENGTH, keep_table, pump_key, tables_folder
+from system.units import Dimension, format_quantity
 
 LEARNT, HELD_OUT = 120, 30
 SPEEDS = (0.2, 1.2)
 """Of the rated speed: the box where nothing else is stated."""
 PRESSURES = (0.05, 1.15)
-"""Of the rated pressure, the lower one above the inlet's."""
+"""Of the rated pressure, the lower one beyond inlet and case."""
 RATIOS = (0.1, 1.0)
 TEMPERATURES = (293.15, 373.15)
 """K: 20 .. 100 degC, as viscosities of the pump's oil."""
@@ -83,12 +84,19 @@ def table_axes(
     """The box of a pump's table, SI, temperatures standing for the viscosities of its oil.
 
     What is None is taken from the rating (SPEEDS, PRESSURES) or as RATIOS and TEMPERATURES. Raises FilmInputError
-    for a range that is none and where the oil's law is void.
+    for a range that is none, where the oil's law is void, and where no pump is: a delivery pressure that is not
+    above inlet and case, a displacement ratio above 1.
     """
     rated = pump.pump
     low, high = speeds or (SPEEDS[0] * rated.rated_speed, SPEEDS[1] * rated.rated_speed)
-    lowest = max(pump.operating.inlet_pressure, 0.0) + PRESSURES[0] * rated.rated_pressure
     cold, hot = temperatures or TEMPERATURES
+    floor = max(pump.operating.inlet_pressure, pump.operating.case_pressure)
+    if pressures and pressures[0] <= floor:
+        found, least = (format_quantity(value, Dimension.PRESSURE, digits=4) for value in (pressures[0], floor))
+        raise FilmInputError("range of delivery pressure", f"from {found}", f"more than inlet and case, {least}")
+    if ratios and ratios[1] > 1.0:
+        raise FilmInputError("range of displacement ratio", f"to {ratios[1]:g}", "at most 1")
+    lowest = max(floor, 0.0) + PRESSURES[0] * rated.rated_pressure
     return (
         Axis(SPEED, low, high, Spacing.LOGARITHMIC),
         Axis(PRESSURE, *(pressures or (lowest, PRESSURES[1] * rated.rated_pressure)), Spacing.LOGARITHMIC),

@@ -16,6 +16,7 @@ from reynolds.mesh import Array
 from system.description import PumpDescription
 from system.faults import Fault, InputFaults
 from system.operating import OperatingPoint
+from system.pump_file import resolved_toml
 from system.response_tables import Failed, Origin, ResponseTable, box_text, point_text
 from system.table_means import OUTPUTS, TABLE_FORMAT
 from system.table_sources import Source, with_held_ports
@@ -29,7 +30,7 @@ def pump_key(pump: PumpDescription) -> str:
         update={"speed": 0.0, "pressure": 0.0, "displacement_ratio": 1.0, "temperature": 0.0}
     )
     bare = with_held_ports(pump).model_copy(update={"name": "", "operating": stated})
-    return content_key("pump of a response table", TABLE_FORMAT, repr(bare))[:KEY_LENGTH]
+    return content_key("pump of a response table", TABLE_FORMAT, resolved_toml(bare))[:KEY_LENGTH]
 
 
 def tables_folder(folder: Path | None = None) -> Path:

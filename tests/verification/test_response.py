@@ -98,6 +98,17 @@ def test_a_kink_is_told_by_its_error(learnt):
     )
 
 
+def test_a_region_of_large_error_is_told(learnt):
+    """The smooth function has none; the kinked one's holds its worst point, and leaves out what is learnt well."""
+    assert learnt.large_error(0, 0.03) is None
+    region = learnt.large_error(1, 0.03)
+    off = np.abs(learnt.errors(learnt.held_out)[:, 1])
+    assert region.count == np.sum(off > 0.03)
+    worst = learnt.held_out.points[learnt.held_out_error.worst[1]]
+    assert np.all((region.lower <= worst) & (worst <= region.upper))
+    assert region.count < len(off)
+
+
 def test_corners_are_worth_their_points():
     """With corners the error over the whole box is less than with as many Sobol points more."""
     from scipy.stats.qmc import Sobol
