@@ -39,6 +39,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except (FilmNotConverged, NotConverged) as reason:
         return _end(f"not converged: {reason}\nNo result was written.", EXIT_NOT_CONVERGED)
     except Interrupted as stop:
+        if stop.again:
+            return _end(f"interrupted: {stop.again}", EXIT_INTERRUPTED)
         kept = f"what was done is kept in {stop.kept}" if stop.kept else "nothing was kept"
         again = " ".join(["swashfilm", *words])
         if stop.kept and (stop.kept / "points").is_dir():

@@ -12,6 +12,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn
 
+from swashfilm.cli_table import TABLE_OPTIONS, add_table_options, run_table_command
 from swashfilm.fidelity import Fidelity
 from swashfilm.physics_switches import SWITCHES, add_switches
 from swashfilm.terminal import show, show_table
@@ -115,6 +116,11 @@ def build_parser() -> argparse.ArgumentParser:
     )
     add_switches(film)
     _output(film)
+    table = _command(
+        commands, "table", "condense a pump's gaps into a response table, for runs of --fidelity table"
+    )
+    add_table_options(table)
+    _output(table)
     report = _command(commands, "report", "make the report of a run folder anew")
     report.add_argument("folder", type=Path, metavar="DIR", help="the run folder")
     check = _command(commands, "check", "validate a pump file or film case without running it")
@@ -145,9 +151,10 @@ def _check_command(parser: argparse.ArgumentParser, words: Sequence[str]) -> Non
 
 def _unknown(command: str | None, word: str) -> Fault:
     """The fault of a word that no option or argument takes."""
-    options = ["-o", "--output", "--help"]
-    options = [*_OVERRIDES, "--fidelity", *options] if command == "run" else [*_FILM_OPTIONS, *options]
-    if command not in ("run", "film"):
+    own = {"run": [*_OVERRIDES, "--fidelity", "--table"], "film": _FILM_OPTIONS, "table": TABLE_OPTIONS}
+    if command in own:
+        options = [*own[command], "-o", "--output", "--help"]
+    else:
         options = ["--help"] if command else ["--help", "--version"]
     kind = "unknown option" if word.startswith("-") else "a word too many"
     name = word.partition("=")[0]
@@ -279,6 +286,8 @@ def _report(options: argparse.Namespace) -> int:
         from swashfilm.series_page import write_study_page as write_page
     elif kind == "pump":
         from swashfilm.pump_page import write_pump_page as write_page
+    elif kind == "response_table":
+        from swashfilm.table_page import write_table_page as write_page
     else:
         expected = "'film', 'film_revolution', 'film_study' or 'pump'"
         raise InputFaults(str(options.folder), [Fault("summary.json", f"kind {kind!r}", expected)])
@@ -333,4 +342,11 @@ def _doctor(options: argparse.Namespace) -> int:
     return 0 if is_well(findings) else 1
 
 
-_COMMANDS = {"run": _run, "film": _film, "report": _report, "check": _check, "doctor": _doctor}
+_COMMANDS = {
+    "run": _run,
+    "film": _film,
+    "table": run_table_command,
+    "report": _report,
+    "check": _check,
+    "doctor": _doctor,
+}

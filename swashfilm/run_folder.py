@@ -21,19 +21,23 @@ RUNS = Path("runs")
 
 
 class Interrupted(KeyboardInterrupt):
-    """Ctrl-C during a run: `kept` is the folder with what was done, None where there is nothing to keep."""
+    """Ctrl-C during a run: `kept` is the folder with what was done, None where there is nothing to keep.
 
-    def __init__(self, kept: Path | None) -> None:
+    `again` says how to go on where what was done is kept elsewhere.
+    """
+
+    def __init__(self, kept: Path | None, again: str = "") -> None:
         super().__init__(kept)
         self.kept = kept
+        self.again = again
 
 
 @contextmanager
 def run_folder(name: str, wanted: Path | None = None) -> Iterator[Path]:
     """A folder to write a run's files into; afterwards they lie in `wanted`, or in `runs/<name>-<n>`, n fresh.
 
-    Left by an error, nothing stays; left by Ctrl-C, the `.partial` folder stays if it holds results, and
-    Interrupted tells where. Raises InputFaults for a `wanted` that holds files or cannot be made.
+    Left by an error or Interrupted, nothing stays; left by Ctrl-C, the `.partial` folder stays if it holds
+    results, and Interrupted tells where. Raises InputFaults for a `wanted` that holds files or cannot be made.
     """
     final, partial = _claim(name, wanted)
     try:
@@ -41,6 +45,9 @@ def run_folder(name: str, wanted: Path | None = None) -> Iterator[Path]:
         if final.is_dir():
             final.rmdir()  # empty: `_claim` refused any other
         partial.rename(final)
+    except Interrupted:
+        shutil.rmtree(partial)
+        raise
     except KeyboardInterrupt:
         if any(path.suffix != ".toml" for path in partial.iterdir()):
             raise Interrupted(partial) from None

@@ -73,3 +73,7 @@ class FilmsSolver:
 def with_held_ports(pump: PumpDescription) -> PumpDescription:
     """The pump without its lines: points of a table are solved at held port pressures."""
     return pump.model_copy(update={"delivery_line": LineSection(), "suction_line": LineSection()})
+
+
+SOLVERS: Mapping[Source, PointSolver] = {Source.FILMS: FilmsSolver()}
+"""How each source solves a point where nothing else is said."""
