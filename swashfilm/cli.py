@@ -6,12 +6,12 @@ argparse, because the help must stand within 0.3 s; a command's own imports wait
 from __future__ import annotations
 
 import argparse
-import json
 import sys
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn
 
+from swashfilm.cli_report import run_report
 from swashfilm.cli_table import TABLE_OPTIONS, add_table_options, run_table_command
 from swashfilm.fidelity import Fidelity
 from swashfilm.physics_switches import SWITCHES, add_switches
@@ -98,7 +98,10 @@ def build_parser() -> argparse.ArgumentParser:
         "--fidelity",
         metavar=f"{{{','.join(_FIDELITIES)}}}",
         default=Fidelity.FILMS.value,
-        help="films of given thickness, or films solved over the revolution (default)",
+        help="films of given thickness, as a response table has learnt them, or solved over the turn (films)",
+    )
+    run.add_argument(
+        "--table", type=Path, metavar="FILE.json", help="response table in place of the kept one of this pump"
     )
     _output(run)
     film = _command(commands, "film", "one film: a free one or a gap of a pump")
@@ -169,6 +172,8 @@ def _pump(options: argparse.Namespace) -> PumpDescription:
     if options.fidelity not in _FIDELITIES:
         nearest = nearest_choice(options.fidelity, _FIDELITIES)
         faults.append(Fault("--fidelity", repr(options.fidelity), f"one of {', '.join(_FIDELITIES)}", nearest))
+    elif options.table and options.fidelity != Fidelity.TABLE.value:
+        faults.append(Fault("--table", f"beside --fidelity {options.fidelity}", "no table, or --fidelity table"))
     _expect(options.pump, "pump", "film")
     try:
         pump = load_pump(options.pump, stated)
@@ -214,10 +219,16 @@ def _run(options: argparse.Namespace) -> int:
 
     given = _given_text(options.pump, stated)
     with run_folder(pump.name, options.output) as folder, progress(1, f"run {pump.name}") as report:
-        summary = run_pump(pump, given, Fidelity(options.fidelity), folder, report)
+        summary = run_pump(pump, given, Fidelity(options.fidelity), folder, report, options.table)
     show_table(f"Pump {pump.name}", headline_rows(summary))
     show_table("Efficiencies: paper's Eqs. (3)-(5), ISO 4391/4409", efficiency_rows(summary))
     show_table("Friction pairs: Coulomb, viscous, total, share", pair_rows(summary))
+    if "table" in summary:
+        from swashfilm.table_told import TOLD_HEAD, told_rows
+
+        show_table(
+            f"Gaps by a table of the {summary['table']['source']} fidelity", [TOLD_HEAD, *told_rows(summary)]
+        )
     for warning in summary["warnings"]:
         show(f"warning: {warning}")
     show(f"results in {final_folder(folder)}")
@@ -268,38 +279,6 @@ def _film(options: argparse.Namespace) -> int:
     return run_film(options)
 
 
-def _report(options: argparse.Namespace) -> int:
-    summary = options.folder / "summary.json"
-    try:
-        kind = json.loads(summary.read_text("utf-8"))["kind"]
-    except FileNotFoundError:
-        fault = Fault("DIR", f"no {summary}", "the folder of a finished run")
-        raise InputFaults(COMMAND_LINE, [fault]) from None
-    except (OSError, ValueError, KeyError, TypeError) as reason:
-        fault = Fault("summary.json", f"cannot be read: {reason!r}", "the summary that a run wrote")
-        raise InputFaults(str(options.folder), [fault]) from None
-    if kind == "film":
-        from swashfilm.film_page import write_film_page as write_page
-    elif kind == "film_revolution":
-        from swashfilm.revolution_page import write_revolution_page as write_page
-    elif kind == "film_study":
-        from swashfilm.series_page import write_study_page as write_page
-    elif kind == "pump":
-        from swashfilm.pump_page import write_pump_page as write_page
-    elif kind == "response_table":
-        from swashfilm.table_page import write_table_page as write_page
-    else:
-        expected = "'film', 'film_revolution', 'film_study' or 'pump'"
-        raise InputFaults(str(options.folder), [Fault("summary.json", f"kind {kind!r}", expected)])
-    try:
-        page = write_page(options.folder)
-    except (KeyError, OSError) as reason:
-        expected = "the files of a finished run of this version, in a folder that can be written"
-        raise InputFaults(str(options.folder), [Fault("DIR", repr(reason), expected)]) from None
-    show(f"report in {page}")
-    return 0
-
-
 def _check(options: argparse.Namespace) -> int:
     from swashfilm.case_table import read_toml
     from system.pump_file import builtin_pumps, check_pump, load_pump, resolved_toml
@@ -346,7 +325,7 @@ _COMMANDS = {
     "run": _run,
     "film": _film,
     "table": run_table_command,
-    "report": _report,
+    "report": run_report,
     "check": _check,
     "doctor": _doctor,
 }

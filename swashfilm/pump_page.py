@@ -14,6 +14,7 @@ from swashfilm import pump_plots
 from swashfilm.pump_data import GAPS
 from swashfilm.pump_plots import LPM, TITLES
 from swashfilm.pump_summary import ABBREVIATION
+from swashfilm.table_told import TOLD_HEAD, told_rows
 from system.faults import Fault, InputFaults
 from system.pairs import Pair
 
@@ -44,6 +45,8 @@ def write_pump_page(folder: Path) -> Path:
         pairs=pair_rows(summary),
         power=power_rows(summary),
         gaps=gap_rows(summary),
+        told=list(told_rows(summary)) if "table" in summary else [],
+        told_head=TOLD_HEAD,
         ripple=ripple_rows(summary),
         checks=check_rows(summary),
         pictures=_pictures(data, summary),

@@ -13,6 +13,7 @@ from swashfilm.pump_fields import FIELDS, vtu_name, write_fields
 from swashfilm.pump_summary import pump_summary
 from swashfilm.pump_warnings import films_warnings
 from swashfilm.run_folder import write_json
+from swashfilm.table_told import told_point, told_summary, told_warnings
 from system.assembly import PumpPoint
 from system.description import PumpDescription
 from system.films import FilmsPoint, films_point
@@ -22,22 +23,25 @@ from system.pump_file import check_pump, resolved_toml
 
 
 def run_pump(
-    pump: PumpDescription, given: str, fidelity: Fidelity, folder: Path, report: Report
+    pump: PumpDescription, given: str, fidelity: Fidelity, folder: Path, report: Report, table: Path | None = None
 ) -> dict[str, Any]:
     """Run a pump at its operating point and fill a run folder; return the summary.
 
     Writes input.toml (`given`, as it came) and resolved.toml first, then summary.json, tables, results.nc, fields
-    for ParaView, 3D pictures where this machine can draw them, and report.html. Raises NotConverged and
-    FilmNotConverged rather than give a number that is none.
+    for ParaView, 3D pictures where this machine can draw them, and report.html. `table`: the file of a response
+    table in place of the kept one. Raises NotConverged and FilmNotConverged rather than give a number that is
+    none.
     """
     (folder / "input.toml").write_text(given, encoding="utf-8")
     (folder / "resolved.toml").write_text(resolved_toml(pump), encoding="utf-8")
     point = operating_point(pump)
     films = films_point(pump, point, report=report) if fidelity is Fidelity.FILMS else None
-    result = films.pump_point if films else lumped_point(pump, point)
+    told = told_point(pump, point, table) if fidelity is Fidelity.TABLE else None
+    result = films.pump_point if films else told.pump_point if told else lumped_point(pump, point)
     warnings = [str(warning) for warning in check_pump(pump).warnings]
     warnings += [str(remark) for remark in result.warnings]
     warnings += films_warnings(films) if films else []
+    warnings += told_warnings(told) if told else []
     data = point_dataset(result, pump.name)
     if films:
         data = data.merge(films_dataset(films))
@@ -46,6 +50,8 @@ def run_pump(
     data.to_netcdf(folder / "results.nc", engine="h5netcdf")
     write_tables(folder, data)
     summary = pump_summary(pump, result, films, warnings)
+    if told:
+        summary |= told_summary(told)
     write_pair_table(folder / "pairs.csv", result, summary)
     write_json(folder / "summary.json", summary)
     from swashfilm.pump_page import write_pump_page

@@ -30,7 +30,9 @@ def write_table_page(folder: Path) -> Path:
         summary=summary,
         held=list(held_rows(summary)),
         errors=list(error_rows(summary)),
-        meanings=[(row["name"], row["meaning"]) for row in summary["outputs"]],
+        meanings=[
+            (row["name"].replace(".", ", ").replace("_", " "), row["meaning"]) for row in summary["outputs"]
+        ],
         failed=[(_place(summary, one["at"]), one["reason"]) for one in summary["failed"]],
         pictures={text: base64.b64encode(png).decode("ascii") for text, png in pictures.items()},
         resolved=(folder / "resolved.toml").read_text("utf-8"),
@@ -64,7 +66,7 @@ def error_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:
             f"{100.0 * row[key]:.2f} %" if relative else f"{row[key]:.4f}"
             for key in ("held_out_rms", "held_out_largest")
         )
-        yield row["name"].replace("_", " "), *errors, _place(summary, row["held_out_worst_at"])
+        yield row["name"].replace(".", ", ").replace("_", " "), *errors, _place(summary, row["held_out_worst_at"])
 
 
 def _place(summary: Mapping[str, Any], at: list[float]) -> str:

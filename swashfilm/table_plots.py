@@ -1,4 +1,4 @@
-"""Pictures of a response table: its error by output, held-out points against it, and its course over each input."""
+"""Pictures of a response table: its error by output, held-out points, and its course over each input."""
 
 from __future__ import annotations
 
@@ -37,16 +37,20 @@ def table_plots(response: Response) -> dict[str, bytes]:
     }
 
 
+def _words(name: str) -> str:
+    return name.replace(".", ", ").replace("_", " ")
+
+
 def _errors(response: Response) -> bytes:
     figure = _figure(9.0, 4.8)
     axes = figure.subplots()
-    names = [output.name.replace("_", " ") for output in response.outputs]
+    names = [_words(output.name) for output in response.outputs]
     error, rows = response.held_out_error, np.arange(len(names))
     axes.barh(rows - 0.2, np.maximum(error.largest, 1e-6), 0.38, color="#c8a27c", label="largest")
     axes.barh(rows + 0.2, np.maximum(error.rms, 1e-6), 0.38, color="#3c7a8c", label="rms")
     axes.axvline(LARGE_ERROR, color="#b55a00", linestyle="--")
     axes.set_yticks(rows, [f"{n} ({o.measure.value})" for n, o in zip(names, response.outputs, strict=True)])
-    axes.set(xscale="log", xlabel="error", xlim=(1e-5, None))
+    axes.set(xscale="log", xlabel="error", xlim=(1e-5, max(0.1, 1.3 * float(error.largest.max()))))
     axes.tick_params(axis="y", labelsize=8)
     axes.invert_yaxis()
     axes.legend(loc="lower right")
@@ -61,10 +65,12 @@ def _parity(response: Response) -> bytes:
     for axes, name in zip(figure.subplots(1, len(OF_EVERY_GAP)), OF_EVERY_GAP, strict=True):
         for gap in GAP_PAIRS:
             k = columns[f"{gap}.{name}"]
-            axes.plot(solved[:, k], told[:, k], "o", markersize=3.5, alpha=0.8, color=COLOURS[gap], label=gap)
+            axes.plot(
+                solved[:, k], told[:, k], "o", markersize=3.5, alpha=0.8, color=COLOURS[gap], label=_words(gap)
+            )
         ends = [*axes.get_xlim(), *axes.get_ylim()]
         axes.axline((min(ends), min(ends)), slope=1.0, color="#1c2328", linewidth=0.8)
-        axes.set_title(name.replace("_", " "), fontsize=9)
+        axes.set_title(_words(name), fontsize=9)
         axes.set_xlabel("solved", fontsize=8)
         axes.tick_params(labelsize=7)
     figure.axes[0].set_ylabel("by the table", fontsize=8)
@@ -86,18 +92,28 @@ def _courses(response: Response) -> bytes:
             axes = grid[i, j]
             for gap in GAP_PAIRS:
                 k = columns[f"{gap}.{name}"]
-                axes.plot(scale * along[:, j], told[:, k], color=COLOURS[gap], label=gap)
+                axes.plot(scale * along[:, j], told[:, k], color=COLOURS[gap], label=_words(gap))
                 dots = response.held_out
                 axes.plot(scale * dots.points[:, j], dots.values[:, k], ".", color=COLOURS[gap], alpha=0.35)
             if axis.spacing is Spacing.LOGARITHMIC:
-                axes.set_xscale("log")
+                _logarithmic(axes)
             axes.grid(visible=True, alpha=0.3)
             axes.tick_params(labelsize=7, which="both")
         grid[-1, j].set_xlabel(label, fontsize=8)
     for i, name in enumerate(OF_EVERY_GAP):
-        grid[i, 0].set_ylabel(name.replace("_", " "), fontsize=9)
+        grid[i, 0].set_ylabel(_words(name), fontsize=9)
     grid[0, 0].legend(fontsize=7)
     return _png(figure)
+
+
+def _logarithmic(axes: Any) -> None:
+    """Logarithms along x, plain numbers at 1, 2, 5, 10, .."""
+    from matplotlib.ticker import LogLocator, NullFormatter, ScalarFormatter
+
+    axes.set_xscale("log")
+    axes.xaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+    axes.xaxis.set_major_formatter(ScalarFormatter())
+    axes.xaxis.set_minor_formatter(NullFormatter())
 
 
 def _figure(width: float, height: float) -> Figure:

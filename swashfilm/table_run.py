@@ -70,8 +70,8 @@ def _large_errors(table: ResponseTable) -> Iterator[str]:
         yield (
             f"large_error: {output.name}: held-out points err by {error.largest[column]:.3g} at most, "
             f"{error.rms[column]:.3g} rms ({output.measure.value}, limit {LARGE_ERROR:g}); above the limit "
-            f"{region.count} of {len(response.held_out.points)}, {region_text(response, region)}; solve the points "
-            "that matter by the source itself, give a smaller box, or more points"
+            f"{region.count} of {len(response.held_out.points)}, {region_text(response, region)}; solve what "
+            "matters by the source itself, give a smaller box, or more points"
         )
 
 

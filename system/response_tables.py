@@ -12,7 +12,7 @@ from functools import cached_property
 
 import numpy as np
 
-from gaps.response import Axis, Response
+from gaps.response import Axis, Response, unit_places
 from reynolds.errors import FilmInputError
 from system.operating import OperatingPoint
 from system.table_sources import Source
@@ -73,6 +73,19 @@ class ResponseTable:
     def holds(self, point: OperatingPoint) -> bool:
         """Whether a point lies in the box."""
         return all(axis.lower <= getattr(point, axis.name) <= axis.upper for axis in self.response.axes)
+
+    def beside_failed(self, point: OperatingPoint) -> Failed | None:
+        """The point without a result that is nearer than any learnt one, if any: there the table guesses."""
+        axes = self.response.axes
+        here = unit_places(axes, np.array([[getattr(point, axis.name) for axis in axes]]))
+        distance = [
+            np.linalg.norm(unit_places(axes, points) - here, axis=1)
+            for points in (np.array([one.at for one in self.origin.failed]), self.response.learnt.points)
+            if len(points)
+        ]
+        if not self.origin.failed or distance[0].min() >= distance[1].min():
+            return None
+        return self.origin.failed[int(distance[0].argmin())]
 
     @cached_property
     def doubtful(self) -> tuple[str, ...]:

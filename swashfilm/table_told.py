@@ -1,0 +1,79 @@
+"""A pump's point by a response table: which table, what it says of the gaps, and how far to trust it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any
+
+from swashfilm.fidelity import Fidelity
+from system.description import PumpDescription
+from system.operating import OperatingPoint
+from system.response_tables import LARGE_ERROR, axis_value
+from system.table_means import GAP_PAIRS, OUTPUTS
+from system.table_point import TablePoint, table_point
+from system.table_store import find_table, own_table
+
+TOLD_HEAD = ("", "mean film", "least film", "share of contact", "largest error of held-out points")
+
+
+def told_point(pump: PumpDescription, point: OperatingPoint, path: Path | None) -> TablePoint:
+    """The point by the table in a file, or by the kept one that fits; raises InputFaults where there is none."""
+    return table_point(pump, point, own_table(path, pump) if path else find_table(pump, point))
+
+
+def told_summary(told: TablePoint) -> dict[str, Any]:
+    """Fidelity, the table's origin with the error of each output, and the films that it tells."""
+    origin, response = told.table.origin, told.table.response
+    error = response.held_out_error
+    return {
+        "fidelity": Fidelity.TABLE.value,
+        "table": {
+            "source": origin.source.value,
+            "stated": dict(origin.stated),
+            "points": {"learnt": len(response.learnt.points), "held_out": len(response.held_out.points)},
+            "held_out_rms_error": {one.name: float(error.rms[k]) for k, one in enumerate(OUTPUTS)},
+            "held_out_largest_error": {one.name: float(error.largest[k]) for k, one in enumerate(OUTPUTS)},
+            "film_thickness_mean_m": asdict(told.film_mean),
+            "film_thickness_min_m": asdict(told.film_least),
+            "contact_share": asdict(told.contact_share),
+        },
+    }
+
+
+def told_warnings(told: TablePoint) -> Iterator[str]:
+    """Outputs that held-out points found more than LARGE_ERROR off around here, and failed points next to it."""
+    response, point = told.table.response, told.pump_point.point
+    here = [getattr(point, axis.name) for axis in response.axes]
+    near = []
+    for column, output in enumerate(response.outputs):
+        region = response.large_error(column, LARGE_ERROR)
+        if region is not None and all(
+            low <= x <= high for low, x, high in zip(region.lower, here, region.upper, strict=True)
+        ):
+            near.append(f"{output.name} by up to {response.held_out_error.largest[column]:.3g}")
+    if near:
+        yield (
+            f"table_error: held-out points around this one err beyond {LARGE_ERROR:g}: {', '.join(near)}; solve "
+            f"the point by the {told.table.origin.source.value} fidelity to be sure"
+        )
+    failed = told.table.beside_failed(point)
+    if failed:
+        at = zip(response.axes, failed.at, strict=True)
+        place = ", ".join(f"{axis.name.replace('_', ' ')} {axis_value(axis.name, value)}" for axis, value in at)
+        yield f"table_guesses: the nearest point of the table has no result ({place}: {failed.reason})"
+
+
+def told_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:
+    """(gap, mean film, least film, share of contact in its friction) and the largest errors of each."""
+    table = summary["table"]
+    for gap in GAP_PAIRS:
+        errors = table["held_out_largest_error"]
+        yield (
+            gap.replace("_", " "),
+            f"{table['film_thickness_mean_m'][gap] * 1e6:.2f} um",
+            f"{table['film_thickness_min_m'][gap] * 1e6:.2f} um",
+            f"{table['contact_share'][gap]:.1%}",
+            f"leakage {errors[f'{gap}.leakage']:.1%}, friction {errors[f'{gap}.friction']:.1%}",
+        )
