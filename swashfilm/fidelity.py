@@ -4,10 +4,10 @@ from enum import Enum
 
 
 class Fidelity(Enum):
-    """Films of given thickness (lumped), as a response table has learnt them (table), or solved over the
-    revolution (films).
+    """Films of given thickness (lumped), solved over the revolution (films), or as a table of solved points has
+    learnt them (table).
     """
 
     LUMPED = "lumped"
-    TABLE = "table"
     FILMS = "films"
+    TABLE = "table"
