@@ -140,9 +140,11 @@ def free_spins(
     friction: float,
     piston_drag: float,
     slipper_drag: float,
+    stated: tuple[float | None, float | None] = (None, None),
 ) -> Spins:
     """The spins at which the joint's friction and both films' drag balance about bore and plate normal.
 
+    `stated`: spins (rad/s) of piston and slipper that something else sets; None: free.
     friction: mu |B| r of the joint, N m; drags: N m s, above zero. They are the least of
     friction |W| + (piston_drag s_p^2 + slipper_drag s^2)/2, a convex function of both, found by Newton's method.
     A joint that rubs harder than the films drags the piston back against the block until neither turns in space
@@ -151,14 +153,16 @@ def free_spins(
     Raises FilmInputError for a drag that is not positive, FilmNotConverged where Newton's method does not settle.
     """
     require_positive("free spins", shaft_speed=shaft_speed, piston_drag=piston_drag, slipper_drag=slipper_drag)
-    turns = np.column_stack([-bore_axis, plate_normal])
-    still = relative_spin(bore_axis, plate_normal, shaft_speed, 0.0, 0.0)
-    drag = np.diag([piston_drag, slipper_drag])
+    free = np.array([spin is None for spin in stated])
+    found = np.array([spin or 0.0 for spin in stated])
+    turns = np.column_stack([-bore_axis, plate_normal])[:, free]
+    still = relative_spin(bore_axis, plate_normal, shaft_speed, found[0], found[1])
+    drag = np.diag(np.array([piston_drag, slipper_drag])[free])
 
     def spent(spins: Array) -> float:
         return float(friction * _width(still + turns @ spins, shaft_speed) + 0.5 * spins @ drag @ spins)
 
-    spins = np.zeros(2)
+    spins = np.zeros(int(free.sum()))
     for _ in range(MOST_STEPS):
         relative = still + turns @ spins
         width = _width(relative, shaft_speed)
@@ -166,8 +170,9 @@ def free_spins(
         slope = friction * pull + drag @ spins
         bend = friction / width * (turns.T @ turns - np.outer(pull, pull)) + drag
         step = np.linalg.solve(bend, -slope)
-        if np.max(np.abs(step)) < SETTLED * shaft_speed:
-            return Spins(float(spins[0]), float(spins[1]))
+        if np.max(np.abs(step), initial=0.0) < SETTLED * shaft_speed:
+            found[free] = spins
+            return Spins(float(found[0]), float(found[1]))
         while spent(spins + step) > spent(spins) + 1e-4 * float(slope @ step) + 1e-15 * spent(spins):
             step = 0.5 * step
         spins = spins + step

@@ -84,7 +84,7 @@ class PistonSection(Section):
     overhang: Annotated[float, Dimension.LENGTH, NotNegative]  # ball centre to bore edge
     eccentricity_ratio: Annotated[float, Field(ge=0.0, lt=1.0)]  # given; used where no balance is
     mass: Mass
-    spin_ratio: float  # spin relative to the block / shaft speed
+    spin_ratio: float | None = None  # spin relative to the block / shaft speed
     guide_length: Length | None = None  # of the land in the bore, from the case edge inwards
     centre_of_mass: Length | None = None  # from the ball centre into the bore
     profile: Profile | None = None  # from the chamber's end
@@ -104,7 +104,7 @@ class SlipperSection(Section):
     mass: Mass
     centre_of_mass_to_ball: Annotated[float, Dimension.LENGTH, NotNegative]
     ball_joint_radius: Length
-    spin_ratio: float  # spin about its own axis / shaft speed
+    spin_ratio: float | None = None  # spin about its own axis / shaft speed
     tilt_radial: Angle
     tilt_tangential: Angle
     ball_height: Length | None = None  # of the ball centre above the sliding face

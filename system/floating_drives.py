@@ -91,7 +91,7 @@ def group_instant(
         axis, normal, DrivenBody(pump.piston.mass, piston_rate, push),
         DrivenBody(pump.slipper.mass, slipper_rate, friction @ plate[:2]),
     )  # fmt: skip
-    spin = relative_spin(axis, normal, speed, pump.piston.spin_ratio * speed, pump.slipper.spin_ratio * speed)
+    spin = relative_spin(axis, normal, speed, rotor.spins.piston, rotor.spins.slipper)
     moment = ball_friction(
         pump.friction.piston_slipper_socket, float(np.linalg.norm(forces.ball)), pump.slipper.ball_joint_radius,
         spin, speed,
@@ -169,7 +169,7 @@ def _piston_drive(
         viscosity=point.viscosity,
         case_pressure=point.case_pressure,
         cavitation_pressure=CAVITY_PRESSURE,
-        piston_spin=(1.0 + pump.piston.spin_ratio) * point.shaft_speed,
+        piston_spin=point.shaft_speed + rotor.spins.piston,
         bore_spin=point.shaft_speed,
         chamber_pressure=chamber,
         reach=lambda angle: np.asarray(pump.piston.engaged_length - travel(rotor, angle)),
@@ -190,7 +190,7 @@ def _slipper_drive(
         density=rotor.pump.oil.density,
         case_pressure=point.case_pressure,
         cavitation_pressure=CAVITY_PRESSURE,
-        spin=rotor.pump.slipper.spin_ratio * point.shaft_speed,
+        spin=rotor.spins.slipper,
         chamber_pressure=chamber,
         sliding=lambda angle: slipper_sliding_velocity(rotor.drive, angle, point.shaft_speed),
         outer=Course(angles, outer),

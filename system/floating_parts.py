@@ -149,6 +149,7 @@ def floating_parts(pump: PumpDescription) -> FloatingParts:
     materials = {name: _material(pump, name, taken) for name in _USUAL}
     oil = _fluid(pump, taken)
     _tell_lines(pump, taken)
+    _tell_spins(pump, taken)
     return FloatingParts(
         piston=_piston(pump, _laws(pump, "piston_cylinder", oil, materials, taken), taken),
         slipper=_slipper(pump, _laws(pump, "slipper_swash_plate", oil, materials, taken), taken),
@@ -305,6 +306,13 @@ def _material(pump: PumpDescription, name: str, taken: _Taken) -> Material:
             shown = format_quantity(getattr(usual, key), _THERMAL[key], digits=4)
             taken.note(f"materials.{name}.{key}", shown, f"of {called}")
     return replace(usual, **given)
+
+
+def _tell_spins(pump: PumpDescription, taken: _Taken) -> None:
+    for name in ("piston", "slipper"):
+        if getattr(pump, name).spin_ratio is None:
+            reason = "the ball joint's friction over the turn balances the films' drag, system.spins"
+            taken.note(f"{name}.spin_ratio", "free to turn", reason)
 
 
 def _tell_lines(pump: PumpDescription, taken: _Taken) -> None:

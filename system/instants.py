@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
+from gaps.ball_joint import Spins
 from gaps.piston import PistonGeometry, PistonLoad, PistonState, eccentric
 from gaps.slipper import SlipperGeometry, SlipperLoad, SlipperPosition, SlipperState
 from gaps.valve_plate import ValvePlateGeometry, ValvePlatePosition, ValvePlateState
@@ -26,6 +28,7 @@ from system.kinematics import (
 )
 from system.lumped import block_spring, full_drive, piston_area
 from system.operating import OperatingPoint
+from system.spins import spins
 
 
 @dataclass(frozen=True)
@@ -36,6 +39,11 @@ class Rotor:
     point: OperatingPoint
     full: SwashDrive
     drive: SwashDrive
+
+    @cached_property
+    def spins(self) -> Spins:
+        """Spins of piston and slipper (`system.spins`)."""
+        return spins(self.pump, self.point, self.drive)
 
 
 def rotor(pump: PumpDescription, point: OperatingPoint) -> Rotor:
@@ -81,7 +89,7 @@ def piston_instant(
         cavitation_pressure=CAVITY_PRESSURE,
         viscosity=point.viscosity,
         velocity=float(piston_velocity(rotor.drive, shaft_angle, point.shaft_speed)),
-        piston_spin=(1.0 + pump.piston.spin_ratio) * point.shaft_speed,
+        piston_spin=point.shaft_speed + rotor.spins.piston,
         bore_spin=point.shaft_speed,
     )
     x, y = side_force(rotor.drive, shaft_angle, axial_force(rotor, shaft_angle, chamber_pressure))
@@ -116,7 +124,7 @@ def slipper_instant(
         cavitation_pressure=CAVITY_PRESSURE,
         viscosity=point.viscosity,
         sliding_speed=float(np.hypot(*velocity)),
-        spin=pump.slipper.spin_ratio * point.shaft_speed,
+        spin=rotor.spins.slipper,
     )
     spring = block_spring(pump) / (pump.pump.pistons * np.cos(drive.swash_angle))
     press = plate_force(drive, shaft_angle, axial_force(rotor, shaft_angle, chamber_pressure)) + spring

@@ -10,6 +10,7 @@ import pytest
 
 from gaps.ball_joint import (
     DrivenBody,
+    Spins,
     ball_forces,
     ball_friction,
     bore_drag,
@@ -238,6 +239,17 @@ def test_spins_balance_the_torques(friction):
     moment = ball_friction(friction, 1.0, 1.0, spin, SPEED)
     assert moment @ normal == pytest.approx(drags[1] * spins.slipper, abs=1e-8 * friction)
     assert -moment @ axis == pytest.approx(drags[0] * spins.piston, abs=1e-8 * friction)
+
+
+def test_a_stated_spin_leaves_the_other_free():
+    """The free one still has its own torque balance; both stated are both kept."""
+    axis, normal = bore_axis(DRIVE, 1.0), plate_axes(DRIVE)[2]
+    drags = bore_drag(0.0258, 22e-3, 40e-3, 15e-6), land_drag(0.0258, 8.2e-3, 14e-3, 8e-6)
+    spins = free_spins(axis, normal, SPEED, 0.08, *drags, stated=(-20.0, None))
+    assert spins.piston == -20.0
+    moment = ball_friction(0.08, 1.0, 1.0, relative_spin(axis, normal, SPEED, -20.0, spins.slipper), SPEED)
+    assert moment @ normal == pytest.approx(drags[1] * spins.slipper, abs=1e-8)
+    assert free_spins(axis, normal, SPEED, 0.08, *drags, stated=(-20.0, 3.0)) == Spins(-20.0, 3.0)
 
 
 def test_drags():

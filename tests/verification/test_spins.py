@@ -1,0 +1,49 @@
+"""Spins of ref90's pistons and slippers, stated and free."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from system.floating_drives import drives, no_rubbing
+from system.floating_parts import floating_parts
+from system.instants import piston_instant, rotor, slipper_instant
+from system.operating import operating_point
+from system.pump_file import load_pump, resolved_toml
+
+
+@pytest.fixture
+def free(tmp_path):
+    """ref90 without its spin ratios."""
+    rows = [row for row in resolved_toml(load_pump("ref90")).splitlines() if not row.startswith("spin_ratio")]
+    path = tmp_path / "pump.toml"
+    path.write_text("\n".join(rows), "utf-8")
+    return load_pump(path)
+
+
+def test_free_parts_turn_with_what_rubs_more(free):
+    """A joint under pressure drags the piston back against the block; unloaded, both stand with their films."""
+    point = operating_point(free)
+    assert rotor(load_pump("ref90"), point).spins.piston == 0.0
+    pressed = rotor(free, point).spins
+    assert pressed.piston / point.shaft_speed == pytest.approx(-1.0, abs=0.06)
+    assert abs(pressed.slipper) < 0.06 * point.shaft_speed
+    idle = replace(point, delivery_pressure=0.15e6, inlet_pressure=0.15e6)
+    rest = rotor(free, idle).spins
+    assert (rest.piston, rest.slipper) == pytest.approx((0.0, 0.0), abs=1e-9)
+
+
+def test_free_spins_reach_every_gap_and_are_told(free):
+    group, parts = rotor(free, operating_point(free)), floating_parts(free)
+    told = {taken.path for taken in parts.taken}
+    assert {"piston.spin_ratio", "slipper.spin_ratio"} <= told
+    speed, spins = group.point.shaft_speed, group.spins
+    assert piston_instant(group, 1.0, 20e6)[0].piston_spin == speed + spins.piston
+    assert slipper_instant(group, 1.0, 20e6)[0].spin == spins.slipper
+    angles = 2.0 * np.pi * np.arange(18) / 18
+    found = drives(group, parts, angles, np.full(18, 20e6), no_rubbing(18))
+    assert found.piston.piston_spin == speed + spins.piston
+    assert found.slipper.spin == spins.slipper
+    still = drives(rotor(load_pump("ref90"), group.point), parts, angles, np.full(18, 20e6), no_rubbing(18))
+    # A slipper that the piston follows is hardly turned by its joint: free, the moment falls.
+    assert np.linalg.norm(found.group[0].ball_moment) < np.linalg.norm(still.group[0].ball_moment)
