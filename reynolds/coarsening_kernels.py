@@ -21,6 +21,7 @@ def set_up(fine, top, coarse, coarsest):
     `top` is `fine`, or rounded from it.
     """
     levels = coarse.lines.shape[0]
+    fine.corners[0] = top.corners[0] = _has_corners(fine)
     if fine.around:
         _repeat_stencils(fine, plain(0))
     if top.centre.itemsize < fine.centre.itemsize:
@@ -33,6 +34,18 @@ def set_up(fine, top, coarse, coarsest):
         _coarsen(coarse, level, coarse, level + 1)
         good = good and _factorise(coarse, level)
     return good and eliminate_blocks(coarsest, coarse, levels - 1)
+
+
+@njit(**_FAST)
+def _has_corners(a):
+    """Whether anything couples over the corners of cells: of rectangles nothing does. Entries are of order one."""
+    total = all_lanes(a.centre, 0.0)
+    for k in range(0, a.centre.shape[0], WIDTH):
+        one, other = lanes(a.north_east, k), lanes(a.north_west, k)
+        total += one * one + other * other
+    eight = np.empty(WIDTH)
+    put_lanes(eight, 0, total)
+    return eight.sum() != 0.0
 
 
 @njit(**_FAST)

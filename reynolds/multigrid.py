@@ -163,8 +163,8 @@ def _levels(
     pivot, answer, load = vectors
     levels = Levels(
         centre, east, north, north_east, north_west, pivot, answer, load,
-        start=(np.cumsum(sizes) - sizes).reshape(-1, 2), slots=slots, lines=lines, length=grid.unknowns.shape[1],
-        around=grid.around,
+        corners=np.ones(len(lines), dtype=bool), start=(np.cumsum(sizes) - sizes).reshape(-1, 2), slots=slots,
+        lines=lines, length=grid.unknowns.shape[1], around=grid.around,
     )  # fmt: skip
     return levels, stencils.reshape(-1)
 

@@ -34,6 +34,12 @@ def _others(a, x, q, t, slots):
     return lanes(a.north, q) * lanes(x, t + 1) + lanes(a.north, t) * lanes(x, t) + corners + south
 
 
+@njit(inline="always")
+def _straight(a, x, q, t):
+    """The same without corners."""
+    return lanes(a.north, q) * lanes(x, t + 1) + lanes(a.north, t) * lanes(x, t)
+
+
 @njit(**_FAST)
 def _begin(a, level):
     """Solve the even lines for their load alone, from nothing."""
@@ -52,11 +58,18 @@ def _relax(a, level, odd):
         repeat_lines(a.answer, a, level, 1 - odd)
     slots, begin, wide = a.slots[level], a.start[level, odd] + odd, width(a, level, odd)
     over = a.start[level, 1 - odd] - begin
-    for i in range(1, a.length + 1):
-        for q in range(begin + i * slots, begin + i * slots + wide, WIDTH):
-            rest = lanes(a.load, q) - _others(a, a.answer, q, q + over, slots)
-            rest -= lanes(a.east, q - slots) * lanes(a.answer, q - slots)
-            put_lanes(a.answer, q, lanes(a.pivot, q) * rest)
+    if a.corners[level]:
+        for i in range(1, a.length + 1):
+            for q in range(begin + i * slots, begin + i * slots + wide, WIDTH):
+                rest = lanes(a.load, q) - _others(a, a.answer, q, q + over, slots)
+                rest -= lanes(a.east, q - slots) * lanes(a.answer, q - slots)
+                put_lanes(a.answer, q, lanes(a.pivot, q) * rest)
+    else:
+        for i in range(1, a.length + 1):
+            for q in range(begin + i * slots, begin + i * slots + wide, WIDTH):
+                rest = lanes(a.load, q) - _straight(a, a.answer, q, q + over)
+                rest -= lanes(a.east, q - slots) * lanes(a.answer, q - slots)
+                put_lanes(a.answer, q, lanes(a.pivot, q) * rest)
     substitute(a.answer, a.pivot, a.east, begin, slots, wide, a.length)
 
 
@@ -178,21 +191,27 @@ def _improve(a, level, b, below):
 
 @njit(**_FAST)
 def apply(a, x, out):
-    """out = A x on the finest level; repeats of x are filled, out has none."""
+    """out = A x on the finest level; returns x . A x. Repeats of x are filled, out has none."""
     if a.around:
         for odd in range(2):
             repeat_lines(x, a, plain(0), odd)
-    slots = a.slots[0]
+    slots, total, less = a.slots[0], all_lanes(x, 0.0), 0.0
     for odd in range(2):
         begin, wide = a.start[0, odd] + odd, width(a, 0, odd)
         over = a.start[0, 1 - odd] - begin
         for i in range(1, a.length + 1):
             for q in range(begin + i * slots, begin + i * slots + wide, WIDTH):
-                put_lanes(out, q, _own(a, x, q, slots) + _others(a, x, q, q + over, slots))
+                image = _own(a, x, q, slots)
+                image += _others(a, x, q, q + over, slots) if a.corners[0] else _straight(a, x, q, q + over)
+                put_lanes(out, q, image)
+                total += lanes(x, q) * image
         if a.around:
-            for row in range(0, (a.length + 2) * slots, slots):
-                out[row + a.start[0, odd]] *= 1 - odd
-                out[row + begin + coloured(a, 0, odd) : row + a.start[0, odd] + slots] = 0.0
+            for row in range(a.start[0, odd], a.start[0, odd] + (a.length + 2) * slots, slots):
+                out[row] *= 1 - odd
+                for q in range(row + odd + coloured(a, 0, odd), row + slots):
+                    less += x[q] * out[q]
+                    out[q] = 0.0
+    return _sum(total) - less
 
 
 @njit(**_FAST)
@@ -213,12 +232,10 @@ def conjugate_gradients(fine, top, coarse, coarsest, x, direction, goal, most):
         if not now > 0.0:
             break
         _combine(direction, top.answer, unit, now / before if steps else 0.0)
-        apply(fine, direction, fine.answer)  # the cycle's answer is no longer needed
-        curvature = _dot(direction, fine.answer)
+        curvature = apply(fine, direction, fine.answer)  # the cycle's answer is no longer needed
         if not curvature > 0.0:
             break
-        length = now / curvature
-        left = _advance(x, direction, load, fine.answer, length)
+        left = _advance(x, direction, load, fine.answer, now / curvature)
         before = now
         steps += 1
     return steps

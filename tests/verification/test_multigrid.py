@@ -48,9 +48,14 @@ def whole(upper: csc_array) -> csc_array:
 @pytest.mark.parametrize("cell", list(Cell))
 @pytest.mark.parametrize("cells", [(7, 12), (8, 13), (5, 3), (3, 9), (16, 5)])
 @pytest.mark.parametrize(("around_x", "around_y"), [(False, False), (False, True), (True, False)])
-def test_it_agrees_with_a_direct_solve(cell, cells, around_x, around_y):
-    """Any number of rows, open or closed; film rough from cell to cell, a tenth of the nodes in a cavity."""
+@pytest.mark.parametrize("shear", [0.0, 0.3])
+def test_it_agrees_with_a_direct_solve(cell, cells, around_x, around_y, shear):
+    """Any number of rows, open or closed; film rough from cell to cell, a tenth of the nodes in a cavity.
+
+    Sheared cells couple over their corners too.
+    """
     space = film_space(rectangle((1.0, 1.0), cells, cell=cell, periodic_x=around_x, periodic_y=around_y))
+    space = space.moved(space.vertices @ np.array([[1.0, 0.0], [shear, 1.0]]))
     random = np.random.default_rng(7)
     cavity = random.random(space.size) < 0.1
     cavity[0] = True
