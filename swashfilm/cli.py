@@ -98,11 +98,13 @@ def build_parser() -> argparse.ArgumentParser:
         "--fidelity",
         metavar=f"{{{','.join(_FIDELITIES)}}}",
         default=Fidelity.FILMS.value,
-        help="films of given thickness, as a response table has learnt them, or solved over the turn (films)",
+        help="films of given thickness, as a table has learnt them, at given positions (films), or floating",
     )
     run.add_argument(
         "--table", type=Path, metavar="FILE.json", help="response table in place of the kept one of this pump"
     )
+    run.add_argument("--steps", metavar="N", help="floating gaps: angles of a turn that are reported (360)")
+    add_switches(run)
     _output(run)
     film = _command(commands, "film", "one film: a free one or a gap of a pump")
     film.add_argument("case", type=Path, metavar="CASE.toml", help="the film case")
@@ -154,7 +156,8 @@ def _check_command(parser: argparse.ArgumentParser, words: Sequence[str]) -> Non
 
 def _unknown(command: str | None, word: str) -> Fault:
     """The fault of a word that no option or argument takes."""
-    own = {"run": [*_OVERRIDES, "--fidelity", "--table"], "film": _FILM_OPTIONS, "table": TABLE_OPTIONS}
+    run_options = [*_OVERRIDES, "--fidelity", "--table", "--steps", *SWITCHES]
+    own = {"run": run_options, "film": _FILM_OPTIONS, "table": TABLE_OPTIONS}
     if command in own:
         options = [*own[command], "-o", "--output", "--help"]
     else:
@@ -166,6 +169,7 @@ def _unknown(command: str | None, word: str) -> Fault:
 
 def _pump(options: argparse.Namespace) -> PumpDescription:
     """The pump that a command line means; raises InputFaults with what is wrong in file and options together."""
+    from swashfilm.cli_floating import floating_faults
     from system.pump_file import load_pump
 
     stated, faults = _overrides(options)
@@ -179,6 +183,7 @@ def _pump(options: argparse.Namespace) -> PumpDescription:
         pump = load_pump(options.pump, stated)
     except InputFaults as reason:
         raise _at_options(reason, stated, faults) from None
+    faults += floating_faults(options, pump)
     if faults:
         raise InputFaults(COMMAND_LINE, faults)
     return pump
@@ -212,6 +217,7 @@ def _pump_faults(options: argparse.Namespace, words: Sequence[str]) -> list[Faul
 def _run(options: argparse.Namespace) -> int:
     pump = _pump(options)
     stated, _ = _overrides(options)
+    from swashfilm.cli_floating import floating_options
     from swashfilm.progress import progress
     from swashfilm.pump_page import efficiency_rows, headline_rows, pair_rows
     from swashfilm.pump_run import run_pump
@@ -219,7 +225,8 @@ def _run(options: argparse.Namespace) -> int:
 
     given = _given_text(options.pump, stated)
     with run_folder(pump.name, options.output) as folder, progress(1, f"run {pump.name}") as report:
-        summary = run_pump(pump, given, Fidelity(options.fidelity), folder, report, options.table)
+        fidelity, floating = Fidelity(options.fidelity), floating_options(options)
+        summary = run_pump(pump, given, fidelity, folder, report, options.table, floating)
     show_table(f"Pump {pump.name}", headline_rows(summary))
     show_table("Efficiencies: paper's Eqs. (3)-(5), ISO 4391/4409", efficiency_rows(summary))
     show_table("Friction pairs: Coulomb, viscous, total, share", pair_rows(summary))

@@ -4,10 +4,11 @@ from enum import Enum
 
 
 class Fidelity(Enum):
-    """Films of given thickness (lumped), solved over the revolution (films), or as a table of solved points has
-    learnt them (table).
+    """Films of given thickness (lumped), solved at given positions (films), found by balance of forces (floating),
+    or as a table of solved points has learnt them (table).
     """
 
     LUMPED = "lumped"
     FILMS = "films"
+    FLOATING = "floating"
     TABLE = "table"

@@ -11,6 +11,8 @@ from typing import Any
 import numpy as np
 
 from swashfilm import pump_plots
+from swashfilm.fidelity import Fidelity
+from swashfilm.floating_page import floating_view
 from swashfilm.pump_data import GAPS
 from swashfilm.pump_plots import LPM, TITLES
 from swashfilm.pump_summary import ABBREVIATION
@@ -36,6 +38,7 @@ def write_pump_page(folder: Path) -> Path:
     summary = json.loads((folder / "summary.json").read_text("utf-8"))
     with xarray.open_dataset(folder / "results.nc", engine="h5netcdf") as data:
         data.load()
+    floats = Fidelity(summary["fidelity"]) is Fidelity.FLOATING
     template = Environment(loader=PackageLoader("swashfilm"), autoescape=True).get_template("pump.html.jinja")
     page = template.render(
         summary=summary,
@@ -44,7 +47,8 @@ def write_pump_page(folder: Path) -> Path:
         bench=bench_rows(summary),
         pairs=pair_rows(summary),
         power=power_rows(summary),
-        gaps=gap_rows(summary),
+        gaps=[] if floats else gap_rows(summary),
+        floating=floating_view(folder, summary) if floats else None,
         told=list(told_rows(summary)) if "table" in summary else [],
         told_head=TOLD_HEAD,
         ripple=ripple_rows(summary),
@@ -184,7 +188,8 @@ def check_rows(summary: Mapping[str, Any]) -> Rows:
     rows: Rows = [(key.replace("_", " "), f"{value:.3g}") for key, value in summary["checks"].items()]
     for gap, report in summary["gaps"].items():
         for key in ("mass_balance_error_max", "energy_balance_error_max", "unknowns"):
-            rows.append((f"{TITLES[gap]} film, {key.replace('_', ' ')}", f"{report[key]:.3g}"))
+            if key in report:
+                rows.append((f"{TITLES[gap]} film, {key.replace('_', ' ')}", f"{report[key]:.3g}"))
     return rows
 
 

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any, assert_never
 
 from swashfilm.fidelity import Fidelity
+from swashfilm.floating_run import floating_summary, write_floating
 from swashfilm.picture3d import draw
 from swashfilm.progress import Report
 from swashfilm.pump_data import GAPS, PICTURED_TURN, films_dataset, point_dataset, write_tables
@@ -17,13 +18,24 @@ from swashfilm.table_told import told_point, told_summary, told_warnings
 from system.assembly import PumpPoint
 from system.description import PumpDescription
 from system.films import FilmsPoint, films_point
+from system.floating import floating_point
+from system.floating_gaps import FloatingOptions
 from system.lumped import lumped_point
 from system.operating import operating_point
 from system.pump_file import check_pump, resolved_toml
 
+if TYPE_CHECKING:
+    import xarray
+
 
 def run_pump(
-    pump: PumpDescription, given: str, fidelity: Fidelity, folder: Path, report: Report, table: Path | None = None
+    pump: PumpDescription,
+    given: str,
+    fidelity: Fidelity,
+    folder: Path,
+    report: Report,
+    table: Path | None = None,
+    options: FloatingOptions | None = None,
 ) -> dict[str, Any]:
     """Run a pump at its operating point and fill a run folder; return the summary.
 
@@ -34,30 +46,72 @@ def run_pump(
     """
     (folder / "input.toml").write_text(given, encoding="utf-8")
     (folder / "resolved.toml").write_text(resolved_toml(pump), encoding="utf-8")
-    point = operating_point(pump)
-    films = films_point(pump, point, report=report) if fidelity is Fidelity.FILMS else None
-    told = told_point(pump, point, table) if fidelity is Fidelity.TABLE else None
-    result = films.pump_point if films else told.pump_point if told else lumped_point(pump, point)
-    warnings = [str(warning) for warning in check_pump(pump).warnings]
-    warnings += [str(remark) for remark in result.warnings]
-    warnings += films_warnings(films) if films else []
-    warnings += told_warnings(told) if told else []
-    data = point_dataset(result, pump.name)
-    if films:
-        data = data.merge(films_dataset(films))
-        write_fields(folder, films)
-        warnings += draw_gaps(folder, films)
-    data.to_netcdf(folder / "results.nc", engine="h5netcdf")
-    write_tables(folder, data)
-    summary = pump_summary(pump, result, films, warnings)
-    if told:
-        summary |= told_summary(told)
-    write_pair_table(folder / "pairs.csv", result, summary)
+    match fidelity:
+        case Fidelity.LUMPED:
+            summary = _run_lumped(pump, folder)
+        case Fidelity.FILMS:
+            summary = _run_films(pump, folder, report)
+        case Fidelity.FLOATING:
+            summary = _run_floating(pump, folder, report, options)
+        case Fidelity.TABLE:
+            summary = _run_table(pump, folder, table)
+        case _:
+            assert_never(fidelity)
     write_json(folder / "summary.json", summary)
     from swashfilm.pump_page import write_pump_page
 
     write_pump_page(folder)
     return summary
+
+
+def _run_lumped(pump: PumpDescription, folder: Path) -> dict[str, Any]:
+    point = lumped_point(pump, operating_point(pump))
+    summary = pump_summary(pump, point, None, _warnings(pump, point))
+    _write_point(folder, point_dataset(point, pump.name), point, summary)
+    return summary
+
+
+def _run_films(pump: PumpDescription, folder: Path, report: Report) -> dict[str, Any]:
+    films = films_point(pump, operating_point(pump), report=report)
+    point = films.pump_point
+    write_fields(folder, films)
+    warnings = _warnings(pump, point) + films_warnings(films) + draw_gaps(folder, films)
+    summary = pump_summary(pump, point, films, warnings)
+    _write_point(folder, point_dataset(point, pump.name).merge(films_dataset(films)), point, summary)
+    return summary
+
+
+def _run_floating(
+    pump: PumpDescription, folder: Path, report: Report, options: FloatingOptions | None
+) -> dict[str, Any]:
+    found = floating_point(pump, operating_point(pump), options, report=report)
+    point = found.pump_point
+    summary = floating_summary(found, _warnings(pump, point))
+    _write_point(folder, point_dataset(point, pump.name), point, summary)
+    reason = draw(write_floating(folder, found)).reason
+    summary["warnings"] += [reason] if reason else []
+    return summary
+
+
+def _run_table(pump: PumpDescription, folder: Path, table: Path | None) -> dict[str, Any]:
+    told = told_point(pump, operating_point(pump), table)
+    point = told.pump_point
+    warnings = [*_warnings(pump, point), *told_warnings(told)]
+    summary = pump_summary(pump, point, None, warnings) | told_summary(told)
+    _write_point(folder, point_dataset(point, pump.name), point, summary)
+    return summary
+
+
+def _warnings(pump: PumpDescription, point: PumpPoint) -> list[str]:
+    """Warnings of the pump and of its point, whatever the fidelity."""
+    return [*(str(warning) for warning in check_pump(pump).warnings), *(str(remark) for remark in point.warnings)]
+
+
+def _write_point(folder: Path, data: xarray.Dataset, point: PumpPoint, summary: dict[str, Any]) -> None:
+    """Write results.nc and the tables of a point."""
+    data.to_netcdf(folder / "results.nc", engine="h5netcdf")
+    write_tables(folder, data)
+    write_pair_table(folder / "pairs.csv", point, summary)
 
 
 def draw_gaps(folder: Path, films: FilmsPoint) -> list[str]:

@@ -13,6 +13,7 @@ from time import perf_counter
 
 import numpy as np
 
+from gaps.revolution import Accuracy
 from gaps.seen import mass_balance_error
 from system.assembly import PumpPoint, met_point, put_together
 from system.chamber import ChamberCycle
@@ -51,15 +52,21 @@ PRESSURE_TOLERANCE = 1e-4
 """Largest change of the chamber pressure between two rounds, of delivery minus inlet pressure."""
 FRICTION_TOLERANCE = 2e-3
 """Largest change of a film's friction between two rounds, of the largest force on a slipper."""
+FIRST_CLOSED = 0.05
+"""Distance from the periodic motion at which the first round lets its turns be, share of the mean film."""
+CLOSING = 0.5
+"""The same of later rounds, over what the round before changed."""
 ROUND_LIMIT = 12
 
 
 @dataclass(frozen=True)
 class Round:
-    """One round of gaps and chamber: what it changed (as the tolerances count it), films solved, time s."""
+    """One round of gaps and chamber: what it changed (as the tolerances count it), how nearly its turns closed
+    (share of the mean film), films solved, time s."""
 
     pressure_change: float
     friction_change: float
+    closed: float
     films_solved: int
     seconds: float
 
@@ -98,10 +105,11 @@ def floating_point(
     still = no_rubbing(lumped.cycle.shaft_angle.size)
     state = _State(rotor(pump, lumped.point), lumped.cycle, still, None)
     rounds: list[Round] = []
-    while not rounds or not _settled(rounds[-1]):
+    while not rounds or not _settled(rounds[-1], options):
         if len(rounds) == ROUND_LIMIT:
             raise _not_settled(rounds[-1])
-        state, taken = _round(state, parts, point, options, _of_round(report, len(rounds) + 1))
+        closing = replace(options, accuracy=_loosened(options.accuracy, rounds))
+        state, taken = _round(state, parts, point, closing, _of_round(report, len(rounds) + 1))
         rounds.append(taken)
     return _told(pump, point, parts, options, state, tuple(rounds))
 
@@ -138,6 +146,7 @@ def _round(
     taken = Round(
         float(np.max(np.abs(ported.cycle.pressure - cycle.pressure))) / problem.pressure_span,
         float(friction) / max(at.forces.lift for at in driven.group),
+        options.accuracy.closed,
         sum(gap.films_solved for gap in (gaps.piston, gaps.slipper, gaps.block)),
         perf_counter() - began,
     )
@@ -165,8 +174,15 @@ def _of_round(report: Report, number: int) -> Report:
     return lambda done, total, what: report(done, total, f"round {number}, {what}")
 
 
-def _settled(taken: Round) -> bool:
-    return taken.pressure_change <= PRESSURE_TOLERANCE and taken.friction_change <= FRICTION_TOLERANCE
+def _loosened(accuracy: Accuracy, rounds: list[Round]) -> Accuracy:
+    """How exactly a round closes its turns: no better than the chambers and forces that drive them are known."""
+    unknown = max(rounds[-1].pressure_change, rounds[-1].friction_change) if rounds else FIRST_CLOSED
+    return replace(accuracy, closed=max(accuracy.closed, min(FIRST_CLOSED, CLOSING * unknown)))
+
+
+def _settled(taken: Round, options: FloatingOptions) -> bool:
+    agree = taken.pressure_change <= PRESSURE_TOLERANCE and taken.friction_change <= FRICTION_TOLERANCE
+    return agree and taken.closed <= options.accuracy.closed
 
 
 def _not_settled(taken: Round) -> NotConverged:

@@ -93,7 +93,10 @@ def test_the_version_is_that_of_the_package(capsys):
         (["run", "--speed", "9", "--pressure", "9", "--displacement", "x"], ["3 faults"]),
         (["run", "--pressure=-2bar"], ["--pressure", "the oil cavitates", "gauge"]),
         (["run", "--temperature", "300degC"], ["--temperature", "Walther"]),
-        (["run", "--fidelity", "film", "--speed", "9"], ["2 faults", "--fidelity", "one of lumped, films"]),
+        (
+            ["run", "--fidelity", "film", "--speed", "9"],
+            ["2 faults", "--fidelity", "one of lumped, films, floating, table"],
+        ),
         (["run", "ref9"], ["ref9", "ref90"]),
         (["run", "-o", "pad.toml"], ["-o", "pad.toml", "a file", "nothing is overwritten", "pad.toml-2"]),
         (["run", "-o", "."], ["-o", "'.'", "the name of a new or an empty folder"]),

@@ -1,0 +1,53 @@
+"""What the command line says of a run whose gaps float: its steps, and the physics that it leaves out."""
+
+from __future__ import annotations
+
+import argparse
+from dataclasses import replace
+
+from gaps.physics import Effect
+from swashfilm.fidelity import Fidelity
+from swashfilm.physics_switches import SWITCHES
+from system.description import PumpDescription
+from system.faults import Fault
+from system.floating_gaps import FloatingOptions
+
+FEWEST_STEPS, MOST_STEPS = 24, 7200
+_EFFECTS = {
+    "--rigid": Effect.ELASTIC_WALLS,
+    "--isoviscous": Effect.PRESSURE_VISCOSITY,
+    "--smooth": Effect.ROUGHNESS,
+    "--no-cavitation": Effect.CAVITATION,
+}
+
+
+def floating_options(options: argparse.Namespace) -> FloatingOptions:
+    """How the gaps float by a command line without faults: the usual way but for what it states."""
+    usual = FloatingOptions()
+    steps = usual.steps if options.steps is None else int(options.steps)
+    physics = usual.physics.without(*(_EFFECTS[switch] for switch in _switched(options)))
+    return replace(usual, steps=steps, physics=physics, keep=max(1, usual.keep * steps // usual.steps))
+
+
+def floating_faults(options: argparse.Namespace, pump: PumpDescription) -> list[Fault]:
+    """What is wrong with the options that only floating gaps have."""
+    stated = ([] if options.steps is None else ["--steps"]) + _switched(options)
+    if options.fidelity != Fidelity.FLOATING.value:
+        wanted = f"--fidelity {Fidelity.FLOATING.value} beside it"
+        return [Fault(option, f"--fidelity {options.fidelity}", wanted) for option in stated]
+    if options.steps is None:
+        return []
+    pistons = pump.pump.pistons
+    expected = f"a whole multiple of the {pistons} pistons, {FEWEST_STEPS} to {MOST_STEPS}"
+    if not options.steps.isdecimal():
+        return [Fault("--steps", repr(options.steps), expected)]
+    steps = int(options.steps)
+    if steps % pistons or not FEWEST_STEPS <= steps <= MOST_STEPS:
+        within = min(max(steps, FEWEST_STEPS), MOST_STEPS)
+        nearest = min(max(round(within / pistons), -(-FEWEST_STEPS // pistons)), MOST_STEPS // pistons) * pistons
+        return [Fault("--steps", options.steps, expected, str(nearest))]
+    return []
+
+
+def _switched(options: argparse.Namespace) -> list[str]:
+    return [switch for switch in SWITCHES if getattr(options, switch[2:].replace("-", "_"))]

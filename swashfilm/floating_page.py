@@ -1,0 +1,62 @@
+"""The part of a pump's page that shows its floating gaps, made from the run folder's own files."""
+
+from __future__ import annotations
+
+import base64
+import csv
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from swashfilm.pump_data import GAPS
+from swashfilm.pump_plots import LPM, TITLES
+from swashfilm.revolution_plots import revolution_plots
+
+SHOWN = ("film", "path", "contact", "maps")
+CAPTIONS = {
+    "film": "film over the shaft angle, the chamber's pressure (dashed), and what limits the film",
+    "path": "where the part stands; the colour is the shaft angle",
+    "contact": "contact, cavitation and the largest film pressure",
+    "maps": "films at some of the kept angles",
+}
+HEAD = (
+    "gap", "mean film", "least film", "leakage of one", "power of the walls", "of it contact", "contact, largest",
+    "turns, multiplier",
+)  # fmt: skip
+
+
+def floating_view(folder: Path, summary: Mapping[str, Any]) -> dict[str, Any]:
+    """What the template shows of floating gaps: rows with their head, pictures with captions, turns."""
+    import xarray
+
+    pictures = []
+    for gap in GAPS:
+        with xarray.open_dataset(folder / "results.nc", group=gap, engine="h5netcdf") as data:
+            drawn = revolution_plots(data.load())
+        pictures += [
+            (base64.b64encode(drawn[name]).decode("ascii"), f"{TITLES[gap]}: {CAPTIONS[name]}") for name in SHOWN
+        ]
+    turns = {TITLES[gap]: _table(folder / f"{gap}_convergence.csv") for gap in GAPS}
+    return {"head": HEAD, "rows": floating_rows(summary), "pictures": pictures, "turns": turns}
+
+
+def floating_rows(summary: Mapping[str, Any]) -> list[tuple[str, ...]]:
+    """A row a gap: films, leakage, friction, contact, and how its turn closed."""
+    return [
+        (
+            TITLES[gap],
+            f"{of['film_thickness_mean_m'] * 1e6:.2f} um",
+            f"{of['film_thickness_min_m'] * 1e6:.3g} um at {of['film_thickness_min_at_deg']:.0f} deg",
+            f"{of['leakage_flow_m3_per_s'] * LPM:.4f} L/min",
+            f"{of['friction_power_W']:.1f} W",
+            f"{of['rubbing_power_W']:.1f} W",
+            f"{of['contact_load_max_N']:.0f} N",
+            f"{of['turns']}, {of['largest_multiplier']:.2g}",
+        )
+        for gap, of in summary["gaps"].items()
+    ]
+
+
+def _table(path: Path) -> list[list[str]]:
+    with path.open(newline="", encoding="utf-8") as file:
+        return list(csv.reader(file))

@@ -1,0 +1,48 @@
+"""`swashfilm run --fidelity floating`: what the command line may say of gaps that float."""
+
+import pytest
+
+from gaps.physics import Effect
+from swashfilm.__main__ import main
+from swashfilm.cli import build_parser
+from swashfilm.cli_floating import floating_faults, floating_options
+from system.floating_gaps import FloatingOptions
+from system.pump_file import load_pump
+
+FLOATING = ["run", "ref90_floating", "--fidelity", "floating"]
+
+
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        ([*FLOATING, "--steps", "70"], ["--steps", "multiple of the 9 pistons", "72"]),
+        ([*FLOATING, "--steps", "1"], ["--steps", "24 to 7200", "27"]),
+        ([*FLOATING, "--steps", "many"], ["--steps", "'many'", "a whole multiple"]),
+        ([*FLOATING, "--rigd"], ["--rigd", "unknown option", "--rigid"]),
+        (
+            ["run", "ref90", "--smooth", "--steps", "72"],
+            ["2 faults", "--smooth", "--steps", "--fidelity floating"],
+        ),
+    ],
+)
+def test_bad_options_end_with_2_and_say_what_to_do(words, told, capsys, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    assert main(words) == 2
+    text = capsys.readouterr().err
+    for word in told:
+        assert word in text, text
+    assert not list(tmp_path.iterdir())
+
+
+def test_options_of_the_command_line():
+    """Every switch takes its effect away; fewer steps keep as many films."""
+    usual = FloatingOptions()
+    words = [*FLOATING, "--rigid", "--isoviscous", "--smooth", "--no-cavitation", "--steps", "72"]
+    given = build_parser().parse_args(words)
+    assert floating_faults(given, load_pump("ref90_floating")) == []
+    found = floating_options(given)
+    assert {Effect.CAVITATION, Effect.ROUGHNESS, Effect.ELASTIC_WALLS, Effect.PRESSURE_VISCOSITY} <= set(
+        found.physics.left_out
+    )
+    assert (found.steps, found.keep) == (72, usual.keep * 72 // usual.steps)
+    assert floating_options(build_parser().parse_args(FLOATING)) == usual
