@@ -1,0 +1,84 @@
+"""The pump whose gaps float: gaps and chambers agree, and all power is accounted for."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from system.description import PumpDescription
+from system.errors import NotConverged
+from system.floating import FRICTION_TOLERANCE, PRESSURE_TOLERANCE, FloatingPoint, floating_point
+from system.floating_exchange import leak_table, leakage_heat
+from system.floating_gaps import FloatingOptions
+from system.operating import operating_point
+from system.pump_file import load_pump
+
+STEPS = 72
+pytestmark = pytest.mark.slow
+
+
+def pump() -> PumpDescription:
+    return load_pump("ref90_floating", {"operating.pressure": "10 MPa"})
+
+
+@pytest.fixture(scope="module")
+def found() -> FloatingPoint:
+    return floating_point(pump(), operating_point(pump()), FloatingOptions(steps=STEPS, finer=0.35))
+
+
+def test_gaps_and_chambers_agree(found):
+    last = found.rounds[-1]
+    assert last.pressure_change <= PRESSURE_TOLERANCE
+    assert last.friction_change <= FRICTION_TOLERANCE
+    assert last.closed == found.options.accuracy.closed
+    assert len(found.gaps.piston.turn.instants) == STEPS
+    assert len(found.gaps.block.turn.instants) == STEPS // found.rotor.pump.pump.pistons
+    table = leak_table(found.gaps)
+    assert table.carried_flow.shape == (3, STEPS)
+    assert found.pump_point.leaks.carried_flow == pytest.approx(table.carried_flow, rel=1e-12)
+
+
+def test_power_is_accounted_for(found, validation):
+    """Torque from forces, heat from the films' fields: neither knows of the other.
+
+    At 72 angles a turn the trapezoidal rule leaves as much as it is.
+    """
+    checks = found.pump_point.checks
+    for quantity, obtained in (
+        ("torque from forces", checks.energy_balance_error),
+        ("work on the chambers", checks.work_balance_error),
+    ):
+        validation(
+            case="REF90 floating, coarse films, 10 MPa, 2100 r/min: balances",
+            source="conservation; what the project asks for",
+            quantity=f"energy balance error, {quantity}",
+            unit="1",
+            expected=0.0,
+            obtained=obtained,
+            tolerance=3e-3,
+        )
+    assert checks.mass_balance_error < 1e-9
+
+
+def test_oil_is_kept_by_each_gap(found):
+    """What comes in goes out, as far as 72 angles tell; flows of the block are bursts at its ports' edges."""
+    missing = found.mass_balance_error
+    assert missing.piston < 0.03
+    assert missing.slipper < 0.05
+
+
+def test_friction_is_that_of_the_films(found):
+    """No coefficient of [friction] stands beside the films of the three gaps."""
+    point, pistons = found.pump_point, found.rotor.pump.pump.pistons
+    instants = found.gaps.piston.turn.instants
+    rubbed = pistons * np.mean([instant.seen.heat.rubbing for instant in instants])
+    sheared = pistons * np.mean([instant.seen.heat.shear for instant in instants])
+    assert point.pairs.piston_cylinder.mean_coulomb == pytest.approx(rubbed, rel=1e-9)
+    assert point.pairs.piston_cylinder.mean_viscous == pytest.approx(sheared, rel=1e-9)
+    assert point.power.leakage == leakage_heat(found.gaps, pistons)
+
+
+def test_rounds_that_do_not_settle_say_so(monkeypatch):
+    monkeypatch.setattr("system.floating.ROUND_LIMIT", 1)
+    with pytest.raises(NotConverged, match="after 1 rounds"):
+        floating_point(pump(), operating_point(pump()), FloatingOptions(steps=STEPS, finer=0.35))
