@@ -58,7 +58,7 @@ def journal_mesh(n: int) -> FilmMesh:
 
 def journal(space: FilmSpace, cavitation: Cavitation) -> FilmProblem:
     """Clearance, viscosity and surface speed one; pressure zero at the largest film and at the side."""
-    thickness = space.sample(lambda x, y: 1.0 + ECCENTRICITY * np.cos(x))
+    thickness = space.sample_ruled(lambda x, y: 1.0 + ECCENTRICITY * np.cos(x))
     posed = film(thickness, 1.0, velocity_moving=(np.ones((1, 1)), ZERO))
     return FilmProblem(space, posed, {name: Held(0.0) for name in ("left", "right", "top")}, cavitation)
 

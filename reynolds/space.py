@@ -20,6 +20,7 @@ from reynolds import kernels
 from reynolds.errors import FilmInputError
 from reynolds.mesh import Array, FilmMesh
 from reynolds.pattern import Pattern, pattern_of
+from reynolds.ruled import Ruling, ruling_of
 from reynolds.tensors import ElementTensors, element_tensors
 
 # Quadrature exact enough that h^3 of a linear film costs no order of convergence: degree of the film
@@ -190,6 +191,15 @@ class FilmSpace:
             x, y = self.points
             return np.ascontiguousarray(np.broadcast_to(field(x, y), x.shape), dtype=float)
         return np.full((1, 1), float(field))
+
+    @cached_property
+    def ruling(self) -> Ruling | None:
+        """The rows and columns in which the quadrature points lie; None where they do not."""
+        return ruling_of(self.points)
+
+    def sample_ruled(self, field: Callable[[Array, Array], Array | float]) -> Array:
+        """As `sample`, for a formula that numpy may broadcast: see `ruled`."""
+        return self.sample(field) if self.ruling is None else self.ruling.sample(field)
 
     def sample_vertices(self, nodal: Array) -> Array:
         """A continuous field given at the vertices (vertices,) at the quadrature points."""

@@ -64,11 +64,11 @@ class Expression:
         return {name: np.asarray(value) for name, value in self.constants.items()}
 
     def __call__(self, x: Array, y: Array, t: float = 0.0) -> Array:
-        """The formula at these places, float, shape of x; not finite where it has no value (1/0, sqrt(-1))."""
+        """The formula at these places, x and y broadcast; not finite where it has no value (1/0, sqrt(-1))."""
         with np.errstate(all="ignore"):
             place = {"x": x, "y": y, "r": np.hypot(x, y), "phi": np.arctan2(y, x)}
             value = self.evaluate(place | {"t": np.asarray(t)} | self._constants)
-        return np.array(np.broadcast_to(value, np.shape(x)), dtype=float)
+        return np.array(np.broadcast_to(value, np.broadcast_shapes(np.shape(x), np.shape(y))), dtype=float)
 
 
 def parse_expression(

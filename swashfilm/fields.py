@@ -79,7 +79,7 @@ class Formula:
 
     def sample(self, space: FilmSpace, t: float = 0.0) -> Array:
         """At the quadrature points, (cells, points)."""
-        return space.sample(lambda x, y: self.expression(x, y, t))
+        return space.sample_ruled(lambda x, y: self.expression(x, y, t))
 
     def at_vertices(self, space: FilmSpace, t: float = 0.0) -> Array | None:
         """At the vertices, (vertices,)."""

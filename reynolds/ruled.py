@@ -1,0 +1,55 @@
+"""Formulas on meshes whose quadrature points lie in rows and columns: what depends on x alone costs one row."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from reynolds.errors import FilmInputError
+from reynolds.mesh import Array
+
+SAME = 1e-9  # of the film's length: coordinates nearer than this are one
+
+
+@dataclass(frozen=True)
+class Ruling:
+    """Columns x (columns, 1) m and rows y (1, rows) m, and where they cross at each point, (cells, points)."""
+
+    x: Array
+    y: Array
+    place: NDArray[np.intp]
+
+    def sample(self, field: Callable[[Array, Array], Array | float]) -> Array:
+        """A formula at the points, (cells, points): numpy broadcasts the column x and the row y as far as it must.
+
+        Raises FilmInputError for values of another shape than that gives.
+        """
+        values, shape = np.asarray(field(self.x, self.y), dtype=float), (self.x.size, self.y.size)
+        try:
+            whole = np.broadcast_to(values, shape)
+        except ValueError:
+            found = f"values of shape {values.shape}"
+            raise FilmInputError("formula", found, f"{shape}, or one in place of either number") from None
+        return whole.ravel().take(self.place)
+
+
+def ruling_of(points: Array) -> Ruling | None:
+    """The ruling of points (2, cells, points) m that fill all places of some rows and columns, else None."""
+    (x, column), (y, row) = (_distinct(along, SAME * np.ptp(points)) for along in points)
+    places = column * len(y) + row
+    if len(x) * len(y) != places.size or len(np.unique(places)) != places.size:
+        return None
+    return Ruling(x[:, None], y[None, :], places)
+
+
+def _distinct(values: Array, near: float) -> tuple[Array, NDArray[np.intp]]:
+    """Distinct values, and the number of its own for each."""
+    order = np.argsort(values, axis=None)
+    sorted_values = values.ravel()[order]
+    new = np.concatenate([[True], np.diff(sorted_values) > near])
+    number = np.empty(values.size, dtype=np.intp)
+    number[order] = np.cumsum(new) - 1
+    return sorted_values[new], number.reshape(values.shape)
