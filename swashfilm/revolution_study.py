@@ -10,12 +10,13 @@ import numpy as np
 
 from gaps.revolution import GapRevolution
 from gaps.seen import Active, BlockSeen, GapSeen, PistonSeen, SlipperSeen, mass_balance_error
+from reynolds.errors import FilmNotConverged
 from reynolds.mesh import Array
 from swashfilm.gap_case import Gap
 from swashfilm.progress import Report
 from swashfilm.revolution_case import GapCase, RevolutionCase
 from swashfilm.revolution_warnings import revolution_warnings
-from system.floating_drives import drives, no_rubbing, slipper_shape
+from system.floating_drives import Drives, drives, no_rubbing, slipper_shape
 from system.floating_gaps import block_revolution, piston_revolution, slipper_revolution
 from system.floating_parts import FloatingParts, floating_parts
 from system.instants import valve_plate_geometry
@@ -57,17 +58,32 @@ def solve_revolution(case: RevolutionCase, report: Report = silent) -> Revolutio
     rotor, parts = case.rotor, floating_parts(case.rotor.pump)
     angles, pressure = case.chamber_pressure.over_turn(rotor)
     driven = drives(rotor, parts, angles, pressure, no_rubbing(len(angles)))
-    found: GapRevolution[Any]
-    match case.gap:
-        case Gap.PISTON:
-            found = piston_revolution(rotor, parts, driven.piston, case.options, report=report)
-        case Gap.SLIPPER:
-            found = slipper_revolution(rotor, parts, driven.slipper, case.options, report=report)
-        case Gap.VALVE_PLATE:
-            found = block_revolution(rotor, parts, driven.block, case.options, report=report)
+    reached = "before the first angle"
+
+    def told(done: int, steps: int, what: str) -> None:
+        nonlocal reached
+        reached = f"{what}, after angle {done} of {steps}"
+        report(done, steps, what)
+
+    try:
+        found = _revolved(case, parts, driven, told)
+    except FilmNotConverged as reason:
+        raise FilmNotConverged(f"{reached}: {reason.what}", reason.remedy) from None
     chamber = driven.piston.chamber_pressure
     at_angles = np.array([float(chamber(angle)) for angle in found.angles])
     return RevolutionStudy(case, parts, found, at_angles, time.perf_counter() - began, (NO_RUBBING,))
+
+
+def _revolved(case: RevolutionCase, parts: FloatingParts, driven: Drives, report: Report) -> GapRevolution[Any]:
+    """The revolution of the case's gap."""
+    rotor, options = case.rotor, case.options
+    match case.gap:
+        case Gap.PISTON:
+            return piston_revolution(rotor, parts, driven.piston, options, report=report)
+        case Gap.SLIPPER:
+            return slipper_revolution(rotor, parts, driven.slipper, options, report=report)
+        case Gap.VALVE_PLATE:
+            return block_revolution(rotor, parts, driven.block, options, report=report)
 
 
 def tilt(study: RevolutionStudy) -> Array:
