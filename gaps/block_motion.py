@@ -114,11 +114,12 @@ class BlockFilm:
         x, y = space.points
         port = self.ring.over_port(space)
         speed = np.where(port, 0.0, drive.shaft_speed)
+        plate, block = self._relative(space)
         film = Film(
             thickness=self._shape(*space.points),
             viscosity=np.where(port, SEALED * drive.viscosity, drive.viscosity),
-            velocity_moving=(ZERO, ZERO),
-            velocity_fixed=(speed * y, -speed * x),
+            velocity_moving=(-block * speed * y, block * speed * x),
+            velocity_fixed=(plate * speed * y, -plate * speed * x),
             squeeze=ZERO,
             thickness_at_vertices=self._shape(*space.vertices.T),
         )
@@ -127,7 +128,7 @@ class BlockFilm:
         return FilmProblem(
             space=space,
             film=film,
-            boundary={"inner": case, "outer": case} | {name: Held(float(p)) for name, p in kidneys},
+            boundary=dict.fromkeys(self.geometry.case_edges, case) | {name: Held(float(p)) for name, p in kidneys},
             cavitation=self._physics.film_rupture,
             cavitation_pressure=drive.cavitation_pressure,
             held_nodes=self.ring.port_nodes(space, drive.suction_pressure, drive.delivery_pressure),
@@ -200,6 +201,11 @@ class BlockFilm:
         far = asperities.summit_height + APART * asperities.height
         contact = contact_force(asperities, np.where(self.ring.over_port(space), gap, far), modes)
         return contact.force, contact.slopes
+
+    def _relative(self, space: FilmSpace) -> tuple[Array, Array]:
+        """Share of the turning at which plate and block pass the mesh: the plate the ring, the block the pads."""
+        turns = np.where(self.ring.turns_with_block(space), 1.0, 0.0)
+        return turns, 1.0 - turns
 
     def _modes(self, space: FilmSpace) -> Array:
         x, y = space.vertices.T / self.geometry.land_radii[3]

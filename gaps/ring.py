@@ -2,18 +2,20 @@
 
 Kidneys are holes of the mesh, kidney_1 about angle 0 at shaft angle 0; the film plane (pump's x, y, x to the inner
 dead centre) does not turn. Ports are sectors of the valve plate between R2 and R3. Webs between kidneys that lie
-over a port are at its pressure and are no film; a port's edge is taken at the next mesh line inside it.
+over a port are at its pressure and are no film; a port's edge is taken at the next mesh line inside it. Outer
+bearing pads (`gaps.bearing_pads`) are cells of their own, which stand still.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
-from reynolds.mesh import Array, rename, ring
+from gaps.bearing_pads import EDGE, BearingPads, with_pads
+from reynolds.mesh import Array, FilmMesh, rename, ring
 from reynolds.space import FilmSpace, film_space
 
 SEALED = 1e6  # viscosity of a web over a port, in oil's: the film passes nothing there; laws of oil reach that far
@@ -32,6 +34,12 @@ class ValvePlateGeometry:
     kidney_arc: float
     suction_arc: tuple[float, float]
     delivery_arc: tuple[float, float]
+    pads: tuple[BearingPads, ...] = ()
+
+    @property
+    def case_edges(self) -> tuple[str, ...]:
+        """Names of the boundaries at case pressure."""
+        return ("inner", "outer", EDGE) if self.pads else ("inner", "outer")
 
     @property
     def pitch(self) -> float:
@@ -65,14 +73,22 @@ class Ring:
 
     def __init__(self, geometry: ValvePlateGeometry, cells: tuple[int, int]) -> None:
         self.geometry = geometry
-        self.space = _ring_space(geometry, cells)
+        ring_mesh = _ring_mesh(geometry, cells)
+        # Pressure over a pad is a parabola, over a land nearly a line: twice the cells.
+        mesh = with_pads(ring_mesh, geometry.pads, 2 * cells[0]) if geometry.pads else ring_mesh
+        self.space = film_space(mesh)
+        self._vertices, self._cells = ring_mesh.mesh.p.shape[1], ring_mesh.mesh.t.shape[1]
         _, r2, r3, _ = geometry.land_radii
         radius = np.hypot(*self.space.vertices.T)
         self._in_kidney_ring = (radius > r2 * (1.0 - 1e-9)) & (radius < r3 * (1.0 + 1e-9))
 
     def turned(self, shaft_angle: float) -> FilmSpace:
-        """The space with the block at a shaft angle (rad)."""
-        return self.space.moved(_turned(self.space.vertices, shaft_angle))
+        """The space with the block at a shaft angle (rad); pads stay where they are."""
+        return self.space.moved(self._at(shaft_angle))
+
+    def turns_with_block(self, space: FilmSpace) -> NDArray[np.bool_]:
+        """Cells of the ring, which turn, not those of the pads, (cells, 1)."""
+        return (np.arange(len(space.cells)) < self._cells)[:, None]
 
     def nodes_over(self, space: FilmSpace, arc: tuple[float, float]) -> NDArray[np.signedinteger]:
         """Unknowns over a port's arc (rad), those of kidneys and of its edges included."""
@@ -100,7 +116,7 @@ class Ring:
         `holds[ring.after_pitch()]` is what the next pitch starts from when its shaft angle is counted anew.
         """
         space = self.space
-        now = _turned(space.vertices, self.geometry.pitch)
+        now = self._at(self.geometry.pitch)
         partner = cKDTree(now).query(space.vertices)[1]
         found = np.empty(space.size, dtype=np.int64)
         found[space.vertex_dofs] = space.vertex_dofs[partner]
@@ -112,6 +128,12 @@ class Ring:
         edges = np.array([*self.geometry.suction_arc, *self.geometry.delivery_arc])
         met = np.unique(np.round((edges[:, None] - lines) % self.geometry.pitch, 9))
         return met[met < self.geometry.pitch - 1e-8]
+
+    def _at(self, angle: float) -> Array:
+        """Vertices (n, 2) m with the block at a shaft angle (rad)."""
+        vertices = self.space.vertices.copy()
+        vertices[: self._vertices] = _turned(vertices[: self._vertices], angle)
+        return vertices
 
     def _vertices_in(self, vertices: Array, arc: tuple[float, float]) -> NDArray[np.bool_]:
         """Vertices of the kidney ring that lie over a port, its edges included."""
@@ -126,7 +148,7 @@ def _turned(vertices: Array, angle: float) -> Array:
     return np.asarray(vertices @ np.array([[c, s], [-s, c]]))
 
 
-def _ring_space(geometry: ValvePlateGeometry, cells: tuple[int, int]) -> FilmSpace:
+def _ring_mesh(geometry: ValvePlateGeometry, cells: tuple[int, int]) -> FilmMesh:
     """The ring at shaft angle 0 with kidneys left out, kidney_1 about angle 0; lines on the kidneys' edges."""
     r1, r2, r3, r4 = geometry.land_radii
     land, per_pitch = cells
@@ -138,10 +160,11 @@ def _ring_space(geometry: ValvePlateGeometry, cells: tuple[int, int]) -> FilmSpa
     keep[land : 2 * land, np.arange(around) % per_pitch < per_kidney] = False
     mesh = ring(np.concatenate([lines[0], lines[1][1:], lines[2][1:]]), around, keep=keep)
     names = {f"hole_{k}": name for k, name in enumerate(geometry.kidneys)}
-    space = film_space(rename(mesh, names))
+    mesh = rename(mesh, names)
     # Equal sectors become kidney and web of their own widths, the first kidney's middle at angle 0.
-    x, y = space.vertices.T
+    x, y = mesh.mesh.p
     column = np.round(np.arctan2(y, x) / (2.0 * np.pi) * around) % around
     within = np.interp(column % per_pitch, [0, per_kidney, per_pitch], [0.0, geometry.kidney_arc, pitch])
     angle = column // per_pitch * pitch + within - 0.5 * geometry.kidney_arc
-    return space.moved(np.hypot(x, y)[:, None] * np.column_stack([np.cos(angle), np.sin(angle)]))
+    places = np.hypot(x, y) * np.vstack([np.cos(angle), np.sin(angle)])
+    return replace(mesh, mesh=replace(mesh.mesh, doflocs=np.ascontiguousarray(places)))

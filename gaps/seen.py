@@ -119,7 +119,7 @@ def block_seen(film: BlockFilm) -> Callable[[Stage], BlockSeen]:
         chambers, suction, delivery = film.inflows(solution)
         return BlockSeen(
             flow=chambers,
-            leakage=flow["inner"] + flow["outer"],
+            leakage=sum(flow[edge] for edge in film.geometry.case_edges),
             heat=heat(solution, film.asperities, stage.gap, is_film),
             contact_load=contact_load(space.area * is_film, film.asperities, stage.gap),
             active=active(stage, film.asperities),

@@ -83,7 +83,7 @@ class ValvePlateGap:
         x, y = space.points
         port = self._ring.over_port(space)
         speed = np.where(port, 0.0, state.shaft_speed)
-        boundary = {"inner": Held(state.case_pressure), "outer": Held(state.case_pressure)}
+        boundary = dict.fromkeys(self.geometry.case_edges, Held(state.case_pressure))
         boundary |= {
             name: Held(float(p)) for name, p in zip(self.geometry.kidneys, state.chamber_pressure, strict=True)
         }
@@ -117,7 +117,7 @@ class ValvePlateGap:
             source=PositionSource.GIVEN,
             position=np.array([position.film_thickness, position.slope_x, position.slope_y]),
             chamber_flow=float(chambers.sum()),
-            leakage_flow=integrals.flow["inner"] + integrals.flow["outer"],
+            leakage_flow=sum(integrals.flow[edge] for edge in self.geometry.case_edges),
             conductance=0.0,
             friction_power=wall_power(solution, is_film),
             required_load=pressing_force,

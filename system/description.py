@@ -12,6 +12,7 @@ from typing import Annotated
 
 from pydantic import Field
 
+from gaps.bearing_pads import BearingPads
 from gaps.slipper_lands import SlipperLands, lands_between
 from reynolds.oil import Oil
 from system.fields import (
@@ -52,6 +53,7 @@ from system.parts_description import (
     GrooveSection,
     GrooveShape,
     MaterialsSection,
+    PadSection,
     ReliefSection,
     RetainerSection,
     SurfacesSection,
@@ -138,6 +140,17 @@ class ValvePlateSection(Section):
     residual_clamping: Coefficient  # fraction of the pressure force
     waviness: WavinessSection | None = None
     profile: Profile | None = None  # over the radius
+    pads: tuple[PadSection, ...] = ()  # beyond the outer land
+
+    @property
+    def bearing_pads(self) -> tuple[BearingPads, ...]:
+        """The pads as films take them; raises FilmInputError for those that run into each other."""
+        return tuple(BearingPads(pad.inner, pad.outer, pad.arc, pad.number) for pad in self.pads)
+
+    @property
+    def outer_radius(self) -> float:
+        """Outermost radius that bears, m."""
+        return max([self.land_radius_4, *(pad.outer for pad in self.pads)])
 
 
 class PortsSection(Section):

@@ -13,7 +13,7 @@ from system.lumped import block_spring, piston_area
 
 @needs("pump.rated_pressure", "valve_plate.land_radius_1", "valve_plate.land_radius_4")
 def block_tips(pump: PumpDescription) -> Iterator[Finding]:
-    """What a parallel film does not lift of the pistons' force presses within the valve plate's outer land.
+    """What a parallel film does not lift of the pistons' force presses within the valve plate's outermost face.
 
     At rated pressure and full swash angle, spring included (`gaps.block_balance`).
     """
@@ -22,7 +22,7 @@ def block_tips(pump: PumpDescription) -> Iterator[Finding]:
     block = BlockBalance(radii, pump.pump.pistons, piston_area(pump), pump.pump.pitch_radius)
     delivery, suction = pump.pump.rated_pressure - case, pump.operating.inlet_pressure - case
     place = block.pressed_at(delivery, suction, block_spring(pump))
-    if place <= radii[3]:
+    if place <= plate.outer_radius:
         return
     at_rated = (
         f"at {pressure(pump.pump.rated_pressure)} the film's lift is {block.force_ratio:.3f} of the pistons'"
@@ -36,7 +36,7 @@ def block_tips(pump: PumpDescription) -> Iterator[Finding]:
         "valve_plate.land_radius_4",
         f"block tips: {at_rated} force, {length(block.lift_radius)} from the shaft, so that the rest presses at "
         f"{length(place)}",
-        f"{length(radii[3])} (land_radius_4: beyond it no film bears)",
+        f"{length(plate.outer_radius)} (the outermost land or pad: beyond it no film bears)",
         f"lands about the pitch radius, {length(pump.pump.pitch_radius)}, or outer bearing pads",
     )
 

@@ -171,6 +171,22 @@ def valve_plate_lands_are_in_order(pump: PumpDescription) -> Iterator[Finding]:
             )
 
 
+@needs("valve_plate.land_radius_4", "valve_plate.pads")
+def pads_lie_beyond_the_lands(pump: PumpDescription) -> Iterator[Finding]:
+    """Bearing pads lie outside the outer land, run after run, with gaps between the pads of a run."""
+    last = pump.valve_plate.land_radius_4
+    for number, pad in enumerate(pump.valve_plate.pads, start=1):
+        path = f"valve_plate.pads.{number}"
+        if pad.inner <= last:
+            yield Fault(f"{path}.inner", length(pad.inner), f"more than {length(last)}, a gap that case oil fills")
+        if pad.outer <= pad.inner:
+            yield Fault(f"{path}.outer", length(pad.outer), f"more than inner, {length(pad.inner)}")
+        if pad.number * pad.arc >= 2.0 * math.pi * (1.0 - ROUNDING) and pad.number > 1:
+            expected = f"less than {angle(2.0 * math.pi / pad.number)}, or one pad of a whole turn"
+            yield Fault(f"{path}.arc", f"{pad.number} pads of {angle(pad.arc)}", expected)
+        last = max(last, pad.outer)
+
+
 @needs(
     "valve_plate.land_radius_2",
     "valve_plate.land_radius_3",
@@ -289,6 +305,7 @@ GEOMETRY_CHECKS = (
     orifice_opens_into_the_pocket,
     slipper_is_not_lifted_off,
     valve_plate_lands_are_in_order,
+    pads_lie_beyond_the_lands,
     kidneys_lie_between_the_lands,
     kidneys_leave_webs,
     port_opening_fits_the_kidney,

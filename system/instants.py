@@ -151,6 +151,7 @@ def valve_plate_geometry(pump: PumpDescription) -> ValvePlateGeometry:
         kidney_arc=part.kidney_arc,
         suction_arc=arc,
         delivery_arc=(arc[0] + np.pi, arc[1] + np.pi),
+        pads=part.bearing_pads,
     )
 
 

@@ -260,6 +260,9 @@ def _valve_plate_cylinder(pump: PumpDescription, point: OperatingPoint, pressure
     coulomb = pairs.valve_plate_coulomb(pump.friction.valve_plate_cylinder, clamping, point.shaft_speed, radius)
     radii = (v.land_radius_1, v.land_radius_2, v.land_radius_3, v.land_radius_4)
     shear = pairs.valve_plate_shear(point.viscosity, radii, point.shaft_speed, radius, v.film_thickness)
+    for pads in v.bearing_pads:
+        speed = point.shaft_speed * pads.mean_radius
+        shear += pairs.pads_shear(point.viscosity, pads.area, speed, v.film_thickness)
     return PairLoss(1, coulomb, np.full_like(coulomb, shear))
 
 

@@ -178,6 +178,11 @@ def valve_plate_shear(
     return float(viscosity * lands * (shaft_speed * mean_radius) ** 2 / film_thickness)
 
 
+def pads_shear(viscosity: float, area: float, mean_speed: float, film_thickness: float) -> float:
+    """Shear loss mu A (w R_m)^2/delta of outer bearing pads, at the speed (m/s) on their mean radius."""
+    return viscosity * area * mean_speed**2 / film_thickness
+
+
 def ball_guide_coulomb(
     friction: float, spring: float, contact_latitude: float, mean_sliding_speed: float
 ) -> float:

@@ -83,9 +83,9 @@ def slipper_profile_fits(pump: PumpDescription) -> Iterator[Finding]:
 
 @needs("valve_plate.profile", "valve_plate.land_radius_1", "valve_plate.land_radius_4")
 def valve_plate_profile_fits(pump: PumpDescription) -> Iterator[Finding]:
-    """The plate's measured shape reaches all over both sealing lands."""
+    """The plate's measured shape reaches all over both sealing lands, and its pads."""
     rows, part = pump.valve_plate.profile or (), pump.valve_plate
-    yield from _places("valve_plate.profile", rows, part.land_radius_1, part.land_radius_4)
+    yield from _places("valve_plate.profile", rows, part.land_radius_1, part.outer_radius)
 
 
 def _places(path: str, rows: Rows, start: float, end: float) -> Iterator[Finding]:

@@ -42,6 +42,15 @@ class WavinessSection(Section):
     amplitude: Length
 
 
+class PadSection(Section):
+    """[[valve_plate.pads]]: a run of outer bearing pads, evenly spaced, the first about the inner dead centre."""
+
+    inner: Length
+    outer: Length
+    arc: Annotated[float, Dimension.ANGLE, Field(gt=0.0, le=2.0 * math.pi * (1.0 + 1e-12))]
+    number: Annotated[int, Field(ge=1, le=99)]
+
+
 class BoreSection(Section):
     """[bore]: the bore's own shape."""
 
