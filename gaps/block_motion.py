@@ -135,7 +135,7 @@ class BlockFilm:
             fluid=laws.fluid,
             surface=laws.surface,
             asperities=laws.asperities,
-            walls=laws.walls,
+            walls=None if laws.walls is None else laws.walls.at(space, 0.0),
         )
 
     def modes_at(self, time: float) -> Array:
@@ -145,13 +145,14 @@ class BlockFilm:
     def outer_at(self, time: float, position: Array, rate: Array) -> Outer:
         """What presses and the kidneys' lift at a time (s).
 
-        A web over a port touches nothing: what contact would bear there is taken off, as between rigid walls.
+        A web over a port touches nothing: what contact would bear there is taken off. Between walls that give way
+        held nodes have none.
         """
         angle, radius = self._angle(time), self.geometry.land_radii[3]
         above = self.chamber_pressures(angle) - self.drive.case_pressure
         wrench = np.asarray(self.drive.press(angle)) + kidney_wrench(self.geometry, angle, above)
         force, nothing = generalised(wrench, radius), np.zeros((3, 3))
-        if self._laws.asperities is None:
+        if self._laws.asperities is None or self._laws.walls is not None:
             return Outer(force, nothing, nothing)
         touching, slopes = self._over_ports(angle, position, self._laws.asperities)
         return Outer(force - touching, -slopes, nothing)

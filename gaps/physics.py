@@ -5,11 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from enum import Enum
 
+from gaps.walls import GapWalls
 from reynolds.contact import Asperities
 from reynolds.film import Cavitation
 from reynolds.fluid import CONSTANT, Fluid
 from reynolds.roughness import Surface
-from reynolds.walls import Walls
 
 
 class Effect(Enum):
@@ -59,12 +59,12 @@ class Physics:
 
 @dataclass(frozen=True)
 class FilmLaws:
-    """Oil and walls of one gap, as `reynolds.film.FilmProblem` takes them."""
+    """Oil and walls of one gap: what `reynolds.film.FilmProblem` takes, the walls on any mesh."""
 
     fluid: Fluid = CONSTANT
     surface: Surface | None = None
     asperities: Asperities | None = None
-    walls: Walls | None = None
+    walls: GapWalls | None = None
 
 
 def laws_left(laws: FilmLaws, physics: Physics) -> FilmLaws:

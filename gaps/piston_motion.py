@@ -13,7 +13,7 @@ The mesh spans what is engaged and stretches as the piston moves; wall velocitie
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -150,6 +150,11 @@ class PistonFilm:
             thickness_at_vertices=self._thickness(time, *self._vertices),
         )
         pressure = float(drive.chamber_pressure(self._angle(time)))
+        walls = None
+        if laws.walls is not None:
+            reach = float(drive.reach(self._angle(time)))
+            walls = laws.walls.at(space, reach)
+            film = widened(space, film, pressure * laws.walls.by_chamber(space, reach))
         return FilmProblem(
             space=space,
             film=film,
@@ -159,7 +164,7 @@ class PistonFilm:
             fluid=laws.fluid,
             surface=laws.surface,
             asperities=laws.asperities,
-            walls=laws.walls,
+            walls=walls,
         )
 
     def modes_at(self, time: float) -> Array:
@@ -270,6 +275,16 @@ class PistonFilm:
         bore = shape.bore(depth, angle - drive.bore_spin * time).depth
         piston = self._relief(time, around, along).depth
         return np.asarray(shape.radial_clearance + bore + piston)
+
+
+def widened(space: FilmSpace, film: Film, opened: Array) -> Film:
+    """A film whose walls open at the vertices by (vertices,) m that its own pressure does not cause."""
+    corners = film.thickness_at_vertices
+    return replace(
+        film,
+        thickness=film.thickness + space.sample_vertices(opened),
+        thickness_at_vertices=None if corners is None else corners + opened,
+    )
 
 
 def floating_piston(film: PistonFilm) -> Floating:

@@ -14,12 +14,14 @@ from reynolds.errors import FilmInputError
 from reynolds.film import FilmSolution
 from reynolds.floating import Floating
 from reynolds.floating_stage import Stage, solve_stage
-from reynolds.floating_start import restarted, seats_of, started
+from reynolds.floating_start import pressed, restarted, seats_of, started
 from reynolds.loads import Loads, loads
 from reynolds.mesh import Array
 from reynolds.periodic import Periodic, periodic
 from reynolds.solve import FilmSolver
 from reynolds.space import FilmSpace
+
+SHORT = 1e-2  # of the first way to a node: a step in which elastic walls give way to their first load
 
 
 @dataclass(frozen=True)
@@ -231,7 +233,10 @@ class _Turns(Generic[Seen]):
 
     def _begin(self, start: Array, last: GapTurn[Seen] | None) -> State[Stage]:
         if last is None:
-            return started(self._floating, 0.0, start)
+            begin = started(self._floating, 0.0, start)
+            if self._floating.shape_at(0.0).walls is None:
+                return begin
+            return pressed(self._solver, self._floating, begin, SHORT * self._times[0])
         return restarted(self._floating, 0.0, last.last, start)
 
     def _stage(self, time: float, before: Array, step: float, guess: Array, last: Stage | None) -> Stage:

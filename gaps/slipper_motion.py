@@ -205,7 +205,7 @@ class SlipperFilm:
             fluid=laws.fluid,
             surface=laws.surface,
             asperities=laws.asperities,
-            walls=laws.walls,
+            walls=None if laws.walls is None else laws.walls.at(space, 0.0),
         )
 
     def modes_at(self, time: float) -> Array:

@@ -79,6 +79,9 @@ class _Iterated:
     def __init__(self, balance: Balance, near: NearFactor) -> None:
         self._balance, self._near = balance, near
         self._size = len(balance.pressures)
+        # Where the film is thin next to nothing flows: there too the answer is to be as good.
+        diagonal = np.abs(balance.rigid.diagonal())
+        self._rows = 1.0 / np.where(diagonal > 0.0, diagonal, 1.0)
         self._before = near.answer or _rigid_answer(balance.rigid)
         self._steps = 0
         self._own: Answer | None = None
@@ -95,10 +98,10 @@ class _Iterated:
     def _iterated(self, before: Answer, load: Array, tolerance: float) -> Array | None:
         def image(part: Array) -> Array:
             self._steps += 1
-            return self._balance @ before(part, 0.0)
+            return self._rows * (self._balance @ before(part, 0.0))
 
         most = MOST_STEPS if self._near.answer is None else max(1, int(WORTH * self._size))
-        part, left = gmres(image, load, tolerance, most)
+        part, left = gmres(image, self._rows * load, tolerance, most)
         return before(part, 0.0) if left <= max(tolerance, GOOD_ENOUGH) else None
 
 

@@ -182,6 +182,20 @@ class Instant:
         opened = opening_slope(at.solution.problem, at.solution.opening) @ film.pressure
         return opened + (at.contact.grown if isinstance(at.contact, SoftContact) else self.modes.at_vertices)
 
+    def ahead(self, at: Trial, step: Array, film: Response) -> FilmSolution:
+        """The film a step (k,) m on as its slopes have it: where to start from for the film there.
+
+        Between walls that give way a step that left the pressure as it is would close the gap by all of it.
+        """
+        found = at.solution
+        pressure = np.where(found.held, found.pressure, found.pressure + film.pressure @ step)
+        fraction = np.clip(found.film_fraction + film.film_fraction @ step, 0.0, 1.0)
+        pressure = np.maximum(pressure, found.problem.cavitation_pressure)
+        if found.problem.walls is None:
+            return replace(found, pressure=pressure, film_fraction=fraction)
+        opened = found.opening + (self._grown(at, film) - self.modes.at_vertices) @ step
+        return replace(found, pressure=pressure, film_fraction=fraction, opening=opened)
+
     def touching(self, at: Trial) -> bool:
         """Whether walls are next to where there is no film between them, or no law of contact."""
         asperities = self.shape.asperities
@@ -215,10 +229,12 @@ class Instant:
             missing += self.floating.inertia @ (changed.position / self.step + changed.rate) / self.step
         return film, missing
 
-    def onward(self, at: Trial, changed: Kept) -> Kept:
-        """Change of what is held at the end of the step with what was held before it, balance kept."""
+    def onward(self, at: Trial, own: Response, changed: Kept) -> Kept:
+        """Change of what is held at the end of the step with what was held before it, balance kept.
+
+        `own`: how the film answers to its position.
+        """
         film, missing = self.by_before(at, changed)
-        own = self.by_position(at)
         q = -solved(self.slopes(at, own), missing, self.floating.name)
         both = Response(film.pressure + own.pressure @ q, film.film_fraction + own.film_fraction @ q)
         oil = oil_slopes(at.solution, at.thicker @ q, both, self.solver.operators(at.solution))

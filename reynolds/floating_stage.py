@@ -23,8 +23,10 @@ from reynolds.floating_instant import (
     solved,
 )
 from reynolds.generalised import modes_on
+from reynolds.iterate import is_linear
 from reynolds.mesh import Array
 from reynolds.overlap import as_shaped
+from reynolds.sensitivity import Response
 from reynolds.solve import FilmSolver
 from reynolds.transient import oil_held
 
@@ -94,7 +96,18 @@ class Stage:
     @property
     def force_slopes(self) -> Array:
         """d(Q + P - M q'')/dq over the step, (k, k) N/m: stiffness and, by the step, damping."""
-        return self.instant.slopes(self.trial, self.instant.by_position(self.trial))
+        return self.instant.slopes(self.trial, self._answer)
+
+    @cached_property
+    def _answer(self) -> Response:
+        """How the film answers to its position: on the film's last factor while no other film is solved."""
+        return self.instant.by_position(self.trial)
+
+    def ahead(self, q: Array) -> FilmSolution:
+        """A guess of the film at another position (k,) m: this one if linear, else as its slopes have it."""
+        if is_linear(self.trial.solution.problem):
+            return self.trial.solution
+        return self.instant.ahead(self.trial, q - self.q, self._answer)
 
     def carried(self, before: Array) -> tuple[Array, Array]:
         """Change of q (k, m) and of `holds` (held, m) for changes (held, m) of what was held before.
@@ -103,7 +116,9 @@ class Stage:
         where the solver has solved another film since.
         """
         floating = self.instant.floating
-        after = self.instant.onward(self.trial, parted(floating, before, self.solution.problem.space.size))
+        after = self.instant.onward(
+            self.trial, self._answer, parted(floating, before, self.solution.problem.space.size)
+        )
         return after.position, joined(floating, after)
 
 
@@ -126,7 +141,7 @@ def solve_stage(
     `functools.partial(solve_stage, solver, floating)` is a `dirk.StageSolver`.
     """
     instant = instant_of(solver, floating, time, step, before)
-    search = _Search(instant, None if last is None else last.trial.solution)
+    search = _Search(instant, None if last is None else last.ahead(guess))
     if (found := search.balanced(guess)) is None:
         found = search.balanced(instant.before.position)
     if found is None:
@@ -172,11 +187,11 @@ class _Search:
         self.why = f"not settled after {MOST_STEPS} steps"
         return None
 
-    def _tried(self, q: Array) -> Trial | None:
-        """The film there, None where there is none."""
+    def _tried(self, q: Array, ahead: FilmSolution | None = None) -> Trial | None:
+        """The film there, None where there is none; `ahead` is a guess of it."""
         self.films += 1
         try:
-            found = self._instant.tried(q, self._warm)
+            found = self._instant.tried(q, self._warm if ahead is None else ahead)
         except FilmNotConverged as reason:
             self._failed += 1
             self.why, self.remedy = reason.what, reason.remedy
@@ -205,7 +220,7 @@ class _Search:
         before = float(np.max(np.abs(at.missing) / size))
         for halvings in range(MOST_HALVINGS):
             share = room * 0.5**halvings
-            new = self._tried(at.q + share * step)
+            new = self._tried(at.q + share * step, instant.ahead(at, share * step, film))
             # Walls too far apart to feel each other: a step that is cut at their gap brings them nearer.
             wanted = before if share == room < 1.0 else (1.0 - LEAST_GAIN * share) * before
             if new is not None and float(np.max(np.abs(new.missing) / size)) <= wanted:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
@@ -9,9 +11,10 @@ from scipy.spatial import cKDTree
 from reynolds.dirk import State, Tangent
 from reynolds.errors import FilmInputError
 from reynolds.floating import Floating
-from reynolds.floating_stage import Stage, standing
+from reynolds.floating_stage import Stage, solve_stage, standing
 from reynolds.mesh import Array
 from reynolds.sensitivity import Response, oil_slopes
+from reynolds.solve import FilmSolver
 from reynolds.space import FilmSpace
 
 NUDGE = (
@@ -33,6 +36,18 @@ def started(floating: Floating, time: float, q: Array) -> State[Stage]:
         columns.append((ahead - behind) / (2.0 * NUDGE))
     tangent = Tangent(np.eye(len(q)), np.column_stack(columns))
     return State(time, q, standing(floating, time, q), np.zeros(len(q)), tangent=tangent)
+
+
+def pressed(solver: FilmSolver, floating: Floating, start: State[Stage], step: float) -> State[Stage]:
+    """The start once walls that give way have done so, oil hardly having flowed: one implicit step (s) on the spot.
+
+    Elastic walls follow a load at once, by a way that no shorter step makes shorter. Raises as `solve_stage`.
+    """
+    stage = solve_stage(solver, floating, start.time, start.held, step, start.q, None)
+    assert start.tangent is not None
+    return replace(
+        start, q=stage.q, held=stage.holds, tangent=Tangent(*stage.carried(start.tangent.held)), stage=stage
+    )
 
 
 def restarted(floating: Floating, time: float, last: State[Stage], q: Array) -> State[Stage]:

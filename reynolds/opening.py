@@ -1,7 +1,8 @@
 """How far walls that give way open under a film's pressure and, where they touch, under their contact.
 
 g = C (p + p_c(h + g)): contact presses on the walls as the film does, p_c the mean of the vertices that share an
-unknown. What is a pocket's unknown has no contact of its own: oil fills it.
+unknown. Where a pocket or a port is, at a pocket's unknown and at held nodes inside, one wall is missing: nothing
+touches.
 """
 
 from __future__ import annotations
@@ -15,17 +16,20 @@ from scipy.sparse import csc_array, csr_array, eye_array, issparse
 from scipy.sparse.linalg import splu
 
 from reynolds.compliant import Answer, dense_answer, singular
-from reynolds.contact import Asperities, contact_pressure
+from reynolds.contact import LOWEST_RATIO, Asperities, contact_pressure
 from reynolds.errors import FilmInputError, FilmNotConverged
 from reynolds.film import FilmProblem, Pocket
+from reynolds.kernels import norm
 from reynolds.laws import Tangent
 from reynolds.mesh import Array
 from reynolds.walls import LowRank, Opens, WallMatrix, full
 
-MAX_STEPS = 30
+MAX_STEPS = 15
 TOLERANCE = 1e-12  # of film thickness and asperities' height
-DEEPEST = 5.0  # standard deviations of the summits by which a step may press them into each other
-FELT = 1e-10  # of a displacement, by which a contact answers that counts as one
+DEEPEST = 5.0  # standard deviations of the summits by which they may be in each other at first
+ROOM = 0.9  # of the way to where the law of contact ends
+MOST_HALVINGS, LEAST_GAIN = 8, 1e-4  # of a step; of what is missing, by a full step
+FELT = 1e-7  # of a displacement, by which a contact answers that counts as one
 
 
 def opening(problem: FilmProblem, pressure: Array, start: Array | None = None) -> Array:
@@ -42,16 +46,38 @@ def opening(problem: FilmProblem, pressure: Array, start: Array | None = None) -
         raise FilmInputError("walls", "a compliance that is not finite", "numbers, m/Pa")
     if problem.asperities is None:
         return alone
+    return _balanced(problem, alone, alone if start is None else start)
+
+
+def _balanced(problem: FilmProblem, alone: Array, start: Array) -> Array:
+    """The opening at which walls that would open by `alone` (vertices,) m under the oil and contact agree.
+
+    Each step brings the two nearer, and leaves a tenth of what is left to the end of the law of contact.
+    """
+    assert problem.asperities is not None
     meeting, given = meeting_of(problem), _given_gap(problem)
-    # Contact closes as the film opens, without bound: from where it barely resists, Newton's steps lead up.
-    deepest = problem.asperities.summit_height - DEEPEST * problem.asperities.height
-    found = np.maximum(alone if start is None else start, deepest - given)
-    for _ in range(MAX_STEPS):
+    summits, height = problem.asperities.summit_height, problem.asperities.height
+    enough = TOLERANCE * (np.max(np.abs(given)) + height)
+
+    def left(found: Array) -> tuple[Touch, Array]:
         touch = meeting.at(given + found)
-        rest = found - alone - compliance @ touch.on_unknowns
-        if np.max(np.abs(rest)) < TOLERANCE * (np.max(np.abs(given)) + problem.asperities.height):
+        return touch, found - alone - meeting.compliance @ touch.on_unknowns
+
+    found = np.maximum(start, summits - DEEPEST * height - given)
+    touch, rest = left(found)
+    for _ in range(MAX_STEPS):
+        if np.max(np.abs(rest)) < enough:
             return found
-        found = np.maximum(found - touch.settled(rest), deepest - given)
+        change = touch.settled(rest)
+        beyond = found + given - (summits + LOWEST_RATIO * height)
+        closing = change > ROOM * beyond
+        share = float(np.min(ROOM * beyond[closing] / change[closing], initial=1.0))
+        for _ in range(MOST_HALVINGS):
+            new, after = left(found - share * change)
+            if norm(after) < (1.0 - LEAST_GAIN * share) * norm(rest):
+                break
+            share *= 0.5
+        found, touch, rest = found - share * change, new, after
     raise FilmNotConverged(
         f"the opening of walls in contact not settled after {MAX_STEPS} steps", "a thicker film, or stiffer walls"
     )
@@ -136,8 +162,8 @@ class Resisted:
 class Meeting:
     """Where rough walls that give way can touch.
 
-    oil (vertices,): of a pocket; shares (size, vertices): pressure of the unknowns by that of the vertices;
-    softest: largest opening by unit pressure everywhere, m/Pa.
+    oil (vertices,): where nothing touches; shares (size, vertices): pressure of the unknowns by that of the
+    vertices; softest: largest opening by unit pressure everywhere, m/Pa.
     """
 
     compliance: WallMatrix
@@ -161,7 +187,8 @@ def meeting_of(problem: FilmProblem) -> Meeting:
     space, compliance = problem.space, problem.walls.matrix
     count = len(space.vertex_dofs)
     pockets = [space.edge_dofs[name] for name, at in problem.boundary.items() if isinstance(at, Pocket)]
-    oil = np.isin(space.vertex_dofs, np.concatenate([[-1], *pockets]))
+    ports = [] if problem.held_nodes is None else [np.flatnonzero(~np.isnan(problem.held_nodes))]
+    oil = np.isin(space.vertex_dofs, np.concatenate([[-1], *pockets, *ports]))
     share = np.where(oil, 0.0, 1.0 / np.bincount(space.vertex_dofs)[space.vertex_dofs])
     shares = csr_array((share, (space.vertex_dofs, np.arange(count))), shape=(space.size, count))
     softest = float(np.abs(compliance @ np.ones(space.size)).max())

@@ -32,7 +32,7 @@ FULL_STEPS = 15  # then, or as soon as a cavity comes back, each step must bring
 TOLERANCE = 1e-9
 NEAR = 1e-6  # of which one more step leaves round-off
 ROUND_OFF = 1e-12
-SOFT_STEP = 1e-3  # residual of a first step between walls that give way over its load
+SOFT_STEP = 1e-5  # residual of a first step between walls that give way over its load
 LOOSEST = 1e-2  # residual of a linear solve over its load
 LEAST_GAP = 0.1  # of the largest film, where walls overlap that a first pressure parts
 

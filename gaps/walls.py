@@ -1,0 +1,74 @@
+"""How the walls of a floating gap give way: as its film asks for it, wherever the parts stand."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Protocol
+
+import numpy as np
+
+from gaps.bodies import BushingPart, PistonPart, bushing_body, piston_body
+from gaps.piston_walls import PistonWalls, face_grid
+from reynolds.mesh import Array
+from reynolds.space import FilmSpace
+from reynolds.walls import Walls
+
+
+class GapWalls(Protocol):
+    """Both walls of a gap."""
+
+    def at(self, film: FilmSpace, reach: float) -> Walls:
+        """Those of a film on that mesh; `reach` (m) tells how far a piston stands in its guide."""
+
+    def by_chamber(self, film: FilmSpace, reach: float) -> Array:
+        """Opening (vertices,) m by unit pressure (Pa) in the chamber beside the film."""
+
+
+class FixedWalls:
+    """Walls that lie under a film in the same way at any time: `build` gives them, once a mesh."""
+
+    def __init__(self, build: Callable[[FilmSpace], Walls]) -> None:
+        self._build = build
+        self._built: tuple[object, Walls] | None = None
+
+    def at(self, film: FilmSpace, reach: float) -> Walls:
+        """The walls; a film's mesh that has moved is the same mesh."""
+        if self._built is None or self._built[0] is not film.pattern:
+            self._built = film.pattern, self._build(film)
+        return self._built[1]
+
+    def by_chamber(self, film: FilmSpace, reach: float) -> Array:
+        """Nothing: the chamber presses on these walls through the film and its pockets alone."""
+        return np.zeros(len(film.vertices))
+
+
+@dataclass(frozen=True)
+class BoreWalls:
+    """Piston and bushing by their sizes, the guide as long as the bushing; meshed when a film first asks."""
+
+    piston: PistonPart
+    bushing: BushingPart
+
+    def at(self, film: FilmSpace, reach: float) -> Walls:
+        """See `PistonWalls.at`."""
+        return self._walls(film).at(film, reach)
+
+    def by_chamber(self, film: FilmSpace, reach: float) -> Array:
+        """See `PistonWalls.by_chamber`."""
+        return self._walls(film).by_chamber(film, reach)
+
+    def _walls(self, film: FilmSpace) -> PistonWalls:
+        return _bore_walls(self.piston, self.bushing, len(np.unique(film.vertices[:, 0])) - 1)
+
+
+@lru_cache(maxsize=4)
+def _bore_walls(piston: PistonPart, bushing: BushingPart, around: int) -> PistonWalls:
+    """The faces of both parts, as many cells around as the film has."""
+    radius, cells = 0.5 * piston.diameter, (around, 24)
+    return PistonWalls(
+        bushing.length,
+        face_grid(bushing_body(bushing), radius, bushing.length, cells),
+        face_grid(piston_body(piston), radius, piston.length, cells),
+    )
