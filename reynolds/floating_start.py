@@ -39,7 +39,7 @@ def started(floating: Floating, time: float, q: Array) -> State[Stage]:
 
 
 def pressed(solver: FilmSolver, floating: Floating, start: State[Stage], step: float) -> State[Stage]:
-    """The start once walls that give way have done so, oil hardly having flowed: one implicit step (s) on the spot.
+    """The start once walls that give way have done so, oil hardly having flowed: one implicit step (s).
 
     Elastic walls follow a load at once, by a way that no shorter step makes shorter. Raises as `solve_stage`.
     """
