@@ -8,6 +8,10 @@ class FilmInputError(ValueError):
         super().__init__(f"{where}: {found}; expected {expected}")
         self.where, self.found, self.expected = where, found, expected
 
+    def __reduce__(self) -> tuple[type, tuple[str, str, str]]:
+        """What another process makes the same error of."""
+        return type(self), (self.where, self.found, self.expected)
+
 
 class FilmNotConverged(RuntimeError):
     """The solve stopped short of its tolerance: what was reached, and what to try."""
@@ -15,3 +19,7 @@ class FilmNotConverged(RuntimeError):
     def __init__(self, what: str, remedy: str) -> None:
         super().__init__(f"{what}. Try: {remedy}")
         self.what, self.remedy = what, remedy
+
+    def __reduce__(self) -> tuple[type, tuple[str, str]]:
+        """What another process makes the same error of."""
+        return type(self), (self.what, self.remedy)

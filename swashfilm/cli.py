@@ -222,11 +222,12 @@ def _run(options: argparse.Namespace) -> int:
     from swashfilm.pump_page import efficiency_rows, headline_rows, pair_rows
     from swashfilm.pump_run import run_pump
     from swashfilm.run_folder import final_folder, run_folder
+    from system.side_by_side import cores
 
     given = _given_text(options.pump, stated)
     with run_folder(pump.name, options.output) as folder, progress(1, f"run {pump.name}") as report:
         fidelity, floating = Fidelity(options.fidelity), floating_options(options)
-        summary = run_pump(pump, given, fidelity, folder, report, options.table, floating)
+        summary = run_pump(pump, given, fidelity, folder, report, options.table, floating, cores() > 1)
     show_table(f"Pump {pump.name}", headline_rows(summary))
     show_table("Efficiencies: paper's Eqs. (3)-(5), ISO 4391/4409", efficiency_rows(summary))
     show_table("Friction pairs: Coulomb, viscous, total, share", pair_rows(summary))

@@ -8,10 +8,11 @@ from dataclasses import replace
 from gaps.physics import Effect
 from swashfilm.fidelity import Fidelity
 from swashfilm.physics_switches import SWITCHES
-from system.description import PumpDescription
+from system.description import SINGLE_PARTS, PumpDescription
 from system.faults import Fault
 from system.floating_gaps import FloatingOptions
 
+ALIKE = "chambers that are alike; of one of them alone: swashfilm film with revolution = true"
 FEWEST_STEPS, MOST_STEPS = 24, 7200
 _EFFECTS = {
     "--rigid": Effect.ELASTIC_WALLS,
@@ -35,6 +36,11 @@ def floating_faults(options: argparse.Namespace, pump: PumpDescription) -> list[
     if options.fidelity != Fidelity.FLOATING.value:
         wanted = f"--fidelity {Fidelity.FLOATING.value} beside it"
         return [Fault(option, f"--fidelity {options.fidelity}", wanted) for option in stated]
+    singles = [f"{name}.{number}" for name in SINGLE_PARTS for number, _ in getattr(pump, f"single_{name}s")]
+    return [*(Fault(part, "a single part", ALIKE) for part in singles), *_steps_faults(options, pump)]
+
+
+def _steps_faults(options: argparse.Namespace, pump: PumpDescription) -> list[Fault]:
     if options.steps is None:
         return []
     pistons = pump.pump.pistons

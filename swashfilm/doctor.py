@@ -14,6 +14,7 @@ from importlib.metadata import PackageNotFoundError, requires, version
 from pathlib import Path
 
 from swashfilm.picture3d import REMEDY, draw
+from system.side_by_side import cores
 
 LEAST_MEMORY = 2e9  # bytes; a run with films takes half of it
 _NEEDED = re.compile(r"[A-Za-z0-9_.\-]+")
@@ -46,9 +47,7 @@ def examine() -> list[Finding]:
         Finding("python", f"{platform.python_version()} ({sys.executable})"),
         Finding("system", f"{platform.system()} {platform.release()} {platform.machine()}"),
         *_packages(),
-        Finding(
-            "cores", f"{len(os.sched_getaffinity(0)) if hasattr(os, 'sched_getaffinity') else os.cpu_count()}"
-        ),
+        Finding("cores", str(cores())),
         _memory(),
         Finding("threads a run uses", os.environ.get("OMP_NUM_THREADS", "not set")),
         *_kernels(),

@@ -36,13 +36,14 @@ def run_pump(
     report: Report,
     table: Path | None = None,
     options: FloatingOptions | None = None,
+    side_by_side: bool = False,
 ) -> dict[str, Any]:
     """Run a pump at its operating point and fill a run folder; return the summary.
 
     Writes input.toml (`given`, as it came) and resolved.toml first, then summary.json, tables, results.nc, fields
     for ParaView, 3D pictures where this machine can draw them, and report.html. `table`: the file of a response
-    table in place of the kept one. Raises NotConverged and FilmNotConverged rather than give a number that is
-    none.
+    table in place of the kept one; `options`: of floating gaps, whose piston may have a process of its own. Raises
+    NotConverged and FilmNotConverged rather than give a number that is none.
     """
     (folder / "input.toml").write_text(given, encoding="utf-8")
     (folder / "resolved.toml").write_text(resolved_toml(pump), encoding="utf-8")
@@ -52,7 +53,7 @@ def run_pump(
         case Fidelity.FILMS:
             summary = _run_films(pump, folder, report)
         case Fidelity.FLOATING:
-            summary = _run_floating(pump, folder, report, options)
+            summary = _run_floating(pump, folder, report, options, side_by_side)
         case Fidelity.TABLE:
             summary = _run_table(pump, folder, table)
         case _:
@@ -82,9 +83,9 @@ def _run_films(pump: PumpDescription, folder: Path, report: Report) -> dict[str,
 
 
 def _run_floating(
-    pump: PumpDescription, folder: Path, report: Report, options: FloatingOptions | None
+    pump: PumpDescription, folder: Path, report: Report, options: FloatingOptions | None, side_by_side: bool
 ) -> dict[str, Any]:
-    found = floating_point(pump, operating_point(pump), options, report=report)
+    found = floating_point(pump, operating_point(pump), options, side_by_side=side_by_side, report=report)
     point = found.pump_point
     summary = floating_summary(found, _warnings(pump, point))
     _write_point(folder, point_dataset(point, pump.name), point, summary)

@@ -8,6 +8,7 @@ joint rubs by its forces and spins, and the other pairs are the lumped fidelity'
 
 from __future__ import annotations
 
+from contextlib import nullcontext
 from dataclasses import dataclass, replace
 from time import perf_counter
 
@@ -19,6 +20,7 @@ from system.assembly import PumpPoint, met_point, put_together
 from system.chamber import ChamberCycle
 from system.description import PumpDescription
 from system.errors import NotConverged
+from system.floating_beside import Driven, PistonBeside, piston_beside
 from system.floating_drives import Drives, Rubbing, drives, no_rubbing
 from system.floating_exchange import (
     FloatingGaps,
@@ -93,24 +95,29 @@ def floating_point(
     point: OperatingPoint,
     options: FloatingOptions | None = None,
     *,
+    side_by_side: bool = False,
     report: Report = silent,
 ) -> FloatingPoint:
-    """One periodic operating point with the three gaps floating.
+    """One periodic operating point with the three gaps floating; side by side: the piston in a second process.
 
     Raises NotConverged where gaps and chamber pressure do not settle within ROUND_LIMIT rounds, FilmNotConverged
-    where a film does not, ValueError for steps that do not divide among the pistons.
+    where a film does not, ValueError for steps that do not divide among the pistons and for chambers that differ
+    in their pistons or slippers.
     """
+    if pump.single_pistons or pump.single_slippers:
+        raise ValueError("chambers: found single pistons or slippers, expected chambers that are alike")
     options, parts = options or FloatingOptions(), floating_parts(pump)
     lumped = lumped_point(pump, point)
     still = no_rubbing(lumped.cycle.shaft_angle.size)
     state = _State(rotor(pump, lumped.point), lumped.cycle, still, None)
     rounds: list[Round] = []
-    while not rounds or not _settled(rounds[-1], options):
-        if len(rounds) == ROUND_LIMIT:
-            raise _not_settled(rounds[-1])
-        closing = replace(options, accuracy=_loosened(options.accuracy, rounds))
-        state, taken = _round(state, parts, point, closing, _of_round(report, len(rounds) + 1))
-        rounds.append(taken)
+    with piston_beside(parts) if side_by_side else nullcontext() as beside:
+        while not rounds or not _settled(rounds[-1], options):
+            if len(rounds) == ROUND_LIMIT:
+                raise _not_settled(rounds[-1])
+            closing = replace(options, accuracy=_loosened(options.accuracy, rounds))
+            state, taken = _round(state, parts, point, closing, beside, _of_round(report, len(rounds) + 1))
+            rounds.append(taken)
     return _told(pump, point, parts, options, state, tuple(rounds))
 
 
@@ -126,12 +133,18 @@ class _State:
 
 
 def _round(
-    state: _State, parts: FloatingParts, point: OperatingPoint, options: FloatingOptions, report: Report
+    state: _State,
+    parts: FloatingParts,
+    point: OperatingPoint,
+    options: FloatingOptions,
+    beside: PistonBeside | None,
+    report: Report,
 ) -> tuple[_State, Round]:
     """The gaps at the pressure and friction of the round before, then the chambers with these gaps."""
     began, pump, cycle = perf_counter(), state.rotor.pump, state.cycle
+    asked = Driven(state.rotor, cycle.shaft_angle, cycle.pressure, state.rubbing, options)
     driven = drives(state.rotor, parts, cycle.shaft_angle, cycle.pressure, state.rubbing)
-    gaps = _revolutions(state.rotor, parts, driven, options, state.gaps, report)
+    gaps = _revolutions(asked, parts, driven, state.gaps, beside, report)
     motion, pistons = piston_motion(pump, point), pump.pump.pistons
     problem = chamber_problem(pump, point, motion, leak_table(gaps))
     problem = replace(problem, growth=growth(gaps, state.rotor, parts))
@@ -154,20 +167,26 @@ def _round(
 
 
 def _revolutions(
-    at: Rotor,
+    asked: Driven,
     parts: FloatingParts,
     driven: Drives,
-    options: FloatingOptions,
     before: FloatingGaps | None,
+    beside: PistonBeside | None,
     report: Report,
 ) -> FloatingGaps:
-    """Each gap over the revolution, on from the round before."""
+    """Each gap over the revolution, on from the round before; the piston by the process beside, if any."""
+    at, options = asked.rotor, asked.options
     piston, slipper, block = (None,) * 3 if before is None else (before.piston, before.slipper, before.block)
-    return FloatingGaps(
-        piston_revolution(at, parts, driven.piston, options, piston, report),
-        slipper_revolution(at, parts, driven.slipper, options, slipper, report),
-        block_revolution(at, parts, driven.block, options, block, report),
-    )
+    if beside is not None:
+        beside.start(asked)
+    else:
+        piston = piston_revolution(at, parts, driven.piston, options, piston, report)
+    slipper = slipper_revolution(at, parts, driven.slipper, options, slipper, report)
+    block = block_revolution(at, parts, driven.block, options, block, report)
+    if beside is not None:
+        piston = beside.fetch(report)
+    assert piston is not None
+    return FloatingGaps(piston, slipper, block)
 
 
 def _of_round(report: Report, number: int) -> Report:

@@ -1,0 +1,127 @@
+"""The piston's revolutions in a process of their own, beside slipper and block.
+
+The piston takes about as long as the other two together. Its process keeps what the last revolution left in the
+film, so that what goes to and fro is what drives it and what is told of it.
+"""
+
+from __future__ import annotations
+
+import multiprocessing
+import signal
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, replace
+from multiprocessing.connection import Connection
+
+from gaps.revolution import GapRevolution
+from gaps.seen import PistonSeen
+from system.errors import NotConverged
+from system.floating_drives import Rubbing, drives
+from system.floating_gaps import FloatingOptions, piston_revolution
+from system.floating_parts import FloatingParts
+from system.gap_cycle import Report
+from system.instants import Rotor
+from system.kinematics import Array
+
+Found = GapRevolution[PistonSeen]
+TOLD_A_TURN = 12
+
+
+@dataclass(frozen=True)
+class Driven:
+    """What drives a round: the pump at its point, chamber pressure (N,) Pa over the shaft angle (N,), friction."""
+
+    rotor: Rotor
+    shaft_angle: Array
+    pressure: Array
+    rubbing: Rubbing
+    options: FloatingOptions
+
+
+@dataclass(frozen=True)
+class _Progress:
+    done: int
+    total: int
+    what: str
+
+
+class PistonBeside:
+    """A process that solves pistons: start one, do something else, fetch what it found."""
+
+    def __init__(self, connection: Connection) -> None:
+        self._connection = connection
+
+    def start(self, driven: Driven) -> None:
+        """Begin a round, from where the one before ended."""
+        self._connection.send(driven)
+
+    def fetch(self, report: Report) -> Found:
+        """The revolution of the round begun, without what the next one starts from; tells progress while it waits.
+
+        Raises what `piston_revolution` raises, NotConverged where the process has died.
+        """
+        while True:
+            try:
+                told = self._connection.recv()
+            except EOFError:
+                raise NotConverged("the piston's process has died; try one process alone") from None
+            if isinstance(told, _Progress):
+                report(told.done, told.total, told.what)
+            elif isinstance(told, Exception):
+                raise told
+            else:
+                found: Found = told
+                return found
+
+
+@contextmanager
+def piston_beside(parts: FloatingParts) -> Iterator[PistonBeside]:
+    """A process for the piston as long as the context lasts; Ctrl-C is for this process alone, which ends it."""
+    ours, theirs = multiprocessing.get_context("spawn").Pipe()
+    process = multiprocessing.get_context("spawn").Process(target=_serve, args=(theirs, parts), daemon=True)
+    process.start()
+    theirs.close()
+    try:
+        yield PistonBeside(ours)
+    finally:
+        ours.close()
+        process.terminate()
+        process.join()
+
+
+def _serve(connection: Connection, parts: FloatingParts) -> None:
+    """Rounds of the piston, one for each that is asked for, until nobody asks."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    before: Found | None = None
+    while True:
+        try:
+            asked: Driven = connection.recv()
+        except EOFError:
+            return
+        try:
+            before = _solve(asked, parts, before, _teller(connection))
+        except Exception as reason:  # whatever it is belongs to whoever asked
+            connection.send(reason)
+        else:
+            connection.send(_light(before))
+
+
+def _teller(connection: Connection) -> Report:
+    """Progress, seldom enough for a pipe that nobody reads for a while."""
+
+    def tell(done: int, total: int, what: str) -> None:
+        if done % max(1, total // TOLD_A_TURN) == 0:
+            connection.send(_Progress(done, total, what))
+
+    return tell
+
+
+def _solve(asked: Driven, parts: FloatingParts, before: Found | None, report: Report) -> Found:
+    driven = drives(asked.rotor, parts, asked.shaft_angle, asked.pressure, asked.rubbing)
+    return piston_revolution(asked.rotor, parts, driven.piston, asked.options, before, report)
+
+
+def _light(found: Found) -> Found:
+    """The same without its last film, which the next round alone needs and which holds solvers."""
+    turn = replace(found.turn, last=replace(found.turn.last, stage=None))
+    return replace(found, turn=turn, closing=replace(found.closing, turn=turn))

@@ -1,0 +1,62 @@
+"""The piston in a process of its own: the same revolution, and errors that come over."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from gaps.revolution import Accuracy
+from reynolds.errors import FilmInputError, FilmNotConverged
+from system.floating_beside import Driven, piston_beside
+from system.floating_drives import drives, no_rubbing
+from system.floating_gaps import FloatingOptions, piston_revolution
+from system.floating_parts import floating_parts
+from system.instants import rotor
+from system.lumped import lumped_point
+from system.operating import operating_point
+from system.pump_file import load_pump
+
+ROUGHLY = FloatingOptions(steps=36, finer=0.25, accuracy=Accuracy(step=0.1, floor=1e-7, closed=0.5), keep=6)
+
+
+def asked(options: FloatingOptions = ROUGHLY) -> Driven:
+    pump = load_pump("ref90_floating", {"operating.pressure": "3 MPa"})
+    lumped = lumped_point(pump, operating_point(pump))
+    cycle = lumped.cycle
+    return Driven(
+        rotor(pump, lumped.point), cycle.shaft_angle, cycle.pressure, no_rubbing(cycle.shaft_angle.size), options
+    )
+
+
+@pytest.mark.slow
+def test_a_process_of_its_own_finds_the_same_piston():
+    here, told = asked(), []
+    parts = floating_parts(here.rotor.pump)
+    driven = drives(here.rotor, parts, here.shaft_angle, here.pressure, here.rubbing)
+    with piston_beside(parts) as beside:
+        beside.start(here)
+        alone = piston_revolution(here.rotor, parts, driven.piston, ROUGHLY)
+        found = beside.fetch(lambda done, total, what: told.append(what))
+        assert np.array_equal(found.positions, alone.positions)
+        assert found.closing.turns == alone.closing.turns
+        assert list(found.turn.films) == list(alone.turn.films)
+        assert any(what.startswith("piston") for what in told)
+        # It goes on from where it ended.
+        beside.start(here)
+        again = beside.fetch(lambda *_: None)
+        assert again.closing.turns <= found.closing.turns
+        beside.start(asked(FloatingOptions(steps=0)))
+        with pytest.raises(FilmInputError, match="revolution"):
+            beside.fetch(lambda *_: None)
+
+
+@pytest.mark.parametrize(
+    "error", [FilmNotConverged("walls that touch", "less load"), FilmInputError("slipper", "2", "3")]
+)
+def test_errors_come_over_as_they_were(error):
+    import pickle
+
+    copy = pickle.loads(pickle.dumps(error))
+    assert type(copy) is type(error)
+    assert str(copy) == str(error)
+    assert vars(copy) == vars(error)
