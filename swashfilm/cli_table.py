@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import argparse
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from swashfilm.physics_switches import SWITCHES, add_switches, switched_keys
 from swashfilm.terminal import show, show_table
 from system.faults import Fault, InputFaults, nearest_choice
 
 if TYPE_CHECKING:
     from system.description import PumpDescription
+    from system.floating_gaps import FloatingOptions
     from system.table_build import Range, TableCase
 
 COMMAND_LINE = "command line"
@@ -26,7 +29,7 @@ HELD = {
     "--inlet-pressure": ("operating.inlet_pressure", "25bar", "pressure at the inlet, gauge"),
     "--case-pressure": ("operating.case_pressure", "1.5bar", "pressure in the case, gauge"),
 }
-TABLE_OPTIONS = [*RANGES, *HELD, "--source", "--points", "--held-out", "--workers"]
+TABLE_OPTIONS = [*RANGES, *HELD, "--source", "--points", "--held-out", "--workers", "--steps", *SWITCHES]
 
 
 def add_table_options(command: argparse.ArgumentParser) -> None:
@@ -36,7 +39,11 @@ def add_table_options(command: argparse.ArgumentParser) -> None:
         command.add_argument(option, metavar=example, help=what)
     for option, (_, example, what) in HELD.items():
         command.add_argument(option, metavar=example, help=f"{what}; the pump's own where left out")
-    command.add_argument("--source", metavar="{films}", default="films", help="fidelity to condense (films)")
+    command.add_argument(
+        "--source", metavar="{films,floating}", default="films", help="fidelity to condense (films)"
+    )
+    command.add_argument("--steps", metavar="N", help="of floating gaps: steps a turn (360)")
+    add_switches(command)
     command.add_argument("--points", metavar="N", help="points to learn from, 16 of them corners (120)")
     command.add_argument("--held-out", metavar="N", help="points that the error is taken from (30)")
     command.add_argument("--workers", metavar="N", help="processes that solve points side by side (1)")
@@ -70,7 +77,7 @@ def run_table_command(options: argparse.Namespace) -> int:
 def _case(options: argparse.Namespace) -> tuple[TableCase, int]:
     """The case that a command line means, and how many workers; raises InputFaults with every fault at once."""
     from system.table_build import HELD_OUT, LEARNT, TableCase, table_axes
-    from system.table_sources import SOLVERS, Source
+    from system.table_sources import Source, solver_of
 
     faults: list[Fault] = []
     counts = [
@@ -83,9 +90,26 @@ def _case(options: argparse.Namespace) -> tuple[TableCase, int]:
     if options.source not in sources:
         nearest = nearest_choice(options.source, sources)
         faults.append(Fault("--source", repr(options.source), f"one of {', '.join(sources)}", nearest))
+    elif options.source != "floating" and (options.steps or switched_keys(options)):
+        faults.append(Fault("--source", options.source, "floating, beside options of floating gaps"))
+    steps = _count(faults, "--steps", options.steps, 360, 18)
     pump = _pump(options, faults)
-    axes = table_axes(pump, *ranges)
-    return TableCase(pump, SOLVERS[Source(options.source)], axes, counts[0], counts[1]), counts[2]
+    if steps % pump.pump.pistons:
+        expected = f"a multiple of the {pump.pump.pistons} pistons"
+        raise InputFaults(COMMAND_LINE, [Fault("--steps", str(steps), expected)])
+    solver = solver_of(Source(options.source), _floating(options, steps))
+    return TableCase(pump, solver, table_axes(pump, *ranges), counts[0], counts[1]), counts[2]
+
+
+def _floating(options: argparse.Namespace, steps: int) -> FloatingOptions:
+    """How gaps float: as they do where nothing is said, less what the switches leave out."""
+    from swashfilm.case_table import Table
+    from swashfilm.physics_case import read_physics
+    from system.floating_gaps import FloatingOptions
+
+    usual = FloatingOptions(steps=steps)
+    off = read_physics(Table("", switched_keys(options), [])).left_out
+    return replace(usual, physics=usual.physics.without(*off))
 
 
 def _pump(options: argparse.Namespace, faults: list[Fault]) -> PumpDescription:

@@ -45,7 +45,7 @@ def run_table(case: TableCase, folder: Path, report: Report, *, workers: int = 1
 def table_summary(table: ResponseTable) -> dict[str, Any]:
     """What a table is worth: its origin and box, the error of each output, and warnings."""
     record = table_record(table)
-    meanings = [row | {"meaning": MEANINGS[row["name"]][1]} for row in record["outputs"]]
+    meanings = [row | {"meaning": MEANINGS[row["name"]]} for row in record["outputs"]]
     return record | {
         "format": 1,
         "kind": "response_table",

@@ -11,7 +11,7 @@ from swashfilm.fidelity import Fidelity
 from system.description import PumpDescription
 from system.operating import OperatingPoint
 from system.response_tables import LARGE_ERROR, axis_value
-from system.table_means import GAP_PAIRS, OUTPUTS
+from system.table_means import GAP_PAIRS
 from system.table_point import TablePoint, table_point
 from system.table_store import find_table, own_table
 
@@ -33,8 +33,10 @@ def told_summary(told: TablePoint) -> dict[str, Any]:
             "source": origin.source.value,
             "stated": dict(origin.stated),
             "points": {"learnt": len(response.learnt.points), "held_out": len(response.held_out.points)},
-            "held_out_rms_error": {one.name: float(error.rms[k]) for k, one in enumerate(OUTPUTS)},
-            "held_out_largest_error": {one.name: float(error.largest[k]) for k, one in enumerate(OUTPUTS)},
+            "held_out_rms_error": {one.name: float(error.rms[k]) for k, one in enumerate(response.outputs)},
+            "held_out_largest_error": {
+                one.name: float(error.largest[k]) for k, one in enumerate(response.outputs)
+            },
             "film_thickness_mean_m": asdict(told.film_mean),
             "film_thickness_min_m": asdict(told.film_least),
             "contact_share": asdict(told.contact_share),

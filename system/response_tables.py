@@ -54,7 +54,7 @@ class Origin:
 
 @dataclass(frozen=True)
 class ResponseTable:
-    """A pump's response with its origin; axes SPEED, PRESSURE, RATIO, VISCOSITY, outputs `table_means.OUTPUTS`."""
+    """A pump's response with its origin: axes SPEED .. VISCOSITY, outputs of `table_means.MEANINGS`."""
 
     origin: Origin
     response: Response

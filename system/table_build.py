@@ -30,7 +30,7 @@ from system.response_tables import (
     ResponseTable,
 )
 from system.side_by_side import side_by_side
-from system.table_means import OUTPUTS, TABLE_FORMAT, mean_ratios
+from system.table_means import MEANINGS, TABLE_FORMAT, mean_ratios, measured_outputs
 from system.table_sources import PointSolver, with_held_ports
 from system.table_store import KEY_LENGTH, keep_table, pump_key, tables_folder
 from system.units import Dimension, format_quantity
@@ -66,7 +66,7 @@ class TableCase:
 
 @dataclass(frozen=True)
 class Solved:
-    """What a point gave: where it stands among the case's, its OUTPUTS or why there are none, seconds it took."""
+    """What a point gave: where it stands among the case's, its outputs or why there are none, seconds it took."""
 
     index: int
     means: Array | None
@@ -202,8 +202,9 @@ def _response(case: TableCase, points: Array, found: Mapping[int, Solved]) -> Re
 
     def samples(indices: range) -> Samples:
         good = [k for k in indices if found[k].means is not None]
-        values = np.array([found[k].means for k in good]).reshape(-1, len(OUTPUTS))
+        values = np.array([found[k].means for k in good]).reshape(-1, len(MEANINGS))
         return Samples(points[good], values)
 
     learnt, held_out = samples(range(case.learnt)), samples(range(case.learnt, len(points)))
-    return Response(case.axes, OUTPUTS, learnt, held_out)
+    outputs = measured_outputs(np.concatenate([learnt.values, held_out.values]))
+    return Response(case.axes, outputs, learnt, held_out)

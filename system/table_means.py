@@ -13,11 +13,12 @@ import numpy as np
 from gaps.response import Measure, Output
 from system.assembly import PumpPoint
 from system.chamber_course import periodic_values
+from system.chamber_problem import LeakTable
 from system.description import PumpDescription
 from system.kinematics import Array
 from system.lumped import lumped_leaks, lumped_pairs, piston_motion
 from system.operating import OperatingPoint
-from system.pairs import FrictionPairs, Pair
+from system.pairs import Pair
 from system.power import Gaps
 
 TABLE_FORMAT = 1
@@ -28,21 +29,37 @@ GAP_PAIRS = {
     "valve_plate": Pair.VALVE_PLATE_CYLINDER,
 }
 OF_EVERY_GAP = {
-    "leakage": (Measure.RELATIVE, "chambers' mean flow into the gap / the lumped law's at the same pressure"),
-    "friction": (Measure.RELATIVE, "mean loss of the pair / the lumped pair's at the same pressure"),
-    "contact_share": (Measure.ABSOLUTE, "loss of contact (Coulomb friction) / loss of the pair"),
-    "film_mean": (Measure.RELATIVE, "mean film over area and turn / the film given by the description"),
-    "film_least": (Measure.ABSOLUTE, "least film anywhere in the turn / the film given by the description"),
+    "leakage": "mean flow out of the chambers into the gap / by the lumped law",
+    "carried": "power of oil that the walls carry / by the lumped law, of slipper and plate / its leakage power",
+    "friction": "mean loss of the pair, net of what carried oil gives back / by the lumped law",
+    "contact_share": "loss of contact (Coulomb friction) / loss of the pair",
+    "film_mean": "mean film over area and turn / the film given by the description",
+    "film_least": "least film anywhere in the turn / the film given by the description",
 }
-"""Outputs by name: (measure of the error, what they are). Friction of slipper and plate is net of carried oil."""
-OF_ONE_GAP = {
-    "piston.carried": (Measure.ABSOLUTE, "power of the oil that the piston carries / the lumped law's"),
-    "valve_plate.delivery_draw": (Measure.ABSOLUTE, "what the film takes from the delivery port / plate flow"),
-    "valve_plate.suction_draw": (Measure.ABSOLUTE, "what the film takes from the suction port / plate flow"),
+OF_ONE_PART = {
+    "socket.friction": "mean loss of the ball joints / by the lumped law",
+    "valve_plate.delivery_draw": "what the film takes from the delivery port / plate flow",
+    "valve_plate.suction_draw": "what the film takes from the suction port / plate flow",
 }
 """Plate flow: the lumped law's with half of the chambers at delivery pressure, `plate_flow`."""
-MEANINGS = {f"{gap}.{name}": row for gap in GAP_PAIRS for name, row in OF_EVERY_GAP.items()} | OF_ONE_GAP
-OUTPUTS = tuple(Output(name, measure) for name, (measure, _) in MEANINGS.items())
+MEANINGS = {f"{gap}.{name}": text for gap in GAP_PAIRS for name, text in OF_EVERY_GAP.items()} | OF_ONE_PART
+"""Outputs by name, and what they are, in the order of `mean_ratios`."""
+OF_ORDER_ONE = ("leakage", "friction", "film_mean", "film_least")
+"""Learnt by logarithm, their error relative, where they are positive at all points: a flow may turn its sign, so
+may the distance of rough walls. The others may be nothing; their error is that of the ratio itself."""
+
+
+def measured_outputs(values: Array) -> tuple[Output, ...]:
+    """The outputs with their measure, given values (n, m) at all points."""
+    return tuple(
+        Output(
+            name,
+            Measure.RELATIVE
+            if name.partition(".")[2] in OF_ORDER_ONE and np.all(column > 0.0)
+            else Measure.ABSOLUTE,
+        )
+        for name, column in zip(MEANINGS, values.T, strict=True)
+    )
 
 
 @dataclass(frozen=True)
@@ -54,26 +71,52 @@ class SolvedPoint:
     film_least: Gaps
 
 
+@dataclass(frozen=True)
+class LawMoments:
+    """One chamber by the lumped law at a given pressure, of the gaps (3,): mean pressure flow G (p - p_case) m3/s,
+    power W that carried oil is measured by; above: mean of p - p_case, Pa.
+
+    The power is that of the oil carried in the piston's gap, and of the pressure flow in the others, in which the
+    law knows none.
+    """
+
+    flow: Array
+    power: Array
+    above: float
+
+
+def law_moments(law: LeakTable, above: Array) -> LawMoments:
+    """Moments of the lumped law at a chamber's pressure over the case's, (N,) Pa at the law's N shaft angles."""
+    power = np.mean(law.conductance * above**2, axis=1)
+    power[0] = np.mean(law.carried_flow[0] * above)
+    return LawMoments(np.mean(law.conductance * above, axis=1), power, float(np.mean(above)))
+
+
 def mean_ratios(pump: PumpDescription, solved: SolvedPoint) -> Array:
-    """The OUTPUTS (m,) of a solved point."""
+    """The outputs (m,) of a solved point, in the order of MEANINGS."""
     found, point = solved.pump_point, solved.pump_point.point
     motion = piston_motion(pump, point)
     samples = found.cycle.shaft_angle.size
-    law = lumped_leaks(pump, point, motion)
     above = found.cycle.pressure - point.case_pressure
-    solved_flow = periodic_values(found.leaks.conductance, samples) * above
-    solved_flow = solved_flow + periodic_values(found.leaks.carried_flow, samples)
-    leakage = np.mean(solved_flow, axis=1) / np.mean(law.conductance * above, axis=1)
-    carried_by_law = found.pistons * float(np.mean(law.carried_flow[0] * above))
-    friction, contact = _friction(found, lumped_pairs(pump, point, motion, found.cycle))
+    moments = law_moments(lumped_leaks(pump, point, motion), above)
+    flow = periodic_values(found.leaks.conductance, samples) * above
+    leakage = np.mean(flow + periodic_values(found.leaks.carried_flow, samples), axis=1) / moments.flow
+    by_law = lumped_pairs(pump, point, motion, found.cycle)
     given, scale = given_films(pump), plate_flow(pump, point)
-    films = [(getattr(solved.film_mean, gap), getattr(solved.film_least, gap)) for gap in GAP_PAIRS]
     rows = [
-        (leakage[k], friction[k], contact[k], mean / getattr(given, gap), least / getattr(given, gap))
-        for k, (gap, (mean, least)) in enumerate(zip(GAP_PAIRS, films, strict=True))
+        (
+            leakage[k],
+            getattr(found.exchange.carried, gap) / (found.pistons * moments.power[k]),
+            net_loss(found, gap) / by_law.loss(pair).mean,
+            found.pairs.loss(pair).mean_coulomb / found.pairs.loss(pair).mean,
+            getattr(solved.film_mean, gap) / getattr(given, gap),
+            getattr(solved.film_least, gap) / getattr(given, gap),
+        )
+        for k, (gap, pair) in enumerate(GAP_PAIRS.items())
     ]
+    socket = found.pairs.piston_slipper_socket.mean / by_law.piston_slipper_socket.mean
     draws = (found.exchange.delivery_draw / scale, found.exchange.suction_draw / scale)
-    return np.array([*np.ravel(rows), found.exchange.carried.piston / carried_by_law, *draws])
+    return np.array([*np.ravel(rows), socket, *draws])
 
 
 def given_films(pump: PumpDescription) -> Gaps:
@@ -88,19 +131,5 @@ def plate_flow(pump: PumpDescription, point: OperatingPoint) -> float:
 
 
 def net_loss(point: PumpPoint, gap: str) -> float:
-    """Loss of a gap's pair, W, of slipper and plate less what carried oil gives back: what the shaft feels.
-
-    The piston's carried oil stands apart, as in the lumped law; the others' is a thousandth of their friction.
-    """
-    loss = point.pairs.loss(GAP_PAIRS[gap]).mean
-    return loss if gap == "piston" else loss - float(getattr(point.exchange.carried, gap))
-
-
-def _friction(found: PumpPoint, by_law: FrictionPairs) -> tuple[list[float], list[float]]:
-    """Of each gap the ratio to the lumped pair, and the share of contact."""
-    net = [net_loss(found, gap) for gap in GAP_PAIRS]
-    ratio = [one / by_law.loss(pair).mean for one, pair in zip(net, GAP_PAIRS.values(), strict=True)]
-    contact = [
-        found.pairs.loss(pair).mean_coulomb / one for one, pair in zip(net, GAP_PAIRS.values(), strict=True)
-    ]
-    return ratio, contact
+    """Loss of a gap's pair less what carried oil gives back, W: what the shaft feels of it."""
+    return point.pairs.loss(GAP_PAIRS[gap]).mean - float(getattr(point.exchange.carried, gap))

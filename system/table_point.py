@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from system.assembly import PumpPoint, assemble, met_point
+from system.chamber import solve_cycle
 from system.chamber_problem import LeakTable
 from system.description import PumpDescription
 from system.errors import NotConverged
@@ -23,12 +24,12 @@ from system.lumped import (
     swept_displacement,
 )
 from system.operating import OperatingPoint
-from system.pairs import FrictionPairs, PairLoss
+from system.pairs import FrictionPairs, Pair, PairLoss
 from system.ports import TURN
-from system.ports_coupling import PortedCycle, ported_cycle
+from system.ports_coupling import ported_cycle
 from system.power import GapExchange, Gaps, chamber_exchange, port_draw
 from system.response_tables import ResponseTable
-from system.table_means import GAP_PAIRS, given_films, plate_flow
+from system.table_means import GAP_PAIRS, given_films, law_moments, plate_flow
 
 ROUND_LIMIT = 12
 SETTLED = 1e-6
@@ -70,15 +71,12 @@ def table_point(pump: PumpDescription, point: OperatingPoint, table: ResponseTab
             f"table and delivery line: after {ROUND_LIMIT} rounds the delivery pressure still moves, expected at "
             f"most {SETTLED:g} of the pressure difference; leave delivery_line.orifice_area out"
         )
-    losses = _losses(pump, met_point(point, ported), motion, ported, means)
-    exchange = replace(
-        chamber_exchange(ported.cycle, pistons * point.shaft_speed / TURN),
-        delivery_draw=draws[0],
-        suction_draw=draws[1],
-    )
-    found = assemble(
-        point, ported, losses, pistons, swept_displacement(pump, motion.drive), exchange, group_masses(pump)
-    )
+    cycle, met_at = ported.cycle, met_point(point, ported)
+    moments = law_moments(lumped_leaks(pump, point, motion), cycle.pressure - point.case_pressure)
+    losses = _losses(lumped_pairs(pump, met_at, motion, cycle), pistons * moments.power, means)
+    exchange = GapExchange(chamber_exchange(cycle, pistons * point.shaft_speed / TURN).carried, *draws)
+    derived, masses = swept_displacement(pump, motion.drive), group_masses(pump)
+    found = assemble(point, ported, losses, pistons, derived, exchange, masses)
     given = given_films(pump)
     return TablePoint(
         pump_point=found,
@@ -92,11 +90,22 @@ def table_point(pump: PumpDescription, point: OperatingPoint, table: ResponseTab
 def _leaks(
     pump: PumpDescription, point: OperatingPoint, motion: PistonMotion, means: Mapping[str, float]
 ) -> LeakTable:
-    """The lumped law's leakage times the table's ratios; only the piston carries oil."""
+    """Flow out of a chamber into each gap, of the table's mean and carried power: a G (p - p_case) + b C + c.
+
+    G and C are the lumped law's, moments those at the pressure of its own cycle. The piston's oil is carried by
+    b C, the others' by c. A conductance is not negative: where carried oil leaves less than nothing, a is 0 and c
+    keeps the mean flow.
+    """
     law = lumped_leaks(pump, point, motion)
-    leakage = np.array([means[f"{gap}.leakage"] for gap in GAP_PAIRS])
-    carried = np.array([means["piston.carried"], 0.0, 0.0])
-    return LeakTable(leakage[:, None] * law.conductance, carried[:, None] * law.carried_flow)
+    cycle = solve_cycle(chamber_problem(pump, point, motion, law), motion.shaft_angle.size)
+    moments = law_moments(law, cycle.pressure - point.case_pressure)
+    flow = moments.flow * [means[f"{gap}.leakage"] for gap in GAP_PAIRS]
+    carried = np.array([means[f"{gap}.carried"] for gap in GAP_PAIRS])
+    by_wall = np.array([carried[0], 0.0, 0.0])
+    constant = np.array([0.0, *(carried * moments.power / moments.above)[1:]])
+    answering = np.maximum((flow - constant) / moments.flow, 0.0)
+    constant = flow - answering * moments.flow
+    return LeakTable(answering[:, None] * law.conductance, by_wall[:, None] * law.carried_flow + constant[:, None])
 
 
 def _draws(pump: PumpDescription, point: OperatingPoint, means: Mapping[str, float]) -> tuple[float, float]:
@@ -105,26 +114,28 @@ def _draws(pump: PumpDescription, point: OperatingPoint, means: Mapping[str, flo
     return scale * means["valve_plate.delivery_draw"], scale * means["valve_plate.suction_draw"]
 
 
-def _losses(
-    pump: PumpDescription,
-    point: OperatingPoint,
-    motion: PistonMotion,
-    ported: PortedCycle,
-    means: Mapping[str, float],
-) -> FrictionPairs:
-    """The lumped pairs at the cycle's pressure, those of the three gaps with the table's means."""
-    by_law = lumped_pairs(pump, point, motion, ported.cycle)
+def _losses(by_law: FrictionPairs, carried: Array, means: Mapping[str, float]) -> FrictionPairs:
+    """The lumped pairs, those of gaps and joints with the table's means.
+
+    carried (3,) W: the power that the table's carried oil is a ratio to; what is learnt is the loss less that oil.
+    """
     told = {
-        pair.value: _with_mean(by_law.loss(pair), means[f"{gap}.friction"], means[f"{gap}.contact_share"])
-        for gap, pair in GAP_PAIRS.items()
+        pair.value: _with_mean(
+            by_law.loss(pair),
+            means[f"{gap}.friction"] * by_law.loss(pair).mean + means[f"{gap}.carried"] * float(carried[k]),
+            means[f"{gap}.contact_share"],
+        )
+        for k, (gap, pair) in enumerate(GAP_PAIRS.items())
     }
+    joint = by_law.piston_slipper_socket
+    told[Pair.PISTON_SLIPPER_SOCKET.value] = _with_mean(joint, means["socket.friction"] * joint.mean, 1.0)
     return replace(by_law, **told)
 
 
-def _with_mean(law: PairLoss, ratio: float, contact: float) -> PairLoss:
-    """A pair with the table's mean, over the angle as the law has its Coulomb and its viscous part."""
-    mean = ratio * law.mean / law.count
-    return PairLoss(law.count, _scaled(law.coulomb, contact * mean), _scaled(law.viscous, (1.0 - contact) * mean))
+def _with_mean(law: PairLoss, mean: float, contact: float) -> PairLoss:
+    """A pair with another mean (W, of all), over the angle as the law has its Coulomb and its viscous part."""
+    one = mean / law.count
+    return PairLoss(law.count, _scaled(law.coulomb, contact * one), _scaled(law.viscous, (1.0 - contact) * one))
 
 
 def _scaled(course: Array, mean: float) -> Array:

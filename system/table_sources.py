@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import Enum
-from typing import Protocol
+from typing import Protocol, assert_never
 
 import numpy as np
 
 from system.description import PumpDescription
 from system.films import POSITIONS_PER_PITCH, TOLERANCE, films_point
+from system.floating import PRESSURE_TOLERANCE, floating_point
+from system.floating_gaps import BLOCK_CELLS, PISTON_CELLS, SLIPPER_CELLS, FloatingOptions
 from system.line_description import LineSection
 from system.operating import OperatingPoint
 from system.power import Gaps
@@ -18,9 +20,10 @@ from system.table_means import SolvedPoint
 
 
 class Source(Enum):
-    """The fidelity that a table condenses."""
+    """The fidelity that a table condenses, the finer one later."""
 
     FILMS = "films"
+    FLOATING = "floating"
 
 
 class PointSolver(Protocol):
@@ -70,10 +73,48 @@ class FilmsSolver:
         return SolvedPoint(found.pump_point, Gaps(*mean), Gaps(*least))
 
 
+@dataclass(frozen=True)
+class FloatingSolver:
+    """`floating_point`: films from the balance of forces, coupled with the chambers."""
+
+    options: FloatingOptions = field(default_factory=FloatingOptions)
+    source = Source.FLOATING
+
+    @property
+    def stated(self) -> Mapping[str, str]:
+        """What its numbers rest on."""
+        options = self.options
+        cells = (options.cells(cells) for cells in (PISTON_CELLS, SLIPPER_CELLS, BLOCK_CELLS))
+        left_out = [effect.value.replace("_", " ") for effect in options.physics.left_out]
+        exact = options.accuracy
+        return {
+            "physics": f"gaps float; left out: {', '.join(left_out) or 'nothing'}",
+            "mesh": f"cells of piston, slipper, block {', '.join(f'{x} x {y}' for x, y in cells)}",
+            "accuracy": f"{options.steps} angles a turn; a step errs by {exact.step:g} of the least film at most, "
+            f"a turn closes to {exact.closed:g} of the mean film; chamber pressure repeats to "
+            f"{PRESSURE_TOLERANCE:g} of the pressure difference",
+        }
+
+    def solve(self, pump: PumpDescription, point: OperatingPoint) -> SolvedPoint:
+        """The point by `floating_point`; least film: of the mean planes, below 0 where rough walls overlap."""
+        found = floating_point(pump, point, self.options)
+        turns = (found.gaps.piston.turn, found.gaps.slipper.turn, found.gaps.block.turn)
+        mean = (float(np.mean([instant.mean_film for instant in turn.instants])) for turn in turns)
+        least = (min(instant.least_gap for instant in turn.instants) for turn in turns)
+        return SolvedPoint(found.pump_point, Gaps(*mean), Gaps(*least))
+
+
+def solver_of(source: Source, options: FloatingOptions) -> PointSolver:
+    """What solves the points of a source; `options` are those of floating gaps."""
+    match source:
+        case Source.FILMS:
+            return FilmsSolver()
+        case Source.FLOATING:
+            return FloatingSolver(options)
+        case _:
+            assert_never(source)
+
+
 def with_held_ports(pump: PumpDescription) -> PumpDescription:
     """The pump without its lines: points of a table are solved at held port pressures."""
     return pump.model_copy(update={"delivery_line": LineSection(), "suction_line": LineSection()})
-
-
-SOLVERS: Mapping[Source, PointSolver] = {Source.FILMS: FilmsSolver()}
-"""How each source solves a point where nothing else is said."""

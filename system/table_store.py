@@ -18,7 +18,7 @@ from system.faults import Fault, InputFaults
 from system.operating import OperatingPoint
 from system.pump_file import resolved_toml
 from system.response_tables import Failed, Origin, ResponseTable, box_text, point_text
-from system.table_means import OUTPUTS, TABLE_FORMAT
+from system.table_means import MEANINGS, TABLE_FORMAT
 from system.table_sources import Source, with_held_ports
 
 KEY_LENGTH = 24
@@ -147,7 +147,7 @@ def _axes(record: Mapping[str, Any]) -> tuple[Axis, ...]:
 
 def _outputs(record: Mapping[str, Any]) -> tuple[Output, ...]:
     found = tuple(Output(row["name"], Measure(row["measure"])) for row in record["outputs"])
-    if found != OUTPUTS:
+    if [output.name for output in found] != list(MEANINGS):
         raise ValueError(f"outputs {', '.join(output.name for output in found)}")
     return found
 

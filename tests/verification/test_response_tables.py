@@ -24,13 +24,13 @@ from system.power import Gaps
 from system.pump_file import load_pump
 from system.side_by_side import side_by_side
 from system.table_build import TableCase, build_table, point_at, point_key, table_axes
-from system.table_means import GAP_PAIRS, OUTPUTS, SolvedPoint, mean_ratios
+from system.table_means import GAP_PAIRS, MEANINGS, SolvedPoint, mean_ratios
 from system.table_point import TablePoint, table_point
 from system.table_sources import FilmsSolver, Source
 from system.table_store import find_table, keep_table, own_table, pump_key, read_table, table_record
 
 PUMP = load_pump("ref90")
-NAMES = [output.name for output in OUTPUTS]
+NAMES = list(MEANINGS)
 
 
 @dataclass(frozen=True)
