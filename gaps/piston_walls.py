@@ -31,8 +31,9 @@ POINTS, WEIGHTS = np.polynomial.legendre.leggauss(2)  # exact for the product of
 class FaceGrid:
     """A cylindrical part's whole face as rows along the bore and columns around it.
 
-    rows (n,) m from the part's end; influence (n, columns + 1, n, columns) m/Pa: opening by pressure, the seam's
-    column twice in the opening; by_chamber (n, columns + 1) m/Pa, by the pressure on its chamber faces.
+    rows (n,) m from the part's end; influence (n, columns + 1, columns, n) m/Pa: opening of a row and column by
+    pressure on a column and row, the seam's column twice in the opening; by_chamber (n, columns + 1) m/Pa, by the
+    pressure on its chamber faces.
     """
 
     rows: Array
@@ -42,7 +43,7 @@ class FaceGrid:
     @property
     def columns(self) -> int:
         """Cells around."""
-        return int(self.influence.shape[3])
+        return int(self.influence.shape[2])
 
 
 def face_grid(
@@ -52,7 +53,7 @@ def face_grid(
     space = film_space(rectangle((2.0 * np.pi * radius, length), cells, cell=Cell.QUADRILATERAL, periodic_x=True))
     vertices, unknowns = _numbers(space)
     matrix = body_wall(body, space, folder=folder).matrix
-    influence = matrix[np.ix_(vertices.ravel(), unknowns.ravel())].reshape(*vertices.shape, *unknowns.shape)
+    influence = matrix[np.ix_(vertices.ravel(), unknowns.T.ravel())].reshape(*vertices.shape, *unknowns.T.shape)
     opened = np.zeros(len(space.vertices))
     if CHAMBER in body.mesh.face_names:
         opened = load_opening(body, space, FacePressure(CHAMBER, 1.0), folder=folder)
@@ -76,7 +77,7 @@ class PistonWalls:
         vertices, unknowns = _numbers(film)
         matrix = np.empty((len(film.vertices), film.size))
         total = sum(_met(grid, film, start) for grid, start in self._parts(reach))
-        matrix[np.ix_(vertices.ravel(), unknowns.ravel())] = total
+        matrix[np.ix_(vertices.ravel(), unknowns.T.ravel())] = total
         return Compliance(matrix)
 
     def by_chamber(self, film: FilmSpace, reach: float) -> Array:
@@ -88,7 +89,7 @@ class PistonWalls:
             rows = film.vertices[vertices[:, 0], 1] - start
             _, back = _between(grid.rows, rows)
             bare = _bare(grid.rows, float(rows[0]))
-            whole = grid.by_chamber + np.einsum("icjd,j->ic", grid.influence, bare)
+            whole = grid.by_chamber + (grid.influence @ bare).sum(axis=2)
             total += back @ whole
         opened[vertices.ravel()] = total.ravel()
         return opened
@@ -99,14 +100,14 @@ class PistonWalls:
 
 
 def _met(grid: FaceGrid, film: FilmSpace, start: float) -> Array:
-    """The part's compliance on the film's rows and columns, (rows (columns + 1), rows columns) m/Pa."""
+    """The part's compliance on the film's rows and columns, (rows (columns + 1), columns rows) m/Pa."""
     vertices, unknowns = _numbers(film)
     if unknowns.shape[1] != grid.columns:
         found = f"{unknowns.shape[1]} cells around a film"
         raise FilmInputError("piston walls", found, f"{grid.columns}, as around the parts' faces")
     there, back = _between(grid.rows, film.vertices[vertices[:, 0], 1] - start)
-    opened = np.tensordot(back, grid.influence, axes=1)
-    return np.einsum("icjd,jk->ickd", opened, there, optimize=True).reshape(vertices.size, unknowns.size)
+    opened = back @ grid.influence.reshape(len(grid.rows), -1)
+    return np.asarray(opened.reshape(-1, len(grid.rows)) @ there).reshape(vertices.size, unknowns.size)
 
 
 def _numbers(space: FilmSpace) -> tuple[NDArray[np.signedinteger], NDArray[np.signedinteger]]:

@@ -31,6 +31,7 @@ LEAST_SHARE = 0.2  # of the least gap that a step may leave
 DEEPEST = 3.0  # standard deviations of the summits by which a step may press the walls together
 THINNEST = 1e-9  # m: of a film between walls without asperities, some molecules of oil
 NEXT = 1e-2  # of the least film or of the summits' height
+SOFT_TOLERANCE = 1e-6  # of linear solves between walls that give way, for slopes that steer no more than a turn
 SOLID = 1.0 - 1e-6  # of the overlap at which the law of contact ends
 TOUCHING = "asperities that bear where walls touch, an edge relief, or less load"
 ROUNDING = 1e-6  # share of the largest magnitude below which another one is none
@@ -202,7 +203,12 @@ class Instant:
         height = THINNEST if asperities is None else asperities.height
         return at.least - lowest_gap(self.shape) < NEXT * height
 
-    def by_position(self, at: Trial, tolerance: float = ITERATIVE_TOLERANCE) -> Response:
+    @property
+    def exactness(self) -> float:
+        """Tolerance of linear solves for slopes that are carried on: dear between walls that give way."""
+        return ITERATIVE_TOLERANCE if self.shape.walls is None else SOFT_TOLERANCE
+
+    def by_position(self, at: Trial, tolerance: float) -> Response:
         """How the film at a position answers to it, on the film's last factor, to a tolerance of linear solves."""
         parts = self.solver.operators(at.solution)
         load = thickness_load(at.solution, at.thicker, parts) + self.modes.pockets / self.step
@@ -220,7 +226,10 @@ class Instant:
     def by_before(self, at: Trial, changed: Kept) -> tuple[Response, Array]:
         """Change of the film and of `missing` (k, m) with what was held before, the position as it is."""
         film = response(
-            self.solver, at.solution, (changed.oil + self.modes.pockets @ changed.position) / self.step
+            self.solver,
+            at.solution,
+            (changed.oil + self.modes.pockets @ changed.position) / self.step,
+            self.exactness,
         )
         missing = self.modes.weights.T @ film.pressure - at.outer.by_rate @ changed.position / self.step
         if at.contact is not None:

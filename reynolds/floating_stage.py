@@ -101,7 +101,7 @@ class Stage:
     @cached_property
     def _answer(self) -> Response:
         """How the film answers to its position: on the film's last factor while no other film is solved."""
-        return self.instant.by_position(self.trial)
+        return self.instant.by_position(self.trial, self.instant.exactness)
 
     def ahead(self, q: Array) -> FilmSolution:
         """A guess of the film at another position (k,) m: this one if linear, else as its slopes have it."""

@@ -29,7 +29,7 @@ TOLERANCE = 1e-12  # of film thickness and asperities' height
 DEEPEST = 5.0  # standard deviations of the summits by which they may be in each other at first
 ROOM = 0.9  # of the way to where the law of contact ends
 MOST_HALVINGS, LEAST_GAIN = 8, 1e-4  # of a step; of what is missing, by a full step
-FELT = 1e-7  # of a displacement, by which a contact answers that counts as one
+FELT = 1e-8  # of the stiffness K E'/sigma where mean planes meet: less resists nothing
 
 
 def opening(problem: FilmProblem, pressure: Array, start: Array | None = None) -> Array:
@@ -163,21 +163,22 @@ class Meeting:
     """Where rough walls that give way can touch.
 
     oil (vertices,): where nothing touches; shares (size, vertices): pressure of the unknowns by that of the
-    vertices; softest: largest opening by unit pressure everywhere, m/Pa.
+    vertices.
     """
 
     compliance: WallMatrix
     asperities: Asperities
     oil: NDArray[np.bool_]
     shares: csr_array
-    softest: float
 
     def at(self, gap: Array) -> Touch:
         """Contact at a gap between the mean planes (vertices,) m; raises as the law of contact does."""
         found = contact_pressure(self.asperities, gap[~self.oil])
         value, slope = np.zeros(len(gap)), np.zeros(len(gap))
         value[~self.oil], slope[~self.oil] = found
-        return Touch(self, Tangent(value, slope), np.flatnonzero(-slope * self.softest > FELT))
+        law = self.asperities
+        stiff = FELT * law.elastic_factor * law.modulus / law.height
+        return Touch(self, Tangent(value, slope), np.flatnonzero(-slope > stiff))
 
 
 def meeting_of(problem: FilmProblem) -> Meeting:
@@ -191,8 +192,7 @@ def meeting_of(problem: FilmProblem) -> Meeting:
     oil = np.isin(space.vertex_dofs, np.concatenate([[-1], *pockets, *ports]))
     share = np.where(oil, 0.0, 1.0 / np.bincount(space.vertex_dofs)[space.vertex_dofs])
     shares = csr_array((share, (space.vertex_dofs, np.arange(count))), shape=(space.size, count))
-    softest = float(np.abs(compliance @ np.ones(space.size)).max())
-    return Meeting(compliance, problem.asperities, oil, shares, softest)
+    return Meeting(compliance, problem.asperities, oil, shares)
 
 
 def touch_at(problem: FilmProblem, found: Array) -> Touch:
