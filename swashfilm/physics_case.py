@@ -46,13 +46,16 @@ _KEYS: dict[Effect, tuple[str, Enum, Enum]] = {
 }
 
 
-def read_physics(table: Table) -> Physics:
-    """The physics that `walls`, `oil`, `surfaces` and `cavitation` of a table choose, all on where left out.
+def read_physics(table: Table, usual: Physics) -> Physics:
+    """The physics that `walls`, `oil`, `surfaces` and `cavitation` of a table choose; what is left out is `usual`.
 
-    Faults are told in the table's list. Of a command line: `read_physics(Table("", switched_keys(options), []))`.
+    Faults are told in the table's list.
     """
-    chosen = {effect: table.choice(key, type(on), on) for effect, (key, on, _) in _KEYS.items()}
-    return Physics().without(*(effect for effect, choice in chosen.items() if choice is _KEYS[effect][2]))
+    found = usual
+    for effect, (key, on, off) in _KEYS.items():
+        choice = table.choice(key, type(on), off if effect in usual.left_out else on)
+        found = found.without(effect) if choice is off else found.including(effect)
+    return found
 
 
 def physics_rows(physics: Physics) -> Iterator[str]:

@@ -103,7 +103,7 @@ def _options(table: Table, gap: Gap | None, pump: CasePump | None) -> FloatingOp
         table.fault("tolerance", repr(tolerance), f"above 0, at most {_LARGEST_TOLERANCE:g} of the least film")
     if finer is not None and not _FINER[0] <= finer <= _FINER[1]:
         table.fault("finer", repr(finer), f"{_FINER[0]:g} to {_FINER[1]:g} times the usual cells each way")
-    physics = read_physics(table)
+    physics = read_physics(table, FloatingOptions().physics)
     pistons = pump.rotor.pump.pump.pistons if pump else 1
     if steps and gap is Gap.VALVE_PLATE and steps % pistons:
         nearest = max(1, round(steps / pistons)) * pistons

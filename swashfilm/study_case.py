@@ -102,7 +102,9 @@ def load_film(path: Path, switched: Mapping[str, str] | None = None) -> Case | S
     text, tables = read_toml(path)
     if switched:
         _switch(tables, switched)
-        text = "".join([f"{text.rstrip()}\n", *(f"# command line: revolution.{k} = {v}\n" for k, v in switched.items())])
+        text = "".join(
+            [f"{text.rstrip()}\n", *(f"# command line: revolution.{k} = {v}\n" for k, v in switched.items())]
+        )
     return read_study(path, text, tables) if "study" in tables else read_case(path, text, tables)
 
 

@@ -2,6 +2,7 @@
 
 import csv
 import json
+import re
 from pathlib import Path
 
 import numpy as np
@@ -86,6 +87,7 @@ def test_a_turn_leaves_tables_fields_pictures_and_a_page(capsys):
     found = summary["refinement"]
     assert found["dofs"][1] > 3 * found["dofs"][0]
     assert {"film_thickness_min_m", "leakage_flow_m3_per_s", "friction_power_W"} <= set(found["numbers"])
+    documented(summary)
     turns = table("out/convergence.csv")
     assert len(turns["turn"]) == summary["turns"]
     assert float(turns["multiplier_1 [-]"][-1]) == pytest.approx(summary["largest_multiplier"], rel=1e-5)
@@ -102,6 +104,18 @@ def test_a_turn_leaves_tables_fields_pictures_and_a_page(capsys):
     page.unlink()
     assert main(["report", "out"]) == 0
     assert page.read_text("utf-8").count("data:image/png") == 5
+
+
+def documented(summary: dict[str, object]) -> None:
+    """Keys of the summary and variables of the results are those of docs/files.md."""
+    page = (Path(__file__).parents[2] / "docs" / "files.md").read_text("utf-8")
+    keys = page.partition("## summary.json of a revolution\n")[2].partition("\n## ")[0]
+    first = "".join(line.split("|")[1] for line in keys.splitlines() if line.startswith("| `"))
+    assert set(re.findall(r"`([^`]+)`", first)) == set(summary)
+    with xarray.open_dataset("out/results.nc", engine="h5netcdf") as data:
+        names = {str(name) for name in data.variables}
+    told = page.partition("Of a revolution, over `shaft_angle`")[2]
+    assert names - {"shaft_angle"} <= set(re.findall(r"`([^`]+)`", told))
 
 
 def in_true_place() -> None:
