@@ -207,10 +207,10 @@ def apply(a, x, out):
                 total += lanes(x, q) * image
         if a.around:
             for row in range(a.start[0, odd], a.start[0, odd] + (a.length + 2) * slots, slots):
-                out[row] *= 1 - odd
-                for q in range(row + odd + coloured(a, 0, odd), row + slots):
+                for q in range(row + odd + coloured(a, 0, odd), row + odd + wide):
                     less += x[q] * out[q]
-                    out[q] = 0.0
+                out[row] *= 1 - odd
+                out[row + odd + coloured(a, 0, odd) : row + slots] = 0.0
     return _sum(total) - less
 
 
