@@ -184,8 +184,8 @@ class BlockFilm:
         flow, space = boundary_flows(solution), solution.problem.space
         named = np.unique(np.concatenate(list(space.edge_dofs.values())))
         suction, delivery = (
-            -float(solution.outflow[np.setdiff1d(self.ring.nodes_over(space, arc), named)].sum())
-            for arc in (self.geometry.suction_arc, self.geometry.delivery_arc)
+            -float(solution.outflow[np.setdiff1d(self.ring.nodes_over(space, port), named)].sum())
+            for port in (self.geometry.suction, self.geometry.delivery)
         )
         return np.array([-flow[name] for name in self.geometry.kidneys]), suction, delivery
 

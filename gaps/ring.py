@@ -20,21 +20,41 @@ from reynolds.space import FilmSpace, film_space
 
 SEALED = 1e6  # viscosity of a web over a port, in oil's: the film passes nothing there; laws of oil reach that far
 
+Arc = tuple[float, float]
+"""From and to, rad, in pump angle."""
+
 
 @dataclass(frozen=True)
 class ValvePlateGeometry:
-    """Land radii R1 < R2 < R3 < R4 (m), chambers, kidney arc (rad) and the ports' arcs (rad, from, to).
+    """Land radii R1 < R2 < R3 < R4 (m), chambers, kidney arc (rad) and the ports' arcs.
 
-    Ports are sectors of the valve plate between R2 and R3, in pump angle; kidneys are taken as sectors of the
+    Ports are sectors of the valve plate between R2 and R3, in pump angle, parted by the webs (from, to) in them
+    that are flush with its face; kidneys are taken as sectors of the
     same width (rounded ends are not modelled: their effect on the webs is under 0.1 of a web).
     """
 
     land_radii: tuple[float, float, float, float]
     pistons: int
     kidney_arc: float
-    suction_arc: tuple[float, float]
-    delivery_arc: tuple[float, float]
+    suction_arc: Arc
+    delivery_arc: Arc
+    webs: tuple[Arc, ...] = ()
     pads: tuple[BearingPads, ...] = ()
+
+    @property
+    def suction(self) -> tuple[Arc, ...]:
+        """Arcs of the suction port's kidneys."""
+        return self._parted(self.suction_arc)
+
+    @property
+    def delivery(self) -> tuple[Arc, ...]:
+        """Arcs of the delivery port's kidneys."""
+        return self._parted(self.delivery_arc)
+
+    def _parted(self, arc: Arc) -> tuple[Arc, ...]:
+        inside = sorted(web for web in self.webs if arc[0] < web[0] and web[1] < arc[1])
+        edges = [arc[0], *(edge for web in inside for edge in web), arc[1]]
+        return tuple(zip(edges[::2], edges[1::2], strict=True))
 
     @property
     def case_edges(self) -> tuple[str, ...]:
@@ -90,21 +110,22 @@ class Ring:
         """Cells of the ring, which turn, not those of the pads, (cells, 1)."""
         return (np.arange(len(space.cells)) < self._cells)[:, None]
 
-    def nodes_over(self, space: FilmSpace, arc: tuple[float, float]) -> NDArray[np.signedinteger]:
-        """Unknowns over a port's arc (rad), those of kidneys and of its edges included."""
-        return np.unique(space.vertex_dofs[self._vertices_in(space.vertices, arc)])
+    def nodes_over(self, space: FilmSpace, arcs: tuple[Arc, ...]) -> NDArray[np.signedinteger]:
+        """Unknowns over a port's kidneys (rad), those of the block's kidneys and of the edges included."""
+        over = [self._vertices_in(space.vertices, arc) for arc in arcs]
+        return np.unique(space.vertex_dofs[np.any(over, axis=0)])
 
     def over_port(self, space: FilmSpace) -> NDArray[np.bool_]:
         """Cells that lie over a port with all their corners, (cells, 1)."""
-        arcs = (self.geometry.suction_arc, self.geometry.delivery_arc)
+        arcs = (*self.geometry.suction, *self.geometry.delivery)
         over = [self._vertices_in(space.vertices, arc)[space.cells].all(axis=1) for arc in arcs]
         return np.any(over, axis=0)[:, None]
 
     def port_nodes(self, space: FilmSpace, suction: float, delivery: float) -> Array:
         """Pressure (size,) Pa of the unknowns over a port, NaN elsewhere and on the kidneys' edges."""
         nodes = np.full(space.size, np.nan)
-        nodes[self.nodes_over(space, self.geometry.suction_arc)] = suction
-        nodes[self.nodes_over(space, self.geometry.delivery_arc)] = delivery
+        nodes[self.nodes_over(space, self.geometry.suction)] = suction
+        nodes[self.nodes_over(space, self.geometry.delivery)] = delivery
         for name in self.geometry.kidneys:
             nodes[space.edge_dofs[name]] = np.nan
         return nodes
@@ -125,7 +146,7 @@ class Ring:
     def port_breaks(self) -> Array:
         """Shaft angles (rad) within a pitch at which a mesh line passes a port's edge: there the film changes."""
         lines = np.arctan2(self.space.vertices[:, 1], self.space.vertices[:, 0])[self._in_kidney_ring]
-        edges = np.array([*self.geometry.suction_arc, *self.geometry.delivery_arc])
+        edges = np.array([*self.geometry.suction, *self.geometry.delivery]).ravel()
         met = np.unique(np.round((edges[:, None] - lines) % self.geometry.pitch, 9))
         return met[met < self.geometry.pitch - 1e-8]
 

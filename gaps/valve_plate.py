@@ -138,8 +138,8 @@ class ValvePlateGap:
         for nodes in space.edge_dofs.values():
             named[nodes] = True
         inflows = [-flows[name] for name in self.geometry.kidneys]
-        for arc in (self.geometry.suction_arc, self.geometry.delivery_arc):
-            nodes = self._ring.nodes_over(space, arc)
+        for port in (self.geometry.suction, self.geometry.delivery):
+            nodes = self._ring.nodes_over(space, port)
             inflows.append(float(-solution.outflow[nodes[~named[nodes]]].sum()))
         return np.array(inflows)
 

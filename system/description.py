@@ -44,6 +44,7 @@ from system.fields import (
     Stiffness,
     Temperature,
     Volume,
+    Webs,
     table_of,
     tables_of,
 )
@@ -166,6 +167,13 @@ class PortsSection(Section):
     flow_coefficient: Annotated[float, Field(gt=0.0, le=1.0)]
     critical_reynolds: Annotated[float, Positive]  # laminar-turbulent transition of the orifice law
     grooves: tuple[GrooveSection, ...] = ()  # in place of groove_start and groove_area
+
+    webs: Webs | None = None  # that part the port into several kidneys
+
+    @property
+    def web_spans(self) -> tuple[tuple[float, float], ...]:
+        """From and to (rad, from the port's own dead centre) of each web."""
+        return tuple((middle - 0.5 * width, middle + 0.5 * width) for middle, width in self.webs or ())
 
     @property
     def relief_grooves(self) -> tuple[GrooveSection, ...]:

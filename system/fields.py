@@ -85,6 +85,11 @@ SlipperGrooves = Annotated[
     Points((Dimension.LENGTH,) * 2, ("inner radius", "outer radius"), ("10 mm", "11 mm")),
     Field(min_length=1),
 ]
+Webs = Annotated[
+    tuple[tuple[float, float], ...],
+    Points((Dimension.ANGLE,) * 2, ("middle", "width"), ("90 deg", "4 deg")),
+    Field(min_length=1),
+]
 
 
 class Section(BaseModel):

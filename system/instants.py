@@ -151,6 +151,7 @@ def valve_plate_geometry(pump: PumpDescription) -> ValvePlateGeometry:
         kidney_arc=part.kidney_arc,
         suction_arc=arc,
         delivery_arc=(arc[0] + np.pi, arc[1] + np.pi),
+        webs=tuple((start + dead, end + dead) for dead in (0.0, np.pi) for start, end in ports.web_spans),
         pads=part.bearing_pads,
     )
 

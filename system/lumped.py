@@ -32,6 +32,7 @@ from system.lines import Lines
 from system.operating import OperatingPoint
 from system.pairs import FrictionPairs, PairLoss
 from system.port_description import relief_groove
+from system.port_webs import PortWebs
 from system.ports import TURN, PortOpening
 from system.ports_coupling import ported_cycle
 from system.power import chamber_exchange
@@ -184,6 +185,7 @@ def port_opening(pump: PumpDescription, dead_centre: float) -> PortOpening:
         kidney_end=p.kidney_end,
         kidney_area=p.kidney_area,
         grooves=tuple(relief_groove(groove, p.kidney_full_end, radius) for groove in p.relief_grooves),
+        webs=PortWebs(pump.valve_plate.kidney_arc, p.web_spans),
     )
 
 

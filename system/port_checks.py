@@ -10,6 +10,7 @@ from system.checks import CheckWarning, Finding, angle, needs
 from system.description import PumpDescription
 from system.faults import Fault
 from system.port_description import groove_faults, throats
+from system.port_webs import MOST_WEBS
 from system.units import Dimension, format_quantity
 
 PORT_TOLERANCE = math.radians(1.0)
@@ -86,9 +87,28 @@ def grooves_are_smaller_than_the_kidney(pump: PumpDescription) -> Iterator[Findi
         )
 
 
+@needs("ports.webs", "valve_plate.kidney_arc", "ports.groove_end", "ports.kidney_end")
+def webs_part_the_port(pump: PumpDescription) -> Iterator[Finding]:
+    """Webs lie inside the port with kidneys between them, each narrower than the kidney of the block."""
+    arc, spans = pump.valve_plate.kidney_arc, pump.ports.web_spans
+    last, end = pump.ports.groove_end + 0.5 * arc, pump.ports.kidney_end - 0.5 * arc
+    if len(spans) > MOST_WEBS:
+        yield Fault("ports.webs", f"{len(spans)} webs", f"at most {MOST_WEBS} a port")
+    for number, (start, stop) in enumerate(spans, start=1):
+        if not 0.0 < stop - start < arc:
+            found = f"web {number}, {angle(stop - start)} wide"
+            yield Fault("ports.webs", found, f"more than 0 and less than kidney_arc, {angle(arc)}")
+        elif start <= last or stop >= end:
+            found = f"web {number} from {angle(start)} to {angle(stop)}"
+            within = f"within {angle(last)} to {angle(end)}, in growing order, with port on both sides"
+            yield Fault("ports.webs", found, within)
+        last = max(last, stop)
+
+
 PORT_CHECKS = (
     ports_open_in_order,
     ports_belong_to_the_kidney,
     grooves_fit_the_port,
     grooves_are_smaller_than_the_kidney,
+    webs_part_the_port,
 )

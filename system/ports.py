@@ -13,14 +13,17 @@ import numba
 import numpy as np
 
 from system.kinematics import Array
+from system.port_webs import WEBS_SIZE, PortWebs, covered_share
 from system.relief_grooves import SIZE, ReliefGroove, throat_area
 
 TURN = 2.0 * np.pi
 SAME_ANGLE = 1e-9  # rad
 MOST_GROOVES = 8
 NUMBERS = 8
-"""Of a port as compiled code reads it, before its grooves."""
-PORT_SIZE = NUMBERS + MOST_GROOVES * SIZE
+"""Of a port as compiled code reads it, before its grooves and webs."""
+WEBS_FROM = NUMBERS + MOST_GROOVES * SIZE
+PORT_SIZE = WEBS_FROM + WEBS_SIZE
+NO_WEBS = PortWebs()
 
 
 @dataclass(frozen=True)
@@ -39,6 +42,7 @@ class PortOpening:
     kidney_end: float
     kidney_area: float
     grooves: tuple[ReliefGroove, ...] = ()
+    webs: PortWebs = NO_WEBS
 
     def __post_init__(self) -> None:
         if len(self.grooves) > MOST_GROOVES:
@@ -56,10 +60,8 @@ class PortOpening:
 
 
 @numba.njit("f8(f8,f8[:])", cache=True)
-def section_area(shaft_angle, port):  # type: ignore[no-untyped-def]
-    """Opening area in m2 at one shaft angle; `port` is the array of `as_array`. For use inside compiled code."""
-    start = port[6]
-    x = (shaft_angle - port[0] - start) % TURN + start
+def _one_kidney(x, port):  # type: ignore[no-untyped-def]
+    """Opening area of a port without webs, at an angle from its dead centre."""
     if port[2] <= x < port[3]:
         return port[5]
     opening = x < port[2]
@@ -75,6 +77,14 @@ def section_area(shaft_angle, port):  # type: ignore[no-untyped-def]
     if x < port[4]:
         return area + (port[5] - area) * (port[4] - x) / (port[4] - port[3])
     return area
+
+
+@numba.njit("f8(f8,f8[:])", cache=True)
+def section_area(shaft_angle, port):  # type: ignore[no-untyped-def]
+    """Opening area in m2 at one shaft angle; `port` is the array of `as_array`. For use inside compiled code."""
+    start = port[6]
+    x = (shaft_angle - port[0] - start) % TURN + start
+    return _one_kidney(x, port) - port[5] * covered_share(x, port[WEBS_FROM:])
 
 
 @numba.njit("f8(f8,f8,f8,f8,f8)", cache=True)
@@ -129,6 +139,7 @@ def as_array(port: PortOpening) -> Array:
     )
     for n, groove in enumerate(port.grooves):
         found[NUMBERS + n * SIZE : NUMBERS + (n + 1) * SIZE] = groove.row
+    found[WEBS_FROM:] = port.webs.row
     return found
 
 
@@ -141,7 +152,7 @@ def opening_area(port: PortOpening, shaft_angle: Array | float) -> Array:
 def break_angles(port: PortOpening) -> Array:
     """Shaft angles in [0, 2 pi), ascending, where the opening law changes: no integration step may cross one."""
     kidney = (port.kidney_start, port.kidney_full_start, port.kidney_full_end, port.kidney_end)
-    own = [*kidney, *(angle for groove in port.grooves for angle in groove.breaks)]
+    own = [*kidney, *port.webs.breaks, *(angle for groove in port.grooves for angle in groove.breaks)]
     found = np.sort((port.dead_centre + np.array(own)) % TURN)
     return found[np.diff(found, prepend=-1.0) > SAME_ANGLE]
 

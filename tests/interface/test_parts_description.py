@@ -37,6 +37,7 @@ EVERY = {
     "slipper.vented_grooves": [["12 mm", "12.5 mm"]],
     "valve_plate.waviness": {"waves": 3, "amplitude": "1 um"},
     "valve_plate.profile": [["26 mm", "0 um"], ["46 mm", "1 um"]],
+    "ports.webs": [["60 deg", "4 deg"], ["100 deg", "5 deg"]],
     "block.spline_position": "80 mm",
     "oil.pressure_viscosity": "18 1/GPa",
     "oil.thermal_conductivity": "0.13 W/(m K)",
