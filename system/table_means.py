@@ -73,23 +73,33 @@ class SolvedPoint:
 
 @dataclass(frozen=True)
 class LawMoments:
-    """One chamber by the lumped law at a given pressure, of the gaps (3,): mean pressure flow G (p - p_case) m3/s,
-    power W that carried oil is measured by; above: mean of p - p_case, Pa.
+    """One chamber by the lumped law at a given pressure, means over the turn, of the gaps (3,).
 
-    The power is that of the oil carried in the piston's gap, and of the pressure flow in the others, in which the
-    law knows none.
+    flow: of the pressure flow G (p - p_case), m3/s; carried, one: of the law's carried flow, m3/s, and of a flow
+    of 1 m3/s; all three by mass, at case pressure. power: what carried oil is measured by, W: the oil carried in
+    the piston's gap, the pressure flow in the others, in which the law knows none; above: p - p_case, Pa.
     """
 
     flow: Array
+    carried: Array
+    one: float
     power: Array
     above: float
 
 
-def law_moments(law: LeakTable, above: Array) -> LawMoments:
-    """Moments of the lumped law at a chamber's pressure over the case's, (N,) Pa at the law's N shaft angles."""
+def law_moments(law: LeakTable, pump: PumpDescription, point: OperatingPoint, pressure: Array) -> LawMoments:
+    """Moments of the lumped law at a chamber's pressure (N,) Pa at the law's N shaft angles."""
+    above = pressure - point.case_pressure
+    dense = np.exp(above / pump.oil.bulk_modulus)
     power = np.mean(law.conductance * above**2, axis=1)
     power[0] = np.mean(law.carried_flow[0] * above)
-    return LawMoments(np.mean(law.conductance * above, axis=1), power, float(np.mean(above)))
+    return LawMoments(
+        flow=np.mean(law.conductance * above * dense, axis=1),
+        carried=np.mean(law.carried_flow * dense, axis=1),
+        one=float(np.mean(dense)),
+        power=power,
+        above=float(np.mean(above)),
+    )
 
 
 def mean_ratios(pump: PumpDescription, solved: SolvedPoint) -> Array:
@@ -98,9 +108,10 @@ def mean_ratios(pump: PumpDescription, solved: SolvedPoint) -> Array:
     motion = piston_motion(pump, point)
     samples = found.cycle.shaft_angle.size
     above = found.cycle.pressure - point.case_pressure
-    moments = law_moments(lumped_leaks(pump, point, motion), above)
+    moments = law_moments(lumped_leaks(pump, point, motion), pump, point, found.cycle.pressure)
     flow = periodic_values(found.leaks.conductance, samples) * above
-    leakage = np.mean(flow + periodic_values(found.leaks.carried_flow, samples), axis=1) / moments.flow
+    flow = flow + periodic_values(found.leaks.carried_flow, samples)
+    leakage = np.mean(flow * np.exp(above / pump.oil.bulk_modulus), axis=1) / moments.flow
     by_law = lumped_pairs(pump, point, motion, found.cycle)
     given, scale = given_films(pump), plate_flow(pump, point)
     rows = [

@@ -72,7 +72,7 @@ def table_point(pump: PumpDescription, point: OperatingPoint, table: ResponseTab
             f"most {SETTLED:g} of the pressure difference; leave delivery_line.orifice_area out"
         )
     cycle, met_at = ported.cycle, met_point(point, ported)
-    moments = law_moments(lumped_leaks(pump, point, motion), cycle.pressure - point.case_pressure)
+    moments = law_moments(lumped_leaks(pump, point, motion), pump, point, cycle.pressure)
     losses = _losses(lumped_pairs(pump, met_at, motion, cycle), pistons * moments.power, means)
     exchange = GapExchange(chamber_exchange(cycle, pistons * point.shaft_speed / TURN).carried, *draws)
     derived, masses = swept_displacement(pump, motion.drive), group_masses(pump)
@@ -93,18 +93,19 @@ def _leaks(
     """Flow out of a chamber into each gap, of the table's mean and carried power: a G (p - p_case) + b C + c.
 
     G and C are the lumped law's, moments those at the pressure of its own cycle. The piston's oil is carried by
-    b C, the others' by c. A conductance is not negative: where carried oil leaves less than nothing, a is 0 and c
-    keeps the mean flow.
+    b C, the others' by c. A conductance is not negative: where carried oil is more than all, a is 0 and c keeps
+    the mean flow.
     """
     law = lumped_leaks(pump, point, motion)
     cycle = solve_cycle(chamber_problem(pump, point, motion, law), motion.shaft_angle.size)
-    moments = law_moments(law, cycle.pressure - point.case_pressure)
+    moments = law_moments(law, pump, point, cycle.pressure)
     flow = moments.flow * [means[f"{gap}.leakage"] for gap in GAP_PAIRS]
     carried = np.array([means[f"{gap}.carried"] for gap in GAP_PAIRS])
     by_wall = np.array([carried[0], 0.0, 0.0])
     constant = np.array([0.0, *(carried * moments.power / moments.above)[1:]])
-    answering = np.maximum((flow - constant) / moments.flow, 0.0)
-    constant = flow - answering * moments.flow
+    by_pressure = flow - by_wall * moments.carried - constant * moments.one
+    answering = np.maximum(by_pressure / moments.flow, 0.0)
+    constant += (by_pressure - answering * moments.flow) / moments.one
     return LeakTable(answering[:, None] * law.conductance, by_wall[:, None] * law.carried_flow + constant[:, None])
 
 
