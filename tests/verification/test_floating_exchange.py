@@ -77,7 +77,7 @@ def test_a_thicker_film_under_the_slipper_takes_from_the_chamber():
 
 
 def test_the_ball_stays_on_the_plate():
-    """Whatever the piston does across its bore, the ball is moved along the swash plate; its film alone lifts it."""
+    """Whatever the piston does across its bore, the ball moves along the swash plate alone."""
     normal = plate_axes(ROTOR.drive)[2]
     shift = ball_shift(gaps(piston=(9e-6, -4e-6, -12e-6, 3e-6)), ROTOR, PARTS)
     assert shift @ normal == pytest.approx(np.zeros(STEPS), abs=1e-18)
