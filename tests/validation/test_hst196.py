@@ -17,7 +17,6 @@ import numpy as np
 import pytest
 
 BAND = Path(__file__).resolve().parents[2] / "examples" / "hst196" / "band.py"
-CASE = "Hydrostatic transmission HST 196, 1780 rpm, 207 against 14 bar"
 SOURCE = "recordings/hst196, 399 units"
 
 
@@ -48,7 +47,7 @@ def test_spread_by_clearance_alone(band, measured, validation):
     """All pistons at one end of the tolerance or the other: the most that the drawing's clearance can do."""
     spread = np.ptp(band.by_clearance())
     validation(
-        case=CASE,
+        case="Hydrostatic transmission HST 196, 1780 rpm, 207 against 14 bar",
         source=SOURCE,
         quantity="spread by the whole piston clearance, 22.9 .. 34.3 um",
         unit="%",
@@ -64,7 +63,7 @@ def test_band(band, measured, validation):
     values, found = band.sample(count=96)
     low, high = 100.0 * np.quantile(found, (0.05, 0.95))
     validation(
-        case=CASE,
+        case="Hydrostatic transmission HST 196, 1780 rpm, 207 against 14 bar",
         source=SOURCE,
         quantity="volumetric efficiency",
         unit="%",
