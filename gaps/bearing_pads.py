@@ -77,15 +77,17 @@ class BearingPads:
         return np.hstack(places), np.hstack(quads)
 
 
-def with_pads(film_mesh: FilmMesh, runs: Iterable[BearingPads], across: int) -> FilmMesh:
+def with_pads(film_mesh: FilmMesh, runs: Iterable[BearingPads], across: int, turned: float = 0.0) -> FilmMesh:
     """A mesh of quadrilaterals with the cells of all pads after its own, their edges named EDGE.
 
-    Own vertices, cells and boundary names stay as they are.
+    `turned`: angle (rad) about which the first pad of a run lies. Own vertices, cells and names stay as they are.
     """
     mesh = film_mesh.mesh
     places, quads, count = [mesh.p], [mesh.t], mesh.p.shape[1]
     for run in runs:
         own, cells = run.cells(across)
+        c, s = np.cos(turned), np.sin(turned)
+        own = np.array([[c, -s], [s, c]]) @ own
         places.append(own)
         quads.append(cells + count)
         count += own.shape[1]

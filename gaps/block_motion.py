@@ -213,8 +213,8 @@ class BlockFilm:
         return np.column_stack([np.ones_like(x), x, y])
 
     def _shape(self, x: Array, y: Array) -> Array:
-        """What is taken off the plate's face (m), by radius and pump angle."""
-        return np.asarray(self._face(np.hypot(x, y), np.arctan2(y, x)).depth)
+        """What is taken off the plate's face (m), by radius and the plate's own angle."""
+        return np.asarray(self._face(np.hypot(x, y), np.arctan2(y, x) - self.geometry.turned).depth)
 
     def _angle(self, time: float) -> float:
         return self.drive.shaft_speed * time

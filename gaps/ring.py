@@ -29,7 +29,8 @@ class ValvePlateGeometry:
     """Land radii R1 < R2 < R3 < R4 (m), chambers, kidney arc (rad) and the ports' arcs.
 
     Ports are sectors of the valve plate between R2 and R3, in pump angle, parted by the webs (from, to) in them
-    that are flush with its face; kidneys are taken as sectors of the
+    that are flush with its face; `turned` is the angle (rad) from which the plate's own angles count, its ports',
+    webs', pads' and face's; kidneys are taken as sectors of the
     same width (rounded ends are not modelled: their effect on the webs is under 0.1 of a web).
     """
 
@@ -39,6 +40,7 @@ class ValvePlateGeometry:
     suction_arc: Arc
     delivery_arc: Arc
     webs: tuple[Arc, ...] = ()
+    turned: float = 0.0
     pads: tuple[BearingPads, ...] = ()
 
     @property
@@ -53,7 +55,7 @@ class ValvePlateGeometry:
 
     def _parted(self, arc: Arc) -> tuple[Arc, ...]:
         inside = sorted(web for web in self.webs if arc[0] < web[0] and web[1] < arc[1])
-        edges = [arc[0], *(edge for web in inside for edge in web), arc[1]]
+        edges = [self.turned + edge for edge in (arc[0], *(end for web in inside for end in web), arc[1])]
         return tuple(zip(edges[::2], edges[1::2], strict=True))
 
     @property
@@ -95,7 +97,7 @@ class Ring:
         self.geometry = geometry
         ring_mesh = _ring_mesh(geometry, cells)
         # Pressure over a pad is a parabola, over a land nearly a line: twice the cells.
-        mesh = with_pads(ring_mesh, geometry.pads, 2 * cells[0]) if geometry.pads else ring_mesh
+        mesh = with_pads(ring_mesh, geometry.pads, 2 * cells[0], geometry.turned) if geometry.pads else ring_mesh
         self.space = film_space(mesh)
         self._vertices, self._cells = ring_mesh.mesh.p.shape[1], ring_mesh.mesh.t.shape[1]
         _, r2, r3, _ = geometry.land_radii

@@ -40,7 +40,8 @@ def _solved(case: GapCase) -> GapFilm:
             slipper = SlipperGap(slipper_geometry(pump), cells)
             return slipper.balanced(state, load, position) if balance else slipper.at(state, load, position)
         case ValvePlateInstant(state, pressing_force, position):
-            return ValvePlateGap(valve_plate_geometry(pump), cells).at(state, position, pressing_force).gap
+            plate = valve_plate_geometry(pump, case.rotor.drive.dead_centre_shift)
+            return ValvePlateGap(plate, cells).at(state, position, pressing_force).gap
 
 
 def gap_cells(case: GapCase) -> tuple[int, int]:

@@ -71,6 +71,7 @@ class PumpSection(Section):
     pistons: int = Field(ge=3, le=99)
     displacement: Displacement | None = None  # checked against the geometry, Eq. (6)
     swash_angle_max: AcuteAngle
+    cross_angle: Annotated[float, Dimension.ANGLE, Field(gt=-math.pi / 4, lt=math.pi / 4)] | None = None
     bore_cone_angle: Annotated[float, Dimension.ANGLE, Field(ge=0.0, lt=math.pi / 2)]
     piston_diameter: Length
     pitch_radius: Length  # of the ball centres at zero swash angle

@@ -108,7 +108,7 @@ def block_revolution(
         raise ValueError(f"steps: found {options.steps}, expected a multiple of the {pistons} pistons")
     alike = not pump.single_pistons and not pump.single_slippers
     steps, span = (options.steps // pistons, 2.0 * np.pi / pistons) if alike else (options.steps, 2.0 * np.pi)
-    geometry, cells = valve_plate_geometry(pump), options.cells(BLOCK_CELLS)
+    geometry, cells = valve_plate_geometry(pump, rotor.drive.dead_centre_shift), options.cells(BLOCK_CELLS)
     film = BlockFilm(geometry, drive, parts.block.plate, parts.block.laws, options.physics, cells)
     schedule = evenly(drive.shaft_speed, steps, span, options.keep)
     look = _told(block_seen(film), steps, "block", report)

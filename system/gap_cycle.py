@@ -67,7 +67,7 @@ class GapFilms:
         self.rotor = rotor
         self._piston = PistonGap(piston_geometry(rotor.pump))
         self._slipper = SlipperGap(slipper_geometry(rotor.pump))
-        self._valve_plate = ValvePlateGap(valve_plate_geometry(rotor.pump))
+        self._valve_plate = ValvePlateGap(valve_plate_geometry(rotor.pump, rotor.drive.dead_centre_shift))
 
     def cycle(
         self,

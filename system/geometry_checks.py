@@ -23,15 +23,20 @@ _DRIVE = ("pump.pitch_radius", *_CONE)
 
 def _drive(pump: PumpDescription) -> SwashDrive | None:
     """Return the kinematics at full swash angle; None where the plate does not cut every bore axis."""
-    if math.tan(pump.pump.bore_cone_angle) * math.tan(pump.pump.swash_angle_max) >= 1.0:
+    if math.tan(pump.pump.bore_cone_angle) * math.tan(_whole_tilt(pump)) >= 1.0:
         return None
-    return SwashDrive(pump.pump.pitch_radius, pump.pump.bore_cone_angle, pump.pump.swash_angle_max)
+    return SwashDrive(pump.pump.pitch_radius, pump.pump.bore_cone_angle, _whole_tilt(pump))
+
+
+def _whole_tilt(pump: PumpDescription) -> float:
+    """Return the plate's tilt at full swash angle, cross angle included."""
+    return math.atan(math.hypot(math.tan(pump.pump.swash_angle_max), math.tan(pump.pump.cross_angle or 0.0)))
 
 
 @needs(*_CONE)
 def swash_plate_cuts_every_bore(pump: PumpDescription) -> Iterator[Finding]:
     """tan(cone angle) tan(swash angle) < 1: else Eq. (6) has a pole and the piston leaves the block for good."""
-    cone, swash = pump.pump.bore_cone_angle, pump.pump.swash_angle_max
+    cone, swash = pump.pump.bore_cone_angle, _whole_tilt(pump)
     if math.tan(cone) * math.tan(swash) >= 1.0:
         yield Fault(
             "pump.bore_cone_angle",

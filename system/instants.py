@@ -136,11 +136,11 @@ def slipper_instant(
     return state, load, given
 
 
-def valve_plate_geometry(pump: PumpDescription) -> ValvePlateGeometry:
+def valve_plate_geometry(pump: PumpDescription, turned: float = 0.0) -> ValvePlateGeometry:
     """The valve plate's ring; its ports' arcs follow from the opening angles and the block kidney's arc.
 
     A port opens when the kidney's leading edge reaches it (end of the groove) and shuts when the trailing edge
-    leaves it.
+    leaves it. `turned` (rad): the drive's `dead_centre_shift`, of no matter where radii alone are asked for.
     """
     part, ports = pump.valve_plate, pump.ports
     half = 0.5 * part.kidney_arc
@@ -152,6 +152,7 @@ def valve_plate_geometry(pump: PumpDescription) -> ValvePlateGeometry:
         suction_arc=arc,
         delivery_arc=(arc[0] + np.pi, arc[1] + np.pi),
         webs=tuple((start + dead, end + dead) for dead in (0.0, np.pi) for start, end in ports.web_spans),
+        turned=turned,
         pads=part.bearing_pads,
     )
 

@@ -19,12 +19,15 @@ Array = NDArray[np.float64]
 class SwashDrive:
     """Geometry that moves the pistons: pitch_radius in m (ball centres at zero swash), angles in rad.
 
-    Raises ValueError when the swash plane no longer cuts every bore axis (tan(beta) tan(gamma) >= 1).
+    swash_angle is the plate's whole tilt, dead_centre_shift the angle from the inner dead centre on to the valve
+    plate's own axis: 0 without a cross angle (`crossed_drive`). Raises ValueError when the swash plane no longer
+    cuts every bore axis (tan(beta) tan(gamma) >= 1).
     """
 
     pitch_radius: float
     bore_cone_angle: float
     swash_angle: float
+    dead_centre_shift: float = 0.0
 
     def __post_init__(self) -> None:
         if not 0.0 <= self.cone_swash_product < 1.0:
@@ -139,15 +142,47 @@ def swash_angle_for_stroke(stroke_length: float, pitch_radius: float, bore_cone_
     return float(np.arctan(stroke_length / (radius + root)))
 
 
+def crossed_drive(
+    pitch_radius: float, bore_cone_angle: float, swash_angle: float, cross_angle: float
+) -> SwashDrive:
+    """The drive of a plate tilted by a swash angle g and, fixed and about the axis square to it, a cross angle k.
+
+    The plate z = -x tan g + y tan k is one of tilt G, tan^2 G = tan^2 g + tan^2 k, whose dead centres come
+    earlier by atan2(tan k, tan g): counted from them all laws of this file hold, and ports lie later by that.
+    """
+    if cross_angle == 0.0:
+        return SwashDrive(pitch_radius, bore_cone_angle, swash_angle)
+    swash, cross = np.tan(swash_angle), np.tan(cross_angle)
+    whole, shift = np.arctan(np.hypot(swash, cross)), np.arctan2(cross, swash)
+    return SwashDrive(pitch_radius, bore_cone_angle, float(whole), float(shift))
+
+
+def least_ratio(full: SwashDrive) -> float:
+    """Displacement ratio at which the swash angle is zero and the cross angle alone moves the pistons."""
+    cross = abs(np.tan(full.swash_angle) * np.sin(full.dead_centre_shift))
+    alone = SwashDrive(full.pitch_radius, full.bore_cone_angle, float(np.arctan(cross)))
+    return stroke(alone) / stroke(full)
+
+
 def drive_at_ratio(full: SwashDrive, displacement_ratio: float) -> SwashDrive:
     """The same pump set to a fraction of its full displacement; `full` is the drive at its largest swash angle.
 
     Displacement is proportional to the stroke, so the swash angle is the inverse of Eq. (6) at
-    `displacement_ratio` (0 .. 1) times the full stroke.
+    `displacement_ratio` (0 .. 1) times the full stroke. A cross angle stays; ValueError below `least_ratio`.
     """
     wanted = displacement_ratio * stroke(full)
     angle = swash_angle_for_stroke(wanted, full.pitch_radius, full.bore_cone_angle)
-    return SwashDrive(full.pitch_radius, full.bore_cone_angle, angle)
+    if full.dead_centre_shift == 0.0:
+        return SwashDrive(full.pitch_radius, full.bore_cone_angle, angle)
+    if displacement_ratio < least_ratio(full):
+        raise ValueError(
+            f"displacement ratio: found {displacement_ratio:.3g}, expected at least {least_ratio(full):.3g}, that "
+            "of the cross angle alone"
+        )
+    crossed = np.tan(full.swash_angle) * np.sin(full.dead_centre_shift) / np.tan(angle)
+    return SwashDrive(
+        full.pitch_radius, full.bore_cone_angle, angle, float(np.arcsin(np.clip(crossed, -1.0, 1.0)))
+    )
 
 
 def stand_out(full: SwashDrive, drive: SwashDrive) -> float:

@@ -15,6 +15,7 @@ from system.kinematics import (
     Array,
     SwashDrive,
     ball_acceleration_along_bore,
+    crossed_drive,
     drive_at_ratio,
     piston_displacement,
     piston_velocity,
@@ -95,7 +96,8 @@ def piston_area(pump: PumpDescription) -> float:
 
 def full_drive(pump: PumpDescription) -> SwashDrive:
     """The pump's drive at its largest swash angle."""
-    return SwashDrive(pump.pump.pitch_radius, pump.pump.bore_cone_angle, pump.pump.swash_angle_max)
+    part = pump.pump
+    return crossed_drive(part.pitch_radius, part.bore_cone_angle, part.swash_angle_max, part.cross_angle or 0.0)
 
 
 def swept_displacement(pump: PumpDescription, drive: SwashDrive) -> float:
@@ -107,7 +109,7 @@ def swept_displacement(pump: PumpDescription, drive: SwashDrive) -> float:
     (+ 2 delta/dp, 0.14 %).
     """
     area = piston_area(pump) + np.pi * pump.pump.piston_diameter * pump.piston.radial_clearance / 2.0
-    shuts = port_opening(pump, 0.0).shuts + np.array([0.0, np.pi])
+    shuts = port_opening(pump, 0.0).shuts + drive.dead_centre_shift + np.array([0.0, np.pi])
     suction, delivery = piston_displacement(drive, shuts)
     return float(pump.pump.pistons * area * (suction - delivery))
 
@@ -168,14 +170,17 @@ def chamber_problem(
         kinematic_viscosity=point.viscosity / pump.oil.density,
         flow_coefficient=pump.ports.flow_coefficient,
         critical_reynolds=pump.ports.critical_reynolds,
-        delivery_port=port_opening(pump, np.pi),
-        suction_port=port_opening(pump, 0.0),
+        delivery_port=port_opening(pump, np.pi + motion.drive.dead_centre_shift),
+        suction_port=port_opening(pump, motion.drive.dead_centre_shift),
         leaks=leaks,
     )
 
 
 def port_opening(pump: PumpDescription, dead_centre: float) -> PortOpening:
-    """The valve plate's port that opens at a dead centre: shaft angle 0 for suction, pi for delivery."""
+    """The valve plate's port that opens at a dead centre: shaft angle 0 for suction, pi for delivery.
+
+    With a cross angle both lie later by the drive's `dead_centre_shift`: the plate's own dead centres.
+    """
     p, radius = pump.ports, pump.valve_plate.kidney_pitch_radius
     return PortOpening(
         dead_centre=dead_centre,

@@ -6,9 +6,10 @@ import math
 from collections.abc import Iterator
 
 from reynolds.oil import walther
-from system.checks import CheckReport, CheckWarning, Finding, needs, pressure, run_checks
+from system.checks import CheckReport, CheckWarning, Finding, angle, needs, pressure, run_checks
 from system.description import OperatingSection, PumpDescription
 from system.faults import Fault
+from system.kinematics import crossed_drive, least_ratio
 from system.line_description import LineKind, ripple_faults
 from system.lumped import SAMPLES_PER_PITCH
 from system.operating import OperatingPoint
@@ -123,6 +124,22 @@ def displacement_ratio_is_possible(pump: PumpDescription) -> Iterator[Finding]:
 
 
 @needs(
+    "operating.displacement_ratio", "pump.cross_angle", "pump.swash_angle_max", "pump.bore_cone_angle",
+    "pump.pitch_radius",
+)  # fmt: skip
+def cross_angle_leaves_the_displacement(pump: PumpDescription) -> Iterator[Finding]:
+    """The cross angle cannot be set back: with it alone the pistons still move."""
+    part, ratio = pump.pump, pump.operating.displacement_ratio
+    cross = abs(part.cross_angle or 0.0)
+    if math.tan(part.bore_cone_angle) * math.hypot(math.tan(part.swash_angle_max), math.tan(cross)) >= 1.0:
+        return
+    least = least_ratio(crossed_drive(part.pitch_radius, part.bore_cone_angle, part.swash_angle_max, cross))
+    if ratio < least:
+        expected = f"at least {least:.4g}, what the cross angle of {angle(cross)} displaces alone"
+        yield Fault("operating.displacement_ratio", f"{ratio:g}", expected)
+
+
+@needs(
     "oil.kinematic_viscosity_40C",
     "oil.kinematic_viscosity_100C",
     "operating.temperature",
@@ -172,6 +189,7 @@ OPERATING_CHECKS = (
     speed_is_within_rating,
     displacement_ratio_is_possible,
     oil_has_a_viscosity,
+    cross_angle_leaves_the_displacement,
     impedances_reach_the_ripple,
     suction_flows_from_its_tank,
 )

@@ -22,6 +22,7 @@ from system.pump_values import units_shown
 REF90 = files("system").joinpath("pumps", "ref90.toml").read_text("utf-8")
 PROFILE = [["0 mm", "3 um"], ["3 mm", "0 um"], ["45 mm", "0.5 um"]]
 EVERY = {
+    "pump.cross_angle": "1 deg",
     "piston.guide_length": "40 mm",
     "piston.centre_of_mass": "30 mm",
     "piston.profile": PROFILE,
