@@ -24,6 +24,7 @@ from reynolds.errors import FilmInputError
 from reynolds.mesh import Array, Cell, rectangle
 from reynolds.space import FilmSpace, film_space
 
+ALIKE = 1e-9  # of the largest influence: round-off of a part that is the same all around
 POINTS, WEIGHTS = np.polynomial.legendre.leggauss(2)  # exact for the product of two hats
 
 
@@ -31,9 +32,9 @@ POINTS, WEIGHTS = np.polynomial.legendre.leggauss(2)  # exact for the product of
 class FaceGrid:
     """A cylindrical part's whole face as rows along the bore and columns around it.
 
-    rows (n,) m from the part's end; influence (n, columns + 1, columns, n) m/Pa: opening of a row and column by
-    pressure on a column and row, the seam's column twice in the opening; by_chamber (n, columns + 1) m/Pa, by the
-    pressure on its chamber faces.
+    rows (n,) m from the part's end; influence (n, period, columns, n) m/Pa: opening of a row and column by
+    pressure on a column and row; the part is the same every `period` columns, so that those of one are all.
+    by_chamber (n, columns + 1) m/Pa, by the pressure on its chamber faces, the seam's column twice.
     """
 
     rows: Array
@@ -44,6 +45,11 @@ class FaceGrid:
     def columns(self) -> int:
         """Cells around."""
         return int(self.influence.shape[2])
+
+    @property
+    def period(self) -> int:
+        """Columns after which the part is the same."""
+        return int(self.influence.shape[1])
 
 
 def face_grid(
@@ -57,7 +63,25 @@ def face_grid(
     opened = np.zeros(len(space.vertices))
     if CHAMBER in body.mesh.face_names:
         opened = load_opening(body, space, FacePressure(CHAMBER, 1.0), folder=folder)
-    return FaceGrid(space.vertices[vertices[:, 0], 1], influence, opened[vertices])
+    return FaceGrid(space.vertices[vertices[:, 0], 1], _of_one_period(influence), opened[vertices])
+
+
+def _of_one_period(influence: Array) -> Array:
+    """The least of an influence (n, columns + 1, columns, n) that tells all of it."""
+    columns, same = influence.shape[2], ALIKE * float(np.abs(influence).max())
+    for period in (p for p in range(1, columns) if columns % p == 0):
+        turned = np.roll(influence[:, :-period], period, axis=2)
+        if np.abs(turned - influence[:, period:]).max() <= same:
+            return np.ascontiguousarray(influence[:, :period])
+    return np.ascontiguousarray(influence[:, :columns])
+
+
+def _all_around(influence: Array) -> Array:
+    """The influence on every column, (n, columns + 1, columns, m), from that of a period."""
+    period, columns = influence.shape[1:3]
+    column = np.arange(columns + 1)
+    turned = (np.arange(columns) - (column - column % period)[:, None]) % columns
+    return influence[:, (column % period)[:, None], turned]
 
 
 @dataclass(frozen=True)
@@ -76,8 +100,9 @@ class PistonWalls:
         """
         vertices, unknowns = _numbers(film)
         matrix = np.empty((len(film.vertices), film.size))
-        total = sum(_met(grid, film, start) for grid, start in self._parts(reach))
-        matrix[np.ix_(vertices.ravel(), unknowns.T.ravel())] = total
+        one, two = (_met(grid, film, start) for grid, start in self._parts(reach))
+        total = _all_around(one + two) if one.shape == two.shape else _all_around(one) + _all_around(two)
+        matrix[np.ix_(vertices.ravel(), unknowns.T.ravel())] = total.reshape(matrix.shape)
         return Compliance(matrix)
 
     def by_chamber(self, film: FilmSpace, reach: float) -> Array:
@@ -89,7 +114,8 @@ class PistonWalls:
             rows = film.vertices[vertices[:, 0], 1] - start
             _, back = _between(grid.rows, rows)
             bare = _bare(grid.rows, float(rows[0]))
-            whole = grid.by_chamber + (grid.influence @ bare).sum(axis=2)
+            loaded = (grid.influence @ bare).sum(axis=2)
+            whole = grid.by_chamber + loaded[:, np.arange(grid.columns + 1) % grid.period]
             total += back @ whole
         opened[vertices.ravel()] = total.ravel()
         return opened
@@ -100,14 +126,15 @@ class PistonWalls:
 
 
 def _met(grid: FaceGrid, film: FilmSpace, start: float) -> Array:
-    """The part's compliance on the film's rows and columns, (rows (columns + 1), columns rows) m/Pa."""
+    """The part's compliance on the film's rows, (rows, period, columns, rows) m/Pa."""
     vertices, unknowns = _numbers(film)
     if unknowns.shape[1] != grid.columns:
         found = f"{unknowns.shape[1]} cells around a film"
         raise FilmInputError("piston walls", found, f"{grid.columns}, as around the parts' faces")
     there, back = _between(grid.rows, film.vertices[vertices[:, 0], 1] - start)
     opened = back @ grid.influence.reshape(len(grid.rows), -1)
-    return np.asarray(opened.reshape(-1, len(grid.rows)) @ there).reshape(vertices.size, unknowns.size)
+    shape = (len(vertices), grid.period, grid.columns, len(vertices))
+    return np.asarray(opened.reshape(-1, len(grid.rows)) @ there).reshape(shape)
 
 
 def _numbers(space: FilmSpace) -> tuple[NDArray[np.signedinteger], NDArray[np.signedinteger]]:

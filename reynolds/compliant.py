@@ -20,12 +20,12 @@ from scipy.sparse.linalg import SuperLU, splu
 from reynolds.errors import FilmNotConverged
 from reynolds.krylov import gmres
 from reynolds.mesh import Array
-from reynolds.walls import Opens, full
+from reynolds.walls import Opens, columns_of
 
 DENSE_LIMIT = 400  # unknowns up to which a dense factor is as fast
 KEPT_LIMIT = 4000  # unknowns up to which a dense factor is kept: 128 MB
 MOST_STEPS = 150  # of GMRES; one that needs more is cheaper with the dense factor
-WORTH = 1.0 / 30.0  # steps over unknowns that cost as much as the dense factor
+WORTH = 1.0 / 80.0  # steps over unknowns that cost as much as the dense factor
 GOOD_ENOUGH = 1e-9  # residual over load, where round-off allows no less
 Answer = Callable[[Array, float], Array]
 """(load (size,), tolerance) -> change (size,) with |J change - load| <= tolerance |load|, round-off allowing."""
@@ -54,10 +54,6 @@ class Balance:
         """J change, (size,)."""
         return np.asarray(self.rigid @ change + self.slope @ (self.wider @ (self.pressures * change)))
 
-    def toarray(self) -> Array:
-        """J itself."""
-        return np.asarray(self.rigid.toarray() + self.slope @ (full(self.wider) * self.pressures[None, :]))
-
 
 def compliant_answer(balance: Balance, near: NearFactor | None = None) -> Answer:
     """The answer of J; what is factorised is factorised once.
@@ -69,7 +65,7 @@ def compliant_answer(balance: Balance, near: NearFactor | None = None) -> Answer
         return _sparse(csc_array(balance.rigid + balance.slope @ (balance.wider * balance.pressures[None, :])))
     size = len(balance.pressures)
     if size <= DENSE_LIMIT:
-        return dense_answer(balance.toarray())
+        return reduced_answer(balance)
     return _Iterated(balance, NearFactor() if near is None or size > KEPT_LIMIT else near)
 
 
@@ -92,7 +88,7 @@ class _Iterated:
             if found is not None:
                 return found
         if self._own is None:  # J need not be singular where A is
-            self._own = self._near.answer = dense_answer(self._balance.toarray())
+            self._own = self._near.answer = reduced_answer(self._balance)
         return self._own(load, tolerance)
 
     def _iterated(self, before: Answer, load: Array, tolerance: float) -> Array | None:
@@ -103,6 +99,39 @@ class _Iterated:
         most = MOST_STEPS if self._near.answer is None else max(1, int(WORTH * self._size))
         part, left = gmres(image, self._rows * load, tolerance, most)
         return before(part, 0.0) if left <= max(tolerance, GOOD_ENOUGH) else None
+
+
+def reduced_answer(balance: Balance) -> Answer:
+    """The answer of J by the dense factor of what is left of it for the free pressures.
+
+    The rest, a cavity's film fractions and what is held, opens no wall: of J_rr, J_rf; J_fr, J_ff the first column
+    is sparse, and J_ff - J_fr J_rr^-1 J_rf is left.
+    """
+    free, rest = np.flatnonzero(balance.pressures), np.flatnonzero(balance.pressures == 0.0)
+    by_free = balance.slope @ (columns_of(balance.wider, free) * balance.pressures[free])
+    rigid = csr_array(balance.rigid)
+    of_rest, of_free = rigid[rest], rigid[free]
+    factor = _eliminated(csc_array(of_rest[:, rest])) if rest.size else None
+    if factor is None:  # J need not be singular where what opens no wall is
+        whole = balance.rigid.toarray()
+        whole[:, free] += by_free
+        return dense_answer(whole)
+    coupled = csr_array(of_free[:, rest])
+    met = np.flatnonzero(np.diff(coupled.indptr))  # next to the rest: few
+    back = factor.solve(coupled[met].toarray().T, trans="T").T
+    forth = np.asarray(of_rest[:, free].toarray() + by_free[rest])
+    left = of_free[:, free].toarray() + by_free[free]
+    left[met] -= back @ forth
+    reduced = dense_answer(left)
+
+    def answer(load: Array, tolerance: float) -> Array:
+        change, wanted = np.empty_like(load), load[free]
+        wanted[met] -= back @ load[rest]
+        change[free] = reduced(wanted, tolerance)
+        change[rest] = factor.solve(load[rest] - forth @ change[free])
+        return change
+
+    return answer
 
 
 def _rigid_answer(rigid: csc_array) -> Answer | None:
@@ -129,6 +158,8 @@ def _sparse(matrix: csc_array) -> Answer:
 
 def dense_answer(matrix: Array) -> Answer:
     """Of a dense matrix, factorised; for loads of any number of columns. Raises FilmNotConverged if singular."""
+    if not matrix.size:
+        return lambda load, tolerance: load
     factor, pivots, fault = lapack.dgetrf(matrix)
     if fault:
         raise singular("a pivot is zero")

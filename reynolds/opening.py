@@ -22,7 +22,7 @@ from reynolds.film import FilmProblem, Pocket
 from reynolds.kernels import norm
 from reynolds.laws import Tangent
 from reynolds.mesh import Array
-from reynolds.walls import LowRank, Opens, WallMatrix, full
+from reynolds.walls import LowRank, Opens, WallMatrix, columns_of, full
 
 MAX_STEPS = 15
 TOLERANCE = 1e-12  # of film thickness and asperities' height
@@ -118,24 +118,30 @@ class Touch:
         """Its pressure on the unknowns, (size,) Pa."""
         return np.asarray(self.meeting.shares @ self.bears.value)
 
-    @cached_property
-    def stiffness(self) -> csr_array:
-        """Pressure of the unknowns by the opening where contact is felt, (size, felt) Pa/m."""
-        return csr_array(self.meeting.shares[:, self.felt] * self.bears.slope[self.felt][None, :])
-
     def settled(self, displaced: Array) -> Array:
         """x with x - C dp_c/dh x = displaced, (vertices, ...) m: a displacement that contact resists."""
         if not self.felt.size:
             return displaced
-        pressed = self.stiffness @ self._within(np.ascontiguousarray(displaced[self.felt]), 0.0)
-        return np.asarray(displaced + self.compliance @ pressed)
+        here = self._within(np.ascontiguousarray(displaced[self.felt]), 0.0)
+        return np.asarray(displaced + self._columns @ here)
+
+    @cached_property
+    def _columns(self) -> WallMatrix:
+        """C dp_c/dh where contact is felt, (vertices, felt)."""
+        shares = self.meeting.shares[:, self.felt].tocoo()
+        order = np.argsort(shares.col)
+        unknown, weight = shares.row[order], shares.data[order] * self.bears.slope[self.felt]
+        if isinstance(self.compliance, LowRank):
+            return LowRank(self.compliance.left, self.compliance.right[:, unknown] * weight[None, :])
+        columns = self.compliance[:, unknown]
+        return csr_array(columns * weight[None, :]) if issparse(columns) else columns * weight
 
     @cached_property
     def _within(self) -> Answer:
         """The same where contact is felt: elsewhere it follows."""
-        here = _rows(self.compliance, self.felt) @ self.stiffness
-        if not issparse(here):
-            return dense_answer(np.eye(self.felt.size) - here)
+        here = _rows(self._columns, self.felt)
+        if not isinstance(here, csr_array):
+            return dense_answer(np.eye(self.felt.size) - full(here))
         try:
             factor = splu(csc_array(eye_array(self.felt.size) - here))
         except RuntimeError as reason:  # SuperLU: "Factor is exactly singular"
@@ -153,9 +159,9 @@ class Resisted:
         """Opening (vertices, ...) m by pressures (size, ...) Pa."""
         return self.touch.settled(np.asarray(self.touch.compliance @ pressure))
 
-    def toarray(self) -> Array:
-        """The matrix itself."""
-        return self.touch.settled(full(self.touch.compliance))
+    def columns(self, unknowns: NDArray[np.intp]) -> Array:
+        """Those of the matrix for some unknowns."""
+        return self.touch.settled(columns_of(self.touch.compliance, unknowns))
 
 
 @dataclass(frozen=True)

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import Protocol, TypeAlias
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.sparse import csr_array, issparse, vstack
 
 from reynolds.mesh import Array
@@ -52,21 +53,30 @@ WallMatrix: TypeAlias = Array | csr_array | LowRank
 
 
 class Product(Protocol):
-    """An opening by pressures that is never multiplied out unless asked to."""
+    """An opening by pressures that is not multiplied out."""
 
     def __matmul__(self, pressure: Array) -> Array:
         """Opening (vertices, ...) m by pressures (size, ...) Pa."""
 
-    def toarray(self) -> Array:
-        """The matrix itself, (vertices, size) m/Pa."""
+    def columns(self, unknowns: NDArray[np.intp]) -> Array:
+        """Those of the matrix for some unknowns, (vertices, unknowns) m/Pa."""
 
 
 Opens: TypeAlias = WallMatrix | Product
 
 
-def full(matrix: Opens) -> Array:
+def full(matrix: WallMatrix) -> Array:
     """A compliance multiplied out, as an array."""
     return matrix if isinstance(matrix, np.ndarray) else np.asarray(matrix.toarray())
+
+
+def columns_of(matrix: Opens, unknowns: NDArray[np.intp]) -> Array:
+    """Opening (vertices, unknowns) m by unit pressure at some unknowns."""
+    if isinstance(matrix, LowRank):
+        return matrix.left @ full(matrix.right[:, unknowns])
+    if isinstance(matrix, np.ndarray | csr_array):
+        return full(matrix[:, unknowns])
+    return matrix.columns(unknowns)
 
 
 class Walls(Protocol):

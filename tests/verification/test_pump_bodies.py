@@ -52,7 +52,7 @@ def unrolled(rows: Array, around: int = 12) -> FilmSpace:
 
 def opened(grid: FaceGrid) -> Array:
     """Opening of a whole face under one pressure, (rows, columns + 1) m."""
-    return PRESSURE * grid.influence.sum(axis=(2, 3))
+    return PRESSURE * grid.influence.sum(axis=(2, 3))[:, np.arange(grid.columns + 1) % grid.period]
 
 
 @pytest.mark.parametrize("poisson", [0.34, 0.0])
