@@ -76,7 +76,7 @@ def heat(solution: FilmSolution, asperities: Asperities | None, gap: Array, is_f
 
 
 def _oil_alone(solution: FilmSolution) -> FilmSolution:
-    """The film without its asperities, which walls that give way leave in its problem: their shear counts apart."""
+    """The film without its asperities, which walls that give way leave in its problem."""
     if solution.problem.asperities is None:
         return solution
     return replace(solution, problem=replace(solution.problem, asperities=None))
