@@ -5,7 +5,7 @@
 Two like machines of ../pumps/hst196.toml, pump and motor in a closed circuit, at the end-of-line test point: 1780
 rpm, 207 against 14 bar, oil of 60 degC. Given are the piston clearances by the drawing's tolerances; what else
 leakage and compression hang on is not given and is drawn from the range that each `Unknown` names with its source.
-None of the ranges was chosen by what comes out. MEASURED.csv: recordings/hst196/hst196_production_tests.csv.
+MEASURED.csv: recordings/hst196/hst196_production_tests.csv.
 """
 
 from __future__ import annotations
