@@ -183,7 +183,7 @@ def _pump(options: argparse.Namespace) -> PumpDescription:
         pump = load_pump(options.pump, stated)
     except InputFaults as reason:
         raise _at_options(reason, stated, faults) from None
-    faults += floating_faults(options, pump)
+    faults += floating_faults(options, pump, options.fidelity)
     if faults:
         raise InputFaults(COMMAND_LINE, faults)
     return pump

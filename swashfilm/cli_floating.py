@@ -30,12 +30,14 @@ def floating_options(options: argparse.Namespace) -> FloatingOptions:
     return replace(usual, steps=steps, physics=physics, keep=max(1, usual.keep * steps // usual.steps))
 
 
-def floating_faults(options: argparse.Namespace, pump: PumpDescription) -> list[Fault]:
-    """What is wrong with the options that only floating gaps have."""
+def floating_faults(
+    options: argparse.Namespace, pump: PumpDescription, chosen: str, by: str = "--fidelity"
+) -> list[Fault]:
+    """What is wrong with the options that only floating gaps have; option `by` has chosen a fidelity."""
     stated = ([] if options.steps is None else ["--steps"]) + _switched(options)
-    if options.fidelity != Fidelity.FLOATING.value:
-        wanted = f"--fidelity {Fidelity.FLOATING.value} beside it"
-        return [Fault(option, f"--fidelity {options.fidelity}", wanted) for option in stated]
+    if chosen != Fidelity.FLOATING.value:
+        wanted = f"{by} {Fidelity.FLOATING.value} beside it"
+        return [Fault(option, f"{by} {chosen}", wanted) for option in stated]
     singles = [f"{name}.{number}" for name in SINGLE_PARTS for number, _ in getattr(pump, f"single_{name}s")]
     return [*(Fault(part, "a single part", ALIKE) for part in singles), *_steps_faults(options, pump)]
 

@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 import argparse
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from swashfilm.physics_switches import SWITCHES, add_switches, switched_keys
+from swashfilm.physics_switches import SWITCHES, add_switches
 from swashfilm.terminal import show, show_table
 from system.faults import Fault, InputFaults, nearest_choice
 
 if TYPE_CHECKING:
     from system.description import PumpDescription
-    from system.floating_gaps import FloatingOptions
     from system.table_build import Range, TableCase
 
 COMMAND_LINE = "command line"
@@ -76,8 +74,10 @@ def run_table_command(options: argparse.Namespace) -> int:
 
 def _case(options: argparse.Namespace) -> tuple[TableCase, int]:
     """The case that a command line means, and how many workers; raises InputFaults with every fault at once."""
+    from swashfilm.cli_floating import floating_faults, floating_options
+    from system import table_sources
     from system.table_build import HELD_OUT, LEARNT, TableCase, table_axes
-    from system.table_sources import Source, solver_of
+    from system.table_sources import Source
 
     faults: list[Fault] = []
     counts = [
@@ -90,26 +90,11 @@ def _case(options: argparse.Namespace) -> tuple[TableCase, int]:
     if options.source not in sources:
         nearest = nearest_choice(options.source, sources)
         faults.append(Fault("--source", repr(options.source), f"one of {', '.join(sources)}", nearest))
-    elif options.source != "floating" and (options.steps or switched_keys(options)):
-        faults.append(Fault("--source", options.source, "floating, beside options of floating gaps"))
-    steps = _count(faults, "--steps", options.steps, 360, 18)
     pump = _pump(options, faults)
-    if steps % pump.pump.pistons:
-        expected = f"a multiple of the {pump.pump.pistons} pistons"
-        raise InputFaults(COMMAND_LINE, [Fault("--steps", str(steps), expected)])
-    solver = solver_of(Source(options.source), _floating(options, steps))
+    if faults := floating_faults(options, pump, options.source, "--source"):
+        raise InputFaults(COMMAND_LINE, faults)
+    solver = table_sources.solver_of(Source(options.source), floating_options(options))
     return TableCase(pump, solver, table_axes(pump, *ranges), counts[0], counts[1]), counts[2]
-
-
-def _floating(options: argparse.Namespace, steps: int) -> FloatingOptions:
-    """How gaps float: as they do where nothing is said, less what the switches leave out."""
-    from swashfilm.case_table import Table
-    from swashfilm.physics_case import read_physics
-    from system.floating_gaps import FloatingOptions
-
-    usual = FloatingOptions(steps=steps)
-    off = read_physics(Table("", switched_keys(options), [])).left_out
-    return replace(usual, physics=usual.physics.without(*off))
 
 
 def _pump(options: argparse.Namespace, faults: list[Fault]) -> PumpDescription:

@@ -29,7 +29,7 @@ GAP_PAIRS = {
     "valve_plate": Pair.VALVE_PLATE_CYLINDER,
 }
 OF_EVERY_GAP = {
-    "leakage": "mean flow out of the chambers into the gap / by the lumped law",
+    "leakage": "mean flow out of the chambers into the gap, beside what the piston carries / by the lumped law",
     "carried": "power of oil that the walls carry / by the lumped law, of slipper and plate / its leakage power",
     "friction": "mean loss of the pair, net of what carried oil gives back / by the lumped law",
     "contact_share": "loss of contact (Coulomb friction) / loss of the pair",
@@ -75,9 +75,10 @@ class SolvedPoint:
 class LawMoments:
     """One chamber by the lumped law at a given pressure, means over the turn, of the gaps (3,).
 
-    flow: of the pressure flow G (p - p_case), m3/s; carried, one: of the law's carried flow, m3/s, and of a flow
-    of 1 m3/s; all three by mass, at case pressure. power: what carried oil is measured by, W: the oil carried in
-    the piston's gap, the pressure flow in the others, in which the law knows none; above: p - p_case, Pa.
+    flow: of the pressure flow G (p - p_case), m3/s; carried, one: of the law's carried flow, m3/s (nothing but in
+    the piston's gap), and of a flow of 1 m3/s; all three by mass, at case pressure. power: what carried oil is
+    measured by, W: the oil carried in the piston's gap, the pressure flow in the others, in which the law knows
+    none; above: p - p_case, Pa.
     """
 
     flow: Array
@@ -111,13 +112,15 @@ def mean_ratios(pump: PumpDescription, solved: SolvedPoint) -> Array:
     moments = law_moments(lumped_leaks(pump, point, motion), pump, point, found.cycle.pressure)
     flow = periodic_values(found.leaks.conductance, samples) * above
     flow = flow + periodic_values(found.leaks.carried_flow, samples)
-    leakage = np.mean(flow * np.exp(above / pump.oil.bulk_modulus), axis=1) / moments.flow
+    flow = np.mean(flow * np.exp(above / pump.oil.bulk_modulus), axis=1)
+    carried = [getattr(found.exchange.carried, gap) for gap in GAP_PAIRS] / (found.pistons * moments.power)
+    leakage = (flow - carried * moments.carried) / moments.flow
     by_law = lumped_pairs(pump, point, motion, found.cycle)
     given, scale = given_films(pump), plate_flow(pump, point)
     rows = [
         (
             leakage[k],
-            getattr(found.exchange.carried, gap) / (found.pistons * moments.power[k]),
+            carried[k],
             net_loss(found, gap) / by_law.loss(pair).mean,
             found.pairs.loss(pair).mean_coulomb / found.pairs.loss(pair).mean,
             getattr(solved.film_mean, gap) / getattr(given, gap),

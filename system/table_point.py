@@ -101,12 +101,11 @@ def _leaks(
     moments = law_moments(law, pump, point, cycle.pressure)
     flow = moments.flow * [means[f"{gap}.leakage"] for gap in GAP_PAIRS]
     carried = np.array([means[f"{gap}.carried"] for gap in GAP_PAIRS])
-    by_wall = np.array([carried[0], 0.0, 0.0])
     constant = np.array([0.0, *(carried * moments.power / moments.above)[1:]])
-    by_pressure = flow - by_wall * moments.carried - constant * moments.one
+    by_pressure = flow - constant * moments.one
     answering = np.maximum(by_pressure / moments.flow, 0.0)
     constant += (by_pressure - answering * moments.flow) / moments.one
-    return LeakTable(answering[:, None] * law.conductance, by_wall[:, None] * law.carried_flow + constant[:, None])
+    return LeakTable(answering[:, None] * law.conductance, carried[:, None] * law.carried_flow + constant[:, None])
 
 
 def _draws(pump: PumpDescription, point: OperatingPoint, means: Mapping[str, float]) -> tuple[float, float]:

@@ -39,7 +39,7 @@ def test_options_of_the_command_line():
     usual = FloatingOptions()
     words = [*FLOATING, "--rigid", "--isoviscous", "--smooth", "--no-cavitation", "--steps", "72"]
     given = build_parser().parse_args(words)
-    assert floating_faults(given, load_pump("ref90_floating")) == []
+    assert floating_faults(given, load_pump("ref90_floating"), given.fidelity) == []
     found = floating_options(given)
     assert {Effect.CAVITATION, Effect.ROUGHNESS, Effect.ELASTIC_WALLS, Effect.PRESSURE_VISCOSITY} <= set(
         found.physics.left_out

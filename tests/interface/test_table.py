@@ -1,0 +1,141 @@
+"""`swashfilm table` and `run --fidelity table`: what they leave, and what they refuse.
+
+The points are a stand-in's, written into the cache as solved ones: what the commands do with them is asked here.
+"""
+
+import json
+from dataclasses import dataclass
+
+import numpy as np
+import pytest
+
+from swashfilm.__main__ import main
+from swashfilm.cli_table import TABLE_OPTIONS
+from system import table_sources
+from system.lumped import lumped_point
+from system.operating import operating_point
+from system.power import Gaps
+from system.pump_file import load_pump
+from system.table_means import GAP_PAIRS, MEANINGS, SolvedPoint, given_films
+from system.table_sources import Source
+
+PUMP = load_pump("ref90")
+FEW = ["--points", "32", "--held-out", "6"]
+
+
+@dataclass(frozen=True)
+class Lumped:
+    """The lumped law as a source: ratios of 1, but a slipper film that touches above 30 MPa."""
+
+    source = Source.FILMS
+    stops_at: float = np.inf
+
+    @property
+    def stated(self):
+        return {"physics": "the lumped law", "mesh": "none", "accuracy": "that of lumped"}
+
+    def solve(self, pump, point):
+        if point.delivery_pressure > self.stops_at:
+            raise KeyboardInterrupt
+        film = given_films(pump)
+        slipper = film.slipper * (1.0 if point.delivery_pressure < 30e6 else 0.2)
+        return SolvedPoint(lumped_point(pump, point), film, Gaps(film.piston, slipper, film.valve_plate))
+
+
+@pytest.fixture
+def stand_in(monkeypatch, tmp_path):
+    """Solve by the stand-in, and keep what is solved in a folder of the test's own."""
+    monkeypatch.setenv("SWASHFILM_CACHE", str(tmp_path / "cache"))
+
+    def use(**of):
+        monkeypatch.setattr(table_sources, "solver_of", lambda source, options: Lumped(**of))
+
+    use()
+    return use
+
+
+def test_a_table_is_built_told_and_run(stand_in, tmp_path, capsys):
+    folder = tmp_path / "table"
+    assert main(["table", "ref90", *FEW, "-o", str(folder)]) == 0
+    out = capsys.readouterr()
+    assert "condensed from" in out.out
+    assert "32 learnt, 6 held out" in out.out
+    assert "warning: large_error: slipper.film_least" in out.out
+    assert "38/38" in out.err
+    assert {path.name for path in folder.iterdir()} == {
+        "resolved.toml", "table.npz", "table.json", "points.csv", "summary.json", "report.html",
+    }  # fmt: skip
+    record = json.loads((folder / "table.json").read_text())
+    assert record["source"] == "films"
+    assert record["stated"]["physics"] == "the lumped law"
+    assert record["table_format"] >= 1
+    assert [row["name"] for row in record["outputs"]] == list(MEANINGS)
+    head, *rows = (folder / "points.csv").read_text().splitlines()
+    assert head.startswith(
+        "set,shaft_speed [rad/s],delivery_pressure [Pa],displacement_ratio [1],viscosity [Pa s]"
+    )
+    assert len(rows) == 38
+
+    run = tmp_path / "run"
+    assert main(["run", "ref90", "--fidelity", "table", "-o", str(run)]) == 0
+    assert "Gaps by a table of the films fidelity" in capsys.readouterr().out
+    found = json.loads((run / "summary.json").read_text())
+    assert found["fidelity"] == "table"
+    assert found["table"]["points"] == {"learnt": 32, "held_out": 6}
+    assert set(found["table"]["film_thickness_min_m"]) == set(GAP_PAIRS)
+    assert "by a response table" in (run / "report.html").read_text()
+
+    truth = lumped_point(PUMP, operating_point(PUMP))
+    assert found["torque"]["shaft_Nm"] == pytest.approx(truth.bench.shaft_torque, rel=1e-3)
+    for gap in GAP_PAIRS:
+        assert found["leakage"][f"{gap}_m3_per_s"] == pytest.approx(getattr(truth.leakage_flow, gap), rel=1e-3)
+
+
+def test_ctrl_c_keeps_what_is_solved(stand_in, tmp_path, capsys):
+    stand_in(stops_at=38e6)
+    assert main(["table", "ref90", *FEW, "-o", str(tmp_path / "table")]) == 130
+    assert "the same command goes on" in capsys.readouterr().err
+    assert not (tmp_path / "table").exists()
+    assert not (tmp_path / "table.partial").exists()
+    kept = len(list((tmp_path / "cache" / "tables" / "points").glob("*.npz")))
+    assert kept > 0
+    stand_in()
+    assert main(["table", "ref90", *FEW, "-o", str(tmp_path / "table")]) == 0
+    assert f"{kept} points kept" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        (["table", "ref90", "--speed", "500..900"], ["--speed", "500 rpm"]),
+        (["table", "ref90", "--speed", "900rpm..500rpm"], ["--speed", "the lower end first"]),
+        (["table", "ref90", "--displacement", "0.5"], ["--displacement", ".. between"]),
+        (["table", "ref90", "--displacement", "0.5..2"], ["displacement ratio", "at most 1"]),
+        (["table", "ref90", "--points", "3", "--workers", "no"], ["--points", "--workers", "2 faults"]),
+        (["table", "ref90", "--source", "film"], ["--source", "one of films, floating", "films"]),
+        (["table", "ref90", "--rigid"], ["--source", "floating"]),
+        (["table", "ref90", "--source", "floating", "--steps", "100"], ["--steps", "multiple of the 9 pistons"]),
+        (["table", "ref90", "--pressure", "1MPa..30MPa"], ["delivery pressure", "2.5 MPa"]),
+        (["table", "ref90", "--temperature", "20degC..300degC"], ["degC"]),
+        (["table", "ref90", "--sped", "3"], ["--sped", "--speed"]),
+        (["table"], ["PUMP"]),
+        (["run", "ref90", "--fidelity", "table"], ["no table of this pump", "swashfilm table"]),
+        (["run", "ref90", "--table", "x.json"], ["--table", "--fidelity table"]),
+        (["run", "ref90", "--fidelity", "table", "--table", "none.json"], ["none.json", "side by side"]),
+    ],
+)
+def test_bad_words_are_told(words, told, tmp_path, monkeypatch, capsys):
+    monkeypatch.setenv("SWASHFILM_CACHE", str(tmp_path / "cache"))
+    monkeypatch.chdir(tmp_path)
+    assert main(words) == 2
+    error = capsys.readouterr().err
+    for part in told:
+        assert part in error
+
+
+def test_help_says_what_a_table_is(capsys):
+    with pytest.raises(SystemExit):
+        main(["table", "--help"])
+    text = capsys.readouterr().out
+    for option in TABLE_OPTIONS:
+        assert option in text
