@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from time import perf_counter
 from typing import Generic, TypeVar
 
@@ -13,7 +13,7 @@ from reynolds.dirk import ALEXANDER_2, State, Tableau, Taken, march, nodes_only
 from reynolds.errors import FilmInputError
 from reynolds.film import FilmSolution
 from reynolds.floating import Floating
-from reynolds.floating_stage import Stage, solve_stage
+from reynolds.floating_stage import Closeness, Stage, solve_stage
 from reynolds.floating_start import pressed, restarted, seats_of, started
 from reynolds.loads import Loads, loads
 from reynolds.mesh import Array
@@ -22,21 +22,35 @@ from reynolds.solve import FilmSolver
 from reynolds.space import FilmSpace
 
 SHORT = 1e-2  # of the first way to a node: a step in which elastic walls give way to their first load
+ROUGH = 10.0  # times as far from the periodic motion, where the steps of the first turns are wide
+FEWEST = 24  # nodes of a turn with steps as wide as their error allows
 
 
 @dataclass(frozen=True)
 class Accuracy:
     """How exactly a revolution is marched and closed.
 
-    step, floor: largest error of the film by one step, share of the least film and m beside it; closed: distance
-    from the periodic motion, share of the mean film, and oil that is elsewhere after a turn, share of all; reach:
-    how far beyond a turn's end the next may start, share of the least film there.
+    step, floor: largest error of the film by one step, share of the least film and m beside it; balance: share of
+    that error within which forces are taken along their slopes; closed: distance from the periodic motion,
+    share of the mean film, and oil that is elsewhere after a turn, share of all; reach: how far beyond a turn's
+    end the next may start, share of the least film there.
     """
 
     step: float = 1e-3
     floor: float = 1e-8
+    balance: float = 1e-2
     closed: float = 1e-3
     reach: float = 0.25
+
+    @property
+    def closeness(self) -> Closeness:
+        """How near to balance the film of a stage has to come."""
+        return Closeness(self.balance * self.step, self.balance * self.floor)
+
+    @property
+    def rough(self) -> Accuracy:
+        """The same for turns that only lead near to the periodic motion."""
+        return replace(self, closed=ROUGH * self.closed)
 
 
 @dataclass(frozen=True)
@@ -57,6 +71,12 @@ class Schedule:
         """Nodes of the march, s: angles and breaks together."""
         inside = self.breaks[(self.breaks > 0.0) & (self.breaks < self.angles[-1])]
         return np.unique(np.concatenate([self.angles, inside])) / self.speed
+
+    @property
+    def wide(self) -> Schedule:
+        """The same turn with its last angle alone to report, and few nodes besides its breaks."""
+        nodes = self.angles[-1] * np.arange(1, FEWEST) / FEWEST
+        return Schedule(self.speed, self.angles[-1:], np.union1d(self.breaks, nodes), keep=2)
 
 
 def evenly(speed: float, steps: int, span: float = 2.0 * np.pi, keep: int = 10) -> Schedule:
@@ -156,9 +176,10 @@ def run_revolution(
 ) -> GapRevolution[Seen]:
     """The periodic motion of a gap whose drive repeats with the schedule's last angle.
 
-    Starts as a full film at rest at `start` (k,) m, or goes on from a revolution `before` it; `look` tells what
-    else to report of each angle. The steps of the second turn are those of all that follow, so that the map of a
-    turn is smooth. Afterwards each coordinate is as near to the periodic motion as `closed` says, and the oil in
+    Starts as a full film at rest at `start` (k,) m, from which turns of wide steps lead next to the periodic
+    motion, or goes on from a revolution `before` it; `look` tells what else to report of each angle. The steps of
+    the first turn that stops at all angles are those of all that follow, so that the map of a turn is smooth.
+    Afterwards each coordinate is as near to the periodic motion as `closed` says, and the oil in
     the film repeats as well. Raises FilmInputError for a schedule that does not rise from 0, FilmNotConverged with
     part and time where a step or the turn does not settle.
     """
@@ -167,11 +188,15 @@ def run_revolution(
         raise FilmInputError(
             "revolution", f"angles {schedule.angles[:5]} rad at {schedule.speed:g} rad/s", "rising"
         )
-    opening = None if before is None else before.turn
-    run = _Turns(solver, floating, schedule, look, accuracy or Accuracy(), method, opening)
-    began = perf_counter()
-    closing = periodic(run.turn, start if opening is None else opening.end)
-    return GapRevolution(closing.turn, closing, run.films_solved, perf_counter() - began)
+    began, accuracy = perf_counter(), accuracy or Accuracy()
+    films, opening = 0, None if before is None else before.turn
+    if opening is None:
+        first = _Turns(solver, floating, schedule.wide, look, accuracy.rough, method, None)
+        opening = periodic(first.turn, start).turn
+        films = first.films_solved
+    run = _Turns(solver, floating, schedule, look, accuracy, method, opening)
+    closing = periodic(run.turn, opening.end)
+    return GapRevolution(closing.turn, closing, films + run.films_solved, perf_counter() - began)
 
 
 class _Turns(Generic[Seen]):
@@ -209,9 +234,11 @@ class _Turns(Generic[Seen]):
             errors.append(self._excess(taken))
             if (angle := self._angles.get(state.time)) is None:
                 continue
-            instants.append(_instant(angle, state, self._look(stage)))
+            seen = stage.reposed()
+            self.films_solved += seen.films - stage.films
+            instants.append(_instant(angle, seen, state.rate, self._look(seen)))
             if angle in self._kept:
-                films[angle] = stage.solution
+                films[angle] = seen.solution
         end = instants[-1]
         return GapTurn(
             start=start,
@@ -240,7 +267,8 @@ class _Turns(Generic[Seen]):
         return restarted(self._floating, 0.0, last.last, start)
 
     def _stage(self, time: float, before: Array, step: float, guess: Array, last: Stage | None) -> Stage:
-        stage = solve_stage(self._solver, self._floating, time, before, step, guess, last)
+        close = self._accuracy.closeness
+        stage = solve_stage(self._solver, self._floating, time, before, step, guess, last, close)
         self.films_solved += stage.films
         return stage
 
@@ -259,15 +287,13 @@ def _oil_moved(first: FilmSpace, begin: State[Stage], end: State[Stage]) -> floa
     return float(np.abs(came - went).sum() / np.abs(went).sum())
 
 
-def _instant(angle: float, state: State[Stage], seen: Seen) -> GapInstant[Seen]:
+def _instant(angle: float, stage: Stage, rate: Array, seen: Seen) -> GapInstant[Seen]:
     """What is reported of the end of a step."""
-    stage = state.stage
-    assert stage is not None
     area, film = stage.solution.problem.space.area, stage.solution.film
     return GapInstant(
         angle=angle,
         position=stage.q,
-        rate=state.rate,
+        rate=rate,
         film_force=stage.film_force,
         contact_force=stage.contact_force,
         outer_force=stage.outer.force,

@@ -9,7 +9,7 @@ import numpy as np
 
 from reynolds.contact import LOWEST_RATIO
 from reynolds.errors import FilmInputError, FilmNotConverged
-from reynolds.film import LEAST_FRACTION, Boundary, FilmProblem, FilmSolution, Pocket, Storage
+from reynolds.film import LEAST_FRACTION, Boundary, Cavitation, FilmProblem, FilmSolution, Pocket, Storage
 from reynolds.floating import Floating, Outer
 from reynolds.generalised import (
     ContactForce,
@@ -190,8 +190,12 @@ class Instant:
         """
         found = at.solution
         pressure = np.where(found.held, found.pressure, found.pressure + film.pressure @ step)
-        fraction = np.clip(found.film_fraction + film.film_fraction @ step, 0.0, 1.0)
-        pressure = np.maximum(pressure, found.problem.cavitation_pressure)
+        fraction, level = found.film_fraction + film.film_fraction @ step, found.problem.cavitation_pressure
+        cavity = found.cavity
+        if found.problem.cavitation is Cavitation.JFO:  # what fills up, and what tears
+            cavity = np.where(cavity, fraction < 1.0, ~found.held & (pressure < level))
+        fraction, pressure = np.clip(fraction, 0.0, 1.0), np.maximum(pressure, level)
+        found = replace(found, cavity=cavity)
         if found.problem.walls is None:
             return replace(found, pressure=pressure, film_fraction=fraction)
         opened = found.opening + (self._grown(at, film) - self.modes.at_vertices) @ step
@@ -216,12 +220,21 @@ class Instant:
 
     def slopes(self, at: Trial, film: Response) -> Array:
         """d missing/dq, (k, k) N/m."""
-        total = self.modes.weights.T @ film.pressure + at.outer.by_position + at.outer.by_rate / self.step
+        total = self.film_slopes(film) + at.outer.by_position + at.outer.by_rate / self.step
         if at.contact is not None:
             total = total + at.contact.slopes + at.contact.by_pressure(film.pressure)
         if self.floating.inertia is not None:
             total = total - self.floating.inertia / self.step**2
         return np.asarray(total)
+
+    def film_slopes(self, film: Response) -> Array:
+        """dQ/dq without contact, (k, k) N/m."""
+        return np.asarray(self.modes.weights.T @ film.pressure)
+
+    def oil_moved(self, at: Trial, own: Response, moved: Array) -> Array:
+        """Change of what the unknowns hold, (size, m) m3, with the position (k, m) m alone."""
+        both = Response(own.pressure @ moved, own.film_fraction @ moved)
+        return oil_slopes(at.solution, at.thicker @ moved, both, self.solver.operators(at.solution))
 
     def by_before(self, at: Trial, changed: Kept) -> tuple[Response, Array]:
         """Change of the film and of `missing` (k, m) with what was held before, the position as it is."""
@@ -238,13 +251,13 @@ class Instant:
             missing += self.floating.inertia @ (changed.position / self.step + changed.rate) / self.step
         return film, missing
 
-    def onward(self, at: Trial, own: Response, changed: Kept) -> Kept:
+    def onward(self, at: Trial, own: Response, slopes: Array, changed: Kept) -> Kept:
         """Change of what is held at the end of the step with what was held before it, balance kept.
 
-        `own`: how the film answers to its position.
+        `own` and `slopes`: how film and forces answer to the position.
         """
         film, missing = self.by_before(at, changed)
-        q = -solved(self.slopes(at, own), missing, self.floating.name)
+        q = -solved(slopes, missing, self.floating.name)
         both = Response(film.pressure + own.pressure @ q, film.film_fraction + own.film_fraction @ q)
         oil = oil_slopes(at.solution, at.thicker @ q, both, self.solver.operators(at.solution))
         return Kept(oil, q, (q - changed.position) / self.step)

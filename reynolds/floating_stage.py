@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
@@ -40,10 +41,30 @@ LEAST_GAIN = 1e-4  # of the imbalance, by a full step
 
 
 @dataclass(frozen=True)
+class Closeness:
+    """How long a last step of Newton's method may be (share of the least film, and m) that moves no film any more.
+
+    What is held and the forces then follow the position along their slopes; errors are of its square. Nothing of
+    either: none, until the forces balance.
+    """
+
+    share: float = 0.0
+    floor: float = 0.0
+
+    def allows(self, at: Trial) -> float:
+        """The same of a trial, m."""
+        return self.share * float(at.solution.film.thickness.min()) + self.floor
+
+
+EXACT = Closeness()
+
+
+@dataclass(frozen=True)
 class Stage:
     """A floating film at the end of an implicit step: a `Stage` as `dirk` has them.
 
-    films: solved on the way; steps: of Newton's method.
+    films: solved on the way; steps: of Newton's method. The film is the last one tried, and `shift` (k,) m the way
+    from there to where the forces balance, see `Closeness`.
     """
 
     time: float
@@ -51,11 +72,13 @@ class Stage:
     instant: Instant = field(repr=False)
     films: int
     steps: int
+    shift: Array
+    known: Response | None = field(repr=False, default=None)
 
     @property
     def q(self) -> Array:
         """Position (k,), m."""
-        return self.trial.q
+        return self.trial.q + self.shift
 
     @cached_property
     def solution(self) -> FilmSolution:
@@ -75,39 +98,64 @@ class Stage:
     @property
     def film_force(self) -> Array:
         """Q without contact, (k,) N."""
-        return self.trial.film_force
+        return self.trial.film_force + self._along(lambda: self.instant.film_slopes(self.by_position))
 
     @property
     def contact_force(self) -> Array:
         """Share of the asperities in Q, (k,) N."""
         contact = self.trial.contact
-        return np.zeros(len(self.q)) if contact is None else contact.force
+        if contact is None:
+            return np.zeros(len(self.q))
+        return contact.force + self._along(lambda: contact.slopes + contact.by_pressure(self.by_position.pressure))
 
     @property
     def outer(self) -> Outer:
         """P and its slopes."""
-        return self.trial.outer
+        outer = self.trial.outer
+        more = self._along(lambda: outer.by_position + outer.by_rate / self.instant.step)
+        return replace(outer, force=outer.force + more)
 
     @property
-    def holds(self) -> Array:
-        """What is carried on, one vector: oil (size,) m3, q (k,) m and, with inertia, dq/dt (k,) m/s."""
-        return joined(self.instant.floating, Kept(self.trial.solution.holds, self.q, self.trial.rate))
+    def rate(self) -> Array:
+        """dq/dt over the step, (k,) m/s."""
+        return self.trial.rate + self.shift / self.instant.step
 
-    @property
-    def force_slopes(self) -> Array:
-        """d(Q + P - M q'')/dq over the step, (k, k) N/m: stiffness and, by the step, damping."""
-        return self.instant.slopes(self.trial, self._answer)
+    def _along(self, slopes: Callable[[], Array]) -> Array | float:
+        """What the shift adds to forces of such slopes."""
+        return slopes() @ self.shift if self.shift.any() else 0.0
 
     @cached_property
-    def _answer(self) -> Response:
+    def holds(self) -> Array:
+        """What is carried on, one vector: oil (size,) m3, q (k,) m and, with inertia, dq/dt (k,) m/s."""
+        oil = self.trial.solution.holds
+        if self.shift.any():
+            oil = oil + self.instant.oil_moved(self.trial, self.by_position, self.shift[:, None])[:, 0]
+        return joined(self.instant.floating, Kept(oil, self.q, self.rate))
+
+    @cached_property
+    def by_position(self) -> Response:
         """How the film answers to its position: on the film's last factor while no other film is solved."""
+        if self.known is not None:
+            return self.known
         return self.instant.by_position(self.trial, self.instant.exactness)
+
+    @cached_property
+    def force_slopes(self) -> Array:
+        """d(Q + P - M q'')/dq over the step, (k, k) N/m: stiffness and, by the step, damping."""
+        return self.instant.slopes(self.trial, self.by_position)
 
     def ahead(self, q: Array) -> FilmSolution:
         """A guess of the film at another position (k,) m: this one if linear, else as its slopes have it."""
         if is_linear(self.trial.solution.problem):
             return self.trial.solution
-        return self.instant.ahead(self.trial, q - self.q, self._answer)
+        return self.instant.ahead(self.trial, q - self.trial.q, self.by_position)
+
+    def reposed(self) -> Stage:
+        """The same with its film solved where the forces balance; raises as the film does."""
+        if not self.shift.any():
+            return self
+        trial = self.instant.tried(self.q, self.ahead(self.q))
+        return replace(self, trial=trial, films=self.films + 1, shift=np.zeros_like(self.shift), known=None)
 
     def carried(self, before: Array) -> tuple[Array, Array]:
         """Change of q (k, m) and of `holds` (held, m) for changes (held, m) of what was held before.
@@ -116,9 +164,8 @@ class Stage:
         where the solver has solved another film since.
         """
         floating = self.instant.floating
-        after = self.instant.onward(
-            self.trial, self._answer, parted(floating, before, self.solution.problem.space.size)
-        )
+        changed = parted(floating, before, len(self.trial.solution.pressure))
+        after = self.instant.onward(self.trial, self.by_position, self.force_slopes, changed)
         return after.position, joined(floating, after)
 
 
@@ -130,23 +177,25 @@ def solve_stage(
     step: float,
     guess: Array,
     last: Stage | None,
+    close: Closeness = EXACT,
 ) -> Stage:
     """The position at `time` (s), one implicit step (s) after `before` was held.
 
     Afterwards the generalised forces balance to 1e-8 of the magnitudes that meet there (1e-6 where the film's
-    round-off allows no less). Newton's method starts at `guess` (k,) m, and where that leads nowhere, at the
-    position before; `last` warms the film. A Newton step leaves a fifth of the least gap, or presses rough walls
-    by three standard deviations at most, and is halved until it brings the forces nearer to balance. Raises
-    FilmNotConverged where that leads nowhere, so that a shorter step may; what the film refuses is its reason.
+    round-off allows no less), or do so along their slopes within a step that `close` allows. Newton's method
+    starts at `guess` (k,) m, and where that leads nowhere, at the position before; `last` warms the film. A Newton
+    step leaves a fifth of the least gap, or presses rough walls by three standard deviations at most, and is
+    halved until it brings the forces nearer to balance. Raises FilmNotConverged where that leads nowhere, so that
+    a shorter step may; what the film refuses is its reason.
     `functools.partial(solve_stage, solver, floating)` is a `dirk.StageSolver`.
     """
     instant = instant_of(solver, floating, time, step, before)
-    search = _Search(instant, None if last is None else last.ahead(guess))
+    search = _Search(instant, close, None if last is None else last.ahead(guess))
     if (found := search.balanced(guess)) is None:
         found = search.balanced(instant.before.position)
     if found is None:
         raise FilmNotConverged(f"{floating.name} at {time:.6g} s: {search.why}", search.remedy)
-    return Stage(time, found, instant, search.films, search.steps)
+    return Stage(time, found, instant, search.films, search.steps, *search.rest)
 
 
 def standing(floating: Floating, time: float, q: Array, rate: Array | None = None) -> Array:
@@ -165,8 +214,9 @@ def standing(floating: Floating, time: float, q: Array, rate: Array | None = Non
 class _Search:
     """Films tried at one instant, each warming the next."""
 
-    def __init__(self, instant: Instant, warm: FilmSolution | None) -> None:
-        self._instant, self._warm = instant, warm
+    def __init__(self, instant: Instant, close: Closeness, warm: FilmSolution | None) -> None:
+        self._instant, self._close, self._warm = instant, close, warm
+        self.rest: tuple[Array, Response | None] = np.zeros_like(instant.before.position), None
         self.films = self.steps = self._failed = 0
         self.why, self.remedy = "no film tried", "a shorter step, or less load"
 
@@ -179,13 +229,21 @@ class _Search:
         for _ in range(MOST_STEPS):
             if at is None or at.missed <= TOLERANCE:
                 return at
-            new = self._downhill(at)
+            found = self._newton(at)
+            if found is not None and self._near(at, found[0]):
+                self.rest = found
+                return at
+            new = None if found is None else self._downhill(at, *found)
             if new is None:
                 return at if at.missed <= GOOD_ENOUGH else None
             at = new
             self.steps += 1
         self.why = f"not settled after {MOST_STEPS} steps"
         return None
+
+    def _near(self, at: Trial, step: Array) -> bool:
+        """Whether a step is as short as is asked for."""
+        return bool(np.abs(self._instant.modes.at_vertices @ step).max() <= self._close.allows(at))
 
     def _tried(self, q: Array, ahead: FilmSolution | None = None) -> Trial | None:
         """The film there, None where there is none; `ahead` is a guess of it."""
@@ -203,15 +261,19 @@ class _Search:
         self._warm = found.solution
         return found
 
-    def _downhill(self, at: Trial) -> Trial | None:
-        """The film one Newton step on, cut back until it is nearer to balance; None where no share is."""
+    def _newton(self, at: Trial) -> tuple[Array, Response] | None:
+        """The step of Newton's method and how the film answers to the position; None where nothing resists."""
         instant = self._instant
         try:
             film = instant.by_position(at, LOOSE)
-            step = -solved(instant.slopes(at, film), at.missing, instant.floating.name)
+            return -solved(instant.slopes(at, film), at.missing, instant.floating.name), film
         except FilmNotConverged as reason:
             self.why, self.remedy = reason.what, reason.remedy
             return None
+
+    def _downhill(self, at: Trial, step: Array, film: Response) -> Trial | None:
+        """The film one Newton step on, cut back until it is nearer to balance; None where no share is."""
+        instant = self._instant
         room = min(1.0, instant.room(at, step, film))
         if instant.touching(at):
             self.why, self.remedy = f"walls that touch: least gap {at.least:.3g} m", TOUCHING

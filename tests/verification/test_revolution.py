@@ -56,7 +56,7 @@ def _swayed(share: float, schedule: Schedule, **options) -> GapRevolution[float]
 
 
 def _power(stage: Stage) -> float:
-    return float(stage.film_force @ stage.trial.rate)
+    return float(stage.film_force @ stage.rate)
 
 
 @pytest.mark.parametrize("share", [0.02, 1.0, 20.0])
