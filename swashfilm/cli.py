@@ -231,6 +231,10 @@ def _run(options: argparse.Namespace) -> int:
     show_table(f"Pump {pump.name}", headline_rows(summary))
     show_table("Efficiencies: paper's Eqs. (3)-(5), ISO 4391/4409", efficiency_rows(summary))
     show_table("Friction pairs: Coulomb, viscous, total, share", pair_rows(summary))
+    if fidelity is Fidelity.FLOATING:
+        from swashfilm.floating_page import HEAD, floating_rows
+
+        show_table("Gaps that float: of one piston, one slipper, the block", [HEAD, *floating_rows(summary)])
     if "table" in summary:
         from swashfilm.table_told import TOLD_HEAD, told_rows
 
