@@ -227,6 +227,19 @@ def lines_have_the_keys_of_their_kinds(pump: PumpDescription) -> Iterator[Findin
         yield Fault("suction_line.orifice_area", "no such key", expected)
 
 
+@needs()
+def spins_left_free_are_told(pump: PumpDescription) -> Iterator[Finding]:
+    """A spin that is not stated is what ball joint and films leave, as `system.spins` estimates it."""
+    for name in ("piston", "slipper"):
+        if getattr(pump, name).spin_ratio is None:
+            yield CheckWarning(
+                f"{name}.spin_ratio",
+                "left out",
+                "a known ratio (films take the spin at which ball friction and film drags balance over the turn)",
+                "state it where it is known",
+            )
+
+
 PARTS_CHECKS = (
     guide_lies_in_the_bore,
     centre_of_mass_lies_in_the_piston,
@@ -243,6 +256,7 @@ PARTS_CHECKS = (
     waves_are_shallow,
     retainer_keys_belong_to_its_kind,
     lines_have_the_keys_of_their_kinds,
+    spins_left_free_are_told,
 )
 
 
