@@ -17,13 +17,15 @@ from swashfilm.film_study import film_summary, solve_case
 from swashfilm.gap_case import GapCase
 from swashfilm.progress import Report
 from swashfilm.revolution_case import RevolutionCase
-from swashfilm.revolution_study import revolution_summary, solve_revolution
+from swashfilm.revolution_study import revolution_course, revolution_summary, solve_revolution
 from swashfilm.study_case import Point, StudyCase
 from system.errors import NotConverged
 from system.faults import Fault, InputFaults
 from system.side_by_side import side_by_side
 
 POINTS = "points"
+COURSE = "course"
+"""Of a revolution, beside its summary: what a study compares over the shaft angle."""
 
 
 class Status(Enum):
@@ -79,7 +81,8 @@ def solve_point(study: StudyCase, folder: Path, point: Point) -> Outcome:
 
 def _summary(case: Case) -> dict[str, Any]:
     if isinstance(case, RevolutionCase):
-        return revolution_summary(solve_revolution(case))
+        study = solve_revolution(case)
+        return revolution_summary(study) | {COURSE: revolution_course(study)}
     return film_summary(solve_case(case))
 
 

@@ -94,6 +94,20 @@ def tilt(study: RevolutionStudy) -> Array:
     return np.asarray(np.hypot(q[:, 1], q[:, 2]) / _radius(study))
 
 
+def revolution_course(study: RevolutionStudy) -> dict[str, list[float]]:
+    """The numbers over the shaft angle that a study compares, the unit in each key."""
+    instants = study.revolution.turn.instants
+    return {
+        "shaft_angle_deg": [float(np.degrees(instant.angle)) for instant in instants],
+        "film_thickness_min_m": [instant.loads.film_thickness_min for instant in instants],
+        "film_thickness_mean_m": [instant.mean_film for instant in instants],
+        "tilt_rad": tilt(study).tolist(),
+        "leakage_flow_m3_per_s": [instant.seen.leakage for instant in instants],
+        "friction_power_W": [friction_power(study, instant.seen) for instant in instants],
+        "contact_load_N": [instant.seen.contact_load for instant in instants],
+    }
+
+
 def _radius(study: RevolutionStudy) -> float:
     """Radius (m) over which the rises of slipper or block are counted."""
     if study.case.gap is Gap.SLIPPER:

@@ -12,6 +12,7 @@ import numpy as np
 
 from swashfilm.film_series import Outcome, Status
 from swashfilm.headline import headline_numbers, named, titled
+from swashfilm.series_courses import course_variables
 from swashfilm.study_case import Combine, StudyCase
 
 if TYPE_CHECKING:
@@ -39,6 +40,7 @@ def study_dataset(study: StudyCase, outcomes: Sequence[Outcome]) -> xarray.Datas
     }
     for name, texts in (("status", [o.status.value for o in outcomes]), ("reason", [o.reason for o in outcomes])):
         variables[name] = (dims, np.array(texts, dtype=object).reshape(study.shape))
+    variables |= course_variables(study, outcomes, dims)
     coordinates = {
         axis.key: (
             "point" if together else axis.key,

@@ -12,6 +12,7 @@ from swashfilm.film_series import run_points
 from swashfilm.headline import named
 from swashfilm.progress import Report
 from swashfilm.run_folder import write_json
+from swashfilm.series_courses import course_plots
 from swashfilm.series_data import study_dataset, study_summary, write_study_table
 from swashfilm.series_plots import study_plots
 from swashfilm.study_case import StudyCase
@@ -46,7 +47,7 @@ def write_study_page(folder: Path) -> Path:
     summary = json.loads((folder / "summary.json").read_text("utf-8"))
     with xarray.open_dataset(folder / "study.nc", engine="h5netcdf") as data:
         data.load()
-    pictures = study_plots(data)
+    pictures = course_plots(data) | study_plots(data)
     (folder / "plots").mkdir(exist_ok=True)
     for key, png in pictures.items():
         (folder / "plots" / f"{key}.png").write_bytes(png)

@@ -20,6 +20,7 @@ LOG_TO = 1e6  # ratio beyond which the small end is nothing
 MOST_LINES = 12
 STRIBECK = ("friction_coefficient", "hersey_number_m")
 CONTACT = "contact_load_fraction"
+COURSES = "course_"  # curves over the shaft angle, drawn by `series_courses`
 
 
 def study_plots(data: xarray.Dataset) -> dict[str, bytes]:
@@ -29,7 +30,8 @@ def study_plots(data: xarray.Dataset) -> dict[str, bytes]:
     number varies, is the friction coefficient over it.
     """
     ordered = data.sortby([dim for dim in data.dims if dim in data.coords and _is_numeric(data[dim].values)])
-    numbers = {str(key): data[key].values for key in data.data_vars if key not in ("status", "reason")}
+    told = [str(key) for key in data.data_vars if key not in ("status", "reason")]
+    numbers = {key: data[key].values for key in told if not key.startswith(COURSES)}
     size = sizes({key: float(np.nanmax(np.abs(values))) for key, values in numbers.items()}, {})
     keys = [
         key for key, values in numbers.items() if np.nanmax(values) - np.nanmin(values) > LEAST_CHANGE * size[key]
@@ -43,7 +45,7 @@ def _is_numeric(values: np.ndarray) -> bool:
 
 
 def _picture(data: xarray.Dataset, key: str) -> bytes:
-    figure, axes = _figure()
+    figure, axes = figure_axes()
     field = data[key]
     numeric = [_is_numeric(data[dim].values) for dim in field.dims if dim in data.coords]
     if field.ndim == 2 and len(numeric) == 2 and all(numeric) and min(field.shape) > 1:
@@ -51,7 +53,7 @@ def _picture(data: xarray.Dataset, key: str) -> bytes:
     else:
         _lines(axes, data, key)
     axes.set_title(titled(key), fontsize=10)
-    return _png(figure)
+    return png(figure)
 
 
 def _lines(axes: Any, data: xarray.Dataset, key: str) -> None:
@@ -61,7 +63,7 @@ def _lines(axes: Any, data: xarray.Dataset, key: str) -> None:
     lines = list(product(*(range(data.sizes[dim]) for dim in others)))
     for index in lines[:MOST_LINES]:
         at = dict(zip(others, index, strict=True))
-        axes.plot(places, field.isel(at).values, "o-", markersize=3.5, label=_where(data, at) or None)
+        axes.plot(places, field.isel(at).values, "o-", markersize=3.5, label=where(data, at) or None)
     if others:
         axes.legend(fontsize=7, title=None if len(lines) <= MOST_LINES else f"{MOST_LINES} of {len(lines)} lines")
     if labels:
@@ -106,7 +108,7 @@ def _levels(values: np.ndarray) -> np.ndarray:
 
 def _stribeck(data: xarray.Dataset) -> bytes:
     """Friction coefficient over the Hersey number: one line with the contact's share, or many."""
-    figure, axes = _figure()
+    figure, axes = figure_axes()
     friction, hersey = (data[key].transpose(*data[STRIBECK[0]].dims) for key in STRIBECK)
     along, *others = (str(dim) for dim in friction.dims)
     lines = list(product(*(range(data.sizes[dim]) for dim in others)))[:MOST_LINES]
@@ -114,7 +116,7 @@ def _stribeck(data: xarray.Dataset) -> bytes:
         at = dict(zip(others, index, strict=True))
         y, x = friction.isel(at).values, hersey.isel(at).values
         order = np.argsort(x)
-        axes.plot(x[order], y[order], "o-", markersize=3.5, label=_where(data, at) or None)
+        axes.plot(x[order], y[order], "o-", markersize=3.5, label=where(data, at) or None)
     axes.set_xscale("log")
     if _is_wide(friction.values):
         axes.set_yscale("log")
@@ -125,7 +127,7 @@ def _stribeck(data: xarray.Dataset) -> bytes:
         axes.legend(fontsize=7)
     else:
         _with_least_and_contact(axes, data, along)
-    return _png(figure)
+    return png(figure)
 
 
 def _with_least_and_contact(axes: Any, data: xarray.Dataset, along: str) -> None:
@@ -145,7 +147,7 @@ def _with_least_and_contact(axes: Any, data: xarray.Dataset, along: str) -> None
         beside.set_ylabel("contact's share of the load", color="tab:orange")
 
 
-def _where(data: xarray.Dataset, at: Mapping[Any, int]) -> str:
+def where(data: xarray.Dataset, at: Mapping[Any, int]) -> str:
     """The values of the keys that a line is of, with their units."""
     return ", ".join(
         f"{dim} = {_text(data[dim].values[k])} {data[dim].attrs.get('units', '')}".strip() for dim, k in at.items()
@@ -190,14 +192,16 @@ def _is_geometric(places: np.ndarray) -> bool:
     return _is_wide(places) or bool(np.ptp(np.diff(np.log(places))) < 1e-6)
 
 
-def _figure() -> tuple[Any, Any]:
+def figure_axes() -> tuple[Any, Any]:
+    """A figure of a study's size, with its axes."""
     from matplotlib.figure import Figure
 
     figure = Figure(figsize=(5.2, 3.7), layout="constrained")
     return figure, figure.subplots()
 
 
-def _png(figure: Any) -> bytes:
+def png(figure: Any) -> bytes:
+    """The figure as a PNG."""
     picture = io.BytesIO()
     figure.savefig(picture, format="png", dpi=110)
     return picture.getvalue()
