@@ -18,6 +18,7 @@ from reynolds.mesh import Array, FilmMesh
 
 EDGE = "pads"
 """Name of the pads' edges in a mesh."""
+LONG = 10.0  # cells around over across: pressure turns over a pad's width, not along it
 CLOSED = 1e-9  # rad; what is left of a turn between the ends of a pad that is a whole ring
 
 
@@ -58,10 +59,10 @@ class BearingPads:
         return 0.5 * (self.inner_radius + self.outer_radius)
 
     def cells(self, across: int) -> tuple[Array, NDArray[np.int64]]:
-        """Vertices (2, n) m and quadrilaterals (4, m) of the pads, `across` cells wide and about as long."""
+        """Vertices (2, n) m and quadrilaterals (4, m) of the pads, `across` cells wide and as many long or more."""
         radii = np.linspace(self.inner_radius, self.outer_radius, across + 1)
         length = self.arc * self.mean_radius
-        around = max(int(np.ceil(length / (4.0 * (radii[1] - radii[0])))), 24 if self.is_ring else across)
+        around = max(int(np.ceil(length / (LONG * (radii[1] - radii[0])))), 24 if self.is_ring else across)
         columns = around if self.is_ring else around + 1
         angle = self.arc * (np.arange(columns) / around - 0.5)
         i, j = (part.ravel() for part in np.meshgrid(np.arange(across), np.arange(around), indexing="ij"))
