@@ -59,7 +59,7 @@ class BearingPads:
         return 0.5 * (self.inner_radius + self.outer_radius)
 
     def cells(self, across: int) -> tuple[Array, NDArray[np.int64]]:
-        """Vertices (2, n) m and quadrilaterals (4, m) of the pads, `across` cells wide and as many long or more."""
+        """Vertices (2, n) m and quadrilaterals (4, m) of the pads, `across` cells wide, as many long or more."""
         radii = np.linspace(self.inner_radius, self.outer_radius, across + 1)
         length = self.arc * self.mean_radius
         around = max(int(np.ceil(length / (LONG * (radii[1] - radii[0])))), 24 if self.is_ring else across)
