@@ -2,15 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import lru_cache
 from typing import Protocol
 
 import numpy as np
 
-from gaps.bodies import BushingPart, PistonPart, bushing_body, piston_body
+from gaps.bodies import (
+    BushingPart,
+    PistonPart,
+    PlatePart,
+    SlipperPart,
+    bushing_body,
+    part_wall,
+    piston_body,
+    plate_body,
+    slipper_body,
+)
 from gaps.piston_walls import PistonWalls, face_grid
+from reynolds.bodies.foundation import both
+from reynolds.bodies.wall import Body
 from reynolds.mesh import Array
 from reynolds.space import FilmSpace
 from reynolds.walls import Walls
@@ -26,22 +37,27 @@ class GapWalls(Protocol):
         """Opening (vertices,) m by unit pressure (Pa) in the chamber beside the film."""
 
 
-class FixedWalls:
-    """Walls that lie under a film in the same way at any time: `build` gives them, once a mesh."""
+@dataclass(frozen=True)
+class PlateWalls:
+    """Both parts of a plane film, which lie under it in the same way at any time."""
 
-    def __init__(self, build: Callable[[FilmSpace], Walls]) -> None:
-        self._build = build
-        self._built: tuple[object, Walls] | None = None
+    parts: tuple[SlipperPart | PlatePart, SlipperPart | PlatePart]
+    _built: list[tuple[object, Walls]] = field(default_factory=list, compare=False, repr=False)
 
     def at(self, film: FilmSpace, reach: float) -> Walls:
-        """The walls; a film's mesh that has moved is the same mesh."""
-        if self._built is None or self._built[0] is not film.pattern:
-            self._built = film.pattern, self._build(film)
-        return self._built[1]
+        """The walls, meshed when a film first asks; a film's mesh that has moved is the same mesh."""
+        if not self._built or self._built[0][0] is not film.pattern:
+            one, two = (part_wall(_plane_body(part), film) for part in self.parts)
+            self._built[:] = [(film.pattern, both(one, two))]
+        return self._built[0][1]
 
     def by_chamber(self, film: FilmSpace, reach: float) -> Array:
         """Nothing: the chamber presses on these walls through the film and its pockets alone."""
         return np.zeros(len(film.vertices))
+
+
+def _plane_body(part: SlipperPart | PlatePart) -> Body:
+    return slipper_body(part) if isinstance(part, SlipperPart) else plate_body(part)
 
 
 @dataclass(frozen=True)

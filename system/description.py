@@ -58,6 +58,7 @@ from system.parts_description import (
     ReliefSection,
     RetainerSection,
     SurfacesSection,
+    SwashPlateSection,
     WavinessSection,
 )
 from system.units import Dimension
@@ -95,6 +96,7 @@ class PistonSection(Section):
     barrel: Length | None = None  # fall of a crowned piston from its middle to its ends
     edge_relief: ReliefSection | None = None  # at the chamber's end
     grooves: Grooves | None = None  # rings; places from the chamber's end
+    bore_diameter: Annotated[float, Dimension.LENGTH, NotNegative] | None = None  # of a hollow piston
 
 
 class SlipperSection(Section):
@@ -118,6 +120,8 @@ class SlipperSection(Section):
     rim_relief: ReliefSection | None = None  # at the outer radius
     grooves: SlipperGrooves | None = None  # closed rings in the land
     vented_grooves: SlipperGrooves | None = None  # rings open to the case
+    flange_thickness: Length | None = None
+    socket_radius: Length | None = None  # up to which the ball holds the flange
 
     @property
     def lands(self) -> SlipperLands:
@@ -140,6 +144,7 @@ class ValvePlateSection(Section):
     tilt_x: Angle
     tilt_y: Angle
     residual_clamping: Coefficient  # fraction of the pressure force
+    thickness: Length | None = None
     waviness: WavinessSection | None = None
     profile: Profile | None = None  # over the radius
     pads: tuple[PadSection, ...] = ()  # beyond the outer land
@@ -202,6 +207,7 @@ class BlockSection(Section):
 
     mass: Mass
     spline_position: AnyLength | None = None  # above the valve plate: where the shaft holds the block sideways
+    end_thickness: Length | None = None  # between the bores and the face on the valve plate
 
 
 class BearingsSection(Section):
@@ -275,6 +281,7 @@ class PumpDescription(Section):
     oil: OilSection
     operating: OperatingSection
     bore: BoreSection = BoreSection()
+    swash_plate: SwashPlateSection = SwashPlateSection()
     retainer: RetainerSection = RetainerSection()
     materials: MaterialsSection = MaterialsSection()
     surfaces: SurfacesSection = SurfacesSection()

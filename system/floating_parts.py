@@ -11,11 +11,14 @@ from dataclasses import dataclass, replace
 
 from gaps.physics import FilmLaws
 from gaps.profiles import Barrel, Crown, EdgeRelief, Profile, Shape, Waviness, measured, ring_grooves
+from reynolds.bodies.elasticity import Elastic
 from reynolds.contact import Asperities, composite_modulus
 from reynolds.fluid import CONSTANT, Fluid
 from reynolds.roughness import Surface
 from reynolds.viscosity import Roelands
+from system.assumptions import Assumption, Taken
 from system.description import PumpDescription
+from system.floating_walls import block_walls, bore_walls, slipper_walls
 from system.kinematics import piston_displacement
 from system.line_description import LineKind
 from system.lumped import full_drive, piston_area
@@ -24,18 +27,6 @@ from system.units import Dimension, format_quantity
 
 SUMMIT_PRODUCT = 0.04  # eta beta sigma of finished surfaces, 0.03 .. 0.05 (Greenwood and Tripp 1970-71)
 SUMMIT_SLOPE = 0.01  # sigma/beta, 1e-4 .. 1e-2
-
-
-@dataclass(frozen=True)
-class Assumption:
-    """A value taken because the pump file leaves its key out: path, value as people read it, and the reason."""
-
-    path: str
-    value: str
-    reason: str
-
-    def __str__(self) -> str:
-        return f"{self.path}: taken {self.value} ({self.reason})"
 
 
 @dataclass(frozen=True)
@@ -123,37 +114,22 @@ class FloatingParts:
     taken: tuple[Assumption, ...]
 
 
-class _Taken:
-    """Gathers what is taken."""
-
-    def __init__(self) -> None:
-        self.assumptions: list[Assumption] = []
-
-    def value(
-        self, path: str, stated: float | None, usual: float, reason: str, dimension: Dimension | None = None
-    ) -> float:
-        """The stated value, or the usual one, noted with its reason."""
-        if stated is not None:
-            return stated
-        shown = f"{usual:.4g}" if dimension is None else format_quantity(usual, dimension, digits=4)
-        self.note(path, shown, reason)
-        return usual
-
-    def note(self, path: str, value: str, reason: str) -> None:
-        self.assumptions.append(Assumption(path, value, reason))
-
-
 def floating_parts(pump: PumpDescription) -> FloatingParts:
     """The parts of a pump, every value stated or taken. Of a single part: `pump.of_chamber(number)`."""
-    taken = _Taken()
+    taken = Taken()
     materials = {name: _material(pump, name, taken) for name in _USUAL}
     oil = _fluid(pump, taken)
     _tell_lines(pump, taken)
     _tell_spins(pump, taken)
+    elastic = {name: Elastic(part.youngs_modulus, part.poissons_ratio) for name, part in materials.items()}
+    piston = _piston(pump, _laws(pump, "piston_cylinder", oil, materials, taken), taken)
+    slipper = _slipper(pump, _laws(pump, "slipper_swash_plate", oil, materials, taken), taken)
+    block = _block(pump, _laws(pump, "valve_plate_cylinder", oil, materials, taken), taken)
+    bore = bore_walls(pump, piston.guide_length, elastic, taken)
     return FloatingParts(
-        piston=_piston(pump, _laws(pump, "piston_cylinder", oil, materials, taken), taken),
-        slipper=_slipper(pump, _laws(pump, "slipper_swash_plate", oil, materials, taken), taken),
-        block=_block(pump, _laws(pump, "valve_plate_cylinder", oil, materials, taken), taken),
+        piston=replace(piston, laws=replace(piston.laws, walls=bore)),
+        slipper=replace(slipper, laws=replace(slipper.laws, walls=slipper_walls(pump, elastic, taken))),
+        block=replace(block, laws=replace(block.laws, walls=block_walls(pump, elastic, taken))),
         materials=materials,
         taken=tuple(taken.assumptions),
     )
@@ -170,7 +146,7 @@ def ball_plane_height(pump: PumpDescription) -> float:
     return reach * math.cos(pump.pump.bore_cone_angle)
 
 
-def _piston(pump: PumpDescription, laws: FilmLaws, taken: _Taken) -> PistonParts:
+def _piston(pump: PumpDescription, laws: FilmLaws, taken: Taken) -> PistonParts:
     part, length = pump.piston, Dimension.LENGTH
     guide = taken.value(
         "piston.guide_length", part.guide_length, part.engaged_length,
@@ -197,7 +173,7 @@ def _piston(pump: PumpDescription, laws: FilmLaws, taken: _Taken) -> PistonParts
     return PistonParts(guide, centre, Profile(tuple(shapes)), Profile(tuple(bore)), laws)
 
 
-def _slipper(pump: PumpDescription, laws: FilmLaws, taken: _Taken) -> SlipperParts:
+def _slipper(pump: PumpDescription, laws: FilmLaws, taken: Taken) -> SlipperParts:
     part, rim = pump.slipper, pump.slipper.land_outer_radius
     height = taken.value(
         "slipper.ball_height", part.ball_height, 1.3 * part.centre_of_mass_to_ball,
@@ -217,7 +193,7 @@ def _slipper(pump: PumpDescription, laws: FilmLaws, taken: _Taken) -> SlipperPar
     return SlipperParts(height, flow, Profile(tuple(shapes)), _retainer(pump, taken), laws)
 
 
-def _retainer(pump: PumpDescription, taken: _Taken) -> RetainerParts:
+def _retainer(pump: PumpDescription, taken: Taken) -> RetainerParts:
     part, spring = pump.retainer, pump.ball_guide.spring_preload > 0.0
     kind = part.kind
     if kind is None:
@@ -240,7 +216,7 @@ def _retainer(pump: PumpDescription, taken: _Taken) -> RetainerParts:
     return RetainerParts(kind, clearance, stiffness)
 
 
-def _block(pump: PumpDescription, laws: FilmLaws, taken: _Taken) -> BlockParts:
+def _block(pump: PumpDescription, laws: FilmLaws, taken: Taken) -> BlockParts:
     height = taken.value(
         "block.spline_position", pump.block.spline_position, ball_plane_height(pump),
         "where the plane of the ball centres cuts the shaft", Dimension.LENGTH,
@@ -255,7 +231,7 @@ def _block(pump: PumpDescription, laws: FilmLaws, taken: _Taken) -> BlockParts:
 
 
 def _laws(
-    pump: PumpDescription, pair: str, oil: Fluid, materials: Mapping[str, Material], taken: _Taken
+    pump: PumpDescription, pair: str, oil: Fluid, materials: Mapping[str, Material], taken: Taken
 ) -> FilmLaws:
     """Oil and rough walls of a gap, without a lay; half of the variance on either wall."""
     stated = getattr(pump.surfaces, pair) or SurfaceSection()
@@ -284,7 +260,7 @@ def _laws(
     return FilmLaws(oil, surface, Asperities(density, radius, height, modulus, friction))
 
 
-def _fluid(pump: PumpDescription, taken: _Taken) -> Fluid:
+def _fluid(pump: PumpDescription, taken: Taken) -> Fluid:
     coefficient = taken.value(
         "oil.pressure_viscosity", pump.oil.pressure_viscosity, 20e-9,
         "a mineral oil, 15 .. 25 1/GPa; by Roelands' law", Dimension.PRESSURE_COEFFICIENT,
@@ -292,7 +268,7 @@ def _fluid(pump: PumpDescription, taken: _Taken) -> Fluid:
     return Fluid(viscosity=Roelands(coefficient)) if coefficient > 0.0 else CONSTANT
 
 
-def _material(pump: PumpDescription, name: str, taken: _Taken) -> Material:
+def _material(pump: PumpDescription, name: str, taken: Taken) -> Material:
     """The material of a part; what it leaves out is the usual one's."""
     stated: MaterialSection | None = getattr(pump.materials, name)
     usual, called = _USUAL[name]
@@ -308,14 +284,14 @@ def _material(pump: PumpDescription, name: str, taken: _Taken) -> Material:
     return replace(usual, **given)
 
 
-def _tell_spins(pump: PumpDescription, taken: _Taken) -> None:
+def _tell_spins(pump: PumpDescription, taken: Taken) -> None:
     for name in ("piston", "slipper"):
         if getattr(pump, name).spin_ratio is None:
             reason = "the ball joint's friction over the turn balances the films' drag, system.spins"
             taken.note(f"{name}.spin_ratio", "free to turn", reason)
 
 
-def _tell_lines(pump: PumpDescription, taken: _Taken) -> None:
+def _tell_lines(pump: PumpDescription, taken: Taken) -> None:
     for name in ("delivery", "suction"):
         if getattr(pump, f"{name}_line").kind is None:
             reason = f"the {name} port's pressure does not ripple"

@@ -56,6 +56,13 @@ class BoreSection(Section):
 
     profile: Profile | None = None  # from the case edge inwards
     edge_relief: ReliefSection | None = None  # of the guide's case edge
+    wall: Length | None = None  # of the bore, to the middle of the web
+
+
+class SwashPlateSection(Section):
+    """[swash_plate]: what the slippers slide on."""
+
+    thickness: Length | None = None
 
 
 class GrooveShape(Enum):
