@@ -26,6 +26,7 @@ from reynolds.mesh import Array
 from reynolds.newton import compliant, fixed_in, general_step, signed_after, symmetric_step
 from reynolds.setting import Setting, spread
 from reynolds.space import FilmSpace
+from reynolds.supply import pressure_sending
 
 MAX_ITERATIONS = 100
 FULL_STEPS = 15  # then, or as soon as a cavity comes back, each step must bring the balance nearer to zero
@@ -34,6 +35,7 @@ NEAR = 1e-6  # of which one more step leaves round-off
 ROUND_OFF = 1e-12
 SOFT_STEP = 1e-5  # residual of a first step between walls that give way over its load
 LOOSEST = 1e-2  # residual of a linear solve over its load
+LESS = 0.3  # of a pocket's flow before, from where its supply's law leads up to more without a mirrored step
 LEAST_GAP = 0.1  # of the largest film, where walls overlap that a first pressure parts
 
 
@@ -96,8 +98,8 @@ class FilmSolver:
         raise _not_settled(problem, at, imbalance)
 
     def _begin(self, problem: FilmProblem, setting: Setting, start: FilmSolution | None) -> Iterate:
-        space = problem.space
-        pressure, fraction = setting.pressure, setting.film_fraction
+        space, cavitates = problem.space, problem.cavitation is not Cavitation.NONE
+        pressure, fraction = setting.pressure.copy(), setting.film_fraction
         cavity, near = np.zeros(space.size, dtype=bool), None
         if start is None and problem.walls is not None:
             pressure = _lifting(problem, setting)
@@ -105,7 +107,11 @@ class FilmSolver:
             pressure = np.where(setting.held, pressure, start.pressure)
             near = start.opening
             fraction = np.where(setting.held, fraction, start.film_fraction)
-            cavity = start.cavity & ~setting.held & (problem.cavitation is not Cavitation.NONE)
+            cavity = start.cavity & ~setting.held & cavitates
+        for node, pocket in setting.pockets:
+            sent = 0.0 if start is None else -LESS * float(start.outflow[node])
+            level = pressure_sending(pocket.feed, sent, float(pressure[node]))
+            pressure[node] = max(level, problem.cavitation_pressure) if cavitates else level
         return iterate_of(problem, opened(problem, pressure, fraction, near), cavity)
 
     def _ruptured(self, problem: FilmProblem, setting: Setting, at: Iterate, signed: Array) -> Iterate:
