@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from functools import cached_property
 
 import numpy as np
 
@@ -86,14 +85,6 @@ class ResponseTable:
         if not self.origin.failed or distance[0].min() >= distance[1].min():
             return None
         return self.origin.failed[int(distance[0].argmin())]
-
-    @cached_property
-    def doubtful(self) -> tuple[str, ...]:
-        """Outputs with a held-out error above LARGE_ERROR, by name."""
-        large = self.response.held_out_error.largest > LARGE_ERROR
-        return tuple(
-            output.name for output, is_large in zip(self.response.outputs, large, strict=True) if is_large
-        )
 
     def _check_held(self, point: OperatingPoint) -> None:
         for name in ("inlet_pressure", "case_pressure"):
