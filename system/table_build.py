@@ -36,6 +36,7 @@ from system.table_store import KEY_LENGTH, keep_table, pump_key, tables_folder
 from system.units import Dimension, format_quantity
 
 LEARNT, HELD_OUT = 120, 30
+FEWEST_LEARNT, FEWEST_HELD_OUT = 16, 2
 SPEEDS = (0.2, 1.2)
 """Of the rated speed: the box where nothing else is stated."""
 PRESSURES = (0.05, 1.15)
@@ -115,8 +116,7 @@ def build_table(
 ) -> ResponseTable:
     """The table of a case, kept in the cache; points that are kept there already are not solved again.
 
-    Interrupted, it goes on where it was at the next call. Raises FilmInputError where fewer points than an
-    interpolant needs have a result.
+    Interrupted, it goes on where it was at the next call. Raises NotConverged where too few points have a result.
     """
     points, key = case.points, pump_key(case.pump)
     place = tables_folder(folder) / "points"
@@ -137,23 +137,22 @@ def build_table(
 def solve_point(case: TableCase, folder: Path, part: tuple[int, Array]) -> Solved:
     """A point of a case by its index and place, solved and kept in `folder`, or taken from there.
 
-    One that does not converge says why; that too is kept.
+    One that does not converge, or leaves the range of a law, says why and is tried again the next time.
     """
     index, x = part
-    arrays = kept(point_key(case, x), partial(_solve, case, x), folder).arrays
-    reason = str(arrays["reason"])
-    return Solved(index, None if reason else arrays["means"], reason, float(arrays["seconds"]))
+    began = time.process_time()
+    try:
+        arrays = kept(point_key(case, x), partial(_solve, case, x), folder).arrays
+    except (NotConverged, FilmNotConverged, FilmInputError) as fault:
+        return Solved(index, None, str(fault), time.process_time() - began)
+    return Solved(index, arrays["means"], "", float(arrays["seconds"]))
 
 
 def _solve(case: TableCase, x: Array) -> Mapping[str, Array]:
     began = time.process_time()
-    means, reason = np.zeros(0), ""
     held = with_held_ports(case.pump)
-    try:
-        means = mean_ratios(held, case.solver.solve(held, point_at(case.pump, x)))
-    except (NotConverged, FilmNotConverged) as fault:
-        reason = str(fault)
-    return {"means": means, "reason": np.array(reason), "seconds": np.array(time.process_time() - began)}
+    means = mean_ratios(held, case.solver.solve(held, point_at(case.pump, x)))
+    return {"means": means, "seconds": np.array(time.process_time() - began)}
 
 
 def point_at(pump: PumpDescription, x: Array) -> OperatingPoint:
@@ -206,5 +205,11 @@ def _response(case: TableCase, points: Array, found: Mapping[int, Solved]) -> Re
         return Samples(points[good], values)
 
     learnt, held_out = samples(range(case.learnt)), samples(range(case.learnt, len(points)))
+    if len(learnt.points) < FEWEST_LEARNT or len(held_out.points) < FEWEST_HELD_OUT:
+        reasons = [solved.reason for solved in found.values() if solved.reason]
+        raise NotConverged(
+            f"response table: {len(reasons)} of {len(points)} points have no result, expected {FEWEST_LEARNT} to "
+            f"learn from and {FEWEST_HELD_OUT} held out; the first: {reasons[0]}; try a smaller box"
+        )
     outputs = measured_outputs(np.concatenate([learnt.values, held_out.values]))
     return Response(case.axes, outputs, learnt, held_out)

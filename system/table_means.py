@@ -128,7 +128,8 @@ def mean_ratios(pump: PumpDescription, solved: SolvedPoint) -> Array:
         )
         for k, (gap, pair) in enumerate(GAP_PAIRS.items())
     ]
-    socket = found.pairs.piston_slipper_socket.mean / by_law.piston_slipper_socket.mean
+    joint = by_law.piston_slipper_socket.mean
+    socket = found.pairs.piston_slipper_socket.mean / joint if joint > 0.0 else 1.0  # a coefficient of 0
     draws = (found.exchange.delivery_draw / scale, found.exchange.suction_draw / scale)
     return np.array([*np.ravel(rows), socket, *draws])
 

@@ -90,9 +90,9 @@ class FloatingSolver:
         return {
             "physics": f"gaps float; left out: {', '.join(left_out) or 'nothing'}",
             "mesh": f"cells of piston, slipper, block {', '.join(f'{x} x {y}' for x, y in cells)}",
-            "accuracy": f"{options.steps} angles a turn; a step errs by {exact.step:g} of the least film at most, "
-            f"a turn closes to {exact.closed:g} of the mean film; chamber pressure repeats to "
-            f"{PRESSURE_TOLERANCE:g} of the pressure difference",
+            "accuracy": f"{options.steps} angles a turn; a step errs by {exact.step:g} of the least film and "
+            f"{exact.floor:g} m at most, a turn closes to {exact.closed:g} of the mean film; the chamber's pressure "
+            f"repeats to {PRESSURE_TOLERANCE:g} of the ports' difference",
         }
 
     def solve(self, pump: PumpDescription, point: OperatingPoint) -> SolvedPoint:

@@ -16,6 +16,7 @@ import pytest
 
 from reynolds.errors import FilmInputError, FilmNotConverged
 from system.assembly import PumpPoint
+from system.errors import NotConverged
 from system.faults import InputFaults
 from system.lumped import lumped_point
 from system.operating import operating_point
@@ -179,6 +180,19 @@ def test_points_that_fail_are_told(tmp_path):
     assert all(one.at[1] > 35e6 for one in table.origin.failed)
     count = len(table.response.learnt.points) + len(table.response.held_out.points)
     assert count + len(table.origin.failed) == 60
+
+
+def test_a_table_of_failures_is_none(tmp_path):
+    """Nothing to learn from is no table, and the first reason is told; failures are tried again."""
+
+    @dataclass(frozen=True)
+    class Fails(Thinning):
+        def solve(self, pump, point):
+            raise FilmNotConverged("made to fail", "nothing")
+
+    with pytest.raises(NotConverged, match=r"60 of 60 points have no result.*made to fail"):
+        build_table(case(Fails()), folder=tmp_path)
+    assert not list(tmp_path.rglob("*.npz"))
 
 
 def test_a_case_can_be_sent_to_another_process():
