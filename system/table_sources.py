@@ -91,7 +91,7 @@ class FloatingSolver:
             "physics": f"gaps float; left out: {', '.join(left_out) or 'nothing'}",
             "mesh": f"cells of piston, slipper, block {', '.join(f'{x} x {y}' for x, y in cells)}",
             "accuracy": f"{options.steps} angles a turn; a step errs by {exact.step:g} of the least film and "
-            f"{exact.floor:g} m at most, a turn closes to {exact.closed:g} of the mean film; the chamber's pressure "
+            f"{exact.floor:g} m at most, a turn closes to {exact.closed:g} of the mean film; chamber pressure "
             f"repeats to {PRESSURE_TOLERANCE:g} of the ports' difference",
         }
 
