@@ -22,7 +22,7 @@ from reynolds.solve import FilmSolver
 from reynolds.space import FilmSpace
 
 SHORT = 1e-2  # of the first way to a node: a step in which elastic walls give way to their first load
-ROUGH = 10.0  # times as far from the periodic motion, where the steps of the first turns are wide
+ROUGH = 10.0  # times as far from the periodic motion may the first turns end
 FEWEST = 24  # nodes of a turn with steps as wide as their error allows
 
 
@@ -49,8 +49,11 @@ class Accuracy:
 
     @property
     def rough(self) -> Accuracy:
-        """The same for turns that only lead near to the periodic motion."""
-        return replace(self, closed=ROUGH * self.closed)
+        """The same for turns of wide steps that only lead near to the periodic motion.
+
+        Each of their steps is the more exact, so that the first turn that stops at all angles closes.
+        """
+        return replace(self, step=self.step / ROUGH, closed=ROUGH * self.closed)
 
 
 @dataclass(frozen=True)
