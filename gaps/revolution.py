@@ -10,7 +10,7 @@ from typing import Generic, TypeVar
 import numpy as np
 
 from reynolds.dirk import ALEXANDER_2, State, Tableau, Taken, march, nodes_only
-from reynolds.errors import FilmInputError
+from reynolds.errors import FilmInputError, FilmNotConverged
 from reynolds.film import FilmSolution
 from reynolds.floating import Floating
 from reynolds.floating_stage import Closeness, Stage, solve_stage
@@ -217,7 +217,7 @@ class _Turns(Generic[Seen]):
     ) -> None:
         self._solver, self._floating, self._look = solver, floating, look
         self._accuracy, self._method, self._opening = accuracy, method, opening
-        self._times = schedule.times
+        self._times, self._speed = schedule.times, schedule.speed
         self._angles = dict(zip(schedule.angles / schedule.speed, schedule.angles, strict=True))
         self._kept = set(schedule.angles[schedule.keep - 1 :: schedule.keep])
         self._adaptive = 2 if opening is None else 1  # turns left that choose their steps
@@ -258,8 +258,17 @@ class _Turns(Generic[Seen]):
     def _marched(self, begin: State[Stage], again: Array | None) -> Iterator[Taken[Stage]]:
         """Steps of a turn, chosen by their error or those of an earlier turn again."""
         if again is None:
-            return march(self._method, self._stage, begin, self._times, self._excess)
-        return march(self._method, self._stage, begin, again, nodes_only)
+            steps = march(self._method, self._stage, begin, self._times, self._excess)
+        else:
+            steps = march(self._method, self._stage, begin, again, nodes_only)
+        reached = begin.time
+        try:
+            for taken in steps:
+                reached = taken.state.time
+                yield taken
+        except FilmNotConverged as reason:
+            angle = np.degrees(self._speed * reached)
+            raise FilmNotConverged(f"after {angle:.5g} deg: {reason.what}", reason.remedy) from None
 
     def _begin(self, start: Array, last: GapTurn[Seen] | None) -> State[Stage]:
         if last is None:

@@ -93,7 +93,7 @@ def _check_options(options: argparse.Namespace, case: Case | StudyCase) -> None:
     from swashfilm.revolution_case import RevolutionCase
     from swashfilm.study_case import StudyCase
 
-    single, study, turn = "a single film", "a case with [study]", "a single case with revolution = true"
+    single, study, turn = "a single film", "a study", "a single case with revolution = true"
     for_study = {"--resume": options.resume, "--workers": options.workers}
     for_turn, for_instant = {"--animate": options.animate or None}, {"--csv": options.csv or None}
     match case:

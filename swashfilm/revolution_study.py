@@ -10,7 +10,6 @@ import numpy as np
 
 from gaps.revolution import GapRevolution
 from gaps.seen import Active, BlockSeen, GapSeen, PistonSeen, SlipperSeen, mass_balance_error
-from reynolds.errors import FilmNotConverged
 from reynolds.mesh import Array
 from swashfilm.gap_case import Gap
 from swashfilm.progress import Report
@@ -58,17 +57,7 @@ def solve_revolution(case: RevolutionCase, report: Report = silent) -> Revolutio
     rotor, parts = case.rotor, floating_parts(case.rotor.pump)
     angles, pressure = case.chamber_pressure.over_turn(rotor)
     driven = drives(rotor, parts, angles, pressure, no_rubbing(len(angles)))
-    reached = "before the first angle"
-
-    def told(done: int, steps: int, what: str) -> None:
-        nonlocal reached
-        reached = f"{what}, after angle {done} of {steps}"
-        report(done, steps, what)
-
-    try:
-        found = _revolved(case, parts, driven, told)
-    except FilmNotConverged as reason:
-        raise FilmNotConverged(f"{reached}: {reason.what}", reason.remedy) from None
+    found = _revolved(case, parts, driven, report)
     chamber = driven.piston.chamber_pressure
     at_angles = np.array([float(chamber(angle)) for angle in found.angles])
     return RevolutionStudy(case, parts, found, at_angles, time.perf_counter() - began, (NO_RUBBING,))

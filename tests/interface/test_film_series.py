@@ -212,7 +212,7 @@ def test_options_that_do_not_fit_are_told(words, told, capsys):
 def test_a_single_film_takes_no_workers(capsys):
     Path("one.toml").write_text(BASE.replace("[study]", ""), encoding="utf-8")
     assert main(["film", "one.toml", "--workers", "2"]) == 2
-    assert "a case with [study]" in capsys.readouterr().err
+    assert "a study" in capsys.readouterr().err
 
 
 def test_a_study_is_checked(capsys):
