@@ -79,15 +79,25 @@ def ball_shift(gaps: FloatingGaps, rotor: Rotor, parts: FloatingParts) -> Array:
     The piston's axis leaves the bore's by e at the ball; the slipper keeps the ball on the swash plate, its film h
     thick, so that it goes along the bore besides: d = e - a (n . e + h)/(n . a).
     """
-    piston, slipper = positions(gaps.piston), positions(gaps.slipper)
-    normal, guide = plate_axes(rotor.drive)[2], parts.piston.guide_length
+    normal, across = plate_axes(rotor.drive)[2], axis_shift(gaps, rotor, parts, 0.0)
+    axis, film = bore_axes(rotor, len(across)), positions(gaps.slipper)[:, 0]
+    return np.asarray(across - axis * ((across @ normal + film) / (axis @ normal))[:, None])
+
+
+def axis_shift(gaps: FloatingGaps, rotor: Rotor, parts: FloatingParts, inside: float) -> Array:
+    """Distance (n, 3) m of the piston's axis from the bore's, `inside` (m) of the ball into the bore."""
+    piston, guide = positions(gaps.piston), parts.piston.guide_length
     shift = np.empty((len(piston), 3))
     for k, angle in enumerate(TURN * np.arange(len(piston)) / len(piston)):
-        axis, outside = bore_axis(rotor.drive, angle), -(rotor.pump.piston.overhang + travel(rotor, angle))
+        depth = inside - rotor.pump.piston.overhang - travel(rotor, angle)
         inner, case = piston[k, :2], piston[k, 2:]
-        across = (case + (inner - case) * outside / guide) @ bore_sides(rotor.drive, angle)
-        shift[k] = across - axis * (normal @ across + slipper[k, 0]) / (normal @ axis)
+        shift[k] = (case + (inner - case) * depth / guide) @ bore_sides(rotor.drive, angle)
     return shift
+
+
+def bore_axes(rotor: Rotor, count: int) -> Array:
+    """The bore's axis (count, 3) at equidistant shaft angles."""
+    return np.array([bore_axis(rotor.drive, TURN * k / count) for k in range(count)])
 
 
 def growth(gaps: FloatingGaps, rotor: Rotor, parts: FloatingParts) -> Array:
@@ -100,7 +110,7 @@ def growth(gaps: FloatingGaps, rotor: Rotor, parts: FloatingParts) -> Array:
     pistons, shift = pump.pump.pistons, ball_shift(gaps, rotor, parts)
     block = np.tile(block, (pistons, 1))
     angle = TURN * np.arange(len(shift)) / len(shift)
-    along = np.array([d @ bore_axis(rotor.drive, float(a)) for d, a in zip(shift, angle, strict=True)])
+    along = np.sum(shift * bore_axes(rotor, len(shift)), axis=1)
     rise = (block[:, 1] * np.cos(angle) + block[:, 2] * np.sin(angle)) / rim
     lifted, area = block[:, 0] + pump.pump.pitch_radius * rise, piston_area(pump)
     kidney = plate.kidney_area * block[:, 0] + plate.kidney_lever * rise
@@ -122,7 +132,11 @@ def shaft_moment(gaps: FloatingGaps, rotor: Rotor, parts: FloatingParts, group: 
     The moment about the shaft of the swash plate's force and friction and of inertia, at the places where the
     films hold the parts; the plate holds the joint's friction about its normal.
     """
-    shift, normal = resampled(ball_shift(gaps, rotor, parts), len(group)), plate_axes(rotor.drive)[2]
+    ball, normal = ball_shift(gaps, rotor, parts), plate_axes(rotor.drive)[2]
+    axis = bore_axes(rotor, len(ball))
+    along = np.sum(ball * axis, axis=1)[:, None] * axis
+    piston = along + axis_shift(gaps, rotor, parts, parts.piston.centre_of_mass)
+    shift = resampled(np.stack([piston, ball, ball], axis=1), len(group))
     one = [
         -float(np.cross(at.places + moved, np.vstack([at.inertia, at.plate]))[:, 2].sum())
         + float(at.ball_moment @ normal * normal[2])
@@ -174,16 +188,27 @@ def leakage_heat(gaps: FloatingGaps, pistons: int) -> Gaps:
 
 
 def gap_exchange(gaps: FloatingGaps, pistons: int, shaft_speed: float) -> GapExchange:
-    """What oil gives the walls that drag it along (heat of shear less their power), and the block's draws."""
+    """What the gaps give the moving parts, and the block's draws.
+
+    Heat of sliding less the power of the walls, and what films spend on the parts' small motion: both reach the
+    chambers without the shaft.
+    """
     return GapExchange(
         carried=Gaps(
-            pistons * _mean(gaps.piston, lambda seen: _rubbed(seen) - seen.friction.power),
-            pistons * _mean(gaps.slipper, lambda seen: _rubbed(seen) - seen.friction.power),
-            _mean(gaps.block, lambda seen: _rubbed(seen) - seen.torque * shaft_speed),
+            pistons
+            * (_mean(gaps.piston, lambda seen: _rubbed(seen) - seen.friction.power) + _pushed(gaps.piston)),
+            pistons
+            * (_mean(gaps.slipper, lambda seen: _rubbed(seen) - seen.friction.power) + _pushed(gaps.slipper)),
+            _mean(gaps.block, lambda seen: _rubbed(seen) - seen.torque * shaft_speed) + _pushed(gaps.block),
         ),
         delivery_draw=_mean(gaps.block, lambda seen: seen.delivery_draw),
         suction_draw=_mean(gaps.block, lambda seen: seen.suction_draw),
     )
+
+
+def _pushed(revolution: GapRevolution[Seen]) -> float:
+    """Power (W) by which a film moves what presses on it, mean over the turn."""
+    return -float(np.mean([instant.outer_force @ instant.rate for instant in revolution.turn.instants]))
 
 
 def _rubbed(seen: GapSeen) -> float:

@@ -87,7 +87,7 @@ def shaft_work(cycle: ChamberCycle, rate: float, friction: float, exchange: GapE
     What carried oil gives is the pull of the gap's pressure gradient on the piston: with it the torque, like the
     flow, belongs to the mean of piston and bore area.
     """
-    return rate * (cycle.indicated_work - cycle.growth_work) - exchange.carried.total + friction
+    return rate * cycle.indicated_work - exchange.carried.total + friction
 
 
 def leakage_by_flow(ported: PortedCycle, rate: float, exchange: GapExchange) -> Gaps:
