@@ -69,7 +69,7 @@ def _parity(response: Response) -> bytes:
                 solved[:, k], told[:, k], "o", markersize=3.5, alpha=0.8, color=COLOURS[gap], label=_words(gap)
             )
         ends = [*axes.get_xlim(), *axes.get_ylim()]
-        axes.axline((min(ends), min(ends)), slope=1.0, color="#1c2328", linewidth=0.8)
+        axes.plot([min(ends), max(ends)], [min(ends), max(ends)], color="#1c2328", linewidth=0.8)
         axes.set_title(_words(name), fontsize=9)
         axes.set_xlabel("solved", fontsize=8)
         axes.tick_params(labelsize=7)
@@ -102,7 +102,7 @@ def _courses(response: Response) -> bytes:
         grid[-1, j].set_xlabel(label, fontsize=8)
     for i, name in enumerate(OF_EVERY_GAP):
         grid[i, 0].set_ylabel(_words(name), fontsize=9)
-    grid[0, 0].legend(fontsize=7)
+    figure.legend(*grid[0, 0].get_legend_handles_labels(), loc="outside upper center", ncols=3, fontsize=8)
     return _png(figure)
 
 

@@ -70,18 +70,18 @@ def _large_errors(table: ResponseTable) -> Iterator[str]:
         yield (
             f"large_error: {output.name}: held-out points err by {error.largest[column]:.3g} at most, "
             f"{error.rms[column]:.3g} rms ({output.measure.value}, limit {LARGE_ERROR:g}); above the limit "
-            f"{region.count} of {len(response.held_out.points)}, {region_text(response, region)}; solve what "
-            "matters by the source itself, give a smaller box, or more points"
+            f"{region.count} of {len(response.held_out.points)}, {region_text(response, region)}; a smaller box "
+            "or more points"
         )
 
 
 def region_text(response: Response, region: Region) -> str:
     """Where a region lies, by the axes along which it is narrow."""
-    ends = [
-        f"{axis.name.replace('_', ' ')} {axis_value(axis.name, low)} .. {axis_value(axis.name, high)}"
-        for axis, low, high in zip(response.axes, region.lower, region.upper, strict=True)
-        if np.ptp(axis.to_unit(np.array([low, high]))) < NARROW
-    ]
+    ends = []
+    for axis, low, high in zip(response.axes, region.lower, region.upper, strict=True):
+        if np.ptp(axis.to_unit(np.array([low, high]))) < NARROW:
+            shown = dict.fromkeys((axis_value(axis.name, low), axis_value(axis.name, high)))
+            ends.append(f"{axis.name.replace('_', ' ')} {' .. '.join(shown)}")
     return "at " + ", ".join(ends) if ends else "all over the box"
 
 

@@ -45,20 +45,18 @@ def told_summary(told: TablePoint) -> dict[str, Any]:
 
 
 def told_warnings(told: TablePoint) -> Iterator[str]:
-    """Outputs that held-out points found more than LARGE_ERROR off around here, and failed points next to it."""
+    """Outputs that held-out points found more than LARGE_ERROR off, and a failed point next to this one."""
     response, point = told.table.response, told.pump_point.point
-    here = [getattr(point, axis.name) for axis in response.axes]
-    near = []
-    for column, output in enumerate(response.outputs):
-        region = response.large_error(column, LARGE_ERROR)
-        if region is not None and all(
-            low <= x <= high for low, x, high in zip(region.lower, here, region.upper, strict=True)
-        ):
-            near.append(f"{output.name} by up to {response.held_out_error.largest[column]:.3g}")
-    if near:
+    largest = response.held_out_error.largest
+    off = [
+        f"{output.name} by up to {largest[k]:.2g}"
+        for k, output in enumerate(response.outputs)
+        if largest[k] > LARGE_ERROR
+    ]
+    if off:
         yield (
-            f"table_error: held-out points around this one err beyond {LARGE_ERROR:g}: {', '.join(near)}; solve "
-            f"the point by the {told.table.origin.source.value} fidelity to be sure"
+            f"table_error: held-out points of the table err beyond {LARGE_ERROR:g}: {', '.join(off)}; solve the "
+            f"point by the {told.table.origin.source.value} fidelity to be sure"
         )
     failed = told.table.beside_failed(point)
     if failed:
