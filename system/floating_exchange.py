@@ -6,7 +6,7 @@ known where chambers are alike; then it repeats.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -136,13 +136,25 @@ def shaft_moment(gaps: FloatingGaps, rotor: Rotor, parts: FloatingParts, group: 
     axis = bore_axes(rotor, len(ball))
     along = np.sum(ball * axis, axis=1)[:, None] * axis
     piston = along + axis_shift(gaps, rotor, parts, parts.piston.centre_of_mass)
-    shift = resampled(np.stack([piston, ball, ball], axis=1), len(group))
+    shift = resampled(np.stack([piston, ball, ball, ball], axis=1), len(group))
     one = [
-        -float(np.cross(at.places + moved, np.vstack([at.inertia, at.plate]))[:, 2].sum())
-        + float(at.ball_moment @ normal * normal[2])
-        for at, moved in zip(group, shift, strict=True)
+        -float(np.cross(places + moved, forces)[:, 2].sum()) + float(at.ball_moment @ normal * normal[2])
+        for at, moved, (places, forces) in zip(group, shift, _applied(rotor, parts, group), strict=True)
     ]
     return over_chambers(np.array(one), rotor.pump.pump.pistons)
+
+
+def _applied(rotor: Rotor, parts: FloatingParts, group: tuple[GroupInstant, ...]) -> Iterator[tuple[Array, Array]]:
+    """Places and forces (4, 3) on each piston and slipper: inertia of both, the plate's lift and its friction.
+
+    Lift stands where it holds the slipper's moments, friction under the ball: its moment about the plate's normal
+    is that of the film, with the joint's.
+    """
+    normal = plate_axes(rotor.drive)[2]
+    foot = parts.slipper.ball_height - rotor.pump.slipper.centre_of_mass_to_ball
+    for at in group:
+        lift = (at.plate @ normal) * normal
+        yield np.vstack([at.places, at.places[1] + foot * normal]), np.vstack([at.inertia, lift, at.plate - lift])
 
 
 def block_torque(gaps: FloatingGaps, samples: int) -> Array:
