@@ -1,0 +1,180 @@
+"""Floating films: walls that give way, and that touch.
+
+Plates that float over springs side by side (Winkler 1867) have closed forms at rest; over a closed turn springs
+give back what they took.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scipy.optimize import brentq
+
+from gaps.revolution import Accuracy, evenly, run_revolution
+from reynolds.bodies.elasticity import Elastic
+from reynolds.bodies.foundation import Compliance, half_space, winkler
+from reynolds.contact import Asperities, contact_pressure
+from reynolds.film import ZERO, Film, FilmProblem, Held
+from reynolds.floating import Floating, steady
+from reynolds.floating_stage import Stage, solve_stage, standing
+from reynolds.mesh import Array, Cell, rectangle
+from reynolds.overlap import as_shaped
+from reynolds.roughness import Surface
+from reynolds.solve import FilmSolver
+from reynolds.space import FilmSpace, film_space
+from reynolds.walls import Walls
+
+LENGTH, WIDE, VISCOSITY, STIFFNESS = 10e-3, 2.5e-3, 0.03, 1e13
+HIGH, LOW = 30e6, 5e6
+ROUGH = Asperities(density=3.2e9, radius=2.5e-5, height=5e-7, modulus=8e10, friction_coefficient=0.1)
+
+
+def channel(cells: int = 16) -> FilmSpace:
+    """A strip of the infinitely wide film, its sides sewn together."""
+    return film_space(rectangle((LENGTH, WIDE), (cells, 2), cell=Cell.QUADRILATERAL, periodic_y=True))
+
+
+def plate(
+    space: FilmSpace, walls: Walls, ends: tuple[float, float], load: Callable[[float], float],
+    asperities: Asperities | None = None, surface: Surface | None = None,
+) -> Floating:  # fmt: skip
+    """A plane plate that one coordinate lifts, pressed by a load (N) in time (s)."""
+    flat = np.zeros((1, 1))
+    oil = Film(
+        np.zeros(space.area.shape), np.full((1, 1), VISCOSITY), (flat, flat), (ZERO, ZERO), ZERO,
+        thickness_at_vertices=np.zeros(len(space.vertices)),
+    )  # fmt: skip
+    held = {"left": Held(ends[0]), "right": Held(ends[1])}
+    film = FilmProblem(space, oil, held, surface=surface, asperities=asperities, walls=walls)
+    lift = np.ones((len(space.vertices), 1))
+    return Floating("plate", lambda t: film, lambda t: lift, lambda t, q, rate: steady(np.array([-load(t)])))
+
+
+def at_rest(floating: Floating, space: FilmSpace, start: float, step: float = 1.0, steps: int = 3) -> Stage:
+    """The plate after steps that leave no squeeze."""
+    solver, stage, q = FilmSolver(space), None, np.array([start])
+    held = standing(floating, 0.0, q)
+    for k in range(steps):
+        stage = solve_stage(solver, floating, step * (k + 1), held, step, q, stage)
+        held, q = stage.holds, stage.q
+    assert stage is not None
+    return stage
+
+
+@pytest.mark.parametrize("dense", [False, True])
+def test_plate_floats_on_springs(dense, validation, refine):
+    """(h0 + p/k)^4 is linear along the channel: mean p = k [4/5 (a^5 - b^5)/(a^4 - b^4) - h0] = W/A."""
+
+    def mean(h0: float) -> float:
+        a, b = h0 + HIGH / STIFFNESS, h0 + LOW / STIFFNESS
+        return STIFFNESS * (0.8 * (a**5 - b**5) / (a**4 - b**4) - h0)
+
+    exact = 1e6 * brentq(lambda h0: mean(h0) - 19e6, 0.2e-6, 50e-6, xtol=1e-18)
+
+    def solve(n: int) -> float:
+        space = channel(n)
+        walls = winkler(space, STIFFNESS)
+        walls = Compliance(walls.matrix.toarray()) if dense else walls
+        floating = plate(space, walls, (HIGH, LOW), lambda t: 19e6 * LENGTH * WIDE)
+        return 1e6 * float(at_rest(floating, space, 3e-6).q[0])
+
+    found = refine(solve, (8, 16, 32), 2.0)
+    validation(
+        case="Plate that floats on Winkler's foundation",
+        source="verification cases 3.11, closed form integrated",
+        quantity=f"film without pressure at rest, {'dense' if dense else 'sparse'} walls",
+        unit="um",
+        expected=exact,
+        obtained=found.finest,
+        tolerance=found.tolerance(),
+        order=found.order,
+    )
+
+
+@pytest.mark.parametrize("surface", [None, Surface(3e-7, 4e-7)])
+def test_rough_plate_rests_on_springs(surface, validation):
+    """Without pressure contact bears all, and presses the springs: W/A = p_c(h0 + p_c/k), on any mesh."""
+    pressed = 20e6
+    gap = brentq(lambda h: float(contact_pressure(ROUGH, h).value) - pressed, -1e-6, 2e-6, xtol=1e-18)
+    space = channel(6)
+    floating = plate(
+        space, winkler(space, STIFFNESS), (0.0, 0.0), lambda t: pressed * LENGTH * WIDE, ROUGH, surface
+    )
+    stage = at_rest(floating, space, 1e-6, step=1e5)
+    validation(
+        case="Rough plate at rest on Winkler's foundation",
+        source="Greenwood and Tripp 1970-71 in series with a spring",
+        quantity=f"gap between the undeformed planes at 20 MPa, {'smooth' if surface is None else 'rough'} flow",
+        unit="um",
+        expected=1e6 * (gap - pressed / STIFFNESS),
+        obtained=1e6 * float(stage.q[0]),
+        relative_tolerance=1e-6,
+        note="the rest of the film's pressure",
+    )
+    assert stage.gap == pytest.approx(gap, rel=1e-6)
+    assert stage.contact_force[0] == pytest.approx(pressed * LENGTH * WIDE, rel=1e-6)
+    assert stage.solution.problem.walls is None
+    assert stage.solution.film.thickness.min() > 0.0
+
+
+def turned(load: float, asperities: Asperities | None) -> tuple[FilmSpace, list[Stage]]:
+    """The stages of a closed turn of a plate under a mean pressure that comes and goes, at even steps."""
+    space, seen, speed = channel(8), list[Stage](), 2.0 * np.pi / 0.05
+
+    def pressed(time: float) -> float:
+        return load * LENGTH * WIDE * (1.0 + 0.05 * np.cos(speed * time))
+
+    surface = None if asperities is None else Surface(3e-7, 4e-7)
+    floating = plate(space, winkler(space, STIFFNESS), (HIGH, LOW), pressed, asperities, surface)
+    found = run_revolution(
+        FilmSolver(space), floating, evenly(speed, 24), np.array([4e-6]), seen.append,
+        accuracy=Accuracy(step=1.0, floor=1.0, closed=1e-7),
+    )  # fmt: skip
+    assert found.closing.changes[-1] < 1e-7 * 5e-6
+    return space, seen[-25:]
+
+
+@pytest.mark.parametrize(("load", "asperities"), [(19e6, None), (19e6, replace(ROUGH, summit_height=6e-6))])
+def test_springs_give_back_what_they_took(load, asperities):
+    """Over a closed turn the work of all pressure on the walls' opening vanishes, contact's included.
+
+    Sums of the mean of two pressures times the change of the opening telescope where the walls are symmetric.
+    """
+    space, stages = turned(load, asperities)
+    assert (max(stage.contact_force[0] for stage in stages) > 10.0) == (asperities is not None)
+    weight = stages[0].instant.modes.film_weights[:, 0]
+    opened = np.zeros((len(stages), space.size))
+    opened[:, space.vertex_dofs] = [stage.trial.solution.opening for stage in stages]
+    pressure = STIFFNESS * opened  # of oil and contact together, by the springs' own law
+    assert pressure @ weight == pytest.approx([-stage.outer.force[0] for stage in stages], rel=1e-4)
+    taken = 0.5 * (pressure[1:] + pressure[:-1]) * np.diff(opened, axis=0) @ weight
+    assert abs(taken.sum()) < 1e-5 * np.abs(taken).sum()
+
+
+def test_what_is_seen_of_a_soft_film_is_its_shape():
+    """A film between elastic walls and one between rigid walls of that shape have the same flows."""
+    space = channel()
+    floating = plate(space, winkler(space, STIFFNESS), (HIGH, LOW), lambda t: 19e6 * LENGTH * WIDE)
+    stage = at_rest(floating, space, 3e-6)
+    shaped = as_shaped(stage.trial.solution)
+    again = FilmSolver(space).solve(replace(shaped.problem, storage=stage.trial.solution.problem.storage))
+    assert again.pressure == pytest.approx(stage.trial.solution.pressure, rel=1e-9)
+    assert again.outflow == pytest.approx(stage.trial.solution.outflow, rel=1e-9, abs=1e-18)
+
+
+def test_half_space_under_a_floating_plate(tmp_path):
+    """Slopes by differences between dense walls of a half-space whose rough faces touch."""
+    space = film_space(rectangle((LENGTH, LENGTH), (6, 6), cell=Cell.QUADRILATERAL))
+    walls = half_space(space, Elastic(110e9, 0.34))
+    floating = plate(space, walls, (2e6, 2e6), lambda t: 1e3, ROUGH, Surface(3e-7, 4e-7))
+    stage = at_rest(floating, space, 1e-6, step=1e-4, steps=4)
+    assert stage.contact_force[0] > 10.0
+
+    def missing(nudge: float) -> Array:
+        return stage.instant.tried(stage.q + nudge, stage.trial.solution).missing
+
+    slope = (missing(1e-12) - missing(-1e-12)) / 2e-12
+    assert stage.force_slopes[0] == pytest.approx(slope, rel=1e-5)
