@@ -137,14 +137,14 @@ def turned(load: float, asperities: Asperities | None) -> tuple[FilmSpace, list[
     return space, seen[-25:]
 
 
-@pytest.mark.parametrize(("load", "asperities"), [(19e6, None), (19e6, replace(ROUGH, summit_height=6e-6))])
+@pytest.mark.parametrize(("load", "asperities"), [(19e6, None), (19e6, replace(ROUGH, summit_height=7e-6))])
 def test_springs_give_back_what_they_took(load, asperities):
     """Over a closed turn the work of all pressure on the walls' opening vanishes, contact's included.
 
     Sums of the mean of two pressures times the change of the opening telescope where the walls are symmetric.
     """
     space, stages = turned(load, asperities)
-    assert (max(stage.contact_force[0] for stage in stages) > 10.0) == (asperities is not None)
+    assert (max(stage.contact_force[0] for stage in stages) > 1.0) == (asperities is not None)
     weight = stages[0].instant.modes.film_weights[:, 0]
     opened = np.zeros((len(stages), space.size))
     opened[:, space.vertex_dofs] = [stage.trial.solution.opening for stage in stages]
