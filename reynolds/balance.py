@@ -133,12 +133,13 @@ def sends_nothing(problem: FilmProblem, flux: tuple[Array, Array]) -> NDArray[np
     """
     space = problem.space
     held, sends = np.zeros(space.size, dtype=bool), np.zeros(space.size, dtype=bool)
-    for name, condition in problem.boundary.items():
-        if isinstance(condition, Held):
-            out, size = space.carried_out(name, flux)
-            nodes = space.facet_dofs[name]
+    out, size = space.carried_out(flux)
+    come_in, first = (out < -NO_FLOW * size) | (size == 0.0), 0
+    for name, nodes in space.facet_dofs.items():
+        facets = slice(first, first := first + nodes.shape[1])
+        if isinstance(problem.boundary.get(name), Held):
             held[nodes] = True
-            sends[nodes[:, (out < -NO_FLOW * size) | (size == 0.0)]] = True
+            sends[nodes[:, come_in[facets]]] = True
     if problem.held_nodes is not None:
         sends |= ~np.isnan(problem.held_nodes)
     return held & ~sends

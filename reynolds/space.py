@@ -116,7 +116,7 @@ class FilmSpace:
         """What geometry contributes to the operators."""
         tables = self.reference
         return element_tensors(
-            self.vertices[self.cells], tables.gradient, tables.geometry_gradient, tables.steep_gradient,
+            self.vertices, self.cells, tables.gradient, tables.geometry_gradient, tables.steep_gradient,
             tables.steep_geometry, tables.weights,
         )  # fmt: skip
 
@@ -144,20 +144,27 @@ class FilmSpace:
 
     @cached_property
     def _facet_normal(self) -> dict[str, Array]:
-        return {name: _outward(self, self.film_mesh.mesh.boundaries[name]) for name in self.edge_dofs}
+        ends = np.cumsum([dofs.shape[1] for dofs in self.facet_dofs.values()])[:-1]
+        return dict(zip(self.facet_dofs, np.split(self._rim_normal, ends, axis=1), strict=True))
 
     @cached_property
-    def _facet_cell(self) -> dict[str, NDArray[np.int64]]:
+    def _rim(self) -> NDArray[np.int64]:
+        """Facets of all named boundaries, in the order of `facet_dofs`."""
         mesh = self.film_mesh.mesh
-        return {name: mesh.f2t[0, mesh.boundaries[name]] for name in self.edge_dofs}
+        return np.concatenate([np.zeros(0, dtype=np.int64), *(mesh.boundaries[name] for name in self.facet_dofs)])
 
-    def carried_out(self, name: str, flux: tuple[Array, Array]) -> tuple[Array, Array]:
-        """Flow (m3/s) out over each facet of a boundary, (facets,), and the magnitude that it could have at most.
+    @cached_property
+    def _rim_normal(self) -> Array:
+        return _outward(self, self._rim)
 
-        `flux` (cells | 1, points | 1) m2/s; both zero for a line inside the film.
+    def carried_out(self, flux: tuple[Array, Array]) -> tuple[Array, Array]:
+        """Flow (m3/s) out over each facet of all named boundaries, and the magnitude that it could have at most.
+
+        (facets,) each, one boundary after another in the order of `facet_dofs`. `flux` (cells | 1, points | 1)
+        m2/s; both zero for a line inside the film.
         """
-        normal, cell = self._facet_normal[name], self._facet_cell[name]
-        x, y = (self.everywhere(part)[cell].mean(axis=1) for part in flux)
+        normal, cell = self._rim_normal, self.film_mesh.mesh.f2t[0, self._rim]
+        x, y = (np.broadcast_to(part, self.area.shape)[cell].mean(axis=1) for part in flux)
         return x * normal[0] + y * normal[1], np.hypot(x, y) * np.hypot(*normal)
 
     def _along(self, name: str, per_facet: Array) -> Array:

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from reynolds import tensor_kernels as kernels
 from reynolds.mesh import Array
 
 SAME = 1e-10  # of a cell's size: corners nearer than this are at the same place of its shape
@@ -35,20 +36,23 @@ class ElementTensors:
 
 
 def element_tensors(
-    corners: Array, gradient: Array, geometry: Array, steep: Array, steep_geometry: Array, weights: Array
+    vertices: Array,
+    cells: NDArray[np.int32],
+    gradient: Array,
+    geometry: Array,
+    steep: Array,
+    steep_geometry: Array,
+    weights: Array,
 ) -> ElementTensors:
-    """Tensors of cells with these corners (cells, corners, 2) m; the tables are those of `space.Reference`."""
-    shape, first = _shapes(corners)
-    places = corners[first]
-    weighted = _weighted(places, gradient, geometry, weights)[0]
-    steeply, area = _weighted(places, steep, steep_geometry, weights)
-    i, j = np.triu_indices(gradient.shape[1], 1)
-    x, y = (steeply[..., axis] / area[..., None] for axis in (0, 1))
-    size = area[..., None]
-    xx, yy = size * x[..., i] * x[..., j], size * y[..., i] * y[..., j]
-    xy = size * (x[..., i] * y[..., j] + y[..., i] * x[..., j])
-    xx, yy, xy = (np.ascontiguousarray(part.swapaxes(1, 2)) for part in (xx, yy, xy))
-    return ElementTensors(shape, xx, yy, xy, xx + yy, weighted, steeply)
+    """Tensors of cells (cells, corners) between vertices (n, 2) m; the tables are those of `space.Reference`."""
+    shape, first = _shapes(vertices[cells])
+    cells, points, basis = cells[first], len(weights), gradient.shape[1]
+    weighted, steeply = (np.empty((len(first), points, basis, 2)) for _ in range(2))
+    kernels.weighted_gradients(vertices, cells, gradient, geometry, weights, weighted)
+    kernels.weighted_gradients(vertices, cells, steep, steep_geometry, weights, steeply)
+    xx, yy, xy, both = (np.empty((len(first), basis * (basis - 1) // 2, points)) for _ in range(4))
+    kernels.products(vertices, cells, steep_geometry, weights, steeply, xx, yy, xy, both)
+    return ElementTensors(shape, xx, yy, xy, both, weighted, steeply)
 
 
 def _shapes(corners: Array) -> tuple[NDArray[np.int32], NDArray[np.int64]]:
@@ -59,11 +63,3 @@ def _shapes(corners: Array) -> tuple[NDArray[np.int32], NDArray[np.int64]]:
     key = np.rint(edges / (SAME * size)) @ np.sqrt(np.arange(2.0, 2.0 + edges.shape[1]))
     _, first, shape = np.unique(np.rint(key), return_index=True, return_inverse=True)
     return shape.astype(np.int32), first
-
-
-def _weighted(places: Array, gradient: Array, geometry: Array, weights: Array) -> tuple[Array, Array]:
-    """Area element times gradient (shapes, points, basis, 2), and the area element (shapes, points)."""
-    jacobian = np.einsum("evd,qvg->eqdg", places, geometry)
-    area = np.abs(np.linalg.det(jacobian)) * weights
-    slopes = np.einsum("qig,eqgd->eqid", gradient, np.linalg.inv(jacobian))
-    return np.ascontiguousarray(slopes * area[..., None, None]), area
