@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 from scipy.sparse import csc_array
 
 from reynolds import carried_kernels as kernels
+from reynolds.array_kernels import norm
 from reynolds.grid import Grid
-from reynolds.kernels import norm
 from reynolds.mesh import Array
 from reynolds.multigrid import Effort, Multigrid, Precision
 from reynolds.triangles import both_triangles

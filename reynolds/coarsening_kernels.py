@@ -15,6 +15,14 @@ _FAST = {"cache": True, "error_model": "numpy", "fastmath": {"contract"}}
 
 
 @njit(**_FAST)
+def take_in(data, places, entries, fine, top, coarse, coarsest):
+    """Set up with the entries of an upper triangle, each at its place in the finest stencils (flat: `entries`)."""
+    for k in range(places.shape[0]):
+        entries[places[k]] = data[k]
+    return set_up(fine, top, coarse, coarsest)
+
+
+@njit(**_FAST)
 def set_up(fine, top, coarse, coarsest):
     """Coarse operators and factors of all levels from the finest stencil; False where it is not positive.
 

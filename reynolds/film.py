@@ -15,6 +15,7 @@ from math import isfinite
 import numpy as np
 from numpy.typing import NDArray
 
+from reynolds.array_kernels import all_finite
 from reynolds.contact import Asperities
 from reynolds.errors import FilmInputError
 from reynolds.fluid import CONSTANT, Fluid
@@ -137,7 +138,7 @@ def film(
 
 def _all_finite(values: Array) -> bool:
     """Whether every value is a number; most fields are one, and looked at without numpy's loops."""
-    return isfinite(values.item()) if values.size == 1 else bool(np.isfinite(values).all())
+    return isfinite(values.item()) if values.size == 1 else bool(all_finite(np.ravel(values)))
 
 
 @dataclass(frozen=True)

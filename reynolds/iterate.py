@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from reynolds import kernels
+from reynolds.array_kernels import largest_share
 from reynolds.balance import Balance, Operators, State, flow_balance, operators
 from reynolds.errors import FilmInputError, FilmNotConverged
 from reynolds.film import Cavitation, FilmProblem
@@ -109,9 +110,6 @@ def advanced(problem: FilmProblem, setting: Setting, at: Iterate, signed: Array,
 
 def imbalance_of(problem: FilmProblem, setting: Setting, at: Iterate) -> float:
     """Largest residual of a free unknown over the flows that meet there."""
-    free = ~setting.held
-    if problem.cavitation is Cavitation.REYNOLDS:
-        free &= ~at.cavity
     rest, slope = with_pockets(setting, at)
     size = at.balance.meeting
     if setting.pockets:
@@ -120,8 +118,12 @@ def imbalance_of(problem: FilmProblem, setting: Setting, at: Iterate) -> float:
         # A film fraction next to zero is one less nearly one: to the last place of one.
         size = size + np.where(at.cavity, kernels.ROUNDING * at.parts.brim, 0.0)
     # Round-off of a solve is that of its largest flows: where next to nothing flows it is all there is.
-    scale = size + max(kernels.ROUNDING * size.max(initial=0.0), 1e-300)
-    return float(np.max(np.abs(rest) / scale, where=free, initial=0.0))
+    return largest_share(rest, size, kernels.ROUNDING, fixed_in(problem, setting, at))
+
+
+def fixed_in(problem: FilmProblem, setting: Setting, at: Iterate) -> NDArray[np.bool_]:
+    """Unknowns that a step leaves alone: held ones, and those that Reynolds' condition holds."""
+    return setting.held | at.cavity if problem.cavitation is Cavitation.REYNOLDS else setting.held
 
 
 def with_pockets(setting: Setting, at: Iterate) -> tuple[Array, Array]:

@@ -27,6 +27,12 @@ ROUNDING = 1e-6
 
 
 @njit(inline="always")
+def _at(index):
+    """An index that is not below zero, unsigned: numba then does not ask whether it counts from the end."""
+    return np.uint32(index)
+
+
+@njit(inline="always")
 def _inverse_map(vertices, cell, geometry_gradient, q):
     """Jacobian determinant and inverse transpose of the map reference -> film plane at point q."""
     a = b = c = d = 0.0
@@ -57,7 +63,7 @@ def stiffness(slots, shape, pairs, conductance, basis, points, data):
     What then stands on the diagonal means nothing: see `close_rows`.
     """
     for e in range(slots.shape[0]):
-        s = shape[e]
+        s = _at(shape[e])
         k = pair = 0
         for i in range(len(basis)):
             k += 1  # the diagonal's slot
@@ -65,7 +71,7 @@ def stiffness(slots, shape, pairs, conductance, basis, points, data):
                 value = 0.0
                 for q in range(len(points)):
                     value += conductance[e, q] * pairs[s, pair, q]
-                data[slots[e, k]] += value
+                data[_at(slots[e, k])] += value
                 k += 1
                 pair += 1
 
@@ -79,12 +85,12 @@ def close_rows(indptr, indices, data):
     diagonal = np.zeros(indptr.shape[0] - 1)
     for j in range(indptr.shape[0] - 1):
         total = 0.0
-        for k in range(indptr[j], indptr[j + 1] - 1):
+        for k in range(_at(indptr[j]), _at(indptr[j + 1] - 1)):
             total += data[k]
-            diagonal[indices[k]] -= data[k]
+            diagonal[_at(indices[k])] -= data[k]
         diagonal[j] -= total
     for j in range(indptr.shape[0] - 1):
-        data[indptr[j + 1] - 1] = diagonal[j]
+        data[_at(indptr[j + 1] - 1)] = diagonal[j]
 
 
 @njit(**_FAST)
@@ -95,13 +101,13 @@ def carried(dofs, shape, gradient, flux, basis, points, out, size):
     magnitudes of the cells: in a uniform film they cancel, and are no less for that.
     """
     for e in range(dofs.shape[0]):
-        s = shape[e]
+        s = _at(shape[e])
         for i in range(len(basis)):
             flow = 0.0
             for q in range(len(points)):
                 flow -= flux[e, q] * gradient[s, q, i]
-            out[dofs[e, i]] += flow
-            size[dofs[e, i]] += abs(flow)
+            out[_at(dofs[e, i])] += flow
+            size[_at(dofs[e, i])] += abs(flow)
 
 
 @njit(**_FAST)
@@ -114,7 +120,7 @@ def convection(dofs, slots, shape, value, gradient, flux_x, flux_y, basis, point
     upper[:] = 0.0
     lower[:] = 0.0
     for e in range(dofs.shape[0]):
-        s = shape[e]
+        s = _at(shape[e])
         for q in range(len(points)):
             fx, fy = flux_x[e, q], flux_y[e, q]
             for i in range(len(basis)):
@@ -126,7 +132,7 @@ def convection(dofs, slots, shape, value, gradient, flux_x, flux_y, basis, point
                 for q in range(len(points)):
                     c_ij -= value[q, j] * along[q, i]
                     c_ji -= value[q, i] * along[q, j]
-                slot = slots[e, k]
+                slot = _at(slots[e, k])
                 one, two = dofs[e, i], dofs[e, j]
                 if i == j:
                     upper[slot] += c_ij
@@ -152,16 +158,16 @@ def upwinding(indptr, indices, upper, lower, leaves, diffusion):
     taken, brought = np.zeros(size), np.zeros(size)
     diffusion[:] = 0.0
     for j in range(size):
-        for k in range(indptr[j], indptr[j + 1] - 1):
-            i = indices[k]
+        for k in range(_at(indptr[j]), _at(indptr[j + 1] - 1)):
+            i = _at(indices[k])
             if leaves[i] != leaves[j]:
                 beside, c = (i, upper[k]) if leaves[j] else (j, lower[k])
                 taken[beside] += max(0.0, c)
                 brought[beside] += max(0.0, -c)
     for j in range(size):
-        diagonal_j = indptr[j + 1] - 1
-        for k in range(indptr[j], diagonal_j):
-            i = indices[k]
+        diagonal_j = _at(indptr[j + 1] - 1)
+        for k in range(_at(indptr[j]), diagonal_j):
+            i = _at(indices[k])
             if leaves[i] != leaves[j]:
                 beside, d = (i, upper[k]) if leaves[j] else (j, lower[k])
                 if d < 0.0:
@@ -171,7 +177,7 @@ def upwinding(indptr, indices, upper, lower, leaves, diffusion):
                 d = 0.0 if leaves[i] else max(0.0, upper[k], lower[k])
             diffusion[k] = -d
             diffusion[diagonal_j] += d
-            diffusion[indptr[i + 1] - 1] += d
+            diffusion[_at(indptr[i + 1] - 1)] += d
 
 
 @njit(**_FAST)
@@ -184,8 +190,8 @@ def exchange(indptr, indices, coupling, level, out, size):
     for j in range(indptr.shape[0] - 1):
         there = level[j]
         gone = met = 0.0
-        for k in range(indptr[j], indptr[j + 1] - 1):
-            i = indices[k]
+        for k in range(_at(indptr[j]), _at(indptr[j + 1] - 1)):
+            i = _at(indices[k])
             flow = coupling[k] * (there - level[i])
             lost = abs(flow) + ROUNDING * abs(coupling[k]) * (abs(level[i]) + abs(there))
             out[i] += flow
@@ -200,12 +206,12 @@ def exchange(indptr, indices, coupling, level, out, size):
 def carry(indptr, indices, upper, lower, filling, out, size):
     """out += A filling, A's upper triangle by columns and the mirror of each entry in lower; size as above."""
     for j in range(indptr.shape[0] - 1):
-        last = indptr[j + 1] - 1
+        last = _at(indptr[j + 1] - 1)
         full = filling[j]
         come = upper[last] * full
         met = abs(come)
-        for k in range(indptr[j], last):
-            i = indices[k]
+        for k in range(_at(indptr[j]), last):
+            i = _at(indices[k])
             there, here = upper[k] * full, lower[k] * filling[i]
             out[i] += there
             size[i] += abs(there)
@@ -224,7 +230,7 @@ def lump(dofs, value, area, field, basis, points, out):
             total = 0.0
             for q in range(len(points)):
                 total += area[e, q] * field[e, q] * value[q, i]
-            out[dofs[e, i]] += total
+            out[_at(dofs[e, i])] += total
 
 
 @njit(**_FAST)
@@ -254,15 +260,6 @@ def gather(indptr, indices):
     return gathered
 
 
-@njit(**_FAST | {"fastmath": {"contract", "reassoc"}})
-def norm(vector):
-    """Euclidean norm, without the threads of a BLAS library, which cost more than they bring here."""
-    total = 0.0
-    for k in range(vector.shape[0]):
-        total += vector[k] * vector[k]
-    return np.sqrt(total)
-
-
 @njit(**_FAST)
 def find_slots(indptr, indices, row, column, slots):
     """Fill slots[cell, entry] with where (row, column) stands in sorted CSC indices, by bisection."""
@@ -287,7 +284,7 @@ def evaluate(vertices, cells, dofs, value, gradient, geometry_gradient, weights,
             _, ixx, ixy, iyx, iyy = _inverse_map(vertices, cells[e], geometry_gradient, q)
             p = rx = ry = 0.0
             for i in range(nb):
-                node = nodal[dofs[e, i]]
+                node = nodal[_at(dofs[e, i])]
                 p += node * value[q, i]
                 rx += node * gradient[q, i, 0]
                 ry += node * gradient[q, i, 1]
@@ -304,9 +301,9 @@ def hold(indptr, indices, data, unit, held, gain, data_out):
     part of a factorisation is kept while nodes enter and leave the cavity.
     """
     for k in range(data.shape[0]):
-        data_out[k] = 0.0 if held[indices[k]] else unit * data[k]
+        data_out[k] = 0.0 if held[_at(indices[k])] else unit * data[k]
     for j in range(indptr.shape[0] - 1):
-        last = indptr[j + 1] - 1
+        last = _at(indptr[j + 1] - 1)
         if held[j]:
             data_out[indptr[j] : last] = 0.0
             data_out[last] = 1.0
@@ -325,9 +322,9 @@ def choose_columns(
     their diagonals carry besides; p_scale and f_scale multiply them. Held unknowns get identity rows and columns.
     """
     for j in range(indptr.shape[0] - 1):
-        last = indptr[j + 1] - 1
-        for k in range(indptr[j], last):
-            i = indices[k]
+        last = _at(indptr[j + 1] - 1)
+        for k in range(_at(indptr[j]), last):
+            i = _at(indices[k])
             if held[i] or held[j]:
                 upper[k] = 0.0
                 lower[k] = 0.0

@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from reynolds.kernels import norm
+from reynolds.array_kernels import norm
 from reynolds.mesh import Array
 
 NOTHING = 1e-14  # of an image: what orthogonalisation leaves of one that lies in the basis

@@ -17,11 +17,11 @@ from numpy.typing import NDArray
 from scipy.sparse import csc_array, csc_matrix, csr_array, triu
 from scipy.sparse.linalg import SuperLU, splu
 
+from reynolds.array_kernels import norm
 from reynolds.band import BandedFactor, banded
 from reynolds.carried import CarriedFilm
 from reynolds.errors import FilmNotConverged
 from reynolds.grid import Grid
-from reynolds.kernels import norm
 from reynolds.mesh import Array
 from reynolds.multigrid import Multigrid
 from reynolds.triangles import BothTriangles, both_triangles
@@ -80,10 +80,9 @@ class Factor:
         assert self._upper is not None
         if self._on_grid is not None:
             answer, effort = self._on_grid.solve(load, tolerance)
+            enough = max(STALLED * ITERATIVE_TOLERANCE, tolerance)
             # Entries are of order one: no answer leaves less than round-off of itself, however small the load.
-            lost = ROUND_OFF * norm(answer)
-            size = norm(load)
-            if effort.left * size <= max(STALLED * ITERATIVE_TOLERANCE, tolerance) * size + lost:
+            if effort.left <= enough or (effort.left - enough) * norm(load) <= ROUND_OFF * norm(answer):
                 return answer
             self._leave_grid()
             self._off_grid(self._upper)

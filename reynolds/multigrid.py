@@ -85,8 +85,10 @@ class Multigrid:
 
     def update(self, data: Array) -> bool:
         """Take the entries of the upper triangle; False where the matrix is not positive definite on some line."""
-        kernels.put(data, self._places, self._entries)
-        return bool(coarsening_kernels.set_up(self._fine, *self.levels)) or self._precise()
+        return (
+            bool(coarsening_kernels.take_in(data, self._places, self._entries, self._fine, *self.levels))
+            or self._precise()
+        )
 
     def _precise(self) -> bool:
         """All levels in double precision from here on; False where they have been, or do not help."""
@@ -116,20 +118,11 @@ class Multigrid:
         return answer, effort
 
     def _iterated(self, load: Array, tolerance: float, start: Array | None) -> tuple[Array, Effort]:
-        x, direction = self._work
-        kernels.put(load, self._slots, self._fine.load)
-        size = kernels.size_of(self._fine.load)
-        if not 0.0 < size < np.inf:
-            return np.zeros(len(load)), Effort(0, 0.0 if size == 0.0 else np.inf)
-        if start is None:
-            x[:] = 0.0
-        else:
-            kernels.put(start, self._slots, x)
-            kernels.left_of(self._fine, x, self._fine.answer)
-        steps = kernels.conjugate_gradients(self._fine, *self.levels, x, direction, tolerance * size, MAX_STEPS)
-        kernels.put(load, self._slots, self._fine.load)
-        left = kernels.left_of(self._fine, x, direction)
-        return self._taken(x), Effort(steps, float(left / size))
+        x = np.empty(len(load)) if start is None else np.array(start, dtype=float)
+        steps, left = kernels.solve(
+            self._fine, *self.levels, self._slots, load, x, start is not None, self._work, tolerance, MAX_STEPS
+        )
+        return x, Effort(steps, left)
 
     def full_pass(self, load: Array) -> Array:
         """x to about the error of the mesh, (n,): one pass of full multigrid (Brandt 1977), without a check."""

@@ -242,16 +242,34 @@ def conjugate_gradients(fine, top, coarse, coarsest, x, direction, goal, most):
 
 
 @njit(**_FAST)
+def solve(fine, top, coarse, coarsest, slots, load, x, started, work, tolerance, most):
+    """x (n,) with |load - A x| <= tolerance |load|, from x where it is `started`, else from nothing.
+
+    Returns steps and what is left over |load|. Unknown k stands at slots[k]; `work` (2, slots) is room.
+    """
+    flat, direction = work[0], work[1]
+    put(load, slots, fine.load)
+    size = np.sqrt(_dot(fine.load, fine.load))
+    if not 0.0 < size < np.inf:
+        x[:] = 0.0
+        return 0, 0.0 if size == 0.0 else np.inf
+    if started:
+        put(x, slots, flat)
+        left_of(fine, flat, fine.answer)
+    else:
+        flat[:] = 0.0
+    steps = conjugate_gradients(fine, top, coarse, coarsest, flat, direction, tolerance * size, most)
+    put(load, slots, fine.load)
+    left = left_of(fine, flat, direction)
+    take(flat, slots, x)
+    return steps, left / size
+
+
+@njit(**_FAST)
 def left_of(fine, x, image):
     """|load - A x| on the finest level, whose load ends as that residual; `image` is lost."""
     apply(fine, x, image)
     return np.sqrt(_less(fine.load, image))
-
-
-@njit(**_FAST)
-def size_of(values):
-    """Euclidean norm of a vector of the finest level."""
-    return np.sqrt(_dot(values, values))
 
 
 @njit(inline="always")

@@ -12,7 +12,7 @@ from reynolds import kernels
 from reynolds.balance import NOTHING, by_opening, flow_balance, full_matrix, slopes
 from reynolds.compliant import Answer, Balance, NearFactor, compliant_answer
 from reynolds.film import Cavitation, FilmProblem
-from reynolds.iterate import Iterate, with_pockets
+from reynolds.iterate import Iterate, fixed_in, with_pockets
 from reynolds.mesh import Array
 from reynolds.opening import opening_slope
 from reynolds.setting import Setting
@@ -93,8 +93,3 @@ def signed_after(problem: FilmProblem, at: Iterate, change: Array, scale: float)
     # A node that nothing drives (balance zero but for round-off) would otherwise enter and leave for ever.
     made = (balance.net + TIE * balance.meeting) / at.parts.stiffness[problem.space.pattern.diagonal]
     return np.where(at.cavity, -made, pressure - level)
-
-
-def fixed_in(problem: FilmProblem, setting: Setting, at: Iterate) -> NDArray[np.bool_]:
-    """Unknowns that a step leaves alone: held ones, and those that Reynolds' condition holds."""
-    return setting.held | at.cavity if problem.cavitation is Cavitation.REYNOLDS else setting.held

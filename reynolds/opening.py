@@ -15,11 +15,11 @@ from numpy.typing import NDArray
 from scipy.sparse import csc_array, csr_array, eye_array, issparse
 from scipy.sparse.linalg import splu
 
+from reynolds.array_kernels import norm
 from reynolds.compliant import Answer, dense_answer, singular
 from reynolds.contact import LOWEST_RATIO, Asperities, contact_pressure
 from reynolds.errors import FilmInputError, FilmNotConverged
 from reynolds.film import FilmProblem, Pocket
-from reynolds.kernels import norm
 from reynolds.laws import Tangent
 from reynolds.mesh import Array
 from reynolds.walls import LowRank, Opens, WallMatrix, columns_of, full

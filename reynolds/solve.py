@@ -20,10 +20,10 @@ from reynolds.errors import FilmInputError, FilmNotConverged
 from reynolds.film import LEAST_FRACTION, Cavitation, FilmProblem, FilmSolution
 from reynolds.fluid import CONSTANT
 from reynolds.grid import grid_of
-from reynolds.iterate import Iterate, advanced, imbalance_of, is_linear, iterate_of, opened
+from reynolds.iterate import Iterate, advanced, fixed_in, imbalance_of, is_linear, iterate_of, opened
 from reynolds.linear import ITERATIVE_TOLERANCE, Factor, GeneralFactor, Solve, row_by_row
 from reynolds.mesh import Array
-from reynolds.newton import compliant, fixed_in, general_step, signed_after, symmetric_step
+from reynolds.newton import compliant, general_step, signed_after, symmetric_step
 from reynolds.setting import Setting, spread
 from reynolds.space import FilmSpace
 from reynolds.supply import pressure_sending

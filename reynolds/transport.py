@@ -11,6 +11,7 @@ from functools import cached_property
 
 import numpy as np
 
+from reynolds.array_kernels import cubes
 from reynolds.errors import FilmInputError, FilmNotConverged
 from reynolds.film import Film, FilmProblem
 from reynolds.fluid import CONSTANT
@@ -140,11 +141,8 @@ def transport(problem: FilmProblem, pressure: Array, opening: Array) -> Transpor
         by_pressure = ratio_slope / ratio - mu_slope / mu
         sliding = None if film.couette_viscosity is None else film.couette_viscosity * mu / film.viscosity
         film = replace(film, viscosity=mu, couette_viscosity=sliding)
-    h = film.thickness
-    with np.errstate(over="ignore"):  # told of in words
-        smooth = h * h * h * (ratio / (12.0 * film.viscosity))
-    _check_conductance(smooth)
-    factors = None if problem.surface is None else flow_factors(problem.surface, h)
+    smooth = _conductance(film.thickness, ratio / (12.0 * film.viscosity))
+    factors = None if problem.surface is None else flow_factors(problem.surface, film.thickness)
     return Transport(film, smooth, by_pressure, problem.surface, factors, widening)
 
 
@@ -172,7 +170,19 @@ def at_points(space: FilmSpace, nodal: Array) -> Array:
     return np.ascontiguousarray(nodal[space.dofs] @ space.reference.value.T)
 
 
-def _check_conductance(conductance: Array) -> None:
-    if not (conductance.min() >= SMALLEST_CONDUCTANCE and conductance.max() < np.inf):
-        found = f"h^3/(12 mu) from {conductance.min():.3g} to {conductance.max():.3g} m3/(Pa s)"
-        raise FilmInputError("film", found, f"finite and at least {SMALLEST_CONDUCTANCE:g}")
+def _conductance(thickness: Array, factor: Array) -> Array:
+    """h^3 times a factor, (cells | 1, points | 1) m3/(Pa s)."""
+    if factor.size == 1:
+        found = np.empty(thickness.shape)
+        least, most = cubes(thickness.ravel(), factor.item(), found.reshape(-1))
+    else:
+        with np.errstate(over="ignore"):  # told of in words
+            found = np.asarray(thickness * thickness * thickness * factor)
+        least, most = found.min(), found.max()
+    if not (least >= SMALLEST_CONDUCTANCE and most < np.inf):
+        raise FilmInputError(
+            "film",
+            f"h^3/(12 mu) from {least:.3g} to {most:.3g} m3/(Pa s)",
+            f"finite and at least {SMALLEST_CONDUCTANCE:g}",
+        )
+    return found
