@@ -17,6 +17,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
+from numpy.typing import NDArray
 
 from gaps.course import OverTurn
 from gaps.physics import FilmLaws, Physics, laws_left
@@ -26,12 +27,10 @@ from gaps.rubbing import wall_shear
 from reynolds.contact import Asperities
 from reynolds.film import ZERO, Film, FilmProblem, FilmSolution, Held
 from reynolds.floating import Floating, Outer
-from reynolds.generalised import contact_force, modes_on
+from reynolds.generalised import Modes, contact_force, modes_on
 from reynolds.loads import boundary_flows
 from reynolds.mesh import Array
 from reynolds.space import FilmSpace
-
-APART = 40.0  # standard deviations of the summits: walls that do not touch
 
 
 @dataclass(frozen=True)
@@ -82,6 +81,21 @@ def kidney_wrench(geometry: ValvePlateGeometry, shaft_angle: float, above: Array
     )
 
 
+@dataclass(frozen=True)
+class _Turned:
+    """What does not depend on the position, at one shaft angle.
+
+    depth (cells, points) m of the face below its plane; over_port (cells, 1); chamber_pressure (z,) Pa; pressed
+    (3,) N: generalised forces of what presses and of the kidneys.
+    """
+
+    modes: Modes
+    depth: Array
+    over_port: NDArray[np.bool_]
+    chamber_pressure: Array
+    pressed: Array
+
+
 class BlockFilm:
     """Films of the floating block on a ring; cells = (across a land, a kidney pitch), as `Ring` has them."""
 
@@ -100,7 +114,7 @@ class BlockFilm:
         self._physics = Physics() if physics is None else physics
         self._laws = laws_left(FilmLaws() if laws is None else laws, self._physics)
         # A stage asks for the same instant many times over.
-        self._turned: Callable[[float], FilmSpace] = lru_cache(maxsize=4)(self.ring.turned)
+        self._turned: Callable[[float], _Turned] = lru_cache(maxsize=4)(self._turned_to)
 
     @property
     def space(self) -> FilmSpace:
@@ -110,13 +124,13 @@ class BlockFilm:
     def problem_at(self, time: float) -> FilmProblem:
         """The film with the block's face on the plate (q = 0) at a time (s), velocities seen from the block."""
         drive, laws, angle = self.drive, self._laws, self._angle(time)
-        space = self._turned(angle)
+        at = self._turned(angle)
+        space, port = at.modes.space, at.over_port
         x, y = space.points
-        port = self.ring.over_port(space)
         speed = np.where(port, 0.0, drive.shaft_speed)
         plate, block = self._relative(space)
         film = Film(
-            thickness=self._shape(*space.points),
+            thickness=at.depth,
             viscosity=np.where(port, SEALED * drive.viscosity, drive.viscosity),
             velocity_moving=(-block * speed * y, block * speed * x),
             velocity_fixed=(plate * speed * y, -plate * speed * x),
@@ -124,7 +138,7 @@ class BlockFilm:
             thickness_at_vertices=self._shape(*space.vertices.T),
         )
         case = Held(drive.case_pressure)
-        kidneys = zip(self.geometry.kidneys, self.chamber_pressures(angle), strict=True)
+        kidneys = zip(self.geometry.kidneys, at.chamber_pressure, strict=True)
         return FilmProblem(
             space=space,
             film=film,
@@ -140,7 +154,7 @@ class BlockFilm:
 
     def modes_at(self, time: float) -> Array:
         """Growth of the film by each coordinate at the vertices, (vertices, 3): 1, x/R4, y/R4."""
-        return self._modes(self._turned(self._angle(time)))
+        return self._turned(self._angle(time)).modes.at_vertices
 
     def outer_at(self, time: float, position: Array, rate: Array) -> Outer:
         """What presses and the kidneys' lift at a time (s).
@@ -148,14 +162,12 @@ class BlockFilm:
         A web over a port touches nothing: what contact would bear there is taken off. Between walls that give way
         held nodes have none.
         """
-        angle, radius = self._angle(time), self.geometry.land_radii[3]
-        above = self.chamber_pressures(angle) - self.drive.case_pressure
-        wrench = np.asarray(self.drive.press(angle)) + kidney_wrench(self.geometry, angle, above)
-        force, nothing = generalised(wrench, radius), np.zeros((3, 3))
-        if self._laws.asperities is None or self._laws.walls is not None:
-            return Outer(force, nothing, nothing)
-        touching, slopes = self._over_ports(angle, position, self._laws.asperities)
-        return Outer(force - touching, -slopes, nothing)
+        at, nothing, asperities = self._turned(self._angle(time)), np.zeros((3, 3)), self._laws.asperities
+        if asperities is None or self._laws.walls is not None:
+            return Outer(at.pressed, nothing, nothing)
+        gap = at.depth + at.modes.at_points @ position
+        contact = contact_force(asperities, gap, at.modes, at.over_port)
+        return Outer(at.pressed - contact.force, -contact.slopes, nothing)
 
     def chamber_pressures(self, shaft_angle: float) -> Array:
         """Pressures (z,) Pa of the chambers, chamber k at shaft angle + (k - 1) pitch."""
@@ -194,14 +206,18 @@ class BlockFilm:
         """What touches where the walls do."""
         return self._laws.asperities
 
-    def _over_ports(self, angle: float, position: Array, asperities: Asperities) -> tuple[Array, Array]:
-        """Force (3,) and slopes that contact would have where the plate has ports, between rigid walls."""
-        space = self._turned(angle)
-        modes = modes_on(space, self._modes(space))
-        gap = self._shape(*space.points) + modes.at_points @ position
-        far = asperities.summit_height + APART * asperities.height
-        contact = contact_force(asperities, np.where(self.ring.over_port(space), gap, far), modes)
-        return contact.force, contact.slopes
+    def _turned_to(self, angle: float) -> _Turned:
+        space, radius = self.ring.turned(angle), self.geometry.land_radii[3]
+        pressure = self.chamber_pressures(angle)
+        above = pressure - self.drive.case_pressure
+        wrench = np.asarray(self.drive.press(angle)) + kidney_wrench(self.geometry, angle, above)
+        return _Turned(
+            modes=modes_on(space, self._modes(space)),
+            depth=self._shape(*space.points),
+            over_port=self.ring.over_port(space),
+            chamber_pressure=pressure,
+            pressed=generalised(wrench, radius),
+        )
 
     def _relative(self, space: FilmSpace) -> tuple[Array, Array]:
         """Share of the turning at which plate and block pass the mesh: the plate the ring, the block the pads."""

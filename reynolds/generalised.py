@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
+from numpy.typing import NDArray
 
 from reynolds import generalised_kernels as kernels
 from reynolds.contact import Asperities, contact_pressure
@@ -97,13 +98,18 @@ class ContactForce:
         return np.zeros((len(self.force), changed.shape[1]))
 
 
-def contact_force(asperities: Asperities, gap: Array, modes: Modes) -> ContactForce:
+def contact_force(
+    asperities: Asperities, gap: Array, modes: Modes, within: NDArray[np.bool_] | None = None
+) -> ContactForce:
     """int p_c(gap) phi_j dA and its slopes int p_c' phi_i phi_j dA, the walls rigid.
 
     `gap` (cells, points) m is the distance of the mean planes, which may overlap down to the limit of
-    `contact_pressure`; raises as that does. Source: Greenwood and Tripp 1970-71.
+    `contact_pressure`; raises as that does. `within` (cells, 1): the cells that count, all without it.
+    Source: Greenwood and Tripp 1970-71.
     """
     near = gap < asperities.summit_height + NO_CONTACT * asperities.height
+    if within is not None:
+        near &= within
     bears, phi, area = contact_pressure(asperities, gap[near]), modes.at_points[near], modes.space.area[near]
     weighted = area * bears.value
     return ContactForce(weighted @ phi, phi.T @ ((area * bears.slope)[:, None] * phi), weighted @ np.abs(phi))
