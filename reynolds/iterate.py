@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from reynolds import kernels
-from reynolds.array_kernels import largest_share
+from reynolds.array_kernels import all_finite, largest_share
 from reynolds.balance import Balance, Operators, State, flow_balance, operators
 from reynolds.errors import FilmInputError, FilmNotConverged
 from reynolds.film import Cavitation, FilmProblem
@@ -60,7 +60,7 @@ def iterate_of(
 
 def iterate_at(problem: FilmProblem, setting: Setting, before: Iterate, signed: Array) -> Iterate:
     """The iterate that signed unknowns mean: each a pressure where positive, else a cavity."""
-    if not np.isfinite(signed).all():
+    if not all_finite(signed):
         raise FilmNotConverged("pressures that grow without bound", "stiffer walls, or a thicker film")
     level = problem.cavitation_pressure
     pressure, fraction = signed + level, setting.film_fraction

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from reynolds.array_kernels import all_finite
 from reynolds.errors import FilmInputError
 from reynolds.film import Cavitation, FilmProblem, Held, Pocket
 from reynolds.mesh import Array
@@ -55,7 +56,7 @@ def spread(problem: FilmProblem) -> Setting:
     if problem.held_nodes is not None:
         more = ~np.isnan(problem.held_nodes)
         pressure[more], fraction[more], held[more] = problem.held_nodes[more], 1.0, True
-    if not np.isfinite(pressure).all():
+    if not all_finite(pressure):
         raise FilmInputError("boundary", "a pressure that is not finite", "a number of Pa")
     if pockets:
         _check_apart(held, pockets)

@@ -13,7 +13,7 @@ import numpy as np
 
 from reynolds.array_kernels import cubes
 from reynolds.errors import FilmInputError, FilmNotConverged
-from reynolds.film import Film, FilmProblem
+from reynolds.film import ZERO, Film, FilmProblem
 from reynolds.fluid import CONSTANT
 from reynolds.laws import Tangent
 from reynolds.mesh import Array
@@ -22,6 +22,7 @@ from reynolds.roughness import FlowFactors, Surface, flow_factors
 from reynolds.space import FilmSpace
 
 WIDEST = 1e6  # times the given film: walls that open further were meant to be stiffer
+ONE = np.ones((1, 1))
 SMALLEST_CONDUCTANCE = 1e-250  # m3/(Pa s): products of less are no longer numbers of full precision
 
 
@@ -31,7 +32,7 @@ Tensor = tuple[Array, Array, Array]
 
 def isotropic(conductance: Array) -> Tensor:
     """The tensor of a conductance that is the same in every direction."""
-    return conductance, conductance, np.zeros((1, 1))
+    return conductance, conductance, ZERO
 
 
 @dataclass(frozen=True)
@@ -104,7 +105,7 @@ class Transport:
 
     @cached_property
     def _content(self) -> Tangent:
-        return Tangent(self.film.thickness, np.ones((1, 1))) if self.factors is None else self.factors.content
+        return Tangent(self.film.thickness, ONE) if self.factors is None else self.factors.content
 
     def _with_walls(self, content: Array, of: Callable[[Tangent], Array]) -> tuple[Array, Array]:
         u, v = self.film.mean_velocity
@@ -133,7 +134,7 @@ def transport(problem: FilmProblem, pressure: Array, opening: Array) -> Transpor
     if problem.walls is not None:
         parted = _parted(problem, opening)
         film, widening = replace(film, thickness=parted.value), parted.slope
-    ratio, by_pressure = np.ones((1, 1)), np.zeros((1, 1))
+    ratio, by_pressure = ONE, ZERO
     if problem.fluid is not CONSTANT:
         at = at_points(problem.space, pressure)
         mu, mu_slope = problem.fluid.viscosity(at, film.viscosity)
