@@ -287,8 +287,7 @@ class _Turns(Generic[Seen]):
     def _excess(self, taken: Taken[Stage]) -> float:
         """Largest error of the film by a step, over what is allowed."""
         stage = taken.stage
-        error = float(np.abs(stage.instant.modes.at_vertices @ taken.error).max())
-        return error / (self._accuracy.step * float(stage.solution.film.thickness.min()) + self._accuracy.floor)
+        return stage.moves(taken.error) / (self._accuracy.step * stage.yardstick + self._accuracy.floor)
 
 
 def _oil_moved(first: FilmSpace, begin: State[Stage], end: State[Stage]) -> float:

@@ -168,7 +168,7 @@ class Instant:
         if asperities is not None:
             floor = min(floor, at.least - DEEPEST * asperities.height)
         floor = max(floor, lowest_gap(self.shape))
-        grows = self.modes.at_vertices if self.shape.walls is None else self._grown(at, film)
+        grows = self.grown(at, film)
         falls = []
         if at.corner_gap is not None:
             falls.append((at.corner_gap - floor, -(grows @ step)))
@@ -178,8 +178,10 @@ class Instant:
             for gap, fall in falls
         )
 
-    def _grown(self, at: Trial, film: Response) -> Array:
-        """Growth of the gap by each coordinate between walls that give way, (vertices, k)."""
+    def grown(self, at: Trial, film: Response) -> Array:
+        """Growth of the gap by each coordinate at the vertices, (vertices, k), walls that give way following."""
+        if self.shape.walls is None:
+            return self.modes.at_vertices
         opened = opening_slope(at.solution.problem, at.solution.opening) @ film.pressure
         return opened + (at.contact.grown if isinstance(at.contact, SoftContact) else self.modes.at_vertices)
 
@@ -198,7 +200,7 @@ class Instant:
         found = replace(found, cavity=cavity)
         if found.problem.walls is None:
             return replace(found, pressure=pressure, film_fraction=fraction)
-        opened = found.opening + (self._grown(at, film) - self.modes.at_vertices) @ step
+        opened = found.opening + (self.grown(at, film) - self.modes.at_vertices) @ step
         return replace(found, pressure=pressure, film_fraction=fraction, opening=opened)
 
     def touching(self, at: Trial) -> bool:

@@ -150,6 +150,21 @@ class Stage:
             return self.trial.solution
         return self.instant.ahead(self.trial, q - self.trial.q, self.by_position)
 
+    def moves(self, change: Array) -> float:
+        """Largest change of the gap (m) by one of the position (k,) m, walls that give way following."""
+        return float(np.abs(self.instant.grown(self.trial, self.by_position) @ change).max())
+
+    @property
+    def yardstick(self) -> float:
+        """Film (m) beside which a change of it is large or small: the least.
+
+        Where elastic walls press summits flat, no less than these are high.
+        """
+        least, shape = float(self.trial.solution.film.thickness.min()), self.instant.shape
+        if shape.walls is None or shape.asperities is None:
+            return least
+        return max(least, shape.asperities.height)
+
     def reposed(self) -> Stage:
         """The same with its film solved where the forces balance; raises as the film does."""
         if not self.shift.any():
