@@ -137,7 +137,10 @@ def turned(load: float, asperities: Asperities | None) -> tuple[FilmSpace, list[
     return space, seen[-25:]
 
 
-@pytest.mark.parametrize(("load", "asperities"), [(19e6, None), (19e6, replace(ROUGH, summit_height=7e-6))])
+@pytest.mark.parametrize(
+    ("load", "asperities"),
+    [(19e6, None), pytest.param(19e6, replace(ROUGH, summit_height=7e-6), marks=pytest.mark.slow)],
+)
 def test_springs_give_back_what_they_took(load, asperities):
     """Over a closed turn the work of all pressure on the walls' opening vanishes, contact's included.
 
