@@ -169,7 +169,7 @@ def _unknown(command: str | None, word: str) -> Fault:
 
 def _pump(options: argparse.Namespace) -> PumpDescription:
     """The pump that a command line means; raises InputFaults with what is wrong in file and options together."""
-    from swashfilm.cli_floating import floating_faults
+    from swashfilm.cli_floating import alike_faults, floating_faults
     from system.pump_file import load_pump
 
     stated, faults = _overrides(options)
@@ -184,6 +184,8 @@ def _pump(options: argparse.Namespace) -> PumpDescription:
     except InputFaults as reason:
         raise _at_options(reason, stated, faults) from None
     faults += floating_faults(options, pump, options.fidelity)
+    if options.fidelity in (Fidelity.FILMS.value, Fidelity.TABLE.value):
+        faults += alike_faults(pump)
     if faults:
         raise InputFaults(COMMAND_LINE, faults)
     return pump

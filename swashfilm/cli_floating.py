@@ -11,8 +11,9 @@ from swashfilm.physics_switches import SWITCHES
 from system.description import SINGLE_PARTS, PumpDescription
 from system.faults import Fault
 from system.floating_gaps import FloatingOptions
+from system.unlike import kinds
 
-ALIKE = "chambers that are alike; of one of them alone: swashfilm film with revolution = true"
+ALIKE = "chambers that are alike; where they differ: swashfilm run with --fidelity lumped or floating"
 FEWEST_STEPS, MOST_STEPS = 24, 7200
 _EFFECTS = {
     "--rigid": Effect.ELASTIC_WALLS,
@@ -38,8 +39,13 @@ def floating_faults(
     if chosen != Fidelity.FLOATING.value:
         wanted = f"{by} {Fidelity.FLOATING.value} beside it"
         return [Fault(option, f"{by} {chosen}", wanted) for option in stated]
+    return _steps_faults(options, pump)
+
+
+def alike_faults(pump: PumpDescription) -> list[Fault]:
+    """The single parts of a pump, where what is asked for needs chambers that are alike."""
     singles = [f"{name}.{number}" for name in SINGLE_PARTS for number, _ in getattr(pump, f"single_{name}s")]
-    return [*(Fault(part, "a single part", ALIKE) for part in singles), *_steps_faults(options, pump)]
+    return [] if kinds(pump).alike else [Fault(part, "a single part", ALIKE) for part in singles]
 
 
 def _steps_faults(options: argparse.Namespace, pump: PumpDescription) -> list[Fault]:

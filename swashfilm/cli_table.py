@@ -74,7 +74,7 @@ def run_table_command(options: argparse.Namespace) -> int:
 
 def _case(options: argparse.Namespace) -> tuple[TableCase, int]:
     """The case that a command line means, and how many workers; raises InputFaults with every fault at once."""
-    from swashfilm.cli_floating import floating_faults, floating_options
+    from swashfilm.cli_floating import alike_faults, floating_faults, floating_options
     from system import table_sources
     from system.table_build import HELD_OUT, LEARNT, TableCase, table_axes
     from system.table_sources import Source
@@ -91,7 +91,7 @@ def _case(options: argparse.Namespace) -> tuple[TableCase, int]:
         nearest = nearest_choice(options.source, sources)
         faults.append(Fault("--source", repr(options.source), f"one of {', '.join(sources)}", nearest))
     pump = _pump(options, faults)
-    if faults := floating_faults(options, pump, options.source, "--source"):
+    if faults := [*floating_faults(options, pump, options.source, "--source"), *alike_faults(pump)]:
         raise InputFaults(COMMAND_LINE, faults)
     solver = table_sources.solver_of(Source(options.source), floating_options(options))
     return TableCase(pump, solver, table_axes(pump, *ranges), counts[0], counts[1]), counts[2]

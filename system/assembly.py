@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from enum import Enum
 
@@ -20,6 +20,7 @@ from system.ports_coupling import Port, PortedCycle
 from system.power import GapExchange, Gaps, PowerBalance, leakage_by_flow, port_draw, power_balance, shaft_work
 from system.shaft_torque import GroupMasses, shaft_torque
 from system.units import STANDARD_ATMOSPHERE
+from system.unlike import mean_of
 
 
 class PointWarning(Enum):
@@ -69,7 +70,9 @@ class PointChecks:
 class PumpPoint:
     """One operating point of a pump, periodic: SI, pressures gauge.
 
-    Per chamber, arrays over `cycle.shaft_angle`: `cycle`, `delivery_area`, `suction_area` in m2. Whole pump:
+    Per chamber, arrays over `cycle.shaft_angle`: `cycle` (where chambers differ their mean, each at its own angle,
+    and so `leaks` and `pairs`), `delivery_area`, `suction_area` in m2; `chambers`: the cycle of each, of one where
+    they are alike. Whole pump:
     `delivery_flow_ripple` in m3/s over the same angles (volume at chamber pressure through the delivery port);
     `delivery`, `suction`: pressure of either port and what its line takes; `shaft_torque` in N m, from the forces
     on the rotating group; `leakage_flow` of each gap (mean over the revolution, all chambers, volume at case
@@ -81,6 +84,7 @@ class PumpPoint:
     pistons: int
     swash_angle: float
     cycle: ChamberCycle
+    chambers: tuple[ChamberCycle, ...]
     delivery_area: Array
     suction_area: Array
     delivery_flow_ripple: Array
@@ -112,20 +116,21 @@ class PumpPoint:
 def assemble(
     point: OperatingPoint,
     ported: PortedCycle,
-    pairs: FrictionPairs,
+    pairs: Sequence[FrictionPairs],
     pistons: int,
     derived_displacement: float,
     exchange: GapExchange,
-    masses: GroupMasses,
+    masses: Sequence[GroupMasses],
 ) -> PumpPoint:
-    """The pump's flows, torque and powers from one chamber's periodic cycle and the friction of its pairs.
+    """The pump's flows, torque and powers from the chambers' periodic cycles and the friction of their pairs.
 
-    Gaps leak heat by their flow, and the torque comes from the forces behind the losses: `put_together`.
+    pairs, masses: of one chamber for all, or of each of z. Gaps leak heat by their flow, and the torque comes from
+    the forces behind the losses: `put_together`.
     """
-    problem, cycle = ported.problem, ported.cycle
-    torque = shaft_torque(problem, cycle, pairs, masses, pistons, exchange.carried.valve_plate)
+    ring = exchange.carried.valve_plate
+    torque = shaft_torque(ported.problems, ported.cycles, pairs, masses, pistons, ring)
     leakage = leakage_by_flow(ported, pistons * point.shaft_speed / TURN, exchange)
-    return put_together(point, ported, pairs, pistons, derived_displacement, exchange, torque, leakage)
+    return put_together(point, ported, mean_of(pairs), pistons, derived_displacement, exchange, torque, leakage)
 
 
 def put_together(
@@ -157,14 +162,15 @@ def put_together(
         pistons=pistons,
         swash_angle=problem.drive.swash_angle,
         cycle=cycle,
+        chambers=ported.cycles,
         delivery_area=opening_area(problem.delivery_port, cycle.shaft_angle),
         suction_area=opening_area(problem.suction_port, cycle.shaft_angle),
-        delivery_flow_ripple=over_chambers(cycle.flow.delivery, pistons),
+        delivery_flow_ripple=over_chambers([own.flow.delivery for own in ported.cycles], pistons),
         delivery=ported.delivery,
         suction=ported.suction,
         shaft_torque=torque,
         leakage_flow=_leakage_flow(problem, cycle.outflow, rate, exchange),
-        leaks=problem.leaks,
+        leaks=mean_of([own.leaks for own in ported.problems]),
         pairs=pairs,
         exchange=exchange,
         bench=reading,
@@ -194,7 +200,6 @@ def pumps(reading: BenchReading) -> bool:
 
 
 def _remarks(asked: OperatingPoint, ported: PortedCycle, reading: BenchReading) -> Iterator[Remark]:
-    cycle = ported.cycle
     yield from _ports_off(asked, ported)
     if not pumps(reading):
         yield Remark(
@@ -203,25 +208,33 @@ def _remarks(asked: OperatingPoint, ported: PortedCycle, reading: BenchReading) 
             f"L/min, shaft power {reading.shaft_power:.3g} W (limit: all above 0): leakage takes more than the "
             "pistons move, efficiencies are void; raise speed or displacement, lower pressure or temperature",
         )
-    degrees = np.degrees(cycle.shaft_angle)
+    degrees = np.degrees(ported.cycles[0].shaft_angle)
+    cycle, name = _chamber_by(ported, lambda one: -float(one.pressure.min()))
     if cycle.cavitates:
         low = degrees[cycle.pressure <= CAVITY_PRESSURE]
         yield Remark(
             PointWarning.CHAMBER_CAVITATES,
-            f"a cavity opens in the chamber (vacuum at {low.size} of {degrees.size} sampled shaft angles, from "
+            f"a cavity opens in {name} (vacuum at {low.size} of {degrees.size} sampled shaft angles, from "
             f"{low.min():.0f} to {low.max():.0f} deg): a starved inlet, or both ports shut while the piston moves "
             "out; air release is not modelled; raise the inlet pressure, or let the ports change over sooner",
         )
     highest = max(float(ported.delivery.pressure.max()), float(ported.suction.pressure.max()))
     limit = OVERPRESSURE * (highest + STANDARD_ATMOSPHERE) - STANDARD_ATMOSPHERE
+    cycle, name = _chamber_by(ported, lambda one: float(one.pressure.max()))
     peak = int(np.argmax(cycle.pressure))
     if cycle.pressure[peak] > limit:
         yield Remark(
             PointWarning.CHAMBER_OVERPRESSURE,
-            f"the chamber peaks at {cycle.pressure[peak] * 1e-6:.1f} MPa at {degrees[peak]:.0f} deg (limit "
+            f"{name} peaks at {cycle.pressure[peak] * 1e-6:.1f} MPa at {degrees[peak]:.0f} deg (limit "
             f"{limit * 1e-6:.1f} MPa, {OVERPRESSURE - 1.0:.0%} over the port): both ports shut while the piston "
             "moves in; let the port shut later, or the relief groove of the next begin earlier",
         )
+
+
+def _chamber_by(ported: PortedCycle, size: Callable[[ChamberCycle], float]) -> tuple[ChamberCycle, str]:
+    """The chamber that is largest by a measure, and what to call it."""
+    number = int(np.argmax([size(cycle) for cycle in ported.cycles]))
+    return ported.cycles[number], "the chamber" if len(ported.cycles) == 1 else f"chamber {number + 1}"
 
 
 def _ports_off(asked: OperatingPoint, ported: PortedCycle) -> Iterator[Remark]:

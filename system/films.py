@@ -33,6 +33,7 @@ from system.pairs import FrictionPairs
 from system.ports import TURN
 from system.ports_coupling import ported_cycle
 from system.power import GapExchange, Gaps
+from system.unlike import kinds
 
 POSITIONS_PER_PITCH = 4
 """Block angles a piston pitch at which films are solved: 10 deg on nine pistons; an even divisor of
@@ -68,8 +69,10 @@ def films_point(
     """One periodic operating point with films solved over the revolution.
 
     Raises NotConverged when chamber pressure and films do not settle within ROUND_LIMIT rounds, ValueError when
-    `positions_per_pitch` is no even divisor of SAMPLES_PER_PITCH. Films are rigid, isothermal, quasi-static.
+    `positions_per_pitch` is no even divisor of SAMPLES_PER_PITCH or chambers differ. Films are rigid, isothermal,
+    quasi-static.
     """
+    kinds(pump).hold_alike()
     if positions_per_pitch % 2 or SAMPLES_PER_PITCH % positions_per_pitch:
         raise ValueError(
             f"positions per pitch: found {positions_per_pitch}, expected an even divisor of {SAMPLES_PER_PITCH}"
@@ -84,7 +87,7 @@ def films_point(
         gaps = films.cycle(cycle.shaft_angle[::every], cycle.pressure[::every], gaps, report)
         problem = chamber_problem(pump, point, motion, leak_table(gaps, point.case_pressure))
         draws = port_draws(gaps, films.rotor.point, pump.oil.bulk_modulus)
-        ported = ported_cycle(problem, lines, pump.pump.pistons, motion.shaft_angle.size, draws=draws)
+        ported = ported_cycle((problem,), lines, pump.pump.pistons, motion.shaft_angle.size, draws=draws)
         films.rotor = rotor(pump, met_point(point, ported))
         before, cycle = cycle, ported.cycle
         change = float(np.max(np.abs(cycle.pressure - before.pressure)))
@@ -98,7 +101,7 @@ def films_point(
     exchange = gap_exchange(gaps, cycle, pump.pump.pistons, point)
     losses = with_film_shear(lumped_pairs(pump, point, motion, cycle), gaps, point.case_pressure)
     derived = swept_displacement(pump, motion.drive)
-    pump_point = assemble(point, ported, losses, pump.pump.pistons, derived, exchange, group_masses(pump))
+    pump_point = assemble(point, ported, (losses,), pump.pump.pistons, derived, exchange, (group_masses(pump),))
     return FilmsPoint(films.rotor, pump_point, gaps, rounds, change, _sampling_error(ported.problem, cycle))
 
 

@@ -151,7 +151,7 @@ def _round(
     pressures = (state.rotor.point.delivery_pressure, state.rotor.point.inlet_pressure)
     samples = cycle.shaft_angle.size
     draws = port_draws(gaps, pressures, pump.oil.bulk_modulus, samples // pistons)
-    ported = ported_cycle(problem, port_lines(pump, point), pistons, samples, draws=draws)
+    ported = ported_cycle((problem,), port_lines(pump, point), pistons, samples, draws=draws)
     rubbed = rubbing(gaps, samples)
     friction = max(
         np.abs(rubbed.piston - state.rubbing.piston).max(), np.abs(rubbed.slipper - state.rubbing.slipper).max()

@@ -141,7 +141,7 @@ def shaft_moment(gaps: FloatingGaps, rotor: Rotor, parts: FloatingParts, group: 
         -float(np.cross(places + moved, forces)[:, 2].sum()) + float(at.ball_moment @ normal * normal[2])
         for at, moved, (places, forces) in zip(group, shift, _applied(rotor, parts, group), strict=True)
     ]
-    return over_chambers(np.array(one), rotor.pump.pump.pistons)
+    return over_chambers([np.array(one)], rotor.pump.pump.pistons)
 
 
 def _applied(rotor: Rotor, parts: FloatingParts, group: tuple[GroupInstant, ...]) -> Iterator[tuple[Array, Array]]:

@@ -39,6 +39,7 @@ from system.ports_coupling import ported_cycle
 from system.power import chamber_exchange
 from system.retainer import BallGuide, mean_sliding_speed, spring_force
 from system.shaft_torque import GroupMasses
+from system.unlike import kinds
 
 SAMPLES_PER_PITCH = 40
 """Sampled shaft angles for each piston pitch: 1 deg on nine pistons; even, so the quadrature can be halved."""
@@ -62,17 +63,24 @@ class PistonMotion:
 def lumped_point(pump: PumpDescription, point: OperatingPoint, tolerance: float = TOLERANCE) -> PumpPoint:
     """One periodic operating point of a pump with films of given thickness: REF90's nominal loss model.
 
-    Raises NotConverged when the chamber pressure does not become periodic. Valid for films thick against their
-    roughness at the viscosity of the case; what it leaves out is in `left_out_physics.md`.
+    Chambers that differ have each its own cycle; what rubs about the shaft takes the mean of pumps with chambers
+    like each. Raises NotConverged when the chamber pressure does not become periodic. Valid for films thick
+    against their roughness at the viscosity of the case; what it leaves out is in `left_out_physics.md`.
     """
-    motion = piston_motion(pump, point)
-    problem = chamber_problem(pump, point, motion, lumped_leaks(pump, point, motion))
-    lines, pistons = port_lines(pump, point), pump.pump.pistons
-    ported = ported_cycle(problem, lines, pistons, motion.shaft_angle.size, tolerance)
-    losses = lumped_pairs(pump, point, motion, ported.cycle)
+    found = kinds(pump)
+    motions = [piston_motion(own, point) for own in found.pumps]
+    problems = [
+        chamber_problem(own, point, motion, lumped_leaks(own, point, motion))
+        for own, motion in zip(found.pumps, motions, strict=True)
+    ]
+    pistons, samples = pump.pump.pistons, motions[0].shaft_angle.size
+    ported = ported_cycle(found.by_chamber(problems), port_lines(pump, point), pistons, samples, tolerance)
+    chambers = list(zip(found.by_chamber(found.pumps), found.by_chamber(motions), ported.cycles, strict=True))
+    losses = [lumped_pairs(own, point, motion, cycle) for own, motion, cycle in chambers]
     exchange = chamber_exchange(ported.cycle, pistons * point.shaft_speed / TURN)
-    derived = swept_displacement(pump, motion.drive)
-    return assemble(point, ported, losses, pistons, derived, exchange, group_masses(pump))
+    derived = float(np.mean([swept_displacement(own, motion.drive) for own, motion, _ in chambers]))
+    masses = [group_masses(own) for own, _, _ in chambers]
+    return assemble(point, ported, losses, pistons, derived, exchange, masses)
 
 
 def port_lines(pump: PumpDescription, point: OperatingPoint) -> Lines:
@@ -202,8 +210,8 @@ def lumped_pairs(
     mass = pump.piston.mass + pump.slipper.mass
     axial = pairs.axial_force(cycle.pressure, point.case_pressure, area, mass, motion.acceleration)
     side = pairs.side_force(axial, motion.drive.swash_angle)
-    side_sum = pairs.over_chambers(side, pump.pump.pistons)
-    pressure_sum = area * pairs.over_chambers(cycle.pressure - point.case_pressure, pump.pump.pistons)
+    side_sum = pairs.over_chambers([side], pump.pump.pistons)
+    pressure_sum = area * pairs.over_chambers([cycle.pressure - point.case_pressure], pump.pump.pistons)
     bearings, friction = pump.bearings, pump.friction
     front = pairs.bearing_coulomb(
         friction.front_bearing, bearings.front_share, side_sum, point.shaft_speed, bearings.front_diameter

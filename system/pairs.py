@@ -6,6 +6,7 @@ thickness. All functions work on arrays over shaft angle; forces in N, speeds in
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import Enum
 
@@ -30,7 +31,8 @@ class Pair(Enum):
 class PairLoss:
     """Loss of one pair over equidistant shaft angles in W, Coulomb and viscous part, and how many pairs there are.
 
-    `count` is z for the pistons' and slippers' pairs, whose arrays belong to one of them, and 1 for the others.
+    `count` is z for the pistons' and slippers' pairs, whose arrays belong to one of them (the mean of all where
+    chambers differ), and 1 for the others.
     """
 
     count: int
@@ -94,10 +96,15 @@ def revolution_mean(loss: Array, count: int) -> float:
     return count * float(np.mean(loss))
 
 
-def over_chambers(values: Array, pistons: int) -> Array:
-    """Sum of a periodic quantity over all chambers, each 2 pi/z further on; shape (N,), N a multiple of z."""
-    pitch = values.size // pistons
-    return np.tile(values.reshape(pistons, pitch).sum(axis=0), pistons)
+def over_chambers(values: Sequence[Array], pistons: int) -> Array:
+    """Sum (N,) of a periodic quantity over all chambers, each 2 pi/z further on; N a multiple of z.
+
+    values: (N,) over a chamber's own angle, of one chamber for all z or of each.
+    """
+    pitch = values[0].size // pistons
+    if len(values) == 1:
+        return np.tile(values[0].reshape(pistons, pitch).sum(axis=0), pistons)
+    return np.asarray(sum(np.roll(own, -k * pitch) for k, own in enumerate(values)))
 
 
 def axial_force(

@@ -13,6 +13,7 @@ definition. Leaving out the slipper's moments of inertia and the growth of its f
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -30,6 +31,7 @@ from system.kinematics import (
     slipper_sliding_velocity,
 )
 from system.pairs import FrictionPairs, Pair, PairLoss, over_chambers
+from system.unlike import mean_of
 
 AT_REST = 1e-9
 """Part of the largest speed below which a part is at rest and its loss tells of no force."""
@@ -113,21 +115,26 @@ def forces_by_loss(
 
 
 def shaft_torque(
-    problem: ChamberProblem,
-    cycle: ChamberCycle,
-    pairs: FrictionPairs,
-    masses: GroupMasses,
+    problems: Sequence[ChamberProblem],
+    cycles: Sequence[ChamberCycle],
+    pairs: Sequence[FrictionPairs],
+    masses: Sequence[GroupMasses],
     pistons: int,
     ring_carried: float,
 ) -> Array:
-    """Torque (N,) N m of the shaft over the cycle's shaft angles, all chambers, from `forces_by_loss`.
+    """Torque (N,) N m of the shaft over the cycles' shaft angles, all chambers, from `forces_by_loss`.
 
-    ring_carried in W: what oil that the block drags over the valve plate gives back to it.
+    Of one chamber for all, or of each. ring_carried in W: what oil that the block drags over the valve plate gives
+    back to it.
     """
-    forces = forces_by_loss(problem, cycle, pairs, masses)
-    one = chamber_torque(problem.drive, cycle.shaft_angle, problem.shaft_speed, masses, forces)
-    rubbed = sum(pairs.loss(pair).count * _whole(pairs.loss(pair)) for pair in ABOUT_SHAFT) - ring_carried
-    return np.asarray(over_chambers(one, pistons) + rubbed / problem.shaft_speed)
+    speed = problems[0].shaft_speed
+    one = [
+        chamber_torque(problem.drive, cycle.shaft_angle, speed, mass, forces_by_loss(problem, cycle, own, mass))
+        for problem, cycle, own, mass in zip(problems, cycles, pairs, masses, strict=True)
+    ]
+    mean = mean_of(pairs)
+    rubbed = sum(mean.loss(pair).count * _whole(mean.loss(pair)) for pair in ABOUT_SHAFT) - ring_carried
+    return np.asarray(over_chambers(one, pistons) + rubbed / speed)
 
 
 def _whole(loss: PairLoss) -> Array:

@@ -30,6 +30,7 @@ from system.ports_coupling import ported_cycle
 from system.power import GapExchange, Gaps, chamber_exchange, port_draw
 from system.response_tables import ResponseTable
 from system.table_means import GAP_PAIRS, given_films, law_moments, plate_flow
+from system.unlike import kinds
 
 ROUND_LIMIT = 12
 SETTLED = 1e-6
@@ -52,8 +53,9 @@ def table_point(pump: PumpDescription, point: OperatingPoint, table: ResponseTab
     """One periodic operating point by the lumped kernel, its gaps leaking and rubbing as the table says.
 
     Raises FilmInputError outside the table's box or at another inlet or case pressure, NotConverged as
-    `ported_cycle` and where an orifice line does not settle.
+    `ported_cycle` and where an orifice line does not settle, ValueError where chambers differ.
     """
+    kinds(pump).hold_alike()
     motion, lines, pistons = piston_motion(pump, point), port_lines(pump, point), pump.pump.pistons
     asked = point
     for _ in range(ROUND_LIMIT):
@@ -61,7 +63,7 @@ def table_point(pump: PumpDescription, point: OperatingPoint, table: ResponseTab
         problem = chamber_problem(pump, point, motion, _leaks(pump, asked, motion, means))
         draws = _draws(pump, asked, means)
         none = GapExchange(Gaps(0.0, 0.0, 0.0), *draws)
-        ported = ported_cycle(problem, lines, pistons, motion.shaft_angle.size, draws=port_draw(problem, none))
+        ported = ported_cycle((problem,), lines, pistons, motion.shaft_angle.size, draws=port_draw(problem, none))
         met = met_point(point, ported).delivery_pressure
         if abs(met - asked.delivery_pressure) <= SETTLED * problem.pressure_span:
             break
@@ -76,7 +78,7 @@ def table_point(pump: PumpDescription, point: OperatingPoint, table: ResponseTab
     losses = _losses(lumped_pairs(pump, met_at, motion, cycle), pistons * moments.power, means)
     exchange = GapExchange(chamber_exchange(cycle, pistons * point.shaft_speed / TURN).carried, *draws)
     derived, masses = swept_displacement(pump, motion.drive), group_masses(pump)
-    found = assemble(point, ported, losses, pistons, derived, exchange, masses)
+    found = assemble(point, ported, (losses,), pistons, derived, exchange, (masses,))
     given = given_films(pump)
     return TablePoint(
         pump_point=found,

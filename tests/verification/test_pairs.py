@@ -16,7 +16,7 @@ def test_sum_over_chambers_by_brute_force(pistons):
         return np.where(np.sin(phi) < 0, 3.0, 1.0) + np.cos(3 * phi + 0.2)
 
     total = sum(law(ANGLE + 1e-9 + 2 * np.pi * k / pistons) for k in range(pistons))
-    np.testing.assert_allclose(pairs.over_chambers(law(ANGLE + 1e-9), pistons), total, atol=1e-7)
+    np.testing.assert_allclose(pairs.over_chambers([law(ANGLE + 1e-9)], pistons), total, atol=1e-7)
 
 
 def test_equation_22_counts_the_pistons_and_not_the_single_pairs():

@@ -169,7 +169,7 @@ def test_kinematic_flow_ripple(validation):
         suction_port=port,
         leaks=LeakTable(np.zeros((3, 8)), np.zeros((3, 8))),
     )
-    flow = ported_cycle(stiff, Lines(), PISTONS, 4 * SAMPLES).delivery.line_flow
+    flow = ported_cycle((stiff,), Lines(), PISTONS, 4 * SAMPLES).delivery.line_flow
     validation(
         case="kinematic flow ripple of nine pistons",
         source="(pi/2z) tan(pi/4z); physics/left_out_physics.md: 1.53 %",
@@ -185,7 +185,7 @@ def test_kinematic_flow_ripple(validation):
 
 @pytest.fixture(scope="module")
 def rippled() -> PortedCycle:
-    return ported_cycle(pump(20e6, 0.13), Lines(OrificeLine(0.1e-3, 2.5e6)), PISTONS, SAMPLES)
+    return ported_cycle((pump(20e6, 0.13),), Lines(OrificeLine(0.1e-3, 2.5e6)), PISTONS, SAMPLES)
 
 
 def test_ripple_against_all_chambers_integrated_with_the_port(rippled):
@@ -240,8 +240,8 @@ def test_mass_and_energy_of_the_port_close(rippled):
 
 def test_ripple_falls_with_the_volume():
     """A large volume leaves the pump as a held pressure has it; ripple is flow ripple over V."""
-    held = ported_cycle(pump(), Lines(), PISTONS, SAMPLES)
-    one, ten = (ported_cycle(pump(), Lines(OrificeLine(v, 2.5e6)), PISTONS, SAMPLES) for v in (10e-3, 100e-3))
+    held = ported_cycle((pump(),), Lines(), PISTONS, SAMPLES)
+    one, ten = (ported_cycle((pump(),), Lines(OrificeLine(v, 2.5e6)), PISTONS, SAMPLES) for v in (10e-3, 100e-3))
     ripples = [np.ptp(one.delivery.pressure), np.ptp(ten.delivery.pressure)]
     assert ripples[0] / ripples[1] == pytest.approx(10.0, rel=0.01)  # open chambers are 0.6 % of 10 L
     assert float(ten.cycle.outflow.delivery) == pytest.approx(float(held.cycle.outflow.delivery), rel=1e-5)
@@ -254,8 +254,8 @@ def test_a_volume_known_by_its_impedance_is_that_volume():
     """0.1 L and an impedance of 0.9 L are 1 L."""
     frequency = np.linspace(300.0, 7000.0, 2000)
     rest = Impedance(frequency, volume_impedance(0.9e-3, 1.6e9, frequency))
-    whole = ported_cycle(pump(), Lines(ImpedanceLine(1e-3, CLOSED)), PISTONS, SAMPLES)
-    split = ported_cycle(pump(), Lines(ImpedanceLine(0.1e-3, rest)), PISTONS, SAMPLES)
+    whole = ported_cycle((pump(),), Lines(ImpedanceLine(1e-3, CLOSED)), PISTONS, SAMPLES)
+    split = ported_cycle((pump(),), Lines(ImpedanceLine(0.1e-3, rest)), PISTONS, SAMPLES)
     ripple = np.ptp(whole.delivery.pressure)
     # linear in 1/Z between frequencies, and small ripple in it: p/K
     np.testing.assert_allclose(split.delivery.pressure, whole.delivery.pressure, atol=5e-3 * ripple)
@@ -263,7 +263,7 @@ def test_a_volume_known_by_its_impedance_is_that_volume():
 
 def test_both_ports_at_once():
     lines = Lines(OrificeLine(1e-3, 2.5e6), OrificeLine(1e-3, 3.0e6))
-    found = ported_cycle(pump(), lines, PISTONS, SAMPLES)
+    found = ported_cycle((pump(),), lines, PISTONS, SAMPLES)
     assert found.suction.mean_pressure == pytest.approx(2.5e6, abs=SETTLED * 1e-6 * found.problem.pressure_span)
     assert 0.02e6 < np.ptp(found.suction.pressure) < 0.5e6
     assert found.suction.line_flow.max() < 0.0
@@ -274,11 +274,11 @@ def test_what_cannot_be_is_refused(tmp_path):
     with pytest.raises(ValueError, match="volume: found 0 m3, expected above 0"):
         OrificeLine(0.0, 0.0)
     with pytest.raises(NotConverged, match="expected both of one sign"):
-        ported_cycle(pump(), Lines(OrificeLine(1e-3, 40e6)), PISTONS, SAMPLES)
+        ported_cycle((pump(),), Lines(OrificeLine(1e-3, 40e6)), PISTONS, SAMPLES)
     with pytest.raises(NotConverged, match="suction port: its pressure falls"):
-        ported_cycle(pump(), Lines(suction=OrificeLine(1e-3, 0.0, 60e-6)), PISTONS, SAMPLES)
+        ported_cycle((pump(),), Lines(suction=OrificeLine(1e-3, 0.0, 60e-6)), PISTONS, SAMPLES)
     narrow = Impedance(np.array([300.0, 400.0]), np.ones(2) * 1e9j)
     with pytest.raises(ValueError, match="harmonics of the pump's ripple"):
-        ported_cycle(pump(), Lines(ImpedanceLine(1e-3, narrow)), PISTONS, SAMPLES)
+        ported_cycle((pump(),), Lines(ImpedanceLine(1e-3, narrow)), PISTONS, SAMPLES)
     with pytest.raises(ValueError, match="rising from above zero"):
         Impedance(np.array([2.0, 1.0]), np.ones(2) + 0j)

@@ -65,7 +65,7 @@ def test_lever_of_a_frictionless_piston(validation):
 def test_torque_ripple_of_nine_pistons(validation):
     """Delivery pressure on half of a turn, none on the other: the strokes' ripple (pi/2z) tan(pi/4z)."""
     pressed = replace(NONE, along_bore=np.where(np.sin(ANGLE) < 0.0, 13e3, 0.0))
-    torque = over_chambers(chamber_torque(CYLINDER, ANGLE, SPEED, GroupMasses(0.0, 0.0), pressed), 9)
+    torque = over_chambers([chamber_torque(CYLINDER, ANGLE, SPEED, GroupMasses(0.0, 0.0), pressed)], 9)
     assert np.mean(torque) == pytest.approx(9 / np.pi * 13e3 * 45e-3 * np.tan(16.2 * DEGREES), rel=1e-4)
     validation(
         case="kinematic torque ripple of nine pistons",
@@ -163,7 +163,7 @@ def test_the_balance_can_fail():
     problem = chamber_problem(pump, found.point, motion, lumped_leaks(pump, found.point, motion))
     loss = found.pairs.piston_cylinder
     more = replace(found.pairs, piston_cylinder=replace(loss, coulomb=1.5 * loss.coulomb))
-    torque = shaft_torque(problem, found.cycle, more, group_masses(pump), 9, 0.0)
+    torque = shaft_torque((problem,), (found.cycle,), (more,), (group_masses(pump),), 9, 0.0)
     surplus = found.point.shaft_speed * float(np.mean(torque - found.shaft_torque))
     assert surplus == pytest.approx(0.5 * loss.mean_coulomb, rel=1e-9)
     assert surplus > 10.0 * 1e-3 * found.power.shaft

@@ -1,0 +1,76 @@
+"""Pumps whose chambers differ: `[piston.3]` beside `[piston]`.
+
+Such a pump is the mean of z pumps that are alike, each with the piston and slipper of one chamber: flows, powers
+and torques of chambers add. Chambers with the same parts are of one kind; where all are, one chamber tells of all.
+What belongs to chambers comes as a tuple, of one for all that are alike, else of z, chamber 1 first.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, fields, is_dataclass, replace
+from functools import cache
+from typing import Any, TypeVar, cast
+
+import numpy as np
+
+from system.description import PumpDescription
+
+Of = TypeVar("Of")
+
+
+@dataclass(frozen=True)
+class Kinds:
+    """The kinds of chambers that a pump has: `pumps`, one a kind, each alike; the kind `of_chamber` 1, 2, .."""
+
+    pumps: tuple[PumpDescription, ...]
+    of_chamber: tuple[int, ...]
+
+    @property
+    def alike(self) -> bool:
+        """Whether one chamber tells of all."""
+        return len(self.pumps) == 1
+
+    def hold_alike(self) -> None:
+        """Raise ValueError where chambers differ."""
+        if not self.alike:
+            raise ValueError("chambers: found single pistons or slippers, expected chambers that are alike")
+
+    def chambers(self, kind: int) -> tuple[int, ...]:
+        """The chambers of a kind, from 0."""
+        return tuple(k for k, of in enumerate(self.of_chamber) if of == kind)
+
+    def by_chamber(self, by_kind: Sequence[Of]) -> tuple[Of, ...]:
+        """What belongs to kinds, for each chamber."""
+        return tuple(by_kind[of] for of in self.of_chamber)
+
+
+def kinds(pump: PumpDescription) -> Kinds:
+    """The kinds of a pump's chambers; single parts that say the same are of one kind."""
+    pumps: list[PumpDescription] = []
+    of_chamber = []
+    for number in range(1, pump.pump.pistons + 1):
+        own = pump.of_chamber(number)
+        if own not in pumps:
+            pumps.append(own)
+        of_chamber.append(pumps.index(own))
+    return Kinds(tuple(pumps), (0,) if len(pumps) == 1 else tuple(of_chamber))
+
+
+def mean_of(items: Sequence[Of]) -> Of:
+    """The mean of equal dataclasses of numbers and arrays, by fields; counts (int) are the largest."""
+    first = items[0]
+    if len(items) == 1:
+        return first
+    if is_dataclass(first) and not isinstance(first, type):
+        return replace(
+            first, **{name: mean_of([getattr(item, name) for item in items]) for name in _names(type(first))}
+        )
+    numbers: list[Any] = list(items)
+    found: Any = max(numbers) if isinstance(first, int) else np.mean(numbers, axis=0)
+    return cast(Of, float(found) if isinstance(first, float) else found)
+
+
+@cache
+def _names(of: type[Any]) -> tuple[str, ...]:
+    return tuple(field.name for field in fields(of))
