@@ -88,6 +88,12 @@ def evenly(speed: float, steps: int, span: float = 2.0 * np.pi, keep: int = 10) 
 
 
 Seen = TypeVar("Seen")
+TurnReport = Callable[[str, float], None]
+"""Hears of each step: which turn it is in, and the share of that turn that is done."""
+
+
+def unheard(turn: str, share: float) -> None:
+    """Report a turn's progress to nobody."""
 
 
 @dataclass(frozen=True)
@@ -176,6 +182,7 @@ def run_revolution(
     accuracy: Accuracy | None = None,
     method: Tableau = ALEXANDER_2,
     before: GapRevolution[Seen] | None = None,
+    report: TurnReport = unheard,
 ) -> GapRevolution[Seen]:
     """The periodic motion of a gap whose drive repeats with the schedule's last angle.
 
@@ -194,12 +201,17 @@ def run_revolution(
     began, accuracy = perf_counter(), accuracy or Accuracy()
     films, opening = 0, None if before is None else before.turn
     if opening is None:
-        first = _Turns(solver, floating, schedule.wide, look, accuracy.rough, method, None)
+        told = _told(report, "approach, turn")
+        first = _Turns(solver, floating, schedule.wide, look, accuracy.rough, method, None, told)
         opening = periodic(first.turn, start).turn
         films = first.films_solved
-    run = _Turns(solver, floating, schedule, look, accuracy, method, opening)
+    run = _Turns(solver, floating, schedule, look, accuracy, method, opening, _told(report, "turn"))
     closing = periodic(run.turn, opening.end)
     return GapRevolution(closing.turn, closing, films + run.films_solved, perf_counter() - began)
+
+
+def _told(report: TurnReport, name: str) -> Callable[[int, float], None]:
+    return lambda number, share: report(f"{name} {number}", share)
 
 
 class _Turns(Generic[Seen]):
@@ -214,6 +226,7 @@ class _Turns(Generic[Seen]):
         accuracy: Accuracy,
         method: Tableau,
         opening: GapTurn[Seen] | None,
+        report: Callable[[int, float], None],
     ) -> None:
         self._solver, self._floating, self._look = solver, floating, look
         self._accuracy, self._method, self._opening = accuracy, method, opening
@@ -221,6 +234,7 @@ class _Turns(Generic[Seen]):
         self._angles = dict(zip(schedule.angles / schedule.speed, schedule.angles, strict=True))
         self._kept = set(schedule.angles[schedule.keep - 1 :: schedule.keep])
         self._adaptive = 2 if opening is None else 1  # turns left that choose their steps
+        self._report, self._turn = report, 0
         self.films_solved = 0
 
     def turn(self, start: Array, before: GapTurn[Seen] | None) -> GapTurn[Seen]:
@@ -262,9 +276,11 @@ class _Turns(Generic[Seen]):
         else:
             steps = march(self._method, self._stage, begin, again, nodes_only)
         reached = begin.time
+        self._turn += 1
         try:
             for taken in steps:
                 reached = taken.state.time
+                self._report(self._turn, reached / self._times[-1])
                 yield taken
         except FilmNotConverged as reason:
             angle = np.degrees(self._speed * reached)

@@ -10,7 +10,7 @@ import numpy as np
 from gaps.block_motion import BlockDrive, BlockFilm, floating_block
 from gaps.physics import Effect, Physics
 from gaps.piston_motion import PistonDrive, PistonFilm, floating_piston
-from gaps.revolution import Accuracy, GapRevolution, Schedule, evenly, run_revolution
+from gaps.revolution import Accuracy, GapRevolution, Schedule, TurnReport, evenly, run_revolution
 from gaps.seen import BlockSeen, PistonSeen, Seen, SlipperSeen, block_seen, piston_seen, slipper_seen
 from gaps.slipper_motion import SlipperDrive, SlipperFilm, floating_slipper
 from reynolds.floating import Floating
@@ -64,8 +64,8 @@ def piston_revolution(
     cells = options.cells(PISTON_CELLS)
     film = PistonFilm(piston_shape(rotor, parts), drive, parts.piston.laws, options.physics, cells)
     floating, schedule = floating_piston(film), evenly(drive.shaft_speed, options.steps, keep=options.keep)
-    start, look = np.zeros(4), _told(piston_seen(film), options.steps, "piston", report)
-    return _run(film.space_at(0.0), floating, schedule, start, look, options, before)
+    told = _of_turn(report, options.steps, "piston")
+    return _run(film.space_at(0.0), floating, schedule, np.zeros(4), piston_seen(film), options, before, told)
 
 
 def slipper_revolution(
@@ -83,11 +83,8 @@ def slipper_revolution(
     cells = options.cells(SLIPPER_CELLS)
     film = SlipperFilm(slipper_shape(rotor, parts), drive, parts.slipper.laws, options.physics, cells)
     floating, schedule = floating_slipper(film), evenly(drive.shaft_speed, options.steps, keep=options.keep)
-    start, look = (
-        np.array([SLIPPER_START, 0.0, 0.0]),
-        _told(slipper_seen(film), options.steps, "slipper", report),
-    )
-    return _run(film.space, floating, schedule, start, look, options, before)
+    start, told = np.array([SLIPPER_START, 0.0, 0.0]), _of_turn(report, options.steps, "slipper")
+    return _run(film.space, floating, schedule, start, slipper_seen(film), options, before, told)
 
 
 def block_revolution(
@@ -111,9 +108,8 @@ def block_revolution(
     geometry, cells = valve_plate_geometry(pump, rotor.drive.dead_centre_shift), options.cells(BLOCK_CELLS)
     film = BlockFilm(geometry, drive, parts.block.plate, parts.block.laws, options.physics, cells)
     schedule = evenly(drive.shaft_speed, steps, span, options.keep)
-    look = _told(block_seen(film), steps, "block", report)
-    start = np.array([BLOCK_START, 0.0, 0.0])
-    return _run(film.space, floating_block(film), schedule, start, look, options, before)
+    start, told = np.array([BLOCK_START, 0.0, 0.0]), _of_turn(report, steps, "block")
+    return _run(film.space, floating_block(film), schedule, start, block_seen(film), options, before, told)
 
 
 def _run(
@@ -124,20 +120,12 @@ def _run(
     look: Callable[[Stage], Seen],
     options: FloatingOptions,
     before: GapRevolution[Seen] | None,
+    report: TurnReport,
 ) -> GapRevolution[Seen]:
-    return run_revolution(
-        FilmSolver(space), floating, schedule, start, look, accuracy=options.accuracy, before=before
-    )
+    solver, accuracy = FilmSolver(space), options.accuracy
+    return run_revolution(solver, floating, schedule, start, look, accuracy=accuracy, before=before, report=report)
 
 
-def _told(look: Callable[[Stage], Seen], steps: int, name: str, report: Report) -> Callable[[Stage], Seen]:
-    """The same, telling each angle: how many of a turn's are done, and which turn."""
-    looks = 0
-
-    def told(stage: Stage) -> Seen:
-        nonlocal looks
-        looks += 1
-        report((looks - 1) % steps + 1, steps, f"{name}, turn {(looks - 1) // steps + 1}")
-        return look(stage)
-
-    return told
+def _of_turn(report: Report, steps: int, gap: str) -> TurnReport:
+    """Progress of a gap's turn by its share, in the turn's angles."""
+    return lambda turn, share: report(round(share * steps), steps, f"{gap}, {turn}")
