@@ -128,4 +128,4 @@ def _run(
 
 def _of_turn(report: Report, steps: int, gap: str) -> TurnReport:
     """Progress of a gap's turn by its share, in the turn's angles."""
-    return lambda turn, share: report(round(share * steps), steps, f"{gap}, {turn}")
+    return lambda turn, share: report(int(share * steps), steps, f"{gap}, {turn}")
