@@ -23,7 +23,7 @@ from reynolds.space import FilmSpace
 
 SHORT = 1e-2  # of the first way to a node: a step in which elastic walls give way to their first load
 ROUGH = 10.0  # times as far from the periodic motion may the first turns end
-FEWEST = 24  # nodes of a turn with steps as wide as their error allows
+FEWEST = 24  # nodes of a whole turn with steps as wide as their error allows
 
 
 @dataclass(frozen=True)
@@ -78,7 +78,9 @@ class Schedule:
     @property
     def wide(self) -> Schedule:
         """The same turn with its last angle alone to report, and few nodes besides its breaks."""
-        nodes = self.angles[-1] * np.arange(1, FEWEST) / FEWEST
+        span = self.angles[-1]
+        count = max(1, round(FEWEST * span / (2.0 * np.pi)))
+        nodes = span * np.arange(1, count) / count
         return Schedule(self.speed, self.angles[-1:], np.union1d(self.breaks, nodes), keep=2)
 
 

@@ -217,9 +217,15 @@ class Pace:
         return Pace(step * min(0.5, max(LEAST_CHANGE, change)), self.error)
 
     def kept(self, step: float, error: float, order: int) -> Pace:
-        """After a step of `error` <= 1 over its tolerance; one cut short by a node does not slow those to come."""
+        """After a step of `error` <= 1 over its tolerance; one cut short by a node does not slow those to come.
+
+        Of such a one the error before, of another step, tells nothing.
+        """
         error = max(error, 1e-6)
-        change = CAUTION * error ** (-INTEGRAL / order) * self.error ** (PROPORTIONAL / order)
+        if step < self.step:
+            change = CAUTION * error ** (-1.0 / order)
+        else:
+            change = CAUTION * error ** (-INTEGRAL / order) * self.error ** (PROPORTIONAL / order)
         wanted = step * min(MOST_CHANGE, max(LEAST_CHANGE, change))
         return Pace(max(wanted, self.step) if change >= 1.0 else wanted, error)
 
@@ -253,7 +259,10 @@ def _kept(
 
 
 def _towards(way: float, step: float) -> float:
-    """The step wanted, or the whole way, or half of it where a whole step would leave a short rest."""
-    if step >= way * (1.0 - SLIVER):
+    """The step wanted, or the whole way, or half of it where a whole step would leave a short rest.
+
+    The whole way also where it is within the caution with which the step is wanted.
+    """
+    if step >= CAUTION * way:
         return way
     return min(step, 0.5 * way)
