@@ -9,6 +9,7 @@ from typing import Generic, TypeVar
 
 import numpy as np
 
+from gaps.warmth import Warmth
 from reynolds.dirk import ALEXANDER_2, State, Tableau, Taken, march, nodes_only
 from reynolds.errors import FilmInputError, FilmNotConverged
 from reynolds.film import FilmSolution
@@ -151,12 +152,16 @@ class GapTurn(Generic[Seen]):
 
 @dataclass(frozen=True)
 class GapRevolution(Generic[Seen]):
-    """A gap whose turn closes: the turn, and how it was found (turns, changes a turn, multipliers)."""
+    """A gap whose turn closes: the turn, and how it was found (turns, changes a turn, multipliers).
+
+    warmth: temperatures over the turn, None where they are not solved.
+    """
 
     turn: GapTurn[Seen]
     closing: Periodic[GapTurn[Seen]] = field(repr=False)
     films_solved: int
     seconds: float
+    warmth: Warmth | None = None
 
     @property
     def angles(self) -> Array:

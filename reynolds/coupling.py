@@ -18,7 +18,7 @@ from reynolds.across import Levels, Profile, dowson, film_with, scaled, shear_ra
 from reynolds.anderson import History
 from reynolds.energy import FilmTemperature, Heat, solve_energy
 from reynolds.errors import FilmInputError, FilmNotConverged
-from reynolds.film import Film, FilmProblem, FilmSolution
+from reynolds.film import FilmProblem, FilmSolution
 from reynolds.fluid import Fluid, ViscosityLaw, isoviscous
 from reynolds.mesh import Array
 from reynolds.solve import FilmSolver
@@ -63,13 +63,15 @@ class Coupled(Generic[HeatOrNone]):
 class Posed:
     """A film of resting oil at one temperature, the oil's law, and its heat (None: the temperature stays).
 
-    `before` (size, m + 2) K: the temperature one time step ago, where the film stores oil.
+    `before` (size, m + 2) K: the temperature one time step ago, where the film stores oil; `at_once`: it follows
+    its film without delay instead.
     """
 
     problem: FilmProblem
     law: LocalLaw
     heat: Heat | None = None
     before: Array | None = None
+    at_once: bool = False
 
 
 class _Conditions(NamedTuple):
@@ -158,9 +160,9 @@ def _film(
     problem = work.posed.problem
     fault: FilmInputError | FilmNotConverged | None = None
     for _ in range(MOST_HALVINGS):
-        bent = _bent(problem, dowson(work.across, guess.share), guess.opened * work.given)
+        posed = _opened(bent(problem, dowson(work.across, guess.share)), guess.opened * work.given)
         try:
-            return work.solver.solve(bent, warm), guess
+            return work.solver.solve(posed, warm), guess
         except (FilmInputError, FilmNotConverged) as reason:
             fault = reason if fault is None else fault
         if solved is not None:
@@ -192,28 +194,30 @@ class _Shared:
         return value * self.share, slope * self.share
 
 
-def _bent(problem: FilmProblem, shape: Profile, growth: Array) -> FilmProblem:
-    """The problem with the shares of its viscosity that a profile has, opened by growth (vertices,) m."""
-    space, rest = problem.space, problem.film
-    film = film_with(rest, space, shape)
+def bent(problem: FilmProblem, shape: Profile) -> FilmProblem:
+    """The problem with the shares of its viscosity that a profile has, under any pressure the same."""
+    rest = problem.film
+    film = film_with(rest, problem.space, shape)
     share = film.viscosity
     film = replace(
         film, viscosity=share * rest.viscosity, couette_viscosity=film.sliding_viscosity * rest.viscosity
     )
-    if growth.any():
-        film = _opened(film, space.sample_vertices(growth), growth)
     if problem.fluid.viscosity is isoviscous:
         return replace(problem, film=film)
     return replace(problem, film=film, fluid=Fluid(_Shared(problem.fluid.viscosity, share), problem.fluid.density))
 
 
-def _opened(film: Film, at_points: Array, growth: Array) -> Film:
-    known = film.thickness_at_vertices
-    return replace(
+def _opened(problem: FilmProblem, growth: Array) -> FilmProblem:
+    """The problem with its film opened by growth (vertices,) m."""
+    if not growth.any():
+        return problem
+    film, known = problem.film, problem.film.thickness_at_vertices
+    film = replace(
         film,
-        thickness=film.thickness + at_points,
+        thickness=film.thickness + problem.space.sample_vertices(growth),
         thickness_at_vertices=None if known is None else known + growth,
     )
+    return replace(problem, film=film)
 
 
 def _given_thickness(problem: FilmProblem) -> Array:
@@ -241,7 +245,7 @@ def _heat(posed: Posed, film: FilmSolution, profile: Profile, last: object) -> F
     if posed.heat is None:
         return None
     warm = last.temperature if isinstance(last, FilmTemperature) else None
-    return solve_energy(film, posed.heat, profile, start=warm, before=posed.before)
+    return solve_energy(film, posed.heat, profile, start=warm, before=posed.before, at_once=posed.at_once)
 
 
 def _image(

@@ -168,15 +168,17 @@ def solve_energy(
     *,
     start: Array | None = None,
     before: Array | None = None,
+    at_once: bool = False,
 ) -> FilmTemperature:
     """The temperature of a solved film, whose viscosities follow `profile`.
 
     `start` (size, m + 2) K warms the solve; `before` (size, m + 2) K is the temperature one time step ago, wanted
-    where the film problem has a storage. Afterwards the energy balance closes to 1e-9 of the heat passed (1e-8
-    where conduction outweighs convection 1e4 times). Raises FilmInputError where oil enters without a temperature,
-    and FilmNotConverged.
+    where the film problem has a storage, unless the temperature follows `at_once`: without dT/dt, oil that the
+    film takes up having the temperature of its place. Afterwards the energy balance closes to 1e-9 of the heat
+    passed (1e-8 where conduction outweighs convection 1e4 times). Raises FilmInputError where oil enters without a
+    temperature, and FilmNotConverged.
     """
-    terms = _terms(solution, heat, profile, before)
+    terms = _terms(solution, heat, profile, before, at_once)
     matrix, right = _equations(solution, heat, profile, terms)
     guess = None if start is None else start - terms.datum
     rise, least_jump, iterations = _sharpened(terms, matrix, right, guess)
@@ -212,14 +214,14 @@ def _sharpened(terms: _Terms, matrix: HeatMatrix, right: Array, guess: Array | N
     )
 
 
-def _terms(solution: FilmSolution, heat: Heat, profile: Profile, before: Array | None) -> _Terms:
+def _terms(solution: FilmSolution, heat: Heat, profile: Profile, before: Array | None, at_once: bool) -> _Terms:
     space, film = solution.problem.space, solution.film
     flows = edge_flow(solution, profile)
     wet = np.maximum(at_points(space, solution.film_fraction), LEAST_WET)
     inflow = _inflow_temperature(solution, heat)
     storage, m = solution.problem.storage, len(profile.levels.weights)
     oil, old = np.zeros(space.size), np.zeros((space.size, m))
-    if storage is not None:
+    if storage is not None and not at_once:
         if before is None or before.shape != (space.size, m + 2):
             found = "none" if before is None else f"shape {before.shape}"
             expected = f"({space.size}, {m + 2}) K, from which a film that stores oil starts"

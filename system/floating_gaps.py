@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from gaps.block_motion import BlockDrive, BlockFilm, floating_block
+from gaps.film_heat import warm_revolution
 from gaps.physics import Effect, Physics
 from gaps.piston_motion import PistonDrive, PistonFilm, floating_piston
 from gaps.revolution import Accuracy, GapRevolution, Schedule, TurnReport, evenly, run_revolution
@@ -19,6 +20,7 @@ from reynolds.mesh import Array
 from reynolds.solve import FilmSolver
 from reynolds.space import FilmSpace
 from system.floating_drives import piston_shape, slipper_shape
+from system.floating_heat import gap_heat
 from system.floating_parts import FloatingParts
 from system.gap_cycle import Report, silent
 from system.instants import Rotor, valve_plate_geometry
@@ -65,7 +67,9 @@ def piston_revolution(
     film = PistonFilm(piston_shape(rotor, parts), drive, parts.piston.laws, options.physics, cells)
     floating, schedule = floating_piston(film), evenly(drive.shaft_speed, options.steps, keep=options.keep)
     told = _of_turn(report, options.steps, "piston")
-    return _run(film.space_at(0.0), floating, schedule, np.zeros(4), piston_seen(film), options, before, told)
+    return _run(
+        film.space_at(0.0), floating, schedule, np.zeros(4), piston_seen(film), options, rotor, before, told
+    )
 
 
 def slipper_revolution(
@@ -84,7 +88,7 @@ def slipper_revolution(
     film = SlipperFilm(slipper_shape(rotor, parts), drive, parts.slipper.laws, options.physics, cells)
     floating, schedule = floating_slipper(film), evenly(drive.shaft_speed, options.steps, keep=options.keep)
     start, told = np.array([SLIPPER_START, 0.0, 0.0]), _of_turn(report, options.steps, "slipper")
-    return _run(film.space, floating, schedule, start, slipper_seen(film), options, before, told)
+    return _run(film.space, floating, schedule, start, slipper_seen(film), options, rotor, before, told)
 
 
 def block_revolution(
@@ -109,7 +113,7 @@ def block_revolution(
     film = BlockFilm(geometry, drive, parts.block.plate, parts.block.laws, options.physics, cells)
     schedule = evenly(drive.shaft_speed, steps, span, options.keep)
     start, told = np.array([BLOCK_START, 0.0, 0.0]), _of_turn(report, steps, "block")
-    return _run(film.space, floating_block(film), schedule, start, block_seen(film), options, before, told)
+    return _run(film.space, floating_block(film), schedule, start, block_seen(film), options, rotor, before, told)
 
 
 def _run(
@@ -119,11 +123,18 @@ def _run(
     start: Array,
     look: Callable[[Stage], Seen],
     options: FloatingOptions,
+    rotor: Rotor,
     before: GapRevolution[Seen] | None,
     report: TurnReport,
 ) -> GapRevolution[Seen]:
     solver, accuracy = FilmSolver(space), options.accuracy
-    return run_revolution(solver, floating, schedule, start, look, accuracy=accuracy, before=before, report=report)
+    if not options.physics.heat:
+        return run_revolution(
+            solver, floating, schedule, start, look, accuracy=accuracy, before=before, report=report
+        )
+    return warm_revolution(
+        solver, floating, schedule, start, look, gap_heat(rotor), accuracy=accuracy, before=before, report=report
+    )
 
 
 def _of_turn(report: Report, steps: int, gap: str) -> TurnReport:

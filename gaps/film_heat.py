@@ -1,0 +1,268 @@
+"""Film temperature over the revolution: each film as warm as it makes itself, walls as warm as a turn makes them.
+
+Heat crosses a film in h^2/(pi^2 a), below a millisecond at 30 um, and a turn takes tens of them: so the
+temperature of a film follows its motion without delay (dT/dt at a place of the mesh is left out). Parts take
+minutes to warm, so that each has one temperature, at which the heat that its wall takes over the turn leaves it by
+its resistance. Rounds of motion with the viscosity so found, and of temperatures at WARMED angles with positions,
+rates and cavities of that motion, until viscosity stays.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from time import perf_counter
+from typing import Generic, TypeVar, cast
+
+import numpy as np
+
+from gaps.revolution import Accuracy, GapRevolution, Schedule, TurnReport, run_revolution, unheard
+from gaps.seen import GapSeen
+from gaps.warmth import HeatFlows, ThinnedOver, Warmth, thinned
+from reynolds.across import levels
+from reynolds.anderson import History
+from reynolds.coupling import Coupled, LocalLaw, Posed, agree, resting_viscosity
+from reynolds.energy import FilmTemperature, Heat
+from reynolds.errors import FilmInputError, FilmNotConverged
+from reynolds.film import HALF, FilmProblem, FilmSolution
+from reynolds.floating import Floating
+from reynolds.floating_stage import Stage
+from reynolds.floating_start import seats_of
+from reynolds.mesh import Array
+from reynolds.solve import FilmSolver
+from reynolds.wall_heat import GivenTemperature
+
+WARMED, FEWEST = 24, 4  # angles of a turn with their own temperatures, and of a pitch at least
+CLOSE = 0.01  # relative change of viscosity by one more round, root mean square
+MOST_ROUNDS = 12
+AGREED = 1e-4  # relative change of viscosity within an angle
+WALL_SETTLED = 0.05  # K
+MOST_WALL_ROUNDS = 40
+
+Seen = TypeVar("Seen", bound=GapSeen)
+Found = Coupled[FilmTemperature]
+
+
+@dataclass(frozen=True)
+class Sink:
+    """Where a wall's heat goes: to a temperature (K) through a resistance (m2 K/W, thickness over conductivity).
+
+    Without resistance the wall has that temperature; a huge one lets no heat pass.
+    """
+
+    temperature: float
+    resistance: float = 0.0
+
+
+@dataclass(frozen=True)
+class GapHeat:
+    """Oil and walls of a gap that warms, SI.
+
+    density, specific_heat, conductivity of the oil; temperature (K) of what enters; thins(T): viscosity over that
+    at this temperature; where the heat of the fixed and of the moving wall goes. The work of compression is left
+    out: oil comes as cold from a chamber as from the case, and throttling warms it by dp/(rho c).
+    """
+
+    density: float
+    specific_heat: float
+    conductivity: float
+    temperature: float
+    thins: Callable[[Array], Array]
+    fixed: Sink
+    moving: Sink
+
+    @property
+    def outside(self) -> Array:
+        """Temperatures (2,) K to which the fixed and the moving wall give their heat."""
+        return np.array([self.fixed.temperature, self.moving.temperature])
+
+    def of(self, problem: FilmProblem, walls: Array) -> Heat:
+        """Heat of a film between walls of such temperatures (2,) K."""
+        return Heat(
+            density=self.density,
+            specific_heat=self.specific_heat,
+            conductivity=self.conductivity,
+            fixed_wall=GivenTemperature(float(walls[0])),
+            moving_wall=GivenTemperature(float(walls[1])),
+            inflow=dict.fromkeys(problem.boundary, self.temperature),
+            port_temperature=self.temperature,
+        )
+
+
+def warm_revolution(
+    solver: FilmSolver,
+    floating: Floating,
+    schedule: Schedule,
+    start: Array,
+    look: Callable[[Stage], Seen],
+    heat: GapHeat,
+    *,
+    accuracy: Accuracy | None = None,
+    before: GapRevolution[Seen] | None = None,
+    report: TurnReport = unheard,
+) -> GapRevolution[Seen]:
+    """The periodic motion of a gap and its temperatures that agree, with `warmth`; else as `run_revolution`.
+
+    Afterwards one more round would change viscosity by CLOSE at most (root mean square). Raises as
+    `run_revolution`, FilmInputError where the oil's law ends, and FilmNotConverged.
+    """
+    began, films, found = perf_counter(), 0, before
+    warm = _Warming(floating, schedule, look, heat, None if before is None else before.warmth)
+    for rounds in range(1, MOST_ROUNDS + 1):
+        moving = thinned(floating, schedule.speed, warm.shares)
+        found = run_revolution(
+            solver, moving, schedule, start, warm.look, accuracy=accuracy, before=found,
+            report=_of_round(report, rounds),
+        )  # fmt: skip
+        films += found.films_solved
+        warmth = warm.of(found, rounds)
+        if warmth.change <= CLOSE:
+            return replace(found, films_solved=films, seconds=perf_counter() - began, warmth=warmth)
+    raise FilmNotConverged(
+        f"{floating.name}: motion and temperature do not agree after {MOST_ROUNDS} rounds (viscosity still "
+        f"changes by {warmth.change:.2g})",
+        "less load, walls that take more heat, or a film without heat",
+    )
+
+
+def _of_round(report: TurnReport, number: int) -> TurnReport:
+    return lambda turn, share: report(f"warming {number}, {turn}", share)
+
+
+class _Warming(Generic[Seen]):
+    """Temperatures of one gap: gathers films as its turn passes, and warms them."""
+
+    def __init__(
+        self,
+        floating: Floating,
+        schedule: Schedule,
+        look: Callable[[Stage], Seen],
+        heat: GapHeat,
+        last: Warmth | None,
+    ) -> None:
+        self._floating, self._heat, self._seen = floating, heat, look
+        self._angles = _warmed_angles(schedule.angles)
+        self._times = self._angles / schedule.speed
+        self._gathered: dict[float, FilmSolution] = {}
+        self._solver = FilmSolver(floating.shape_at(0.0).space)
+        self._warm: dict[float, Found] = {}
+        self._walls = heat.outside if last is None else last.walls
+        self.shares = None if last is None else last.shares
+
+    def look(self, stage: Stage) -> Seen:
+        """What is told of an angle; its film is kept where temperatures are wanted."""
+        if stage.time in self._times:
+            self._gathered[stage.time] = stage.solution
+        return self._seen(stage)
+
+    def of(self, found: GapRevolution[Seen], rounds: int) -> Warmth:
+        """The temperatures of the films gathered over the turn just passed."""
+        rubbing = float(np.mean([instant.seen.heat.rubbing for instant in found.turn.instants]))
+        self._settle(rubbing)
+        films = [self._warm[time] for time in self._times]
+        shares, before = self._shares(films), self.shares
+        self.shares = shares
+        change = shares.logs if before is None else shares.logs - before.logs
+        return Warmth(
+            shares=shares,
+            walls=self._walls,
+            mean=np.array([_mean(one) for one in films]),
+            hottest=np.array([one.heat.temperature.max() for one in films]),
+            flows=self._flows(rubbing),
+            change=float(np.sqrt(np.mean(change**2))),
+            rounds=rounds,
+        )
+
+    def _settle(self, rubbing: float) -> None:
+        """Warm all films, and the walls by what they take over the turn."""
+        history = History()
+        for _ in range(MOST_WALL_ROUNDS):
+            for time in self._times:
+                self._warm[time] = self._warmed(time)
+            image = self._wall_image(rubbing)
+            if np.abs(image - self._walls).max() < WALL_SETTLED:
+                return
+            self._walls = history.extrapolate(self._walls, image)
+        raise FilmNotConverged(
+            f"{self._floating.name}: temperature of the walls not settled after {MOST_WALL_ROUNDS} rounds",
+            "walls that take more heat",
+        )
+
+    def _wall_image(self, rubbing: float) -> Array:
+        """Walls (2,) K at which their resistance would pass what they take; the film's conductance damps."""
+        heat, flows = self._heat, self._flows(rubbing)
+        films = [self._warm[time].film for time in self._times]
+        area = self._mean([float(film.problem.space.area.sum()) for film in films])
+        passing = [
+            float(np.sum(heat.conductivity / film.film.thickness * film.problem.space.area)) for film in films
+        ]
+        conductance = self._mean(passing) / area
+        taken = np.array([flows.to_fixed, flows.to_moving]) / area
+        resistance = np.array([heat.fixed.resistance, heat.moving.resistance])
+        missing = resistance * taken - (self._walls - heat.outside)
+        return np.asarray(self._walls + missing / (1.0 + resistance * conductance))
+
+    def _warmed(self, time: float) -> Found:
+        """The film of a time, of the viscosity that its own temperature makes, its shape as it is."""
+        cold, film, heat = self._floating.shape_at(time), self._gathered[time].problem, self._heat
+        resting = replace(film.film, viscosity=cold.film.viscosity, couette_viscosity=None, moving_share=HALF)
+        problem = replace(film, film=resting, fluid=cold.fluid)
+        posed = Posed(problem, _law(problem, heat), heat.of(problem, self._walls), at_once=True)
+        try:
+            return _with_heat(agree(posed, levels(), AGREED, self._solver, self._warm.get(time)))
+        except (FilmInputError, FilmNotConverged) as reason:
+            angle = np.degrees(self._angles[self._times == time][0])
+            why = reason.what if isinstance(reason, FilmNotConverged) else str(reason)
+            raise FilmNotConverged(
+                f"temperature of the {self._floating.name} at {angle:.5g} deg: {why}",
+                "less load, a thicker oil, or a film without heat",
+            ) from None
+
+    def _shares(self, films: list[Found]) -> ThinnedOver:
+        """Viscosities of the films with those of the turn's begin, which its end has at places that moved."""
+        logs = np.log([one.share for one in films])
+        first, last = (self._floating.shape_at(time).space for time in (0.0, self._times[-1]))
+        opening = logs[-1][seats_of(first, last)]
+        return ThinnedOver(np.concatenate([[0.0], self._angles]), np.concatenate([opening[None], logs]))
+
+    def _flows(self, rubbing: float) -> HeatFlows:
+        """Heat, mean over the turn; rubbing (W) goes into the walls that rub."""
+        heats = [self._warm[time].heat for time in self._times]
+        return HeatFlows(
+            dissipation=self._mean([one.dissipation for one in heats]),
+            rubbing=rubbing,
+            to_fixed=self._mean([one.to_fixed for one in heats]) + 0.5 * rubbing,
+            to_moving=self._mean([one.to_moving for one in heats]) + 0.5 * rubbing,
+            carried_out=self._mean([one.carried_out for one in heats]),
+            stored=self._mean([one.stored for one in heats]),
+        )
+
+    def _mean(self, values: list[float]) -> float:
+        """Mean over the turn of values at the warmed angles."""
+        return float(np.average(values, weights=np.diff(self._angles, prepend=0.0)))
+
+
+def _warmed_angles(angles: Array) -> Array:
+    """Those of the reported angles that have temperatures: WARMED a turn, the last among them."""
+    reported = len(angles)
+    count = min(reported, max(FEWEST, round(WARMED * angles[-1] / (2.0 * np.pi))))
+    return np.asarray(angles[np.round(reported * np.arange(1, count + 1) / count).astype(int) - 1])
+
+
+def _law(problem: FilmProblem, heat: GapHeat) -> LocalLaw:
+    """The gap's oil (webs over ports as stiff as they are), thinned under any pressure as under none."""
+
+    def law(temperature: Array, pressure: Array, rate: Array) -> Array:
+        return np.asarray(resting_viscosity(problem, pressure[:, 0])[:, None] * heat.thins(temperature))
+
+    return law
+
+
+def _with_heat(found: Coupled[FilmTemperature | None]) -> Found:
+    assert found.heat is not None  # one was posed
+    return cast("Found", found)
+
+
+def _mean(found: Found) -> float:
+    """Mean temperature (K) of the oil in a film."""
+    return float(np.average(found.heat.mean, weights=found.film.holds))

@@ -1,0 +1,84 @@
+"""How warm a gap is over the turn: its oil's viscosity by place and shaft angle, and where its heat goes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from reynolds.across import dowson, levels
+from reynolds.coupling import bent
+from reynolds.floating import Floating
+from reynolds.mesh import Array
+
+
+@dataclass(frozen=True)
+class ThinnedOver:
+    """Viscosity over that of oil at the case's temperature, between shaft angles interpolated.
+
+    angles (n,) rad from 0 to where the turn or pitch closes; logs (n, size, m): logarithm of the share at each
+    unknown and level across the film (`reynolds.across`).
+    """
+
+    angles: Array
+    logs: Array = field(repr=False)
+
+    def at(self, angle: float) -> Array:
+        """The share (size, m) at an angle (rad) within the turn."""
+        after = int(np.clip(np.searchsorted(self.angles, angle), 1, len(self.angles) - 1))
+        begin, end = self.angles[after - 1 : after + 1]
+        part = (angle - begin) / (end - begin)
+        return np.asarray(np.exp((1.0 - part) * self.logs[after - 1] + part * self.logs[after]))
+
+
+def thinned(floating: Floating, shaft_speed: float, shares: ThinnedOver | None) -> Floating:
+    """The same gap with oil of these shares of its viscosity; None: as cold as it is."""
+    if shares is None:
+        return floating
+    cold, across = floating.shape_at, levels(shares.logs.shape[2])
+    return replace(floating, shape_at=lambda time: bent(cold(time), dowson(across, shares.at(shaft_speed * time))))
+
+
+@dataclass(frozen=True)
+class HeatFlows:
+    """Heat of a gap's film, W: what arises and where it goes.
+
+    dissipation of the oil and rubbing of asperities arise; to_fixed, to_moving into the walls, half of rubbing
+    with each; carried_out by oil, against oil that enters; stored in oil that the film takes up as it grows.
+    """
+
+    dissipation: float
+    rubbing: float
+    to_fixed: float
+    to_moving: float
+    carried_out: float
+    stored: float
+
+    @property
+    def balance_error(self) -> float:
+        """Heat that is missing, over all that arises."""
+        arises = self.dissipation + self.rubbing
+        return abs(arises - self.to_fixed - self.to_moving - self.carried_out - self.stored) / max(arises, 1e-300)
+
+
+@dataclass(frozen=True)
+class Warmth:
+    """A gap's temperatures that agree with its motion.
+
+    shares: the viscosity that these temperatures make; walls (2,) K of the fixed and the moving part; mean and
+    hottest (n,) K of the film at its angles; flows: means over the turn; change: root mean square relative change
+    of viscosity by one more round; rounds of motion and temperature.
+    """
+
+    shares: ThinnedOver
+    walls: Array
+    mean: Array
+    hottest: Array
+    flows: HeatFlows
+    change: float
+    rounds: int
+
+    @property
+    def angles(self) -> Array:
+        """Shaft angles (n,) rad at which temperatures are solved."""
+        return self.shares.angles[1:]
