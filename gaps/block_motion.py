@@ -5,6 +5,13 @@ and turns with the block. Coordinates q = (h on the shaft axis, rise along x, ri
 
     h = face(r, angle) + q0 + q1 x/R4 + q2 y/R4.
 
+On a spherical face the film plane is the sphere's map (`reynolds.sphere`) and the film opens along its normals n
+by n . (lift + W x (r - S)), W the block's turning about the spline S at height s:
+
+    h = face(r, angle) + q0 n_z + (1 + s/R) (q1 x + q2 y)/R4, x, y distances from the axes:
+
+a turning about the sphere's centre would not change the film.
+
 The block is held sideways and turned at the spline, a point of the shaft: tilting about that point the shaft does
 no work on it, so that moments count about it. What presses are all forces from outside on block, pistons and
 slippers but those of film and kidneys, D'Alembert's included (`wrench_about`).
@@ -25,12 +32,16 @@ from gaps.profiles import PLAIN, Profile
 from gaps.ring import SEALED, Ring, ValvePlateGeometry
 from gaps.rubbing import wall_shear
 from reynolds.contact import Asperities
+from reynolds.errors import FilmInputError
 from reynolds.film import ZERO, Film, FilmProblem, FilmSolution, Held
 from reynolds.floating import Floating, Outer
 from reynolds.generalised import Modes, contact_force, modes_on
 from reynolds.loads import boundary_flows
 from reynolds.mesh import Array
 from reynolds.space import FilmSpace
+from reynolds.sphere import Sphere
+
+LEAST_LEVERAGE = 1e-3  # 1 + s/R: below, what a tilt opens is lost in round-off and shape
 
 
 @dataclass(frozen=True)
@@ -39,7 +50,8 @@ class BlockDrive:
 
     shaft_speed rad/s, viscosity Pa s, pressures Pa. chamber_pressure over a chamber's own angle, Pa. press over
     the shaft angle, (3,): force along z (N, negative: towards the plate) and moments about x and y through the
-    spline (N m) of all that works on the rotating group besides film and kidneys (`wrench_about`).
+    spline (N m) of all that works on the rotating group besides film and kidneys (`wrench_about`). spline_height:
+    of the spline over the valve plate, m.
     """
 
     shaft_speed: float
@@ -50,6 +62,7 @@ class BlockDrive:
     cavitation_pressure: float
     chamber_pressure: OverTurn
     press: OverTurn
+    spline_height: float
 
 
 def wrench_about(places: Array, forces: Array, spline_height: float) -> Array:
@@ -69,7 +82,10 @@ def generalised(wrench: Array, radius: float) -> Array:
 
 
 def kidney_wrench(geometry: ValvePlateGeometry, shaft_angle: float, above: Array) -> Array:
-    """(F_z, M_x, M_y) of kidney pressures (z,) Pa above case pressure on the block, sectors with square ends."""
+    """(F_z, M_x, M_y) of kidney pressures (z,) Pa above case pressure on the block, sectors with square ends.
+
+    Moments about the middle of the face, as from any point of the shaft where the face is plane.
+    """
     places = geometry.kidney_places(shaft_angle)
     lever = geometry.kidney_lever
     return np.array(
@@ -110,6 +126,7 @@ class BlockFilm:
     ) -> None:
         self.geometry, self.drive = geometry, drive
         self.ring = Ring(geometry, cells)
+        self._leverage = _leverage(geometry.sphere, drive.spline_height)
         self._face = face
         self._physics = Physics() if physics is None else physics
         self._laws = laws_left(FilmLaws() if laws is None else laws, self._physics)
@@ -126,7 +143,7 @@ class BlockFilm:
         drive, laws, angle = self.drive, self._laws, self._angle(time)
         at = self._turned(angle)
         space, port = at.modes.space, at.over_port
-        x, y = space.points
+        x, y, _ = space.points_in_space
         speed = np.where(port, 0.0, drive.shaft_speed)
         plate, block = self._relative(space)
         film = Film(
@@ -149,11 +166,11 @@ class BlockFilm:
             fluid=laws.fluid,
             surface=laws.surface,
             asperities=laws.asperities,
-            walls=None if laws.walls is None else laws.walls.at(space, 0.0),
+            walls=None if laws.walls is None else laws.walls.at(self.ring.drawn, 0.0),
         )
 
     def modes_at(self, time: float) -> Array:
-        """Growth of the film by each coordinate at the vertices, (vertices, 3): 1, x/R4, y/R4."""
+        """Growth of the film by each coordinate at the vertices, (vertices, 3): in a plane 1, x/R4, y/R4."""
         return self._turned(self._angle(time)).modes.at_vertices
 
     def outer_at(self, time: float, position: Array, rate: Array) -> Outer:
@@ -184,7 +201,7 @@ class BlockFilm:
         """
         space = solution.problem.space
         (along_x, along_y), _ = wall_shear(solution, self._laws.asperities, gap)
-        x, y = space.points
+        x, y, _ = space.points_in_space
         return -float(np.sum((x * along_y - y * along_x) * space.area * self.is_film(space)))
 
     def is_film(self, space: FilmSpace) -> Array:
@@ -210,7 +227,8 @@ class BlockFilm:
         space, radius = self.ring.turned(angle), self.geometry.land_radii[3]
         pressure = self.chamber_pressures(angle)
         above = pressure - self.drive.case_pressure
-        wrench = np.asarray(self.drive.press(angle)) + kidney_wrench(self.geometry, angle, above)
+        lift = kidney_wrench(self.geometry, angle, above) * [1.0, self._leverage, self._leverage]
+        wrench = np.asarray(self.drive.press(angle)) + lift
         return _Turned(
             modes=modes_on(space, self._modes(space)),
             depth=self._shape(*space.points),
@@ -225,20 +243,32 @@ class BlockFilm:
         return turns, 1.0 - turns
 
     def _modes(self, space: FilmSpace) -> Array:
-        x, y = space.vertices.T / self.geometry.land_radii[3]
-        return np.column_stack([np.ones_like(x), x, y])
+        sphere, reach = space.sphere, self._leverage / self.geometry.land_radii[3]
+        x, y, _ = sphere.place(*space.vertices.T)
+        return np.column_stack([sphere.normal(*space.vertices.T)[2], reach * x, reach * y])
 
     def _shape(self, x: Array, y: Array) -> Array:
         """What is taken off the plate's face (m), by radius and the plate's own angle."""
-        return np.asarray(self._face(np.hypot(x, y), np.arctan2(y, x) - self.geometry.turned).depth)
+        off_axis = np.hypot(*self.geometry.sphere.place(x, y)[:2])
+        return np.asarray(self._face(off_axis, np.arctan2(y, x) - self.geometry.turned).depth)
 
     def _angle(self, time: float) -> float:
         return self.drive.shaft_speed * time
 
 
+def _leverage(sphere: Sphere, spline_height: float) -> float:
+    """1 + s/R: how far the block's turning about the spline opens the film, to turning about the face's middle."""
+    leverage = 1.0 + spline_height / sphere.radius
+    if abs(leverage) < LEAST_LEVERAGE:
+        found = f"a sphere about a point {-sphere.radius:.4g} m over the plate, the spline {spline_height:.4g} m"
+        raise FilmInputError("block, sphere", found, "points apart: about its centre a block turns without a film")
+    return leverage
+
+
 def floating_block(film: BlockFilm) -> Floating:
     """The block as `reynolds.floating` takes it: coordinates (h, rise x, rise y) m, massless.
 
-    Validity: small tilts; a plane valve plate but for its face and ports; a spline without friction.
+    Validity: small tilts; a plane or spherical valve plate but for its face and ports; a spline without friction;
+    on a sphere walls give way as plane ones do under the same pressure seen along the shaft.
     """
     return Floating("block", film.problem_at, film.modes_at, film.outer_at, reference=film.drive.case_pressure)

@@ -17,6 +17,7 @@ from scipy.spatial import cKDTree
 from gaps.bearing_pads import EDGE, BearingPads, with_pads
 from reynolds.mesh import Array, FilmMesh, rename, ring
 from reynolds.space import FilmSpace, film_space
+from reynolds.sphere import PLANE, Sphere
 
 SEALED = 1e6  # viscosity of a web over a port, in oil's: the film passes nothing there; laws of oil reach that far
 
@@ -31,7 +32,9 @@ class ValvePlateGeometry:
     Ports are sectors of the valve plate between R2 and R3, in pump angle, parted by the webs (from, to) in them
     that are flush with its face; `turned` is the angle (rad) from which the plate's own angles count, its ports',
     webs', pads' and face's; kidneys are taken as sectors of the
-    same width (rounded ends are not modelled: their effect on the webs is under 0.1 of a web).
+    same width (rounded ends are not modelled: their effect on the webs is under 0.1 of a web). Radii are
+    distances from the shaft axis, also on a `sphere`: its radius is positive where the plate bulges into a hollow
+    block.
     """
 
     land_radii: tuple[float, float, float, float]
@@ -42,6 +45,7 @@ class ValvePlateGeometry:
     webs: tuple[Arc, ...] = ()
     turned: float = 0.0
     pads: tuple[BearingPads, ...] = ()
+    sphere: Sphere = PLANE
 
     @property
     def suction(self) -> tuple[Arc, ...]:
@@ -79,29 +83,39 @@ class ValvePlateGeometry:
 
     @property
     def kidney_area(self) -> float:
-        """Area of a kidney, m2."""
+        """Area of a kidney seen along the shaft, m2."""
         _, r2, r3, _ = self.land_radii
         return 0.5 * self.kidney_arc * (r3**2 - r2**2)
 
     @property
     def kidney_lever(self) -> float:
-        """Integral of the radius along its middle line over a kidney, m3: moment of a unit pressure."""
+        """Moment of a unit pressure on a kidney about the face's middle, m3.
+
+        2 sin(arc/2) int r^2/(1 - r^2/R^2)^(1/2) dr on a sphere of radius R, whose normals meet in its centre.
+        """
         _, r2, r3, _ = self.land_radii
-        return float(2.0 * np.sin(0.5 * self.kidney_arc) * (r3**3 - r2**3) / 3.0)
+        node, weight = np.polynomial.legendre.leggauss(16)
+        radius = 0.5 * (r2 + r3) + 0.5 * (r3 - r2) * node
+        lever = radius**2 / np.sqrt(1.0 - (radius / self.sphere.radius) ** 2)
+        return float(np.sin(0.5 * self.kidney_arc) * (r3 - r2) * (weight @ lever))
 
 
 class Ring:
-    """The ring's space; cells = (cells across a land, cells a kidney pitch), mesh lines on the kidneys' edges."""
+    """The ring's space; cells = (cells across a land, cells a kidney pitch), mesh lines on the kidneys' edges.
+
+    `space` is that of the film, on a sphere if the face is one; `drawn` the same ring seen along the shaft.
+    """
 
     def __init__(self, geometry: ValvePlateGeometry, cells: tuple[int, int]) -> None:
         self.geometry = geometry
         ring_mesh = _ring_mesh(geometry, cells)
         # Pressure over a pad is a parabola, over a land nearly a line: twice the cells.
         mesh = with_pads(ring_mesh, geometry.pads, 2 * cells[0], geometry.turned) if geometry.pads else ring_mesh
-        self.space = film_space(mesh)
+        self.drawn = film_space(mesh)
+        self.space = _on(geometry.sphere, self.drawn)
         self._vertices, self._cells = ring_mesh.mesh.p.shape[1], ring_mesh.mesh.t.shape[1]
         _, r2, r3, _ = geometry.land_radii
-        radius = np.hypot(*self.space.vertices.T)
+        radius = np.hypot(*self.drawn.vertices.T)
         self._in_kidney_ring = (radius > r2 * (1.0 - 1e-9)) & (radius < r3 * (1.0 + 1e-9))
 
     def turned(self, shaft_angle: float) -> FilmSpace:
@@ -163,6 +177,14 @@ class Ring:
         angle = np.arctan2(vertices[:, 1], vertices[:, 0])
         span = (angle - arc[0] + 1e-9) % (2.0 * np.pi)
         return self._in_kidney_ring & (span <= arc[1] - arc[0] + 2e-9)
+
+
+def _on(sphere: Sphere, drawn: FilmSpace) -> FilmSpace:
+    """The film on a sphere, drawn by distances from its axis."""
+    if sphere.is_plane:
+        return drawn
+    stretch = sphere.stretch(np.hypot(*drawn.vertices.T))
+    return replace(drawn, vertices=np.ascontiguousarray(drawn.vertices * stretch[:, None]), sphere=sphere)
 
 
 def _turned(vertices: Array, angle: float) -> Array:

@@ -37,7 +37,10 @@ class ValvePlateState:
 
 @dataclass(frozen=True)
 class ValvePlatePosition:
-    """Film thickness on the shaft axis (m) and the block's slopes dh/dx and dh/dy (rad), fixed in space."""
+    """Film thickness on the shaft axis (m) and the block's slopes dh/dx and dh/dy (rad), fixed in space.
+
+    On a sphere: how far the block stands off along the axis, and how far it is turned about the face's middle.
+    """
 
     film_thickness: float
     slope_x: float
@@ -80,7 +83,7 @@ class ValvePlateGap:
     def problem(self, state: ValvePlateState, position: ValvePlatePosition) -> FilmProblem:
         """The film problem at a shaft angle; raises FilmInputError where the block touches the plate."""
         space = self._ring.turned(state.shaft_angle)
-        x, y = space.points
+        x, y, _ = space.points_in_space
         port = self._ring.over_port(space)
         speed = np.where(port, 0.0, state.shaft_speed)
         boundary = dict.fromkeys(self.geometry.case_edges, Held(state.case_pressure))
@@ -90,7 +93,7 @@ class ValvePlateGap:
         return FilmProblem(
             space=space,
             film=film(
-                position.film_thickness + position.slope_x * x + position.slope_y * y,
+                position.film_thickness * space.axial_share + position.slope_x * x + position.slope_y * y,
                 np.where(port, SEALED * state.viscosity, state.viscosity),
                 velocity_moving=(-speed * y, speed * x),
             ),
@@ -154,7 +157,7 @@ class ValvePlateGap:
         above = np.asarray(state.chamber_pressure) - state.case_pressure
         centre = self.geometry.kidney_places(state.shaft_angle)
         area, lever = self.geometry.kidney_area, self.geometry.kidney_lever
-        lift = load - state.case_pressure * float(solution.problem.space.area.sum())
+        lift = load - state.case_pressure * float(solution.problem.space.axial_area.sum())
         return lift + float(above.sum()) * area, (
             moment_x + float(np.sum(above * np.sin(centre))) * lever,
             moment_y - float(np.sum(above * np.cos(centre))) * lever,

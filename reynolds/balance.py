@@ -274,7 +274,7 @@ def steep_gradient(space: FilmSpace, nodal: Array) -> tuple[Array, Array]:
         space.vertices, space.cells, space.dofs, reference.value, reference.steep_gradient,
         reference.steep_geometry, reference.weights, nodal, *out,
     )  # fmt: skip
-    return out[1], out[2]
+    return space.on_film((out[1], out[2]), space.steep_scale)
 
 
 def by_opening(problem: FilmProblem, parts: Operators, state: State) -> csr_array:

@@ -102,12 +102,14 @@ def _carried(solution: FilmSolution) -> Array:
     """Flows with the moving and with the fixed wall (2, entries)."""
     space, reference = solution.problem.space, solution.problem.space.reference
     standing = _standing(solution)
-    moving = tuple(np.asarray(whole - part) for whole, part in zip(solution.flux, standing, strict=True))
+    moving = [whole - part for whole, part in zip(solution.flux, standing, strict=True)]
+    # Flow over a line of the map: what crosses a length of the film, times their ratio.
+    flows = [np.asarray(part * space.scale) for part in (*moving, *standing)]
     filling = solution.film_fraction * density(solution.problem, solution.pressure)[0]
     out = np.empty((2, len(space.pattern.indices)))
     energy_kernels.carried_flows(
         space.vertices, space.cells, space.dofs, space.pattern.slots, reference.value, reference.gradient,
-        reference.geometry_gradient, reference.weights, _split(space.cells.shape[1]), *moving, *standing,
+        reference.geometry_gradient, reference.weights, _split(space.cells.shape[1]), *flows,
         filling, out,
     )  # fmt: skip
     return out

@@ -131,7 +131,7 @@ def evaluate(solution: FilmSolution, nodal: Array) -> tuple[Array, Array, Array]
         space.vertices, space.cells, space.dofs, reference.value, reference.gradient,
         reference.geometry_gradient, reference.weights, nodal, *out,
     )  # fmt: skip
-    return out[0], out[1], out[2]
+    return out[0], *space.on_film((out[1], out[2]), space.scale)
 
 
 def loads(solution: FilmSolution, weight: Array | None = None) -> Loads:
@@ -144,7 +144,7 @@ def loads(solution: FilmSolution, weight: Array | None = None) -> Loads:
     fields = point_fields(solution)
     area = space.area
     rubbing = area if weight is None else area * weight
-    x, y = space.points
+    x, y, _ = space.points_in_space
     moving = [float(np.sum(t * rubbing)) for t in fields.shear_moving]
     fixed = [float(np.sum(t * rubbing)) for t in fields.shear_fixed]
     flow, drawn = _edge_flows(solution)
@@ -181,15 +181,16 @@ def loads(solution: FilmSolution, weight: Array | None = None) -> Loads:
 def pressure_integrals(solution: FilmSolution) -> tuple[float, float, float]:
     """Load (N) and moments about x and y (N m): integrals of p, of p y and of -p x over the film.
 
-    The moments count the pressure of contact too.
+    The moments count the pressure of contact too. On a sphere the load is that along z; its normals meet in its
+    centre, so that the moments about the origin are the same integrals.
     """
     space = solution.problem.space
-    weighted = evaluate(solution, solution.pressure)[0] * space.area
-    x, y = space.points
-    both = weighted
+    film = pressed = evaluate(solution, solution.pressure)[0]
+    x, y, _ = space.points_in_space
     if solution.problem.asperities is not None:
-        both = weighted + contact_pressure(solution.problem.asperities, solution.gap).value * space.area
-    return float(weighted.sum()), float(np.sum(both * y)), -float(np.sum(both * x))
+        pressed = film + contact_pressure(solution.problem.asperities, solution.gap).value
+    both = pressed * space.area
+    return float(np.sum(film * space.axial_area)), float(np.sum(both * y)), -float(np.sum(both * x))
 
 
 def boundary_flows(solution: FilmSolution) -> dict[str, float]:

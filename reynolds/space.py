@@ -21,7 +21,10 @@ from reynolds.errors import FilmInputError
 from reynolds.mesh import Array, FilmMesh
 from reynolds.pattern import Pattern, pattern_of
 from reynolds.ruled import Ruling, ruling_of
-from reynolds.tensors import ElementTensors, element_tensors
+from reynolds.sphere import PLANE, Sphere
+from reynolds.tensors import ElementTensors, element_tensors, stretched
+
+_ONE = np.ones((1, 1))
 
 # Quadrature exact enough that h^3 of a linear film costs no order of convergence: degree of the film
 # conductance (3) is not needed in full, the classical rule 2 k - 1 plus one is (Strang and Fix 1973).
@@ -47,6 +50,7 @@ class Reference:
     geometry_value: Array  # (points, corners)
     geometry_gradient: Array  # (points, corners, 2)
     steep_gradient: Array  # (points, basis, 2)
+    steep_value: Array  # (points, corners)
     steep_geometry: Array  # (points, corners, 2)
     weights: Array  # (points,)
 
@@ -63,7 +67,8 @@ class FilmSpace:
 
     vertices (n, 2) m, cells (cells, corners), dofs (cells, basis) into `size` unknowns; `edge_dofs` and
     `facet_dofs` (2 | 3, facets) give a named boundary's unknowns, sorted, and those of each of its facets.
-    `degree` is 1 (P1, Q1) or 2 (P2, Q2).
+    `degree` is 1 (P1, Q1) or 2 (P2, Q2). On a `sphere` vertices and points are those of its map; areas, lengths
+    and gradients, and with them all fields, those of the sphere.
     """
 
     film_mesh: FilmMesh
@@ -76,21 +81,38 @@ class FilmSpace:
     pattern: Pattern
     edge_dofs: Mapping[str, NDArray[np.int64]]
     facet_dofs: Mapping[str, NDArray[np.int64]]
+    sphere: Sphere = PLANE
 
     @cached_property
     def area(self) -> Array:
         """Area element of each quadrature point, (cells, points), m2."""
-        return self._measured(self.reference.geometry_gradient)
+        return self._measured(self.reference.geometry_gradient, self.scale)
 
     @cached_property
     def steep_area(self) -> Array:
         """Area element where the steep gradients stand, (cells, points), m2."""
-        return self._measured(self.reference.steep_geometry)
+        return self._measured(self.reference.steep_geometry, self.steep_scale)
 
-    def _measured(self, geometry_gradient: Array) -> Array:
+    @cached_property
+    def scale(self) -> Array:
+        """Length on the film over length on its map at the quadrature points, (cells | 1, points | 1)."""
+        return _ONE if self.sphere.is_plane else self.sphere.scale(*self.points)
+
+    @cached_property
+    def steep_scale(self) -> Array:
+        """The same where the steep gradients stand."""
+        if self.sphere.is_plane:
+            return _ONE
+        return self.sphere.scale(*self._places(self.reference.steep_value))
+
+    def on_film(self, gradient: tuple[Array, Array], scale: Array) -> tuple[Array, Array]:
+        """A gradient along the map (cells, points) as it is along the film; `scale` where it stands."""
+        return gradient if self.sphere.is_plane else (gradient[0] / scale, gradient[1] / scale)
+
+    def _measured(self, geometry_gradient: Array, scale: Array) -> Array:
         area = np.empty((len(self.cells), len(self.reference.weights)))
         kernels.measure(self.vertices, self.cells, geometry_gradient, self.reference.weights, area)
-        return area
+        return area if self.sphere.is_plane else area * scale**2
 
     @cached_property
     def share(self) -> Array:
@@ -115,16 +137,34 @@ class FilmSpace:
     def tensors(self) -> ElementTensors:
         """What geometry contributes to the operators."""
         tables = self.reference
-        return element_tensors(
+        of_map = element_tensors(
             self.vertices, self.cells, tables.gradient, tables.geometry_gradient, tables.steep_gradient,
             tables.steep_geometry, tables.weights,
         )  # fmt: skip
+        return of_map if self.sphere.is_plane else stretched(of_map, self.scale, self.steep_scale)
 
     @cached_property
     def points(self) -> Array:
         """Coordinates of the quadrature points, (2, cells, points), m."""
-        corners = self.vertices[self.cells]
-        return np.moveaxis(np.einsum("qv,evd->eqd", self.reference.geometry_value, corners), 2, 0)
+        return self._places(self.reference.geometry_value)
+
+    @cached_property
+    def points_in_space(self) -> tuple[Array, Array, Array]:
+        """Where the quadrature points stand, x, y, z (cells, points) m; z = 0 in a plane."""
+        return self.sphere.place(*self.points)
+
+    @cached_property
+    def axial_area(self) -> Array:
+        """Area element seen along z, the film's normal at the origin, (cells, points) m2."""
+        return self.area if self.sphere.is_plane else self.area * self.axial_share
+
+    @cached_property
+    def axial_share(self) -> Array:
+        """Share of z in the film's normal at the quadrature points, (cells | 1, points | 1)."""
+        return _ONE if self.sphere.is_plane else self.sphere.normal(*self.points)[2]
+
+    def _places(self, shares: Array) -> Array:
+        return np.moveaxis(np.einsum("qv,evd->eqd", shares, self.vertices[self.cells]), 2, 0)
 
     @cached_property
     def edge_share(self) -> dict[str, Array]:
@@ -250,8 +290,10 @@ class FilmSpace:
         return csc_array((np.zeros(len(indices)), indices, indptr), shape=(self.size, self.size))
 
 
-def film_space(film_mesh: FilmMesh, *, degree: int = 1, pockets: Iterable[str] = ()) -> FilmSpace:
-    """The discrete film on a mesh: P1/Q1 (degree 1) or P2/Q2 (degree 2).
+def film_space(
+    film_mesh: FilmMesh, *, degree: int = 1, pockets: Iterable[str] = (), sphere: Sphere = PLANE
+) -> FilmSpace:
+    """The discrete film on a mesh, of a plane or of a sphere's map: P1/Q1 (degree 1) or P2/Q2 (degree 2).
 
     Afterwards seams are sewn (both sides carry the same unknowns) and each boundary named in `pockets` is one
     unknown: a pocket, groove or chamber of uniform pressure. Raises FilmInputError for another degree or mesh, a
@@ -279,6 +321,7 @@ def film_space(film_mesh: FilmMesh, *, degree: int = 1, pockets: Iterable[str] =
         pattern=pattern_of(cell_dofs, len(numbers)),
         edge_dofs={name: np.unique(on) for name, on in facet_dofs.items()},
         facet_dofs=facet_dofs,
+        sphere=sphere,
     )
 
 
@@ -293,10 +336,14 @@ def _reference(mesh: skfem.Mesh, element: skfem.Element, points: Array, weights:
 
     value, gradient = table(element, len(element.doflocs))
     corner, corner_gradient = table(geometry, len(geometry.doflocs))
-    steep, steep_corner = gradient, corner_gradient
+    steep, steep_at, steep_corner = gradient, corner, corner_gradient
     if isinstance(element, skfem.ElementQuad1):
-        steep, steep_corner = table(element, 4, np.round(points))[1], table(geometry, 4, np.round(points))[1]
-    return Reference(value, gradient, corner, corner_gradient, steep, steep_corner, np.ascontiguousarray(weights))
+        corners = np.round(points)
+        _, steep = table(element, 4, corners)
+        steep_at, steep_corner = table(geometry, 4, corners)
+    return Reference(
+        value, gradient, corner, corner_gradient, steep, steep_at, steep_corner, np.ascontiguousarray(weights)
+    )
 
 
 def _tie(film_mesh: FilmMesh, basis: skfem.Basis, pockets: tuple[str, ...]) -> NDArray[np.int64]:
@@ -342,8 +389,10 @@ def _facet_dofs(
 
 
 def _tangent(space: FilmSpace, facets: NDArray[np.int64]) -> Array:
-    first, second = space.film_mesh.mesh.facets[:, facets]
-    return np.asarray((space.vertices[second] - space.vertices[first]).T)
+    """Facets as vectors along the film, (2, facets) m."""
+    first, second = space.vertices[space.film_mesh.mesh.facets[:, facets]]
+    along = np.asarray((second - first).T)
+    return along if space.sphere.is_plane else along * space.sphere.scale(*(0.5 * (first + second)).T)
 
 
 def _outward(space: FilmSpace, facets: NDArray[np.int64]) -> Array:

@@ -6,7 +6,7 @@ two cells are alike each has its own. Assembly is then field times tensor, summe
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -53,6 +53,24 @@ def element_tensors(
     xx, yy, xy, both = (np.empty((len(first), basis * (basis - 1) // 2, points)) for _ in range(4))
     kernels.products(vertices, cells, steep_geometry, weights, steeply, xx, yy, xy, both)
     return ElementTensors(shape, xx, yy, xy, both, weighted, steeply)
+
+
+def stretched(tensors: ElementTensors, scale: Array, steep_scale: Array) -> ElementTensors:
+    """Tensors of a film whose lengths are `scale` (cells, points) those of its map, each cell a shape of its own.
+
+    Area times a gradient grows with the scale, area times two gradients not. `steep_scale`: where the steep stand.
+    """
+    of = tensors.shape
+    return replace(
+        tensors,
+        shape=np.arange(len(of), dtype=np.int32),
+        pairs_xx=tensors.pairs_xx[of],
+        pairs_yy=tensors.pairs_yy[of],
+        pairs_xy=tensors.pairs_xy[of],
+        pairs=tensors.pairs[of],
+        gradient=tensors.gradient[of] * scale[:, :, None, None],
+        steep_gradient=tensors.steep_gradient[of] * steep_scale[:, :, None, None],
+    )
 
 
 def _shapes(corners: Array) -> tuple[NDArray[np.int32], NDArray[np.int64]]:

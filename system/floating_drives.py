@@ -221,6 +221,7 @@ def _block_drive(
         cavitation_pressure=CAVITY_PRESSURE,
         chamber_pressure=chamber,
         press=Course(angles, np.asarray(press)),
+        spline_height=parts.block.spline_height,
     )
 
 

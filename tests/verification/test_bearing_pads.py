@@ -29,7 +29,7 @@ SUCTION, DELIVERY = (tuple(np.radians(arc).tolist()) for arc in ([25.0, 155.0], 
 BARE = ValvePlateGeometry(RADII, 9, np.radians(30.0), SUCTION, DELIVERY)
 RING = BearingPads(57e-3, 59e-3, 2.0 * np.pi, 1)
 SECTORS = BearingPads(50e-3, 54e-3, np.radians(25.0), 9)
-DRIVE = BlockDrive(SPEED, VISCOSITY, 0.0, 0.0, 0.0, -1e5, constant(0.0), constant(0.0, 0.0, 0.0))
+DRIVE = BlockDrive(SPEED, VISCOSITY, 0.0, 0.0, 0.0, -1e5, constant(0.0), constant(0.0, 0.0, 0.0), 0.0)
 FULL = Physics().without(Effect.CAVITATION)
 
 

@@ -46,6 +46,7 @@ def drive(press=(0.0, 0.0, 0.0), chamber=None, **changed) -> BlockDrive:
         "cavitation_pressure": -1e5,
         "chamber_pressure": constant(PRESSURE) if chamber is None else chamber,
         "press": constant(*press),
+        "spline_height": 0.0,
     }
     return BlockDrive(**(usual | changed))
 
