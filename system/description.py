@@ -15,6 +15,7 @@ from pydantic import Field
 from gaps.bearing_pads import BearingPads
 from gaps.slipper_lands import SlipperLands, lands_between
 from reynolds.oil import Oil
+from reynolds.sphere import PLANE, Sphere
 from system.fields import (
     AcuteAngle,
     Angle,
@@ -148,6 +149,12 @@ class ValvePlateSection(Section):
     waviness: WavinessSection | None = None
     profile: Profile | None = None  # over the radius
     pads: tuple[PadSection, ...] = ()  # beyond the outer land
+    sphere_radius: Length | None = None  # of a face that bulges into a hollow block; radii are then off the axis
+
+    @property
+    def sphere(self) -> Sphere:
+        """The face, a plane where no radius is stated."""
+        return PLANE if self.sphere_radius is None else Sphere(self.sphere_radius)
 
     @property
     def bearing_pads(self) -> tuple[BearingPads, ...]:

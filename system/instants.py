@@ -154,6 +154,7 @@ def valve_plate_geometry(pump: PumpDescription, turned: float = 0.0) -> ValvePla
         webs=tuple((start + dead, end + dead) for dead in (0.0, np.pi) for start, end in ports.web_spans),
         turned=turned,
         pads=part.bearing_pads,
+        sphere=part.sphere,
     )
 
 

@@ -149,8 +149,9 @@ def lumped_leaks(pump: PumpDescription, point: OperatingPoint, motion: PistonMot
     p, s, v, mu = pump.piston, pump.slipper, pump.valve_plate, point.viscosity
     diameter = pump.pump.piston_diameter
     radii = (v.land_radius_1, v.land_radius_2, v.land_radius_3, v.land_radius_4)
+    r1, r2, r3, r4 = (float(radius * v.sphere.stretch(radius)) for radius in radii)
     slipper = slipper_conductance(s.lands.log_ratio, s.film_thickness, s.orifice_diameter, s.orifice_length, mu)
-    plate = valve_plate_conductance(radii, v.film_thickness, pump.pump.pistons, mu)
+    plate = valve_plate_conductance((r1, r2, r3, r4), v.film_thickness, pump.pump.pistons, mu)
     ones = np.ones_like(motion.shaft_angle)
     piston = piston_conductance(diameter, p.radial_clearance, motion.engaged_length, p.eccentricity_ratio, mu)
     carried = piston_carried_flow(diameter, p.radial_clearance, motion.velocity)

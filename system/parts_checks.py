@@ -199,6 +199,24 @@ def waves_are_shallow(pump: PumpDescription) -> Iterator[Finding]:
         yield from _steep("valve_plate.waviness.amplitude", waves.amplitude, half_wave)
 
 
+@needs("valve_plate.sphere_radius", "valve_plate.land_radius_4", "valve_plate.pads")
+def sphere_reaches_over_the_face(pump: PumpDescription) -> Iterator[Finding]:
+    """A spherical face has its lands and pads before the equator; what takes it as plane says so."""
+    radius, path = pump.valve_plate.sphere_radius, "valve_plate.sphere_radius"
+    if radius is None:
+        return
+    reach = pump.valve_plate.outer_radius
+    if radius <= reach:
+        yield Fault(path, length(radius), f"more than {length(reach)}, the outermost land or pad")
+        return
+    yield CheckWarning(
+        path,
+        f"a plate that bulges into a hollow block, {length(radius)}",
+        "a plane one: so lumped laws take shear, elastic walls their bodies, the check of tipping the lift",
+        "films and floating for shear and lift on the sphere; its leakage is that of the sphere in every fidelity",
+    )
+
+
 def _steep(path: str, depth: float | None, width: float) -> Iterator[Finding]:
     if depth is not None and width > 0.0 and abs(depth) > STEEPEST * width:
         limit = f"{length(STEEPEST * width)} (1 % of {length(width)}: above it the film is no thin film)"
@@ -254,6 +272,7 @@ PARTS_CHECKS = (
     barrel_is_shallow,
     crown_is_shallow,
     waves_are_shallow,
+    sphere_reaches_over_the_face,
     retainer_keys_belong_to_its_kind,
     lines_have_the_keys_of_their_kinds,
     spins_left_free_are_told,

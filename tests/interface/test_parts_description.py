@@ -59,6 +59,7 @@ EVERY = {
     "delivery_line.volume": "1 L",
     "delivery_line.orifice_area": "20 mm2",
     "delivery_line.tank_pressure": "0 bar",
+    "valve_plate.sphere_radius": "120 mm",
     "suction_line.kind": "impedance",
     "suction_line.volume": "1 L",
     "suction_line.impedance": [["300 Hz", "0 Pa s/m3", "-1e9 Pa s/m3"], ["7 kHz", "0 Pa s/m3", "-1e7 Pa s/m3"]],

@@ -1,0 +1,207 @@
+"""The gaps: spherical valve plate.
+
+Ports all round at one pressure leave two concentric spherical seats; a block that turns about the sphere's centre
+meets the same film, and a large sphere is a plane.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scipy.integrate import quad
+
+from gaps.block_motion import BlockDrive, BlockFilm, floating_block, kidney_wrench
+from gaps.course import constant
+from gaps.physics import FilmLaws
+from gaps.ring import ValvePlateGeometry
+from gaps.valve_plate import ValvePlateGap, ValvePlatePosition, ValvePlateState
+from reynolds.contact import Asperities
+from reynolds.errors import FilmInputError
+from reynolds.film import FilmSolution
+from reynolds.floating_stage import solve_stage, standing
+from reynolds.generalised import generalised_force, modes_on
+from reynolds.loads import loads
+from reynolds.solve import FilmSolver
+from reynolds.sphere import Sphere
+from system.instants import valve_plate_geometry
+from system.lumped import lumped_leaks, piston_motion
+from system.operating import operating_point
+from system.pump_file import check_pump, load_pump
+
+RADII, RADIUS = (26.5e-3, 31.5e-3, 40.5e-3, 45.7e-3), 90e-3
+SPHERE, ARC = Sphere(RADIUS), float(np.radians(30.0))
+ALL_ROUND = ValvePlateGeometry(RADII, 9, ARC, (0.0, np.pi), (np.pi, 2.0 * np.pi), sphere=SPHERE)
+SUCTION, DELIVERY = (tuple(np.radians(arc).tolist()) for arc in ([25.0, 155.0], [205.0, 335.0]))
+PORTS = ValvePlateGeometry(RADII, 9, ARC, SUCTION, DELIVERY, sphere=SPHERE)
+PRESSURE, CASE, SPEED, VISCOSITY, THICKNESS = 35e6, 0.15e6, 220.0, 0.0258, 9e-6
+PRESSED = (-60e3, 300.0, -1400.0)
+
+
+def half_and_half(angle: float) -> float:
+    rise = np.clip(np.sin(-angle) / np.sin(np.radians(30.0)), -1.0, 1.0)
+    return float(2.5e6 + 32.5e6 * 0.5 * (1.0 + rise))
+
+
+def drive(chamber=None, suction=PRESSURE, spline=0.0, press=(0.0, 0.0, 0.0)) -> BlockDrive:
+    course = constant(PRESSURE) if chamber is None else chamber
+    return BlockDrive(SPEED, VISCOSITY, suction, PRESSURE, CASE, -1e5, course, constant(*press), spline)
+
+
+def running(spline: float = 0.0) -> BlockDrive:
+    return drive(half_and_half, 2.5e6, spline, PRESSED)
+
+
+def at(film: BlockFilm, position, time=0.0) -> tuple[np.ndarray, FilmSolution]:
+    """Generalised forces (3,) N of film, kidneys and press, and the film."""
+    problem, modes = film.problem_at(time), film.modes_at(time)
+    opened = problem.film.thickness + problem.space.sample_vertices(modes @ np.asarray(position))
+    oil = replace(problem.film, thickness=opened, thickness_at_vertices=None)
+    solution = FilmSolver(film.space).solve(replace(problem, film=oil))
+    force = generalised_force(solution.pressure, modes_on(problem.space, modes), CASE)
+    return force + film.outer_at(time, np.asarray(position), np.zeros(3)).force, solution
+
+
+def angles() -> np.ndarray:
+    return np.arcsin(np.array(RADII) / RADIUS)
+
+
+def seat(one: float, two: float) -> float:
+    return float(np.log(np.tan(0.5 * two) / np.tan(0.5 * one)))
+
+
+# Closed forms
+
+
+def test_film_and_kidneys_lift_as_two_seats(validation, refine):
+    """Force along the shaft, concentric: pi R^2 p (cos a - cos b)/L of the outer seat less the inner one's."""
+    t1, t2, t3, t4 = angles()
+    outer, inner = (np.cos(t3) - np.cos(t4)) / seat(t3, t4), (np.cos(t1) - np.cos(t2)) / seat(t1, t2)
+    exact = float(np.pi * RADIUS**2 * (PRESSURE - CASE) * (outer - inner))
+
+    def solve(n: int) -> float:
+        film = BlockFilm(ALL_ROUND, drive(), cells=(n, 4 * n))
+        problem = film.problem_at(0.0)
+        oil = replace(problem.film, thickness=np.full((1, 1), THICKNESS), thickness_at_vertices=None)
+        solution = FilmSolver(film.space).solve(replace(problem, film=oil))
+        force = generalised_force(solution.pressure, modes_on(problem.space, film.modes_at(0.0)), CASE)
+        return float((force + film.outer_at(0.0, np.zeros(3), np.zeros(3)).force)[0])
+
+    got = refine(solve, (2, 4, 8))
+    validation(
+        case="spherical ring under one pressure", source="closed form (Pinkus and Sternlicht 1961)",
+        quantity="lift of film and kidneys", unit="N", expected=exact, obtained=got.finest,
+        tolerance=got.tolerance(), order=got.order,
+    )  # fmt: skip
+
+
+def test_kidneys_turn_the_block_about_the_middle():
+    """The area integral of p n x r over one kidney, at no angle in particular."""
+    above = np.zeros(9)
+    above[2] = 1e6
+    one = 80.0 * np.pi / 180.0 + 0.3
+    force, about_x, about_y = kidney_wrench(PORTS, 0.3, above)
+    _, r2, r3, _ = RADII
+    lever = quad(lambda r: r**2 / np.sqrt(1.0 - (r / RADIUS) ** 2), r2, r3)[0] * 2.0 * np.sin(0.5 * ARC)
+    assert force == pytest.approx(1e6 * 0.5 * ARC * (r3**2 - r2**2), rel=1e-12)
+    assert about_x == pytest.approx(1e6 * lever * np.sin(one), rel=1e-12)
+    assert about_y == pytest.approx(-1e6 * lever * np.cos(one), rel=1e-12)
+
+
+def test_turning_block_rubs_as_its_shear_works():
+    """Torque times speed is the walls' power; the closed form of concentric seats to the mesh's error."""
+    film = BlockFilm(ALL_ROUND, drive(), cells=(8, 32))
+    _, solution = at(film, (THICKNESS, 0.0, 0.0))
+    torque = film.friction_torque(solution, solution.film.thickness)
+    done = loads(solution, film.is_film(solution.problem.space))
+    driven = (done.flow["inner"] + done.flow["outer"]) * (PRESSURE - CASE)
+    assert torque * SPEED == pytest.approx(done.dissipation - driven, rel=1e-3)
+    t1, t2, t3, t4 = angles()
+
+    def seat_torque(one: float, two: float) -> float:
+        return quad(lambda t: RADIUS**4 * np.sin(t) ** 3 / np.cos(t), one, two)[0]
+
+    exact = 2.0 * np.pi * VISCOSITY * SPEED / THICKNESS * (seat_torque(t1, t2) + seat_torque(t3, t4))
+    assert torque == pytest.approx(exact, rel=2e-3)
+
+
+# Limits and motion
+
+
+def test_a_large_sphere_is_a_plane():
+    """Forces, leakage and friction of a tilted running block, to (R4/R)^2."""
+    position = (THICKNESS, 2e-6, -1e-6)
+    found = []
+    for sphere in (Sphere(), Sphere(1e2), Sphere(-1e2)):
+        film = BlockFilm(replace(PORTS, sphere=sphere), running())
+        force, solution = at(film, position, 2e-4)
+        edges = loads(solution).flow
+        found.append(
+            [*force, edges["inner"], edges["outer"], film.friction_torque(solution, solution.film.thickness)]
+        )
+    assert found[1] == pytest.approx(found[0], rel=1e-6)
+    assert found[2] == pytest.approx(found[0], rel=1e-6)
+
+
+def test_films_fidelity_meets_the_same_film():
+    """Given positions and floating coordinates of a block that does not turn, a spline at the face's middle."""
+    film, position = BlockFilm(PORTS, replace(running(), shaft_speed=0.0)), (THICKNESS, 2e-6, -1e-6)
+    force, solution = at(film, position)
+    places = PORTS.kidney_places(0.0)
+    chambers = np.array([half_and_half(float(angle)) for angle in places])
+    state = ValvePlateState(0.0, chambers, 2.5e6, PRESSURE, CASE, -1e5, VISCOSITY, 0.0)
+    given = ValvePlatePosition(THICKNESS, 2e-6 / RADII[3], -1e-6 / RADII[3])
+    told = ValvePlateGap(PORTS, (4, 16)).at(state, given, 1.0)
+    # modes stand at vertices, the given film at quadrature points
+    assert told.separating_force == pytest.approx(force[0] - PRESSED[0], rel=1e-3)
+    about = np.array([force[2], -force[1]]) * RADII[3] - PRESSED[1:]
+    assert np.allclose(told.separating_moment, about, rtol=2e-3, atol=1.0)
+    assert told.gap.leakage_flow == pytest.approx(
+        sum(loads(solution).flow[e] for e in ("inner", "outer")), rel=1e-3
+    )
+
+
+def test_the_spline_gives_tilts_their_leverage():
+    """1 + s/R on film and kidneys alike; about the sphere's centre nothing opens."""
+    flat, high = (BlockFilm(PORTS, running(spline)) for spline in (0.0, 45e-3))
+    assert np.allclose(high.modes_at(0.0), flat.modes_at(0.0) * [1.0, 1.5, 1.5], rtol=1e-12)
+    with pytest.raises(FilmInputError, match="turns without a film"):
+        BlockFilm(replace(PORTS, sphere=Sphere(-90e-3)), running(90e-3))
+
+
+def test_block_finds_its_place_on_the_sphere():
+    """An implicit step under a little more than it bears: few films, so that the slopes are the sphere's."""
+    laws = FilmLaws(asperities=Asperities(5e10, 10e-6, 0.4e-6, 120e9, 0.1))
+    start, step = np.array([2e-6, 0.0, 0.0]), 1e-4
+    borne = at(BlockFilm(PORTS, drive(half_and_half, 2.5e6, 90e-3), laws=laws), start)[0]
+    press = (-borne[0] - 200.0, -borne[2] * RADII[3] - 5.0, borne[1] * RADII[3])
+    film = BlockFilm(PORTS, drive(half_and_half, 2.5e6, 90e-3, press), laws=laws)
+    floating = floating_block(film)
+    before = standing(floating, 0.0, start)
+    stage = solve_stage(FilmSolver(film.space), floating, step, before, step, start, None)
+    total = stage.film_force + stage.contact_force + stage.outer.force
+    assert np.abs(total).max() < 1e-6 * abs(press[0])
+    assert stage.steps <= 12
+
+
+# The pump
+
+
+def test_key_of_the_pump():
+    """Geometry and lumped leakage take it, a small sphere is a fault, and what takes lands as plane is told."""
+    pump = load_pump("ref90", {"valve_plate.sphere_radius": "90 mm"})
+    assert valve_plate_geometry(pump).sphere == SPHERE
+    plane = load_pump("ref90")
+    assert valve_plate_geometry(plane).sphere.is_plane
+    leaks = []
+    for one in (pump, plane):
+        point = operating_point(one)
+        leaks.append(lumped_leaks(one, point, piston_motion(one, point)).conductance[2, 0])
+    h, mu, (t1, t2, t3, t4) = plane.valve_plate.film_thickness, operating_point(plane).viscosity, angles()
+    exact = 2.0 * np.pi / 9.0 * h**3 / (12.0 * mu) * (1.0 / seat(t1, t2) + 1.0 / seat(t3, t4))
+    assert leaks[0] == pytest.approx(exact, rel=1e-12)
+    assert leaks[0] < 0.99 * leaks[1]
+    assert "bulges into a hollow block" in " ".join(str(warning) for warning in check_pump(pump).warnings)
+    (fault,) = check_pump(load_pump("ref90", {"valve_plate.sphere_radius": "45 mm"})).faults
+    assert (fault.path, fault.found) == ("valve_plate.sphere_radius", "45 mm")
