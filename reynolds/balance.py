@@ -18,12 +18,13 @@ from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import coo_array, csc_array, csr_array
+from scipy.sparse import csr_array
 
-from reynolds import kernels
+from reynolds import kernels, opening_kernels
 from reynolds.film import Cavitation, FilmProblem, Held
 from reynolds.fluid import CONSTANT
 from reynolds.mesh import Array
+from reynolds.opening_pattern import Openings
 from reynolds.space import FilmSpace
 from reynolds.transport import Tensor, Transport, along, at_points, transport
 
@@ -277,45 +278,19 @@ def steep_gradient(space: FilmSpace, nodal: Array) -> tuple[Array, Array]:
     return space.on_film((out[1], out[2]), space.steep_scale)
 
 
-def by_opening(problem: FilmProblem, parts: Operators, state: State) -> csr_array:
-    """dR by the opening at each vertex, (size, vertices) m2/s."""
+def by_opening(problem: FilmProblem, parts: Operators, state: State, rows: Array, at: Openings) -> csr_array:
+    """dR by the opening at each vertex, (size, vertices) m2/s, each row times that of `rows` (size,)."""
     space, terms, reference = problem.space, parts.transport, problem.space.reference
     filling = state.film_fraction * density(problem, state.pressure)[0]
     driven = along(terms.conductance_slope, steep_gradient(space, state.pressure))
     full = at_points(space, filling)
-    carried = (-full * terms.flux_slope[0], -full * terms.flux_slope[1])
-    local = _tested(space, driven, space.tensors.steep_gradient)
-    local += _tested(space, carried, space.tensors.gradient)
-    if problem.storage is not None:
-        per_second = np.broadcast_to(terms.content_slope / problem.storage.step, space.area.shape)
-        local += np.einsum(
-            "eq,qi,qv,ei->eiv", per_second * space.area, reference.value, reference.geometry_value,
-            filling[space.dofs], optimize=True,
-        )  # fmt: skip
-    rows = np.broadcast_to(space.dofs[:, :, None], local.shape)
-    columns = np.broadcast_to(space.cells[:, None, :], local.shape)
-    return csr_array(
-        coo_array((local.ravel(), (rows.ravel(), columns.ravel())), shape=(space.size, len(space.vertices)))
-    )
-
-
-def _tested(space: FilmSpace, flux: tuple[Array, Array], gradient: Array) -> Array:
-    """int f_v flux . grad f_i with f_v the basis of the cell's corners, (cells, basis, corners)."""
-    along = np.stack([np.broadcast_to(part, space.area.shape) for part in flux], axis=-1)
-    corner = space.reference.geometry_value
-    return np.asarray(np.einsum("eqd,eqid,qv->eiv", along, gradient[space.tensors.shape], corner, optimize=True))
-
-
-def full_matrix(space: FilmSpace, upper: Array, lower: Array) -> csc_array:
-    """The operator whose upper triangle and mirrored entries stand in the pattern's order."""
-    row, column = space.pattern.indices, space.pattern.columns
-    off = row != column
-    return csc_array(
-        coo_array(
-            (
-                np.concatenate([upper, lower[off]]),
-                (np.concatenate([row, column[off]]), np.concatenate([column, row[off]])),
-            ),
-            shape=(space.size, space.size),
-        )
-    )
+    carried = (full * terms.flux_slope[0], full * terms.flux_slope[1])
+    stored = 0.0 if problem.storage is None else terms.content_slope / problem.storage.step
+    data, tensors = np.empty(at.entries), space.tensors
+    opening_kernels.opened(
+        space.dofs, at.slots, tensors.shape, reference.value, tensors.steep_gradient, tensors.gradient,
+        reference.geometry_value, space.area,
+        *(space.everywhere(part) for part in (*driven, *carried, np.atleast_2d(stored))),
+        filling, rows, *reference.loops, data,
+    )  # fmt: skip
+    return at.matrix(data)

@@ -13,6 +13,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.linalg import lapack
 from scipy.sparse import csc_array, csr_array
 from scipy.sparse.linalg import SuperLU, splu
@@ -65,7 +66,7 @@ def compliant_answer(balance: Balance, near: NearFactor | None = None) -> Answer
         return _sparse(csc_array(balance.rigid + balance.slope @ (balance.wider * balance.pressures[None, :])))
     size = len(balance.pressures)
     if size <= DENSE_LIMIT:
-        return reduced_answer(balance)
+        return _whole_answer(balance, np.flatnonzero(balance.pressures))
     return _Iterated(balance, NearFactor() if near is None or size > KEPT_LIMIT else near)
 
 
@@ -113,9 +114,7 @@ def reduced_answer(balance: Balance) -> Answer:
     of_rest, of_free = rigid[rest], rigid[free]
     factor = _eliminated(csc_array(of_rest[:, rest])) if rest.size else None
     if factor is None:  # J need not be singular where what opens no wall is
-        whole = balance.rigid.toarray()
-        whole[:, free] += by_free
-        return dense_answer(whole)
+        return _whole_answer(balance, free)
     coupled = csr_array(of_free[:, rest])
     met = np.flatnonzero(np.diff(coupled.indptr))  # next to the rest: few
     back = factor.solve(coupled[met].toarray().T, trans="T").T
@@ -132,6 +131,13 @@ def reduced_answer(balance: Balance) -> Answer:
         return change
 
     return answer
+
+
+def _whole_answer(balance: Balance, free: NDArray[np.intp]) -> Answer:
+    """The answer of J by its dense factor, nothing eliminated beforehand; `free`: where pressures are free."""
+    whole = balance.rigid.toarray(order="F")
+    whole[:, free] += balance.slope @ columns_of(balance.wider, free)
+    return dense_answer(whole)
 
 
 def _rigid_answer(rigid: csc_array) -> Answer | None:

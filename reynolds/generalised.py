@@ -138,6 +138,6 @@ def soft_contact(touch: Touch, modes: Modes) -> SoftContact:
     The gap grows by (I - C dp_c/dh)^-1 phi: contact stiffens the walls.
     """
     bears, weights = touch.on_unknowns, modes.film_weights
-    lever = touch.bears.slope[:, None] * (touch.meeting.shares.T @ weights)
+    lever = (touch.bears.slope * touch.meeting.shares)[:, None] * weights[touch.meeting.seats]
     grown = touch.settled(modes.at_vertices)
     return SoftContact(bears @ weights, lever.T @ grown, bears @ np.abs(weights), touch, grown, lever)

@@ -6,15 +6,16 @@ from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import csc_array, csr_array
+from scipy.sparse import csc_array
 
 from reynolds import kernels
-from reynolds.balance import NOTHING, by_opening, flow_balance, full_matrix, slopes
+from reynolds.balance import NOTHING, by_opening, flow_balance, slopes
 from reynolds.compliant import Answer, Balance, NearFactor, compliant_answer
 from reynolds.film import Cavitation, FilmProblem
 from reynolds.iterate import Iterate, fixed_in, with_pockets
 from reynolds.mesh import Array
 from reynolds.opening import opening_slope
+from reynolds.opening_pattern import SoftPatterns
 from reynolds.setting import Setting
 
 TIE = 1e-9  # of the flows that meet at an unknown
@@ -64,16 +65,24 @@ def _largest(values: Array) -> float:
 
 
 def compliant(
-    problem: FilmProblem, setting: Setting, at: Iterate, upper: Array, lower: Array, near: NearFactor
+    problem: FilmProblem,
+    setting: Setting,
+    at: Iterate,
+    upper: Array,
+    lower: Array,
+    patterns: SoftPatterns,
+    near: NearFactor,
 ) -> Answer:
     """The general step where each pressure opens the film everywhere, dR/dp + dR/dh dh/dp, for any load.
 
-    `near` keeps what serves the steps to come. Raises FilmNotConverged where the step is singular.
+    `patterns` are those of the mesh, `near` keeps what serves the steps to come. Raises FilmNotConverged where
+    the step is singular.
     """
     free = (~fixed_in(problem, setting, at)).astype(float)
-    slope = by_opening(problem, at.parts, at.state) * (free / np.abs(at.parts.stiffness).max())[:, None]
-    rigid, wider = full_matrix(problem.space, upper, lower), opening_slope(problem, at.state.opening)
-    return compliant_answer(Balance(rigid, csr_array(slope), wider, free * ~at.cavity), near)
+    rows = free / np.abs(at.parts.stiffness).max()
+    slope = by_opening(problem, at.parts, at.state, rows, patterns.openings)
+    rigid, wider = patterns.full_matrix(upper, lower), opening_slope(problem, at.state.opening)
+    return compliant_answer(Balance(rigid, slope, wider, free * ~at.cavity), near)
 
 
 def signed_after(problem: FilmProblem, at: Iterate, change: Array, scale: float) -> Array:

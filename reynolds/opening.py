@@ -116,7 +116,7 @@ class Touch:
     @property
     def on_unknowns(self) -> Array:
         """Its pressure on the unknowns, (size,) Pa."""
-        return np.asarray(self.meeting.shares @ self.bears.value)
+        return self.meeting.on_unknowns(self.bears.value)
 
     def settled(self, displaced: Array) -> Array:
         """x with x - C dp_c/dh x = displaced, (vertices, ...) m: a displacement that contact resists."""
@@ -128,9 +128,8 @@ class Touch:
     @cached_property
     def _columns(self) -> WallMatrix:
         """C dp_c/dh where contact is felt, (vertices, felt)."""
-        shares = self.meeting.shares[:, self.felt].tocoo()
-        order = np.argsort(shares.col)
-        unknown, weight = shares.row[order], shares.data[order] * self.bears.slope[self.felt]
+        unknown = self.meeting.seats[self.felt]
+        weight = self.meeting.shares[self.felt] * self.bears.slope[self.felt]
         if isinstance(self.compliance, LowRank):
             return LowRank(self.compliance.left, self.compliance.right[:, unknown] * weight[None, :])
         columns = self.compliance[:, unknown]
@@ -168,14 +167,19 @@ class Resisted:
 class Meeting:
     """Where rough walls that give way can touch.
 
-    oil (vertices,): where nothing touches; shares (size, vertices): pressure of the unknowns by that of the
-    vertices.
+    oil (vertices,): where nothing touches; seats (vertices,): unknown of each vertex; shares (vertices,): of its
+    pressure in that of the unknown.
     """
 
     compliance: WallMatrix
     asperities: Asperities
     oil: NDArray[np.bool_]
-    shares: csr_array
+    seats: NDArray[np.signedinteger]
+    shares: Array
+
+    def on_unknowns(self, bears: Array) -> Array:
+        """Pressure on the unknowns (size,) Pa by that of the vertices."""
+        return np.bincount(self.seats, self.shares * bears, self.compliance.shape[1]).astype(float)
 
     def at(self, gap: Array) -> Touch:
         """Contact at a gap between the mean planes (vertices,) m; raises as the law of contact does."""
@@ -192,13 +196,13 @@ def meeting_of(problem: FilmProblem) -> Meeting:
     assert problem.walls is not None
     assert problem.asperities is not None
     space, compliance = problem.space, problem.walls.matrix
-    count = len(space.vertex_dofs)
-    pockets = [space.edge_dofs[name] for name, at in problem.boundary.items() if isinstance(at, Pocket)]
-    ports = [] if problem.held_nodes is None else [np.flatnonzero(~np.isnan(problem.held_nodes))]
-    oil = np.isin(space.vertex_dofs, np.concatenate([[-1], *pockets, *ports]))
-    share = np.where(oil, 0.0, 1.0 / np.bincount(space.vertex_dofs)[space.vertex_dofs])
-    shares = csr_array((share, (space.vertex_dofs, np.arange(count))), shape=(space.size, count))
-    return Meeting(compliance, problem.asperities, oil, shares)
+    closed = np.zeros(space.size, dtype=bool) if problem.held_nodes is None else ~np.isnan(problem.held_nodes)
+    for name, condition in problem.boundary.items():
+        if isinstance(condition, Pocket):
+            closed[space.edge_dofs[name]] = True
+    seats, oil = space.vertex_dofs, closed[space.vertex_dofs]
+    shares = np.where(oil, 0.0, 1.0 / np.bincount(seats)[seats])
+    return Meeting(compliance, problem.asperities, oil, seats, shares)
 
 
 def touch_at(problem: FilmProblem, found: Array) -> Touch:

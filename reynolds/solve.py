@@ -24,6 +24,7 @@ from reynolds.iterate import Iterate, advanced, fixed_in, imbalance_of, is_linea
 from reynolds.linear import ITERATIVE_TOLERANCE, Factor, GeneralFactor, Solve, row_by_row
 from reynolds.mesh import Array
 from reynolds.newton import compliant, general_step, signed_after, symmetric_step
+from reynolds.opening_pattern import SoftPatterns
 from reynolds.setting import Setting, spread
 from reynolds.space import FilmSpace
 from reynolds.supply import pressure_sending
@@ -47,7 +48,7 @@ class FilmSolver:
         self._grid = grid_of(space)
         self._factor = Factor(self._grid)
         self._general = GeneralFactor(self._grid)
-        self._near = NearFactor()
+        self._near, self._patterns = NearFactor(), SoftPatterns(space)
         self._cascade: Cascade | None = None
         self._answers: _Answers | None = None
 
@@ -184,7 +185,7 @@ class FilmSolver:
             self._general.update(problem.space.matrix(upper), lower, at.cavity)
             self._answers = _Answers(self._general.solve, at, fixed, scale)
             return load
-        answer = compliant(problem, setting, at, upper, lower, self._near)
+        answer = compliant(problem, setting, at, upper, lower, self._patterns, self._near)
         self._answers = _Answers(row_by_row(answer), at, fixed, scale)
         return load
 

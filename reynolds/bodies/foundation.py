@@ -86,7 +86,8 @@ def both(first: Walls, second: Walls) -> Compliance:
     """Both walls of one film: their openings add up."""
     one, two = first.matrix, second.matrix
     if isinstance(one, LowRank) and isinstance(two, LowRank):
-        return Compliance(one.beside(two))
+        beside = one.beside(two)
+        return Compliance(beside.toarray() if beside.shape[1] <= beside.rank else beside)
     if isinstance(one, csr_array) and isinstance(two, csr_array):
         return Compliance(csr_array(one + two))
     return Compliance(full(one) + full(two))
