@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import deque
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
 from time import perf_counter
@@ -9,6 +10,7 @@ from typing import Generic, TypeVar
 
 import numpy as np
 
+from gaps.means import Passed
 from gaps.warmth import Warmth
 from reynolds.dirk import ALEXANDER_2, State, Tableau, Taken, march, nodes_only
 from reynolds.errors import FilmInputError, FilmNotConverged
@@ -105,7 +107,8 @@ class GapInstant(Generic[Seen]):
 
     least_gap m is the least distance of the mean planes, negative where rough walls overlap; mean_film m the area
     mean of the film's thickness; loads as `reynolds.loads` gives them, of the film without contact; seen: what the
-    gap itself tells of the instant (friction).
+    gap itself tells of the instant (friction); passed: the same in the mean since the angle before, in which flows
+    balance as the march has them; pushed: power (W) by which the film moves what presses on it, such a mean too.
     """
 
     angle: float
@@ -118,6 +121,8 @@ class GapInstant(Generic[Seen]):
     mean_film: float
     loads: Loads
     seen: Seen
+    passed: Seen
+    pushed: float
 
 
 @dataclass(frozen=True)
@@ -242,6 +247,7 @@ class _Turns(Generic[Seen]):
         self._kept = set(schedule.angles[schedule.keep - 1 :: schedule.keep])
         self._adaptive = 2 if opening is None else 1  # turns left that choose their steps
         self._report, self._turn = report, 0
+        self._solved: deque[Stage] = deque(maxlen=len(method.matrix))  # of the step taken last
         self.films_solved = 0
 
     def turn(self, start: Array, before: GapTurn[Seen] | None) -> GapTurn[Seen]:
@@ -252,15 +258,20 @@ class _Turns(Generic[Seen]):
         instants: list[GapInstant[Seen]] = []
         films: dict[float, FilmSolution] = {}
         times, errors = [], []
+        since: Passed[Seen] = Passed()
         for taken in self._marched(begin, again):
             state, stage = taken.state, taken.stage
             times.append(state.time)
             errors.append(self._excess(taken))
+            for part, share in zip(self._solved, self._method.matrix[-1], strict=True):
+                pushed = -float(part.outer.force @ part.rate)
+                since.add(share * taken.step, self._look(part), pushed)
             if (angle := self._angles.get(state.time)) is None:
                 continue
             seen = stage.reposed()
             self.films_solved += seen.films - stage.films
-            instants.append(_instant(angle, seen, state.rate, self._look(seen)))
+            instants.append(_instant(angle, seen, state.rate, self._look(seen), since))
+            since = Passed()
             if angle in self._kept:
                 films[angle] = seen.solution
         end = instants[-1]
@@ -305,6 +316,7 @@ class _Turns(Generic[Seen]):
         close = self._accuracy.closeness
         stage = solve_stage(self._solver, self._floating, time, before, step, guess, last, close)
         self.films_solved += stage.films
+        self._solved.append(stage)
         return stage
 
     def _excess(self, taken: Taken[Stage]) -> float:
@@ -321,7 +333,7 @@ def _oil_moved(first: FilmSpace, begin: State[Stage], end: State[Stage]) -> floa
     return float(np.abs(came - went).sum() / np.abs(went).sum())
 
 
-def _instant(angle: float, stage: Stage, rate: Array, seen: Seen) -> GapInstant[Seen]:
+def _instant(angle: float, stage: Stage, rate: Array, seen: Seen, since: Passed[Seen]) -> GapInstant[Seen]:
     """What is reported of the end of a step."""
     area, film = stage.solution.problem.space.area, stage.solution.film
     return GapInstant(
@@ -335,4 +347,6 @@ def _instant(angle: float, stage: Stage, rate: Array, seen: Seen) -> GapInstant[
         mean_film=float(np.sum(film.thickness * area) / np.sum(area)),
         loads=loads(stage.solution),
         seen=seen,
+        passed=since.mean,
+        pushed=since.mean_pushed,
     )

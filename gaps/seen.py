@@ -148,12 +148,13 @@ Seen = TypeVar("Seen", bound=GapSeen)
 
 
 def mass_balance_error(revolution: GapRevolution[Seen]) -> float:
-    """Oil that entered a gap over the turn and did not leave it, of all that passed, by the reported angles.
+    """Oil that entered a gap over the turn and did not leave it, of all that passed between the reported angles.
 
-    The march itself keeps its oil to round-off; this is what sampling at the reported angles leaves of it.
+    The march keeps its oil to round-off; what is left is what the turn lacks to be periodic, and films that are
+    taken along their slopes (`Closeness`).
     """
-    came = np.array([drawn(instant.seen) for instant in revolution.turn.instants])
-    left = np.array([instant.seen.leakage for instant in revolution.turn.instants])
+    came = np.array([drawn(instant.passed) for instant in revolution.turn.instants])
+    left = np.array([instant.passed.leakage for instant in revolution.turn.instants])
     passed = 0.5 * float(np.mean(np.abs(came)) + np.mean(np.abs(left)))
     return abs(float(np.mean(came) - np.mean(left))) / max(passed, 1e-300)
 

@@ -117,10 +117,10 @@ def friction_power(study: RevolutionStudy, seen: GapSeen) -> float:
 def revolution_summary(study: RevolutionStudy) -> dict[str, Any]:
     """Every headline number in SI, the unit in the key, the solver's own checks, and what was taken.
 
-    Means over the turn are of the reported angles, which are equally far apart.
+    Means of flows, power and contact are over all steps of the turn; the rest is of the reported angles.
     """
     turn, closing = study.revolution.turn, study.revolution.closing
-    seen = [instant.seen for instant in turn.instants]
+    seen, passed = zip(*((instant.seen, instant.passed) for instant in turn.instants), strict=True)
     least = study.revolution.least_film
     contact = np.array([one.contact_load for one in seen])
     balance = mass_balance_error(study.revolution)
@@ -136,13 +136,13 @@ def revolution_summary(study: RevolutionStudy) -> dict[str, Any]:
         "film_thickness_mean_min_m": min(instant.mean_film for instant in turn.instants),
         "least_gap_m": min(instant.least_gap for instant in turn.instants),
         "tilt_max_rad": float(tilts.max()),
-        "leakage_flow_m3_per_s": float(np.mean([one.leakage for one in seen])),
+        "leakage_flow_m3_per_s": float(np.mean([one.leakage for one in passed])),
         "leakage_flow_max_m3_per_s": max(one.leakage for one in seen),
-        "friction_power_W": float(friction.mean()),
+        "friction_power_W": float(np.mean([friction_power(study, one) for one in passed])),
         "friction_power_max_W": float(friction.max()),
-        "rubbing_power_W": float(np.mean([one.heat.rubbing for one in seen])),
+        "rubbing_power_W": float(np.mean([one.heat.rubbing for one in passed])),
         "contact_load_max_N": float(contact.max()),
-        "contact_load_mean_N": float(contact.mean()),
+        "contact_load_mean_N": float(np.mean([one.contact_load for one in passed])),
         "share_of_turn": {kind.value: float(np.mean([kind in one.active for one in seen])) for kind in Active},
         "cavitated_area_fraction_max": max(instant.loads.cavitated_area_fraction for instant in turn.instants),
         "pressure_max_Pa": max(instant.loads.pressure_max for instant in turn.instants),

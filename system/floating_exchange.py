@@ -13,6 +13,7 @@ import numpy as np
 
 from gaps.revolution import GapRevolution
 from gaps.seen import BlockSeen, GapSeen, PistonSeen, Seen, SlipperSeen
+from system.chamber_course import periodic_values
 from system.chamber_problem import LeakTable
 from system.directions import bore_axis, bore_sides, plate_axes
 from system.floating_drives import GroupInstant, Rubbing
@@ -39,38 +40,52 @@ def of_each(revolution: GapRevolution[Seen], tell: Callable[[Seen], float | Arra
     return np.roll(np.array([tell(instant.seen) for instant in revolution.turn.instants]), 1, axis=0)
 
 
+def passing(revolution: GapRevolution[Seen], tell: Callable[[Seen], float | Array]) -> Array:
+    """What `tell` says in the mean around each reported angle, (n, ...), from shaft angle 0 on."""
+    return around(np.roll(np.array([tell(instant.passed) for instant in revolution.turn.instants]), 1, axis=0))
+
+
+def around(means: Array) -> Array:
+    """Means over the steps on both sides of equidistant angles, (n, ...), from means up to each angle.
+
+    What passes over the turn stays what it was, however short the bursts in which it does.
+    """
+    return np.asarray(0.5 * (means + np.roll(means, -1, axis=0)))
+
+
 def positions(revolution: GapRevolution[Seen]) -> Array:
     """Positions (n, k) m from shaft angle 0 on."""
     return np.roll(revolution.positions, 1, axis=0)
 
 
 def resampled(values: Array, samples: int) -> Array:
-    """Periodic values (n, ...) at as many equidistant angles as wanted; between those known linear."""
+    """Periodic values (n, ...) at as many equidistant angles as wanted, by the chambers' cubic splines.
+
+    The mean over the turn stays the same.
+    """
     count = len(values)
     if samples == count:
         return values
-    place = np.arange(samples) * (count / samples)
-    before = np.floor(place + 1e-9).astype(int)
-    share = (place - before).reshape(-1, *[1] * (values.ndim - 1))
-    return np.asarray((1.0 - share) * values[before % count] + share * values[(before + 1) % count])
+    rows = np.ascontiguousarray(values.reshape(count, -1).T)
+    return np.asarray(periodic_values(rows, samples).T.reshape(samples, *values.shape[1:]))
 
 
 def leak_table(gaps: FloatingGaps) -> LeakTable:
     """Flow out of one chamber into each gap, by its angle; it answers to the pressure by the next round alone."""
-    piston = of_each(gaps.piston, lambda seen: float(seen.flow[0]))
-    slipper = of_each(gaps.slipper, lambda seen: float(seen.flow[0]))
+    piston = passing(gaps.piston, lambda seen: float(seen.flow[0]))
+    slipper = passing(gaps.slipper, lambda seen: float(seen.flow[0]))
     carried = np.stack([piston, slipper, chamber_draws(gaps.block)])
     return LeakTable(np.zeros_like(carried), carried)
 
 
 def chamber_draws(block: GapRevolution[BlockSeen]) -> Array:
-    """Flow (n,) m3/s out of a chamber into the block's film, by the chamber's own angle."""
-    flow = np.array([instant.seen.flow for instant in block.turn.instants])
+    """Flow (n,) m3/s out of a chamber into the block's film, in the mean around the chamber's own angles."""
+    flow = np.array([instant.passed.flow for instant in block.turn.instants])
     known, pistons = flow.shape
     own = (np.arange(1, known + 1)[:, None] + known * np.arange(pistons)) % (known * pistons)
     found = np.empty(known * pistons)
     found[own] = flow
-    return found
+    return around(found)
 
 
 def ball_shift(gaps: FloatingGaps, rotor: Rotor, parts: FloatingParts) -> Array:
@@ -130,18 +145,34 @@ def shaft_moment(gaps: FloatingGaps, rotor: Rotor, parts: FloatingParts, group: 
     """Torque (N,) N m by which all pistons with slippers resist the shaft, from the forces on them.
 
     The moment about the shaft of the swash plate's force and friction and of inertia, at the places where the
-    films hold the parts; the plate holds the joint's friction about its normal.
+    films hold the parts; the plate holds the joint's friction about its normal. The joint's forces leave out the
+    acceleration d'' of the parts' small motion; to first order it asks the shaft for m d'' . r', by virtual work
+    on the rigid parts, r' = dr/d angle of their centres of mass.
     """
     ball, normal = ball_shift(gaps, rotor, parts), plate_axes(rotor.drive)[2]
     axis = bore_axes(rotor, len(ball))
     along = np.sum(ball * axis, axis=1)[:, None] * axis
     piston = along + axis_shift(gaps, rotor, parts, parts.piston.centre_of_mass)
     shift = resampled(np.stack([piston, ball, ball, ball], axis=1), len(group))
-    one = [
+    held = [
         -float(np.cross(places + moved, forces)[:, 2].sum()) + float(at.ball_moment @ normal * normal[2])
         for at, moved, (places, forces) in zip(group, shift, _applied(rotor, parts, group), strict=True)
     ]
-    return over_chambers([np.array(one)], rotor.pump.pump.pistons)
+    swung = _swung(rotor, np.array([at.places[:2] for at in group]), shift[:, :2])
+    return over_chambers([np.array(held) + swung], rotor.pump.pump.pistons)
+
+
+def _swung(rotor: Rotor, places: Array, shift: Array) -> Array:
+    """Torque (N,) N m of the inertia of small motion, sum of m w^2 d'' . r' over the places (N, 2, 3) m.
+
+    Piston first, then slipper; derivatives by central differences, whose mean work is that of the parts'
+    acceleration along the small motion.
+    """
+    step = TURN / len(places)
+    masses = np.array([rotor.pump.piston.mass, rotor.pump.slipper.mass])
+    rate = (np.roll(places, -1, axis=0) - np.roll(places, 1, axis=0)) / (2.0 * step)
+    bend = (np.roll(shift, -1, axis=0) - 2.0 * shift + np.roll(shift, 1, axis=0)) / step**2
+    return np.asarray(rotor.point.shaft_speed**2 * np.sum(bend * rate, axis=2) @ masses)
 
 
 def _applied(rotor: Rotor, parts: FloatingParts, group: tuple[GroupInstant, ...]) -> Iterator[tuple[Array, Array]]:
@@ -160,7 +191,7 @@ def _applied(rotor: Rotor, parts: FloatingParts, group: tuple[GroupInstant, ...]
 def block_torque(gaps: FloatingGaps, samples: int) -> Array:
     """Torque (samples,) N m of the valve plate's film against the block's turning."""
     turns = round(TURN / gaps.block.angles[-1])
-    return resampled(np.tile(of_each(gaps.block, lambda seen: seen.torque), turns), samples)
+    return resampled(np.tile(passing(gaps.block, lambda seen: seen.torque), turns), samples)
 
 
 def with_floating_gaps(
@@ -184,7 +215,7 @@ def with_floating_gaps(
 def _pair(count: int, revolution: GapRevolution[Seen], samples: int) -> PairLoss:
     turns = round(TURN / revolution.angles[-1])
     rubbed, sheared = (
-        resampled(np.tile(of_each(revolution, tell), turns), samples)
+        resampled(np.tile(passing(revolution, tell), turns), samples)
         for tell in (lambda seen: seen.heat.rubbing, lambda seen: seen.heat.shear)
     )
     return PairLoss(count, rubbed, sheared)
@@ -220,7 +251,7 @@ def gap_exchange(gaps: FloatingGaps, pistons: int, shaft_speed: float) -> GapExc
 
 def _pushed(revolution: GapRevolution[Seen]) -> float:
     """Power (W) by which a film moves what presses on it, mean over the turn."""
-    return -float(np.mean([instant.outer_force @ instant.rate for instant in revolution.turn.instants]))
+    return float(np.mean([instant.pushed for instant in revolution.turn.instants]))
 
 
 def _rubbed(seen: GapSeen) -> float:
@@ -228,14 +259,14 @@ def _rubbed(seen: GapSeen) -> float:
 
 
 def _mean(revolution: GapRevolution[Seen], tell: Callable[[Seen], float]) -> float:
-    return float(np.mean([tell(instant.seen) for instant in revolution.turn.instants]))
+    return float(np.mean([tell(instant.passed) for instant in revolution.turn.instants]))
 
 
 def port_draws(
     gaps: FloatingGaps, pressures: tuple[float, float], modulus: float, pitch: int
 ) -> tuple[Array, Array]:
     """What the block's film takes from delivery and suction port over a pitch, (pitch,) m3/s at zero gauge."""
-    delivery = resampled(of_each(gaps.block, lambda seen: seen.delivery_draw), pitch)
-    suction = resampled(of_each(gaps.block, lambda seen: seen.suction_draw), pitch)
+    delivery = resampled(passing(gaps.block, lambda seen: seen.delivery_draw), pitch)
+    suction = resampled(passing(gaps.block, lambda seen: seen.suction_draw), pitch)
     dense = np.exp(np.array(pressures) / modulus)
     return np.asarray(delivery * dense[0]), np.asarray(suction * dense[1])

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from system.directions import plate_axes
-from system.floating_exchange import FloatingGaps, ball_shift, chamber_draws, growth, of_each, resampled
+from system.floating_exchange import FloatingGaps, around, ball_shift, chamber_draws, growth, of_each, resampled
 from system.floating_parts import floating_parts
 from system.instants import rotor, valve_plate_geometry
 from system.lumped import piston_area
@@ -31,7 +31,7 @@ class Told:
 
     @property
     def turn(self):
-        return SimpleNamespace(instants=[SimpleNamespace(seen=seen) for seen in self.seen])
+        return SimpleNamespace(instants=[SimpleNamespace(seen=seen, passed=seen) for seen in self.seen])
 
 
 def still(*position: float, steps: int = STEPS) -> Told:
@@ -55,14 +55,22 @@ def test_resampling_keeps_what_it_knows_and_the_mean():
     assert np.array_equal(resampled(values, 12), values)
 
 
+def test_a_burst_between_two_angles_keeps_all_that_passes():
+    burst = np.zeros(STEPS)
+    burst[7] = 3.0  # in the step that ends at angle 7
+    told = around(burst)
+    assert told[6] == told[7] == 1.5
+    assert told.sum() == burst.sum()
+
+
 def test_a_chamber_draws_what_its_kidney_does_where_it_stands():
-    """A flow that depends on the kidney's place alone comes back as that function of the chamber's angle."""
+    """A flow by the kidney's place alone comes back as that function of the chamber's angle, around it."""
     per_pitch = STEPS // PISTONS
     shaft = TURN / STEPS * np.arange(1, per_pitch + 1)
     places = shaft[:, None] + TURN / PISTONS * np.arange(PISTONS)
     seen = tuple(SimpleNamespace(flow=np.cos(row) + 0.3 * np.sin(2.0 * row)) for row in places)
     own = TURN * np.arange(STEPS) / STEPS
-    expected = np.cos(own) + 0.3 * np.sin(2.0 * own)
+    expected = around(np.cos(own) + 0.3 * np.sin(2.0 * own))
     assert chamber_draws(Told(np.zeros((per_pitch, 3)), seen)) == pytest.approx(expected, abs=1e-12)
 
 

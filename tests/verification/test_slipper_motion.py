@@ -101,6 +101,23 @@ def test_tilted_slipper(tilt, speed, force, moment, validation, refine):
         )
 
 
+def test_a_slipper_that_rides_on_its_leading_edge_drags_oil_from_the_case_into_its_pocket():
+    """pi U q c^2/(2 r2), c^2 = (r2^2 - r1^2)/(2 ln(r2/r1)): Couette flow over a small rise q at the rim.
+
+    The wedge makes oil evenly over the land; what of it runs inwards, and what is carried over the inner edge,
+    enters the pocket. A wide orifice lets it go on into a chamber at case pressure.
+    """
+    speed, rise, lands = 10.0, 0.01 * HEIGHT, SHEET.lands
+    drive = _drive(sliding=constant(speed, 0.0), chamber_pressure=constant(0.0))
+    _, solution = _forces(SHEET, drive, (HEIGHT, rise, 0.0), (12, 96))
+    flow = loads(solution).flow
+    middle = (OUTER**2 - INNER**2) / (2.0 * np.log(OUTER / INNER))
+    expected = np.pi * speed * rise * middle / (2.0 * OUTER)
+    # The mesh's sectors are straight, each (pi/96)^2/2 short of the circle; the film answers to the rise squared.
+    assert sum(flow[edge] for edge in lands.open) == pytest.approx(-expected, rel=3e-3)
+    assert flow["pocket"] == pytest.approx(expected, rel=3e-3)
+
+
 def test_grooved_slipper(validation, refine):
     lands = ((5e-3, 7.43e-3), (7.83e-3, 10.26e-3))
     shape = SlipperShape(SlipperLands(lands), WIDE)
