@@ -263,10 +263,14 @@ class _Turns(Generic[Seen]):
             state, stage = taken.state, taken.stage
             times.append(state.time)
             errors.append(self._excess(taken))
-            for part, share in zip(self._solved, self._method.matrix[-1], strict=True):
-                pushed = -float(part.outer.force @ part.rate)
-                since.add(share * taken.step, self._look(part), pushed)
-            if (angle := self._angles.get(state.time)) is None:
+            angle = self._angles.get(state.time)
+            if (
+                angle is not None or self._opening is not None
+            ):  # turns that lead near tell of their last step alone
+                for part, share in zip(self._solved, self._method.matrix[-1], strict=True):
+                    pushed = -float(part.outer.force @ part.rate)
+                    since.add(share * taken.step, self._look(part), pushed)
+            if angle is None:
                 continue
             seen = stage.reposed()
             self.films_solved += seen.films - stage.films
