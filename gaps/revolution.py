@@ -264,12 +264,9 @@ class _Turns(Generic[Seen]):
             times.append(state.time)
             errors.append(self._excess(taken))
             angle = self._angles.get(state.time)
-            if (
-                angle is not None or self._opening is not None
-            ):  # turns that lead near tell of their last step alone
-                for part, share in zip(self._solved, self._method.matrix[-1], strict=True):
-                    pushed = -float(part.outer.force @ part.rate)
-                    since.add(share * taken.step, self._look(part), pushed)
+            # Turns that lead near the periodic motion tell of their last step alone.
+            if angle is not None or self._opening is not None:
+                self._tell(taken.step, since)
             if angle is None:
                 continue
             seen = stage.reposed()
@@ -290,6 +287,11 @@ class _Turns(Generic[Seen]):
             reach=self._accuracy.reach * end.loads.film_thickness_min,
             repeats=_oil_moved(self._floating.shape_at(0.0).space, begin, state) <= self._accuracy.closed,
         )
+
+    def _tell(self, step: float, since: Passed[Seen]) -> None:
+        """Add what the stages of a step (s) tell, each for its share of the step."""
+        for stage, share in zip(self._solved, self._method.matrix[-1], strict=True):
+            since.add(share * step, self._look(stage), -float(stage.outer.force @ stage.rate))
 
     def _marched(self, begin: State[Stage], again: Array | None) -> Iterator[Taken[Stage]]:
         """Steps of a turn, chosen by their error or those of an earlier turn again."""
