@@ -1,4 +1,4 @@
-"""What the command line says of a run whose gaps float: its steps, and the physics that it leaves out."""
+"""What the command line says of a run whose gaps float: its steps, and its physics."""
 
 from __future__ import annotations
 
@@ -15,7 +15,8 @@ from system.unlike import kinds
 
 ALIKE = "chambers that are alike; where they differ: swashfilm run with --fidelity lumped or floating"
 FEWEST_STEPS, MOST_STEPS = 24, 7200
-_EFFECTS = {
+_INCLUDED = {"--heat": Effect.HEAT}
+_LEFT_OUT = {
     "--rigid": Effect.ELASTIC_WALLS,
     "--isoviscous": Effect.PRESSURE_VISCOSITY,
     "--smooth": Effect.ROUGHNESS,
@@ -27,7 +28,9 @@ def floating_options(options: argparse.Namespace) -> FloatingOptions:
     """How the gaps float by a command line without faults: the usual way but for what it states."""
     usual = FloatingOptions()
     steps = usual.steps if options.steps is None else int(options.steps)
-    physics = usual.physics.without(*(_EFFECTS[switch] for switch in _switched(options)))
+    switched = _switched(options)
+    physics = usual.physics.without(*(_LEFT_OUT[switch] for switch in switched if switch in _LEFT_OUT))
+    physics = physics.including(*(_INCLUDED[switch] for switch in switched if switch in _INCLUDED))
     return replace(usual, steps=steps, physics=physics, keep=max(1, usual.keep * steps // usual.steps))
 
 

@@ -20,6 +20,7 @@ from swashfilm.revolution_fields import write_revolution_fields
 from swashfilm.revolution_study import RevolutionStudy, revolution_summary
 from system.floating import FloatingPoint
 from system.floating_gaps import FloatingOptions
+from system.floating_heat import all_taken
 from system.instants import Rotor
 
 RESULTS = "results.nc"
@@ -81,7 +82,7 @@ def floating_summary(found: FloatingPoint, warnings: list[str]) -> dict[str, Any
             "rounds_seconds": [taken.seconds for taken in found.rounds],
         },
         "physics_left_out": [effect.value for effect in found.options.physics.left_out],
-        "assumptions": [str(taken) for taken in found.parts.taken],
+        "assumptions": list(map(str, all_taken(found.rotor, found.parts, found.options.physics))),
     }
 
 

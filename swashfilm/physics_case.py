@@ -37,19 +37,27 @@ class Rupture(Enum):
     NONE = "none"
 
 
+class Warmth(Enum):
+    """Whether films and parts warm, or keep the case's temperature."""
+
+    SOLVED = "solved"
+    NONE = "none"
+
+
 # Effect: key, the choice with it, the choice without it.
 _KEYS: dict[Effect, tuple[str, Enum, Enum]] = {
     Effect.ELASTIC_WALLS: ("walls", Walls.ELASTIC, Walls.RIGID),
     Effect.PRESSURE_VISCOSITY: ("oil", Oil.PRESSURE_VISCOSITY, Oil.ISOVISCOUS),
     Effect.ROUGHNESS: ("surfaces", Surfaces.ROUGH, Surfaces.SMOOTH),
     Effect.CAVITATION: ("cavitation", Rupture.JFO, Rupture.NONE),
+    Effect.HEAT: ("heat", Warmth.SOLVED, Warmth.NONE),
 }
 
 
 def read_physics(table: Table, usual: Physics) -> Physics:
-    """The physics that `walls`, `oil`, `surfaces` and `cavitation` of a table choose; what is left out is `usual`.
+    """The physics that `walls`, `oil`, `surfaces`, `cavitation` and `heat` of a table choose.
 
-    Faults are told in the table's list.
+    What is left out is `usual`. Faults are told in the table's list.
     """
     found = usual
     for effect, (key, on, off) in _KEYS.items():

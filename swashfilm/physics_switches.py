@@ -1,4 +1,4 @@
-"""The command line's switches that leave physics of floating gaps out, each a key that a case has too."""
+"""The command line's switches of the physics of floating gaps, each a key that a case has too."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ SWITCHES = {
     "--isoviscous": ("oil", "isoviscous", "oil that pressure does not stiffen"),
     "--smooth": ("surfaces", "smooth", "smooth walls, which never touch"),
     "--no-cavitation": ("cavitation", "none", "films that do not cavitate"),
+    "--heat": ("heat", "solved", "films and parts that warm"),
 }
 """Key of `swashfilm.physics_case`, its value, and what that means, by switch."""
 

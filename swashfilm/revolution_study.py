@@ -10,6 +10,7 @@ import numpy as np
 
 from gaps.revolution import GapRevolution
 from gaps.seen import Active, BlockSeen, GapSeen, PistonSeen, SlipperSeen, mass_balance_error
+from gaps.warmth import Warmth
 from reynolds.mesh import Array
 from swashfilm.gap_case import Gap
 from swashfilm.progress import Report
@@ -17,6 +18,7 @@ from swashfilm.revolution_case import GapCase, RevolutionCase
 from swashfilm.revolution_warnings import revolution_warnings
 from system.floating_drives import Drives, drives, no_rubbing, slipper_shape
 from system.floating_gaps import block_revolution, piston_revolution, slipper_revolution
+from system.floating_heat import all_taken
 from system.floating_parts import FloatingParts, floating_parts
 from system.instants import valve_plate_geometry
 
@@ -124,6 +126,7 @@ def revolution_summary(study: RevolutionStudy) -> dict[str, Any]:
     least = study.revolution.least_film
     contact = np.array([one.contact_load for one in seen])
     balance = mass_balance_error(study.revolution)
+    physics = study.case.options.physics
     tilts, friction = tilt(study), np.array([friction_power(study, one) for one in seen])
     return {
         "format": 1,
@@ -156,7 +159,29 @@ def revolution_summary(study: RevolutionStudy) -> dict[str, Any]:
         "dofs": next(iter(turn.films.values())).problem.space.size,
         "mass_balance_error": balance,
         "solve_seconds": study.solve_seconds,
-        "physics_left_out": [effect.value for effect in study.case.options.physics.left_out],
-        "assumptions": [*study.left_out, *(str(taken) for taken in study.parts.taken)],
+        "physics_left_out": [effect.value for effect in physics.left_out],
+        **_warmth(study.revolution.warmth),
+        "assumptions": [*study.left_out, *map(str, all_taken(study.case.rotor, study.parts, physics))],
         "warnings": revolution_warnings(study.case, study.parts, study.revolution, balance),
+    }
+
+
+def _warmth(warmth: Warmth | None) -> dict[str, Any]:
+    """Temperatures and heat of a gap that warms, means over the turn."""
+    if warmth is None:
+        return {}
+    flows = warmth.flows
+    return {
+        "film_temperature_mean_K": float(warmth.mean.mean()),
+        "film_temperature_max_K": float(warmth.hottest.max()),
+        "fixed_wall_temperature_K": float(warmth.walls[0]),
+        "moving_wall_temperature_K": float(warmth.walls[1]),
+        "heat_dissipation_W": flows.dissipation,
+        "heat_to_fixed_wall_W": flows.to_fixed,
+        "heat_to_moving_wall_W": flows.to_moving,
+        "heat_carried_out_W": flows.carried_out,
+        "heat_stored_W": flows.stored,
+        "heat_balance_error": flows.balance_error,
+        "warming_rounds": warmth.rounds,
+        "warming_change": warmth.change,
     }

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from gaps.block_motion import BlockDrive, BlockFilm, floating_block
-from gaps.film_heat import warm_revolution
+from gaps.film_heat import GapHeat, warm_revolution
 from gaps.physics import Effect, Physics
 from gaps.piston_motion import PistonDrive, PistonFilm, floating_piston
 from gaps.revolution import Accuracy, GapRevolution, Schedule, TurnReport, evenly, run_revolution
@@ -20,7 +20,7 @@ from reynolds.mesh import Array
 from reynolds.solve import FilmSolver
 from reynolds.space import FilmSpace
 from system.floating_drives import piston_shape, slipper_shape
-from system.floating_heat import gap_heat
+from system.floating_heat import block_heat, piston_heat, slipper_heat
 from system.floating_parts import FloatingParts
 from system.gap_cycle import Report, silent
 from system.instants import Rotor, valve_plate_geometry
@@ -67,8 +67,9 @@ def piston_revolution(
     film = PistonFilm(piston_shape(rotor, parts), drive, parts.piston.laws, options.physics, cells)
     floating, schedule = floating_piston(film), evenly(drive.shaft_speed, options.steps, keep=options.keep)
     told = _of_turn(report, options.steps, "piston")
+    heat = piston_heat(rotor, parts) if options.physics.heat else None
     return _run(
-        film.space_at(0.0), floating, schedule, np.zeros(4), piston_seen(film), options, rotor, before, told
+        film.space_at(0.0), floating, schedule, np.zeros(4), piston_seen(film), options, heat, before, told
     )
 
 
@@ -88,7 +89,8 @@ def slipper_revolution(
     film = SlipperFilm(slipper_shape(rotor, parts), drive, parts.slipper.laws, options.physics, cells)
     floating, schedule = floating_slipper(film), evenly(drive.shaft_speed, options.steps, keep=options.keep)
     start, told = np.array([SLIPPER_START, 0.0, 0.0]), _of_turn(report, options.steps, "slipper")
-    return _run(film.space, floating, schedule, start, slipper_seen(film), options, rotor, before, told)
+    heat = slipper_heat(rotor, parts) if options.physics.heat else None
+    return _run(film.space, floating, schedule, start, slipper_seen(film), options, heat, before, told)
 
 
 def block_revolution(
@@ -113,7 +115,8 @@ def block_revolution(
     film = BlockFilm(geometry, drive, parts.block.plate, parts.block.laws, options.physics, cells)
     schedule = evenly(drive.shaft_speed, steps, span, options.keep)
     start, told = np.array([BLOCK_START, 0.0, 0.0]), _of_turn(report, steps, "block")
-    return _run(film.space, floating_block(film), schedule, start, block_seen(film), options, rotor, before, told)
+    heat = block_heat(rotor, parts) if options.physics.heat else None
+    return _run(film.space, floating_block(film), schedule, start, block_seen(film), options, heat, before, told)
 
 
 def _run(
@@ -123,17 +126,17 @@ def _run(
     start: Array,
     look: Callable[[Stage], Seen],
     options: FloatingOptions,
-    rotor: Rotor,
+    heat: GapHeat | None,
     before: GapRevolution[Seen] | None,
     report: TurnReport,
 ) -> GapRevolution[Seen]:
     solver, accuracy = FilmSolver(space), options.accuracy
-    if not options.physics.heat:
+    if heat is None:
         return run_revolution(
             solver, floating, schedule, start, look, accuracy=accuracy, before=before, report=report
         )
     return warm_revolution(
-        solver, floating, schedule, start, look, gap_heat(rotor), accuracy=accuracy, before=before, report=report
+        solver, floating, schedule, start, look, heat, accuracy=accuracy, before=before, report=report
     )
 
 

@@ -35,7 +35,7 @@ def test_bad_options_end_with_2_and_say_what_to_do(words, told, capsys, tmp_path
 
 
 def test_options_of_the_command_line():
-    """Every switch takes its effect away; fewer steps keep as many films."""
+    """Every switch takes its effect away, but for heat, which comes by one; fewer steps keep as many films."""
     usual = FloatingOptions()
     words = [*FLOATING, "--rigid", "--isoviscous", "--smooth", "--no-cavitation", "--steps", "72"]
     given = build_parser().parse_args(words)
@@ -44,5 +44,7 @@ def test_options_of_the_command_line():
     assert {Effect.CAVITATION, Effect.ROUGHNESS, Effect.ELASTIC_WALLS, Effect.PRESSURE_VISCOSITY} <= set(
         found.physics.left_out
     )
+    assert not found.physics.heat
+    assert floating_options(build_parser().parse_args([*FLOATING, "--heat"])).physics.heat
     assert (found.steps, found.keep) == (72, usual.keep * 72 // usual.steps)
     assert floating_options(build_parser().parse_args(FLOATING)) == usual

@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from gaps.bodies import PistonPart
 from gaps.course import constant
 from gaps.film_heat import GapHeat, Sink, warm_revolution
 from gaps.physics import Effect, Physics
@@ -14,8 +15,10 @@ from gaps.piston_motion import PistonDrive, PistonFilm, PistonShape, floating_pi
 from gaps.revolution import Accuracy, GapRevolution, evenly, run_revolution
 from gaps.seen import PistonSeen, piston_seen
 from gaps.warmth import ThinnedOver
+from reynolds.bodies.elasticity import Elastic
 from reynolds.errors import FilmInputError, FilmNotConverged
 from reynolds.solve import FilmSolver
+from system.floating_heat import rod, slab, tube
 
 DIAMETER, CLEARANCE, LENGTH, VISCOSITY = 22e-3, 15e-6, 40e-3, 0.03
 DENSITY, SPECIFIC_HEAT, CONDUCTIVITY, INLET, THINNING = 860.0, 2000.0, 0.14, 313.15, 0.03
@@ -180,3 +183,13 @@ def test_viscosity_between_angles():
     found = [float(np.log(shares.at(angle)[0, 0])) for angle in (0.0, 0.5, 1.0, 2.0, 3.0)]
     assert found == pytest.approx([0.0, 0.5, 1.0, 0.0, -1.0])
     assert shares.at(2.0).shape == (2, 4)
+
+
+def test_resistance_of_parts():
+    """A tube of thin wall and a slab are one; a rod's mean by its T(x) = q U/(2 k A) x (L - x)."""
+    assert tube(1.0, 1e-4, 50.0) == pytest.approx(slab(1e-4, 50.0), rel=1e-4)
+    part = PistonPart(22e-3, 10e-3, 60e-3, Elastic(210e9, 0.3))
+    x = np.linspace(0.0, part.length, 2001)
+    per_section = 4.0 * part.diameter / (part.diameter**2 - part.inner_diameter**2)
+    rise = per_section / (2.0 * 46.0) * x * (part.length - x)
+    assert rod(part, 46.0) == pytest.approx(np.trapezoid(rise, x) / part.length, rel=1e-5)
