@@ -161,6 +161,9 @@ def test_a_resolved_case_is_the_same_case():
     assert again.options == case.options
     assert again.rotor == case.rotor
     assert again.chamber_pressure == case.chamber_pressure
+    warm = case_of(SLIPPER.replace("[revolution]", '[revolution]\nheat = "solved"'))
+    assert warm.options.physics.heat
+    assert case_of(warm.resolved).options == warm.options
     assert case.options.physics.left_out == (
         Effect.PRESSURE_VISCOSITY, Effect.ROUGHNESS, Effect.ELASTIC_WALLS, Effect.HEAT,
     )  # fmt: skip
