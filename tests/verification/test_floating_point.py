@@ -41,7 +41,7 @@ def test_gaps_and_chambers_agree(found):
 def test_power_is_accounted_for(found, validation):
     """Torque from forces, heat from the films' fields: neither knows of the other.
 
-    What is left is the inertia of the parts' small motion, and the trapezoidal rule at 72 angles a turn.
+    What is left is forces between 72 angles a turn: five times less than the project asks for.
     """
     checks = found.pump_point.checks
     for quantity, obtained in (
@@ -61,18 +61,19 @@ def test_power_is_accounted_for(found, validation):
 
 
 def test_oil_is_kept_by_each_gap(found):
-    """What comes in goes out, as far as 72 angles tell; flows of the block are bursts at its ports' edges."""
+    """What comes in goes out over the march, as nearly as turns close and films follow their slopes."""
     missing = found.mass_balance_error
-    assert missing.piston < 0.03
-    assert missing.slipper < 0.05
+    assert missing.piston < 0.01
+    assert missing.slipper < 0.01
+    assert missing.valve_plate < 0.01
 
 
 def test_friction_is_that_of_the_films(found):
     """No coefficient of [friction] stands beside the films of the three gaps."""
     point, pistons = found.pump_point, found.rotor.pump.pump.pistons
     instants = found.gaps.piston.turn.instants
-    rubbed = pistons * np.mean([instant.seen.heat.rubbing for instant in instants])
-    sheared = pistons * np.mean([instant.seen.heat.shear for instant in instants])
+    rubbed = pistons * np.mean([instant.passed.heat.rubbing for instant in instants])
+    sheared = pistons * np.mean([instant.passed.heat.shear for instant in instants])
     assert point.pairs.piston_cylinder.mean_coulomb == pytest.approx(rubbed, rel=1e-9)
     assert point.pairs.piston_cylinder.mean_viscous == pytest.approx(sheared, rel=1e-9)
     assert point.power.leakage == leakage_heat(found.gaps, pistons)
