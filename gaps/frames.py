@@ -30,6 +30,3 @@ class Frame:
         """Points (n, 2) m of an unwrapped film (arc, axial) -> (n, 3) m on the cylinder about z in the pump."""
         angle = points[:, :1] / radius
         return self.origin + radius * (np.cos(angle) * self.x + np.sin(angle) * self.y) + points[:, 1:] * self.z
-
-
-PUMP_FRAME = Frame(np.zeros(3), *np.eye(3))

@@ -53,7 +53,7 @@ def write_vtu(
 def surface_points(space: FilmSpace, place: Callable[[Array], Array] | None = None) -> Array:
     """Vertices of a film in space, (n, 3) m: placed by `place`, else where the film's plane or sphere has them."""
     flat = space.vertices
-    return place(flat) if place else np.column_stack(space.sphere.place(*flat.T))
+    return place(flat) if place else space.sphere.in_space(flat)
 
 
 def write_pvd(path: Path, entries: Iterable[tuple[float, int, str]]) -> None:

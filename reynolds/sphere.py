@@ -47,6 +47,10 @@ class Sphere:
         scale = self.scale(x, y)
         return scale * x, scale * y, -scale * (x**2 + y**2) / (2.0 * self.radius)
 
+    def in_space(self, points: Array) -> Array:
+        """The same of points (n, 2) m, (n, 3) m."""
+        return np.column_stack(self.place(*points.T))
+
     def normal(self, x: Array, y: Array) -> tuple[Array, Array, Array]:
         """Unit normal at a point of the map."""
         scale = self.scale(x, y)

@@ -6,7 +6,6 @@ from collections.abc import Callable
 from inspect import signature
 from typing import Any
 
-from gaps.frames import PUMP_FRAME
 from gaps.piston import PistonGap
 from gaps.result import GapFilm, PositionSource
 from gaps.slipper import SlipperGap
@@ -59,7 +58,7 @@ def true_place(case: GapCase) -> Callable[[Array], Array]:
         return lambda points: frame.cylinder(points, radius)
     if case.gap is Gap.SLIPPER:
         return slipper_frame(case.rotor, case.shaft_angle).plane
-    return PUMP_FRAME.plane
+    return case.rotor.pump.valve_plate.sphere.in_space
 
 
 def gap_summary(film: GapFilm) -> dict[str, Any]:

@@ -7,7 +7,6 @@ from pathlib import Path
 
 import numpy as np
 
-from gaps.frames import PUMP_FRAME
 from reynolds.export import write_pvd, write_vtu
 from swashfilm.pump_data import GAPS
 from system.films import FilmsPoint
@@ -32,7 +31,7 @@ def write_fields(folder: Path, films: FilmsPoint) -> None:
     for k, film in enumerate(films.gaps.slipper):
         write_vtu(place / vtu_name("slipper", k), film.solution, slipper_frame(films.rotor, angles[k]).plane)
     for k, ring in enumerate(films.gaps.valve_plate):
-        write_vtu(place / vtu_name("valve_plate", k), ring.gap.solution, PUMP_FRAME.plane)
+        write_vtu(place / vtu_name("valve_plate", k), ring.gap.solution)
     _write_series(folder, films)
 
 

@@ -8,7 +8,6 @@ from pathlib import Path
 
 import numpy as np
 
-from gaps.frames import PUMP_FRAME
 from reynolds.export import write_pvd, write_vtu
 from reynolds.mesh import Array
 from swashfilm.gap_case import Gap
@@ -38,4 +37,4 @@ def true_place(study: RevolutionStudy, shaft_angle: float) -> Callable[[Array], 
         case Gap.SLIPPER:
             return face_frame(rotor, study.parts.slipper.ball_height, shaft_angle).plane
         case Gap.VALVE_PLATE:
-            return PUMP_FRAME.plane
+            return rotor.pump.valve_plate.sphere.in_space

@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from gaps.block_balance import BlockBalance
 from system.checks import CheckReport, CheckWarning, Finding, length, needs, pressure, run_checks
 from system.description import PumpDescription
+from system.floating_parts import ball_plane_height
 from system.lumped import block_spring, piston_area
 
 
@@ -19,7 +20,11 @@ def block_tips(pump: PumpDescription) -> Iterator[Finding]:
     """
     plate, case = pump.valve_plate, pump.operating.case_pressure
     radii = (plate.land_radius_1, plate.land_radius_2, plate.land_radius_3, plate.land_radius_4)
-    block = BlockBalance(radii, pump.pump.pistons, piston_area(pump), pump.pump.pitch_radius)
+    stated = pump.block.spline_position
+    block = BlockBalance(
+        radii, pump.pump.pistons, piston_area(pump), pump.pump.pitch_radius, plate.sphere,
+        ball_plane_height(pump) if stated is None else stated,
+    )  # fmt: skip
     delivery, suction = pump.pump.rated_pressure - case, pump.operating.inlet_pressure - case
     place = block.pressed_at(delivery, suction, block_spring(pump))
     if place <= plate.outer_radius:

@@ -212,8 +212,8 @@ def sphere_reaches_over_the_face(pump: PumpDescription) -> Iterator[Finding]:
     yield CheckWarning(
         path,
         f"a plate that bulges into a hollow block, {length(radius)}",
-        "a plane one: so lumped laws take shear, elastic walls their bodies, the check of tipping the lift",
-        "films and floating for shear and lift on the sphere; its leakage is that of the sphere in every fidelity",
+        "a plane one: so lumped laws take the shear of its lands, and elastic walls their bodies",
+        "films and floating for shear on the sphere; leakage is that of the sphere in every fidelity",
     )
 
 

@@ -7,9 +7,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from gaps.frames import PUMP_FRAME, Frame
+from gaps.frames import Frame
 from gaps.piston import PistonGap
 from gaps.slipper import SlipperGap
+from reynolds.sphere import PLANE
 from system.instants import (
     Rotor,
     piston_geometry,
@@ -123,6 +124,6 @@ def test_piston_film_is_a_cylinder_about_the_bore(angle):
 
 def test_valve_plate_lies_at_zero_height():
     flat = np.array([[30e-3, 0.0], [0.0, 30e-3], [-10e-3, 20e-3]])
-    points = PUMP_FRAME.plane(flat)
+    points = PLANE.in_space(flat)
     assert points[:, 2] == pytest.approx(np.zeros(3))
     assert points[:, :2] == pytest.approx(flat)

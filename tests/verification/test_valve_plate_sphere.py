@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
+from gaps.block_balance import BlockBalance, land_lift
 from gaps.block_motion import BlockDrive, BlockFilm, floating_block, kidney_wrench
 from gaps.course import constant
 from gaps.physics import FilmLaws
@@ -94,6 +95,19 @@ def test_film_and_kidneys_lift_as_two_seats(validation, refine):
         quantity="lift of film and kidneys", unit="N", expected=exact, obtained=got.finest,
         tolerance=got.tolerance(), order=got.order,
     )  # fmt: skip
+
+
+def test_balance_knows_the_sphere():
+    """The closed force, and a moment that is the film's own: a sector pressed at its lever leaves nothing over."""
+    t1, t2, t3, t4 = angles()
+    exact = 0.5 * RADIUS**2 * ((np.cos(t3) - np.cos(t4)) / seat(t3, t4) - (np.cos(t1) - np.cos(t2)) / seat(t1, t2))
+    lift = land_lift(RADII, SPHERE)
+    assert lift.force == pytest.approx(exact, rel=1e-12)
+    assert land_lift(RADII, Sphere(1e3)).moment == pytest.approx(land_lift(RADII).moment, rel=1e-8)
+    balanced = BlockBalance(RADII, 9, 4e-4, lift.moment / lift.force * 1.5, SPHERE, 0.5 * RADIUS)
+    assert balanced.moment_ratio == pytest.approx(balanced.force_ratio, rel=1e-12)
+    lever = 2.0 / np.pi * lift.moment / lift.force  # of what is left, as of the half turn that presses
+    assert balanced.pressed_at(20e6, 0.0, 0.0) == pytest.approx(lever / np.hypot(1.0, lever / RADIUS), rel=1e-9)
 
 
 def test_kidneys_turn_the_block_about_the_middle():
