@@ -20,45 +20,12 @@ from reynolds import kernels
 from reynolds.errors import FilmInputError
 from reynolds.mesh import Array, FilmMesh
 from reynolds.pattern import Pattern, pattern_of
+from reynolds.reference import ELEMENTS, Reference, reference
 from reynolds.ruled import Ruling, ruling_of
 from reynolds.sphere import PLANE, Sphere
 from reynolds.tensors import ElementTensors, element_tensors, stretched
 
 _ONE = np.ones((1, 1))
-
-# Quadrature exact enough that h^3 of a linear film costs no order of convergence: degree of the film
-# conductance (3) is not needed in full, the classical rule 2 k - 1 plus one is (Strang and Fix 1973).
-_ELEMENTS = {
-    (skfem.MeshTri1, 1): (skfem.ElementTriP1(), 2),
-    (skfem.MeshQuad1, 1): (skfem.ElementQuad1(), 3),
-    (skfem.MeshTri1, 2): (skfem.ElementTriP2(), 4),
-    (skfem.MeshQuad1, 2): (skfem.ElementQuad2(), 5),
-}
-
-
-@dataclass(frozen=True)
-class Reference:
-    """Basis and geometry on the reference element at its quadrature points.
-
-    `steep` tables belong to the conductance: for a bilinear quadrilateral they stand at the corner next to the
-    point, which integrates as exactly (trapezium rule) and leaves no positive coupling between unknowns, however
-    stretched a rectangle is: pressure and film fraction then know no overshoot. Else they are the others.
-    """
-
-    value: Array  # (points, basis)
-    gradient: Array  # (points, basis, 2)
-    geometry_value: Array  # (points, corners)
-    geometry_gradient: Array  # (points, corners, 2)
-    steep_gradient: Array  # (points, basis, 2)
-    steep_value: Array  # (points, corners)
-    steep_geometry: Array  # (points, corners, 2)
-    weights: Array  # (points,)
-
-    @cached_property
-    def loops(self) -> tuple[tuple[int, ...], tuple[int, ...]]:
-        """Numbers of the basis and of the points, as tuples: see `kernels`."""
-        points, basis = self.value.shape
-        return tuple(range(basis)), tuple(range(points))
 
 
 @dataclass(frozen=True)
@@ -227,7 +194,7 @@ class FilmSpace:
         cell, local = (int(k[0]) for k in np.nonzero(self.dofs == unknown))
         corners = self.vertices[self.cells[cell]]
         geometry = skfem.ElementTriP1() if len(corners) == 3 else skfem.ElementQuad1()
-        at = _ELEMENTS[type(self.film_mesh.mesh), self.degree][0].doflocs[local][:, None]
+        at = ELEMENTS[type(self.film_mesh.mesh), self.degree][0].doflocs[local][:, None]
         share = np.array([geometry.lbasis(at, corner)[0][0] for corner in range(len(corners))])
         x, y = share @ corners
         return float(x), float(y)
@@ -300,10 +267,10 @@ def film_space(
     seam whose sides do not match under a translation and a pocket whose name is not in the mesh.
     """
     mesh = film_mesh.mesh
-    if (type(mesh), degree) not in _ELEMENTS:
+    if (type(mesh), degree) not in ELEMENTS:
         found = f"degree {degree} on a {type(mesh).__name__}"
         raise FilmInputError("film_space", found, "degree 1 or 2 on MeshTri or MeshQuad of straight cells")
-    element, order = _ELEMENTS[type(mesh), degree]
+    element, order = ELEMENTS[type(mesh), degree]
     # The numbering is what is wanted: the basis itself is tabulated in one element only.
     dofs = skfem.Basis(mesh, element, intorder=order, elements=np.array([0]))
     tied = _tie(film_mesh, dofs, tuple(pockets))
@@ -317,32 +284,11 @@ def film_space(
         cells=np.ascontiguousarray(mesh.t.T, dtype=np.int32),
         dofs=np.ascontiguousarray(cell_dofs),
         size=len(numbers),
-        reference=_reference(mesh, element, dofs.X, dofs.W),
+        reference=reference(mesh, element, dofs.X, dofs.W),
         pattern=pattern_of(cell_dofs, len(numbers)),
         edge_dofs={name: np.unique(on) for name, on in facet_dofs.items()},
         facet_dofs=facet_dofs,
         sphere=sphere,
-    )
-
-
-def _reference(mesh: skfem.Mesh, element: skfem.Element, points: Array, weights: Array) -> Reference:
-    geometry = skfem.ElementTriP1() if isinstance(mesh, skfem.MeshTri1) else skfem.ElementQuad1()
-
-    def table(kind: skfem.Element, count: int, points: Array = points) -> tuple[Array, Array]:
-        values, slopes = zip(*(kind.lbasis(points, i) for i in range(count)), strict=True)
-        at = np.array([np.broadcast_to(v, points.shape[1:]) for v in values]).T
-        slope = np.array([np.broadcast_to(s, points.shape) for s in slopes]).transpose(2, 0, 1)
-        return np.ascontiguousarray(at, dtype=float), np.ascontiguousarray(slope, dtype=float)
-
-    value, gradient = table(element, len(element.doflocs))
-    corner, corner_gradient = table(geometry, len(geometry.doflocs))
-    steep, steep_at, steep_corner = gradient, corner, corner_gradient
-    if isinstance(element, skfem.ElementQuad1):
-        corners = np.round(points)
-        _, steep = table(element, 4, corners)
-        steep_at, steep_corner = table(geometry, 4, corners)
-    return Reference(
-        value, gradient, corner, corner_gradient, steep, steep_at, steep_corner, np.ascontiguousarray(weights)
     )
 
 
