@@ -44,7 +44,7 @@ def element_tensors(
     steep_geometry: Array,
     weights: Array,
 ) -> ElementTensors:
-    """Tensors of cells (cells, corners) between vertices (n, 2) m; the tables are those of `reference.Reference`."""
+    """Tensors of cells (cells, corners) between vertices (n, 2) m; tables are those of `reference.Reference`."""
     shape, first = _shapes(vertices[cells])
     cells, points, basis = cells[first], len(weights), gradient.shape[1]
     weighted, steeply = (np.empty((len(first), points, basis, 2)) for _ in range(2))
