@@ -20,7 +20,7 @@ slippers but those of film and kidneys, D'Alembert's included (`wrench_about`).
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 
 import numpy as np
@@ -139,13 +139,22 @@ class BlockFilm:
         return self.ring.space
 
     def problem_at(self, time: float) -> FilmProblem:
-        """The film with the block's face on the plate (q = 0) at a time (s), velocities seen from the block."""
+        """The film with the block's face on the plate (q = 0) at a time (s), velocities seen from the mesh."""
+        turns = np.where(self.ring.turns_with_block(self.space), 1.0, 0.0)
+        return self._problem(time, turns)
+
+    def standing_at(self, time: float) -> FilmProblem:
+        """The same with velocities seen from the plate: of a block that turns but does not wobble."""
+        return self._problem(time, np.zeros((1, 1)))
+
+    def _problem(self, time: float, turns: Array) -> FilmProblem:
+        """The film seen from a frame that turns with the block where `turns` is one, with the plate where zero."""
         drive, laws, angle = self.drive, self._laws, self._angle(time)
         at = self._turned(angle)
         space, port = at.modes.space, at.over_port
         x, y, _ = space.points_in_space
         speed = np.where(port, 0.0, drive.shaft_speed)
-        plate, block = self._relative(space)
+        plate, block = turns, 1.0 - turns
         film = Film(
             thickness=at.depth,
             viscosity=np.where(port, SEALED * drive.viscosity, drive.viscosity),
@@ -237,11 +246,6 @@ class BlockFilm:
             pressed=generalised(wrench, radius),
         )
 
-    def _relative(self, space: FilmSpace) -> tuple[Array, Array]:
-        """Share of the turning at which plate and block pass the mesh: the plate the ring, the block the pads."""
-        turns = np.where(self.ring.turns_with_block(space), 1.0, 0.0)
-        return turns, 1.0 - turns
-
     def _modes(self, space: FilmSpace) -> Array:
         sphere, reach = space.sphere, self._leverage / self.geometry.land_radii[3]
         x, y, _ = sphere.place(*space.vertices.T)
@@ -272,3 +276,8 @@ def floating_block(film: BlockFilm) -> Floating:
     on a sphere walls give way as plane ones do under the same pressure seen along the shaft.
     """
     return Floating("block", film.problem_at, film.modes_at, film.outer_at, reference=film.drive.case_pressure)
+
+
+def standing_block(film: BlockFilm) -> Floating:
+    """The same at one instant, for a block that turns but does not move on its plate."""
+    return replace(floating_block(film), shape_at=film.standing_at)

@@ -138,15 +138,26 @@ class PistonFilm:
 
     def problem_at(self, time: float) -> FilmProblem:
         """The film of the piston in the middle of its bore at a time (s), walls relative to the mesh."""
+        return self._problem(time, self._mesh_velocity(time), ZERO)
+
+    def standing_at(self, time: float) -> FilmProblem:
+        """The same in a mesh that stands, squeezed by the profiles that pass: of a piston held across its bore."""
+        drive = self.drive
+        _, along, around = self._relief(time, *self._points)
+        bore = self._bore_relief(time, *self._points).around
+        velocity = float(drive.velocity(self._angle(time)))
+        return self._problem(time, ZERO, -velocity * along - drive.piston_spin * around - drive.bore_spin * bore)
+
+    def _problem(self, time: float, carried: Array, squeeze: Array) -> FilmProblem:
+        """The film seen from a mesh that moves along the bore at `carried` (m/s), squeezed at dh/dt (m/s)."""
         space, drive, laws = self.space_at(time), self.drive, self._laws
         moving, fixed = self._velocities(time)
-        carried = self._mesh_velocity(time)
         film = Film(
             thickness=self._thickness(time, *self._points),
             viscosity=np.full((1, 1), drive.viscosity),
             velocity_moving=(moving[0], moving[1] - carried),
             velocity_fixed=(fixed[0], fixed[1] - carried),
-            squeeze=ZERO,
+            squeeze=squeeze,
             thickness_at_vertices=self._thickness(time, *self._vertices),
         )
         pressure = float(drive.chamber_pressure(self._angle(time)))
@@ -227,11 +238,16 @@ class PistonFilm:
         The film's edge moves with the piston's end and sweeps the clearance there, which flows out besides; what
         is taken off the piston never was part of the section.
         """
-        velocity = float(self.drive.velocity(self._angle(stage.time)))
-        swept = -self._on_chamber_edge(self._relief(stage.time, *self._vertices).depth)
+        swept = 0.0
         if float(self.drive.reach(self._angle(stage.time))) < self.shape.guide_length:
-            swept += self._on_chamber_edge(vertex_thickness(stage.solution))
-        return velocity * swept - boundary_flows(stage.solution)["chamber"]
+            swept = self._on_chamber_edge(vertex_thickness(stage.solution))
+        return self.standing_flow(stage) + float(self.drive.velocity(self._angle(stage.time))) * swept
+
+    def standing_flow(self, stage: Stage) -> float:
+        """The same (m3/s) in a mesh that stands (`standing_at`)."""
+        velocity = float(self.drive.velocity(self._angle(stage.time)))
+        taken_off = self._on_chamber_edge(self._relief(stage.time, *self._vertices).depth)
+        return -velocity * taken_off - boundary_flows(stage.solution)["chamber"]
 
     @property
     def asperities(self) -> Asperities | None:
@@ -266,15 +282,14 @@ class PistonFilm:
         return np.asarray(float(self.drive.velocity(self._angle(time))) * (1.0 - self._points[1]))
 
     def _thickness(self, time: float, around: Array, along: Array) -> Array:
-        """Film (m) of a centred piston at places of the unit mesh.
+        """Film (m) of a centred piston at places of the unit mesh."""
+        bore, piston = self._bore_relief(time, around, along).depth, self._relief(time, around, along).depth
+        return np.asarray(self.shape.radial_clearance + bore + piston)
 
-        The bore's profile turns with the block.
-        """
-        shape, drive = self.shape, self.drive
-        angle, depth = 2.0 * around / shape.diameter, self._engaged(time) * (1.0 - along)
-        bore = shape.bore(depth, angle - drive.bore_spin * time).depth
-        piston = self._relief(time, around, along).depth
-        return np.asarray(shape.radial_clearance + bore + piston)
+    def _bore_relief(self, time: float, around: Array, along: Array) -> Relief:
+        """What is taken off the bore at places of the unit mesh; it turns with the block."""
+        angle, depth = 2.0 * around / self.shape.diameter, self._engaged(time) * (1.0 - along)
+        return self.shape.bore(depth, angle - self.drive.bore_spin * time)
 
 
 def widened(space: FilmSpace, film: Film, opened: Array) -> Film:
@@ -293,3 +308,8 @@ def floating_piston(film: PistonFilm) -> Floating:
     Validity: eccentricities and clearance small beside the radius; forces above case pressure.
     """
     return Floating("piston", film.problem_at, film.modes_at, film.outer_at, reference=film.drive.case_pressure)
+
+
+def standing_piston(film: PistonFilm) -> Floating:
+    """The same at one instant, for a piston that moves along its bore and turns but does not move across it."""
+    return replace(floating_piston(film), shape_at=film.standing_at)

@@ -1,52 +1,40 @@
-"""What a gap reports: its film, where its position came from, and what it carries, leaks and rubs."""
+"""What a gap reports of an instant at which its part stands still: film, flows, friction, load borne."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from enum import Enum
 
 import numpy as np
 
+from gaps.seen import Active
 from reynolds.film import FilmSolution
-from reynolds.loads import Loads, point_fields
+from reynolds.loads import Loads
 from reynolds.mesh import Array
 
-# Three times the composite roughness of ground and lapped pump parts (about 0.5 um): below a lambda ratio of 3 the
-# film is mixed and a smooth-wall Reynolds solution no longer valid, so no balance is claimed with less.
-SMALLEST_FILM = 1.5e-6
 LOAD_TOLERANCE = 1e-3
 """Of the required load: what a film at a given position may miss of it and still count as holding it."""
 
 
-class PositionSource(Enum):
-    """Where the film's position comes from."""
-
-    BALANCE = "balance"
-    GIVEN = "given"
-
-
 @dataclass(frozen=True)
 class GapFilm:
-    """One gap at one instant, SI.
+    """One gap at one instant, SI; the part neither approaches nor tilts.
 
-    chamber_flow m3/s out of the chamber into the gap, leakage_flow m3/s out of the gap into the case,
-    conductance = d chamber_flow / d chamber pressure of the pressure flow (m3/(s Pa)); friction_power W drawn
-    from the moving parts by shear (walls' force times velocity); required_load N and carried_load N: what
-    presses the parts together and what the film (with its pockets) holds, both in the load's direction.
-    `verdict` says in words why a balance was not found.
+    position (k,) m, as the gap's film counts it; chamber_flow m3/s out of the chamber into the gap, leakage_flow
+    m3/s out of the gap into the case; friction_power W drawn from the moving parts; required_load N and
+    carried_load N: what presses the parts together and what the film with its pockets and contact holds, both in
+    the load's direction; contact_load N, int of the asperities' pressure; active: as `gaps.seen.GapSeen` has it.
     """
 
     solution: FilmSolution
     loads: Loads
-    source: PositionSource
     position: Array
     chamber_flow: float
     leakage_flow: float
-    conductance: float
     friction_power: float
     required_load: float
     carried_load: float
-    verdict: str
+    contact_load: float
+    active: tuple[Active, ...]
 
     @property
     def carried_fraction(self) -> float:
@@ -55,8 +43,8 @@ class GapFilm:
 
     @property
     def holds_its_load(self) -> bool:
-        """Whether film and load balance: as found, or at a given position by chance, to LOAD_TOLERANCE."""
-        return self.source is PositionSource.BALANCE or abs(self.carried_fraction - 1.0) < LOAD_TOLERANCE
+        """Whether film and load balance to LOAD_TOLERANCE."""
+        return abs(self.carried_fraction - 1.0) < LOAD_TOLERANCE
 
     @property
     def film_thickness_mean(self) -> float:
@@ -65,14 +53,11 @@ class GapFilm:
         return float(np.sum(self.solution.film.thickness * area) / np.sum(area))
 
 
-def wall_power(solution: FilmSolution, weight: Array | None = None) -> float:
-    """Power (W) that the walls spend on shearing the film: -(integral of wall stress times wall velocity).
+@dataclass(frozen=True)
+class ValvePlateFilm:
+    """The ring's film with what chambers (z,) and ports give into it, m3/s."""
 
-    `weight` leaves regions out that are no film, as in `reynolds.loads.loads`.
-    """
-    film = solution.film
-    fields = point_fields(solution)
-    area = solution.problem.space.area if weight is None else solution.problem.space.area * weight
-    stresses = (*fields.shear_moving, *fields.shear_fixed)
-    velocities = (*film.velocity_moving, *film.velocity_fixed)
-    return -float(sum(np.sum(t * u * area) for t, u in zip(stresses, velocities, strict=True)))
+    gap: GapFilm
+    chamber_flows: Array
+    suction_flow: float
+    delivery_flow: float

@@ -20,7 +20,6 @@ from gaps.course import OverTurn
 from gaps.physics import FilmLaws, Physics, laws_left
 from gaps.profiles import PLAIN, Profile
 from gaps.rubbing import wall_shear
-from gaps.slipper import hagen_poiseuille_conductance
 from gaps.slipper_lands import SlipperLands, slipper_mesh
 from reynolds.contact import Asperities
 from reynolds.film import ZERO, Boundary, Film, FilmProblem, Held, Pocket, no_feed
@@ -107,6 +106,14 @@ def pressed_by(
     """
     turned = np.array([-ball_moment[1], ball_moment[0]])
     return np.asarray(centre_of_mass * np.asarray(inertia) - ball_height * np.asarray(friction) + turned)
+
+
+def hagen_poiseuille_conductance(diameter: float, length: float, viscosity: float) -> float:
+    """Laminar flow per pressure drop of a capillary, pi d^4/(128 mu l), m3/(s Pa); paper Eq. (16).
+
+    Valid for l/d > 3 or so and Re d/l << 64; a short orifice adds rho/2 (q/(Cd A))^2.
+    """
+    return float(np.pi * diameter**4 / (128.0 * viscosity * length))
 
 
 def orifice_and_capillary(drop: float, conductance: float, loss: float) -> Tangent:
@@ -248,6 +255,12 @@ class SlipperFilm:
         solution = stage.solution
         pocket = float(solution.pressure[solution.problem.space.edge_dofs["pocket"][0]])
         return pocket, float(self._supply(self.chamber_pressure(stage.time) - pocket)[0])
+
+    def throttling(self, stage: Stage) -> float:
+        """Flow through the orifice per pressure drop over it, m3/(s Pa), at the flow that it has."""
+        pocket, fed = self.supplied(stage)
+        drop = self.chamber_pressure(stage.time) - pocket
+        return fed / drop if drop else float(self._supply(0.0)[1])
 
     def chamber_pressure(self, time: float) -> float:
         """Pressure (Pa) of the chamber at a time (s)."""

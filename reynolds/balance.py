@@ -99,11 +99,9 @@ class Operators:
 
     @cached_property
     def rate(self) -> Array:
-        """What a full film swallows, (size,) m3/s: its squeeze, or its content over the time step."""
-        storage = self.problem.storage
-        if storage is None:
-            return self.problem.space.lumped(self.transport.squeeze)
-        return self.content / storage.step
+        """What a full film swallows, (size,) m3/s: its squeeze, and its content over the time step."""
+        storage, squeeze = self.problem.storage, self.problem.space.lumped(self.transport.squeeze)
+        return squeeze if storage is None else squeeze + self.content / storage.step
 
     @cached_property
     def full(self) -> tuple[Array, Array]:
@@ -214,7 +212,7 @@ def flow_balance(problem: FilmProblem, parts: Operators, state: State) -> Balanc
         ratio = density(problem, state.pressure)[0]
         filling = state.film_fraction * ratio
         # A full film swallows; as it is torn apart, its film fraction gives way.
-        grown = parts.rate * (filling if problem.storage else np.where(parts.rate > 0.0, filling, ratio))
+        grown = parts.rate * np.where(parts.rate > 0.0, filling, ratio)
         net, meeting = grown.copy(), np.abs(parts.rate * filling)
         kernels.carry(pattern.indptr, pattern.indices, *parts.convection, filling, net, meeting)
         level = cavity_density(problem) * state.film_fraction

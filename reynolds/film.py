@@ -156,7 +156,7 @@ class FilmProblem:
     `held_nodes` (size,) may hold further unknowns at a pressure: NaN where the film is free (regions of the
     film plane that lie under a port). `fluid` gives viscosity and density over pressure, `surface`
     the roughness of the walls, `asperities` what they bear where they touch, and `walls` how far they give way.
-    With `storage` the film is one step of a transient: the change of what it holds takes the place of
+    With `storage` the film is one step of a transient: it swallows the change of what it holds, beside
     `film.squeeze`. Pressures in Pa on one common reference, gauge or absolute.
     Where two held boundaries meet, their common unknowns are held by the later one.
     Raises FilmInputError for a field that is not of the space, or of which a value is no number or means nothing.

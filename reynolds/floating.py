@@ -44,9 +44,10 @@ class Floating:
     """A film and what presses on its walls, as pure functions of time (s).
 
     name: of the part, for messages.
-    shape_at(t): the film at q = 0, without storage and squeeze. Its thickness is then the distance of the mean
-    planes and may have any sign (make it by `Film`, since `film` wants it positive). Its asperities bear where
-    walls touch; an overlap of the mean planes is left to `overlap.film_between`.
+    shape_at(t): the film at q = 0, without storage, its squeeze only what no storage knows (shapes that pass). Its
+    thickness is then the distance of the mean planes and may have any sign (make it by `Film`, since `film` wants
+    it positive). Its asperities bear where walls touch; an overlap of the mean planes is left to
+    `overlap.film_between`.
     modes_at(t): phi at the vertices, (vertices, k); between them interpolated (`FilmSpace.sample_vertices`).
     outer_at(t, q, dq/dt): see `Outer`; a film that bears a load W along q has P = -W.
     reference: pressure (Pa) around the part, to which forces are counted.

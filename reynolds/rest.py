@@ -1,7 +1,7 @@
-"""Where a motion comes to rest when what drives it stands still: implicit Euler with steps that grow.
+"""A floating film while what drives it stands still: held at a position, or come to rest where its forces balance.
 
-Long steps forget how the motion got there, so that the rest found is stable and near the start; a motion that has
-none runs into something, and the message tells what.
+Rest is found by implicit Euler with steps that grow. Long steps forget how the motion got there, so that the rest
+found is stable and near the start; a motion that has none runs into something, and the message tells what.
 """
 
 from __future__ import annotations
@@ -12,11 +12,30 @@ import numpy as np
 
 from reynolds.dirk import BACKWARD_EULER, S, StageSolver, State, Taken, advance
 from reynolds.errors import FilmInputError, FilmNotConverged
+from reynolds.film import FilmSolution
+from reynolds.floating import Floating
+from reynolds.floating_instant import instant_of
+from reynolds.floating_stage import Stage, standing
+from reynolds.mesh import Array
+from reynolds.solve import FilmSolver
 
 GROWTH = 4.0  # of a step after one that was solved
 STILL = 3  # steps in a row that move no coordinate by more than allowed, each GROWTH times as long
 MOST_STEPS = 100
 SHORTEST = 1e-6  # of the first step
+FOR_EVER = 1e9  # s, a step after which nothing of before counts
+
+
+def held_at(
+    solver: FilmSolver, floating: Floating, time: float, q: Array, warm: FilmSolution | None = None
+) -> Stage:
+    """The film at a position (k,) m where the part is held, its drive that of `time` (s): forces need not balance.
+
+    Raises FilmInputError where walls overlap, FilmNotConverged where the film does not settle.
+    """
+    q = np.asarray(q, dtype=float)
+    instant = instant_of(solver, floating, time, FOR_EVER, standing(floating, time, q))
+    return Stage(time, instant.tried(q, warm), instant, films=1, steps=0, shift=np.zeros_like(q))
 
 
 def come_to_rest(solve: StageSolver[S], start: State[S], step: float, allowed: float) -> Taken[S]:

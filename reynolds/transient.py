@@ -13,7 +13,7 @@ import numpy as np
 
 from reynolds.balance import State, density, operators
 from reynolds.errors import FilmInputError, FilmNotConverged
-from reynolds.film import FilmProblem, FilmSolution, Storage
+from reynolds.film import ZERO, FilmProblem, FilmSolution, Storage
 from reynolds.mesh import Array
 from reynolds.opening import opening
 from reynolds.setting import spread
@@ -92,7 +92,7 @@ def march_with(
         problem = problem_at(time)
         if not np.array_equal(problem.space.vertices, first.space.vertices):
             raise FilmInputError(f"mesh at {time:g} s", "vertices that have moved", "those of the start")
-        return problem
+        return replace(problem, film=replace(problem.film, squeeze=ZERO))
 
     for number in range(count):
         begin, until = (start + (end - start) * k / count for k in (number, number + 1))

@@ -76,7 +76,7 @@ def write_film_page(folder: Path) -> Path:
 def summary_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
     """(what, value with its unit) of every number of a film's summary, in its order."""
     for key, value in summary.items():
-        if key in ("format", "kind", "name", "warnings", "refinement"):
+        if key in ("format", "kind", "name", "warnings", "refinement", "assumptions"):
             continue
         words, unit = named(key)
         if value is None:

@@ -90,7 +90,7 @@ def digest(case: Case) -> str:
     """A name for the content of a case: its resolved text, and what that takes from other files."""
     content = hashlib.sha256(case.resolved.encode())
     if isinstance(case, GapCase):
-        content.update(repr((case.rotor.pump, case.instant)).encode())
+        content.update(repr((case.rotor.pump, case.position, case.load)).encode())
     elif isinstance(case, RevolutionCase):
         content.update(repr((case.rotor.pump, case.chamber_pressure)).encode())
     else:

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gaps.result import GapFilm
 from reynolds.carried_load import Carried
 from reynolds.energy import FilmTemperature
 from reynolds.film import FilmSolution
@@ -21,7 +20,7 @@ from swashfilm.film_physics import physics_summary, vertex_fields
 from swashfilm.film_transient import Moment, transient
 from swashfilm.film_warnings import film_warnings
 from swashfilm.gap_case import GapCase
-from swashfilm.gap_study import gap_summary, solve_gap
+from swashfilm.gap_study import GapStudy, gap_summary, solve_gap
 from swashfilm.progress import Report
 
 if TYPE_CHECKING:
@@ -41,7 +40,7 @@ class FilmStudy:
     name: str
     solution: FilmSolution
     loads: Loads
-    gap: GapFilm | None
+    gap: GapStudy | None
     solve_seconds: float
     heat: FilmTemperature | None = None
     history: tuple[Moment, ...] = ()
@@ -59,8 +58,8 @@ def solve_case(case: FilmCase | GapCase, report: Report = silent) -> FilmStudy:
     """
     began = time.perf_counter()
     if isinstance(case, GapCase):
-        film = solve_gap(case)
-        return FilmStudy(case.name, film.solution, film.loads, film, time.perf_counter() - began)
+        gap = solve_gap(case)
+        return FilmStudy(case.name, gap.film.solution, gap.film.loads, gap, time.perf_counter() - began)
     heat: FilmTemperature | None = None
     history: tuple[Moment, ...] = ()
     carried: Carried | None = None

@@ -11,7 +11,6 @@ import numpy as np
 from gaps.revolution import GapRevolution
 from reynolds.export import write_pvd
 from swashfilm.fidelity import Fidelity
-from swashfilm.gap_case import Gap
 from swashfilm.pump_data import PICTURED_TURN
 from swashfilm.pump_fields import FIELDS, vtu_name
 from swashfilm.pump_summary import pump_summary
@@ -22,6 +21,7 @@ from system.floating import FloatingPoint
 from system.floating_gaps import FloatingOptions
 from system.floating_heat import all_taken
 from system.instants import Rotor
+from system.pump_gap import Gap
 
 RESULTS = "results.nc"
 _OF_PUMP = ("format", "kind", "name", "gap", "physics_left_out", "assumptions", "warnings")

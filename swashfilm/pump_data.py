@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from gaps.result import GapFilm, PositionSource
+from gaps.result import GapFilm
 from system.assembly import PumpPoint
 from system.films import FilmsPoint
 from system.pairs import Pair
@@ -28,7 +28,6 @@ _GAP_SERIES = {
     "friction_power": ("W", lambda film: film.friction_power),
     "required_load": ("N", lambda film: film.required_load),
     "carried_load": ("N", lambda film: film.carried_load),
-    "balanced": ("1", lambda film: float(film.source is PositionSource.BALANCE)),
     "cavitated_area_fraction": ("1", lambda film: film.loads.cavitated_area_fraction),
 }
 

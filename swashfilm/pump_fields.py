@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -10,7 +9,8 @@ import numpy as np
 from reynolds.export import write_pvd, write_vtu
 from swashfilm.pump_data import GAPS
 from system.films import FilmsPoint
-from system.places import bore_frame, slipper_frame
+from system.places import place_of
+from system.pump_gap import Gap
 
 FIELDS = "fields"
 
@@ -23,15 +23,12 @@ def write_fields(folder: Path, films: FilmsPoint) -> None:
     """
     place = folder / FIELDS
     place.mkdir()
-    radius = 0.5 * films.rotor.pump.pump.piston_diameter
-    angles = films.gaps.shaft_angle
-    for k, film in enumerate(films.gaps.piston):
-        on_bore = partial(bore_frame(films.rotor, angles[k]).cylinder, radius=radius)
-        write_vtu(place / vtu_name("piston", k), film.solution, on_bore)
-    for k, film in enumerate(films.gaps.slipper):
-        write_vtu(place / vtu_name("slipper", k), film.solution, slipper_frame(films.rotor, angles[k]).plane)
-    for k, ring in enumerate(films.gaps.valve_plate):
-        write_vtu(place / vtu_name("valve_plate", k), ring.gap.solution)
+    series = {Gap.PISTON: films.gaps.piston, Gap.SLIPPER: films.gaps.slipper}
+    series[Gap.VALVE_PLATE] = tuple(ring.gap for ring in films.gaps.valve_plate)
+    for gap, told in series.items():
+        for k, film in enumerate(told):
+            at = place_of(gap, films.rotor, films.parts, films.gaps.shaft_angle[k])
+            write_vtu(place / vtu_name(gap.value, k), film.solution, at)
     _write_series(folder, films)
 
 

@@ -64,12 +64,11 @@ def write_pump_page(folder: Path) -> Path:
 
 
 def map_caption(data: Any, gap: str) -> str:
-    """Title of a gap's maps, the shaft angle and the position they stand at; the ring repeats after each pitch."""
+    """Title of a gap's maps and the shaft angle they stand at; the ring repeats after each pitch."""
     k = pump_plots.pictured(data, gap)
     angle = np.degrees(data[f"{gap}_angle"].values[k])
-    source = "from balance" if data[f"{gap}_balanced"].values[k] else "given"
     whose = "block" if gap == "valve_plate" else "shaft"
-    return f"{TITLES[gap]} at {whose} angle {angle:.0f} deg, position {source}"
+    return f"{TITLES[gap]} at {whose} angle {angle:.0f} deg, position given"
 
 
 def headline_rows(summary: Mapping[str, Any]) -> Rows:
@@ -149,14 +148,14 @@ def power_rows(summary: Mapping[str, Any]) -> Rows:
 
 
 def gap_rows(summary: Mapping[str, Any]) -> Rows:
-    """(gap, film from balance, film given, statement): no thickness is shown as a result that was only given."""
+    """(gap, given film, leakage, power of the walls, statement)."""
     rows: Rows = []
     for gap, report in summary["gaps"].items():
         rows.append(
             (
                 TITLES[gap],
-                _film(report["film_thickness_balanced_mean_m"], report["film_thickness_balanced_min_m"]),
-                _film(report["film_thickness_given_mean_m"]),
+                f"{report['film_thickness_mean_m'] * 1e6:.2f} um"
+                f" (least {report['film_thickness_min_m'] * 1e6:.2f} um)",
                 f"{report['leakage_flow_mean_m3_per_s'] * LPM:.4f} L/min",
                 f"{report['friction_power_mean_W']:.1f} W",
                 report["statement"],
@@ -191,12 +190,6 @@ def check_rows(summary: Mapping[str, Any]) -> Rows:
             if key in report:
                 rows.append((f"{TITLES[gap]} film, {key.replace('_', ' ')}", f"{report[key]:.3g}"))
     return rows
-
-
-def _film(mean: float | None, least: float | None = None) -> str:
-    if mean is None:
-        return "none"
-    return f"{mean * 1e6:.2f} um" + ("" if least is None else f" (least {least * 1e6:.2f} um)")
 
 
 def _pictures(data: Any, summary: Mapping[str, Any]) -> dict[str, str]:

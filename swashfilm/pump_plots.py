@@ -112,15 +112,13 @@ def film_series(data: xarray.Dataset) -> bytes:
     for gap in ("piston", "slipper"):
         angle = np.degrees(data[f"{gap}_angle"].values)
         film = data[f"{gap}_film_thickness_min"].values * 1e6
-        balanced = data[f"{gap}_balanced"].values > 0.5
-        (line,) = left.plot(angle, film, label=gap)
-        left.plot(angle[balanced], film[balanced], "o", color=line.get_color())
+        left.plot(angle, film, label=gap)
         required = data[f"{gap}_required_load"].values
         carried = np.full_like(required, np.nan)
         np.divide(data[f"{gap}_carried_load"].values, required, out=carried, where=required > 0.0)
         middle.plot(angle, np.clip(100.0 * carried, 0.0, 200.0), label=gap)
         right.plot(angle, data[f"{gap}_friction_power"].values, label=gap)
-    left.set(ylabel="minimum film / um", title="dots: from balance", ylim=(0, None))
+    left.set(ylabel="minimum film / um", title="position given", ylim=(0, None))
     middle.set(ylabel="load carried / %", title="cut at 200 %")
     right.set(ylabel="power of the walls / W", title="one piston, one slipper")
     for axes in (left, middle, right):

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from gaps.result import GapFilm, PositionSource
+from gaps.result import GapFilm
 from swashfilm.fidelity import Fidelity
 from swashfilm.pump_data import gap_films
 from system.assembly import PumpPoint
@@ -72,26 +72,19 @@ def pump_summary(
         "power_balance": _power(point),
         "gaps": {gap: gap_report(series) for gap, series in gap_films(films).items()} if films else {},
         "checks": _checks(point, films),
+        "assumptions": [str(taken) for taken in films.parts.taken] if films else [],
         "warnings": list(warnings),
     }
 
 
 def gap_report(series: Sequence[GapFilm]) -> dict[str, Any]:
-    """What a gap did over the turn: where its position comes from, film, load, leakage and friction.
-
-    Film thicknesses of a balance stand apart from those at the given position, which are no result; a load that
-    no film carries at some angle is told as such.
-    """
-    balanced = [film for film in series if film.source is PositionSource.BALANCE]
-    given = [film for film in series if film.source is PositionSource.GIVEN]
-    report: dict[str, Any] = {
-        "angles_balanced": len(balanced),
-        "angles_given": len(given),
-        "film_thickness_balanced_mean_m": None,
-        "film_thickness_balanced_min_m": None,
-        "film_thickness_given_mean_m": None,
-        "carried_fraction_given_min": None,
-        "carried_fraction_given_max": None,
+    """What a gap did over the turn: film, share of the load, leakage and friction, at the positions given."""
+    fractions = [film.carried_fraction for film in series]
+    return {
+        "film_thickness_mean_m": float(np.mean([film.film_thickness_mean for film in series])),
+        "film_thickness_min_m": min(film.loads.film_thickness_min for film in series),
+        "carried_fraction_min": min(fractions),
+        "carried_fraction_max": max(fractions),
         "friction_power_mean_W": float(np.mean([film.friction_power for film in series])),
         "leakage_flow_mean_m3_per_s": float(np.mean([film.leakage_flow for film in series])),
         "pressure_max_Pa": max(film.loads.pressure_max for film in series),
@@ -100,27 +93,14 @@ def gap_report(series: Sequence[GapFilm]) -> dict[str, Any]:
         "unknowns": series[0].solution.problem.space.size,
         "statement": gap_statement(series),
     }
-    if balanced:
-        report["film_thickness_balanced_mean_m"] = float(np.mean([film.film_thickness_mean for film in balanced]))
-        report["film_thickness_balanced_min_m"] = min(film.loads.film_thickness_min for film in balanced)
-    if given:
-        fractions = [film.carried_fraction for film in given]
-        report["film_thickness_given_mean_m"] = float(np.mean([film.film_thickness_mean for film in given]))
-        report["carried_fraction_given_min"], report["carried_fraction_given_max"] = min(fractions), max(fractions)
-    return report
 
 
 def gap_statement(series: Sequence[GapFilm]) -> str:
-    """In words: how many angles balance, and the worst of those that do not."""
-    given = [film for film in series if film.source is PositionSource.GIVEN]
-    count = len(series)
-    if not given:
-        return f"force and moments balance at all {count} angles"
-    worst = max(given, key=lambda film: abs(film.required_load - film.carried_load))
+    """In words: how much of its load the film holds where the description puts the part."""
+    worst = max(series, key=lambda film: abs(film.required_load - film.carried_load))
     return (
-        f"position from balance at {count - len(given)} of {count} angles, given by the description at "
-        f"{len(given)}; there the film carries {worst.carried_fraction:.1%} of {worst.required_load:.0f} N at "
-        f"the worst ({worst.verdict})"
+        f"position given by the description at {len(series)} angles; the film carries "
+        f"{worst.carried_fraction:.1%} of {worst.required_load:.0f} N at the worst"
     )
 
 

@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-import numpy as np
-
-from gaps.slipper import hagen_poiseuille_conductance
 from swashfilm.pump_data import gap_films
 from swashfilm.pump_summary import gap_statement
 from system.films import FilmsPoint
@@ -12,9 +9,6 @@ from system.films import FilmsPoint
 LARGEST_RIGID_PRESSURE = 100e6
 """Pa. There the viscosity of mineral oil is several times that of the film, and steel gives by micrometres."""
 LARGEST_SAMPLING_ERROR = 0.02
-LARGEST_ORIFICE_ERROR = 0.02
-ENTRY_AND_EXIT = 1.5
-"""Velocity heads lost at a sharp entry and a free exit (Idelchik 1960)."""
 
 
 def films_warnings(films: FilmsPoint) -> list[str]:
@@ -22,7 +16,6 @@ def films_warnings(films: FilmsPoint) -> list[str]:
     return [
         *uncarried_loads(films),
         *impossible_pressures(films),
-        *turbulent_orifice(films),
         *coarse_angles(films),
     ]
 
@@ -30,8 +23,8 @@ def films_warnings(films: FilmsPoint) -> list[str]:
 def uncarried_loads(films: FilmsPoint) -> list[str]:
     """A warning for each gap whose film, at some angle, does not hold its load at the position given."""
     return [
-        f"load_not_carried: {gap.replace('_', ' ')}: {gap_statement(series)}; contact or what this model leaves "
-        "out (squeeze, elasticity, shape of wear) makes up the difference"
+        f"load_not_carried: {gap.replace('_', ' ')}: {gap_statement(series)}; contact, squeeze or another "
+        "position makes up the difference: --fidelity floating finds it"
         for gap, series in gap_films(films).items()
         if not all(film.holds_its_load for film in series)
     ]
@@ -49,31 +42,6 @@ def impossible_pressures(films: FilmsPoint) -> list[str]:
                 "smaller eccentricity or tilt, or a larger clearance"
             )
     return found
-
-
-def turbulent_orifice(films: FilmsPoint) -> list[str]:
-    """A warning where the slipper's orifice, taken as a capillary, passes too much for lack of its entry loss.
-
-    Entry and exit cost 1.5 rho/2 (q/A)^2 beside the capillary's drop q/G. To first order the flow is too large by
-    that loss over the whole pressure difference.
-    """
-    pump, point = films.rotor.pump, films.rotor.point
-    part = pump.slipper
-    area = 0.25 * np.pi * part.orifice_diameter**2
-    flows = np.array([film.chamber_flow for film in films.gaps.slipper])
-    drops = np.maximum(np.abs(films.gaps.chamber_pressure - point.case_pressure), 1e5)
-    error = ENTRY_AND_EXIT * 0.5 * pump.oil.density * (flows / area) ** 2 / drops
-    k = int(np.argmax(error))
-    if error[k] <= LARGEST_ORIFICE_ERROR:
-        return []
-    conductance = hagen_poiseuille_conductance(part.orifice_diameter, part.orifice_length, point.viscosity)
-    share = flows[k] / conductance / drops[k]
-    return [
-        f"orifice_not_a_capillary: slipper: the orifice passes {flows[k] * 6e4:.3g} L/min at "
-        f"{flows[k] / area:.0f} m/s and takes {share:.0%} of the pressure as a capillary; entry and exit would "
-        f"take {error[k]:.0%} of it more (limit {LARGEST_ORIFICE_ERROR:.0%}), so flow and film are too large; "
-        "a smaller or longer orifice"
-    ]
 
 
 def coarse_angles(films: FilmsPoint) -> list[str]:

@@ -14,9 +14,9 @@ from gaps.revolution import GapInstant
 from gaps.seen import Active
 from reynolds.mesh import Array
 from reynolds.overlap import vertex_thickness
-from swashfilm.gap_case import Gap
 from swashfilm.revolution_study import RevolutionStudy, friction_power, tilt
 from system.instants import travel
+from system.pump_gap import Gap
 
 if TYPE_CHECKING:
     import xarray

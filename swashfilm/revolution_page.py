@@ -11,10 +11,10 @@ from typing import Any
 
 from swashfilm.film_page import summary_rows
 from swashfilm.film_refine import refinement_head, refinement_rows
-from swashfilm.gap_case import Gap
 from swashfilm.pump_plots import TITLES
 from swashfilm.revolution_plots import revolution_plots
 from system.faults import Fault, InputFaults
+from system.pump_gap import Gap
 
 FILES = ("summary.json", "resolved.toml", "results.nc", "convergence.csv")
 _LISTS = ("assumptions", "physics_left_out", "gap")

@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from gaps.seen import Active
-from swashfilm.gap_case import Gap
 from swashfilm.maps import draw_map
 from swashfilm.revolution_data import PISTON_END, POSITIONS, SHOWN
+from system.pump_gap import Gap
 
 if TYPE_CHECKING:
     import xarray

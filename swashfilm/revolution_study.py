@@ -12,7 +12,6 @@ from gaps.revolution import GapRevolution
 from gaps.seen import Active, BlockSeen, GapSeen, PistonSeen, SlipperSeen, mass_balance_error
 from gaps.warmth import Warmth
 from reynolds.mesh import Array
-from swashfilm.gap_case import Gap
 from swashfilm.progress import Report
 from swashfilm.revolution_case import GapCase, RevolutionCase
 from swashfilm.revolution_warnings import revolution_warnings
@@ -21,6 +20,7 @@ from system.floating_gaps import block_revolution, piston_revolution, slipper_re
 from system.floating_heat import all_taken
 from system.floating_parts import FloatingParts, floating_parts
 from system.instants import valve_plate_geometry
+from system.pump_gap import Gap
 
 NO_RUBBING = "friction of the films on the parts: left out of the forces between them (one gap alone)"
 

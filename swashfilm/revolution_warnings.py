@@ -7,12 +7,12 @@ from typing import Any
 
 from gaps.physics import Effect
 from gaps.revolution import GapRevolution
-from swashfilm.gap_case import Gap
 from swashfilm.pump_warnings import LARGEST_RIGID_PRESSURE
 from swashfilm.revolution_case import GapCase
 from system.checks import run_checks
 from system.floating_checks import block_tips, slipper_has_a_wedge
 from system.floating_parts import FloatingParts
+from system.pump_gap import Gap
 
 LARGEST_OVERLAP = 3.0  # standard deviations of the summits: beyond, asperities would be pressed flat
 LARGEST_STEP_ERROR = 2.0  # of what a step is allowed

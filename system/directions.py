@@ -1,4 +1,4 @@
-"""Directions in space of bores and swash plate, and the force between them at the ball joint.
+"""Directions in space of bores and swash plate.
 
 Pump frame: z along the shaft from valve plate to swash plate, x to the inner dead centre.
 """
@@ -30,20 +30,3 @@ def plate_axes(drive: SwashDrive) -> Array:
     """Unit vectors (3, 3) of the swash plate: steepest line, tilt axis (y), normal away from the block."""
     c, s = np.cos(drive.swash_angle), np.sin(drive.swash_angle)
     return np.array([[c, 0.0, -s], [0.0, 1.0, 0.0], [s, 0.0, c]])
-
-
-def plate_force(drive: SwashDrive, shaft_angle: float, axial: float) -> float:
-    """Normal force N of the swash plate that balances a force Fa along the bore: N = Fa/(n . a).
-
-    Fa/cos(gamma) for a cylindrical block; the ball joint and the sliding face without friction.
-    """
-    return axial / float(plate_axes(drive)[2] @ bore_axis(drive, shaft_angle))
-
-
-def side_force(drive: SwashDrive, shaft_angle: float, axial: float) -> Array:
-    """Force (2,) of the swash plate across the bore, along `bore_sides`: -N (n - (n . a) a).
-
-    (-Fa tan(gamma), 0) for a cylindrical block. With a cone plate and bore stand at gamma -+ beta to each other at
-    inner and outer dead centre, so that REF90's nominal size |Fa| tan(gamma) is off by up to a third there.
-    """
-    return -plate_force(drive, shaft_angle, axial) * (bore_sides(drive, shaft_angle) @ plate_axes(drive)[2])

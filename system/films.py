@@ -1,7 +1,8 @@
-"""The films fidelity: leakage and viscous friction of the three gaps from film solves over the revolution.
+"""The films fidelity: leakage and viscous friction of the three gaps from films at given positions.
 
-Chamber pressure and films are solved in turn until the pressure of the whole revolution repeats. Coulomb losses
-are those of the lumped fidelity: a smooth rigid film knows no contact.
+Parts stand where the pump's description puts them; chamber pressure and films are solved in turn until the
+pressure of the whole revolution repeats. Coulomb losses are those of the lumped fidelity: a smooth rigid film
+knows no contact.
 """
 
 from __future__ import annotations
@@ -15,7 +16,8 @@ from system.chamber import ChamberCycle, solve_cycle
 from system.chamber_problem import ChamberProblem, LeakTable
 from system.description import PumpDescription
 from system.errors import NotConverged
-from system.gap_cycle import GapCycle, GapFilms, Report, silent
+from system.floating_parts import FloatingParts, floating_parts
+from system.gap_cycle import GapCycle, Report, gap_cycle, silent
 from system.instants import Rotor, rotor
 from system.kinematics import Array
 from system.lumped import (
@@ -47,11 +49,12 @@ ROUND_LIMIT = 12
 class FilmsPoint:
     """One coupled operating point: the pump, its films over the revolution, and the evidence of convergence.
 
-    rounds of films and chamber; pressure_change: the last round's largest, Pa; sampling_error: change of the
-    leakage (relative) when the chamber knows only every second film angle.
+    parts: with every value taken; rounds of films and chamber; pressure_change: the last round's largest, Pa;
+    sampling_error: change of the leakage (relative) when the chamber knows only every second film angle.
     """
 
     rotor: Rotor
+    parts: FloatingParts
     pump_point: PumpPoint
     gaps: GapCycle
     rounds: int
@@ -69,8 +72,8 @@ def films_point(
     """One periodic operating point with films solved over the revolution.
 
     Raises NotConverged when chamber pressure and films do not settle within ROUND_LIMIT rounds, ValueError when
-    `positions_per_pitch` is no even divisor of SAMPLES_PER_PITCH or chambers differ. Films are rigid, isothermal,
-    quasi-static.
+    `positions_per_pitch` is no even divisor of SAMPLES_PER_PITCH or chambers differ, FilmInputError where parts
+    touch at a given position. Films are rigid, smooth, isothermal, without history.
     """
     kinds(pump).hold_alike()
     if positions_per_pitch % 2 or SAMPLES_PER_PITCH % positions_per_pitch:
@@ -80,15 +83,15 @@ def films_point(
     motion, lines = piston_motion(pump, point), port_lines(pump, point)
     every = SAMPLES_PER_PITCH // positions_per_pitch
     lumped = lumped_point(pump, point)
-    films, gaps, rounds, cycle = GapFilms(rotor(pump, lumped.point)), None, 0, lumped.cycle
+    at, parts, rounds, cycle = rotor(pump, lumped.point), floating_parts(pump), 0, lumped.cycle
     limit = TOLERANCE * (abs(point.delivery_pressure - point.inlet_pressure) + 1e5)
     while rounds < ROUND_LIMIT:
         rounds += 1
-        gaps = films.cycle(cycle.shaft_angle[::every], cycle.pressure[::every], gaps, report)
+        gaps = gap_cycle(at, parts, cycle.shaft_angle[::every], cycle.pressure[::every], report)
         problem = chamber_problem(pump, point, motion, leak_table(gaps, point.case_pressure))
-        draws = port_draws(gaps, films.rotor.point, pump.oil.bulk_modulus)
+        draws = port_draws(gaps, at.point, pump.oil.bulk_modulus)
         ported = ported_cycle((problem,), lines, pump.pump.pistons, motion.shaft_angle.size, draws=draws)
-        films.rotor = rotor(pump, met_point(point, ported))
+        at = rotor(pump, met_point(point, ported))
         before, cycle = cycle, ported.cycle
         change = float(np.max(np.abs(cycle.pressure - before.pressure)))
         if change <= limit:
@@ -102,7 +105,7 @@ def films_point(
     losses = with_film_shear(lumped_pairs(pump, point, motion, cycle), gaps, point.case_pressure)
     derived = swept_displacement(pump, motion.drive)
     pump_point = assemble(point, ported, (losses,), pump.pump.pistons, derived, exchange, (group_masses(pump),))
-    return FilmsPoint(films.rotor, pump_point, gaps, rounds, change, _sampling_error(ported.problem, cycle))
+    return FilmsPoint(at, parts, pump_point, gaps, rounds, change, _sampling_error(ported.problem, cycle))
 
 
 def leak_table(gaps: GapCycle, case_pressure: float) -> LeakTable:
@@ -114,9 +117,8 @@ def gap_exchange(gaps: GapCycle, cycle: ChamberCycle, pistons: int, point: Opera
     """Power of the oil that moving walls drag along, and what the valve plate's film takes from the ports."""
     rate = pistons * point.shaft_speed / TURN
     piston, slipper = rate * cycle.carried_energy[:2]
-    plate = float(np.mean([film.carried_power for film in gaps.valve_plate]))
     return GapExchange(
-        carried=Gaps(float(piston), float(slipper), plate),
+        carried=Gaps(float(piston), float(slipper), float(gaps.carried_power.mean())),
         delivery_draw=float(np.mean([film.delivery_flow for film in gaps.valve_plate])),
         suction_draw=float(np.mean([film.suction_flow for film in gaps.valve_plate])),
     )
@@ -139,7 +141,7 @@ def film_shear(gaps: GapCycle, case_pressure: float) -> tuple[Array, Array, Arra
     carried = leak_table(gaps, case_pressure).carried_flow * (gaps.chamber_pressure - case_pressure)
     piston = np.array([film.friction_power for film in gaps.piston]) + carried[0]
     slipper = np.array([film.friction_power for film in gaps.slipper]) + carried[1]
-    ring = np.array([film.gap.friction_power + film.carried_power for film in gaps.valve_plate])
+    ring = np.array([film.gap.friction_power for film in gaps.valve_plate]) + gaps.carried_power
     return piston, slipper, ring
 
 

@@ -7,26 +7,24 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from gaps.block_motion import BlockDrive, BlockFilm, floating_block
+from gaps.block_motion import BlockDrive, floating_block
 from gaps.film_heat import GapHeat, warm_revolution
-from gaps.physics import Effect, Physics
-from gaps.piston_motion import PistonDrive, PistonFilm, floating_piston
+from gaps.physics import Physics
+from gaps.piston_motion import PistonDrive, floating_piston
 from gaps.revolution import Accuracy, GapRevolution, Schedule, TurnReport, evenly, run_revolution
 from gaps.seen import BlockSeen, PistonSeen, Seen, SlipperSeen, block_seen, piston_seen, slipper_seen
-from gaps.slipper_motion import SlipperDrive, SlipperFilm, floating_slipper
+from gaps.slipper_motion import SlipperDrive, floating_slipper
 from reynolds.floating import Floating
 from reynolds.floating_stage import Stage
 from reynolds.mesh import Array
 from reynolds.solve import FilmSolver
 from reynolds.space import FilmSpace
-from system.floating_drives import piston_shape, slipper_shape
 from system.floating_heat import block_heat, piston_heat, slipper_heat
 from system.floating_parts import FloatingParts
 from system.gap_cycle import Report, silent
-from system.instants import Rotor, valve_plate_geometry
+from system.gap_films import RIGID, block_film, piston_film, slipper_film
+from system.instants import Rotor
 
-RIGID = Physics().without(Effect.ELASTIC_WALLS, Effect.PRESSURE_VISCOSITY)
-"""Rigid walls and oil of constant viscosity: what settles without bodies that give way."""
 MARCHED = Accuracy(step=1e-2)
 PISTON_CELLS, SLIPPER_CELLS, BLOCK_CELLS = (48, 16), (12, 40), (4, 16)
 LEAST_CELLS = 2
@@ -64,7 +62,7 @@ def piston_revolution(
     Raises as `run_revolution`.
     """
     cells = options.cells(PISTON_CELLS)
-    film = PistonFilm(piston_shape(rotor, parts), drive, parts.piston.laws, options.physics, cells)
+    film = piston_film(rotor, parts, drive, options.physics, cells)
     floating, schedule = floating_piston(film), evenly(drive.shaft_speed, options.steps, keep=options.keep)
     told = _of_turn(report, options.steps, "piston")
     heat = piston_heat(rotor, parts) if options.physics.heat else None
@@ -86,7 +84,7 @@ def slipper_revolution(
     Raises as `run_revolution`.
     """
     cells = options.cells(SLIPPER_CELLS)
-    film = SlipperFilm(slipper_shape(rotor, parts), drive, parts.slipper.laws, options.physics, cells)
+    film = slipper_film(rotor, parts, drive, options.physics, cells)
     floating, schedule = floating_slipper(film), evenly(drive.shaft_speed, options.steps, keep=options.keep)
     start, told = np.array([SLIPPER_START, 0.0, 0.0]), _of_turn(report, options.steps, "slipper")
     heat = slipper_heat(rotor, parts) if options.physics.heat else None
@@ -111,8 +109,7 @@ def block_revolution(
         raise ValueError(f"steps: found {options.steps}, expected a multiple of the {pistons} pistons")
     alike = not pump.single_pistons and not pump.single_slippers
     steps, span = (options.steps // pistons, 2.0 * np.pi / pistons) if alike else (options.steps, 2.0 * np.pi)
-    geometry, cells = valve_plate_geometry(pump, rotor.drive.dead_centre_shift), options.cells(BLOCK_CELLS)
-    film = BlockFilm(geometry, drive, parts.block.plate, parts.block.laws, options.physics, cells)
+    film = block_film(rotor, parts, drive, options.physics, options.cells(BLOCK_CELLS))
     schedule = evenly(drive.shaft_speed, steps, span, options.keep)
     start, told = np.array([BLOCK_START, 0.0, 0.0]), _of_turn(report, steps, "block")
     heat = block_heat(rotor, parts) if options.physics.heat else None

@@ -7,35 +7,36 @@ straight prolongation of the bore between valve plate and piston.
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from functools import partial
+from typing import assert_never
+
 import numpy as np
 
 from gaps.frames import Frame
 from system.directions import bore_axis, bore_sides, plate_axes
+from system.floating_parts import FloatingParts
 from system.instants import Rotor, travel
-from system.kinematics import Array, ball_radius, slipper_sliding_velocity
+from system.kinematics import Array, ball_radius
 from system.lumped import piston_area
+from system.pump_gap import Gap
 
 
-def bore_frame(rotor: Rotor, shaft_angle: float) -> Frame:
-    """Frame of the piston film: origin on the bore axis at the chamber's end of the engaged length."""
-    axis = bore_axis(rotor.drive, shaft_angle)
-    reach = rotor.pump.piston.engaged_length + rotor.pump.piston.overhang
-    x, y = bore_sides(rotor.drive, shaft_angle)
-    return Frame(ball_centre(rotor, shaft_angle) - reach * axis, x, y, axis)
-
-
-def slipper_frame(rotor: Rotor, shaft_angle: float) -> Frame:
-    """Frame of the slipper film: origin under the ball centre on the swash plate, x along the sliding velocity."""
-    steepest, across, normal = plate_axes(rotor.drive)
-    velocity = slipper_sliding_velocity(rotor.drive, shaft_angle, rotor.point.shaft_speed)
-    forward = (velocity[0] * steepest + velocity[1] * across) / np.hypot(*velocity)
-    # The sliding face lies beyond the ball by about the distance of the slipper's centre of mass.
-    face = ball_centre(rotor, shaft_angle) + rotor.pump.slipper.centre_of_mass_to_ball * normal
-    return Frame(face, forward, np.cross(normal, forward), normal)
+def place_of(gap: Gap, rotor: Rotor, parts: FloatingParts, shaft_angle: float) -> Callable[[Array], Array]:
+    """Map of a gap's film plane (n, 2) m to its place in the pump (n, 3) m at a shaft angle (rad)."""
+    match gap:
+        case Gap.PISTON:
+            frame = guide_frame(rotor, parts.piston.guide_length, shaft_angle)
+            return partial(frame.cylinder, radius=0.5 * rotor.pump.pump.piston_diameter)
+        case Gap.SLIPPER:
+            return face_frame(rotor, parts.slipper.ball_height, shaft_angle).plane
+        case Gap.VALVE_PLATE:
+            return rotor.pump.valve_plate.sphere.in_space
+    assert_never(gap)
 
 
 def guide_frame(rotor: Rotor, guide_length: float, shaft_angle: float) -> Frame:
-    """Frame of a floating piston's film: origin on the bore axis at the guide's inner end, fixed in the block.
+    """Frame of a piston's film: origin on the bore axis at the guide's inner end, fixed in the block.
 
     guide_length m, from the bore's case edge inwards.
     """
@@ -46,7 +47,7 @@ def guide_frame(rotor: Rotor, guide_length: float, shaft_angle: float) -> Frame:
 
 
 def face_frame(rotor: Rotor, ball_height: float, shaft_angle: float) -> Frame:
-    """Frame of a floating slipper's film: under the ball, `ball_height` (m) beyond it, along the plate's axes."""
+    """Frame of a slipper's film: under the ball, `ball_height` (m) beyond it, along the plate's axes."""
     steepest, across, normal = plate_axes(rotor.drive)
     return Frame(ball_centre(rotor, shaft_angle) + ball_height * normal, steepest, across, normal)
 

@@ -50,7 +50,7 @@ class PointSolver(Protocol):
 
 @dataclass(frozen=True)
 class FilmsSolver:
-    """`films_point`: rigid isothermal films at positions of quasi-static balance, or given where none is."""
+    """`films_point`: rigid isothermal films at the positions that the description gives."""
 
     positions_per_pitch: int = POSITIONS_PER_PITCH
     source = Source.FILMS
@@ -59,7 +59,7 @@ class FilmsSolver:
     def stated(self) -> Mapping[str, str]:
         """What its numbers rest on."""
         return {
-            "physics": "rigid, isothermal, mass-conserving cavitation, quasi-static; Coulomb coefficients given",
+            "physics": "rigid, isothermal, mass-conserving cavitation; positions and Coulomb coefficients given",
             "mesh": f"meshes of the films fidelity, {self.positions_per_pitch} film angles a piston pitch",
             "accuracy": f"chamber pressure repeats to {TOLERANCE:g} of the pressure difference",
         }

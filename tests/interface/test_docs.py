@@ -14,7 +14,6 @@ from swashfilm.fidelity import Fidelity
 from swashfilm.film_case import load_case
 from swashfilm.film_run import run_case
 from swashfilm.film_study import film_dataset, film_summary, solve_case
-from swashfilm.gap_case import Gap
 from swashfilm.gap_study import gap_warnings
 from swashfilm.pump_data import films_dataset, point_dataset
 from swashfilm.pump_page import headline_rows
@@ -27,6 +26,7 @@ from system.films import FilmsPoint, films_point
 from system.operating import operating_point
 from system.pairs import Pair
 from system.pump_file import builtin_pumps, load_pump
+from system.pump_gap import Gap
 from system.pump_values import units_shown
 
 ROOT = Path(__file__).parents[2]

@@ -11,11 +11,11 @@ from system.faults import InputFaults
 from system.fields import choice_of, dimension_of, layouts_of, table_of, tables_of
 from system.floating_checks import check_floating
 from system.floating_parts import BRASS, STEEL, ball_plane_height, floating_parts
-from system.instants import rotor
+from system.instants import rotor, travel
 from system.line_description import LineKind
 from system.operating import operating_point
 from system.parts_description import RetainerKind
-from system.places import bore_frame
+from system.places import guide_frame
 from system.pump_file import builtin_pumps, check_pump, load_pump, resolved_toml
 from system.pump_values import units_shown
 
@@ -371,10 +371,11 @@ def test_shapes_add_up():
 
 
 def test_ball_plane_height_is_where_the_places_of_the_pump_have_it():
-    """The piston film's frame lies `engaged + overhang` below its ball along the bore; at 90 deg on the axis."""
+    """The bore's case edge lies an overhang and the piston's way below the ball; at 90 deg on the shaft."""
     pump = load_pump("ref90")
-    frame = bore_frame(rotor(pump, operating_point(pump)), 0.5 * np.pi)
-    ball = frame.origin + (pump.piston.engaged_length + pump.piston.overhang) * frame.z
+    group = rotor(pump, operating_point(pump))
+    frame = guide_frame(group, 0.0, 0.5 * np.pi)
+    ball = frame.origin + (pump.piston.overhang + travel(group, 0.5 * np.pi)) * frame.z
     assert ball_plane_height(pump) == pytest.approx(ball[2], rel=1e-12)
 
 

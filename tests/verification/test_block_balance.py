@@ -14,16 +14,24 @@ import pytest
 from scipy.integrate import quad
 
 from gaps.block_balance import BlockBalance, land_lift
-from gaps.block_motion import BlockDrive, BlockFilm, floating_block, generalised, kidney_wrench, wrench_about
+from gaps.block_motion import (
+    BlockDrive,
+    BlockFilm,
+    floating_block,
+    generalised,
+    kidney_wrench,
+    standing_block,
+    wrench_about,
+)
 from gaps.course import constant
 from gaps.physics import FilmLaws
 from gaps.profiles import Profile, Waviness
 from gaps.ring import ValvePlateGeometry
-from gaps.valve_plate import ValvePlateGap, ValvePlatePosition, ValvePlateState
 from reynolds.contact import Asperities
 from reynolds.film import FilmProblem, Storage
 from reynolds.floating_stage import solve_stage, standing
 from reynolds.generalised import contact_force, generalised_force, modes_on
+from reynolds.rest import held_at
 from reynolds.solve import FilmSolver
 
 RADII = (26.5e-3, 31.5e-3, 40.5e-3, 45.7e-3)
@@ -215,11 +223,8 @@ def test_a_tilt_that_stands_in_space_is_the_film_of_the_standing_frame(validatio
     position = np.array([9e-6, 3e-6, -2e-6])
     film = BlockFilm(PORTS, drive(**RUNNING), cells=(3, 12))
     floating, time = floating_block(film), 0.3 / SPEED
-    gap = ValvePlateGap(PORTS, (3, 12))
-    state = ValvePlateState(0.3, film.chamber_pressures(0.3), 2.5e6, PRESSURE, CASE, -1e5, VISCOSITY, SPEED)
-    slopes = position[1:] / RADII[3]
-    steady = gap.at(state, ValvePlatePosition(position[0], *slopes), 0.0)
-    expected = generalised(np.array([steady.separating_force, *steady.separating_moment]), RADII[3])
+    steady = held_at(FilmSolver(film.space), standing_block(film), time, position)
+    expected = steady.film_force + steady.outer.force
 
     def solve(steps: int) -> tuple[float, ...]:
         step = 0.02 / SPEED / steps

@@ -13,20 +13,15 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from gaps.piston import PistonGap
-from gaps.result import GapFilm, PositionSource
-from gaps.slipper import SlipperGap, SlipperPosition, hagen_poiseuille_conductance
-from gaps.valve_plate import ValvePlateGap
+from gaps.result import GapFilm
 from system.description import PumpDescription
+from system.directions import plate_axes
 from system.films import TOLERANCE, FilmsPoint, film_shear, films_point, leak_table
-from system.instants import (
-    piston_geometry,
-    piston_instant,
-    slipper_geometry,
-    slipper_instant,
-    valve_plate_geometry,
-    valve_plate_instant,
-)
+from system.floating_drives import drives, no_rubbing
+from system.gap_cycle import gap_cycle
+from system.given_positions import given_slipper
+from system.instants import rotor
+from system.kinematics import slipper_sliding_velocity
 from system.lumped import lumped_point
 from system.operating import operating_point
 from system.pump_file import load_pump
@@ -46,6 +41,10 @@ def rated() -> FilmsPoint:
 def films_of(point: FilmsPoint) -> list[GapFilm]:
     rings = (film.gap for film in point.gaps.valve_plate)
     return list(chain(point.gaps.piston, point.gaps.slipper, rings))
+
+
+def pocket_pressure(film: GapFilm) -> float:
+    return float(film.solution.pressure[film.solution.problem.space.edge_dofs["pocket"][0]])
 
 
 def with_pistons(count: int) -> PumpDescription:
@@ -103,12 +102,16 @@ def test_heat_of_the_films_is_the_pumps_loss(rated, validation):
     compressibility (p/K of 2 %, half of it on the mean) and the film angles between are what may differ.
     """
     point, gaps = rated.pump_point, rated.gaps
-    pistons, part = rated.rotor.pump.pump.pistons, rated.rotor.pump.slipper
-    orifice = hagen_poiseuille_conductance(part.orifice_diameter, part.orifice_length, point.point.viscosity)
+    pistons = rated.rotor.pump.pump.pistons
     dissipated = {
         "piston": pistons * np.mean([film.loads.dissipation for film in gaps.piston]),
         "slipper": pistons
-        * np.mean([film.loads.dissipation + film.chamber_flow**2 / orifice for film in gaps.slipper]),
+        * np.mean(
+            [
+                film.loads.dissipation + film.chamber_flow * (chamber - pocket_pressure(film))
+                for film, chamber in zip(gaps.slipper, gaps.chamber_pressure, strict=True)
+            ]
+        ),
         "valve plate": np.mean([film.gap.loads.dissipation for film in gaps.valve_plate]),
     }
     pairs, leakage = point.pairs, point.power.leakage
@@ -152,7 +155,7 @@ def test_each_chamber_meets_its_own_pressure(rated):
             assert ring.gap.solution.pressure[nodes] == pytest.approx(gaps.chamber_pressure[n])
             place = space.vertices[np.isin(space.vertex_dofs, nodes)].mean(axis=0)
             assert np.cos(np.arctan2(place[1], place[0]) - gaps.shaft_angle[n]) == pytest.approx(1.0)
-            assert gaps.valve_plate_flow[n] == ring.chamber_flows[k]
+            assert gaps.flow[2, n] == ring.chamber_flows[k]
 
 
 def test_chamber_and_port_agree_where_a_kidney_is_full_open(rated):
@@ -172,22 +175,36 @@ def test_chamber_and_port_agree_where_a_kidney_is_full_open(rated):
         assert nodes[web] == pytest.approx(pressure)
 
 
-def test_positions_are_balanced_or_given(rated):
-    """A position that was found balances a film solved afresh; one that was not is the description's, with why."""
-    parts, gaps = rated.rotor, rated.gaps
-    found = [k for k, film in enumerate(gaps.piston) if film.source is PositionSource.BALANCE]
-    assert found
-    for k in found[:: len(found) // 3]:
-        state, load, _ = piston_instant(parts, gaps.shaft_angle[k], gaps.chamber_pressure[k])
-        gap = PistonGap(piston_geometry(parts.pump))
-        side, _, moment, _ = gap.force(gap.solve(state, gaps.piston[k].position))
-        assert side == pytest.approx(-load.force[0], rel=1e-4)
-        assert moment == pytest.approx(-load.force[0] * (0.5 * state.engaged_length + load.arm), rel=1e-4)
-    for k, film in enumerate(gaps.piston):
-        if film.source is PositionSource.GIVEN:
-            _, _, given = piston_instant(parts, gaps.shaft_angle[k], gaps.chamber_pressure[k])
-            assert film.position == pytest.approx(given)
-            assert "no film" in film.verdict
+def test_parts_stand_where_the_description_puts_them(rated):
+    """The piston off its axis where its forces push it, the slipper and the block at their films and tilts."""
+    parts, gaps, pump = rated.rotor, rated.gaps, rated.rotor.pump
+    driven = drives(parts, rated.parts, gaps.shaft_angle, gaps.chamber_pressure, no_rubbing(36))
+    off = pump.piston.eccentricity_ratio * pump.piston.radial_clearance
+    for angle, film in zip(gaps.shaft_angle, gaps.piston, strict=True):
+        inner, case = film.position.reshape(2, 2)
+        assert inner == pytest.approx(case)
+        assert inner @ driven.piston.outer(angle).reshape(2, 2).sum(axis=0) == pytest.approx(
+            off * film.required_load
+        )
+    assert all(film.position[0] == pump.slipper.film_thickness for film in gaps.slipper)
+    assert all(film.gap.position[0] == pump.valve_plate.film_thickness for film in gaps.valve_plate)
+    assert all(film.contact_load == 0.0 for film in films_of(rated))
+
+
+def test_stated_tilts_open_the_films_to_their_sides():
+    """Radial outwards, tangential forwards; the plate's two along x and y."""
+    part = load_pump("ref90").slipper.model_copy(update={"tilt_radial": 1e-4, "tilt_tangential": 2e-4})
+    pump = load_pump("ref90").model_copy(update={"slipper": part})
+    group, radius = rotor(pump, operating_point(pump)), part.lands.outer_radius
+    for angle in (0.3, 2.0, 4.0):
+        rises = given_slipper(group, angle)[1:] / radius
+        velocity = slipper_sliding_velocity(group.drive, angle, 1.0)
+        forward = velocity / np.hypot(*velocity)
+        steepest, across, _ = plate_axes(group.drive)
+        outward = np.array([np.cos(angle), np.sin(angle), 0.0])
+        right = np.array([forward[1], -forward[0]])
+        assert (right[0] * steepest + right[1] * across) @ outward > 0.9
+        assert [rises @ forward, rises @ right] == pytest.approx([np.tan(2e-4), np.tan(1e-4)])
 
 
 def test_slow_parallel_pump_leaks_as_the_equations_say(validation):
@@ -198,7 +215,6 @@ def test_slow_parallel_pump_leaks_as_the_equations_say(validation):
     slow = operating_point(pump, shaft_speed=50.0 * RPM)
     films = films_point(pump, slow, positions_per_pitch=2)
     lumped = lumped_point(pump, slow)
-    assert all(film.source is PositionSource.GIVEN for film in (*films.gaps.piston, *films.gaps.slipper))
     assert_closed(films)
     for gap, tolerance, note in (
         ("piston", 1e-5, ""),
@@ -290,26 +306,13 @@ def test_meshes_doubled(rated, validation):
 
 
 def _on_both_meshes(point: FilmsPoint) -> dict[tuple[str, str], tuple[float, float]]:
-    """(quantity, unit) -> mean over every third film angle on the default mesh and on the doubled one."""
-    parts, gaps = point.rotor, point.gaps
-    piston = PistonGap(piston_geometry(parts.pump), (96, 24))
-    slipper = SlipperGap(slipper_geometry(parts.pump), (24, 96))
-    plate = ValvePlateGap(valve_plate_geometry(parts.pump), (16, 64))
-    coarse: dict[str, list[GapFilm]] = {"piston": [], "slipper": [], "valve plate": []}
-    fine: dict[str, list[GapFilm]] = {"piston": [], "slipper": [], "valve plate": []}
-    for k in range(0, gaps.shaft_angle.size, 3):
-        angle, pressure = gaps.shaft_angle[k], gaps.chamber_pressure[k]
-        state, load, _ = piston_instant(parts, angle, pressure)
-        coarse["piston"].append(gaps.piston[k])
-        fine["piston"].append(piston.at(state, load, gaps.piston[k].position))
-        foot, press, _ = slipper_instant(parts, angle, pressure)
-        coarse["slipper"].append(gaps.slipper[k])
-        fine["slipper"].append(slipper.at(foot, press, SlipperPosition(*gaps.slipper[k].position)))
-    for k, ring in enumerate(gaps.valve_plate):
-        chambers = gaps.chamber_pressure[k :: len(gaps.valve_plate)]
-        block, given, press_on = valve_plate_instant(parts, gaps.shaft_angle[k], chambers)
-        coarse["valve plate"].append(ring.gap)
-        fine["valve plate"].append(plate.at(block, given, press_on).gap)
+    """(quantity, unit) -> mean over the film angles on the default mesh and on the doubled one."""
+    gaps = point.gaps
+    again = gap_cycle(point.rotor, point.parts, gaps.shaft_angle, gaps.chamber_pressure, finer=2)
+    coarse, fine = (
+        {"piston": c.piston, "slipper": c.slipper, "valve plate": [f.gap for f in c.valve_plate]}
+        for c in (gaps, again)
+    )
     found = {}
     for gap in coarse:
         both = coarse[gap], fine[gap]

@@ -5,8 +5,9 @@ import pytest
 
 from gaps.ball_joint import DrivenBody, ball_forces, swept_acceleration
 from system import kinematics as kin
-from system.directions import bore_axis, plate_axes, plate_force
-from system.instants import axial_force, rotor
+from system import pairs
+from system.directions import bore_axis, plate_axes
+from system.instants import rotor
 from system.lumped import piston_area
 from system.operating import operating_point
 from system.pump_file import load_pump
@@ -151,5 +152,6 @@ def test_force_on_the_plate_is_that_of_the_ball_joint_on_a_conical_block():
     push = piston_area(pump) * above * axis
     both = DrivenBody(pump.piston.mass + pump.slipper.mass, rate, push)
     lift = ball_forces(axis, plate[2], both, DrivenBody(0.0, np.zeros(3), np.zeros(3))).lift
-    fa = axial_force(group, angle, above + group.point.case_pressure)
-    assert plate_force(drive, angle, fa) == pytest.approx(lift, rel=1e-12)
+    mass, at_ball = both.mass, float(kin.ball_acceleration_along_bore(drive, angle, speed))
+    axial = pairs.axial_force(np.array(above), 0.0, piston_area(pump), mass, np.array(at_ball))
+    assert float(axial) / (plate[2] @ axis) == pytest.approx(lift, rel=1e-12)

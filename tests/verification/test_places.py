@@ -8,22 +8,18 @@ import numpy as np
 import pytest
 
 from gaps.frames import Frame
-from gaps.piston import PistonGap
-from gaps.slipper import SlipperGap
+from gaps.slipper_lands import slipper_mesh
+from reynolds.space import film_space
 from reynolds.sphere import PLANE
-from system.instants import (
-    Rotor,
-    piston_geometry,
-    piston_instant,
-    rotor,
-    slipper_geometry,
-    slipper_instant,
-    travel,
-)
-from system.kinematics import piston_displacement, stroke
+from system.floating_parts import floating_parts
+from system.gap_films import RIGID, piston_film
+from system.instants import Rotor, rotor, travel
+from system.kinematics import piston_displacement, slipper_sliding_velocity, stroke
 from system.operating import operating_point
-from system.places import bore_frame, slipper_frame
+from system.places import face_frame, guide_frame, place_of
 from system.pump_file import load_pump
+from system.pump_gap import Gap
+from system.standing_gaps import instant_drives
 
 ANGLES = np.radians([0.0, 35.0, 90.0, 180.0, 250.0, 345.0])
 PUMPS = ["ref90", str(Path(__file__).resolve().parents[2] / "examples/pumps/cylindrical_block.toml")]
@@ -39,11 +35,21 @@ def plate_normal(parts: Rotor) -> np.ndarray:
     return np.array([np.sin(gamma), 0.0, np.cos(gamma)])
 
 
+def bore_frame(parts: Rotor, angle: float) -> Frame:
+    return guide_frame(parts, parts.pump.piston.engaged_length, angle)
+
+
+def slipper_frame(parts: Rotor, angle: float) -> Frame:
+    return face_frame(parts, HEIGHT, angle)
+
+
+HEIGHT = 11e-3
+
+
 def ball(parts: Rotor, angle: float) -> np.ndarray:
-    """Ball centre from the piston's frame: engaged length and overhang of the instant along the bore."""
+    """Ball centre from the piston's frame: guide and overhang of the instant along the bore."""
     frame, part = bore_frame(parts, angle), parts.pump.piston
-    out = travel(parts, angle)
-    return frame.origin + (part.engaged_length - out + part.overhang + out) * frame.z
+    return frame.origin + (part.engaged_length + part.overhang + travel(parts, angle)) * frame.z
 
 
 @pytest.mark.parametrize("angle", ANGLES)
@@ -85,12 +91,12 @@ def _turn(angle: float) -> np.ndarray:
 def test_slipper_film_lies_in_the_plate(angle):
     """Film points lie in one plane parallel to the swash plane, beyond the balls, about the ball's foot."""
     parts = group("ref90", 1.0)
-    state, _, given = slipper_instant(parts, angle, 1e6)
-    space = SlipperGap(slipper_geometry(parts.pump), (2, 12)).problem(state, given).space
-    points = slipper_frame(parts, angle).plane(space.vertices)
+    taken, lands = floating_parts(parts.pump), parts.pump.slipper.lands
+    space = film_space(slipper_mesh(lands.radii, (2, 12)))
+    points = place_of(Gap.SLIPPER, parts, taken, angle)(space.vertices)
     normal, centre = plate_normal(parts), ball(parts, angle)
     beyond = (points - centre) @ normal
-    assert beyond == pytest.approx(np.full(len(points), parts.pump.slipper.centre_of_mass_to_ball), abs=1e-12)
+    assert beyond == pytest.approx(np.full(len(points), taken.slipper.ball_height), abs=1e-12)
     foot = centre + beyond[0] * normal
     away = np.linalg.norm(points - foot, axis=1)
     assert away.min() == pytest.approx(parts.pump.slipper.land_inner_radius)
@@ -98,25 +104,29 @@ def test_slipper_film_lies_in_the_plate(angle):
 
 
 @pytest.mark.parametrize("angle", ANGLES)
-def test_slipper_slides_along_its_x(angle):
-    """Finite difference of the ball's place; the film's x must point there."""
+def test_slipper_slides_as_its_ball_moves(angle):
+    """Finite difference of the ball's place along the film's x and y."""
     parts, step = group("ref90", 1.0), 1e-5
-    way = ball(parts, angle + step) - ball(parts, angle - step)
-    assert slipper_frame(parts, angle).x == pytest.approx(way / np.linalg.norm(way), abs=1e-8)
+    frame, speed = slipper_frame(parts, angle), parts.point.shaft_speed
+    way = (ball(parts, angle + step) - ball(parts, angle - step)) / (2.0 * step) * speed
+    sliding = slipper_sliding_velocity(parts.drive, angle, speed)
+    seen = np.array([frame.x, frame.y, frame.z]) @ way
+    assert seen == pytest.approx([*sliding, 0.0], abs=1e-7 * np.hypot(*sliding))
 
 
 @pytest.mark.parametrize("angle", ANGLES)
 def test_piston_film_is_a_cylinder_about_the_bore(angle):
     parts = group("ref90", 1.0)
-    frame, radius = bore_frame(parts, angle), parts.pump.pump.piston_diameter / 2
-    state, load, _ = piston_instant(parts, angle, 1e6)
-    space = PistonGap(piston_geometry(parts.pump), (12, 2)).problem(state, np.zeros(4)).space
-    points = frame.cylinder(space.vertices, radius)
+    taken, radius = floating_parts(parts.pump), parts.pump.pump.piston_diameter / 2
+    drive = instant_drives(parts, taken, angle, np.array([1e6])).piston
+    space = piston_film(parts, taken, drive, RIGID, (12, 2)).space_at(angle / drive.shaft_speed)
+    points = place_of(Gap.PISTON, parts, taken, angle)(space.vertices)
+    frame, out = bore_frame(parts, angle), travel(parts, angle)
     along = (points - ball(parts, angle)) @ frame.z
     across = points - ball(parts, angle) - along[:, None] * frame.z
     assert np.linalg.norm(across, axis=1) == pytest.approx(np.full(len(points), radius))
-    assert along.max() == pytest.approx(-load.arm)  # the case's end, an overhang short of the ball
-    assert np.ptp(along) == pytest.approx(state.engaged_length)
+    assert along.max() == pytest.approx(-parts.pump.piston.overhang - out)  # the bore's case edge
+    assert np.ptp(along) == pytest.approx(parts.pump.piston.engaged_length - out)
     # Angle 0 lies on the inner dead centre's side.
     assert frame.x[0] > 0.99 * np.linalg.norm(frame.x)
     assert frame.z[2] == pytest.approx(np.cos(parts.pump.pump.bore_cone_angle))

@@ -6,41 +6,74 @@ the tables, and to first order of its tilt the closed form derived here.
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 
-from gaps.result import SMALLEST_FILM, GapFilm, PositionSource
-from gaps.slipper import (
-    SlipperGap,
-    SlipperGeometry,
-    SlipperLoad,
-    SlipperPosition,
-    SlipperState,
+from gaps.course import constant
+from gaps.pressure_flow import slipper_conductance as conductance_of
+from gaps.result import GapFilm
+from gaps.seen import Active
+from gaps.slipper_lands import SlipperLands
+from gaps.slipper_motion import (
+    Orifice,
+    SlipperDrive,
+    SlipperFilm,
+    SlipperShape,
+    face_force,
+    floating_slipper,
     hagen_poiseuille_conductance,
 )
-from gaps.slipper_lands import SlipperLands
-from system.instants import rotor, slipper_instant
+from gaps.standing import rest_from, slipper_told
+from reynolds.errors import FilmNotConverged
+from reynolds.floating_stage import Stage
+from reynolds.mesh import Array
+from reynolds.rest import held_at
+from reynolds.solve import FilmSolver
+from system.floating_parts import floating_parts
+from system.instants import rotor
 from system.leakage import slipper_conductance
 from system.operating import operating_point
 from system.pump_file import load_pump
+from system.standing_gaps import instant_drives
 
 INNER, OUTER, ORIFICE, ORIFICE_LENGTH = 8.2e-3, 14e-3, 0.9e-3, 5e-3
-GEOMETRY = SlipperGeometry(SlipperLands(((INNER, OUTER),)), ORIFICE, ORIFICE_LENGTH)
-TABLES = SlipperGeometry(SlipperLands(((5e-3, 10e-3),)), 2e-3, 5e-3)
+SHAPE = SlipperShape(SlipperLands(((INNER, OUTER),)), Orifice(ORIFICE, ORIFICE_LENGTH))
+TABLES = SlipperShape(SlipperLands(((5e-3, 10e-3),)), Orifice(2e-3, 5e-3))
 VISCOSITY, PRESSURE, CASE = 0.0258, 35e6, 0.15e6
 LOG = np.log(OUTER / INNER)
 EFFECTIVE_AREA = np.pi * (OUTER**2 - INNER**2) / (2.0 * LOG)
 LAND_AREA = np.pi * (OUTER**2 - INNER**2)
 MESHES = (8, 16, 32)
-PARALLEL = SlipperPosition(10e-6, 0.0, 0.0)
-NO_LOAD = SlipperLoad(1.0, 0.0, 0.0)
-AT_REST = SlipperState(PRESSURE, CASE, -1e5, VISCOSITY, 0.0, 0.0)
+PARALLEL = np.array([10e-6, 0.0, 0.0])
 
 
-def gap(n: int, geometry: SlipperGeometry = GEOMETRY) -> SlipperGap:
-    return SlipperGap(geometry, (n, 6 * n))
+def drive(
+    chamber: float = PRESSURE, sliding: float = 0.0, load: tuple[float, float, float] = (1.0, 0.0, 0.0), **changed
+) -> SlipperDrive:
+    """A slipper at rest under 35 MPa; load: lift N and int p x, int p y N m that its film must give."""
+    outer = face_force(OUTER, load[0], np.array(load[1:]))
+    usual = {
+        "shaft_speed": 220.0,
+        "viscosity": VISCOSITY,
+        "density": 860.0,
+        "case_pressure": CASE,
+        "cavitation_pressure": -1e5,
+        "spin": 0.0,
+        "chamber_pressure": constant(chamber),
+        "sliding": constant(sliding, 0.0),
+        "outer": constant(*outer),
+    }
+    return SlipperDrive(**(usual | changed))
+
+
+def held(n: int, at: SlipperDrive, position: Array, shape: SlipperShape = SHAPE) -> tuple[SlipperFilm, Stage]:
+    film = SlipperFilm(shape, at, cells=(n, 6 * n))
+    return film, held_at(FilmSolver(film.space), floating_slipper(film), 0.0, position)
+
+
+def at_rest(n: int, at: SlipperDrive, start: Array = PARALLEL) -> GapFilm:
+    film = SlipperFilm(SHAPE, at, cells=(n, 6 * n))
+    return slipper_told(film, rest_from(FilmSolver(film.space), floating_slipper(film), 0.0, start))
 
 
 def land_conductance(thickness: float) -> float:
@@ -54,13 +87,13 @@ def test_parallel_slipper_at_rest(validation, refine):
     flow = series * (PRESSURE - CASE)
     pocket = PRESSURE - flow / orifice
     assert (PRESSURE - pocket) / PRESSURE > 0.01  # thick enough a film for the orifice to count
-    thick = SlipperPosition(40e-6, 0.0, 0.0)
 
     def solve(n: int) -> tuple[float, ...]:
-        ring = gap(n)
-        film = ring.at(AT_REST, NO_LOAD, thick)
-        assert film.leakage_flow == pytest.approx(film.chamber_flow, rel=1e-9)
-        return film.chamber_flow, film.conductance, ring.pocket_pressure(film.solution), film.carried_load
+        film, stage = held(n, drive(), np.array([40e-6, 0.0, 0.0]))
+        told = slipper_told(film, stage)
+        assert told.leakage_flow == pytest.approx(told.chamber_flow, rel=1e-9)
+        conductance = conductance_of(FilmSolver(film.space), film, stage)
+        return told.chamber_flow, conductance, film.supplied(stage)[0], told.carried_load
 
     quantities = (
         ("leakage", "m3/s", flow, "paper equation (16)"),
@@ -82,14 +115,14 @@ def test_parallel_slipper_at_rest(validation, refine):
 
 
 def test_friction_of_sliding_and_spin(validation, refine):
-    moving = replace(AT_REST, chamber_pressure=CASE, sliding_speed=9.9, spin=220.0)
+    moving = drive(CASE, 9.9, spin=220.0)
     polar = np.pi / 2.0 * (OUTER**4 - INNER**4)
 
     def solve(n: int) -> tuple[float, float]:
-        film = gap(n).at(moving, NO_LOAD, PARALLEL)
-        return film.friction_power, -film.loads.friction_torque_moving
+        told = slipper_told(*held(n, moving, PARALLEL))
+        return told.friction_power, -told.loads.friction_torque_moving
 
-    shear = VISCOSITY / PARALLEL.film_thickness
+    shear = VISCOSITY / PARALLEL[0]
     exact = (
         ("friction power", "W", shear * (LAND_AREA * 9.9**2 + polar * 220.0**2)),
         ("spin torque", "N m", shear * polar * 220.0),
@@ -121,16 +154,16 @@ def test_tilted_slipper_of_the_tables(speed, side, lift, moment, flow, validatio
 
     The tables hold the pocket at 20 MPa: the chamber's pressure is higher by what the orifice takes (0.01 %).
     """
-    orifice = hagen_poiseuille_conductance(TABLES.orifice_diameter, TABLES.orifice_length, 0.03)
-    at = SlipperState(20e6 + flow / orifice, 0.0, -1e5, 0.03, speed, 0.0)
-    tilted = SlipperPosition(10e-6, side * 0.5 * 10e-6 / 10e-3, 0.0)
+    orifice = hagen_poiseuille_conductance(TABLES.orifice.diameter, TABLES.orifice.length, 0.03)
+    at = drive(20e6 + flow / orifice, speed, case_pressure=0.0, viscosity=0.03)
+    tilted = np.array([10e-6, side * 0.5 * 10e-6, 0.0])
 
     def solve(n: int) -> tuple[float, float, float]:
-        ring = gap(n, TABLES)
-        film = ring.at(at, NO_LOAD, tilted)
-        _, about_x, about_y = ring.force(film.solution, at)
-        assert abs(about_x) < 1e-9 * lift * OUTER
-        return film.carried_load, -about_y, film.chamber_flow
+        film, stage = held(n, at, tilted, TABLES)
+        _, along_x, along_y = TABLES.outer_radius * stage.film_force
+        assert abs(along_y) < 1e-9 * lift * OUTER
+        told = slipper_told(film, stage)
+        return told.carried_load, along_x, told.chamber_flow
 
     quantities = (
         ("lift with the pocket", "N", lift, 0.5e-3),
@@ -178,10 +211,10 @@ OVERBALANCED = 0.97 * EFFECTIVE_AREA * (PRESSURE - CASE)
 
 def test_overbalanced_slipper_floats(validation, refine):
     def solve(n: int) -> float:
-        film = gap(n).balanced(AT_REST, SlipperLoad(OVERBALANCED, 0.0, 0.0), PARALLEL)
-        assert film.source is PositionSource.BALANCE
+        film = at_rest(n, drive(load=(OVERBALANCED, 0.0, 0.0)))
+        assert film.active == (Active.LIFT,)
         assert film.carried_fraction == pytest.approx(1.0, abs=1e-5)
-        assert np.abs(film.position[1:]).max() * OUTER < 1e-4 * film.position[0]
+        assert np.abs(film.position[1:]).max() < 1e-4 * film.position[0]
         return float(film.position[0])
 
     found = refine(solve, MESHES)
@@ -197,19 +230,17 @@ def test_overbalanced_slipper_floats(validation, refine):
     )
 
 
-@pytest.mark.parametrize("thickness", [0.5 * SMALLEST_FILM, SMALLEST_FILM, 1e-3])
-def test_given_film_out_of_range_is_a_start_like_any_other(thickness):
-    """A given film too thin or too thick for a balance, and tilted, does not keep the balance from being found."""
-    given = SlipperPosition(thickness, 0.2 * thickness / OUTER, -0.1 * thickness / OUTER)
-    film = gap(8).balanced(AT_REST, SlipperLoad(OVERBALANCED, 0.0, 0.0), given)
-    assert film.source is PositionSource.BALANCE
-    assert film.position[0] == pytest.approx(balanced_thickness(OVERBALANCED), rel=0.01)
+@pytest.mark.parametrize("thickness", [0.75e-6, 1e-3])
+def test_any_start_leads_to_the_rest(thickness):
+    """From a film far too thin or too thick, and tilted."""
+    start = thickness * np.array([1.0, 0.2, -0.1])
+    film = at_rest(8, drive(load=(OVERBALANCED, 0.0, 0.0)), start)
+    usual = at_rest(8, drive(load=(OVERBALANCED, 0.0, 0.0)))
+    assert film.position == pytest.approx(usual.position, abs=1e-4 * usual.position[0])
 
 
-def _tilted_by(moment_x: float, moment_y: float, n: int = 16) -> GapFilm:
-    film = gap(n).balanced(AT_REST, SlipperLoad(OVERBALANCED, moment_x, moment_y), PARALLEL)
-    assert film.source is PositionSource.BALANCE
-    return film
+def _tilted_by(along_x: float, along_y: float, n: int = 16) -> GapFilm:
+    return at_rest(n, drive(load=(OVERBALANCED, along_x, along_y)))
 
 
 def test_moment_tilts_the_slipper(validation, refine):
@@ -217,7 +248,7 @@ def test_moment_tilts_the_slipper(validation, refine):
     tilt = 1e-3
     moment = small_tilt_moment(OVERBALANCED / EFFECTIVE_AREA, tilt)
     assert moment < 0.0
-    found = refine(lambda n: float(_tilted_by(0.0, -moment, n).position[1]), MESHES)
+    found = refine(lambda n: float(_tilted_by(moment, 0.0, n).position[1]) / OUTER, MESHES)
     expected = tilt * balanced_thickness(OVERBALANCED) / OUTER
     validation(
         case="Slipper gap, tilt under a small moment",
@@ -233,71 +264,67 @@ def test_moment_tilts_the_slipper(validation, refine):
 
 
 def test_tilt_is_symmetric_and_turns_with_the_moment():
-    moment = 0.01 * OVERBALANCED * OUTER
-    ahead, behind, left = _tilted_by(0.0, moment), _tilted_by(0.0, -moment), _tilted_by(-moment, 0.0)
-    thickness, slope, none = ahead.position
-    assert slope > 0.0
-    near = 1e-4 * thickness / OUTER
+    moment = -0.01 * OVERBALANCED * OUTER
+    ahead, behind, left = _tilted_by(moment, 0.0), _tilted_by(-moment, 0.0), _tilted_by(0.0, moment)
+    thickness, rise, none = ahead.position
+    assert rise > 0.0
+    near = 1e-4 * thickness
     assert none == pytest.approx(0.0, abs=near)
-    assert behind.position == pytest.approx([thickness, -slope, 0.0], abs=near)
-    assert left.position == pytest.approx([thickness, 0.0, slope], abs=near)
+    assert behind.position == pytest.approx([thickness, -rise, 0.0], abs=near)
+    assert left.position == pytest.approx([thickness, 0.0, rise], abs=near)
 
 
-def test_found_position_balances_while_sliding():
+def test_rest_balances_while_sliding():
     """Force and moments recomputed from a cold film are the load's."""
-    sliding = replace(AT_REST, sliding_speed=9.9, spin=20.0)
-    load = SlipperLoad(OVERBALANCED, 0.3, -0.2)
-    film = gap(12).balanced(sliding, load, PARALLEL)
-    assert film.source is PositionSource.BALANCE
-    cold = gap(12)
-    found = cold.force(cold.solve(sliding, SlipperPosition(*film.position)), sliding)
-    scale = load.force * np.array([1.0, OUTER, OUTER])
-    assert found / scale == pytest.approx(np.array([load.force, 0.3, -0.2]) / scale, abs=2e-6)
+    load = (OVERBALANCED, 0.2, 0.3)
+    at = drive(sliding=9.9, spin=20.0, load=load)
+    film = at_rest(12, at)
+    _, stage = held(12, at, film.position)
+    wanted = np.array([load[0], 0.2 / OUTER, 0.3 / OUTER])
+    assert stage.film_force == pytest.approx(wanted, abs=1e-5 * OVERBALANCED)
 
 
 def test_ref90_is_underbalanced(validation):
-    """Full chamber pressure under the parallel film holds 0.955 of the piston's push; no film holds it all."""
+    """Full chamber pressure under the parallel film holds 0.955 of the piston's push; no smooth film bears it."""
     pump = load_pump("ref90")
     area = np.pi / 4.0 * pump.pump.piston_diameter**2
-    load = SlipperLoad(area * (PRESSURE - CASE) / np.cos(pump.pump.swash_angle_max), 0.0, 0.0)
-    film = gap(16).balanced(AT_REST, load, PARALLEL)
-    assert film.source is PositionSource.GIVEN
-    assert "no film" in film.verdict
-    assert film.position == pytest.approx([10e-6, 0.0, 0.0])
+    load = (area * (PRESSURE - CASE) / np.cos(pump.pump.swash_angle_max), 0.0, 0.0)
     validation(
         case="Slipper gap, hydrostatic balance of REF90",
         source="physics/ref90.md",
         quantity="carried share, 35 MPa, parallel film of 10 um at rest",
         unit="1",
         expected=0.955,
-        obtained=film.carried_fraction,
+        obtained=slipper_told(*held(32, drive(load=load), PARALLEL)).carried_fraction,
         tolerance=0.5e-3,
         note="rounding of the reference",
     )
+    with pytest.raises(FilmNotConverged, match="no rest"):
+        at_rest(8, drive(load=load))
 
 
-def test_pulled_slipper_is_no_film():
-    film = gap(8).balanced(AT_REST, SlipperLoad(-120.0, 0.0, 0.0), PARALLEL)
-    assert film.source is PositionSource.GIVEN
-    assert "pulled off the plate (120 N" in film.verdict
-    assert film.required_load == 0.0
+def test_pulled_slipper_finds_no_rest():
+    film, stage = held(8, drive(load=(-120.0, 0.0, 0.0)), PARALLEL)
+    assert slipper_told(film, stage).required_load == 0.0
+    with pytest.raises(FilmNotConverged, match="no rest"):
+        at_rest(8, drive(load=(-120.0, 0.0, 0.0)))
 
 
 @pytest.mark.parametrize("shaft_angle", [0.5, 2.0, 4.0, 5.5])
 def test_centrifugal_force_presses_the_inner_side(shaft_angle):
     """The centre of mass lies behind the ball as seen from the block: swung outwards it lifts the outer side.
 
-    The outward side is to the right of the motion, at -y; the film must therefore hold more at +y.
+    The outward side is to the right of the motion; without friction in the joint the film must hold more inwards.
     """
-    pump = load_pump("ref90")
+    pump = load_pump("ref90", {"friction.piston_slipper_socket": 0.0})
     point = operating_point(pump)
     group = rotor(pump, point)
-    _, load, _ = slipper_instant(group, shaft_angle, PRESSURE)
-    radius, speed = pump.pump.pitch_radius, point.shaft_speed
-    swing = pump.slipper.mass * radius * speed**2 * pump.slipper.centre_of_mass_to_ball
-    assert load.moment_x == pytest.approx(swing, rel=0.15)  # the path on the plate is an ellipse, not a circle
-    assert abs(load.moment_y) < 0.15 * swing
-    floating = SlipperLoad(OVERBALANCED, load.moment_x, load.moment_y)
-    film = gap(8).balanced(AT_REST, floating, PARALLEL)
-    assert film.source is PositionSource.BALANCE
-    assert film.position[2] < 0.0  # thin on the inner side, +y
+    found = instant_drives(group, floating_parts(pump), shaft_angle, np.array([PRESSURE]))
+    forward = found.slipper.sliding(shaft_angle)
+    forward = forward / np.hypot(*forward)
+    inward, pressed = np.array([-forward[1], forward[0]]), found.group[0].pressed
+    swing = pump.slipper.mass * pump.pump.pitch_radius * point.shaft_speed**2 * pump.slipper.centre_of_mass_to_ball
+    assert pressed @ inward == pytest.approx(swing, rel=0.15)  # the path on the plate is an ellipse, not a circle
+    assert abs(pressed @ forward) < 0.15 * swing
+    film = at_rest(8, drive(load=(OVERBALANCED, *pressed)))
+    assert film.position[1:] @ inward < 0.0  # thin on the inner side

@@ -6,12 +6,21 @@ the full pressure between them.
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
 
-from gaps.valve_plate import ValvePlateFilm, ValvePlateGap, ValvePlateGeometry, ValvePlatePosition, ValvePlateState
+from gaps.block_motion import BlockDrive, BlockFilm, kidney_wrench, standing_block
+from gaps.course import Course, constant
+from gaps.pressure_flow import kidney_conductances
+from gaps.result import ValvePlateFilm
+from gaps.ring import ValvePlateGeometry
+from gaps.standing import block_told
+from reynolds.floating_stage import Stage
+from reynolds.mesh import Array
+from reynolds.rest import held_at
+from reynolds.solve import FilmSolver
 from system.leakage import valve_plate_conductance
 
 RADII = (26.5e-3, 31.5e-3, 40.5e-3, 45.7e-3)
@@ -21,35 +30,64 @@ GEOMETRY = ValvePlateGeometry(RADII, PISTONS, np.radians(30.0), SUCTION, DELIVER
 ALL_PORT = replace(GEOMETRY, suction_arc=(0.0, np.pi), delivery_arc=(np.pi, 2.0 * np.pi))
 NO_PORT = replace(GEOMETRY, suction_arc=(1.5, 1.5), delivery_arc=(4.5, 4.5))
 THICKNESS, VISCOSITY, PRESSURE, CASE, SPEED = 8e-6, 0.0258, 35e6, 0.15e6, 220.0
-PARALLEL = ValvePlatePosition(THICKNESS, 0.0, 0.0)
+PARALLEL = np.array([THICKNESS, 0.0, 0.0])
+TILTED = np.array([THICKNESS, 4e-5 * RADII[3], -3e-5 * RADII[3]])
 MESHES = (4, 8, 16)
 
 
-def state(**changed) -> ValvePlateState:
-    """A block at rest, every chamber and port at 35 MPa, but for what is changed."""
+@dataclass(frozen=True)
+class Instant:
+    """A block at a shaft angle (rad), chambers by their number."""
+
+    angle: float
+    drive: BlockDrive
+
+    @property
+    def chambers(self) -> Array:
+        places = self.angle + PITCH * np.arange(PISTONS)
+        return np.array([float(self.drive.chamber_pressure(place)) for place in places])
+
+
+def state(*, angle: float = 0.0, chambers: Array | None = None, load: float = 1.0, **changed) -> Instant:
+    """A block that hardly turns, every chamber and port at 35 MPa, but for what is changed."""
     at_rest = {
-        "shaft_angle": 0.0,
-        "chamber_pressure": np.full(PISTONS, PRESSURE),
+        "shaft_speed": 1e-9,
         "suction_pressure": PRESSURE,
         "delivery_pressure": PRESSURE,
         "case_pressure": CASE,
         "cavitation_pressure": -1e5,
         "viscosity": VISCOSITY,
-        "shaft_speed": 0.0,
+        "press": constant(-load, 0.0, 0.0),
     }
-    return ValvePlateState(**(at_rest | changed))
+    pressures = np.full(PISTONS, PRESSURE) if chambers is None else chambers
+    chamber = Course(angle + PITCH * np.arange(PISTONS), pressures)
+    return Instant(angle, BlockDrive(**(at_rest | changed), chamber_pressure=chamber))
 
 
-def running(**changed) -> ValvePlateState:
+def running(*, angle: float = 0.0, chambers: Array | None = None, **changed) -> Instant:
     """Half the chambers at 35 MPa, half at 2.5, as the ports have them, turning, no two pressures alike."""
-    place = (np.arange(PISTONS) * PITCH + changed.get("shaft_angle", 0.0)) % (2.0 * np.pi)
-    chambers = np.where(place > np.pi, PRESSURE, 2.5e6) * (1.0 + 0.01 * np.cos(place))
-    usual = {"chamber_pressure": chambers, "suction_pressure": 2.5e6, "shaft_speed": SPEED}
-    return state(**(usual | changed))
+    place = (np.arange(PISTONS) * PITCH + angle) % (2.0 * np.pi)
+    usual = np.where(place > np.pi, PRESSURE, 2.5e6) * (1.0 + 0.01 * np.cos(place))
+    stated = {"suction_pressure": 2.5e6, "shaft_speed": SPEED}
+    return state(angle=angle, chambers=usual if chambers is None else chambers, **(stated | changed))
 
 
-def ring(n: int, geometry: ValvePlateGeometry = GEOMETRY) -> ValvePlateGap:
-    return ValvePlateGap(geometry, (n, 4 * n))
+def held(n: int, at: Instant, position: Array, geometry=GEOMETRY) -> tuple[BlockFilm, Stage]:
+    film = BlockFilm(geometry, at.drive, cells=(n, 4 * n))
+    time = at.angle / at.drive.shaft_speed
+    return film, held_at(FilmSolver(film.space), standing_block(film), time, position)
+
+
+def told(n: int, at: Instant, position: Array, geometry=GEOMETRY) -> ValvePlateFilm:
+    return block_told(*held(n, at, position, geometry))
+
+
+def separating(n: int, at: Instant, position: Array, geometry=GEOMETRY) -> tuple[float, Array]:
+    """Force (N) of film and kidneys above case pressure, and their moments about x and y (N m)."""
+    _, stage = held(n, at, position, geometry)
+    kidneys = kidney_wrench(geometry, at.angle, at.chambers - at.drive.case_pressure)
+    lift, along_x, along_y = stage.film_force
+    return lift + kidneys[0], np.array([along_y, -along_x]) * RADII[3] + kidneys[1:]
 
 
 def test_one_pressure_all_round(validation, refine):
@@ -57,10 +95,11 @@ def test_one_pressure_all_round(validation, refine):
     conductance = PISTONS * valve_plate_conductance(RADII, THICKNESS, PISTONS, VISCOSITY)
 
     def solve(n: int) -> tuple[float, float]:
-        film = ring(n, ALL_PORT).at(state(), PARALLEL, 1.0)
-        assert np.abs(film.separating_moment).max() < 1e-9 * film.separating_force * RADII[3]
-        assert film.gap.friction_power == 0.0
-        return film.gap.leakage_flow, film.separating_force
+        force, moment = separating(n, state(), PARALLEL, ALL_PORT)
+        assert np.abs(moment).max() < 1e-9 * force * RADII[3]
+        found = told(n, state(), PARALLEL, ALL_PORT).gap
+        assert found.friction_power < 1e-9
+        return found.leakage_flow, force
 
     r1, r2, r3, r4 = RADII
     mean_squares = (r4**2 - r3**2) / np.log(r4 / r3) - (r2**2 - r1**2) / np.log(r2 / r1)
@@ -90,7 +129,7 @@ def test_one_pressure_all_round(validation, refine):
 def test_kidney_of_any_arc(arc, refine):
     """Mesh lines follow the kidneys' edges: the force all round does not depend on where those are."""
     odd = replace(ALL_PORT, kidney_arc=np.radians(arc))
-    force = refine(lambda n: ring(n, odd).at(state(), PARALLEL, 1.0).separating_force, MESHES)
+    force = refine(lambda n: separating(n, state(), PARALLEL, odd)[0], MESHES)
     r1, r2, r3, r4 = RADII
     mean_squares = (r4**2 - r3**2) / np.log(r4 / r3) - (r2**2 - r1**2) / np.log(r2 / r1)
     expected = np.pi / 2.0 * mean_squares * (PRESSURE - CASE)
@@ -99,12 +138,12 @@ def test_kidney_of_any_arc(arc, refine):
 
 def test_leakage_with_half_the_ring_at_pressure(validation):
     """Mean over a pitch; the lands between the ports stand at neither pressure, which equation (17) ignores."""
-    gap, leakage = ring(8), []
+    leakage = []
     for shaft_angle in np.radians([0.0, 10.0, 20.0, 30.0]):
         place = (np.arange(PISTONS) * PITCH + shaft_angle) % (2.0 * np.pi)
         chambers = PRESSURE * np.where(np.isclose(np.sin(place), 0.0), 0.5, np.where(place > np.pi, 1.0, 0.0))
-        still = state(shaft_angle=shaft_angle, chamber_pressure=chambers, suction_pressure=0.0, case_pressure=0.0)
-        leakage.append(gap.at(still, PARALLEL, 1.0).gap.leakage_flow)
+        still = state(angle=shaft_angle, chambers=chambers, suction_pressure=0.0, case_pressure=0.0)
+        leakage.append(told(8, still, PARALLEL).gap.leakage_flow)
     half = 0.5 * PISTONS * valve_plate_conductance(RADII, THICKNESS, PISTONS, VISCOSITY) * PRESSURE
     validation(
         case="Valve-plate gap, half the ring at pressure, at rest",
@@ -121,8 +160,7 @@ def test_leakage_with_half_the_ring_at_pressure(validation):
 @pytest.mark.parametrize("shaft_angle", [0.0, 0.3, 1.0])
 def test_what_enters_leaves(shaft_angle):
     """Chambers and ports give what the case gets, in a tilted film of a turning block too."""
-    tilted = ValvePlatePosition(THICKNESS, 4e-5, -3e-5)
-    film = ring(8).at(running(shaft_angle=shaft_angle), tilted, 1.0)
+    film = told(8, running(angle=shaft_angle), TILTED)
     given = film.chamber_flows.sum() + film.suction_flow + film.delivery_flow
     assert film.gap.loads.cavity_flow == 0.0
     assert given == pytest.approx(film.gap.leakage_flow, abs=1e-10 * np.abs(film.chamber_flows).max())
@@ -134,10 +172,10 @@ def test_power_of_walls_and_pressure_becomes_heat(shaft_angle):
 
     The chambers stand 1 % off the ports' pressure: a web over a port that passed oil between them would show.
     """
-    at = running(shaft_angle=shaft_angle)
-    film = ring(8).at(at, ValvePlatePosition(THICKNESS, 4e-5, -3e-5), 1.0)
+    at = running(angle=shaft_angle)
+    film = told(8, at, TILTED)
     inflow = np.array([*film.chamber_flows, film.suction_flow, film.delivery_flow])
-    above = np.array([*at.chamber_pressure, at.suction_pressure, at.delivery_pressure]) - CASE
+    above = np.array([*at.chambers, at.drive.suction_pressure, at.drive.delivery_pressure]) - CASE
     heat = film.gap.loads.dissipation
     assert film.gap.friction_power + inflow @ above == pytest.approx(heat, rel=1e-6)
 
@@ -145,31 +183,35 @@ def test_power_of_walls_and_pressure_becomes_heat(shaft_angle):
 def test_conductance_is_that_of_the_lands(refine):
     """A web over a port passes no oil: the sum for all kidneys stays near equation (17) on any mesh."""
     law = PISTONS * valve_plate_conductance(RADII, THICKNESS, PISTONS, VISCOSITY)
-    coarse, middle, fine = (ring(n).at(running(), PARALLEL, 1.0).conductances for n in MESHES)
+    coarse, middle, fine = (_conductances(n) for n in MESHES)
     assert coarse.sum() == pytest.approx(law, rel=0.25)
     # Kidney and web side by side at two pressures: the land's corner gives a logarithm of the mesh, no more.
     assert middle == pytest.approx(coarse, rel=0.07)
     assert fine == pytest.approx(middle, rel=0.07)
 
 
+def _conductances(n: int) -> Array:
+    film, stage = held(n, running(), PARALLEL)
+    return kidney_conductances(FilmSolver(film.space), film, stage)
+
+
 def test_one_pitch_on_is_the_same_film():
     """The next chamber takes the place of the last: same film, flows by one place."""
-    gap = ring(8)
-    first = running(shaft_angle=0.1)
-    after = replace(first, shaft_angle=0.1 + PITCH, chamber_pressure=np.roll(first.chamber_pressure, -1))
-    tilted = ValvePlatePosition(THICKNESS, 4e-5, -3e-5)
-    one, two = gap.at(first, tilted, 1.0), gap.at(after, tilted, 1.0)
+    first = running(angle=0.1)
+    after = running(angle=0.1 + PITCH, chambers=np.roll(first.chambers, -1))
+    one, two = told(8, first, TILTED), told(8, after, TILTED)
     assert np.roll(one.chamber_flows, -1) == pytest.approx(two.chamber_flows, rel=1e-6)
-    assert one.separating_force == pytest.approx(two.separating_force, rel=1e-9)
-    assert one.separating_moment == pytest.approx(two.separating_moment, rel=1e-6)
     assert one.gap.friction_power == pytest.approx(two.gap.friction_power, rel=1e-9)
     assert one.gap.leakage_flow == pytest.approx(two.gap.leakage_flow, rel=1e-9)
+    force, moment = separating(8, first, TILTED)
+    assert separating(8, after, TILTED)[0] == pytest.approx(force, rel=1e-9)
+    assert separating(8, after, TILTED)[1] == pytest.approx(moment, rel=1e-6)
 
 
 def test_kidneys_stand_where_the_chambers_are():
     """kidney_k is the hole at shaft angle + (k - 1) pitch: its edge carries chamber k's pressure."""
-    at = running(shaft_angle=0.3, chamber_pressure=1e6 * np.arange(1.0, 10.0))
-    solution = (gap := ring(4)).at(at, PARALLEL, 1.0).gap.solution
+    at = running(angle=0.3, chambers=1e6 * np.arange(1.0, 10.0))
+    solution = told(4, at, PARALLEL).gap.solution
     space = solution.problem.space
     for k in range(PISTONS):
         nodes = space.edge_dofs[f"kidney_{k + 1}"]
@@ -178,32 +220,29 @@ def test_kidneys_stand_where_the_chambers_are():
         angle = np.arctan2(place[1], place[0]) - 0.3 - k * PITCH
         assert np.sin(angle) == pytest.approx(0.0, abs=1e-9)
         assert np.cos(angle) > 0.0
-    assert gap.geometry.pistons == PISTONS
 
 
 def test_mirrored_pressures_mirror_the_film_at_rest():
-    gap = ring(8)
-    one = running(shaft_speed=0.0)
-    mirrored = replace(
-        one,
-        chamber_pressure=np.roll(one.chamber_pressure[::-1], 1),
-        suction_pressure=one.delivery_pressure,
-        delivery_pressure=one.suction_pressure,
+    one = running(shaft_speed=1e-9)
+    mirrored = running(
+        shaft_speed=1e-9,
+        chambers=np.roll(one.chambers[::-1], 1),
+        suction_pressure=one.drive.delivery_pressure,
+        delivery_pressure=one.drive.suction_pressure,
     )
-    left = gap.at(one, ValvePlatePosition(THICKNESS, 2e-5, 5e-5), 1.0)
-    right = gap.at(mirrored, ValvePlatePosition(THICKNESS, 2e-5, -5e-5), 1.0)
-    assert right.separating_force == pytest.approx(left.separating_force, rel=1e-9)
-    assert right.separating_moment[0] == pytest.approx(-left.separating_moment[0], rel=1e-9)
-    assert right.separating_moment[1] == pytest.approx(left.separating_moment[1], rel=1e-9)
-    assert right.chamber_flows == pytest.approx(np.roll(left.chamber_flows[::-1], 1), rel=1e-8)
+    place, other = (np.array([THICKNESS, 2e-5 * RADII[3], side * 5e-5 * RADII[3]]) for side in (1.0, -1.0))
+    (left, moment), (right, turned) = separating(8, one, place), separating(8, mirrored, other)
+    assert right == pytest.approx(left, rel=1e-9)
+    assert turned == pytest.approx([-moment[0], moment[1]], rel=1e-9)
+    flows = told(8, one, place).chamber_flows
+    assert told(8, mirrored, other).chamber_flows == pytest.approx(np.roll(flows[::-1], 1), rel=1e-8)
 
 
 def test_tilt_is_pushed_back():
     """Where the film is thicker the pressure over the lands falls: less p x on that side."""
-    tilt = 5e-5
-    gap = ring(8, NO_PORT)
-    _, about_y = gap.at(state(), ValvePlatePosition(THICKNESS, tilt, 0.0), 1.0).separating_moment
-    about_x, _ = gap.at(state(), ValvePlatePosition(THICKNESS, 0.0, tilt), 1.0).separating_moment
+    rise = 5e-5 * RADII[3]
+    _, (_, about_y) = separating(8, state(), np.array([THICKNESS, rise, 0.0]), NO_PORT)
+    _, (about_x, _) = separating(8, state(), np.array([THICKNESS, 0.0, rise]), NO_PORT)
     assert about_y > 0.0  # integral of -p x
     assert about_x == pytest.approx(-about_y, rel=1e-2)  # nine kidneys are nearly round
 
@@ -212,11 +251,11 @@ def test_friction_of_a_parallel_film(validation, refine):
     """mu w^2/h integral of r^2 over the film: both lands, and no webs under ports that reach all round."""
     r1, r2, r3, r4 = RADII
     turning = state(shaft_speed=2100.0 * np.pi / 30.0)
-    shear = VISCOSITY * turning.shaft_speed**2 / THICKNESS
+    shear = VISCOSITY * turning.drive.shaft_speed**2 / THICKNESS
     lands = np.pi / 2.0 * (r2**4 - r1**4 + r4**4 - r3**4)
     webs = PISTONS / 4.0 * (PITCH - np.radians(30.0)) * (r3**4 - r2**4)
     for name, geometry, polar in (("both lands", ALL_PORT, lands), ("lands and webs", NO_PORT, lands + webs)):
-        found = refine(lambda n, g=geometry: ring(n, g).at(turning, PARALLEL, 1.0).gap.friction_power, MESHES)
+        found = refine(lambda n, g=geometry: told(n, turning, PARALLEL, g).gap.friction_power, MESHES)
         validation(
             case="Valve-plate gap, friction of a parallel film",
             source="closed form, Newton's shear",
@@ -230,6 +269,7 @@ def test_friction_of_a_parallel_film(validation, refine):
 
 
 def test_carried_load_is_the_separating_force():
-    film: ValvePlateFilm = ring(4).at(running(), PARALLEL, 50e3)
-    assert film.gap.required_load == 50e3
-    assert film.gap.carried_fraction == pytest.approx(film.separating_force / 50e3)
+    at = running(load=50e3)
+    found = told(4, at, PARALLEL).gap
+    assert found.required_load == pytest.approx(50e3)
+    assert found.carried_load == pytest.approx(separating(4, at, PARALLEL)[0])

@@ -10,6 +10,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from gaps.valve_plate import ValvePlateGap, ValvePlatePosition, ValvePlateState
 from scipy.integrate import quad
 
 from gaps.block_balance import BlockBalance, land_lift
@@ -17,7 +18,6 @@ from gaps.block_motion import BlockDrive, BlockFilm, floating_block, kidney_wren
 from gaps.course import constant
 from gaps.physics import FilmLaws
 from gaps.ring import ValvePlateGeometry
-from gaps.valve_plate import ValvePlateGap, ValvePlatePosition, ValvePlateState
 from reynolds.contact import Asperities
 from reynolds.errors import FilmInputError
 from reynolds.film import FilmSolution

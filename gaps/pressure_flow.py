@@ -1,0 +1,71 @@
+"""What pressure alone drives through the film of a standing part: its walls at rest, nothing torn.
+
+Films of constant viscosity between rigid walls; then flows are linear in the pressures.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+
+import numpy as np
+
+from gaps.block_motion import BlockFilm
+from gaps.slipper_motion import SlipperFilm
+from reynolds.film import ZERO, Boundary, Cavitation, FilmProblem, FilmSolution, Held, Pocket, no_feed
+from reynolds.floating_stage import Stage
+from reynolds.loads import boundary_flows
+from reynolds.mesh import Array
+from reynolds.solve import FilmSolver
+
+
+def walls_at_rest(
+    problem: FilmProblem, boundary: Mapping[str, Boundary], held_nodes: Array | None = None
+) -> FilmProblem:
+    """The film between walls that stand, with other pressures at its edges and held nodes."""
+    still = replace(problem.film, velocity_moving=(ZERO, ZERO), velocity_fixed=(ZERO, ZERO), squeeze=ZERO)
+    return FilmProblem(problem.space, still, boundary, Cavitation.NONE, held_nodes=held_nodes)
+
+
+def piston_conductance(solver: FilmSolver, stage: Stage) -> float:
+    """Flow from chamber to case per pressure difference, m3/(s Pa)."""
+    edges: dict[str, Boundary] = {"chamber": Held(1.0), "case": Held(0.0)}
+    return boundary_flows(solver.solve(walls_at_rest(stage.solution.problem, edges)))["case"]
+
+
+def slipper_conductance(solver: FilmSolver, film: SlipperFilm, stage: Stage) -> float:
+    """Flow per pressure difference through orifice and lands in series, m3/(s Pa), the orifice as it flows."""
+    lands = film.shape.lands
+    edges: dict[str, Boundary] = {name: Pocket(no_feed) for name in lands.closed}
+    edges |= {"pocket": Held(1.0)} | dict.fromkeys(lands.open, Held(0.0))
+    flows = boundary_flows(solver.solve(walls_at_rest(stage.solution.problem, edges)))
+    land, orifice = sum(flows[name] for name in lands.open), film.throttling(stage)
+    return land * orifice / (land + orifice)
+
+
+def kidney_conductances(solver: FilmSolver, film: BlockFilm, stage: Stage) -> Array:
+    """d flow / d pressure (z,) m3/(s Pa) of each kidney, the other edges and the ports held."""
+    problem = stage.solution.problem
+    ports = film.ring.port_nodes(problem.space, 0.0, 0.0)
+    found = []
+    for name in film.geometry.kidneys:
+        edges: dict[str, Boundary] = {edge: Held(float(edge == name)) for edge in problem.boundary}
+        found.append(-boundary_flows(solver.solve(walls_at_rest(problem, edges, ports)))[name])
+    return np.array(found)
+
+
+def carried_power(solver: FilmSolver, film: BlockFilm, stage: Stage) -> float:
+    """What the flow that the block drags along takes from kidneys and ports, W.
+
+    (flow - pressure flow) x (pressure - case pressure).
+    """
+    drive, problem = film.drive, stage.solution.problem
+    still = solver.solve(walls_at_rest(problem, problem.boundary, problem.held_nodes))
+    above = film.chamber_pressures(drive.shaft_speed * stage.time)
+    pressures = np.array([*above, drive.suction_pressure, drive.delivery_pressure]) - drive.case_pressure
+    return float((_inflows(film, stage.solution) - _inflows(film, still)) @ pressures)
+
+
+def _inflows(film: BlockFilm, solution: FilmSolution) -> Array:
+    chambers, suction, delivery = film.inflows(solution)
+    return np.array([*chambers, suction, delivery])

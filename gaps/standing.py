@@ -1,0 +1,96 @@
+"""A part that stands still in its gap at one instant, put somewhere or at rest: what its film tells."""
+
+from __future__ import annotations
+
+from functools import partial
+
+import numpy as np
+
+from gaps.block_motion import BlockFilm
+from gaps.piston_motion import PistonFilm
+from gaps.result import GapFilm, ValvePlateFilm
+from gaps.rubbing import contact_load
+from gaps.seen import active
+from gaps.slipper_motion import SlipperFilm
+from reynolds.floating import Floating
+from reynolds.floating_stage import Stage, solve_stage
+from reynolds.floating_start import pressed, started
+from reynolds.loads import boundary_flows, loads
+from reynolds.mesh import Array
+from reynolds.rest import come_to_rest
+from reynolds.solve import FilmSolver
+
+FIRST_STEP = 1e-3  # s, in which parts of a pump answer to their load through films of a micrometre
+SOFTENING = 1e-2  # of it, in which elastic walls give way to their first load
+STILL = 1e-10  # m, by which a part at rest may still move in a step
+
+
+def rest_from(solver: FilmSolver, floating: Floating, time: float, start: Array) -> Stage:
+    """The part at rest under what drives it at `time` (s), nearest to a start (k,) m as `come_to_rest` finds it.
+
+    Raises FilmNotConverged, with its last move, for a part that finds none: pulled off, or pressed on walls that
+    do not bear.
+    """
+    begin = started(floating, time, start)
+    if floating.shape_at(time).walls is not None:
+        begin = pressed(solver, floating, begin, SOFTENING * FIRST_STEP)
+    found = come_to_rest(partial(solve_stage, solver, floating), begin, FIRST_STEP, STILL)
+    return found.stage
+
+
+def piston_told(film: PistonFilm, stage: Stage) -> GapFilm:
+    """What the film of a standing piston tells (`standing_piston`)."""
+    across = stage.outer.force.reshape(2, 2).sum(axis=0)
+    required = float(np.hypot(*across))
+    borne = (stage.film_force + stage.contact_force).reshape(2, 2).sum(axis=0)
+    return GapFilm(
+        solution=stage.solution,
+        loads=loads(stage.solution),
+        position=stage.q,
+        chamber_flow=film.standing_flow(stage),
+        leakage_flow=boundary_flows(stage.solution)["case"],
+        friction_power=film.friction(stage).power,
+        required_load=required,
+        carried_load=-float(borne @ across) / max(required, 1e-300),
+        contact_load=contact_load(stage.solution.problem.space.area, film.asperities, stage.gap),
+        active=active(stage, film.asperities),
+    )
+
+
+def slipper_told(film: SlipperFilm, stage: Stage) -> GapFilm:
+    """What the film of a standing slipper tells; its load is zero where it is pulled off the plate."""
+    flows = boundary_flows(stage.solution)
+    return GapFilm(
+        solution=stage.solution,
+        loads=loads(stage.solution),
+        position=stage.q,
+        chamber_flow=film.supplied(stage)[1],
+        leakage_flow=sum(flows[edge] for edge in film.shape.lands.open),
+        friction_power=film.friction(stage).power,
+        required_load=max(-float(stage.outer.force[0]), 0.0),
+        carried_load=float(stage.film_force[0] + stage.contact_force[0]),
+        contact_load=contact_load(stage.solution.problem.space.area, film.asperities, stage.gap),
+        active=active(stage, film.asperities, held=bool(np.any(stage.outer.by_position))),
+    )
+
+
+def block_told(film: BlockFilm, stage: Stage) -> ValvePlateFilm:
+    """What the film of a standing block tells (`standing_block`); webs over the ports are no film."""
+    solution, drive = stage.solution, film.drive
+    space, flows = solution.problem.space, boundary_flows(solution)
+    is_film = film.is_film(space)
+    required = -float(drive.press(drive.shaft_speed * stage.time)[0])
+    chambers, suction, delivery = film.inflows(solution)
+    gap = GapFilm(
+        solution=solution,
+        loads=loads(solution, is_film),
+        position=stage.q,
+        chamber_flow=float(chambers.sum()),
+        leakage_flow=sum(flows[edge] for edge in film.geometry.case_edges),
+        friction_power=film.friction_torque(solution, stage.gap) * drive.shaft_speed,
+        required_load=required,
+        carried_load=float(stage.film_force[0] + stage.contact_force[0] + stage.outer.force[0]) + required,
+        contact_load=contact_load(space.area * is_film, film.asperities, stage.gap),
+        active=active(stage, film.asperities),
+    )
+    return ValvePlateFilm(gap, chambers, suction, delivery)

@@ -1,0 +1,13 @@
+"""The three gaps of a pump, by name."""
+
+from __future__ import annotations
+
+from enum import Enum
+
+
+class Gap(Enum):
+    """The three gaps of a pump."""
+
+    PISTON = "piston"
+    SLIPPER = "slipper"
+    VALVE_PLATE = "valve_plate"
