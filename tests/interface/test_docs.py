@@ -14,7 +14,7 @@ from swashfilm.fidelity import Fidelity
 from swashfilm.film_case import load_case
 from swashfilm.film_run import run_case
 from swashfilm.film_study import film_dataset, film_summary, solve_case
-from swashfilm.gap_study import gap_warnings
+from swashfilm.gap_study import GapStudy, PositionSource, gap_warnings
 from swashfilm.pump_data import films_dataset, point_dataset
 from swashfilm.pump_page import headline_rows
 from swashfilm.pump_run import run_pump
@@ -196,7 +196,7 @@ def test_film_summary_keys_are_documented():
         switched |= set(film_summary(solve_case(load_case(ROOT / "examples" / "films" / f"{name}.toml"))))
     every, added, switches = re.split("A gap adds:|Switches add:", part)
     assert _first_column(every) == free
-    assert _first_column(added) == gap - free
+    assert _first_column(added) == gap - free - switched
     assert _first_column(switches) == switched - free | {"refinement"}
 
 
@@ -230,8 +230,8 @@ def test_run_folder_files_are_documented(tmp_path):
 def test_warnings_are_explained(films):
     explained = _code_words(ROOT / "docs" / "wrong_results.md")
     assert {warning.value for warning in PointWarning} <= explained
-    film = films.gaps.valve_plate[0].gap
-    assert {warning["name"] for warning in gap_warnings(film)} <= explained
+    stands = GapStudy(films.gaps.valve_plate[0].gap, PositionSource.GIVEN, ())
+    assert {warning["name"] for warning in gap_warnings(stands)} <= explained
     sources = "".join(
         (ROOT / name).read_text("utf-8") for name in ("swashfilm/film_warnings.py", "swashfilm/gap_study.py")
     )

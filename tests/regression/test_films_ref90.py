@@ -8,7 +8,6 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from gaps.result import PositionSource
 from system.films import FilmsPoint, films_point
 from system.lumped import lumped_point
 from system.operating import operating_point
@@ -29,13 +28,13 @@ def test_held_numbers(rated, validation):
     """Tolerances: what doubling the film angles moves each number by."""
     point, leakage, pairs = rated.pump_point, rated.pump_point.leakage_flow, rated.pump_point.pairs
     for quantity, unit, expected, obtained, tolerance in (
-        ("leakage, pistons", "L/min", 0.3780, leakage.piston * 6e4, 0.002),
-        ("leakage, slippers", "L/min", 0.3937, leakage.slipper * 6e4, 0.001),
+        ("leakage, pistons", "L/min", 0.3542, leakage.piston * 6e4, 0.002),
+        ("leakage, slippers", "L/min", 0.3936, leakage.slipper * 6e4, 0.001),
         ("leakage, valve plate", "L/min", 0.1667, leakage.valve_plate * 6e4, 0.001),
-        ("viscous loss, pistons", "W", 284.0, pairs.piston_cylinder.mean_viscous, 0.01),
+        ("viscous loss, pistons", "W", 333.2, pairs.piston_cylinder.mean_viscous, 0.01),
         ("viscous loss, slippers", "W", 956.3, pairs.slipper_swash_plate.mean_viscous, 0.001),
         ("viscous loss, valve plate", "W", 558.3, pairs.valve_plate_cylinder.mean_viscous, 0.001),
-        ("shaft torque", "N m", 512.66, point.bench.shaft_torque, 0.001),
+        ("shaft torque", "N m", 513.09, point.bench.shaft_torque, 0.001),
         ("delivery flow", "L/min", 178.71, point.bench.delivery_flow * 6e4, 0.001),
     ):
         validation(
@@ -84,19 +83,16 @@ def test_films_beside_the_sheet(rated, validation):
 
 
 def test_which_films_carry(rated):
-    """On REF90 pistons float while they draw in, none does at 35 MPa; no slipper of 0.955 is lifted."""
+    """On REF90 no piston's film bears its load at the given eccentricity; no slipper of 0.955 is lifted."""
     gaps = rated.gaps
     delivers = np.sin(gaps.shaft_angle) < -1e-9
-    pistons = np.array([film.source is PositionSource.BALANCE for film in gaps.piston])
-    assert not pistons[delivers].any()
-    assert pistons[~delivers].sum() >= 10
-    assert all(film.source is PositionSource.GIVEN for film in gaps.slipper)
     carried = np.array([film.carried_fraction for film in gaps.slipper])[delivers]
     # The balance ratio of 0.955 refers to Fa/cos(16.2 deg); plate and bore stand 11.2 to 21.2 deg to each other.
     nearest, farthest = (0.955 * np.cos(np.radians(g)) / np.cos(np.radians(16.2)) for g in (11.2, 21.2))
     assert farthest - 0.03 < carried.min() <= carried.max() < nearest + 0.001  # inertia and spring take the rest
     ring = [film.gap.carried_fraction for film in gaps.valve_plate]
     assert np.mean(ring) == pytest.approx(0.933, abs=0.03)  # the sheet's balance, less the block's own webs
+    assert not any(film.holds_its_load for film in gaps.piston)
 
 
 def test_lumped_and_films_tell_one_story(rated):
