@@ -58,6 +58,7 @@ def state(*, angle: float = 0.0, chambers: Array | None = None, load: float = 1.
         "cavitation_pressure": -1e5,
         "viscosity": VISCOSITY,
         "press": constant(-load, 0.0, 0.0),
+        "spline_height": 0.1,
     }
     pressures = np.full(PISTONS, PRESSURE) if chambers is None else chambers
     chamber = Course(angle + PITCH * np.arange(PISTONS), pressures)
