@@ -70,6 +70,8 @@ def read_gap_case(name: str, text: str, top: Table, film: Table, folder: Path) -
         load = None
     switches = top.table("physics") or Table("physics", {}, top.faults)
     physics = read_physics(switches, RIGID)
+    if physics.heat:
+        switches.fault("heat", '"solved"', "none: how parts warm is a matter of the whole turn", '"none"')
     if gap is None:
         film.get("chamber_pressure")
         film.close()

@@ -31,7 +31,7 @@ def given_slipper(rotor: Rotor, shaft_angle: float) -> Array:
 
 
 def given_block(pump: PumpDescription) -> Array:
-    """Film on the shaft's axis and rises (3,) m along the pump's x and y."""
+    """Film on the shaft's axis and rises (3,) m along the pump's x and y; on a sphere, tilts about the spline."""
     part = pump.valve_plate
     rim = part.land_radius_4
     return np.array([part.film_thickness, rim * np.tan(part.tilt_x), rim * np.tan(part.tilt_y)])

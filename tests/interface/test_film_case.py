@@ -267,6 +267,8 @@ def test_gap_and_pump_may_stand_on_top(write):
         ("[position]", "[operating]\nsped = '2100 rpm'\n[position]", "operating.sped", ["unknown key", "speed"]),
         ("[position]", "chamber_pressure = ['1 bar', '2 bar']\n[position]", "film.chamber_pressure", ["2 press"]),
         ("[position]", "thickness = '1 um'\n[position]", "film.thickness", ["unknown key"]),
+        ("[position]", "[physics]\nheat = 'solved'\n[position]", "physics.heat", ["whole turn"]),
+        ("[position]", "[physics]\nwalls = 'soft'\n[position]", "physics.walls", ["elastic"]),
     ],
 )  # fmt: skip
 def test_a_fault_of_a_gap_case_says_where(write, old, new, path, words):

@@ -10,20 +10,21 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from gaps.valve_plate import ValvePlateGap, ValvePlatePosition, ValvePlateState
 from scipy.integrate import quad
 
 from gaps.block_balance import BlockBalance, land_lift
-from gaps.block_motion import BlockDrive, BlockFilm, floating_block, kidney_wrench
+from gaps.block_motion import BlockDrive, BlockFilm, floating_block, kidney_wrench, standing_block
 from gaps.course import constant
 from gaps.physics import FilmLaws
 from gaps.ring import ValvePlateGeometry
+from gaps.standing import block_told
 from reynolds.contact import Asperities
 from reynolds.errors import FilmInputError
 from reynolds.film import FilmSolution
 from reynolds.floating_stage import solve_stage, standing
 from reynolds.generalised import generalised_force, modes_on
 from reynolds.loads import loads
+from reynolds.rest import held_at
 from reynolds.solve import FilmSolver
 from reynolds.sphere import Sphere
 from system.instants import valve_plate_geometry
@@ -158,21 +159,18 @@ def test_a_large_sphere_is_a_plane():
     assert found[2] == pytest.approx(found[0], rel=1e-6)
 
 
-def test_films_fidelity_meets_the_same_film():
-    """Given positions and floating coordinates of a block that does not turn, a spline at the face's middle."""
-    film, position = BlockFilm(PORTS, replace(running(), shaft_speed=0.0)), (THICKNESS, 2e-6, -1e-6)
-    force, solution = at(film, position)
-    places = PORTS.kidney_places(0.0)
-    chambers = np.array([half_and_half(float(angle)) for angle in places])
-    state = ValvePlateState(0.0, chambers, 2.5e6, PRESSURE, CASE, -1e5, VISCOSITY, 0.0)
-    given = ValvePlatePosition(THICKNESS, 2e-6 / RADII[3], -1e-6 / RADII[3])
-    told = ValvePlateGap(PORTS, (4, 16)).at(state, given, 1.0)
-    # modes stand at vertices, the given film at quadrature points
-    assert told.separating_force == pytest.approx(force[0] - PRESSED[0], rel=1e-3)
-    about = np.array([force[2], -force[1]]) * RADII[3] - PRESSED[1:]
-    assert np.allclose(told.separating_moment, about, rtol=2e-3, atol=1.0)
+def test_a_standing_block_turns_in_the_film_of_the_turning_mesh():
+    """Concentric, the frame that stands and the one that turns with the block see one film: its torque is one."""
+    film, position = BlockFilm(ALL_ROUND, drive()), np.array([THICKNESS, 0.0, 0.0])
+    stage = held_at(FilmSolver(film.space), standing_block(film), 2e-4, position)
+    force, turning = at(film, position, 2e-4)
+    assert stage.film_force + stage.outer.force == pytest.approx(force, rel=1e-3, abs=1.0)
+    told = block_told(film, stage)
+    assert told.gap.friction_power == pytest.approx(
+        SPEED * film.friction_torque(turning, turning.film.thickness), rel=1e-3
+    )
     assert told.gap.leakage_flow == pytest.approx(
-        sum(loads(solution).flow[e] for e in ("inner", "outer")), rel=1e-3
+        sum(loads(turning).flow[edge] for edge in ("inner", "outer")), rel=1e-3
     )
 
 
