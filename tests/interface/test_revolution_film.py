@@ -84,7 +84,8 @@ def test_a_turn_leaves_tables_fields_pictures_and_a_page(capsys):
     at = turn["shaft_angle [deg]"].astype(float)[least.argmin()]
     assert at == pytest.approx(summary["film_thickness_min_at_deg"])
     leakage = turn["leakage_flow [L/min]"].astype(float).mean() / 6e4
-    assert leakage == pytest.approx(summary["leakage_flow_m3_per_s"], rel=1e-6)
+    # The table has 24 instants, the summary what the march has passed.
+    assert leakage == pytest.approx(summary["leakage_flow_m3_per_s"], rel=0.02)
     found = summary["refinement"]
     assert found["dofs"][1] > 3 * found["dofs"][0]
     assert {"film_thickness_min_m", "leakage_flow_m3_per_s", "friction_power_W"} <= set(found["numbers"])

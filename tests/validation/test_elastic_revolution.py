@@ -1,0 +1,63 @@
+"""A floating gap between walls that give way, over the revolution: it closes, and yields to the pressure."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from gaps.physics import Effect, Physics
+from gaps.revolution import Accuracy, GapRevolution
+from gaps.seen import SlipperSeen
+from system.floating_drives import drives, no_rubbing
+from system.floating_gaps import RIGID, FloatingOptions, slipper_revolution
+from system.floating_parts import floating_parts
+from system.instants import rotor
+from system.lumped import lumped_point
+from system.operating import operating_point
+from system.pump_file import load_pump
+
+COARSE = FloatingOptions(RIGID, steps=24, accuracy=Accuracy(step=0.1), finer=0.5, keep=8)
+SOFT = Physics().without(Effect.PRESSURE_VISCOSITY)
+
+
+@pytest.fixture(scope="module")
+def slippers() -> tuple[GapRevolution[SlipperSeen], GapRevolution[SlipperSeen]]:
+    """That of ref90_floating at 10 MPa between rigid and between elastic walls."""
+    pump = load_pump("ref90_floating", {"operating.pressure": "10 MPa"})
+    at, parts = rotor(pump, operating_point(pump)), floating_parts(pump)
+    cycle = lumped_point(pump, at.point).cycle
+    driven = drives(at, parts, cycle.shaft_angle, cycle.pressure, no_rubbing(len(cycle.shaft_angle)))
+    rigid, soft = (
+        slipper_revolution(at, parts, driven.slipper, replace(COARSE, physics=physics))
+        for physics in (RIGID, SOFT)
+    )
+    return rigid, soft
+
+
+@pytest.mark.slow
+def test_elastic_slipper_closes(slippers):
+    soft = slippers[1]
+    turn = soft.turn
+    assert turn.repeats
+    assert np.abs(turn.end - turn.start).max() <= turn.allowed
+    assert soft.closing.largest_multiplier < 1.0
+    for instant in turn.instants:
+        outer = instant.outer_force
+        rest = instant.film_force + instant.contact_force + outer
+        assert np.abs(rest).max() < 1e-3 * np.abs(outer).max()
+
+
+@pytest.mark.slow
+def test_walls_give_way_to_the_pressure(slippers):
+    """They open the film on the whole, close it where it is thinnest, and add nothing to the pressure."""
+    rigid, soft = (
+        (
+            np.mean([instant.mean_film for instant in found.turn.instants]),
+            found.least_film.loads.film_thickness_min,
+            max(instant.loads.pressure_max for instant in found.turn.instants),
+        )
+        for found in slippers
+    )
+    assert soft[0] > rigid[0]
+    assert 0.0 < soft[1] < rigid[1]
+    assert soft[2] < 1.01 * rigid[2]
