@@ -48,10 +48,10 @@ LEAST_LEVERAGE = 1e-3  # 1 + s/R: below, what a tilt opens is lost in round-off 
 class BlockDrive:
     """What drives the block over the turn, SI.
 
-    shaft_speed rad/s, viscosity Pa s, pressures Pa. chamber_pressure over a chamber's own angle, Pa. press over
-    the shaft angle, (3,): force along z (N, negative: towards the plate) and moments about x and y through the
-    spline (N m) of all that works on the rotating group besides film and kidneys (`wrench_about`). spline_height:
-    of the spline over the valve plate, m.
+    shaft_speed rad/s, viscosity Pa s, pressures Pa. chamber_pressure over a chamber's own angle, Pa: one for all
+    or (z,), of each. press over the shaft angle, (3,): force along z (N, negative: towards the plate) and moments
+    about x and y through the spline (N m) of all that works on the rotating group besides film and kidneys
+    (`wrench_about`). spline_height: of the spline over the valve plate, m.
     """
 
     shaft_speed: float
@@ -198,7 +198,8 @@ class BlockFilm:
     def chamber_pressures(self, shaft_angle: float) -> Array:
         """Pressures (z,) Pa of the chambers, chamber k at shaft angle + (k - 1) pitch."""
         places = self.geometry.kidney_places(shaft_angle)
-        pressure = np.array([float(self.drive.chamber_pressure(float(angle))) for angle in places])
+        known = [np.broadcast_to(self.drive.chamber_pressure(float(angle)), places.shape) for angle in places]
+        pressure = np.diagonal(known).copy()
         # Between two angles at the cavity's pressure interpolation may round below it.
         at_cavity = np.isclose(pressure, self.drive.cavitation_pressure, rtol=1e-12, atol=0.0)
         return np.where(at_cavity, self.drive.cavitation_pressure, pressure)

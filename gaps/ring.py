@@ -12,7 +12,6 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial import cKDTree
 
 from gaps.bearing_pads import EDGE, BearingPads, with_pads
 from reynolds.mesh import Array, FilmMesh, rename, ring
@@ -145,26 +144,6 @@ class Ring:
         for name in self.geometry.kidneys:
             nodes[space.edge_dofs[name]] = np.nan
         return nodes
-
-    def after_pitch(self) -> NDArray[np.signedinteger]:
-        """Unknown (size,) that, one pitch on, stands where each unknown of the ring stands now.
-
-        With chambers alike the film repeats from pitch to pitch in space, not on the block:
-        `holds[ring.after_pitch()]` is what the next pitch starts from when its shaft angle is counted anew.
-        """
-        space = self.space
-        now = self._at(self.geometry.pitch)
-        partner = cKDTree(now).query(space.vertices)[1]
-        found = np.empty(space.size, dtype=np.int64)
-        found[space.vertex_dofs] = space.vertex_dofs[partner]
-        return found
-
-    def port_breaks(self) -> Array:
-        """Shaft angles (rad) within a pitch at which a mesh line passes a port's edge: there the film changes."""
-        lines = np.arctan2(self.space.vertices[:, 1], self.space.vertices[:, 0])[self._in_kidney_ring]
-        edges = np.array([*self.geometry.suction, *self.geometry.delivery]).ravel()
-        met = np.unique(np.round((edges[:, None] - lines) % self.geometry.pitch, 9))
-        return met[met < self.geometry.pitch - 1e-8]
 
     def _at(self, angle: float) -> Array:
         """Vertices (n, 2) m with the block at a shaft angle (rad)."""

@@ -224,9 +224,12 @@ def _run(options: argparse.Namespace) -> int:
     from swashfilm.pump_page import efficiency_rows, headline_rows, pair_rows
     from swashfilm.pump_run import run_pump
     from swashfilm.run_folder import final_folder, run_folder
+    from system.floating_kinds import work_of
     from system.side_by_side import cores
 
     given = _given_text(options.pump, stated)
+    if options.fidelity == Fidelity.FLOATING.value and (times := work_of(pump)) > 1.0:
+        show(f"chambers differ: their floating gaps take about {times:.0f} times as long as alike ones")
     with run_folder(pump.name, options.output) as folder, progress(1, f"run {pump.name}") as report:
         fidelity, floating = Fidelity(options.fidelity), floating_options(options)
         summary = run_pump(pump, given, fidelity, folder, report, options.table, floating, cores() > 1)

@@ -10,9 +10,10 @@ from typing import Any
 
 from swashfilm.pump_data import GAPS
 from swashfilm.pump_plots import LPM, TITLES
-from swashfilm.revolution_plots import revolution_plots
+from swashfilm.revolution_plots import film_text, revolution_plots
 
 SHOWN = ("film", "path", "contact", "maps")
+SHOWN_UNLIKE = ("film", "path")
 CAPTIONS = {
     "film": "film over the shaft angle, the chamber's pressure (dashed), and what limits the film",
     "path": "where the part stands; the colour is the shaft angle",
@@ -30,31 +31,41 @@ def floating_view(folder: Path, summary: Mapping[str, Any]) -> dict[str, Any]:
     import xarray
 
     pictures = []
-    for gap in GAPS:
-        with xarray.open_dataset(folder / "results.nc", group=gap, engine="h5netcdf") as data:
+    shown: list[tuple[str, str, tuple[str, ...]]] = [(gap, TITLES[gap], SHOWN) for gap in GAPS]
+    for place, kind in summary["unlike"].items():
+        shown += [(f"{place}/{gap}", f"{TITLES[gap]}, {_numbers(kind)}", SHOWN_UNLIKE) for gap in kind["gaps"]]
+    for group, title, names in shown:
+        with xarray.open_dataset(folder / "results.nc", group=group, engine="h5netcdf") as data:
             drawn = revolution_plots(data.load())
         pictures += [
-            (base64.b64encode(drawn[name]).decode("ascii"), f"{TITLES[gap]}: {CAPTIONS[name]}") for name in SHOWN
+            (base64.b64encode(drawn[name]).decode("ascii"), f"{title}: {CAPTIONS[name]}") for name in names
         ]
     turns = {TITLES[gap]: _table(folder / f"{gap}_convergence.csv") for gap in GAPS}
     return {"head": HEAD, "rows": floating_rows(summary), "pictures": pictures, "turns": turns}
 
 
 def floating_rows(summary: Mapping[str, Any]) -> list[tuple[str, ...]]:
-    """A row a gap: films, leakage, friction, contact, and how its turn closed."""
+    """A row a gap: films, leakage, friction, contact, and how its turn closed; then those of unlike chambers."""
+    named = [(TITLES[gap], of) for gap, of in summary["gaps"].items()]
+    for kind in summary["unlike"].values():
+        named += [(f"{TITLES[gap]}, {_numbers(kind)}", of) for gap, of in kind["gaps"].items()]
     return [
         (
-            TITLES[gap],
+            name,
             f"{of['film_thickness_mean_m'] * 1e6:.2f} um",
-            f"{of['film_thickness_min_m'] * 1e6:.3g} um at {of['film_thickness_min_at_deg']:.0f} deg",
+            f"{film_text(of['film_thickness_min_m'] * 1e6)} at {of['film_thickness_min_at_deg']:.0f} deg",
             f"{of['leakage_flow_m3_per_s'] * LPM:.4f} L/min",
             f"{of['friction_power_W']:.1f} W",
             f"{of['rubbing_power_W']:.1f} W",
             f"{of['contact_load_max_N']:.0f} N",
             f"{of['turns']}, {of['largest_multiplier']:.2g}",
         )
-        for gap, of in summary["gaps"].items()
+        for name, of in named
     ]
+
+
+def _numbers(kind: Mapping[str, Any]) -> str:
+    return "chamber " + ", ".join(str(number) for number in kind["chambers"])
 
 
 def _table(path: Path) -> list[list[str]]:

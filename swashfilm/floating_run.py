@@ -17,13 +17,15 @@ from swashfilm.pump_summary import pump_summary
 from swashfilm.revolution_data import revolution_dataset, write_convergence, write_series
 from swashfilm.revolution_fields import write_revolution_fields
 from swashfilm.revolution_study import RevolutionStudy, revolution_summary
-from system.floating import FloatingPoint
+from system.floating import FloatingKind, FloatingPoint
 from system.floating_gaps import FloatingOptions
 from system.floating_heat import all_taken
 from system.instants import Rotor
 from system.pump_gap import Gap
 
 RESULTS = "results.nc"
+Kept = dict[tuple[str, str], np.ndarray]
+"""Shaft angles (rad) of the films that are kept, by place in the run folder and gap."""
 _OF_PUMP = ("format", "kind", "name", "gap", "physics_left_out", "assumptions", "warnings")
 
 
@@ -37,35 +39,55 @@ class FloatingGap:
     options: FloatingOptions
 
 
-def floating_studies(found: FloatingPoint) -> tuple[RevolutionStudy, ...]:
-    """The three gaps, each as if it were a case of its own."""
-    gaps: dict[Gap, GapRevolution[Any]] = {
-        Gap.PISTON: found.gaps.piston, Gap.SLIPPER: found.gaps.slipper, Gap.VALVE_PLATE: found.gaps.block,
-    }  # fmt: skip
-    chamber, name = found.drives.piston.chamber_pressure, found.rotor.pump.name
-    return tuple(
-        RevolutionStudy(
-            FloatingGap(name, gap, found.rotor, found.options),
-            found.parts,
-            revolution,
-            np.array([float(chamber(angle)) for angle in revolution.angles]),
-            revolution.seconds,
-        )
-        for gap, revolution in gaps.items()
+def floating_studies(found: FloatingPoint) -> dict[str, tuple[RevolutionStudy, ...]]:
+    """The gaps, each as if it were a case of its own, by where they go in the run folder.
+
+    Here (""): piston and slipper of the most common kind of chambers, and the block; of every other kind piston
+    and slipper, in chamber_<number of its first>.
+    """
+    most, *others = found.kinds
+    here = (Gap.PISTON, most.gaps.piston), (Gap.SLIPPER, most.gaps.slipper), (Gap.VALVE_PLATE, most.gaps.block)
+    studies = {"": tuple(_study(found, most, *gap) for gap in here)}
+    for kind in others:
+        own = (Gap.PISTON, kind.gaps.piston), (Gap.SLIPPER, kind.gaps.slipper)
+        studies[_place(kind)] = tuple(_study(found, kind, *gap) for gap in own)
+    return studies
+
+
+def _place(kind: FloatingKind) -> str:
+    return f"chamber_{kind.chambers[0] + 1}"
+
+
+def _study(found: FloatingPoint, kind: FloatingKind, gap: Gap, revolution: GapRevolution[Any]) -> RevolutionStudy:
+    chamber = kind.drives.piston.chamber_pressure
+    return RevolutionStudy(
+        FloatingGap(found.rotor.pump.name, gap, kind.rotor, found.options),
+        kind.parts,
+        revolution,
+        np.array([float(chamber(angle)) for angle in revolution.angles]),
+        revolution.seconds,
     )
 
 
 def floating_summary(found: FloatingPoint, warnings: list[str]) -> dict[str, Any]:
     """The summary of any fidelity's point with the gaps' own, how gaps and chambers agreed, and what was taken.
 
-    `warnings` come before those of the gaps.
+    `warnings` come before those of the gaps. `unlike`: chambers that are not of the most common kind, their gaps.
     """
-    gaps = {study.case.gap.value: revolution_summary(study) for study in floating_studies(found)}
+    studies = floating_studies(found)
+    by_place = {
+        place: {study.case.gap.value: revolution_summary(study) for study in own} for place, own in studies.items()
+    }
     told = warnings + [
-        f"{one['name']}: {gap.replace('_', ' ')}: {one['text']}"
+        f"{one['name']}: {' '.join(filter(None, (place, gap))).replace('_', ' ')}: {one['text']}"
+        for place, gaps in by_place.items()
         for gap, own in gaps.items()
         for one in own["warnings"]
     ]
+    here, *others = (
+        {gap: {key: own[key] for key in own if key not in _OF_PUMP} for gap, own in gaps.items()}
+        for gaps in by_place.values()
+    )
     summary, last = pump_summary(found.rotor.pump, found.pump_point, None, told), found.rounds[-1]
     checks = {
         "coupling_rounds": len(found.rounds),
@@ -75,14 +97,24 @@ def floating_summary(found: FloatingPoint, warnings: list[str]) -> dict[str, Any
     }
     return summary | {
         "fidelity": Fidelity.FLOATING.value,
-        "gaps": {gap: {key: own[key] for key in own if key not in _OF_PUMP} for gap, own in gaps.items()},
+        "gaps": here,
+        "unlike": {
+            _place(kind): {"chambers": [k + 1 for k in kind.chambers], "gaps": gaps}
+            for kind, gaps in zip(found.kinds[1:], others, strict=True)
+        },
         "checks": summary["checks"] | checks,
         "cost": {
             "solve_seconds": sum(taken.seconds for taken in found.rounds),
             "rounds_seconds": [taken.seconds for taken in found.rounds],
         },
         "physics_left_out": [effect.value for effect in found.options.physics.left_out],
-        "assumptions": list(map(str, all_taken(found.rotor, found.parts, found.options.physics))),
+        "assumptions": list(
+            dict.fromkeys(
+                str(taken)
+                for kind in found.kinds
+                for taken in all_taken(kind.rotor, kind.parts, found.options.physics)
+            )
+        ),
     }
 
 
@@ -90,39 +122,58 @@ def write_floating(folder: Path, found: FloatingPoint) -> dict[Path, list[Path]]
     """Write <gap>.csv, <gap>_convergence.csv, a group <gap> of results.nc, fields/ and PVDs; tell what to draw.
 
     results.nc must be there with the pump's own series. A gap's PVD follows one piston or slipper over the turn,
-    or the block over what repeats; pump.pvd shows all of them. What to draw: a picture, and the fields on it.
+    or the block over what repeats; pump.pvd shows all of them. Of chambers that are not of the most common kind
+    the same in chamber_<number>. What to draw: a picture, and the fields on it.
     """
-    studies = floating_studies(found)
-    for study in studies:
-        data, gap = revolution_dataset(study), study.case.gap.value
-        data.to_netcdf(folder / RESULTS, mode="a", group=gap, engine="h5netcdf")
-        write_series(folder / f"{gap}.csv", data)
-        write_convergence(folder / f"{gap}_convergence.csv", study)
-        write_revolution_fields(folder, study)
-    kept = {study.case.gap.value: np.array(list(study.revolution.turn.films)) for study in studies}
-    pistons = found.rotor.pump.pump.pistons
+    kept: Kept = {}
+    for place, studies in floating_studies(found).items():
+        (folder / place).mkdir(exist_ok=True)
+        for study in studies:
+            gap, path = study.case.gap.value, Path(place) / study.case.gap.value
+            _write_gap(folder, path, study)
+            kept[place, gap] = np.array(list(study.revolution.turn.films))
+    of_chamber = [""] * found.rotor.pump.pump.pistons
+    for kind in found.kinds[1:]:
+        for k in kind.chambers:
+            of_chamber[k] = _place(kind)
     whole = [
         (float(np.degrees(angle)), part, path)
-        for angle in kept["piston"]
-        for part, path in enumerate(_in_pump(kept, float(angle), pistons))
+        for angle in kept["", "piston"]
+        for part, path in enumerate(_in_pump(kept, float(angle), of_chamber))
     ]
     write_pvd(folder / "pump.pvd", whole)
     pictured = 2.0 * np.pi * PICTURED_TURN
-    drawings = {folder / f"{gap}.png": [folder / _nearest(gap, angles, pictured)] for gap, angles in kept.items()}
-    drawings[folder / "pump.png"] = [folder / path for path in _in_pump(kept, pictured, pistons)]
+    drawings = {
+        folder / place / f"{gap}.png": [folder / _nearest(kept, place, gap, pictured)] for place, gap in kept
+    }
+    drawings[folder / "pump.png"] = [folder / path for path in _in_pump(kept, pictured, of_chamber)]
     return drawings
 
 
-def _in_pump(kept: dict[str, np.ndarray], shaft_angle: float, pistons: int) -> list[str]:
+def _write_gap(folder: Path, path: Path, study: RevolutionStudy) -> None:
+    """Series, turns and fields of one gap at folder/path."""
+    data = revolution_dataset(study)
+    data.to_netcdf(folder / RESULTS, mode="a", group=path.as_posix(), engine="h5netcdf")
+    write_series(folder / f"{path}.csv", data)
+    write_convergence(folder / f"{path}_convergence.csv", study)
+    write_revolution_fields(folder / path.parent, study)
+
+
+def _in_pump(kept: Kept, shaft_angle: float, of_chamber: list[str]) -> list[str]:
     """Fields of the block and of all pistons and slippers at a shaft angle (rad), the nearest that are kept."""
-    chambers = shaft_angle + 2.0 * np.pi / pistons * np.arange(pistons)
+    chambers = shaft_angle + 2.0 * np.pi / len(of_chamber) * np.arange(len(of_chamber))
     return [
-        _nearest("valve_plate", kept["valve_plate"], shaft_angle),
-        *(_nearest(gap, kept[gap], angle) for gap in ("piston", "slipper") for angle in chambers),
+        _nearest(kept, "", "valve_plate", shaft_angle),
+        *(
+            _nearest(kept, place, gap, angle)
+            for gap in ("piston", "slipper")
+            for place, angle in zip(of_chamber, chambers, strict=True)
+        ),
     ]
 
 
-def _nearest(gap: str, angles: np.ndarray, angle: float) -> str:
+def _nearest(kept: Kept, place: str, gap: str, angle: float) -> str:
     """Field of a gap at the kept angle nearest to one, all repeating after the last."""
+    angles = kept[place, gap]
     away = (angles - angle + 0.5 * angles[-1]) % angles[-1] - 0.5 * angles[-1]
-    return f"{FIELDS}/{vtu_name(gap, int(np.argmin(np.abs(away))))}"
+    return (Path(place) / FIELDS / vtu_name(gap, int(np.argmin(np.abs(away))))).as_posix()

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     import xarray
     from matplotlib.figure import Figure
 
+THINNEST = 0.01  # um: a film below it is not told in figures
 MAPS = 4  # kept films shown as maps
 LEAST_SHOWN = {"contact_load": 1.0, "cavitated_area_fraction": 0.01, "film_pressure_max": 0.1}
 """Ends of axes where there is less: what is next to nothing looks so."""
@@ -40,6 +41,11 @@ def revolution_plots(data: xarray.Dataset) -> dict[str, bytes]:
     }
 
 
+def film_text(thickness: float) -> str:
+    """A film (um) in words; between rough walls pressed together hardly any is left."""
+    return f"{thickness:.3g} um" if thickness >= THINNEST else f"under {THINNEST:g} um"
+
+
 def _film(data: xarray.Dataset) -> bytes:
     """Least to mean film (um) over the shaft angle, the chamber's pressure beside it, what limits it below."""
     figure = _figure(9.0, 4.6)
@@ -51,7 +57,7 @@ def _film(data: xarray.Dataset) -> bytes:
     axes.plot(angle, least, color=INK, label="least film")
     at = int(np.argmin(least))
     axes.plot(angle[at], least[at], "v", color=INK)
-    axes.annotate(f"{least[at]:.3g} um at {angle[at]:.0f} deg", (angle[at], least[at]), (0, 8), ha="center",
+    axes.annotate(f"{film_text(least[at])} at {angle[at]:.0f} deg", (angle[at], least[at]), (0, 8), ha="center",
                   fontsize=8, textcoords="offset points")  # fmt: skip
     axes.set(ylabel="film / um", ylim=(0.0, None))
     beside = axes.twinx()

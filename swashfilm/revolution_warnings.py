@@ -47,7 +47,7 @@ def _contact(case: GapCase, parts: FloatingParts, found: GapRevolution[Any]) -> 
             "contact_beyond_roughness",
             f"the mean planes of the walls overlap by {-least * 1e6:.2g} um (limit {limit * 1e6:.2g} um, "
             f"{LARGEST_OVERLAP:g} times the composite roughness): such contact wears or bends the parts; "
-            "walls = 'elastic', or a shape that is run in",
+            "elastic walls, or a shape that is run in",
         )
 
 
@@ -59,7 +59,7 @@ def _pressures(case: GapCase, found: GapRevolution[Any]) -> Iterator[tuple[str, 
         yield (
             "film_pressure_beyond_rigid",
             f"film pressure up to {peak * 1e-6:.0f} MPa (limit {LARGEST_RIGID_PRESSURE * 1e-6:.0f} MPa for rigid "
-            "walls: they give way by micrometres); walls = 'elastic'",
+            "walls: they give way by micrometres); elastic walls",
         )
     lowest = min(float(film.pressure.min()) for film in turn.films.values())
     cavity = next(iter(turn.films.values())).problem.cavitation_pressure

@@ -17,38 +17,31 @@ import numpy as np
 from gaps.revolution import Accuracy
 from gaps.seen import mass_balance_error
 from system.assembly import PumpPoint, met_point, put_together
-from system.chamber import ChamberCycle
 from system.description import PumpDescription
 from system.errors import NotConverged
-from system.floating_beside import Driven, PistonBeside, piston_beside
-from system.floating_drives import Drives, Rubbing, drives, no_rubbing
+from system.floating_beside import PistonBeside, piston_beside
+from system.floating_drives import Drives, Rubbing, no_rubbing
 from system.floating_exchange import (
     FloatingGaps,
     block_torque,
     gap_exchange,
-    growth,
-    leak_table,
     leakage_heat,
     port_draws,
     rubbing,
     shaft_moment,
     with_floating_gaps,
 )
-from system.floating_gaps import FloatingOptions, block_revolution, piston_revolution, slipper_revolution
-from system.floating_parts import FloatingParts, floating_parts
+from system.floating_gaps import FloatingOptions
+from system.floating_kinds import Asked, Group, by_chamber, chamber_problems, drives_of, gap_revolutions, group_of
+from system.floating_parts import FloatingParts
 from system.gap_cycle import Report, silent
 from system.instants import Rotor, rotor
-from system.lumped import (
-    chamber_problem,
-    lumped_pairs,
-    lumped_point,
-    piston_motion,
-    port_lines,
-    swept_displacement,
-)
+from system.lumped import lumped_pairs, lumped_point, piston_motion, port_lines, swept_displacement
 from system.operating import OperatingPoint
+from system.pairs import over_chambers
 from system.ports_coupling import PortedCycle, ported_cycle
 from system.power import Gaps
+from system.unlike import mean_of
 
 PRESSURE_TOLERANCE = 1e-4
 """Largest change of the chamber pressure between two rounds, of delivery minus inlet pressure."""
@@ -74,18 +67,31 @@ class Round:
 
 
 @dataclass(frozen=True)
+class FloatingKind:
+    """Chambers that are alike: their parts, what drove their gaps last, and the gaps.
+
+    chambers, from 0; of a pump whose chambers are all alike the first alone.
+    """
+
+    chambers: tuple[int, ...]
+    rotor: Rotor
+    parts: FloatingParts
+    drives: Drives
+    gaps: FloatingGaps
+
+
+@dataclass(frozen=True)
 class FloatingPoint:
     """One coupled operating point: the pump, its gaps over the revolution, and the evidence of convergence.
 
-    drives: what the gaps were last driven by; mass_balance_error of each gap over the turn.
+    kinds: of chambers, the most common first; their block is one. mass_balance_error of each gap over the turn,
+    the worst of its kinds.
     """
 
     rotor: Rotor
-    parts: FloatingParts
     options: FloatingOptions
     pump_point: PumpPoint
-    drives: Drives
-    gaps: FloatingGaps
+    kinds: tuple[FloatingKind, ...]
     rounds: tuple[Round, ...]
     mass_balance_error: Gaps
 
@@ -98,95 +104,80 @@ def floating_point(
     side_by_side: bool = False,
     report: Report = silent,
 ) -> FloatingPoint:
-    """One periodic operating point with the three gaps floating; side by side: the piston in a second process.
+    """One periodic operating point with the three gaps floating; side by side: the pistons in a second process.
 
     Raises NotConverged where gaps and chamber pressure do not settle within ROUND_LIMIT rounds, FilmNotConverged
-    where a film does not, ValueError for steps that do not divide among the pistons and for chambers that differ
-    in their pistons or slippers.
+    where a film does not, ValueError for steps that do not divide among the pistons.
     """
-    if pump.single_pistons or pump.single_slippers:
-        raise ValueError("chambers: found single pistons or slippers, expected chambers that are alike")
-    options, parts = options or FloatingOptions(), floating_parts(pump)
+    options = options or FloatingOptions()
     lumped = lumped_point(pump, point)
-    still = no_rubbing(lumped.cycle.shaft_angle.size)
-    state = _State(rotor(pump, lumped.point), lumped.cycle, still, None)
+    at = rotor(pump, lumped.point)
+    group, angle = group_of(at), lumped.cycle.shaft_angle
+    still = (no_rubbing(angle.size),) * len(group.parts)
+    asked = Asked(at, angle, tuple(one.pressure for one in lumped.chambers), still, options)
+    gaps: tuple[FloatingGaps, ...] | None = None
     rounds: list[Round] = []
-    with piston_beside(parts) if side_by_side else nullcontext() as beside:
+    with piston_beside(group.parts) if side_by_side else nullcontext() as beside:
         while not rounds or not _settled(rounds[-1], options):
             if len(rounds) == ROUND_LIMIT:
                 raise _not_settled(rounds[-1])
-            closing = replace(options, accuracy=_loosened(options.accuracy, rounds))
-            state, taken = _round(state, parts, point, closing, beside, _of_round(report, len(rounds) + 1))
-            rounds.append(taken)
-    return _told(pump, point, parts, options, state, tuple(rounds))
+            closing = replace(asked, options=replace(options, accuracy=_loosened(options.accuracy, rounds)))
+            found = _round(closing, group, point, gaps, beside, _of_round(report, len(rounds) + 1))
+            asked, gaps = found.asked, found.gaps
+            rounds.append(found.taken)
+    return _told(point, group, replace(found, asked=replace(asked, options=options)), tuple(rounds))
 
 
 @dataclass(frozen=True)
-class _State:
-    """Where a round begins or ends; ported: chambers and ports of its end."""
+class _Found:
+    """Where a round ends: what would drive the next, gaps by kind, chambers and ports, and what the round took."""
 
-    rotor: Rotor
-    cycle: ChamberCycle
-    rubbing: Rubbing
-    gaps: FloatingGaps | None
-    ported: PortedCycle | None = None
+    asked: Asked
+    gaps: tuple[FloatingGaps, ...]
+    ported: PortedCycle
+    taken: Round
 
 
 def _round(
-    state: _State,
-    parts: FloatingParts,
+    asked: Asked,
+    group: Group,
     point: OperatingPoint,
-    options: FloatingOptions,
+    before: tuple[FloatingGaps, ...] | None,
     beside: PistonBeside | None,
     report: Report,
-) -> tuple[_State, Round]:
+) -> _Found:
     """The gaps at the pressure and friction of the round before, then the chambers with these gaps."""
-    began, pump, cycle = perf_counter(), state.rotor.pump, state.cycle
-    asked = Driven(state.rotor, cycle.shaft_angle, cycle.pressure, state.rubbing, options)
-    driven = drives(state.rotor, parts, cycle.shaft_angle, cycle.pressure, state.rubbing)
-    gaps = _revolutions(asked, parts, driven, state.gaps, beside, report)
-    motion, pistons = piston_motion(pump, point), pump.pump.pistons
-    problem = chamber_problem(pump, point, motion, leak_table(gaps))
-    problem = replace(problem, growth=growth(gaps, state.rotor, parts))
-    pressures = (state.rotor.point.delivery_pressure, state.rotor.point.inlet_pressure)
-    samples = cycle.shaft_angle.size
-    draws = port_draws(gaps, pressures, pump.oil.bulk_modulus, samples // pistons)
-    ported = ported_cycle((problem,), port_lines(pump, point), pistons, samples, draws=draws)
-    rubbed = rubbing(gaps, samples)
-    friction = max(
-        np.abs(rubbed.piston - state.rubbing.piston).max(), np.abs(rubbed.slipper - state.rubbing.slipper).max()
+    began, pump, pistons = perf_counter(), asked.rotor.pump, asked.rotor.pump.pump.pistons
+    driven = drives_of(asked, group)
+    gaps = gap_revolutions(asked, group, driven, before, beside, report)
+    problems = chamber_problems(asked, group, point, piston_motion(pump, point), gaps)
+    pressures, samples = (
+        (asked.rotor.point.delivery_pressure, asked.rotor.point.inlet_pressure),
+        asked.shaft_angle.size,
+    )
+    drawn = samples // pistons if group.kinds.alike else samples
+    draws = port_draws(gaps[0].block, pressures, pump.oil.bulk_modulus, drawn)
+    ported = ported_cycle(problems, port_lines(pump, point), pistons, samples, draws=draws)
+    following = replace(
+        asked,
+        rotor=rotor(pump, met_point(point, ported)),
+        pressure=tuple(cycle.pressure for cycle in ported.cycles),
+        rubbing=tuple(rubbing(own, samples) for own in gaps),
     )
     taken = Round(
-        float(np.max(np.abs(ported.cycle.pressure - cycle.pressure))) / problem.pressure_span,
-        float(friction) / max(at.forces.lift for at in driven.group),
-        options.accuracy.closed,
-        sum(gap.films_solved for gap in (gaps.piston, gaps.slipper, gaps.block)),
+        float(np.max(np.abs(np.array(following.pressure) - asked.pressure))) / problems[0].pressure_span,
+        max(map(_rubbing_change, asked.rubbing, following.rubbing))
+        / max(at.forces.lift for one in driven for at in one.group),
+        asked.options.accuracy.closed,
+        sum(gap.films_solved for own in gaps for gap in (own.piston, own.slipper)) + gaps[0].block.films_solved,
         perf_counter() - began,
     )
-    return _State(rotor(pump, met_point(point, ported)), ported.cycle, rubbed, gaps, ported), taken
+    return _Found(following, gaps, ported, taken)
 
 
-def _revolutions(
-    asked: Driven,
-    parts: FloatingParts,
-    driven: Drives,
-    before: FloatingGaps | None,
-    beside: PistonBeside | None,
-    report: Report,
-) -> FloatingGaps:
-    """Each gap over the revolution, on from the round before; the piston by the process beside, if any."""
-    at, options = asked.rotor, asked.options
-    piston, slipper, block = (None,) * 3 if before is None else (before.piston, before.slipper, before.block)
-    if beside is not None:
-        beside.start(asked)
-    else:
-        piston = piston_revolution(at, parts, driven.piston, options, piston, report)
-    slipper = slipper_revolution(at, parts, driven.slipper, options, slipper, report)
-    block = block_revolution(at, parts, driven.block, options, block, report)
-    if beside is not None:
-        piston = beside.fetch(report)
-    assert piston is not None
-    return FloatingGaps(piston, slipper, block)
+def _rubbing_change(one: Rubbing, other: Rubbing) -> float:
+    """Largest change of a film's friction, N."""
+    return float(max(np.abs(one.piston - other.piston).max(), np.abs(one.slipper - other.slipper).max()))
 
 
 def _of_round(report: Report, number: int) -> Report:
@@ -213,35 +204,40 @@ def _not_settled(taken: Round) -> NotConverged:
     )
 
 
-def _told(
-    pump: PumpDescription,
-    point: OperatingPoint,
-    parts: FloatingParts,
-    options: FloatingOptions,
-    state: _State,
-    rounds: tuple[Round, ...],
-) -> FloatingPoint:
+def _told(point: OperatingPoint, group: Group, found: _Found, rounds: tuple[Round, ...]) -> FloatingPoint:
     """The pump with gaps and chambers that agree."""
-    gaps, ported, at, pistons = state.gaps, state.ported, state.rotor, pump.pump.pistons
-    assert gaps is not None
-    assert ported is not None
-    motion, cycle = piston_motion(pump, point), state.cycle
-    driven = drives(at, parts, cycle.shaft_angle, cycle.pressure, state.rubbing)
-    losses = with_floating_gaps(lumped_pairs(pump, point, motion, cycle), gaps, driven.group)
+    asked, ported, block = found.asked, found.ported, found.gaps[0].block
+    pistons, speed, samples = asked.rotor.pump.pump.pistons, point.shaft_speed, asked.shaft_angle.size
+    rotors = group.rotors(asked.rotor)
+    of_kinds = [
+        FloatingKind(group.kinds.chambers(kind), *each)
+        for kind, each in enumerate(zip(rotors, group.parts, drives_of(asked, group), found.gaps, strict=True))
+    ]
+    chambers = list(
+        zip(group.kinds.by_chamber(of_kinds), by_chamber(group, found.gaps), ported.cycles, strict=True)
+    )
+    each, derived = [], []
+    for own, gaps, cycle in chambers:
+        motion = piston_motion(own.rotor.pump, point)
+        each.append(with_floating_gaps(lumped_pairs(own.rotor.pump, point, motion, cycle), gaps, own.drives.group))
+        derived.append(swept_displacement(own.rotor.pump, motion.drive))
+    losses = mean_of(each)
     about_shaft = losses.ball_guide_retainer, losses.front_bearing, losses.rear_bearing
-    lumped = sum(loss.coulomb + loss.viscous for loss in about_shaft) / point.shaft_speed
-    torque = shaft_moment(gaps, at, parts, driven.group) + block_torque(gaps, cycle.shaft_angle.size) + lumped
+    moments = [shaft_moment(gaps, own.rotor, own.parts, own.drives.group) for own, gaps, _ in chambers]
+    lumped = sum(loss.coulomb + loss.viscous for loss in about_shaft) / speed
     pump_point = put_together(
         point,
         ported,
         losses,
         pistons,
-        swept_displacement(pump, motion.drive),
-        gap_exchange(gaps, pistons, point.shaft_speed),
-        torque,
-        leakage_heat(gaps, pistons),
+        float(np.mean(derived)),
+        mean_of([gap_exchange(gaps, pistons, speed) for _, gaps, _ in chambers]),
+        over_chambers(moments, pistons) + block_torque(block, samples) + lumped,
+        mean_of([leakage_heat(gaps, pistons) for _, gaps, _ in chambers]),
     )
     missing = Gaps(
-        mass_balance_error(gaps.piston), mass_balance_error(gaps.slipper), mass_balance_error(gaps.block)
+        max(mass_balance_error(own.piston) for own in found.gaps),
+        max(mass_balance_error(own.slipper) for own in found.gaps),
+        mass_balance_error(block),
     )
-    return FloatingPoint(at, parts, options, pump_point, driven, gaps, rounds, missing)
+    return FloatingPoint(asked.rotor, asked.options, pump_point, tuple(of_kinds), rounds, missing)

@@ -29,7 +29,10 @@ TOLD_A_TURN = 12
 
 @dataclass(frozen=True)
 class Driven:
-    """What drives a round: the pump at its point, chamber pressure (N,) Pa over the shaft angle (N,), friction."""
+    """What drives piston and slipper of a kind of chambers.
+
+    The pump at its point, pressure (N,) Pa over the chamber's angle (N,), friction.
+    """
 
     rotor: Rotor
     shaft_angle: Array
@@ -46,17 +49,17 @@ class _Progress:
 
 
 class PistonBeside:
-    """A process that solves pistons: start one, do something else, fetch what it found."""
+    """A process that solves pistons, one of each kind: start them, do something else, fetch what it found."""
 
     def __init__(self, connection: Connection) -> None:
         self._connection = connection
 
-    def start(self, driven: Driven) -> None:
+    def start(self, driven: tuple[Driven, ...]) -> None:
         """Begin a round, from where the one before ended."""
         self._connection.send(driven)
 
-    def fetch(self, report: Report) -> Found:
-        """The revolution of the round begun, without what the next one starts from; tells progress while it waits.
+    def fetch(self, report: Report) -> tuple[Found, ...]:
+        """The revolutions of the round begun, without what the next start from; tells progress while it waits.
 
         Raises what `piston_revolution` raises, NotConverged where the process has died.
         """
@@ -70,13 +73,13 @@ class PistonBeside:
             elif isinstance(told, Exception):
                 raise told
             else:
-                found: Found = told
+                found: tuple[Found, ...] = told
                 return found
 
 
 @contextmanager
-def piston_beside(parts: FloatingParts) -> Iterator[PistonBeside]:
-    """A process for the piston as long as the context lasts; Ctrl-C is for this process alone, which ends it."""
+def piston_beside(parts: tuple[FloatingParts, ...]) -> Iterator[PistonBeside]:
+    """A process for the pistons as long as the context lasts; Ctrl-C is for this process alone, which ends it."""
     ours, theirs = multiprocessing.get_context("spawn").Pipe()
     process = multiprocessing.get_context("spawn").Process(target=_serve, args=(theirs, parts), daemon=True)
     process.start()
@@ -89,21 +92,22 @@ def piston_beside(parts: FloatingParts) -> Iterator[PistonBeside]:
         process.join()
 
 
-def _serve(connection: Connection, parts: FloatingParts) -> None:
-    """Rounds of the piston, one for each that is asked for, until nobody asks."""
+def _serve(connection: Connection, parts: tuple[FloatingParts, ...]) -> None:
+    """Rounds of the pistons, one for each that is asked for, until nobody asks."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
-    before: Found | None = None
+    before: list[Found | None] = [None] * len(parts)
     while True:
         try:
-            asked: Driven = connection.recv()
+            asked: tuple[Driven, ...] = connection.recv()
         except EOFError:
             return
         try:
-            before = _solve(asked, parts, before, _teller(connection))
+            found = [_solve(*each, _teller(connection)) for each in zip(asked, parts, before, strict=True)]
         except Exception as reason:  # whatever it is belongs to whoever asked
             connection.send(reason)
         else:
-            connection.send(_light(before))
+            before = [*found]
+            connection.send(tuple(_light(one) for one in found))
 
 
 def _teller(connection: Connection) -> Report:

@@ -7,6 +7,7 @@ comes from the revolutions before (`Rubbing`).
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -146,7 +147,7 @@ def drives(rotor: Rotor, parts: FloatingParts, shaft_angle: Array, pressure: Arr
     return Drives(
         piston=_piston_drive(rotor, parts, shaft_angle, chamber, group, rubbing),
         slipper=_slipper_drive(rotor, parts, shaft_angle, chamber, group),
-        block=_block_drive(rotor, parts, shaft_angle, chamber, group),
+        block=block_drive(rotor, parts, shaft_angle, (pressure,), (group,)),
         group=group,
     )
 
@@ -200,15 +201,26 @@ def _slipper_drive(
     )
 
 
-def _block_drive(
-    rotor: Rotor, parts: FloatingParts, angles: Array, chamber: OverTurn, group: tuple[GroupInstant, ...]
+def block_drive(
+    rotor: Rotor,
+    parts: FloatingParts,
+    angles: Array,
+    pressure: Sequence[Array],
+    groups: Sequence[tuple[GroupInstant, ...]],
 ) -> BlockDrive:
+    """What presses on the block: pressures (N,) Pa and balances (N,) over a chamber's own angles (N,) rad.
+
+    Of one chamber for all, or of each.
+    """
     point, pistons = rotor.point, rotor.pump.pump.pistons
-    one = np.array(
-        [wrench_about(at.places, np.vstack([at.inertia, at.plate]), parts.block.spline_height) for at in group]
-    )
-    step = len(angles) // pistons
-    press = sum(np.roll(one, -k * step, axis=0) for k in range(pistons))
+    step, height = len(angles) // pistons, parts.block.spline_height
+    by_chamber = [
+        np.array([wrench_about(at.places, np.vstack([at.inertia, at.plate]), height) for at in group])
+        for group in groups
+    ]
+    press = sum(np.roll(by_chamber[k % len(groups)], -k * step, axis=0) for k in range(pistons))
+    held = np.maximum(np.stack(pressure, axis=-1), CAVITY_PRESSURE)
+    chamber = Course(angles, held[:, 0] if len(pressure) == 1 else held)
     if parts.slipper.retainer.kind is not RetainerKind.SPRING:
         # Then the slippers do not hand the spring on to the swash plate: it stands on the shaft.
         press = press - np.array([block_spring(rotor.pump), 0.0, 0.0])

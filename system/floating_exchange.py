@@ -1,7 +1,7 @@
 """What three floating gaps tell chambers, shaft and power balance, over the turn.
 
-Arrays over n equidistant shaft angles from 0, those of the gaps' reported angles. Of the block only a pitch is
-known where chambers are alike; then it repeats.
+Arrays over n equidistant angles of a chamber from 0, those of the gaps' reported angles. Of the block only a pitch
+is known where chambers are alike; then it repeats.
 """
 
 from __future__ import annotations
@@ -21,18 +21,22 @@ from system.floating_parts import FloatingParts
 from system.instants import Rotor, travel, valve_plate_geometry
 from system.kinematics import Array
 from system.lumped import piston_area
-from system.pairs import FrictionPairs, PairLoss, over_chambers
+from system.pairs import FrictionPairs, PairLoss
 from system.ports import TURN
 from system.power import GapExchange, Gaps
 
 
 @dataclass(frozen=True)
 class FloatingGaps:
-    """The three gaps of a pump whose chambers are alike: one piston, one slipper, the block over a pitch."""
+    """The gaps of one chamber: its piston, its slipper, and the block over a pitch, or over the turn.
+
+    chamber, from 0: where chambers differ, the one whose gaps they are.
+    """
 
     piston: GapRevolution[PistonSeen]
     slipper: GapRevolution[SlipperSeen]
     block: GapRevolution[BlockSeen]
+    chamber: int = 0
 
 
 def of_each(revolution: GapRevolution[Seen], tell: Callable[[Seen], float | Array]) -> Array:
@@ -71,20 +75,26 @@ def resampled(values: Array, samples: int) -> Array:
 
 
 def leak_table(gaps: FloatingGaps) -> LeakTable:
-    """Flow out of one chamber into each gap, by its angle; it answers to the pressure by the next round alone."""
+    """Flow out of the chamber into each gap, by its angle; it answers to the pressure by the next round alone."""
     piston = passing(gaps.piston, lambda seen: float(seen.flow[0]))
     slipper = passing(gaps.slipper, lambda seen: float(seen.flow[0]))
-    carried = np.stack([piston, slipper, chamber_draws(gaps.block)])
+    carried = np.stack([piston, slipper, chamber_draws(gaps.block, gaps.chamber, len(piston))])
     return LeakTable(np.zeros_like(carried), carried)
 
 
-def chamber_draws(block: GapRevolution[BlockSeen]) -> Array:
-    """Flow (n,) m3/s out of a chamber into the block's film, in the mean around the chamber's own angles."""
+def chamber_draws(block: GapRevolution[BlockSeen], chamber: int, steps: int) -> Array:
+    """Flow (steps,) m3/s out of a chamber into the block's film, in the mean around the chamber's own angles.
+
+    Of a block that is known over a pitch alone, each of its chambers tells a part.
+    """
     flow = np.array([instant.passed.flow for instant in block.turn.instants])
     known, pistons = flow.shape
-    own = (np.arange(1, known + 1)[:, None] + known * np.arange(pistons)) % (known * pistons)
-    found = np.empty(known * pistons)
-    found[own] = flow
+    own = (np.arange(1, known + 1)[:, None] + steps // pistons * np.arange(pistons)) % steps
+    found = np.empty(steps)
+    if known == steps:
+        found[own[:, chamber]] = flow[:, chamber]
+    else:
+        found[own] = flow
     return around(found)
 
 
@@ -116,14 +126,15 @@ def bore_axes(rotor: Rotor, count: int) -> Array:
 
 
 def growth(gaps: FloatingGaps, rotor: Rotor, parts: FloatingParts) -> Array:
-    """Growth (n,) m3 of a chamber by the parts' small motion: the ball along its bore, and the block's lift.
+    """Growth (n,) m3 of the chamber by the parts' small motion: the ball along its bore, and the block's lift.
 
     Ap (d . a) - Ap z + A_kidney z_kidney, z the block's way off the plate at the bore's and at the kidney's place.
     """
     pump, plate = rotor.pump, valve_plate_geometry(rotor.pump)
     block, rim = positions(gaps.block), plate.land_radii[3]
     pistons, shift = pump.pump.pistons, ball_shift(gaps, rotor, parts)
-    block = np.tile(block, (pistons, 1))
+    block = np.tile(block, (len(shift) // len(block), 1))
+    block = np.roll(block, gaps.chamber * len(shift) // pistons, axis=0)
     angle = TURN * np.arange(len(shift)) / len(shift)
     along = np.sum(shift * bore_axes(rotor, len(shift)), axis=1)
     rise = (block[:, 1] * np.cos(angle) + block[:, 2] * np.sin(angle)) / rim
@@ -142,7 +153,7 @@ def rubbing(gaps: FloatingGaps, samples: int) -> Rubbing:
 
 
 def shaft_moment(gaps: FloatingGaps, rotor: Rotor, parts: FloatingParts, group: tuple[GroupInstant, ...]) -> Array:
-    """Torque (N,) N m by which all pistons with slippers resist the shaft, from the forces on them.
+    """Torque (N,) N m by which the piston with its slipper resists the shaft, from the forces on them.
 
     The moment about the shaft of the swash plate's force and friction and of inertia, at the places where the
     films hold the parts; the plate holds the joint's friction about its normal. The joint's forces leave out the
@@ -159,7 +170,7 @@ def shaft_moment(gaps: FloatingGaps, rotor: Rotor, parts: FloatingParts, group: 
         for at, moved, (places, forces) in zip(group, shift, _applied(rotor, parts, group), strict=True)
     ]
     swung = _swung(rotor, np.array([at.places[:2] for at in group]), shift[:, :2])
-    return over_chambers([np.array(held) + swung], rotor.pump.pump.pistons)
+    return np.asarray(np.array(held) + swung)
 
 
 def _swung(rotor: Rotor, places: Array, shift: Array) -> Array:
@@ -188,10 +199,10 @@ def _applied(rotor: Rotor, parts: FloatingParts, group: tuple[GroupInstant, ...]
         yield np.vstack([at.places, at.places[1] + foot * normal]), np.vstack([at.inertia, lift, at.plate - lift])
 
 
-def block_torque(gaps: FloatingGaps, samples: int) -> Array:
+def block_torque(block: GapRevolution[BlockSeen], samples: int) -> Array:
     """Torque (samples,) N m of the valve plate's film against the block's turning."""
-    turns = round(TURN / gaps.block.angles[-1])
-    return resampled(np.tile(passing(gaps.block, lambda seen: seen.torque), turns), samples)
+    turns = round(TURN / block.angles[-1])
+    return resampled(np.tile(passing(block, lambda seen: seen.torque), turns), samples)
 
 
 def with_floating_gaps(
@@ -263,10 +274,10 @@ def _mean(revolution: GapRevolution[Seen], tell: Callable[[Seen], float]) -> flo
 
 
 def port_draws(
-    gaps: FloatingGaps, pressures: tuple[float, float], modulus: float, pitch: int
+    block: GapRevolution[BlockSeen], pressures: tuple[float, float], modulus: float, count: int
 ) -> tuple[Array, Array]:
-    """What the block's film takes from delivery and suction port over a pitch, (pitch,) m3/s at zero gauge."""
-    delivery = resampled(passing(gaps.block, lambda seen: seen.delivery_draw), pitch)
-    suction = resampled(passing(gaps.block, lambda seen: seen.suction_draw), pitch)
+    """What the block's film takes from delivery and suction port while it repeats, (count,) m3/s at zero gauge."""
+    delivery = resampled(passing(block, lambda seen: seen.delivery_draw), count)
+    suction = resampled(passing(block, lambda seen: seen.suction_draw), count)
     dense = np.exp(np.array(pressures) / modulus)
     return np.asarray(delivery * dense[0]), np.asarray(suction * dense[1])

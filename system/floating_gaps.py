@@ -24,6 +24,7 @@ from system.floating_parts import FloatingParts
 from system.gap_cycle import Report, silent
 from system.gap_films import RIGID, block_film, piston_film, slipper_film
 from system.instants import Rotor
+from system.unlike import kinds
 
 MARCHED = Accuracy(step=1e-2)
 PISTON_CELLS, SLIPPER_CELLS, BLOCK_CELLS = (48, 16), (12, 40), (4, 16)
@@ -107,7 +108,7 @@ def block_revolution(
     pistons, pump = rotor.pump.pump.pistons, rotor.pump
     if options.steps % pistons:
         raise ValueError(f"steps: found {options.steps}, expected a multiple of the {pistons} pistons")
-    alike = not pump.single_pistons and not pump.single_slippers
+    alike = kinds(pump).alike
     steps, span = (options.steps // pistons, 2.0 * np.pi / pistons) if alike else (options.steps, 2.0 * np.pi)
     film = block_film(rotor, parts, drive, options.physics, options.cells(BLOCK_CELLS))
     schedule = evenly(drive.shaft_speed, steps, span, options.keep)

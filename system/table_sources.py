@@ -98,7 +98,8 @@ class FloatingSolver:
     def solve(self, pump: PumpDescription, point: OperatingPoint) -> SolvedPoint:
         """The point by `floating_point`; least film: of the mean planes, below 0 where rough walls overlap."""
         found = floating_point(pump, point, self.options)
-        turns = (found.gaps.piston.turn, found.gaps.slipper.turn, found.gaps.block.turn)
+        gaps = found.kinds[0].gaps
+        turns = (gaps.piston.turn, gaps.slipper.turn, gaps.block.turn)
         mean = (float(np.mean([instant.mean_film for instant in turn.instants])) for turn in turns)
         least = (min(instant.least_gap for instant in turn.instants) for turn in turns)
         return SolvedPoint(found.pump_point, Gaps(*mean), Gaps(*least))

@@ -21,7 +21,10 @@ Of = TypeVar("Of")
 
 @dataclass(frozen=True)
 class Kinds:
-    """The kinds of chambers that a pump has: `pumps`, one a kind, each alike; the kind `of_chamber` 1, 2, .."""
+    """The kinds of chambers that a pump has: `pumps`, one a kind, each alike; the kind `of_chamber` 1, 2, ..
+
+    The most common kind comes first.
+    """
 
     pumps: tuple[PumpDescription, ...]
     of_chamber: tuple[int, ...]
@@ -47,14 +50,11 @@ class Kinds:
 
 def kinds(pump: PumpDescription) -> Kinds:
     """The kinds of a pump's chambers; single parts that say the same are of one kind."""
-    pumps: list[PumpDescription] = []
-    of_chamber = []
-    for number in range(1, pump.pump.pistons + 1):
-        own = pump.of_chamber(number)
-        if own not in pumps:
-            pumps.append(own)
-        of_chamber.append(pumps.index(own))
-    return Kinds(tuple(pumps), (0,) if len(pumps) == 1 else tuple(of_chamber))
+    own = [pump.of_chamber(number) for number in range(1, pump.pump.pistons + 1)]
+    found = [one for k, one in enumerate(own) if one not in own[:k]]
+    found.sort(key=own.count, reverse=True)
+    of_chamber = (0,) if len(found) == 1 else tuple(found.index(one) for one in own)
+    return Kinds(tuple(found), of_chamber)
 
 
 def mean_of(items: Sequence[Of]) -> Of:

@@ -30,6 +30,7 @@ from gaps.ring import ValvePlateGeometry
 from reynolds.contact import Asperities
 from reynolds.film import FilmProblem, Storage
 from reynolds.floating_stage import solve_stage, standing
+from reynolds.floating_start import seats_of
 from reynolds.generalised import contact_force, generalised_force, modes_on
 from reynolds.rest import held_at
 from reynolds.solve import FilmSolver
@@ -244,28 +245,14 @@ def test_a_pitch_on_every_unknown_meets_its_like():
     """What the block's mesh holds after a pitch, renumbered, stands where it stood."""
     film = BlockFilm(PORTS, drive(**RUNNING), cells=(2, 8))
     ring, period = film.ring, PITCH / SPEED
-    behind = ring.after_pitch()
-    now, later = ring.space.vertices, ring.turned(PITCH).vertices
-    assert later[behind] == pytest.approx(now, abs=1e-12)
+    later = ring.turned(PITCH)
+    behind = seats_of(ring.space, later)
+    assert later.vertices[behind] == pytest.approx(ring.space.vertices, abs=1e-12)
     first, then = film.problem_at(0.1 * period), film.problem_at(1.1 * period)
     assert then.held_nodes is not None
     assert np.array_equal(then.held_nodes[behind], first.held_nodes, equal_nan=True)
     shift = [then.boundary[f"kidney_{k}"] for k in range(1, PISTONS)]
     assert shift == [pytest.approx(first.boundary[f"kidney_{k}"]) for k in range(2, PISTONS + 1)]
-
-
-def test_the_film_changes_at_port_breaks_only():
-    """Between two breaks the same unknowns lie over the ports."""
-    ring = BlockFilm(PORTS, drive(**RUNNING), cells=(2, 8)).ring
-    breaks = np.array([*ring.port_breaks(), PITCH])
-    assert len(breaks) > 2
-
-    def covered(angle: float) -> np.ndarray:
-        return np.isnan(ring.port_nodes(ring.turned(angle), 1.0, 2.0))
-
-    for start, end in pairwise(breaks):
-        inside = np.linspace(start, end, 5)[1:-1]
-        assert all(np.array_equal(covered(a), covered(inside[0])) for a in inside[1:])
 
 
 # Floating

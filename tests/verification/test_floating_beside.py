@@ -33,19 +33,19 @@ def test_a_process_of_its_own_finds_the_same_piston():
     here, told = asked(), []
     parts = floating_parts(here.rotor.pump)
     driven = drives(here.rotor, parts, here.shaft_angle, here.pressure, here.rubbing)
-    with piston_beside(parts) as beside:
-        beside.start(here)
+    with piston_beside((parts,)) as beside:
+        beside.start((here,))
         alone = piston_revolution(here.rotor, parts, driven.piston, ROUGHLY)
-        found = beside.fetch(lambda done, total, what: told.append(what))
+        (found,) = beside.fetch(lambda done, total, what: told.append(what))
         assert np.array_equal(found.positions, alone.positions)
         assert found.closing.turns == alone.closing.turns
         assert list(found.turn.films) == list(alone.turn.films)
         assert any(what.startswith("piston") for what in told)
         # It goes on from where it ended.
-        beside.start(here)
-        again = beside.fetch(lambda *_: None)
+        beside.start((here,))
+        (again,) = beside.fetch(lambda *_: None)
         assert again.closing.turns <= found.closing.turns
-        beside.start(asked(FloatingOptions(steps=0)))
+        beside.start((asked(FloatingOptions(steps=0)),))
         with pytest.raises(FilmInputError, match="revolution"):
             beside.fetch(lambda *_: None)
 

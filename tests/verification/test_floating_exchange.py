@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -71,7 +71,25 @@ def test_a_chamber_draws_what_its_kidney_does_where_it_stands():
     seen = tuple(SimpleNamespace(flow=np.cos(row) + 0.3 * np.sin(2.0 * row)) for row in places)
     own = TURN * np.arange(STEPS) / STEPS
     expected = around(np.cos(own) + 0.3 * np.sin(2.0 * own))
-    assert chamber_draws(Told(np.zeros((per_pitch, 3)), seen)) == pytest.approx(expected, abs=1e-12)
+    assert chamber_draws(Told(np.zeros((per_pitch, 3)), seen), 0, STEPS) == pytest.approx(expected, abs=1e-12)
+
+
+def test_of_a_whole_turn_each_chamber_draws_its_own():
+    shaft = TURN / STEPS * np.arange(1, STEPS + 1)
+    seen = tuple(SimpleNamespace(flow=np.cos(angle) * np.arange(PISTONS)) for angle in shaft)
+    own = TURN * np.arange(STEPS) / STEPS
+    found = chamber_draws(Told(np.zeros((STEPS, 3)), seen), 4, STEPS)
+    assert found == pytest.approx(around(4.0 * np.cos(own - 4.0 * TURN / PISTONS)), abs=1e-12)
+
+
+def test_a_block_that_rises_once_a_turn_is_met_by_each_chamber_at_its_own_angle():
+    plate, lift = valve_plate_geometry(PUMP), 5e-6
+    shaft = TURN / STEPS * np.arange(1, STEPS + 1)
+    block = Told(lift * np.stack([np.cos(shaft), 0.0 * shaft, 0.0 * shaft], axis=1))
+    one = replace(gaps(), block=block, chamber=4)
+    own = TURN * np.arange(STEPS) / STEPS
+    expected = -(piston_area(PUMP) - plate.kidney_area) * lift * np.cos(own - 4.0 * TURN / PISTONS)
+    assert growth(one, ROTOR, PARTS) == pytest.approx(expected, abs=1e-12 * np.abs(expected).max())
 
 
 def test_a_thicker_film_under_the_slipper_takes_from_the_chamber():

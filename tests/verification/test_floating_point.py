@@ -31,9 +31,9 @@ def test_gaps_and_chambers_agree(found):
     assert last.pressure_change <= PRESSURE_TOLERANCE
     assert last.friction_change <= FRICTION_TOLERANCE
     assert last.closed == found.options.accuracy.closed
-    assert len(found.gaps.piston.turn.instants) == STEPS
-    assert len(found.gaps.block.turn.instants) == STEPS // found.rotor.pump.pump.pistons
-    table = leak_table(found.gaps)
+    assert len(found.kinds[0].gaps.piston.turn.instants) == STEPS
+    assert len(found.kinds[0].gaps.block.turn.instants) == STEPS // found.rotor.pump.pump.pistons
+    table = leak_table(found.kinds[0].gaps)
     assert table.carried_flow.shape == (3, STEPS)
     assert found.pump_point.leaks.carried_flow == pytest.approx(table.carried_flow, rel=1e-12)
 
@@ -71,12 +71,12 @@ def test_oil_is_kept_by_each_gap(found):
 def test_friction_is_that_of_the_films(found):
     """No coefficient of [friction] stands beside the films of the three gaps."""
     point, pistons = found.pump_point, found.rotor.pump.pump.pistons
-    instants = found.gaps.piston.turn.instants
+    instants = found.kinds[0].gaps.piston.turn.instants
     rubbed = pistons * np.mean([instant.passed.heat.rubbing for instant in instants])
     sheared = pistons * np.mean([instant.passed.heat.shear for instant in instants])
     assert point.pairs.piston_cylinder.mean_coulomb == pytest.approx(rubbed, rel=1e-9)
     assert point.pairs.piston_cylinder.mean_viscous == pytest.approx(sheared, rel=1e-9)
-    assert point.power.leakage == leakage_heat(found.gaps, pistons)
+    assert point.power.leakage == leakage_heat(found.kinds[0].gaps, pistons)
 
 
 def test_rounds_that_do_not_settle_say_so(monkeypatch):

@@ -1,0 +1,82 @@
+"""Floating gaps of chambers that differ: written out one by one as alike, a worn piston, the block over the turn.
+
+Coarse films, one round of gaps and chambers.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from gaps.revolution import Accuracy
+from system.description import PumpDescription
+from system.floating import FloatingPoint, floating_point
+from system.floating_gaps import FloatingOptions
+from system.operating import operating_point
+from system.pump_file import load_pump
+
+ROUGHLY = FloatingOptions(
+    steps=36, finer=0.25, accuracy=Accuracy(step=0.1, floor=1e-7, closed=0.5, reach=1.0), keep=6
+)
+PUMP = load_pump("ref90_floating", {"operating.pressure": "5 MPa"})
+CLEARANCE = PUMP.piston.radial_clearance
+WORN, WEAR = 2, 1.5  # chamber 3; twice the clearance tips the piston into coarse films' edges
+pytestmark = pytest.mark.slow
+
+
+def with_clearance(clearance: float) -> PumpDescription:
+    """The pump with another radial clearance (m) of the third piston."""
+    third = PUMP.piston.model_copy(update={"radial_clearance": clearance})
+    return PUMP.model_copy(update={"single_pistons": ((WORN + 1, third),)})
+
+
+@pytest.fixture(scope="module")
+def found():
+    """The point of a pump after one round."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("system.floating.PRESSURE_TOLERANCE", 1.0)
+        patch.setattr("system.floating.FRICTION_TOLERANCE", 1.0)
+        pumps = PUMP, with_clearance(CLEARANCE * (1.0 + 1e-12)), with_clearance(WEAR * CLEARANCE)
+        return [floating_point(pump, operating_point(pump), ROUGHLY) for pump in pumps]
+
+
+def leaked(point: FloatingPoint) -> np.ndarray:
+    """What each chamber's piston leaks in a turn (m3)."""
+    return np.array([float(one.outflow.piston) for one in point.pump_point.chambers])
+
+
+def torque_of_pistons(point: FloatingPoint) -> float:
+    """Mean torque (N m) of the shaft but for the block's film."""
+    found = point.pump_point
+    return float(np.mean(found.shaft_torque)) - found.pairs.valve_plate_cylinder.mean / found.point.shaft_speed
+
+
+def test_chambers_written_out_are_the_pump_that_is_alike(found):
+    """Pistons and slippers are the same; the block has not closed yet, by a turn here and a pitch there."""
+    alike, written, _ = found
+    assert [kind.chambers for kind in written.kinds] == [(0, 1, 3, 4, 5, 6, 7, 8), (WORN,)]
+    assert len(written.kinds[0].gaps.block.turn.instants) == ROUGHLY.steps
+    assert leaked(written) == pytest.approx(np.full(9, leaked(alike)[0]), rel=1e-3)
+    one, other = alike.pump_point, written.pump_point
+    assert other.bench.delivery_flow == pytest.approx(one.bench.delivery_flow, rel=1e-4)
+    assert other.pairs.piston_cylinder.mean == pytest.approx(one.pairs.piston_cylinder.mean, rel=1e-6)
+    assert other.pairs.slipper_swash_plate.mean == pytest.approx(one.pairs.slipper_swash_plate.mean, rel=1e-6)
+    assert torque_of_pistons(written) == pytest.approx(torque_of_pistons(alike), rel=1e-3)
+
+
+def test_a_worn_piston_leaks_by_the_cube_and_the_rest_stays(found):
+    alike, _, worn = found
+    more = leaked(worn) / leaked(alike)[0]
+    assert more[WORN] == pytest.approx(WEAR**3, rel=0.25)
+    assert np.delete(more, WORN) == pytest.approx(np.ones(8), rel=1e-2)
+    assert worn.pump_point.leakage_flow.piston > alike.pump_point.leakage_flow.piston
+    orders = np.abs(np.fft.rfft(worn.pump_point.delivery_flow_ripple))
+    assert orders[1] > 1e-6 * orders[0]
+
+
+def test_power_is_accounted_for(found):
+    """A coarse round: what remains is that pressures are those of the round before."""
+    alike, written, worn = (one.pump_point.checks for one in found)
+    assert written.energy_balance_error == pytest.approx(alike.energy_balance_error, abs=1e-3)
+    assert worn.energy_balance_error == pytest.approx(alike.energy_balance_error, abs=2e-3)
+    assert worn.mass_balance_error < 1e-9
