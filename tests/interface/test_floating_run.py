@@ -86,3 +86,23 @@ def test_the_page_shows_the_gaps_and_can_be_made_anew(folder):
     for word in ("What was taken", "Are the turns periodic?", "contact, largest"):
         assert word in page
     assert write_pump_page(folder).read_text("utf-8") == page
+
+
+def test_a_worn_piston_stands_beside_the_others(tmp_path, monkeypatch):
+    monkeypatch.setattr("system.floating.PRESSURE_TOLERANCE", 1.0)
+    monkeypatch.setattr("system.floating.FRICTION_TOLERANCE", 1.0)
+    stated = {"operating.pressure": "5 MPa", "piston.3.radial_clearance": "22 um"}
+    run_pump(
+        load_pump("ref90_floating", stated), "", Fidelity.FLOATING, tmp_path, lambda *_: None, options=ROUGHLY
+    )
+    found = summary(tmp_path)
+    assert found["unlike"]["chamber_3"]["chambers"] == [3]
+    worn, other = found["unlike"]["chamber_3"]["gaps"]["piston"], found["gaps"]["piston"]
+    assert worn["leakage_flow_m3_per_s"] > 2.0 * other["leakage_flow_m3_per_s"]
+    assert {path.name for path in (tmp_path / "chamber_3").iterdir()} >= {"piston.csv", "slipper.pvd", "fields"}
+    with xarray.open_dataset(tmp_path / "results.nc", group="chamber_3/piston", engine="h5netcdf") as data:
+        assert data.attrs["clearance_m"] == pytest.approx(22e-6)
+    with xarray.open_dataset(tmp_path / "results.nc", group="valve_plate", engine="h5netcdf") as data:
+        assert data.sizes["shaft_angle"] == 36
+    assert "chamber_3/fields/piston" in (tmp_path / "pump.pvd").read_text("utf-8")
+    assert "piston-cylinder, chamber 3" in (tmp_path / "report.html").read_text("utf-8")
