@@ -138,7 +138,10 @@ def _gap_map(data: xarray.Dataset, gap: str) -> bytes:
     labels = ("x / mm", "y / mm")
     if gap == "piston":
         # Cells across the seam would be drawn around the whole film.
-        x, labels = 360.0 * x / x.max(), ("angle from the inner dead centre's side / deg", "from the chamber / mm")
+        x, labels = (
+            360.0 * x / x.max(),
+            ("angle from the inner dead centre's side / deg", "from the guide's inner end / mm"),
+        )
     cells = data[f"{gap}_cells"].values
     figure = _figure(10.0, 3.9)
     left, right = figure.subplots(1, 2)

@@ -24,7 +24,7 @@ from system.given_positions import given_block, given_piston, given_slipper
 from system.instants import Rotor
 from system.kinematics import Array
 
-PISTON_CELLS, SLIPPER_CELLS, RING_CELLS = (48, 12), (12, 48), (8, 32)
+PISTON_CELLS, SLIPPER_CELLS, RING_CELLS = (48, 16), (12, 48), (8, 32)
 """Of the ring so many around that mesh lines meet REF90's port edges at the film angles."""
 SMOOTH = RIGID.without(Effect.ROUGHNESS)
 """At a given position nothing touches: what asperities would bear and rub stands in the pairs' coefficients."""
