@@ -8,8 +8,9 @@ import os
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -22,8 +23,9 @@ FRONT_SAFETY = 3.0  # Roache 1994: order assumed
 
 @dataclass(frozen=True)
 class Row:
-    """One line of the validation page."""
+    """One line of the validation page; place: its test's among all that were collected."""
 
+    place: int
     chapter: str
     case: str
     source: str
@@ -95,14 +97,20 @@ def pytest_configure(config: pytest.Config) -> None:
 ROWS = pytest.StashKey[list[Row]]()
 
 
+@pytest.hookimpl(optionalhook=True)
+def pytest_testnodedown(node: Any) -> None:
+    """A process of pytest-xdist that ends hands its rows over."""
+    node.config.stash[ROWS] += [Row(**row) for row in getattr(node, "workeroutput", {}).get("rows", [])]
+
+
 def pytest_sessionfinish(session: pytest.Session, exitstatus: int) -> None:
-    page = session.config.getoption("validation_page")
-    if page is None:
+    rows = session.config.stash[ROWS]
+    if hasattr(session.config, "workeroutput"):
+        session.config.workeroutput["rows"] = [asdict(row) for row in rows]
         return
-    if hasattr(session.config, "workerinput") or session.config.getoption("numprocesses", None):
-        raise pytest.UsageError("--validation-page needs one process: leave out -n")
-    if exitstatus == pytest.ExitCode.OK:
-        page.write_text(validation_page(session.config.stash[ROWS]), encoding="utf-8")
+    page = session.config.getoption("validation_page")
+    if page is not None and exitstatus == pytest.ExitCode.OK:
+        page.write_text(validation_page(sorted(rows, key=lambda row: row.place)), encoding="utf-8")
 
 
 @pytest.fixture
@@ -138,6 +146,7 @@ def validation(request: pytest.FixtureRequest) -> Callable[..., None]:
             raise ValueError("validation: give either tolerance or relative_tolerance")
         allowed = abs(expected) * relative_tolerance if tolerance is None else tolerance
         row = Row(
+            request.session.items.index(request.node),
             chapter,
             case,
             source,
@@ -146,7 +155,7 @@ def validation(request: pytest.FixtureRequest) -> Callable[..., None]:
             float(expected),
             float(obtained),
             float(allowed),
-            order,
+            None if order is None else float(order),
             note,
             missed,
         )
