@@ -5,6 +5,7 @@ import os
 import re
 import subprocess
 import sys
+import tomllib
 from pathlib import Path
 
 import numpy as np
@@ -286,7 +287,9 @@ def test_every_example_film_closes_its_balances(path):
     summary = run_example(path.stem)
     if summary["kind"] == "film_study":
         assert summary["solved"] == summary["points"]
-        assert summary["mass_balance_error_max"] < 1e-9
+        # Of a turn it is what its flows miss between the reported angles, of a film round-off.
+        over_turn = "revolution" in tomllib.loads(path.read_text(encoding="utf-8"))["film"]
+        assert summary["mass_balance_error_max"] < (0.01 if over_turn else 1e-9)
         return
     # Oil carried upwind in a cavity and oil under compression do work that the film's own terms do not hold.
     allowed = 5e-3 if summary["film_fraction_min"] < 1.0 else 1e-9
