@@ -14,6 +14,7 @@ from reynolds.errors import FilmInputError, FilmNotConverged
 from reynolds.film import ZERO, Cavitation, FilmProblem, Held, film
 from reynolds.loads import loads
 from reynolds.mesh import rectangle
+from reynolds.overlap import film_between
 from reynolds.roughness import Surface
 from reynolds.space import film_space
 
@@ -95,7 +96,9 @@ def test_rough_walls_settle_where_their_contact_bears_the_load(h, stiffness, val
         tolerance=1e6 * (1e-6 / slope + (1e-6 * bears / stiffness if stiffness else 0.0)),
         note="1e-6 of the load over the contact's stiffness",
     )  # fmt: skip
-    assert found.solution.film.thickness.min() == pytest.approx(h, rel=1e-4)
+    # Below the range of the flow factors walls that give way keep a film of their own between the summits.
+    film = h if stiffness is None else float(film_between(problem, np.array(h)).value)
+    assert found.solution.film.thickness.min() == pytest.approx(film, rel=1e-4)
 
 
 @pytest.mark.parametrize("n", [1.5, 2.1887, 4.0])

@@ -122,7 +122,7 @@ def test_rough_plate_rests_on_springs(surface, validation):
 
 def turned(load: float, asperities: Asperities | None) -> tuple[FilmSpace, list[Stage]]:
     """The stages of a closed turn of a plate under a mean pressure that comes and goes, at even steps."""
-    space, seen, speed = channel(8), list[Stage](), 2.0 * np.pi / 0.05
+    space, speed = channel(8), 2.0 * np.pi / 0.05
 
     def pressed(time: float) -> float:
         return load * LENGTH * WIDE * (1.0 + 0.05 * np.cos(speed * time))
@@ -130,11 +130,12 @@ def turned(load: float, asperities: Asperities | None) -> tuple[FilmSpace, list[
     surface = None if asperities is None else Surface(3e-7, 4e-7)
     floating = plate(space, winkler(space, STIFFNESS), (HIGH, LOW), pressed, asperities, surface)
     found = run_revolution(
-        FilmSolver(space), floating, evenly(speed, 24), np.array([4e-6]), seen.append,
+        FilmSolver(space), floating, evenly(speed, 24), np.array([4e-6]), lambda stage: (stage,),
         accuracy=Accuracy(step=1.0, floor=1.0, closed=1e-7),
     )  # fmt: skip
     assert found.closing.changes[-1] < 1e-7 * 5e-6
-    return space, seen[-25:]
+    stages = [instant.seen[0] for instant in found.turn.instants]
+    return space, [stages[-1], *stages]
 
 
 @pytest.mark.parametrize(
