@@ -6,7 +6,7 @@ overlap, while the thickness of the oil stays positive (`reynolds.overlap`). Rub
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -48,9 +48,10 @@ def contact_stress(solution: FilmSolution, asperities: Asperities, gap: Array) -
 def wall_shear(solution: FilmSolution, asperities: Asperities | None, gap: Array) -> tuple[Vector, Vector]:
     """Shear stress (x, y) Pa on the moving and on the fixed wall at the quadrature points, contact's included.
 
-    `gap` (cells, points) m: the distance of the mean planes. Raises as `contact_stress`.
+    `solution` is the film without asperities; `gap` (cells, points) m: the distance of the mean planes. Raises as
+    `contact_stress`.
     """
-    fields = point_fields(_oil_alone(solution))
+    fields = point_fields(solution)
     if asperities is None:
         return fields.shear_moving, fields.shear_fixed
     _, (x, y) = contact_stress(solution, asperities, gap)
@@ -63,7 +64,7 @@ def heat(solution: FilmSolution, asperities: Asperities | None, gap: Array, is_f
 
     Mixing at the ends of a cavity counts as flow.
     """
-    driven, sliding = dissipated(_oil_alone(solution))
+    driven, sliding = dissipated(solution)
     flow = float(np.sum(driven * is_film)) + float(np.sum(solution.pressure * solution.mixing))
     shear = float(np.sum(sliding * is_film))
     if asperities is None:
@@ -73,13 +74,6 @@ def heat(solution: FilmSolution, asperities: Asperities | None, gap: Array, is_f
     slip = [a - b for a, b in zip(film.velocity_moving, film.velocity_fixed, strict=True)]
     rubbing = (x * slip[0] + y * slip[1]) * solution.problem.space.area * is_film
     return Heat(flow, shear, float(np.sum(rubbing)))
-
-
-def _oil_alone(solution: FilmSolution) -> FilmSolution:
-    """The film without its asperities, which walls that give way leave in its problem."""
-    if solution.problem.asperities is None:
-        return solution
-    return replace(solution, problem=replace(solution.problem, asperities=None))
 
 
 def contact_load(area: Array, asperities: Asperities | None, gap: Array) -> float:
