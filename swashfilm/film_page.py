@@ -63,6 +63,7 @@ def write_film_page(folder: Path) -> Path:
         history=_inline(history_picture(history)) if (history := folder / "history.csv").is_file() else "",
         rows=list(summary_rows(summary)),
         warnings=summary["warnings"],
+        assumptions=summary.get("assumptions", []),
         refinement=[refinement_head(found), *refinement_rows(found)]
         if (found := summary.get("refinement"))
         else [],

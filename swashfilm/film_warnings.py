@@ -65,7 +65,7 @@ def film_warnings(study: FilmStudy) -> list[dict[str, str]]:
         )
     return (
         found
-        + _rough_warnings(study.solution)
+        + _rough_warnings(study)
         + _pressure_warnings(study)
         + _supply_warnings(study)
         + _heat_warnings(study)
@@ -134,19 +134,18 @@ def _size_warnings(study: FilmStudy) -> list[dict[str, str]]:
     return [{"name": "results_thinned", "text": text}]
 
 
-def _rough_warnings(solution: FilmSolution) -> list[dict[str, str]]:
-    surface = solution.problem.surface
+def _rough_warnings(study: FilmStudy) -> list[dict[str, str]]:
+    solution, surface = study.solution, study.solution.problem.surface
     if surface is None:
         return []
     found = []
     least = float(lambda_ratio(solution.film.thickness.min(), surface.composite_roughness))
     if least < LEAST_LAMBDA:
-        remedy = "" if solution.problem.asperities else "; a table [contact] tells what the asperities bear"
         found.append(
             {
                 "name": "boundary_lubrication",
                 "text": f"the least lambda ratio h/sigma is {least:.3g} (limit {LEAST_LAMBDA:g}): contacts carry "
-                f"most of the load there, and the film equation is at its end{remedy}",
+                f"most of the load there, and the film equation is at its end{_boundary_remedy(study)}",
             }
         )
     beyond = beyond_range(solution.film.thickness, surface)
@@ -160,6 +159,16 @@ def _rough_warnings(solution: FilmSolution) -> list[dict[str, str]]:
             }
         )
     return found
+
+
+def _boundary_remedy(study: FilmStudy) -> str:
+    """What to do about contacts that carry: a free film may know none, those of a pump's gap bear already."""
+    if study.gap:
+        return (
+            f"; the asperities bear {study.gap.film.contact_load:.4g} N in all: a thicker oil, less load, or "
+            "smoother walls (composite_roughness in [pump.surfaces.PAIR])"
+        )
+    return "" if study.solution.problem.asperities else "; a table [contact] tells what the asperities bear"
 
 
 def _pressure_warnings(study: FilmStudy) -> list[dict[str, str]]:

@@ -98,7 +98,7 @@ def _run_table(pump: PumpDescription, folder: Path, table: Path | None) -> dict[
     told = told_point(pump, operating_point(pump), table)
     point = told.pump_point
     warnings = [*_warnings(pump, point), *told_warnings(told)]
-    summary = pump_summary(pump, point, None, warnings) | told_summary(told)
+    summary = pump_summary(pump, point, None, warnings) | told_summary(pump, told)
     _write_point(folder, point_dataset(point, pump.name), point, summary)
     return summary
 

@@ -79,6 +79,7 @@ def study_summary(study: StudyCase, outcomes: Sequence[Outcome]) -> dict[str, An
         ],
         "mass_balance_error_max": max((o.summary["mass_balance_error"] for o in solved), default=0.0),
         "solve_seconds": sum(o.summary["solve_seconds"] for o in solved),
+        "assumptions": list(dict.fromkeys(one for o in solved for one in o.summary.get("assumptions", []))),
         "warnings": _warnings(solved),
     }
 

@@ -9,6 +9,7 @@ from typing import Any
 
 from swashfilm.fidelity import Fidelity
 from system.description import PumpDescription
+from system.floating_parts import floating_parts
 from system.operating import OperatingPoint
 from system.response_tables import LARGE_ERROR, axis_value
 from system.table_means import GAP_PAIRS
@@ -23,12 +24,13 @@ def told_point(pump: PumpDescription, point: OperatingPoint, path: Path | None) 
     return table_point(pump, point, own_table(path, pump) if path else find_table(pump, point))
 
 
-def told_summary(told: TablePoint) -> dict[str, Any]:
-    """Fidelity, the table's origin with the error of each output, and the films that it tells."""
+def told_summary(pump: PumpDescription, told: TablePoint) -> dict[str, Any]:
+    """Fidelity, the table's origin with the error of each output, the films that it tells, and what was taken."""
     origin, response = told.table.origin, told.table.response
     error = response.held_out_error
     return {
         "fidelity": Fidelity.TABLE.value,
+        "assumptions": [str(taken) for taken in floating_parts(pump).taken],
         "table": {
             "source": origin.source.value,
             "stated": dict(origin.stated),
