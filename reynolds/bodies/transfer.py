@@ -7,6 +7,9 @@ Every point of the film's rule is found in the face, along the film's normal. Wi
 so that the force, its moments and, since one is the other's transpose, the work p w are the same on either side
 whatever the meshes (Farhat, Lesoinne and Le Tallec 1998); the work exactly for a linear film without pockets. On a
 cylinder N is scaled by the nearly unit factor that makes its nodes' normals add up to the normal.
+
+Two meshes draw one circle by different polygons. A film point that lies beyond the edge of the face by no more
+than that is met by the nearest point of the face: force and work stay the same, moments up to that way.
 """
 
 from __future__ import annotations
@@ -28,6 +31,9 @@ from reynolds.space import FilmSpace
 
 INSIDE = 1e-6  # of a facet: how far outside its edges a point still belongs to it
 OFF_FACE = 0.1  # of a facet's size: how far off the face along the normal the film may lie
+BEYOND = (
+    0.15  # of the longer edge of both: how far beyond the face; a hexagon strays by 0.134 of one from its circle
+)
 STEPS = 12  # of Newton's method within a facet; four are enough for one that is not folded
 CONVERGED = 1e-13  # of a facet
 FACING = 0.2  # least cosine between a facet's and the film's normal
@@ -71,14 +77,15 @@ def transfer(film: FilmSpace, face: Face, chart: Chart) -> Transfer:
     """Find the film's points in the face of a body along the chart's normal.
 
     A film of revolution on a section (r, z) is met by its mean around the turn. Raises FilmInputError where the
-    face does not reach under the film or lies off it by more than a tenth of a facet: how many points, and where.
+    face ends short of the film by more than the meshes explain or lies off it by more than a tenth of a facet: how
+    many points, where, and how far from the face.
     """
     rule = film_rule(film)
     places = chart.places(rule.points)
     normals = np.asarray(chart.normals(places))
     if face.places.shape[1] == 2:
         places, normals = on_section(places, normals)
-    facet, reference = _found(face, places, normals, rule.points)
+    facet, reference = _found(face, places, normals, rule)
     value, _ = tabulated(face.element, reference.T, face.facets.shape[1])
     rows = np.repeat(np.arange(len(places)), face.facets.shape[1])
     columns = face.facets[facet].ravel()
@@ -88,33 +95,56 @@ def transfer(film: FilmSpace, face: Face, chart: Chart) -> Transfer:
     return Transfer(rule, share, scaled)
 
 
-def _found(face: Face, places: Array, normals: Array, flat: Array) -> tuple[NDArray[np.int64], Array]:
-    """The facet that holds each film point, and where in it, (points,) and (points, dim - 1)."""
-    point, facet = _candidates(face, places, normals)
+def _found(face: Face, places: Array, normals: Array, rule: FilmRule) -> tuple[NDArray[np.int64], Array]:
+    """The facet that holds each film point or is nearest, (points,), and where in it, (points, dim - 1)."""
+    slack = BEYOND * np.repeat(_longest_edge(rule.film.vertices[rule.film.cells]), rule.area.shape[1])
+    edge = BEYOND * _longest_edge(face.places[face.facets[:, : _corners(face)]])
+    point, facet = _candidates(face, places, normals, float(slack.max()))
     reference, off = _projected(face, facet, places[point], normals[point])
     size = np.linalg.norm(np.ptp(face.places[face.facets], axis=1), axis=1)[facet]
     near = np.abs(off) <= OFF_FACE * size  # false for NaN
     outside = np.where(near, _outside(face, reference), np.inf)
-    order = np.lexsort((outside, point))
+    within = outside <= INSIDE
+    met = np.where(within[:, None], reference, _nearest(face, reference))
+    away = np.where(within, 0.0, _apart(face, facet, met, places[point], normals[point]))
+    order = np.lexsort((outside, np.where(near, away, np.inf), point))
     first = order[np.unique(point[order], return_index=True)[1]]
     held = np.zeros(len(places), dtype=bool)
-    held[point[first]] = outside[first] <= INSIDE
+    held[point[first]] = near[first] & (away[first] <= np.maximum(slack[point[first]], edge[facet[first]]))
     if not held.all():
-        lost = flat[~held]
-        found = (
-            f"{len(lost)} of {len(flat)} film points have no face under them, x {lost[:, 0].min():.6g} to "
-            f"{lost[:, 0].max():.6g} m, y {lost[:, 1].min():.6g} to {lost[:, 1].max():.6g} m"
-        )
-        raise FilmInputError(f"body face {face.name}", found, "a face that reaches under the whole film")
-    return facet[first], reference[first]
+        raise FilmInputError(f"body face {face.name}", *_not_covered(face, places[~held], rule.points, held))
+    return facet[first], met[first]
 
 
-def _candidates(face: Face, places: Array, normals: Array) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """Pairs of film points and facets that lie near each other and look the same way."""
+def _not_covered(face: Face, lost: Array, flat: Array, held: NDArray[np.bool_]) -> tuple[str, str]:
+    """What to say of film points that no face lies under, and what was expected."""
+    far = float(cKDTree(face.places).query(lost)[0].max())
+    (x0, y0), (x1, y1) = flat[~held].min(axis=0), flat[~held].max(axis=0)
+    found = (
+        f"{len(lost)} of {len(flat)} film points have no face under them, x {x0:.6g} to {x1:.6g} m, y {y0:.6g} to "
+        f"{y1:.6g} m, up to {far * 1e3:.4g} mm from its nearest node"
+    )
+    return found, "a face that reaches under the whole film"
+
+
+def _corners(face: Face) -> int:
+    """Corners of a facet, which are the first of its nodes."""
+    return {3: 2, 6: 3}.get(face.facets.shape[1], 4)
+
+
+def _longest_edge(corners: Array) -> Array:
+    """Longest edge (n,) m of polygons or, of two corners, lines (n, corners, dim)."""
+    return np.asarray(np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).max(axis=1))
+
+
+def _candidates(
+    face: Face, places: Array, normals: Array, slack: float
+) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """Pairs of film points and facets that lie near each other (m beyond their reach) and look the same way."""
     corners = face.places[face.facets]
     centre = corners.mean(axis=1)
     reach = np.linalg.norm(corners - centre[:, None], axis=2).max(axis=1)
-    near = cKDTree(places).query_ball_point(centre, (1.0 + OFF_FACE) * reach)
+    near = cKDTree(places).query_ball_point(centre, (1.0 + max(OFF_FACE, 2.0 * BEYOND)) * reach + slack)
     facet = np.repeat(np.arange(len(centre)), [len(found) for found in near])
     point = np.concatenate([np.asarray(found, dtype=np.int64) for found in near])
     outward = face.area.sum(axis=1)
@@ -176,3 +206,20 @@ def _outside(face: Face, reference: Array) -> Array:
     if face.facets.shape[1] == 6:
         return np.maximum((-reference).max(axis=1), reference.sum(axis=1) - 1.0)
     return np.maximum(-reference, reference - 1.0).max(axis=1)
+
+
+def _nearest(face: Face, reference: Array) -> Array:
+    """The point of the reference facet next to one outside it."""
+    if face.facets.shape[1] != 6:
+        return np.clip(reference, 0.0, 1.0)
+    inside = np.maximum(reference, 0.0)
+    over = inside.sum(axis=1, keepdims=True) - 1.0
+    across = np.clip(inside - 0.5 * over, 0.0, 1.0)
+    return np.where(over > 0.0, across / np.maximum(across.sum(axis=1, keepdims=True), 1.0), inside)
+
+
+def _apart(face: Face, facet: NDArray[np.int64], reference: Array, places: Array, normals: Array) -> Array:
+    """Distance (m) of points of facets from film points, across the film's normal."""
+    value, _ = tabulated(face.element, reference.T, face.facets.shape[1])
+    gap = np.einsum("an,nak->nk", value, face.places[face.facets[facet]]) - places
+    return np.asarray(np.linalg.norm(gap - (gap * normals).sum(axis=1)[:, None] * normals, axis=1))

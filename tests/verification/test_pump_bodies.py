@@ -305,6 +305,21 @@ def test_pocket_presses_on_slipper_and_plate(tmp_path):
     assert isinstance(part_wall(large, fine, folder=tmp_path), BodyWall)
 
 
+def test_slipper_bends_alike_on_coarse_films(refine):
+    """Films of eight sectors on: the rim's opening errs as the area of the film's polygon, by 1/n^2."""
+    from gaps.slipper_lands import slipper_mesh
+
+    body = slipper_body(SlipperPart(0.5e-3, 8e-3, 7e-3, 14e-3, 5e-3, BRONZE), (6, 12, 1))
+
+    def rim(sectors: int) -> float:
+        film = film_space(slipper_mesh(((8e-3, 14e-3),), (3, sectors)), pockets=["pocket"])
+        opening = part_wall(body, film).matrix @ np.ones(film.size)
+        return float(opening[np.hypot(*film.vertices.T) > 14e-3 * (1.0 - 1e-9)].mean())
+
+    found = refine(rim, (8, 16, 32), 2.0)
+    assert abs(found.finest - rim(48)) < found.tolerance()
+
+
 def test_faces_have_the_areas_of_their_loads():
     """Pocket, socket and chamber: what a pressure on them presses with, to the arcs of 30 degrees."""
     slipper = slipper_body(SlipperPart(0.5e-3, 8e-3, 7e-3, 14e-3, 5e-3, BRONZE), (6, 12, 1))
