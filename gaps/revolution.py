@@ -33,8 +33,8 @@ FEWEST = 24  # nodes of a whole turn with steps as wide as their error allows
 class Accuracy:
     """How exactly a revolution is marched and closed.
 
-    step, floor: largest error of the film by one step, share of the least film and m beside it; balance: share of
-    that error within which forces are taken along their slopes; closed: distance from the periodic motion,
+    step, floor: largest error of the film by one step, share of it in each place and m beside it; balance: share
+    of that error within which forces are taken along their slopes; closed: distance from the periodic motion,
     share of the mean film, and oil that is elsewhere after a turn, share of all; reach: how far beyond a turn's
     end the next may start, share of the least film there.
     """
@@ -326,9 +326,10 @@ class _Turns(Generic[Seen]):
         return stage
 
     def _excess(self, taken: Taken[Stage]) -> float:
-        """Largest error of the film by a step, over what is allowed."""
+        """Largest error of the film by a step, over what is allowed there."""
         stage = taken.stage
-        return stage.moves(taken.error) / (self._accuracy.step * stage.yardstick + self._accuracy.floor)
+        allowed = self._accuracy.step * stage.yardstick + self._accuracy.floor
+        return float(np.max(np.abs(stage.moved(taken.error)) / allowed))
 
 
 def _oil_moved(first: FilmSpace, begin: State[Stage], end: State[Stage]) -> float:

@@ -150,20 +150,21 @@ class Stage:
             return self.trial.solution
         return self.instant.ahead(self.trial, q - self.trial.q, self.by_position)
 
-    def moves(self, change: Array) -> float:
-        """Largest change of the gap (m) by one of the position (k,) m, walls that give way following."""
-        return float(np.abs(self.instant.grown(self.trial, self.by_position) @ change).max())
+    def moved(self, change: Array) -> Array:
+        """Change of the gap (cells, points) m by one of the position (k,) m, walls that give way following."""
+        grows = self.instant.grown(self.trial, self.by_position)
+        return self.instant.shape.space.sample_vertices(grows @ change)
 
     @property
-    def yardstick(self) -> float:
-        """Film (m) beside which a change of it is large or small: the least.
+    def yardstick(self) -> Array:
+        """Film (cells, points) m beside which a change of it is large or small: its own thickness.
 
         Where elastic walls press summits flat, no less than these are high.
         """
-        least, shape = float(self.trial.solution.film.thickness.min()), self.instant.shape
+        thickness, shape = self.trial.solution.film.thickness, self.instant.shape
         if shape.walls is None or shape.asperities is None:
-            return least
-        return max(least, shape.asperities.height)
+            return thickness
+        return np.maximum(thickness, shape.asperities.height)
 
     def reposed(self) -> Stage:
         """The same with its film solved where the forces balance; raises as the film does."""
