@@ -19,7 +19,7 @@ slippers but those of film and kidneys, D'Alembert's included (`wrench_about`).
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
@@ -30,13 +30,13 @@ from gaps.course import OverTurn
 from gaps.physics import FilmLaws, Physics, laws_left
 from gaps.profiles import PLAIN, Profile
 from gaps.ring import SEALED, Ring, ValvePlateGeometry
-from gaps.rubbing import wall_shear
+from gaps.rubbing import Rubbed, rubbed
 from reynolds.contact import Asperities
 from reynolds.errors import FilmInputError
 from reynolds.film import ZERO, Film, FilmProblem, FilmSolution, Held
 from reynolds.floating import Floating, Outer
+from reynolds.floating_stage import Stage
 from reynolds.generalised import Modes, contact_force, modes_on
-from reynolds.loads import boundary_flows
 from reynolds.mesh import Array
 from reynolds.space import FilmSpace
 from reynolds.sphere import Sphere
@@ -130,6 +130,7 @@ class BlockFilm:
         self._face = face
         self._physics = Physics() if physics is None else physics
         self._laws = laws_left(FilmLaws() if laws is None else laws, self._physics)
+        self._named = np.unique(np.concatenate(list(self.ring.space.edge_dofs.values())))
         # A stage asks for the same instant many times over.
         self._turned: Callable[[float], _Turned] = lru_cache(maxsize=4)(self._turned_to)
 
@@ -204,29 +205,31 @@ class BlockFilm:
         at_cavity = np.isclose(pressure, self.drive.cavitation_pressure, rtol=1e-12, atol=0.0)
         return np.where(at_cavity, self.drive.cavitation_pressure, pressure)
 
-    def friction_torque(self, solution: FilmSolution, gap: Array) -> float:
-        """Torque (N m) of film and contact against the block's turning, webs over the ports left out.
+    def rubbed(self, stage: Stage) -> Rubbed:
+        """What film and contact do to block (moving) and plate, webs over the ports as if they were films."""
+        return rubbed(stage.solution, self.asperities, stage.gap)
 
-        `gap` (cells, points) m: distance of the mean planes, as `gaps.rubbing.wall_shear` takes it.
-        """
-        space = solution.problem.space
-        (along_x, along_y), _ = wall_shear(solution, self._laws.asperities, gap)
+    def friction_torque(self, space: FilmSpace, by: Rubbed) -> float:
+        """Torque (N m) of film and contact against the block's turning, webs over the ports left out."""
         x, y, _ = space.points_in_space
+        along_x, along_y = by.on_moving
         return -float(np.sum((x * along_y - y * along_x) * space.area * self.is_film(space)))
 
     def is_film(self, space: FilmSpace) -> Array:
         """One where there is a film, zero in webs over a port, (cells, 1)."""
         return np.where(self.ring.over_port(space), 0.0, 1.0)
 
-    def inflows(self, solution: FilmSolution) -> tuple[Array, float, float]:
-        """Flow into the film from each kidney (z,), and from suction and delivery port at their edges, m3/s."""
-        flow, space = boundary_flows(solution), solution.problem.space
-        named = np.unique(np.concatenate(list(space.edge_dofs.values())))
+    def inflows(self, solution: FilmSolution, flows: Mapping[str, float]) -> tuple[Array, float, float]:
+        """Flow into the film from each kidney (z,), and from suction and delivery port at their edges, m3/s.
+
+        `flows` out of the film as `reynolds.loads.boundary_flows` has them.
+        """
+        space = solution.problem.space
         suction, delivery = (
-            -float(solution.outflow[np.setdiff1d(self.ring.nodes_over(space, port), named)].sum())
+            -float(solution.outflow[np.setdiff1d(self.ring.nodes_over(space, port), self._named)].sum())
             for port in (self.geometry.suction, self.geometry.delivery)
         )
-        return np.array([-flow[name] for name in self.geometry.kidneys]), suction, delivery
+        return np.array([-flows[name] for name in self.geometry.kidneys]), suction, delivery
 
     @property
     def asperities(self) -> Asperities | None:

@@ -13,6 +13,7 @@ The mesh spans what is engaged and stretches as the piston moves; wall velocitie
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -20,14 +21,14 @@ import numpy as np
 from gaps.course import OverTurn
 from gaps.physics import FilmLaws, Physics, laws_left
 from gaps.profiles import PLAIN, Profile, Relief
-from gaps.rubbing import wall_shear
-from reynolds.contact import Asperities, contact_pressure
+from gaps.rubbing import Rubbed, rubbed
+from reynolds.contact import Asperities
 from reynolds.errors import FilmInputError
 from reynolds.film import ZERO, Film, FilmProblem, Held
 from reynolds.floating import Floating, Outer, steady
 from reynolds.floating_stage import Stage
 from reynolds.laws import require_positive
-from reynolds.loads import boundary_flows, evaluate
+from reynolds.loads import evaluate
 from reynolds.mesh import Array, Cell, rectangle, rename
 from reynolds.overlap import vertex_thickness
 from reynolds.space import FilmSpace, film_space
@@ -187,15 +188,18 @@ class PistonFilm:
         """Outer generalised forces; they depend on the shaft's angle alone."""
         return steady(self.drive.outer(self._angle(time)))
 
-    def friction(self, stage: Stage) -> PistonFriction:
-        """What film and contact do to the piston along and around the bore."""
+    def rubbed(self, stage: Stage) -> Rubbed:
+        """What film and contact do to piston (moving) and bore."""
+        return rubbed(stage.solution, self.asperities, stage.gap)
+
+    def friction(self, stage: Stage, by: Rubbed) -> PistonFriction:
+        """What film and contact do to the piston along and around the bore, told from what they do to its wall."""
         space = stage.solution.problem.space
         radius, angle = 0.5 * self.shape.diameter, 2.0 * space.points[0] / self.shape.diameter
         walls = self._velocities(stage.time)
-        on_piston, on_bore = wall_shear(stage.solution, self._laws.asperities, stage.gap)
-        around, along = (part * space.area for part in on_piston)
-        stresses, velocities = (*on_piston, *on_bore), (*walls[0], *walls[1])
-        flank = self._flank_force(stage)
+        around, along = (part * space.area for part in by.on_moving)
+        stresses, velocities = (*by.on_moving, *by.on_fixed), (*walls[0], *walls[1])
+        flank = self._flank_force(stage, by.contact)
         sheared = sum(float(np.sum(t * u * space.area)) for t, u in zip(stresses, velocities, strict=True))
         return PistonFriction(
             force=float(along.sum()) + flank,
@@ -204,7 +208,7 @@ class PistonFilm:
             power=-sheared - flank * float(walls[0][1].item()),
         )
 
-    def _flank_force(self, stage: Stage) -> float:
+    def _flank_force(self, stage: Stage, contact: Array) -> float:
         """Force (N) out of the block of pressure on the piston's profile, beside a plain piston's.
 
         -int (p - p_case) d relief/dy dA of film and contact, and the chamber's pressure on what is taken off where
@@ -212,9 +216,7 @@ class PistonFilm:
         """
         solution, drive = stage.solution, self.drive
         space, (around, along) = solution.problem.space, self._points
-        above = evaluate(solution, solution.pressure)[0] - drive.case_pressure
-        if self.asperities is not None:
-            above = above + contact_pressure(self.asperities, stage.gap).value
+        above = evaluate(solution, solution.pressure)[0] - drive.case_pressure + contact
         chamber = float(drive.chamber_pressure(self._angle(stage.time))) - drive.case_pressure
         taken_off = float(self._on_chamber_edge(self._relief(stage.time, *self._vertices).depth))
         slope = self._relief(stage.time, around, along).along
@@ -232,8 +234,10 @@ class PistonFilm:
         nodal[self._unit.vertex_dofs] = at_vertices
         return float(nodal[self._unit.edge_dofs["chamber"]] @ self._unit.edge_share["chamber"])
 
-    def chamber_flow(self, stage: Stage) -> float:
+    def chamber_flow(self, stage: Stage, flows: Mapping[str, float]) -> float:
         """Flow (m3/s) out of the chamber, whose volume grows with the piston's nominal section alone.
+
+        `flows` out of the film as `reynolds.loads.boundary_flows` has them.
 
         The film's edge moves with the piston's end and sweeps the clearance there, which flows out besides; what
         is taken off the piston never was part of the section.
@@ -241,13 +245,13 @@ class PistonFilm:
         swept = 0.0
         if float(self.drive.reach(self._angle(stage.time))) < self.shape.guide_length:
             swept = self._on_chamber_edge(vertex_thickness(stage.solution))
-        return self.standing_flow(stage) + float(self.drive.velocity(self._angle(stage.time))) * swept
+        return self.standing_flow(stage, flows) + float(self.drive.velocity(self._angle(stage.time))) * swept
 
-    def standing_flow(self, stage: Stage) -> float:
+    def standing_flow(self, stage: Stage, flows: Mapping[str, float]) -> float:
         """The same (m3/s) in a mesh that stands (`standing_at`)."""
         velocity = float(self.drive.velocity(self._angle(stage.time)))
         taken_off = self._on_chamber_edge(self._relief(stage.time, *self._vertices).depth)
-        return -velocity * taken_off - boundary_flows(stage.solution)["chamber"]
+        return -velocity * taken_off - flows["chamber"]
 
     @property
     def asperities(self) -> Asperities | None:

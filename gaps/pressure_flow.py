@@ -67,5 +67,5 @@ def carried_power(solver: FilmSolver, film: BlockFilm, stage: Stage) -> float:
 
 
 def _inflows(film: BlockFilm, solution: FilmSolution) -> Array:
-    chambers, suction, delivery = film.inflows(solution)
+    chambers, suction, delivery = film.inflows(solution, boundary_flows(solution))
     return np.array([*chambers, suction, delivery])

@@ -265,16 +265,15 @@ class _Turns(Generic[Seen]):
             errors.append(self._excess(taken))
             angle = self._angles.get(state.time)
             # Turns that lead near the periodic motion tell of their last step alone.
-            if angle is not None or self._opening is not None:
-                self._tell(taken.step, since)
+            if angle is None and self._opening is None:
+                continue
+            seen = self._tell(taken.step, since)
             if angle is None:
                 continue
-            seen = stage.reposed()
-            self.films_solved += seen.films - stage.films
-            instants.append(_instant(angle, seen, state.rate, self._look(seen), since))
+            instants.append(_instant(angle, stage, state.rate, seen, since))
             since = Passed()
             if angle in self._kept:
-                films[angle] = seen.solution
+                films[angle] = stage.solution
         end = instants[-1]
         return GapTurn(
             start=start,
@@ -288,10 +287,12 @@ class _Turns(Generic[Seen]):
             repeats=_oil_moved(self._floating.shape_at(0.0).space, begin, state) <= self._accuracy.closed,
         )
 
-    def _tell(self, step: float, since: Passed[Seen]) -> None:
-        """Add what the stages of a step (s) tell, each for its share of the step."""
+    def _tell(self, step: float, since: Passed[Seen]) -> Seen:
+        """Add what the stages of a step (s) tell, each for its share of the step; what the last one tells."""
         for stage, share in zip(self._solved, self._method.matrix[-1], strict=True):
-            since.add(share * step, self._look(stage), -float(stage.outer.force @ stage.rate))
+            seen = self._look(stage)
+            since.add(share * step, seen, -float(stage.outer.force @ stage.rate))
+        return seen
 
     def _marched(self, begin: State[Stage], again: Array | None) -> Iterator[Taken[Stage]]:
         """Steps of a turn, chosen by their error or those of an earlier turn again."""

@@ -32,50 +32,56 @@ class Heat:
         return self.flow + self.shear + self.rubbing
 
 
-def contact_stress(solution: FilmSolution, asperities: Asperities, gap: Array) -> tuple[Array, Vector]:
-    """Contact pressure (Pa) at the quadrature points and the shear (Pa) by which it resists the moving wall.
+@dataclass(frozen=True)
+class Rubbed:
+    """What oil and touching asperities do to the walls of a film, at the quadrature points (cells, points) each.
 
-    Contact resists the sliding of the walls with `boundary_shear`; raises as the law of contact does.
+    on_moving and on_fixed: shear (x, y) Pa on either wall, contact's included; contact: pressure of asperities,
+    Pa; driven, sheared, rubbing: heat W of the flow that pressure drives, of sliding oil and of asperities; area
+    elements m2; mixing: heat W in all at the ends of a cavity.
     """
+
+    on_moving: Vector
+    on_fixed: Vector
+    contact: Array
+    driven: Array
+    sheared: Array
+    rubbing: Array
+    area: Array
+    mixing: float
+
+    def heat(self, is_film: Array | float = 1.0) -> Heat:
+        """Heat of oil and asperities; `is_film` (cells | 1, points | 1) weighs. Mixing counts as flow."""
+        flow, shear, rubbing = (
+            float(np.sum(part * is_film)) for part in (self.driven, self.sheared, self.rubbing)
+        )
+        return Heat(flow + self.mixing, shear, rubbing)
+
+    def load(self, is_film: Array | float = 1.0) -> float:
+        """int p_contact dA, N."""
+        return float(np.sum(self.contact * self.area * is_film))
+
+
+def rubbed(solution: FilmSolution, asperities: Asperities | None, gap: Array) -> Rubbed:
+    """What a film and its asperities do to the walls.
+
+    `solution` is the film without asperities; `gap` (cells, points) m: the distance of the mean planes. Contact
+    resists the sliding of the walls with `boundary_shear`; raises as the law of contact does.
+    """
+    fields, area = point_fields(solution), solution.problem.space.area
+    driven, sheared = dissipated(solution, fields.filled)
+    mixing = float(np.sum(solution.pressure * solution.mixing))
+    moving, fixed, nothing = fields.shear_moving, fields.shear_fixed, np.zeros_like(area)
+    if asperities is None:
+        return Rubbed(moving, fixed, nothing, driven, sheared, nothing, area, mixing)
     film, bears = solution.film, contact_pressure(asperities, gap).value
-    rubs, shape = boundary_shear(asperities, bears).value, gap.shape
-    slip = [np.broadcast_to(a - b, shape) for a, b in zip(film.velocity_moving, film.velocity_fixed, strict=True)]
-    speed = np.hypot(*slip)
-    x, y = (rubs * np.divide(part, speed, out=np.zeros(shape), where=speed > 0.0) for part in slip)
-    return bears, (x, y)
-
-
-def wall_shear(solution: FilmSolution, asperities: Asperities | None, gap: Array) -> tuple[Vector, Vector]:
-    """Shear stress (x, y) Pa on the moving and on the fixed wall at the quadrature points, contact's included.
-
-    `solution` is the film without asperities; `gap` (cells, points) m: the distance of the mean planes. Raises as
-    `contact_stress`.
-    """
-    fields = point_fields(solution)
-    if asperities is None:
-        return fields.shear_moving, fields.shear_fixed
-    _, (x, y) = contact_stress(solution, asperities, gap)
-    moving, fixed = fields.shear_moving, fields.shear_fixed
-    return (moving[0] - x, moving[1] - y), (fixed[0] + x, fixed[1] + y)
-
-
-def heat(solution: FilmSolution, asperities: Asperities | None, gap: Array, is_film: Array | float = 1.0) -> Heat:
-    """Heat of a film's oil and of its asperities; `is_film` (cells | 1, points | 1) weighs.
-
-    Mixing at the ends of a cavity counts as flow.
-    """
-    driven, sliding = dissipated(solution)
-    flow = float(np.sum(driven * is_film)) + float(np.sum(solution.pressure * solution.mixing))
-    shear = float(np.sum(sliding * is_film))
-    if asperities is None:
-        return Heat(flow, shear, 0.0)
-    film = solution.film
-    _, (x, y) = contact_stress(solution, asperities, gap)
-    slip = [a - b for a, b in zip(film.velocity_moving, film.velocity_fixed, strict=True)]
-    rubbing = (x * slip[0] + y * slip[1]) * solution.problem.space.area * is_film
-    return Heat(flow, shear, float(np.sum(rubbing)))
-
-
-def contact_load(area: Array, asperities: Asperities | None, gap: Array) -> float:
-    """int p_contact dA, N, by area elements (cells, points) m2."""
-    return 0.0 if asperities is None else float(np.sum(contact_pressure(asperities, gap).value * area))
+    slip = [
+        np.broadcast_to(a - b, area.shape) for a, b in zip(film.velocity_moving, film.velocity_fixed, strict=True)
+    ]
+    speed, rubs = np.hypot(*slip), boundary_shear(asperities, bears).value
+    along = np.divide(rubs, speed, out=np.zeros(area.shape), where=speed > 0.0)
+    x, y = along * slip[0], along * slip[1]
+    return Rubbed(
+        (moving[0] - x, moving[1] - y), (fixed[0] + x, fixed[1] + y), bears, driven, sheared, rubs * speed * area,
+        area, mixing,
+    )  # fmt: skip

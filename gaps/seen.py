@@ -12,7 +12,7 @@ import numpy as np
 from gaps.block_motion import BlockFilm
 from gaps.piston_motion import PistonFilm, PistonFriction
 from gaps.revolution import GapRevolution
-from gaps.rubbing import Heat, contact_load, heat
+from gaps.rubbing import Heat
 from gaps.slipper_motion import SlipperFilm, SlipperFriction
 from reynolds.contact import Asperities
 from reynolds.floating_stage import Stage
@@ -77,13 +77,14 @@ def piston_seen(film: PistonFilm) -> Callable[[Stage], PistonSeen]:
     """What `run_revolution` looks at on a piston."""
 
     def look(stage: Stage) -> PistonSeen:
+        flows, by = boundary_flows(stage.solution), film.rubbed(stage)
         return PistonSeen(
-            flow=np.array([film.chamber_flow(stage)]),
-            leakage=boundary_flows(stage.solution)["case"],
-            heat=heat(stage.solution, film.asperities, stage.gap),
-            contact_load=contact_load(stage.solution.problem.space.area, film.asperities, stage.gap),
+            flow=np.array([film.chamber_flow(stage, flows)]),
+            leakage=flows["case"],
+            heat=by.heat(),
+            contact_load=by.load(),
             active=active(stage, film.asperities),
-            friction=film.friction(stage),
+            friction=film.friction(stage, by),
         )
 
     return look
@@ -94,14 +95,14 @@ def slipper_seen(film: SlipperFilm) -> Callable[[Stage], SlipperSeen]:
 
     def look(stage: Stage) -> SlipperSeen:
         pocket, fed = film.supplied(stage)
-        flows = boundary_flows(stage.solution)
+        flows, by = boundary_flows(stage.solution), film.rubbed(stage)
         return SlipperSeen(
             flow=np.array([fed]),
             leakage=sum(flows[edge] for edge in film.shape.lands.open),
-            heat=heat(stage.solution, film.asperities, stage.gap),
-            contact_load=contact_load(stage.solution.problem.space.area, film.asperities, stage.gap),
+            heat=by.heat(),
+            contact_load=by.load(),
             active=active(stage, film.asperities, held=bool(np.any(stage.outer.by_position))),
-            friction=film.friction(stage),
+            friction=film.friction(stage, by),
             pocket_pressure=pocket,
             throttled=fed * (film.chamber_pressure(stage.time) - pocket),
         )
@@ -114,16 +115,16 @@ def block_seen(film: BlockFilm) -> Callable[[Stage], BlockSeen]:
 
     def look(stage: Stage) -> BlockSeen:
         solution = stage.solution
-        space, flow = solution.problem.space, boundary_flows(solution)
+        space, flows, by = solution.problem.space, boundary_flows(solution), film.rubbed(stage)
         is_film = film.is_film(space)
-        chambers, suction, delivery = film.inflows(solution)
+        chambers, suction, delivery = film.inflows(solution, flows)
         return BlockSeen(
             flow=chambers,
-            leakage=sum(flow[edge] for edge in film.geometry.case_edges),
-            heat=heat(solution, film.asperities, stage.gap, is_film),
-            contact_load=contact_load(space.area * is_film, film.asperities, stage.gap),
+            leakage=sum(flows[edge] for edge in film.geometry.case_edges),
+            heat=by.heat(is_film),
+            contact_load=by.load(is_film),
             active=active(stage, film.asperities),
-            torque=film.friction_torque(solution, stage.gap),
+            torque=film.friction_torque(space, by),
             suction_draw=suction,
             delivery_draw=delivery,
         )

@@ -19,7 +19,7 @@ import numpy as np
 from gaps.course import OverTurn
 from gaps.physics import FilmLaws, Physics, laws_left
 from gaps.profiles import PLAIN, Profile
-from gaps.rubbing import wall_shear
+from gaps.rubbing import Rubbed, rubbed
 from gaps.slipper_lands import SlipperLands, slipper_mesh
 from reynolds.contact import Asperities
 from reynolds.film import ZERO, Boundary, Film, FilmProblem, Held, Pocket, no_feed
@@ -235,14 +235,17 @@ class SlipperFilm:
         held = retainer_force(self.drive.retainer, position)
         return replace(held, force=given + held.force)
 
-    def friction(self, stage: Stage) -> SlipperFriction:
+    def rubbed(self, stage: Stage) -> Rubbed:
+        """What film and contact do to slipper (moving) and plate."""
+        return rubbed(stage.solution, self.asperities, stage.gap)
+
+    def friction(self, stage: Stage, by: Rubbed) -> SlipperFriction:
         """What film and contact of the lands do to slipper and plate; the pocket's oil shears next to nothing."""
         space = stage.solution.problem.space
         x, y = space.points
-        on_slipper, on_plate = wall_shear(stage.solution, self._laws.asperities, stage.gap)
-        along, across = (part * space.area for part in on_slipper)
+        along, across = (part * space.area for part in by.on_moving)
         torque = float(np.sum(x * across - y * along))
-        plate = np.array([np.sum(part * space.area) for part in on_plate])
+        plate = np.array([np.sum(part * space.area) for part in by.on_fixed])
         sliding = np.asarray(self.drive.sliding(self._angle(stage.time)))
         return SlipperFriction(
             force=-plate,

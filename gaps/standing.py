@@ -9,7 +9,6 @@ import numpy as np
 from gaps.block_motion import BlockFilm
 from gaps.piston_motion import PistonFilm
 from gaps.result import GapFilm, ValvePlateFilm
-from gaps.rubbing import contact_load
 from gaps.seen import active
 from gaps.slipper_motion import SlipperFilm
 from reynolds.floating import Floating
@@ -42,34 +41,35 @@ def piston_told(film: PistonFilm, stage: Stage) -> GapFilm:
     """What the film of a standing piston tells (`standing_piston`)."""
     across = stage.outer.force.reshape(2, 2).sum(axis=0)
     required = float(np.hypot(*across))
+    flows, by = boundary_flows(stage.solution), film.rubbed(stage)
     borne = (stage.film_force + stage.contact_force).reshape(2, 2).sum(axis=0)
     return GapFilm(
         solution=stage.solution,
         loads=loads(stage.solution),
         position=stage.q,
-        chamber_flow=film.standing_flow(stage),
-        leakage_flow=boundary_flows(stage.solution)["case"],
-        friction_power=film.friction(stage).power,
+        chamber_flow=film.standing_flow(stage, flows),
+        leakage_flow=flows["case"],
+        friction_power=film.friction(stage, by).power,
         required_load=required,
         carried_load=-float(borne @ across) / max(required, 1e-300),
-        contact_load=contact_load(stage.solution.problem.space.area, film.asperities, stage.gap),
+        contact_load=by.load(),
         active=active(stage, film.asperities),
     )
 
 
 def slipper_told(film: SlipperFilm, stage: Stage) -> GapFilm:
     """What the film of a standing slipper tells; its load is zero where it is pulled off the plate."""
-    flows = boundary_flows(stage.solution)
+    flows, by = boundary_flows(stage.solution), film.rubbed(stage)
     return GapFilm(
         solution=stage.solution,
         loads=loads(stage.solution),
         position=stage.q,
         chamber_flow=film.supplied(stage)[1],
         leakage_flow=sum(flows[edge] for edge in film.shape.lands.open),
-        friction_power=film.friction(stage).power,
+        friction_power=film.friction(stage, by).power,
         required_load=max(-float(stage.outer.force[0]), 0.0),
         carried_load=float(stage.film_force[0] + stage.contact_force[0]),
-        contact_load=contact_load(stage.solution.problem.space.area, film.asperities, stage.gap),
+        contact_load=by.load(),
         active=active(stage, film.asperities, held=bool(np.any(stage.outer.by_position))),
     )
 
@@ -77,20 +77,20 @@ def slipper_told(film: SlipperFilm, stage: Stage) -> GapFilm:
 def block_told(film: BlockFilm, stage: Stage) -> ValvePlateFilm:
     """What the film of a standing block tells (`standing_block`); webs over the ports are no film."""
     solution, drive = stage.solution, film.drive
-    space, flows = solution.problem.space, boundary_flows(solution)
+    space, flows, by = solution.problem.space, boundary_flows(solution), film.rubbed(stage)
     is_film = film.is_film(space)
     required = -float(drive.press(drive.shaft_speed * stage.time)[0])
-    chambers, suction, delivery = film.inflows(solution)
+    chambers, suction, delivery = film.inflows(solution, flows)
     gap = GapFilm(
         solution=solution,
         loads=loads(solution, is_film),
         position=stage.q,
         chamber_flow=float(chambers.sum()),
         leakage_flow=sum(flows[edge] for edge in film.geometry.case_edges),
-        friction_power=film.friction_torque(solution, stage.gap) * drive.shaft_speed,
+        friction_power=film.friction_torque(space, by) * drive.shaft_speed,
         required_load=required,
         carried_load=float(stage.film_force[0] + stage.contact_force[0] + stage.outer.force[0]) + required,
-        contact_load=contact_load(space.area * is_film, film.asperities, stage.gap),
+        contact_load=by.load(is_film),
         active=active(stage, film.asperities),
     )
     return ValvePlateFilm(gap, chambers, suction, delivery)

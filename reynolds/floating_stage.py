@@ -166,13 +166,6 @@ class Stage:
             return thickness
         return np.maximum(thickness, shape.asperities.height)
 
-    def reposed(self) -> Stage:
-        """The same with its film solved where the forces balance; raises as the film does."""
-        if not self.shift.any():
-            return self
-        trial = self.instant.tried(self.q, self.ahead(self.q))
-        return replace(self, trial=trial, films=self.films + 1, shift=np.zeros_like(self.shift), known=None)
-
     def carried(self, before: Array) -> tuple[Array, Array]:
         """Change of q (k, m) and of `holds` (held, m) for changes (held, m) of what was held before.
 

@@ -13,7 +13,7 @@ from reynolds.contact import boundary_shear, contact_pressure
 from reynolds.film import Cavitation, FilmSolution, Pocket
 from reynolds.mesh import Array
 from reynolds.overlap import vertex_thickness
-from reynolds.roughness import Directional, flow_factors, shear_factors
+from reynolds.roughness import Directional, pressure_factors, shear_factors, sliding_factor
 from reynolds.transport import at_points
 
 
@@ -64,7 +64,8 @@ class PointFields:
     """Fields at the quadrature points, (cells, points) each.
 
     Film pressure (Pa), its gradient (Pa/m), contact pressure (Pa), and the shear stress on both walls (Pa), that
-    of contact included.
+    of contact included; filled: share of the width in which oil shears, times what roughness makes of its sliding
+    (cells | 1, points | 1).
     """
 
     pressure: Array
@@ -72,6 +73,7 @@ class PointFields:
     contact_pressure: Array
     shear_moving: tuple[Array, Array]
     shear_fixed: tuple[Array, Array]
+    filled: Array
 
 
 def point_fields(solution: FilmSolution) -> PointFields:
@@ -94,13 +96,14 @@ def point_fields(solution: FilmSolution) -> PointFields:
         factors = shear_factors(problem.surface, film.thickness)
         pull = _turned(factors.pressure, pull)
         cross = _turned(factors.sliding, drag)
+        filled = filled * factors.couette.value
         on_moving = tuple(factors.couette.value * d - c for d, c in zip(drag, cross, strict=True))
         on_fixed = tuple(factors.couette.value * d + c for d, c in zip(drag, cross, strict=True))
     contact, rubbing = _contact(solution, slip)
     w = film.moving_share
     moving = [-w * p - d - r for p, d, r in zip(pull, on_moving, rubbing, strict=True)]
     fixed = [-(1.0 - w) * p + d + r for p, d, r in zip(pull, on_fixed, rubbing, strict=True)]
-    return PointFields(at, (at_x, at_y), contact, (moving[0], moving[1]), (fixed[0], fixed[1]))
+    return PointFields(at, (at_x, at_y), contact, (moving[0], moving[1]), (fixed[0], fixed[1]), filled)
 
 
 def _turned(tensor: Directional, vector: tuple[Array, ...]) -> tuple[Array, Array]:
@@ -167,7 +170,7 @@ def loads(solution: FilmSolution, weight: Array | None = None) -> Loads:
         friction_fixed=(fixed[0], fixed[1]),
         friction_torque_moving=_torque(fields.shear_moving, x, y, rubbing),
         friction_torque_fixed=_torque(fields.shear_fixed, x, y, rubbing),
-        dissipation=_dissipation(solution, weight),
+        dissipation=_dissipation(solution, fields, weight),
         flow=flow,
         squeeze_flow=squeeze_flow,
         cavity_flow=cavity_flow,
@@ -228,10 +231,10 @@ def _edge_flows(solution: FilmSolution) -> tuple[dict[str, float], float]:
 
 def _told_by_another(solution: FilmSolution, name: str) -> bool:
     """Whether a boundary without a condition has edges of one that has: what passes there is that one's flow."""
-    boundaries, conditions = solution.problem.space.film_mesh.mesh.boundaries, solution.problem.boundary
-    return name not in conditions and any(
-        np.intersect1d(boundaries[name], boundaries[other]).size for other in conditions
-    )
+    conditions = solution.problem.boundary
+    if name in conditions:
+        return False
+    return not solution.problem.space.film_mesh.sharing[name].isdisjoint(conditions)
 
 
 def _couette_through(solution: FilmSolution) -> dict[str, Array]:
@@ -258,28 +261,31 @@ def _torque(shear: tuple[Array, Array], x: Array, y: Array, area: Array) -> floa
     return float(np.sum((x * shear[1] - y * shear[0]) * area))
 
 
-def dissipated(solution: FilmSolution) -> tuple[Array, Array]:
+def dissipated(solution: FilmSolution, filled: Array | None = None) -> tuple[Array, Array]:
     """Heat at each quadrature point, (cells, points) W: of the flow that pressure drives, and of sliding.
 
     h^3/(12 mu) |grad p|^2 and mu |U1 - U2|^2 / h, the latter where oil fills the film, times the area element and,
-    between rough walls, Patir and Cheng's factors; sliding with the boundary friction of contact.
+    between rough walls, Patir and Cheng's factors; sliding with the boundary friction of contact. `filled` as
+    `PointFields` has it, where it is known.
     """
     film, space, surface = solution.film, solution.problem.space, solution.problem.surface
     slip = tuple(a - b for a, b in zip(film.velocity_moving, film.velocity_fixed, strict=True))
-    gradient = steep_gradient(space, solution.pressure)
-    flow, drag = gradient, at_points(space, solution.film_fraction)
+    flow = gradient = steep_gradient(space, solution.pressure)
     if surface is not None:
-        flow = _turned(flow_factors(surface, film.thickness).pressure, gradient)
-        drag = drag * shear_factors(surface, film.thickness).couette.value
+        flow = _turned(pressure_factors(surface, film.thickness), gradient)
+    if filled is None:
+        filled = at_points(space, solution.film_fraction)
+        if surface is not None:
+            filled = filled * sliding_factor(surface, film.thickness).value
     driven = film.thickness**3 / (12.0 * film.viscosity) * (flow[0] * gradient[0] + flow[1] * gradient[1])
-    sliding = drag * film.sliding_viscosity * (slip[0] ** 2 + slip[1] ** 2) / film.thickness
+    sliding = filled * film.sliding_viscosity * (slip[0] ** 2 + slip[1] ** 2) / film.thickness
     rubbing = sum(a * b for a, b in zip(_contact(solution, slip)[1], slip, strict=True))
     return driven * space.steep_area, (sliding + rubbing) * space.area
 
 
-def _dissipation(solution: FilmSolution, weight: Array | None = None) -> float:
+def _dissipation(solution: FilmSolution, fields: PointFields, weight: Array | None = None) -> float:
     """Heat of the film (W), with what mixing spends in the cells at the ends of a cavity."""
-    driven, sliding = dissipated(solution)
+    driven, sliding = dissipated(solution, fields.filled)
     mixed = float(np.sum(solution.pressure * solution.mixing))
     return float(np.sum((driven + sliding) * (1.0 if weight is None else weight))) + mixed
 
@@ -300,7 +306,7 @@ def _energy_error(solution: FilmSolution, fields: PointFields) -> float:
     )
     flow = -float(np.sum(solution.outflow * solution.pressure))
     squeeze = float(np.sum(solution.pressure * solution.swallowed))
-    spent = _dissipation(solution)
+    spent = _dissipation(solution, fields)
     scale = max(spent, abs(walls), abs(flow), _root_sum(solution.meeting * solution.pressure))
     return abs(walls + flow - squeeze - spent) / scale
 

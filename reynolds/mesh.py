@@ -13,6 +13,7 @@ import zlib
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from enum import Enum
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -51,6 +52,15 @@ class FilmMesh:
         """Names that may carry a boundary condition, sorted; a seam's two sides are not among them."""
         sewn = {name for pair in self.seams for name in pair}
         return tuple(sorted(set(self.mesh.boundaries or {}) - sewn))
+
+    @cached_property
+    def sharing(self) -> dict[str, frozenset[str]]:
+        """By the name of a boundary, those that have edges of it."""
+        boundaries = self.mesh.boundaries or {}
+        return {
+            name: frozenset(other for other, theirs in boundaries.items() if np.intersect1d(edges, theirs).size)
+            for name, edges in boundaries.items()
+        }
 
 
 def rectangle(

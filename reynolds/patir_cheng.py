@@ -15,6 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
+from reynolds import roughness_kernels
 from reynolds.errors import FilmInputError
 from reynolds.laws import Tangent
 from reynolds.mesh import Array
@@ -165,38 +166,7 @@ def phi_f(ratio: ArrayLike) -> Tangent:
     Heights of density (35/32)(1 - s^2)^3 on +-3 sigma; what is thinner than sigma/100 is left out of the mean.
     Source: Patir and Cheng 1979, in closed form; from H = 9 on, where that loses digits, by its moments.
     """
-    z = np.asarray(ratio, dtype=float) / 3.0
-    thin, middle, thick = np.minimum(z, 1.0), np.clip(z, 1.0 + 1e-9, 3.0), np.maximum(z, 3.0)
-    branches = _overlapping(thin), _apart(middle), _far_apart(thick)
-    conditions = [z <= 1.0, z <= 3.0]
-    value = np.select(conditions, [branch.value for branch in branches[:2]], branches[2].value)
-    slope = np.select(conditions, [branch.slope for branch in branches[:2]], branches[2].slope)
-    return Tangent(value, slope / 3.0)
-
-
-_TOUCHING = np.polynomial.Polynomial(np.array([-55, 132, 345, -160, -405, 60, 147]) / 60.0)
-_FREE = np.polynomial.Polynomial(np.array([0, 66, 0, -80, 0, 30]) / 15.0)
-_MOMENTS = np.cumprod([1.0] + [(k - 0.5) / (k + 3.5) for k in range(1, 18)])  # E[s^2k]
-
-
-def _overlapping(z: Array) -> Tangent:
-    """phi_f over z = H/3 <= 1."""
-    gap, cut = 1.0 - z**2, np.log(300.0 * (z + 1.0))
-    total = gap**3 * cut + _TOUCHING(z)
-    slope = -6.0 * z * gap**2 * cut + gap**3 / (z + 1.0) + _TOUCHING.deriv()(z)
-    return Tangent(35.0 / 32.0 * z * total, 35.0 / 32.0 * (total + z * slope))
-
-
-def _apart(z: Array) -> Tangent:
-    """phi_f over z = H/3 > 1."""
-    gap, cut = 1.0 - z**2, np.log((z + 1.0) / (z - 1.0))
-    total = gap**3 * cut + _FREE(z)
-    slope = -6.0 * z * gap**2 * cut + 2.0 * gap**2 + _FREE.deriv()(z)
-    return Tangent(35.0 / 32.0 * z * total, 35.0 / 32.0 * (total + z * slope))
-
-
-def _far_apart(z: Array) -> Tangent:
-    """phi_f over z = H/3 >= 3: sum of E[s^2k] z^-2k, its 18 terms exact to round-off."""
-    series = np.polynomial.Polynomial(_MOMENTS)
-    inverse_square = z**-2
-    return Tangent(series(inverse_square), -2.0 * inverse_square / z * series.deriv()(inverse_square))
+    given = np.asarray(ratio, dtype=float, order="C")
+    value, slope = np.empty(given.shape), np.empty(given.shape)
+    roughness_kernels.sliding_stress(given.ravel(), value.ravel(), slope.ravel())
+    return Tangent(value, slope)

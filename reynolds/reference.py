@@ -45,6 +45,16 @@ class Reference:
         points, basis = self.value.shape
         return tuple(range(basis)), tuple(range(points))
 
+    @cached_property
+    def to_basis(self) -> Array:
+        """Values at the points -> the nearest field of the basis, (basis, points)."""
+        return np.asarray(np.linalg.pinv(self.value))
+
+    @cached_property
+    def to_corners(self) -> Array:
+        """Values at the points -> the nearest field of the corners, (corners, points)."""
+        return np.asarray(np.linalg.pinv(self.geometry_value))
+
 
 def reference(mesh: skfem.Mesh, element: skfem.Element, points: Array, weights: Array) -> Reference:
     """Tables of an element of ELEMENTS at quadrature points (2, points) with their weights."""

@@ -135,19 +135,29 @@ def flow_factors(surface: Surface, h: ArrayLike) -> FlowFactors:
     ratio = _ratio(surface, h)
     moving, fixed = surface.variance_shares
     return FlowFactors(
-        pressure=_directed(phi_x, surface, ratio, (moving, fixed)),
+        pressure=pressure_factors(surface, h),
         shear=_directed(phi_s, surface, ratio, (moving, -fixed)),
         content=mean_thickness(surface.composite_roughness, h),
     )
 
 
+def pressure_factors(surface: Surface, h: ArrayLike) -> Directional:
+    """What multiplies h^3/(12 mu) alone, as `flow_factors` has it."""
+    return _directed(phi_x, surface, _ratio(surface, h), surface.variance_shares)
+
+
+def sliding_factor(surface: Surface, h: ArrayLike) -> Tangent:
+    """What multiplies mu (U1 - U2)/h alone, as `shear_factors` has it."""
+    couette = phi_f(_ratio(surface, h))
+    return Tangent(couette.value, couette.slope / surface.composite_roughness)
+
+
 def shear_factors(surface: Surface, h: ArrayLike) -> ShearFactors:
     """Shear stress factors of a film h (m, positive) between rough walls. Source: Patir and Cheng 1979."""
-    ratio, sigma = _ratio(surface, h), surface.composite_roughness
+    ratio = _ratio(surface, h)
     moving, fixed = surface.variance_shares
-    couette = phi_f(ratio)
     return ShearFactors(
-        couette=Tangent(couette.value, couette.slope / sigma),
+        couette=sliding_factor(surface, h),
         sliding=_directed(phi_fs, surface, ratio, (moving, -fixed)),
         pressure=_directed(phi_fp, surface, ratio, (moving, fixed)),
     )

@@ -225,14 +225,14 @@ class FilmSpace:
 
     def to_vertices(self, field: Array) -> Array:
         """Field at quadrature points -> vertices, exact for a linear field; jumps are averaged (plots)."""
-        return self._average(field, self.reference.geometry_value, self.cells, len(self.vertices))
+        return self._average(field, self.reference.to_corners, self.cells, len(self.vertices))
 
     def to_unknowns(self, field: Array) -> Array:
         """Field at quadrature points -> unknowns (size,), exact for a field of the space; jumps are averaged."""
-        return self._average(field, self.reference.value, self.dofs, self.size)
+        return self._average(field, self.reference.to_basis, self.dofs, self.size)
 
-    def _average(self, field: Array, basis: Array, numbers: NDArray[np.int32], size: int) -> Array:
-        local = np.broadcast_to(field, self.area.shape) @ np.linalg.pinv(basis).T
+    def _average(self, field: Array, inverse: Array, numbers: NDArray[np.int32], size: int) -> Array:
+        local = np.broadcast_to(field, self.area.shape) @ inverse.T
         total = np.bincount(numbers.ravel(), weights=local.ravel(), minlength=size)
         return total / np.maximum(np.bincount(numbers.ravel(), minlength=size), 1)
 

@@ -10,6 +10,7 @@ from gaps.block_motion import BlockDrive, BlockFilm
 from gaps.course import constant
 from gaps.physics import Effect, Physics
 from gaps.ring import Ring, ValvePlateGeometry
+from gaps.rubbing import rubbed
 from reynolds.errors import FilmInputError
 from reynolds.film import FilmSolution
 from reynolds.generalised import generalised_force, modes_on
@@ -41,7 +42,7 @@ def solved(geometry: ValvePlateGeometry, position, time=0.0) -> tuple[np.ndarray
     oil = replace(problem.film, thickness=opened, thickness_at_vertices=None)
     solution = FilmSolver(film.space).solve(replace(problem, film=oil))
     force = generalised_force(solution.pressure, modes_on(problem.space, modes, {}), 0.0)
-    return force, film.friction_torque(solution, opened), solution
+    return force, film.friction_torque(problem.space, rubbed(solution, None, opened)), solution
 
 
 def test_a_tilted_ring_pad_bears_as_a_short_bearing(validation):

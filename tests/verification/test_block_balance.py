@@ -27,6 +27,7 @@ from gaps.course import constant
 from gaps.physics import FilmLaws
 from gaps.profiles import Profile, Waviness
 from gaps.ring import ValvePlateGeometry
+from gaps.rubbing import rubbed
 from reynolds.contact import Asperities
 from reynolds.film import FilmProblem, Storage
 from reynolds.floating_stage import solve_stage, standing
@@ -295,7 +296,9 @@ def test_a_parallel_block_rubs_as_two_rings(validation, refine):
     def solve(n: int) -> float:
         film = BlockFilm(ALL_ROUND, drive(), cells=(n, 4 * n))
         solution = FilmSolver(film.space).solve(posed(film, 0.0, position))
-        return film.friction_torque(solution, solution.film.thickness) * SPEED
+        return (
+            film.friction_torque(solution.problem.space, rubbed(solution, None, solution.film.thickness)) * SPEED
+        )
 
     got = refine(solve, (2, 4, 8))
     validation(

@@ -42,7 +42,7 @@ def _at(
     stage = solve_stage(
         FilmSolver(film.space_at(0.0)), floating_piston(film), step, start.held, step, start.q, None
     )
-    return stage, film.friction(stage)
+    return stage, film.friction(stage, film.rubbed(stage))
 
 
 @pytest.mark.parametrize("eccentricity", [0.0, 0.6])

@@ -118,8 +118,10 @@ def test_what_is_reported_and_kept():
     assert sorted(found.turn.films) == [schedule.angles[7], schedule.angles[15], schedule.angles[23]]
     assert set(schedule.breaks / SPEED) <= set(found.turn.times)
     least = found.least_film
-    assert least.loads.film_thickness_min == pytest.approx(found.positions.min(), rel=1e-9)
-    assert least.mean_film == pytest.approx(least.position[0], rel=1e-9)
+    # Films are told as the last step of Newton's method found them: next to the position, by `balance`.
+    near = Accuracy().balance * Accuracy().step
+    assert least.loads.film_thickness_min == pytest.approx(found.positions.min(), rel=near)
+    assert least.mean_film == pytest.approx(least.position[0], rel=near)
     assert found.films_solved >= 2 * len(found.turn.times) * found.closing.turns
     np.testing.assert_allclose(least.film_force + least.outer_force, 0.0, atol=1e-6 * SWAY)
 

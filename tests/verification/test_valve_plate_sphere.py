@@ -17,6 +17,7 @@ from gaps.block_motion import BlockDrive, BlockFilm, floating_block, kidney_wren
 from gaps.course import constant
 from gaps.physics import FilmLaws
 from gaps.ring import ValvePlateGeometry
+from gaps.rubbing import rubbed
 from gaps.standing import block_told
 from reynolds.contact import Asperities
 from reynolds.errors import FilmInputError
@@ -124,11 +125,16 @@ def test_kidneys_turn_the_block_about_the_middle():
     assert about_y == pytest.approx(-1e6 * lever * np.cos(one), rel=1e-12)
 
 
+def torque_of(film: BlockFilm, solution: FilmSolution) -> float:
+    """Torque (N m) of the film against the block's turning."""
+    return film.friction_torque(solution.problem.space, rubbed(solution, None, solution.film.thickness))
+
+
 def test_turning_block_rubs_as_its_shear_works():
     """Torque times speed is the walls' power; the closed form of concentric seats to the mesh's error."""
     film = BlockFilm(ALL_ROUND, drive(), cells=(8, 32))
     _, solution = at(film, (THICKNESS, 0.0, 0.0))
-    torque = film.friction_torque(solution, solution.film.thickness)
+    torque = torque_of(film, solution)
     done = loads(solution, film.is_film(solution.problem.space))
     driven = (done.flow["inner"] + done.flow["outer"]) * (PRESSURE - CASE)
     assert torque * SPEED == pytest.approx(done.dissipation - driven, rel=1e-3)
@@ -152,9 +158,7 @@ def test_a_large_sphere_is_a_plane():
         film = BlockFilm(replace(PORTS, sphere=sphere), running())
         force, solution = at(film, position, 2e-4)
         edges = loads(solution).flow
-        found.append(
-            [*force, edges["inner"], edges["outer"], film.friction_torque(solution, solution.film.thickness)]
-        )
+        found.append([*force, edges["inner"], edges["outer"], torque_of(film, solution)])
     assert found[1] == pytest.approx(found[0], rel=1e-6)
     assert found[2] == pytest.approx(found[0], rel=1e-6)
 
@@ -166,9 +170,7 @@ def test_a_standing_block_turns_in_the_film_of_the_turning_mesh():
     force, turning = at(film, position, 2e-4)
     assert stage.film_force + stage.outer.force == pytest.approx(force, rel=1e-3, abs=1.0)
     told = block_told(film, stage)
-    assert told.gap.friction_power == pytest.approx(
-        SPEED * film.friction_torque(turning, turning.film.thickness), rel=1e-3
-    )
+    assert told.gap.friction_power == pytest.approx(SPEED * torque_of(film, turning), rel=1e-3)
     assert told.gap.leakage_flow == pytest.approx(
         sum(loads(turning).flow[edge] for edge in ("inner", "outer")), rel=1e-3
     )
