@@ -22,7 +22,8 @@ from rich.table import Table
 from gaps.block_motion import BlockFilm, floating_block
 from gaps.physics import Physics
 from gaps.piston_motion import PistonFilm, floating_piston
-from gaps.revolution import Accuracy, GapRevolution, evenly, run_revolution
+from gaps.revolution import GapRevolution, run_revolution
+from gaps.schedule import Accuracy, evenly
 from gaps.slipper_motion import SlipperFilm, floating_slipper
 from reynolds.floating import Floating
 from reynolds.loads import Loads, loads
@@ -127,10 +128,10 @@ def save(found: GapRevolution[Loads], file: Path) -> None:
         position=found.positions,
         film_force=np.array([at.film_force for at in instants]),
         contact_force=np.array([at.contact_force for at in instants]),
-        least_film=np.array([at.loads.film_thickness_min for at in instants]),
-        pressure_max=np.array([at.loads.pressure_max for at in instants]),
-        flow=np.array([list(at.loads.flow.values()) for at in instants]),
-        dissipation=np.array([at.loads.dissipation for at in instants]),
+        least_film=np.array([at.film_thickness_min for at in instants]),
+        pressure_max=np.array([at.pressure_max for at in instants]),
+        flow=np.array([list(at.seen.flow.values()) for at in instants]),
+        dissipation=np.array([at.seen.dissipation for at in instants]),
     )
 
 

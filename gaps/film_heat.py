@@ -16,7 +16,8 @@ from typing import Generic, TypeVar, cast
 
 import numpy as np
 
-from gaps.revolution import Accuracy, GapRevolution, Schedule, TurnReport, run_revolution, unheard
+from gaps.revolution import GapRevolution, TurnReport, run_revolution, unheard
+from gaps.schedule import Accuracy, Schedule
 from gaps.seen import GapSeen
 from gaps.warmth import HeatFlows, ThinnedOver, Warmth, thinned
 from reynolds.across import levels

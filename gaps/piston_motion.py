@@ -13,8 +13,9 @@ The mesh spans what is engaged and stretches as the piston moves; wall velocitie
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
+from functools import lru_cache
 
 import numpy as np
 
@@ -107,6 +108,15 @@ class PistonFriction:
     power: float
 
 
+@dataclass(frozen=True)
+class _Driven:
+    """What drives a piston at one time: reach m, velocity m/s, chamber_pressure Pa, as `PistonDrive` has them."""
+
+    reach: float
+    velocity: float
+    chamber_pressure: float
+
+
 class PistonFilm:
     """Films of one floating piston on one mesh, cells = (around, along)."""
 
@@ -127,6 +137,8 @@ class PistonFilm:
         self._space = self._unit
         self._points, self._vertices = self._unit.points, self._unit.vertices.T
         angle = 2.0 * self._vertices[0] / shape.diameter
+        # A stage asks for the same instant many times over.
+        self._driven: Callable[[float], _Driven] = lru_cache(maxsize=4)(self._driven_at)
         self._towards = np.column_stack([np.cos(angle), np.sin(angle)])
 
     def space_at(self, time: float) -> FilmSpace:
@@ -146,7 +158,7 @@ class PistonFilm:
         drive = self.drive
         _, along, around = self._relief(time, *self._points)
         bore = self._bore_relief(time, *self._points).around
-        velocity = float(drive.velocity(self._angle(time)))
+        velocity = self._driven(time).velocity
         return self._problem(time, ZERO, -velocity * along - drive.piston_spin * around - drive.bore_spin * bore)
 
     def _problem(self, time: float, carried: Array, squeeze: Array) -> FilmProblem:
@@ -161,10 +173,10 @@ class PistonFilm:
             squeeze=squeeze,
             thickness_at_vertices=self._thickness(time, *self._vertices),
         )
-        pressure = float(drive.chamber_pressure(self._angle(time)))
+        pressure = self._driven(time).chamber_pressure
         walls = None
         if laws.walls is not None:
-            reach = float(drive.reach(self._angle(time)))
+            reach = self._driven(time).reach
             walls = laws.walls.at(space, reach)
             film = widened(space, film, pressure * laws.walls.by_chamber(space, reach))
         return FilmProblem(
@@ -217,14 +229,14 @@ class PistonFilm:
         solution, drive = stage.solution, self.drive
         space, (around, along) = solution.problem.space, self._points
         above = evaluate(solution, solution.pressure)[0] - drive.case_pressure + contact
-        chamber = float(drive.chamber_pressure(self._angle(stage.time))) - drive.case_pressure
+        chamber = self._driven(stage.time).chamber_pressure - drive.case_pressure
         taken_off = float(self._on_chamber_edge(self._relief(stage.time, *self._vertices).depth))
         slope = self._relief(stage.time, around, along).along
         return -float(np.sum(above * slope * space.area)) - chamber * taken_off
 
     def _relief(self, time: float, around: Array, along: Array) -> Relief:
         """What is taken off the piston at places of the unit mesh; it moves and turns with the piston."""
-        reach = float(self.drive.reach(self._angle(time)))
+        reach = self._driven(time).reach
         depth = self._engaged(time) * (1.0 - along)
         return self.shape.piston(reach - depth, 2.0 * around / self.shape.diameter - self.drive.piston_spin * time)
 
@@ -243,13 +255,13 @@ class PistonFilm:
         is taken off the piston never was part of the section.
         """
         swept = 0.0
-        if float(self.drive.reach(self._angle(stage.time))) < self.shape.guide_length:
+        if self._driven(stage.time).reach < self.shape.guide_length:
             swept = self._on_chamber_edge(vertex_thickness(stage.solution))
-        return self.standing_flow(stage, flows) + float(self.drive.velocity(self._angle(stage.time))) * swept
+        return self.standing_flow(stage, flows) + self._driven(stage.time).velocity * swept
 
     def standing_flow(self, stage: Stage, flows: Mapping[str, float]) -> float:
         """The same (m3/s) in a mesh that stands (`standing_at`)."""
-        velocity = float(self.drive.velocity(self._angle(stage.time)))
+        velocity = self._driven(stage.time).velocity
         taken_off = self._on_chamber_edge(self._relief(stage.time, *self._vertices).depth)
         return -velocity * taken_off - flows["chamber"]
 
@@ -261,9 +273,15 @@ class PistonFilm:
     def _angle(self, time: float) -> float:
         return self.drive.shaft_speed * time
 
+    def _driven_at(self, time: float) -> _Driven:
+        drive, angle = self.drive, self._angle(time)
+        return _Driven(
+            float(drive.reach(angle)), float(drive.velocity(angle)), float(drive.chamber_pressure(angle))
+        )
+
     def _engaged(self, time: float) -> float:
         """Length of the film (m): up to the piston's end, or to the guide's where the piston passes it."""
-        reach = float(self.drive.reach(self._angle(time)))
+        reach = self._driven(time).reach
         if not reach > 0.0:
             where = f"piston at {np.degrees(self._angle(time)) % 360.0:.1f} deg"
             raise FilmInputError(where, f"its end {reach * 1e3:.3g} mm inside the bore", "an engaged length")
@@ -272,7 +290,7 @@ class PistonFilm:
     def _velocities(self, time: float) -> tuple[tuple[Array, Array], tuple[Array, Array]]:
         """Velocity of piston and bore, m/s, around and along."""
         radius, drive = 0.5 * self.shape.diameter, self.drive
-        axial = np.full((1, 1), float(drive.velocity(self._angle(time))))
+        axial = np.full((1, 1), self._driven(time).velocity)
         piston, bore = (np.full((1, 1), spin * radius) for spin in (drive.piston_spin, drive.bore_spin))
         return (piston, axial), (bore, ZERO)
 
@@ -281,9 +299,9 @@ class PistonFilm:
 
         As the mesh's own rate it is what makes a stretching film store as much oil as the walls bring.
         """
-        if float(self.drive.reach(self._angle(time))) >= self.shape.guide_length:
+        if self._driven(time).reach >= self.shape.guide_length:
             return ZERO
-        return np.asarray(float(self.drive.velocity(self._angle(time))) * (1.0 - self._points[1]))
+        return np.asarray(self._driven(time).velocity * (1.0 - self._points[1]))
 
     def _thickness(self, time: float, around: Array, along: Array) -> Array:
         """Film (m) of a centred piston at places of the unit mesh."""

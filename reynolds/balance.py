@@ -230,6 +230,8 @@ def flow_balance(problem: FilmProblem, parts: Operators, state: State) -> Balanc
 
 def cavity_density(problem: FilmProblem) -> float:
     """Density ratio at the cavitation pressure."""
+    if problem.fluid is CONSTANT:
+        return 1.0
     return float(density(problem, np.array([problem.cavitation_pressure]))[0][0])
 
 

@@ -7,9 +7,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from reynolds.contact import LOWEST_RATIO
+from reynolds.contact import LOWEST_RATIO, Asperities
 from reynolds.errors import FilmInputError, FilmNotConverged
-from reynolds.film import LEAST_FRACTION, Boundary, Cavitation, FilmProblem, FilmSolution, Pocket, Storage
+from reynolds.film import LEAST_FRACTION, Boundary, Cavitation, Film, FilmProblem, FilmSolution, Pocket, Storage
 from reynolds.floating import Floating, Outer
 from reynolds.generalised import (
     ContactForce,
@@ -115,7 +115,9 @@ class Instant:
         if self.shape.walls is None and not at.least > lowest_gap(self.shape):
             raise FilmNotConverged(f"walls that touch: least gap {at.least:.3g} m", TOUCHING)
         storage = Storage(self.before.oil, self.step)
-        problem = replace(at.problem, boundary=self._with_volumes(q), storage=storage)
+        problem = replace(
+            self.shape, film=at.film, asperities=at.asperities, boundary=self._with_volumes(q), storage=storage
+        )
         return self._balanced(q, at, self.solver.solve(problem, warm))
 
     def _with_volumes(self, q: Array) -> dict[str, Boundary]:
@@ -280,9 +282,10 @@ def instant_of(solver: FilmSolver, floating: Floating, time: float, step: float,
 
 @dataclass(frozen=True)
 class Posed:
-    """A film at a position, before it is solved: see `Trial`."""
+    """A film at a position, before it is solved, and the asperities that its problem knows; see `Trial`."""
 
-    problem: FilmProblem
+    film: Film
+    asperities: Asperities | None
     gap: Array
     corner_gap: Array | None
     least: float
@@ -298,14 +301,14 @@ def posed(shape: FilmProblem, modes: Modes, q: Array) -> Posed:
     if shape.walls is not None:
         corners = None if corners is None else corners + modes.at_vertices @ q
         film = replace(shape.film, thickness=gap, thickness_at_vertices=corners)
-        return Posed(replace(shape, film=film), gap, corners, float(gap.min()), modes.at_points)
+        return Posed(film, shape.asperities, gap, corners, float(gap.min()), modes.at_points)
     between, at_corners, least = film_between(shape, gap), None, float(gap.min())
     if corners is not None:
         corners = corners + modes.at_vertices @ q
         least, at_corners = min(least, float(corners.min())), film_between(shape, corners).value
     film = replace(shape.film, thickness=between.value, thickness_at_vertices=at_corners)
     thicker = np.ascontiguousarray(between.slope[:, :, None] * modes.at_points)
-    return Posed(replace(shape, film=film, asperities=None), gap, corners, least, thicker)
+    return Posed(film, None, gap, corners, least, thicker)
 
 
 def given_way(at: Posed, solution: FilmSolution, contact: ContactForce | None) -> Posed:
@@ -317,7 +320,7 @@ def given_way(at: Posed, solution: FilmSolution, contact: ContactForce | None) -
         space = solution.problem.space
         thicker = np.ascontiguousarray(space.reference.geometry_value @ contact.grown[space.cells])
     least = min(float(part.min()) for part in (gap, corners) if part is not None)
-    return Posed(at.problem, gap, corners, least, thicker)
+    return Posed(at.film, at.asperities, gap, corners, least, thicker)
 
 
 def lowest_gap(shape: FilmProblem) -> float:

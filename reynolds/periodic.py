@@ -9,7 +9,7 @@ against the motion, it grows along the motion. So what is found is what a march 
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Generic, Protocol, TypeVar
 
@@ -82,16 +82,45 @@ def periodic(turn_from: TurnFrom[T], start: Array) -> Periodic[T]:
     from which the turn goes back, and further than it came, is taken back for a nearer one. Raises
     FilmNotConverged after MOST_TURNS: the motion is not periodic, unstable, or its start far away.
     """
-    at, share = np.asarray(start, dtype=float), 1.0
-    before: T | None = None
-    last: tuple[Array, T] | None = None
-    changes: list[float] = []
-    while len(changes) < MOST_TURNS:
-        turn = turn_from(at, before)
+    changes = []
+    for at, turn in _turns(turn_from, start):
         changes.append(float(np.abs(turn.end - at).max()))
         away = np.abs(_next(at, turn, 1.0) - at).max()
         if max(away, changes[-1]) <= turn.allowed and turn.repeats:
             return Periodic(turn, at, tuple(changes), np.linalg.eigvals(turn.slopes).astype(complex))
+    raise _never_closed(changes)
+
+
+def approached(turn_from: TurnFrom[T], start: Array) -> T:
+    """The first turn whose end is next to the periodic motion, however far away its start `start` (k,) m was.
+
+    Afterwards all linearised turns after it lead no further than `allowed` from its end. Cheaper than `periodic`
+    where a turn forgets nearly all of its start. Raises as that does.
+    """
+    changes = []
+    for at, turn in _turns(turn_from, start):
+        changes.append(float(np.abs(turn.end - at).max()))
+        if np.abs(_next(at, turn, 1.0) - turn.end).max() <= turn.allowed:
+            return turn
+    raise _never_closed(changes)
+
+
+def _never_closed(changes: list[float]) -> FilmNotConverged:
+    lately = ", ".join(f"{change:.2g}" for change in changes[-4:])
+    return FilmNotConverged(
+        f"motion not periodic after {MOST_TURNS} turns, of which the last changed it by {lately} m",
+        "a start nearer to it, or smaller steps in time",
+    )
+
+
+def _turns(turn_from: TurnFrom[T], start: Array) -> Iterator[tuple[Array, T]]:
+    """MOST_TURNS turns, each with its start, from `start` on towards the periodic motion."""
+    at, share = np.asarray(start, dtype=float), 1.0
+    before: T | None = None
+    last: tuple[Array, T] | None = None
+    for _ in range(MOST_TURNS):
+        turn = turn_from(at, before)
+        yield at, turn
         before = turn
         if last is not None and _too_far(*last, at, turn):
             share *= RETREAT
@@ -99,11 +128,6 @@ def periodic(turn_from: TurnFrom[T], start: Array) -> Periodic[T]:
         else:
             share, last = min(1.0, 2.0 * share), (at, turn)
             at = _next(at, turn, share)
-    lately = ", ".join(f"{change:.2g}" for change in changes[-4:])
-    raise FilmNotConverged(
-        f"motion not periodic after {MOST_TURNS} turns, of which the last changed it by {lately} m",
-        "a start nearer to it, or smaller steps in time",
-    )
 
 
 def _too_far(last_start: Array, last: Turn, start: Array, turn: Turn) -> bool:

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Protocol
 
-from gaps.revolution import Accuracy
+from gaps.schedule import Accuracy
 from swashfilm.case_pump import CasePump, operating_rows, own_rows, read_case_pump
 from swashfilm.case_table import Table, quoted
 from swashfilm.gap_case import FORMAT

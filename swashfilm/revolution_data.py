@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gaps.revolution import GapInstant
 from gaps.seen import Active
+from gaps.turn import GapInstant
 from reynolds.mesh import Array
 from reynolds.overlap import vertex_thickness
 from swashfilm.revolution_study import RevolutionStudy, friction_power, tilt
@@ -46,14 +46,14 @@ class Series:
 
 
 SERIES = {
-    "film_thickness_min": Series("m", lambda at: at.loads.film_thickness_min),
+    "film_thickness_min": Series("m", lambda at: at.film_thickness_min),
     "film_thickness_mean": Series("m", lambda at: at.mean_film),
     "least_gap": Series("m", lambda at: at.least_gap),
     "leakage_flow": Series("m3/s", lambda at: at.seen.leakage),
     "chamber_flow": Series("m3/s", lambda at: float(at.seen.flow.sum())),
     "contact_load": Series("N", lambda at: at.seen.contact_load),
-    "cavitated_area_fraction": Series("1", lambda at: at.loads.cavitated_area_fraction),
-    "film_pressure_max": Series("Pa", lambda at: at.loads.pressure_max),
+    "cavitated_area_fraction": Series("1", lambda at: at.cavitated_area_fraction),
+    "film_pressure_max": Series("Pa", lambda at: at.pressure_max),
     "heat": Series("W", lambda at: at.seen.heat.total),
     "rubbing": Series("W", lambda at: at.seen.heat.rubbing),
 }

@@ -90,7 +90,7 @@ def revolution_course(study: RevolutionStudy) -> dict[str, list[float]]:
     instants = study.revolution.turn.instants
     return {
         "shaft_angle_deg": [float(np.degrees(instant.angle)) for instant in instants],
-        "film_thickness_min_m": [instant.loads.film_thickness_min for instant in instants],
+        "film_thickness_min_m": [instant.film_thickness_min for instant in instants],
         "film_thickness_mean_m": [instant.mean_film for instant in instants],
         "tilt_rad": tilt(study).tolist(),
         "leakage_flow_m3_per_s": [instant.seen.leakage for instant in instants],
@@ -133,7 +133,7 @@ def revolution_summary(study: RevolutionStudy) -> dict[str, Any]:
         "kind": "film_revolution",
         "name": study.case.name,
         "gap": study.case.gap.value,
-        "film_thickness_min_m": least.loads.film_thickness_min,
+        "film_thickness_min_m": least.film_thickness_min,
         "film_thickness_min_at_deg": float(np.degrees(least.angle)),
         "film_thickness_mean_m": float(np.mean([instant.mean_film for instant in turn.instants])),
         "film_thickness_mean_min_m": min(instant.mean_film for instant in turn.instants),
@@ -147,8 +147,8 @@ def revolution_summary(study: RevolutionStudy) -> dict[str, Any]:
         "contact_load_max_N": float(contact.max()),
         "contact_load_mean_N": float(np.mean([one.contact_load for one in passed])),
         "share_of_turn": {kind.value: float(np.mean([kind in one.active for one in seen])) for kind in Active},
-        "cavitated_area_fraction_max": max(instant.loads.cavitated_area_fraction for instant in turn.instants),
-        "pressure_max_Pa": max(instant.loads.pressure_max for instant in turn.instants),
+        "cavitated_area_fraction_max": max(instant.cavitated_area_fraction for instant in turn.instants),
+        "pressure_max_Pa": max(instant.pressure_max for instant in turn.instants),
         "span_deg": float(np.degrees(study.span)),
         "turns": closing.turns,
         "turn_change_m": closing.changes[-1],

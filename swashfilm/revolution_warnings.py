@@ -54,7 +54,7 @@ def _contact(case: GapCase, parts: FloatingParts, found: GapRevolution[Any]) -> 
 def _pressures(case: GapCase, found: GapRevolution[Any]) -> Iterator[tuple[str, str]]:
     """Pressures that rigid walls and constant viscosity may not claim, and those below a cavity's."""
     left_out, turn = case.options.physics.left_out, found.turn
-    peak = max(instant.loads.pressure_max for instant in turn.instants)
+    peak = max(instant.pressure_max for instant in turn.instants)
     if Effect.ELASTIC_WALLS in left_out and peak > LARGEST_RIGID_PRESSURE:
         yield (
             "film_pressure_beyond_rigid",

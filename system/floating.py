@@ -14,7 +14,6 @@ from time import perf_counter
 
 import numpy as np
 
-from gaps.revolution import Accuracy
 from gaps.seen import mass_balance_error
 from system.assembly import PumpPoint, met_point, put_together
 from system.description import PumpDescription
@@ -49,6 +48,10 @@ FRICTION_TOLERANCE = 2e-3
 """Largest change of a film's friction between two rounds, of the largest force on a slipper."""
 FIRST_CLOSED = 0.05
 """Distance from the periodic motion at which the first round lets its turns be, share of the mean film."""
+FEW_STEPS = 8
+"""Steps a pitch of rounds before gaps and chambers nearly agree."""
+NEARLY = 10.0
+"""Times as large as their tolerances may the changes of a round be for gaps and chambers to nearly agree."""
 CLOSING = 0.5
 """The same of later rounds, over what the round before changed."""
 ROUND_LIMIT = 12
@@ -56,11 +59,12 @@ ROUND_LIMIT = 12
 
 @dataclass(frozen=True)
 class Round:
-    """One round of gaps and chamber: what it changed (as the tolerances count it), how nearly its turns closed
-    (share of the mean film), films solved, time s."""
+    """One round of gaps and chamber: what it changed (as the tolerances count it), the steps of its turns and how
+    nearly they closed (share of the mean film), films solved, time s."""
 
     pressure_change: float
     friction_change: float
+    steps: int
     closed: float
     films_solved: int
     seconds: float
@@ -121,7 +125,7 @@ def floating_point(
         while not rounds or not _settled(rounds[-1], options):
             if len(rounds) == ROUND_LIMIT:
                 raise _not_settled(rounds[-1])
-            closing = replace(asked, options=replace(options, accuracy=_loosened(options.accuracy, rounds)))
+            closing = replace(asked, options=_loosened(options, rounds, at.pump.pump.pistons))
             found = _round(closing, group, point, gaps, beside, _of_round(report, len(rounds) + 1))
             asked, gaps = found.asked, found.gaps
             rounds.append(found.taken)
@@ -168,6 +172,7 @@ def _round(
         float(np.max(np.abs(np.array(following.pressure) - asked.pressure))) / problems[0].pressure_span,
         max(map(_rubbing_change, asked.rubbing, following.rubbing))
         / max(at.forces.lift for one in driven for at in one.group),
+        asked.options.steps,
         asked.options.accuracy.closed,
         sum(gap.films_solved for own in gaps for gap in (own.piston, own.slipper)) + gaps[0].block.films_solved,
         perf_counter() - began,
@@ -184,15 +189,28 @@ def _of_round(report: Report, number: int) -> Report:
     return lambda done, total, what: report(done, total, f"round {number}, {what}")
 
 
-def _loosened(accuracy: Accuracy, rounds: list[Round]) -> Accuracy:
-    """How exactly a round closes its turns: no better than the chambers and forces that drive them are known."""
+def _loosened(options: FloatingOptions, rounds: list[Round], pistons: int) -> FloatingOptions:
+    """How a round turns its gaps: before they nearly agree with the chambers, no better than it is worth."""
+    if rounds and (_agree(rounds[-1], NEARLY) or _exact(rounds[-1], options)):
+        return options
     unknown = max(rounds[-1].pressure_change, rounds[-1].friction_change) if rounds else FIRST_CLOSED
-    return replace(accuracy, closed=max(accuracy.closed, min(FIRST_CLOSED, CLOSING * unknown)))
+    closed = max(options.accuracy.closed, min(FIRST_CLOSED, CLOSING * unknown))
+    steps = min(options.steps, FEW_STEPS * pistons)
+    return replace(options, steps=steps, accuracy=replace(options.accuracy, closed=closed))
+
+
+def _agree(taken: Round, times: float = 1.0) -> bool:
+    """Whether a round changed no more than the tolerances, or so many times them."""
+    small = times * PRESSURE_TOLERANCE, times * FRICTION_TOLERANCE
+    return taken.pressure_change <= small[0] and taken.friction_change <= small[1]
+
+
+def _exact(taken: Round, options: FloatingOptions) -> bool:
+    return taken.steps == options.steps and taken.closed == options.accuracy.closed
 
 
 def _settled(taken: Round, options: FloatingOptions) -> bool:
-    agree = taken.pressure_change <= PRESSURE_TOLERANCE and taken.friction_change <= FRICTION_TOLERANCE
-    return agree and taken.closed <= options.accuracy.closed
+    return _exact(taken, options) and _agree(taken)
 
 
 def _not_settled(taken: Round) -> NotConverged:

@@ -126,6 +126,6 @@ def _solve(asked: Driven, parts: FloatingParts, before: Found | None, report: Re
 
 
 def _light(found: Found) -> Found:
-    """The same without its last film, which the next round alone needs and which holds solvers."""
-    turn = replace(found.turn, last=replace(found.turn.last, stage=None))
+    """The same without what the next round alone needs: its last film, which holds solvers, and its oil."""
+    turn = replace(found.turn, oil=(), last=replace(found.turn.last, stage=None))
     return replace(found, turn=turn, closing=replace(found.closing, turn=turn))

@@ -11,7 +11,8 @@ from gaps.block_motion import BlockDrive, floating_block
 from gaps.film_heat import GapHeat, warm_revolution
 from gaps.physics import Physics
 from gaps.piston_motion import PistonDrive, floating_piston
-from gaps.revolution import Accuracy, GapRevolution, Schedule, TurnReport, evenly, run_revolution
+from gaps.revolution import GapRevolution, TurnReport, run_revolution
+from gaps.schedule import Accuracy, Schedule, evenly
 from gaps.seen import BlockSeen, PistonSeen, Seen, SlipperSeen, block_seen, piston_seen, slipper_seen
 from gaps.slipper_motion import SlipperDrive, floating_slipper
 from reynolds.floating import Floating

@@ -9,7 +9,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from gaps.revolution import Accuracy, GapRevolution
+from gaps.revolution import GapRevolution
+from gaps.schedule import Accuracy
 from gaps.seen import BlockSeen
 from reynolds.errors import FilmNotConverged
 from system.floating_checks import check_floating

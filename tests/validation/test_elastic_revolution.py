@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from gaps.physics import Effect, Physics
-from gaps.revolution import Accuracy, GapRevolution
+from gaps.revolution import GapRevolution
+from gaps.schedule import Accuracy
 from gaps.seen import SlipperSeen
 from system.floating_drives import drives, no_rubbing
 from system.floating_gaps import RIGID, FloatingOptions, slipper_revolution
@@ -53,8 +54,8 @@ def test_walls_give_way_to_the_pressure(slippers):
     rigid, soft = (
         (
             np.mean([instant.mean_film for instant in found.turn.instants]),
-            found.least_film.loads.film_thickness_min,
-            max(instant.loads.pressure_max for instant in found.turn.instants),
+            found.least_film.film_thickness_min,
+            max(instant.pressure_max for instant in found.turn.instants),
         )
         for found in slippers
     )

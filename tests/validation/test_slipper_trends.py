@@ -13,7 +13,8 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from gaps.revolution import Accuracy, GapRevolution
+from gaps.revolution import GapRevolution
+from gaps.schedule import Accuracy
 from gaps.seen import SlipperSeen
 from reynolds.errors import FilmNotConverged
 from system.floating_drives import Drives, drives, no_rubbing

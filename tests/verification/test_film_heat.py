@@ -12,7 +12,8 @@ from gaps.course import constant
 from gaps.film_heat import GapHeat, Sink, warm_revolution
 from gaps.physics import Effect, Physics
 from gaps.piston_motion import PistonDrive, PistonFilm, PistonShape, floating_piston
-from gaps.revolution import Accuracy, GapRevolution, evenly, run_revolution
+from gaps.revolution import GapRevolution, run_revolution
+from gaps.schedule import Accuracy, evenly
 from gaps.seen import PistonSeen, piston_seen
 from gaps.warmth import ThinnedOver
 from reynolds.bodies.elasticity import Elastic

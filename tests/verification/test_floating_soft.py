@@ -13,7 +13,8 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
-from gaps.revolution import Accuracy, evenly, run_revolution
+from gaps.revolution import run_revolution
+from gaps.schedule import Accuracy, evenly
 from reynolds.bodies.elasticity import Elastic
 from reynolds.bodies.foundation import Compliance, half_space, winkler
 from reynolds.contact import Asperities, contact_pressure
@@ -131,7 +132,7 @@ def turned(load: float, asperities: Asperities | None) -> tuple[FilmSpace, list[
     floating = plate(space, winkler(space, STIFFNESS), (HIGH, LOW), pressed, asperities, surface)
     found = run_revolution(
         FilmSolver(space), floating, evenly(speed, 24), np.array([4e-6]), lambda stage: (stage,),
-        accuracy=Accuracy(step=1.0, floor=1.0, closed=1e-7),
+        accuracy=Accuracy(step=1.0, floor=1.0, balance=1e-12, closed=1e-7),
     )  # fmt: skip
     assert found.closing.changes[-1] < 1e-7 * 5e-6
     stages = [instant.seen[0] for instant in found.turn.instants]

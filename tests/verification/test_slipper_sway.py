@@ -7,7 +7,8 @@ import pytest
 
 from gaps.course import constant
 from gaps.physics import Effect, Physics
-from gaps.revolution import Accuracy, GapRevolution, evenly, run_revolution
+from gaps.revolution import GapRevolution, run_revolution
+from gaps.schedule import Accuracy, evenly
 from gaps.slipper_lands import SlipperLands
 from gaps.slipper_motion import (
     Orifice,

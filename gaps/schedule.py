@@ -1,0 +1,76 @@
+"""Where a gap's revolution stops, and how exactly it is marched and closed."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from reynolds.floating_stage import Closeness
+from reynolds.mesh import Array
+
+MORE_EXACT = 10.0  # times, at most, are the steps of the first turns
+FEWEST = 24  # nodes of a whole turn with steps as wide as their error allows
+
+
+@dataclass(frozen=True)
+class Accuracy:
+    """How exactly a revolution is marched and closed.
+
+    step, floor: largest error of the film by one step, share of it in each place and m beside it; balance: share
+    of that error within which forces are taken along their slopes; closed: distance from the periodic motion,
+    share of the mean film, and oil that is elsewhere after a turn, share of all; reach: how far beyond a turn's
+    end the next may start, share of the least film there.
+    """
+
+    step: float = 1e-3
+    floor: float = 1e-8
+    balance: float = 1e-2
+    closed: float = 1e-3
+    reach: float = 0.25
+
+    @property
+    def closeness(self) -> Closeness:
+        """How near to balance the film of a stage has to come."""
+        return Closeness(self.balance * self.step, self.balance * self.floor)
+
+    @property
+    def rough(self) -> Accuracy:
+        """The same for turns of wide steps that only lead near to the periodic motion.
+
+        Each of their steps is the more exact, so that the first turn that stops at all angles closes.
+        """
+        return replace(self, step=max(self.step / MORE_EXACT, min(self.step, self.closed)))
+
+
+@dataclass(frozen=True)
+class Schedule:
+    """Where a revolution stops: shaft speed rad/s, angles (n,) rad to report, `breaks` to step on, films to keep.
+
+    Angles rise from above 0 to the last, at which the turn closes: 2 pi, or a pitch where parts and mesh repeat
+    with it. `breaks` are those at which the drive bends (a port opens). Every `keep`th reported film is kept.
+    """
+
+    speed: float
+    angles: Array
+    breaks: Array = field(default_factory=lambda: np.zeros(0))
+    keep: int = 10
+
+    @property
+    def times(self) -> Array:
+        """Nodes of the march, s: angles and breaks together."""
+        inside = self.breaks[(self.breaks > 0.0) & (self.breaks < self.angles[-1])]
+        return np.unique(np.concatenate([self.angles, inside])) / self.speed
+
+    @property
+    def wide(self) -> Schedule:
+        """The same turn with its last angle alone to report, and few nodes besides its breaks."""
+        span = self.angles[-1]
+        count = max(1, round(FEWEST * span / (2.0 * np.pi)))
+        nodes = span * np.arange(1, count) / count
+        return Schedule(self.speed, self.angles[-1:], np.union1d(self.breaks, nodes), keep=2)
+
+
+def evenly(speed: float, steps: int, span: float = 2.0 * np.pi, keep: int = 10) -> Schedule:
+    """Every span/steps (rad) of the turn, every `keep`th film kept."""
+    return Schedule(speed, span * np.arange(1, steps + 1) / steps, keep=keep)
