@@ -5,8 +5,9 @@
     slipper     flange on its socket: what is over the ball does not give way, the rim bends about it
     plate       swash plate or valve plate, its back on the cradle or on the end case
 
-A part lies in its film's own axes. Cells are enough for the shapes in which parts bend; a body's finer dents have
-the size of its face's cells. `body_of_file` takes a user's own mesh in place of any of them.
+A part lies in its film's own axes: slipper and valve plate under the plane z = 0, swash plate and block over it
+(made from sizes under it, which is their mirror image). Cells are enough for the shapes in which parts bend; a
+body's finer dents have the size of its face's cells. `own` puts a user's mesh in place of any of them.
 """
 
 from __future__ import annotations
@@ -17,9 +18,9 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from reynolds.bodies.body_file import body_from_file
+from gaps.own_body import CHAMBER, FILM, HELD, POCKET, OwnMesh, own_body, with_faces
 from reynolds.bodies.body_mesh import BodyMesh, disc, ring
-from reynolds.bodies.chart import Chart, Cylinder, Plane, Side
+from reynolds.bodies.chart import Cylinder, Plane, Side
 from reynolds.bodies.elasticity import Elastic
 from reynolds.bodies.foundation import both
 from reynolds.bodies.supports import Supports
@@ -29,8 +30,8 @@ from reynolds.laws import require_positive
 from reynolds.space import FilmSpace
 from reynolds.walls import Walls
 
-FILM, HELD, POCKET, CHAMBER = "film", "held", "pocket", "chamber"
 TOWARDS_FILM = Plane((0.0, 0.0, 1.0))
+FROM_ABOVE = Plane((0.0, 0.0, -1.0))
 PINHOLE = 0.05  # of a pocket's radius
 NEAR = 1e-6  # of a radius: on a mesh line or not
 Cells = tuple[int, int, int]
@@ -44,6 +45,7 @@ class PistonPart:
     inner_diameter: float
     length: float
     elastic: Elastic
+    own: OwnMesh | None = None
 
     def __post_init__(self) -> None:
         require_positive("piston body", diameter=self.diameter, length=self.length)
@@ -62,6 +64,7 @@ class BushingPart:
     wall: float
     length: float
     elastic: Elastic
+    own: OwnMesh | None = None
 
     def __post_init__(self) -> None:
         require_positive("bushing body", diameter=self.diameter, wall=self.wall, length=self.length)
@@ -77,6 +80,7 @@ class SlipperPart:
     outer_radius: float
     thickness: float
     elastic: Elastic
+    own: OwnMesh | None = None
 
     def __post_init__(self) -> None:
         require_positive("slipper body", orifice=self.orifice_radius, thickness=self.thickness)
@@ -90,7 +94,8 @@ class SlipperPart:
 class PlatePart:
     """A plate under a film (m): inner (0: none) and outer radius about the film's origin, thickness.
 
-    `pocket_radius`: of the pocket that presses on it beside the film (0: none).
+    `pocket_radius`: of the pocket that presses on it beside the film (0: none). `over_film`: a user's mesh of it
+    lies over the film, not under it.
     """
 
     inner_radius: float
@@ -98,6 +103,8 @@ class PlatePart:
     thickness: float
     elastic: Elastic
     pocket_radius: float = 0.0
+    over_film: bool = False
+    own: OwnMesh | None = None
 
     def __post_init__(self) -> None:
         require_positive("plate body", radius=self.outer_radius, thickness=self.thickness)
@@ -116,13 +123,16 @@ def piston_body(part: PistonPart, cells: Cells = (2, 24, 8)) -> Body:
     over the volume: the bending that it causes between ball and bore is left out.
     """
     radius = 0.5 * part.diameter
+    chart = Cylinder(radius, Side.SHAFT)
+    if part.own:
+        return own_body(part.own, part.elastic, chart)
     if part.inner_diameter > 0.0:
         mesh = ring((0.5 * part.inner_diameter, radius), part.length, cells)
     else:
         mesh = disc(radius, part.length, (max(cells[1] // 4, 1), cells[0], cells[2]))
     wet = [mesh.mesh.boundaries[name] for name in ("bottom", "inner") if name in mesh.face_names]
-    mesh = _named(mesh, {CHAMBER: np.concatenate(wet)})
-    return Body(mesh, part.elastic, Supports(), "outer", Cylinder(radius, Side.SHAFT))
+    mesh = with_faces(mesh, {CHAMBER: np.concatenate(wet)})
+    return Body(mesh, part.elastic, Supports(), "outer", chart)
 
 
 def bushing_body(part: BushingPart, cells: Cells = (2, 24, 8)) -> Body:
@@ -132,8 +142,11 @@ def bushing_body(part: BushingPart, cells: Cells = (2, 24, 8)) -> Body:
     beside one at low pressure, far stiffer than a ring of its own (Lame's).
     """
     radius = 0.5 * part.diameter
+    chart = Cylinder(radius, Side.BORE)
+    if part.own:
+        return own_body(part.own, part.elastic, chart)
     mesh = ring((radius, radius + part.wall), part.length, cells)
-    return Body(mesh, part.elastic, Supports(symmetry=("outer",)), "inner", Cylinder(radius, Side.BORE))
+    return Body(mesh, part.elastic, Supports(symmetry=("outer",)), "inner", chart)
 
 
 def slipper_body(part: SlipperPart, cells: Cells = (8, 24, 2)) -> Body:
@@ -142,9 +155,11 @@ def slipper_body(part: SlipperPart, cells: Cells = (8, 24, 2)) -> Body:
     Held where the ball presses, on the back up to the socket's radius: the gap's coordinates are those of the
     socket. Mesh lines lie on the pocket's and the socket's edge.
     """
+    if part.own:
+        return own_body(part.own, part.elastic, TOWARDS_FILM)
     edges = part.pocket_radius, part.socket_radius
     mesh = _rings(part.orifice_radius, edges, part.outer_radius, part.thickness, cells)
-    mesh = _named(
+    mesh = with_faces(
         mesh,
         {
             FILM: _facets(mesh, "top", from_cell_over=part.pocket_radius),
@@ -161,30 +176,18 @@ def plate_body(part: PlatePart, cells: Cells = (6, 36, 2)) -> Body:
     Its back is held: the swash plate's on the cradle bearing, the valve plate's on the end case. Ports are not cut
     out: a valve plate is taken for its solid ring. About a pocket's middle the mesh leaves a pinhole.
     """
+    if part.own:
+        return own_body(part.own, part.elastic, FROM_ABOVE if part.over_film else TOWARDS_FILM)
     if part.pocket_radius > part.inner_radius:
         hole = part.inner_radius or PINHOLE * part.pocket_radius
         mesh = _rings(hole, (part.pocket_radius,), part.outer_radius, part.thickness, cells)
-        mesh = _named(mesh, {POCKET: _facets(mesh, "top", up_to=part.pocket_radius)})
+        mesh = with_faces(mesh, {POCKET: _facets(mesh, "top", up_to=part.pocket_radius)})
     elif part.inner_radius > 0.0:
         mesh = _rings(part.inner_radius, (), part.outer_radius, part.thickness, cells)
     else:
         across = max(cells[1] // 4, 1)
         mesh = disc(part.outer_radius, part.thickness, (across, cells[0], cells[2]), bottom=-part.thickness)
     return Body(mesh, part.elastic, Supports(clamped=("bottom",)), "top", TOWARDS_FILM)
-
-
-def body_of_file(path: Path, elastic: Elastic, chart: Chart) -> Body:
-    """A part from a user's mesh in metres, in the axes of the part that it stands for.
-
-    Named faces: `film`, where the film lies; `held`, where the part is held fast (none: a free body); `pocket`,
-    what a slipper's pocket presses on; `chamber`, where a piston's chamber does. Raises FilmInputError as
-    `body_from_file`, and without a face `film`.
-    """
-    mesh = body_from_file(path)
-    if FILM not in mesh.face_names:
-        raise FilmInputError("body mesh", f"{path} names {', '.join(mesh.face_names)}", f"a face named {FILM}")
-    held = (HELD,) if HELD in mesh.face_names else ()
-    return Body(mesh, elastic, Supports(clamped=held), FILM, chart)
 
 
 def part_wall(body: Body, film: FilmSpace, *, folder: Path | None = None) -> Walls:
@@ -231,8 +234,3 @@ def _facets(body: BodyMesh, face: str, *, up_to: float = np.inf, from_cell_over:
     facets = np.asarray(mesh.boundaries[face])
     outer = np.hypot(*mesh.p[:2])[mesh.facets[:, facets]].max(axis=0)
     return facets[(outer < up_to * (1.0 + NEAR)) & (outer > from_cell_over * (1.0 - NEAR))]
-
-
-def _named(body: BodyMesh, faces: dict[str, NDArray[np.int64]]) -> BodyMesh:
-    """The same body with more faces, by their facets."""
-    return replace(body, mesh=replace(body.mesh, _boundaries={**body.mesh.boundaries, **faces}))

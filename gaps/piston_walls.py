@@ -17,7 +17,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from gaps.bodies import CHAMBER
+from gaps.own_body import CHAMBER
 from reynolds.bodies.foundation import Compliance
 from reynolds.bodies.wall import Body, FacePressure, body_wall, load_opening
 from reynolds.errors import FilmInputError

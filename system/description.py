@@ -51,6 +51,7 @@ from system.fields import (
 )
 from system.line_description import LineSection
 from system.parts_description import (
+    BodySection,
     BoreSection,
     GrooveSection,
     GrooveShape,
@@ -98,6 +99,7 @@ class PistonSection(Section):
     edge_relief: ReliefSection | None = None  # at the chamber's end
     grooves: Grooves | None = None  # rings; places from the chamber's end
     bore_diameter: Annotated[float, Dimension.LENGTH, NotNegative] | None = None  # of a hollow piston
+    body: BodySection | None = None
 
 
 class SlipperSection(Section):
@@ -123,6 +125,7 @@ class SlipperSection(Section):
     vented_grooves: SlipperGrooves | None = None  # rings open to the case
     flange_thickness: Length | None = None
     socket_radius: Length | None = None  # up to which the ball holds the flange
+    body: BodySection | None = None
 
     @property
     def lands(self) -> SlipperLands:
@@ -150,6 +153,7 @@ class ValvePlateSection(Section):
     profile: Profile | None = None  # over the radius
     pads: tuple[PadSection, ...] = ()  # beyond the outer land
     sphere_radius: Length | None = None  # of a face that bulges into a hollow block; radii are then off the axis
+    body: BodySection | None = None
 
     @property
     def sphere(self) -> Sphere:
@@ -215,6 +219,7 @@ class BlockSection(Section):
     mass: Mass
     spline_position: AnyLength | None = None  # above the valve plate: where the shaft holds the block sideways
     end_thickness: Length | None = None  # between the bores and the face on the valve plate
+    body: BodySection | None = None
 
 
 class BearingsSection(Section):

@@ -1,4 +1,4 @@
-"""What a value of a pump file can be: a quantity, a choice, rows of quantities, or a table of such.
+"""What a value of a pump file can be: a quantity, a choice, rows of quantities, a text, or a table of such.
 
 Each is a type of a model's field: the quantity's dimension, or its columns', stands in the annotation.
 """
@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from enum import Enum
+from pathlib import Path
 from typing import Annotated, get_origin
 
 from pydantic import BaseModel, ConfigDict, Field
@@ -26,6 +27,14 @@ class Points:
     columns: tuple[Dimension, ...]
     heads: tuple[str, ...]
     example: tuple[str, ...]
+
+
+class Text(Enum):
+    """Marks a field that is text: the path of a file, one name, or a list of names; its value says so in words."""
+
+    FILE = "the path of a file beside the pump file, such as 'part.msh'"
+    NAME = "a name, such as 'film'"
+    NAMES = "a list of names, such as ['bottom', 'rim']"
 
 
 Positive = Field(gt=0.0)
@@ -90,6 +99,9 @@ Webs = Annotated[
     Points((Dimension.ANGLE,) * 2, ("middle", "width"), ("90 deg", "4 deg")),
     Field(min_length=1),
 ]
+MeshFile = Annotated[Path, Text.FILE]
+FaceName = Annotated[str, Text.NAME, Field(min_length=1)]
+FaceNames = Annotated[tuple[str, ...], Text.NAMES, Field(min_length=1)]
 
 
 class Section(BaseModel):
@@ -106,6 +118,11 @@ def dimension_of(field: FieldInfo) -> Dimension | None:
 def layouts_of(field: FieldInfo) -> tuple[Points, ...]:
     """Return the layouts of the rows of a field that is a list of rows; none for another."""
     return tuple(mark for mark in _marks(field) if isinstance(mark, Points))
+
+
+def text_of(field: FieldInfo) -> Text | None:
+    """Return which text a field is, or None for another."""
+    return next((mark for mark in _marks(field) if isinstance(mark, Text)), None)
 
 
 def choice_of(field: FieldInfo) -> type[Enum] | None:

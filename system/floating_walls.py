@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from dataclasses import replace
 
 from gaps.bodies import BushingPart, PistonPart, PlatePart, SlipperPart
+from gaps.own_body import CHAMBER, FILM, HELD, POCKET, SLIDING, OwnMesh
 from gaps.walls import BoreWalls, PlateWalls
 from reynolds.bodies.elasticity import Elastic
 from system.assumptions import Taken
 from system.description import PumpDescription
+from system.parts_description import BodySection
 from system.units import Dimension
 
 FLANGE = 0.35  # of the slipper's outer radius: its flange's thickness
@@ -32,8 +35,8 @@ def bore_walls(pump: PumpDescription, guide_length: float, elastic: Materials, t
     )  # fmt: skip
     length = part.engaged_length + part.overhang
     return BoreWalls(
-        PistonPart(diameter, inner, length, elastic["piston"]),
-        BushingPart(diameter, wall, guide_length, elastic["bushing"]),
+        PistonPart(diameter, inner, length, elastic["piston"], own_mesh("piston", part.body, taken)),
+        BushingPart(diameter, wall, guide_length, elastic["bushing"], own_mesh("bore", pump.bore.body, taken)),
     )
 
 
@@ -54,8 +57,24 @@ def slipper_walls(pump: PumpDescription, elastic: Materials, taken: Taken) -> Pl
     pocket = part.lands.inner_radius
     return PlateWalls(
         (
-            SlipperPart(0.5 * part.orifice_diameter, pocket, socket, rim, thickness, elastic["slipper"]),
-            PlatePart(0.0, PLATE_REACH * rim, depth, elastic["swash_plate"], pocket),
+            SlipperPart(
+                0.5 * part.orifice_diameter,
+                pocket,
+                socket,
+                rim,
+                thickness,
+                elastic["slipper"],
+                own_mesh("slipper", part.body, taken),
+            ),
+            PlatePart(
+                0.0,
+                PLATE_REACH * rim,
+                depth,
+                elastic["swash_plate"],
+                pocket,
+                True,
+                own_mesh("swash_plate", pump.swash_plate.body, taken),
+            ),
         )
     )
 
@@ -74,7 +93,42 @@ def block_walls(pump: PumpDescription, elastic: Materials, taken: Taken) -> Plat
     )  # fmt: skip
     return PlateWalls(
         (
-            PlatePart(inner, outer, end, elastic["block"]),
-            PlatePart(inner, outer, thickness, elastic["valve_plate"]),
+            PlatePart(
+                inner, outer, end, elastic["block"], over_film=True, own=own_mesh("block", pump.block.body, taken)
+            ),
+            PlatePart(
+                inner, outer, thickness, elastic["valve_plate"], own=own_mesh("valve_plate", plate.body, taken)
+            ),
         )
+    )
+
+
+def own_mesh(part: str, body: BodySection | None, taken: Taken) -> OwnMesh | None:
+    """The user's mesh of a part; a name that its table leaves out is the mesh's face of that name, if it has one.
+
+    None where no mesh is stated. Raises FilmInputError for a file that holds no body.
+    """
+    if body is None:
+        return None
+    found = by_names(body)
+    if not found.held and not found.sliding:
+        taken.note(f"{part}.body.held", "a free body", "the mesh names no face 'held' or 'sliding'")
+    return found
+
+
+def by_names(body: BodySection) -> OwnMesh:
+    """The mesh of a table with the faces that it names or that go by the keys' own names."""
+    bare = OwnMesh(body.mesh, body.unit.metres)
+    faces = bare.mesh().face_names
+
+    def usual(name: str) -> tuple[str, ...]:
+        return (name,) if name in faces else ()
+
+    stated = {CHAMBER: body.chamber, POCKET: body.pocket}
+    return replace(
+        bare,
+        film=body.film or FILM,
+        held=body.held or usual(HELD),
+        sliding=body.sliding or usual(SLIDING),
+        pressed=tuple((name, face) for name, own in stated.items() for face in ((own,) if own else usual(name))),
     )

@@ -199,7 +199,7 @@ def waves_are_shallow(pump: PumpDescription) -> Iterator[Finding]:
         yield from _steep("valve_plate.waviness.amplitude", waves.amplitude, half_wave)
 
 
-@needs("valve_plate.sphere_radius", "valve_plate.land_radius_4", "valve_plate.pads")
+@needs("valve_plate.sphere_radius", "valve_plate.land_radius_4")
 def sphere_reaches_over_the_face(pump: PumpDescription) -> Iterator[Finding]:
     """A spherical face has its lands and pads before the equator; what takes it as plane says so."""
     radius, path = pump.valve_plate.sphere_radius, "valve_plate.sphere_radius"

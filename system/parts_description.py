@@ -20,7 +20,10 @@ from system.fields import (
     Density,
     Elasticity,
     Expansion,
+    FaceName,
+    FaceNames,
     Length,
+    MeshFile,
     Profile,
     Section,
     Stiffness,
@@ -51,18 +54,50 @@ class PadSection(Section):
     number: Annotated[int, Field(ge=1, le=99)]
 
 
+class MeshUnit(Enum):
+    """What a coordinate of one means in a mesh file."""
+
+    METRE = "m"
+    CENTIMETRE = "cm"
+    MILLIMETRE = "mm"
+    MICROMETRE = "um"
+    INCH = "in"
+
+    @property
+    def metres(self) -> float:
+        """Length of the unit, m."""
+        return {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "um": 1e-6, "in": 25.4e-3}[self.value]
+
+
+class BodySection(Section):
+    """[PART.body]: a mesh of one's own in place of the body that is made from the part's sizes.
+
+    A name left out is the face of the mesh that has the key's own name, if it has one.
+    """
+
+    mesh: MeshFile
+    unit: MeshUnit
+    film: FaceName | None = None  # under the film
+    held: FaceNames | None = None  # held fast
+    sliding: FaceNames | None = None  # held across, free along
+    chamber: FaceName | None = None  # where the chamber presses on piston or bore beside the film
+    pocket: FaceName | None = None  # where a slipper's pocket presses on slipper or swash plate
+
+
 class BoreSection(Section):
     """[bore]: the bore's own shape."""
 
     profile: Profile | None = None  # from the case edge inwards
     edge_relief: ReliefSection | None = None  # of the guide's case edge
     wall: Length | None = None  # of the bore, to the middle of the web
+    body: BodySection | None = None
 
 
 class SwashPlateSection(Section):
     """[swash_plate]: what the slippers slide on."""
 
     thickness: Length | None = None
+    body: BodySection | None = None  # of what lies under one slipper
 
 
 class GrooveShape(Enum):

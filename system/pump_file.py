@@ -14,6 +14,7 @@ from typing import Any
 from pydantic import ValidationError
 
 from reynolds.oil import ISO_GRADES
+from system.body_checks import BODY_CHECKS
 from system.checks import CheckReport, run_checks
 from system.description import FORMAT, SINGLE_PARTS, PumpDescription
 from system.faults import Fault, InputFaults, key_lines, nearest_choice
@@ -27,7 +28,7 @@ from system.pump_values import HERE, bound, read_value, wanted, written_value
 from system.units import Dimension, QuantityError, to_gauge
 
 ABSOLUTE = "_abs"  # a pressure key that ends so is absolute
-_CHECKS = GEOMETRY_CHECKS + PORT_CHECKS + FILM_CHECKS + OPERATING_CHECKS + PARTS_CHECKS
+_CHECKS = GEOMETRY_CHECKS + PORT_CHECKS + FILM_CHECKS + OPERATING_CHECKS + PARTS_CHECKS + BODY_CHECKS
 _VISCOSITIES = ("kinematic_viscosity_40C", "kinematic_viscosity_100C")
 _TABLES = {name: model for name, info in PumpDescription.model_fields.items() if (model := table_of(info))}
 

@@ -11,7 +11,7 @@ from typing import Any
 from pydantic.fields import FieldInfo
 
 from system.faults import nearest_choice
-from system.fields import Points, Section, choice_of, dimension_of, layouts_of, tables_of, whole
+from system.fields import Points, Section, Text, choice_of, dimension_of, layouts_of, tables_of, text_of, whole
 from system.point_files import read_rows, wanted_file
 from system.units import Dimension, QuantityError, format_quantity, parse_quantity
 
@@ -21,10 +21,10 @@ _BOUNDS = {"gt": "more than", "ge": "at least", "lt": "less than", "le": "at mos
 
 
 def read_value(info: FieldInfo, raw: object, folder: Path = HERE) -> object:
-    """Return what an entry of a table means, in SI: a number, a choice, or rows of numbers.
+    """Return what an entry of a table means, in SI: a number, a choice, rows of numbers, a path or names.
 
-    Rows may stand in a CSV file named by its path from the folder. Raises QuantityError (found, expected, nearest)
-    for what the field does not hold.
+    Rows may stand in a CSV file, named like any file by its path from the folder. Raises QuantityError (found,
+    expected, nearest) for what the field does not hold.
     """
     dimension, layouts, choice = dimension_of(info), layouts_of(info), choice_of(info)
     if dimension is not None:
@@ -33,6 +33,8 @@ def read_value(info: FieldInfo, raw: object, folder: Path = HERE) -> object:
         return read_rows(folder / raw, layouts) if isinstance(raw, str) else listed_rows(raw, layouts)
     if choice is not None:
         return _choice(raw, choice)
+    if (text := text_of(info)) is not None:
+        return _text(raw, text, folder)
     if isinstance(raw, bool) or not isinstance(raw, (int, float)):
         raise QuantityError(repr(raw), wanted(info))
     return raw
@@ -49,6 +51,8 @@ def written_value(info: FieldInfo, value: object) -> str:
         return "[" + ", ".join(map(_written_table, value)) + "]"
     if isinstance(value, Enum):
         return json.dumps(value.value)
+    if text_of(info) is not None:
+        return json.dumps(value if isinstance(value, tuple) else str(value), ensure_ascii=False)
     if dimension is not None and isinstance(value, float):
         return _written_quantity(value, dimension)
     return repr(value)
@@ -63,6 +67,8 @@ def wanted(info: FieldInfo) -> str:
         return f"{_wanted_rows(layouts)}; or {wanted_file(layouts)}"
     if choice is not None:
         return f"one of {_names(choice)}"
+    if (text := text_of(info)) is not None:
+        return text.value
     return "a whole number" if whole(info) else "a bare number (the value has no unit)"
 
 
@@ -124,6 +130,22 @@ def _choice(raw: object, choices: type[Enum]) -> Enum:
             return member
     names = [str(member.value) for member in choices]
     raise QuantityError(repr(raw), f"one of {_names(choices)}", nearest_choice(str(raw), names))
+
+
+def _text(raw: object, text: Text, folder: Path) -> Path | str | tuple[str, ...]:
+    """A path from the folder, made absolute; a name; names."""
+    names = raw if text is Text.NAMES else [raw]
+    if not (isinstance(names, list) and names and all(isinstance(name, str) and name for name in names)):
+        raise QuantityError(repr(raw), text.value)
+    if text is Text.NAMES:
+        return tuple(names)
+    if text is Text.NAME:
+        return str(raw)
+    path = (folder / str(raw)).resolve()
+    if not path.is_file():
+        beside = [item.name for item in path.parent.iterdir()] if path.parent.is_dir() else []
+        raise QuantityError(f"'{path}', which is no file", text.value, nearest_choice(path.name, beside))
+    return path
 
 
 def _names(choices: type[Enum]) -> str:

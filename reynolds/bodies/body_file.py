@@ -20,12 +20,14 @@ SURFACE = {"hexahedron27": ("quad9", "quad"), "hexahedron": ("quad",), "tetra10"
 CORNERS = {"quad9": 4, "quad": 4, "triangle6": 3, "triangle": 3}
 
 
-def body_from_file(path: Path) -> BodyMesh:
-    """The body of a mesh file (metres): one kind of hexahedra (8 or 27 nodes) or tetrahedra (4 or 10 nodes).
+def body_from_file(path: Path, unit: float = 1.0) -> BodyMesh:
+    """The body of a mesh file, a coordinate of one being `unit` metres: one kind of hexahedra (8 or 27 nodes) or
+    tetrahedra (4 or 10 nodes).
 
-    Faces are the named surfaces of the file: gmsh physical surfaces, or cell sets of triangles or quadrilaterals.
-    Displacements are quadratic whatever the file's geometry. Raises FilmInputError for a file that is absent,
-    holds no such cells or mixes them, or names no face.
+    Faces are the named surfaces of the file, cells of triangles or quadrilaterals: gmsh physical surfaces, cell
+    sets, or, as in VTU, cell data that is one on a face and zero elsewhere. Displacements are quadratic whatever
+    the file's geometry. Raises FilmInputError for a file that is absent, holds no such cells or mixes them, or
+    names no face.
     """
     if not path.is_file():
         raise FilmInputError("body mesh", f"no file {path}", "an existing mesh file in a format that meshio reads")
@@ -40,7 +42,8 @@ def body_from_file(path: Path) -> BodyMesh:
     named = _surfaces(raw, SURFACE[kind])
     if not named:
         raise FilmInputError("body mesh", f"{path} names no faces", "named surfaces (gmsh: Physical Surface)")
-    raw.cell_sets = {}
+    raw.cell_sets, raw.cell_data = {}, {}
+    raw.points = unit * np.asarray(raw.points, dtype=float)
     mesh = from_meshio(raw, force_meshio_type=kind)
     return BodyMesh(replace(mesh, _boundaries=_facets(mesh, named), _subdomains=None))
 
@@ -52,6 +55,11 @@ def _surfaces(raw: Any, kinds: tuple[str, ...]) -> dict[str, list[NDArray[np.int
         for block, chosen in zip(raw.cells, members, strict=True):
             if block.type in kinds and chosen is not None and len(chosen) and not name.startswith("gmsh:"):
                 found.setdefault(name, []).append(block.data[np.asarray(chosen, dtype=int), : CORNERS[block.type]])
+    for name, marks in raw.cell_data.items():
+        if ":" not in name and all(_is_mark(part) for part in marks):
+            for block, part in zip(raw.cells, marks, strict=True):
+                if block.type in kinds and np.any(part):
+                    found.setdefault(name, []).append(block.data[np.asarray(part) == 1, : CORNERS[block.type]])
     if found or "gmsh:physical" not in raw.cell_data:
         return found
     # gmsh 2.2 tells names by tag and dimension; tags of lines and surfaces are counted apart.
@@ -62,6 +70,11 @@ def _surfaces(raw: Any, kinds: tuple[str, ...]) -> dict[str, list[NDArray[np.int
                 if tag in names:
                     found.setdefault(names[tag], []).append(block.data[tags == tag][:, : CORNERS[block.type]])
     return found
+
+
+def _is_mark(data: NDArray[np.generic]) -> bool:
+    """True for whole numbers of zero and one, one a cell."""
+    return data.ndim == 1 and data.dtype.kind in "iub" and bool(np.isin(data, (0, 1)).all())
 
 
 def _facets(mesh: skfem.Mesh, named: dict[str, list[NDArray[np.int64]]]) -> dict[str, NDArray[np.int64]]:

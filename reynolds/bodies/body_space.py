@@ -15,6 +15,7 @@ import skfem
 from numpy.typing import NDArray
 from scipy.sparse import coo_array, csc_array
 from scipy.sparse.csgraph import connected_components
+from scipy.spatial import cKDTree
 from skfem.quadrature import get_quadrature
 
 from reynolds.bodies.body_mesh import BodyMesh
@@ -31,6 +32,7 @@ _ELEMENTS = {
     skfem.MeshHex1: _HEX, skfem.MeshHex2: _HEX, skfem.MeshTet1: _TET, skfem.MeshTet2: _TET,
     skfem.MeshQuad1: _QUAD, skfem.MeshQuad2: _QUAD, skfem.MeshTri1: _TRI, skfem.MeshTri2: _TRI,
 }  # fmt: skip
+SAME_PLACE = 1e-9  # of the body's size
 ORDER = 4  # stiffness of a straight element is of degree 4 at most; 27 points in a hexahedron
 
 
@@ -108,7 +110,11 @@ class BodySpace:
 
 
 def body_space(body: BodyMesh) -> BodySpace:
-    """The discrete body. Raises FilmInputError for cells turned inside out and for a body in several pieces."""
+    """The discrete body.
+
+    Raises FilmInputError for cells turned inside out or into their neighbours, for points that lie in one place,
+    and for a body in several pieces.
+    """
     mesh = body.mesh
     if type(mesh) not in _ELEMENTS or (mesh.dim() == 2) != body.axisymmetric:
         expected = "hexahedra or tetrahedra, or the plane section of an axisymmetric body"
@@ -131,7 +137,26 @@ def body_space(body: BodyMesh) -> BodySpace:
     pattern.resize((len(places),) * 2)
     if (pieces := connected_components(pattern, directed=False)[0]) > 1:
         raise FilmInputError("body mesh", f"{pieces} pieces", "one body (merge points that lie in one place)")
+    _whole(mesh)
     return BodySpace(body, basis, places, cells, value, np.ascontiguousarray(gradient), volume)
+
+
+def _whole(mesh: skfem.Mesh) -> None:
+    """Raise FilmInputError for neighbours on one side of the facet between them, and for points in one place."""
+    inner = np.flatnonzero(mesh.f2t[1] >= 0)
+    corners = mesh.p[:, mesh.facets[:, inner]]
+    middle, along = corners.mean(axis=1), corners[:, 1:] - corners[:, :1]
+    normal = np.cross(along[:, 0], along[:, 1], axis=0) if len(mesh.p) == 3 else along[::-1, 0] * [[1.0], [-1.0]]
+    sides = [
+        np.sign(((mesh.p[:, mesh.t[:, mesh.f2t[side, inner]]].mean(axis=1) - middle) * normal).sum(axis=0))
+        for side in (0, 1)
+    ]
+    if folded := int(np.count_nonzero(sides[0] == sides[1])):
+        raise FilmInputError("body mesh", f"{folded} pairs of cells folded into each other", "cells side by side")
+    used = np.unique(mesh.t)
+    size = float(np.ptp(mesh.p[:, used], axis=1).max())
+    if twice := len(cKDTree(mesh.p[:, used].T).query_pairs(SAME_PLACE * size)):
+        raise FilmInputError("body mesh", f"{twice} pairs of points in one place", "no cracks (merge them)")
 
 
 def _face(space: BodySpace, name: str) -> Face:

@@ -1,7 +1,7 @@
 """The film's side of a transfer: a quadrature finer than the film's own, and fields at its vertices.
 
 A film cell may lie across several facets of the body, whose shape functions have kinks there: points as sparse as
-the film's own would press the body in spots.
+the film's own would press the body in spots. Where facets are much smaller than cells, cells are split.
 """
 
 from __future__ import annotations
@@ -63,11 +63,11 @@ class FilmRule:
         return splu(csc_array(hats.T @ csr_array(self.by_vertex @ self._sewn)))
 
 
-def film_rule(film: FilmSpace) -> FilmRule:
-    """The quadrature of a film that carries its fields to a body."""
+def film_rule(film: FilmSpace, splits: int = 1) -> FilmRule:
+    """The quadrature of a film that carries its fields to a body, each cell split into `splits` squared alike."""
     corners = film.cells.shape[1]
     basis, geometry = _BASIS[corners, film.degree], _BASIS[corners, 1]
-    at, weights = get_quadrature(geometry.refdom, ORDER)
+    at, weights = _composite(get_quadrature(geometry.refdom, ORDER), corners, splits)
     value, _ = tabulated(basis, at, film.dofs.shape[1])
     hat, slope = tabulated(geometry, at, corners)
     places = film.vertices[film.cells]
@@ -81,6 +81,18 @@ def film_rule(film: FilmSpace) -> FilmRule:
         _at_points(area[:, :, None] * hat.T, film.cells, len(film.vertices)),
         _at_points(np.broadcast_to(hat.T, (*area.shape, corners)), film.cells, len(film.vertices)),
     )  # fmt: skip
+
+
+def _composite(rule: tuple[Array, Array], corners: int, splits: int) -> tuple[Array, Array]:
+    """A rule, points (2, n) and weights (n,), in each of `splits` squared parts of the triangle or square."""
+    i, j = (part.ravel()[:, None] for part in np.meshgrid(np.arange(splits), np.arange(splits), indexing="ij"))
+    (x, y), weights = rule
+    parts = [i + x, j + y]
+    if corners == 3:  # beyond the long side the parts lie the other way round
+        inside = i + j < splits
+        parts = [np.where(inside, i + x, splits - i - x), np.where(inside, j + y, splits - j - y)]
+    count = splits**2
+    return np.vstack([part.ravel() for part in parts]) / splits, np.tile(weights, count) / count
 
 
 def _at_points(entries: Array, numbers: NDArray[np.int32], width: int) -> csr_array:

@@ -34,8 +34,10 @@ OFF_FACE = 0.1  # of a facet's size: how far off the face along the normal the f
 BEYOND = (
     0.15  # of the longer edge of both: how far beyond the face; a hexagon strays by 0.134 of one from its circle
 )
-STEPS = 12  # of Newton's method within a facet; four are enough for one that is not folded
+STEPS = 6  # of Newton's method within a facet; four are enough for one that is not folded
 CONVERGED = 1e-13  # of a facet
+MOST_SPLITS = 8
+FAR_OUTSIDE = 0.3  # of a facet
 FACING = 0.2  # least cosine between a facet's and the film's normal
 
 
@@ -80,7 +82,7 @@ def transfer(film: FilmSpace, face: Face, chart: Chart) -> Transfer:
     face ends short of the film by more than the meshes explain or lies off it by more than a tenth of a facet: how
     many points, where, and how far from the face.
     """
-    rule = film_rule(film)
+    rule = film_rule(film, _splits(film, face))
     places = chart.places(rule.points)
     normals = np.asarray(chart.normals(places))
     if face.places.shape[1] == 2:
@@ -93,6 +95,16 @@ def transfer(film: FilmSpace, face: Face, chart: Chart) -> Transfer:
     length = ((share @ face_normals(chart, face.places)) * normals).sum(axis=1)
     scaled = csr_array(share.multiply(1.0 / length[:, None]))
     return Transfer(rule, share, scaled)
+
+
+def _splits(film: FilmSpace, face: Face) -> int:
+    """Parts along the edge of a film cell, about as long as facets are."""
+    cell = np.median(_longest_edge(film.vertices[film.cells]))
+    if face.places.shape[1] == 3:
+        facet = np.sqrt(np.linalg.norm(face.area.sum(axis=1), axis=1))
+    else:
+        facet = _longest_edge(face.places[face.facets[:, :2]])
+    return int(np.clip(np.round(cell / np.median(facet)), 1, MOST_SPLITS))
 
 
 def _found(face: Face, places: Array, normals: Array, rule: FilmRule) -> tuple[NDArray[np.int64], Array]:
@@ -162,7 +174,7 @@ def _projected(face: Face, facet: NDArray[np.int64], places: Array, normals: Arr
     across = _tangents(normals)
     reference = np.full((len(facet), corners.shape[2] - 1), 1.0 / 3.0)
     moving = np.arange(len(facet))
-    for _ in range(STEPS):
+    for taken in range(STEPS):
         value, slope = tabulated(face.element, reference[moving].T, corners.shape[1])
         nodes = corners[facet[moving]]
         gap = np.einsum("an,nak->nk", value, nodes) - places[moving]
@@ -172,7 +184,8 @@ def _projected(face: Face, facet: NDArray[np.int64], places: Array, normals: Arr
         after = np.clip(reference[moving] - _solved(jacobian, residual), -0.5, 1.5)
         step = np.abs(after - reference[moving]).max(axis=1)
         reference[moving] = after
-        moving = moving[step > CONVERGED]
+        # What two steps leave far outside is met by another facet, or by this one's nearest edge.
+        moving = moving[(step > CONVERGED) & ((_outside(face, after) < FAR_OUTSIDE) | (taken == 0))]
     reference[moving] = np.nan
     value, _ = tabulated(face.element, reference.T, corners.shape[1])
     gap = np.einsum("an,nak->nk", value, corners[facet]) - places

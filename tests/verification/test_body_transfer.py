@@ -200,6 +200,16 @@ def test_one_circle_by_two_polygons(film_sectors, body_sectors, solid):
     assert meeting.opening(np.ones(len(face.nodes))) == pytest.approx(np.ones(len(film.vertices)), abs=1e-12)
 
 
+@pytest.mark.parametrize("cell", Cell)
+def test_coarse_film_presses_a_fine_body_evenly(cell):
+    """A film cell over 36 facets: one pressure arrives as the facets' own nodal forces do, but for kinks."""
+    space = body_space(block((6e-3, 6e-3, 1e-3), (12, 12, 1), origin=(0.0, 0.0, 2e-3)))
+    face = space.face("top")
+    film = film_space(rectangle((6e-3, 6e-3), (2, 2), cell=cell))
+    force = transfer(film, face, TOP).force @ np.ones(film.size)
+    assert np.abs(force - face.gathered(1.0)).max() < 0.03 * face.gathered(1.0).max()
+
+
 def straight(body: BodyMesh, *, tetrahedra: bool) -> BodyMesh:
     """The same body with straight edges, as most mesh files have them."""
     kind = skfem.MeshHex.from_mesh(body.mesh)

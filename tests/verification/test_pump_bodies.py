@@ -10,14 +10,10 @@ import numpy as np
 import pytest
 
 from gaps.bodies import (
-    CHAMBER,
-    FILM,
-    TOWARDS_FILM,
     BushingPart,
     PistonPart,
     PlatePart,
     SlipperPart,
-    body_of_file,
     bushing_body,
     part_wall,
     piston_body,
@@ -25,10 +21,10 @@ from gaps.bodies import (
     slipper_body,
     slipper_walls,
 )
+from gaps.own_body import CHAMBER, FILM
 from gaps.piston_walls import FaceGrid, PistonWalls, face_grid
 from reynolds.bodies.body_space import body_space
 from reynolds.bodies.cache import Origin
-from reynolds.bodies.chart import Cylinder, Side
 from reynolds.bodies.elasticity import Elastic, pressure_forces, structure
 from reynolds.bodies.wall import BodyWall, FacePressure, FaceWall, load_opening
 from reynolds.errors import FilmInputError
@@ -334,29 +330,6 @@ def test_faces_have_the_areas_of_their_loads():
         assert body_space(body.mesh).face(name).gathered(1.0).sum() == pytest.approx(area, rel=1e-3, abs=0.0), name
 
 
-def test_own_mesh_stands_for_a_part(tmp_path):
-    """A bushing written to a file and read back is the same bushing, but for straight arcs."""
-    import meshio
-
-    mesh = bushing_body(BUSHING, (1, 24, 1)).mesh.mesh
-    faces = {"film": mesh.boundaries["inner"], "held": mesh.boundaries["outer"]}
-    raw = _as_file(mesh, faces)
-    meshio.write(tmp_path / "bush.msh", raw, file_format="gmsh22", binary=False)
-    chart = Cylinder(BORE, Side.BORE)
-    own = body_of_file(tmp_path / "bush.msh", BRONZE, chart)
-    assert own.supports.clamped == ("held",)
-    film = unrolled(np.linspace(0.0, GUIDE, 3), around=24)
-    found = part_wall(own, film).matrix @ np.ones(film.size)
-    # Held fast instead of sliding: plane stress becomes stiffer near the ends, no more than by nu^2 of it.
-    sliding = part_wall(bushing_body(BUSHING, (1, 24, 1)), film).matrix @ np.ones(film.size)
-    assert found.mean() == pytest.approx(sliding.mean(), rel=0.2, abs=0.0)
-    assert found.mean() < sliding.mean()
-    nameless = _as_file(mesh, {"inside": faces["film"]})
-    meshio.write(tmp_path / "nameless.msh", nameless, file_format="gmsh22", binary=False)
-    with pytest.raises(FilmInputError, match=r"inside.*a face named film"):
-        body_of_file(tmp_path / "nameless.msh", BRONZE, TOWARDS_FILM)
-
-
 @pytest.mark.parametrize(
     ("make", "wanted"),
     [
@@ -371,19 +344,3 @@ def test_own_mesh_stands_for_a_part(tmp_path):
 def test_parts_that_are_none(make, wanted):
     with pytest.raises(FilmInputError, match=wanted):
         make()
-
-
-def _as_file(mesh, faces: dict[str, np.ndarray]):
-    """A gmsh mesh of straight hexahedra with named surfaces."""
-    import meshio
-
-    order = [0, 3, 6, 2, 1, 5, 7, 4]
-    cells = mesh.t.T[:, order]
-    facets = np.concatenate(list(faces.values()))
-    tags = np.repeat(np.arange(1, len(faces) + 1), [len(part) for part in faces.values()])
-    solid = np.full(len(cells), len(faces) + 1)
-    return meshio.Mesh(
-        mesh.p.T, [("quad", mesh.facets[:, facets].T), ("hexahedron", cells)],
-        cell_data={"gmsh:physical": [tags, solid], "gmsh:geometrical": [tags, solid]},
-        field_data={name: np.array([k + 1, 2]) for k, name in enumerate(faces)},
-    )  # fmt: skip

@@ -1,0 +1,75 @@
+"""A part by a mesh of the user's: read from a file, its faces by what they are for, under the film of its gap.
+
+In place of the body that `gaps.bodies` makes from the part's sizes, and in the same axes: a face under the film,
+faces held or sliding, and faces that pressures beside the film press on, by the names of those pressures.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from reynolds.bodies.body_file import body_from_file
+from reynolds.bodies.body_mesh import BodyMesh
+from reynolds.bodies.chart import Chart
+from reynolds.bodies.elasticity import Elastic
+from reynolds.bodies.supports import Supports
+from reynolds.bodies.wall import Body
+from reynolds.errors import FilmInputError
+
+FILM, HELD, SLIDING, CHAMBER, POCKET = "film", "held", "sliding", "chamber", "pocket"
+
+
+@dataclass(frozen=True)
+class OwnMesh:
+    """A mesh file, what a coordinate of one means in it (m), and names of its faces by what they are for.
+
+    film: under the film; held: held fast; sliding: held across itself; pressed: (name of a pressure, face), such
+    as ("pocket", "floor").
+    """
+
+    path: Path
+    unit: float
+    film: str = FILM
+    held: tuple[str, ...] = ()
+    sliding: tuple[str, ...] = ()
+    pressed: tuple[tuple[str, str], ...] = ()
+
+    @property
+    def named(self) -> tuple[str, ...]:
+        """All faces that it names."""
+        return self.film, *self.held, *self.sliding, *(face for _, face in self.pressed)
+
+    def mesh(self) -> BodyMesh:
+        """The mesh in metres, by the file's own names; raises FilmInputError as `body_from_file`."""
+        return _read(self.path, self.unit, self.path.stat().st_mtime_ns if self.path.is_file() else 0)
+
+
+@lru_cache(maxsize=16)
+def _read(path: Path, unit: float, changed: int) -> BodyMesh:
+    """The mesh of a file as it was when last changed (ns)."""
+    return body_from_file(path, unit)
+
+
+def own_body(own: OwnMesh, elastic: Elastic, chart: Chart) -> Body:
+    """The part of a user's mesh, its face under the film where the chart has it.
+
+    Its faces `film` and those of pressures go by these names. With nothing held it is a free body (inertia
+    relief). Raises FilmInputError as `body_from_file`, and for a face that the mesh has not.
+    """
+    mesh = own.mesh()
+    if lost := [name for name in own.named if name not in mesh.face_names]:
+        raise FilmInputError(f"mesh {own.path}", f"no face {', '.join(lost)}", f"of {', '.join(mesh.face_names)}")
+    faces = mesh.mesh.boundaries
+    as_named = {FILM: faces[own.film]} | {pressure: faces[face] for pressure, face in own.pressed}
+    return Body(with_faces(mesh, as_named), elastic, Supports(own.held, own.sliding), FILM, chart)
+
+
+def with_faces(body: BodyMesh, faces: Mapping[str, NDArray[np.int64]]) -> BodyMesh:
+    """The same body with more faces, by their facets."""
+    return replace(body, mesh=replace(body.mesh, _boundaries={**body.mesh.boundaries, **faces}))
