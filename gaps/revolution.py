@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from time import perf_counter
 from typing import Generic
 
@@ -52,6 +52,12 @@ class GapRevolution(Generic[Seen]):
         return np.array([instant.position for instant in self.turn.instants])
 
     @property
+    def bare(self) -> GapRevolution[Seen]:
+        """The same without its last film and its oil: what goes on from it starts as a full film where it ended."""
+        turn = replace(self.turn, oil=(), last=replace(self.turn.last, stage=None))
+        return replace(self, turn=turn, closing=replace(self.closing, turn=turn))
+
+    @property
     def least_film(self) -> GapInstant[Seen]:
         """The instant at which the film is thinnest."""
         return min(self.turn.instants, key=lambda instant: instant.film_thickness_min)
@@ -72,11 +78,11 @@ def run_revolution(
     """The periodic motion of a gap whose drive repeats with the schedule's last angle.
 
     Starts as a full film at rest at `start` (k,) m, from which turns of wide steps lead next to the periodic
-    motion, or goes on from a revolution `before` it; `look` tells what else to report of each angle. The steps of
-    the first turn that stops at all angles are those of all that follow, so that the map of a turn is smooth.
-    Afterwards each coordinate is as near to the periodic motion as `closed` says, and the oil in
-    the film repeats as well. Raises FilmInputError for a schedule that does not rise from 0, FilmNotConverged with
-    part and time where a step or the turn does not settle.
+    motion, or goes on from a revolution `before` it, of a full film where that has no last one; `look` tells what
+    else to report of each angle. The steps of the first turn that stops at all angles are those of all that
+    follow, so that the map of a turn is smooth. Afterwards each coordinate is as near to the periodic motion as
+    `closed` says, and the oil in the film repeats as well. Raises FilmInputError for a schedule that does not rise
+    from 0, FilmNotConverged with part and time where a step or the turn does not settle.
     """
     angles = np.concatenate([[0.0], schedule.angles])
     if len(angles) < 2 or not np.all(np.diff(angles) > 0.0) or not schedule.speed > 0.0:

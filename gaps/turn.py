@@ -176,12 +176,12 @@ class Turns(Generic[Seen]):
             raise FilmNotConverged(f"after {angle:.5g} deg: {reason.what}", reason.remedy) from None
 
     def _begin(self, start: Array, last: GapTurn[Seen] | None) -> State[Stage]:
-        if last is None:
-            begin = started(self._floating, 0.0, start)
-            if self._floating.shape_at(0.0).walls is None:
-                return begin
-            return pressed(self._solver, self._floating, begin, SHORT * self._times[0])
-        return restarted(self._floating, 0.0, last.last, start)
+        if last is not None and last.last.stage is not None:
+            return restarted(self._floating, 0.0, last.last, start)
+        begin = started(self._floating, 0.0, start)
+        if self._floating.shape_at(0.0).walls is None:
+            return begin
+        return pressed(self._solver, self._floating, begin, SHORT * self._times[0])
 
     def _stage(self, time: float, before: Array, step: float, guess: Array, last: Stage | None) -> Stage:
         close = self._accuracy.closeness

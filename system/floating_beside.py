@@ -10,7 +10,7 @@ import multiprocessing
 import signal
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from multiprocessing.connection import Connection
 
 from gaps.revolution import GapRevolution
@@ -107,7 +107,7 @@ def _serve(connection: Connection, parts: tuple[FloatingParts, ...]) -> None:
             connection.send(reason)
         else:
             before = [*found]
-            connection.send(tuple(_light(one) for one in found))
+            connection.send(tuple(one.bare for one in found))
 
 
 def _teller(connection: Connection) -> Report:
@@ -123,9 +123,3 @@ def _teller(connection: Connection) -> Report:
 def _solve(asked: Driven, parts: FloatingParts, before: Found | None, report: Report) -> Found:
     driven = drives(asked.rotor, parts, asked.shaft_angle, asked.pressure, asked.rubbing)
     return piston_revolution(asked.rotor, parts, driven.piston, asked.options, before, report)
-
-
-def _light(found: Found) -> Found:
-    """The same without what the next round alone needs: its last film, which holds solvers, and its oil."""
-    turn = replace(found.turn, oil=(), last=replace(found.turn.last, stage=None))
-    return replace(found, turn=turn, closing=replace(found.closing, turn=turn))

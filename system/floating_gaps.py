@@ -3,18 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
+from typing import TypeVar
 
 import numpy as np
 
 from gaps.block_motion import BlockDrive, floating_block
 from gaps.film_heat import GapHeat, warm_revolution
-from gaps.physics import Physics
+from gaps.physics import Effect, Physics
 from gaps.piston_motion import PistonDrive, floating_piston
 from gaps.revolution import GapRevolution, TurnReport, run_revolution
 from gaps.schedule import Accuracy, Schedule, evenly
 from gaps.seen import BlockSeen, PistonSeen, Seen, SlipperSeen, block_seen, piston_seen, slipper_seen
 from gaps.slipper_motion import SlipperDrive, floating_slipper
+from reynolds.errors import FilmNotConverged
 from reynolds.floating import Floating
 from reynolds.floating_stage import Stage
 from reynolds.mesh import Array
@@ -45,6 +47,13 @@ class FloatingOptions:
     accuracy: Accuracy = field(default=MARCHED)
     finer: float = 1.0
     keep: int = 10
+
+    @property
+    def rigid(self) -> FloatingOptions:
+        """The same between rigid walls, with oil that neither pressure nor heat changes."""
+        return replace(
+            self, physics=self.physics.without(Effect.ELASTIC_WALLS, Effect.PRESSURE_VISCOSITY, Effect.HEAT)
+        )
 
     def cells(self, cells: tuple[int, int]) -> tuple[int, int]:
         """Cells of a mesh."""
@@ -83,8 +92,9 @@ def slipper_revolution(
 ) -> GapRevolution[SlipperSeen]:
     """The slipper over the turn, from a film of SLIPPER_START without tilt or on from a revolution `before`.
 
-    Raises as `run_revolution`.
+    Between elastic walls from where it is between rigid ones. Raises as `run_revolution`.
     """
+    before = before or _between_rigid(slipper_revolution, rotor, parts, drive, options, report)
     cells = options.cells(SLIPPER_CELLS)
     film = slipper_film(rotor, parts, drive, options.physics, cells)
     floating, schedule = floating_slipper(film), evenly(drive.shaft_speed, options.steps, keep=options.keep)
@@ -103,12 +113,14 @@ def block_revolution(
 ) -> GapRevolution[BlockSeen]:
     """The block over the turn, or over a piston pitch where chambers are alike, after which all repeats.
 
-    From a film of BLOCK_START without tilt or on from a revolution `before`. Raises ValueError where the steps do
-    not divide among the pitches, else as `run_revolution`.
+    From a film of BLOCK_START without tilt or on from a revolution `before`, between elastic walls from where it is
+    between rigid ones. Raises ValueError where the steps do not divide among the pitches, else as
+    `run_revolution`.
     """
     pistons, pump = rotor.pump.pump.pistons, rotor.pump
     if options.steps % pistons:
         raise ValueError(f"steps: found {options.steps}, expected a multiple of the {pistons} pistons")
+    before = before or _between_rigid(block_revolution, rotor, parts, drive, options, report)
     alike = kinds(pump).alike
     steps, span = (options.steps // pistons, 2.0 * np.pi / pistons) if alike else (options.steps, 2.0 * np.pi)
     film = block_film(rotor, parts, drive, options.physics, options.cells(BLOCK_CELLS))
@@ -116,6 +128,33 @@ def block_revolution(
     start, told = np.array([BLOCK_START, 0.0, 0.0]), _of_turn(report, steps, "block")
     heat = block_heat(rotor, parts) if options.physics.heat else None
     return _run(film.space, floating_block(film), schedule, start, block_seen(film), options, heat, before, told)
+
+
+Drive = TypeVar("Drive", SlipperDrive, BlockDrive)
+OneSeen = TypeVar("OneSeen", SlipperSeen, BlockSeen)
+Gap = Callable[
+    [Rotor, FloatingParts, Drive, FloatingOptions, GapRevolution[OneSeen] | None, Report], GapRevolution[OneSeen]
+]
+
+
+def _between_rigid(
+    gap: Gap[Drive, OneSeen],
+    rotor: Rotor,
+    parts: FloatingParts,
+    drive: Drive,
+    options: FloatingOptions,
+    report: Report,
+) -> GapRevolution[OneSeen] | None:
+    """Where a gap whose walls give way begins: its turn between rigid ones, at a tenth of the price.
+
+    None where walls are rigid, and where nothing settles between rigid ones: elastic ones may do so all the same.
+    """
+    if not options.physics.elastic_walls:
+        return None
+    try:
+        return gap(rotor, parts, drive, options.rigid, None, report).bare
+    except FilmNotConverged:
+        return None
 
 
 def _run(
