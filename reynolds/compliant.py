@@ -2,9 +2,10 @@
 
 A, sparse, is the balance between rigid walls, B, sparse, its slope by the opening, C the walls' compliance. A film
 smooths what a wall feeds back to it: but for a few smooth pressures A^-1 B C is small, on any mesh, so that GMRES
-(Saad and Schultz 1986) on J A^-1 takes a few tens of solves with A, where a dense factor of J costs size^3. Where
-one balance is asked more often, or one after the other like it, the dense factor is made and kept: GMRES on
-J J_before^-1 takes a few steps.
+(Saad and Schultz 1986) on J A^-1 takes a few tens of solves with A, where a dense factor of J costs size^3. Up to
+DENSE_LIMIT free pressures the factor is cheaper all the same (803 of 1575 unknowns: 28 ms, and .4 ms a load; GMRES
+takes 30 to 100 steps of .9 ms a load). Beyond, where one balance is asked more often, or one after the other like
+it, the dense factor is made and kept: GMRES on J J_before^-1 takes a few steps.
 """
 
 from __future__ import annotations
@@ -23,7 +24,7 @@ from reynolds.krylov import gmres
 from reynolds.mesh import Array
 from reynolds.walls import Opens, columns_of
 
-DENSE_LIMIT = 400  # unknowns up to which a dense factor is as fast
+DENSE_LIMIT = 1500  # free pressures up to which a dense factor is as fast as GMRES on two loads
 KEPT_LIMIT = 4000  # unknowns up to which a dense factor is kept: 128 MB
 MOST_STEPS = 150  # of GMRES; one that needs more is cheaper with the dense factor
 WORTH = 1.0 / 80.0  # steps over unknowns that cost as much as the dense factor
@@ -64,9 +65,9 @@ def compliant_answer(balance: Balance, near: NearFactor | None = None) -> Answer
     """
     if isinstance(balance.wider, csr_array):
         return _sparse(csc_array(balance.rigid + balance.slope @ (balance.wider * balance.pressures[None, :])))
+    if np.count_nonzero(balance.pressures) <= DENSE_LIMIT:
+        return reduced_answer(balance)
     size = len(balance.pressures)
-    if size <= DENSE_LIMIT:
-        return _whole_answer(balance, np.flatnonzero(balance.pressures))
     return _Iterated(balance, NearFactor() if near is None or size > KEPT_LIMIT else near)
 
 
@@ -105,32 +106,58 @@ class _Iterated:
 def reduced_answer(balance: Balance) -> Answer:
     """The answer of J by the dense factor of what is left of it for the free pressures.
 
-    The rest, a cavity's film fractions and what is held, opens no wall: of J_rr, J_rf; J_fr, J_ff the first column
-    is sparse, and J_ff - J_fr J_rr^-1 J_rf is left.
+    The rest opens no wall. Held unknowns meet no other; a cavity's film fractions do: of J_rr, J_rf; J_fr, J_ff
+    the first column is sparse, and J_ff - J_fr J_rr^-1 J_rf is left.
     """
-    free, rest = np.flatnonzero(balance.pressures), np.flatnonzero(balance.pressures == 0.0)
-    by_free = balance.slope @ (columns_of(balance.wider, free) * balance.pressures[free])
-    rigid = csr_array(balance.rigid)
-    of_rest, of_free = rigid[rest], rigid[free]
-    factor = _eliminated(csc_array(of_rest[:, rest])) if rest.size else None
-    if factor is None:  # J need not be singular where what opens no wall is
+    free, rigid, alone = np.flatnonzero(balance.pressures), csr_array(balance.rigid), _alone(balance)
+    rest = np.flatnonzero((balance.pressures == 0.0) & ~alone)
+    factor = _eliminated(csc_array(rigid[rest][:, rest])) if rest.size else None
+    if factor is None and rest.size:  # J need not be singular where what opens no wall is
         return _whole_answer(balance, free)
-    coupled = csr_array(of_free[:, rest])
-    met = np.flatnonzero(np.diff(coupled.indptr))  # next to the rest: few
-    back = factor.solve(coupled[met].toarray().T, trans="T").T
-    forth = np.asarray(of_rest[:, free].toarray() + by_free[rest])
-    left = of_free[:, free].toarray() + by_free[free]
-    left[met] -= back @ forth
-    reduced = dense_answer(left)
+    wider = columns_of(balance.wider, free) * balance.pressures[free]
+    left = _added(np.asarray(balance.slope[free] @ wider), rigid[free][:, free])
+    if factor is None:
+        forth, back, met = np.zeros((0, free.size)), np.zeros((0, 0)), np.zeros(0, dtype=np.intp)
+    else:
+        forth = _added(np.asarray(balance.slope[rest] @ wider), rigid[rest][:, free])
+        coupled = csr_array(rigid[free][:, rest])
+        met = np.flatnonzero(np.diff(coupled.indptr))  # next to the rest: few
+        back = factor.solve(coupled[met].toarray().T, trans="T").T
+        left[met] -= back @ forth
+    reduced, single = dense_answer(left), np.flatnonzero(alone)
+    diagonal = rigid.diagonal()[single]
 
     def answer(load: Array, tolerance: float) -> Array:
         change, wanted = np.empty_like(load), load[free]
-        wanted[met] -= back @ load[rest]
+        change[single] = (load[single].T / diagonal).T
+        if factor is not None:
+            wanted[met] -= back @ load[rest]
         change[free] = reduced(wanted, tolerance)
-        change[rest] = factor.solve(load[rest] - forth @ change[free])
+        if factor is not None:
+            change[rest] = factor.solve(load[rest] - forth @ change[free])
         return change
 
     return answer
+
+
+def _alone(balance: Balance) -> NDArray[np.bool_]:
+    """Unknowns without a pressure of their own that meet no other: held ones, (size,)."""
+    rigid, size = balance.rigid.tocoo(), len(balance.pressures)
+    row, column = rigid.coords
+    off = (row != column) & (rigid.data != 0.0)
+    meets = np.zeros(size, dtype=bool)
+    meets[row[off]] = meets[column[off]] = True
+    feels = np.add.reduceat(np.abs(np.r_[balance.slope.data, 0.0]), balance.slope.indptr[:-1]) > 0.0
+    feels &= np.diff(balance.slope.indptr) > 0
+    return np.asarray((balance.pressures == 0.0) & ~meets & ~feels & (balance.rigid.diagonal() != 0.0))
+
+
+def _added(dense: Array, sparse: csr_array) -> Array:
+    """A dense matrix with a sparse one added in its place; an entry twice counts twice."""
+    entries = sparse.tocoo()
+    row, column = entries.coords
+    np.add.at(dense, (row, column), entries.data)
+    return dense
 
 
 def _whole_answer(balance: Balance, free: NDArray[np.intp]) -> Answer:
