@@ -53,7 +53,7 @@ class GapRevolution(Generic[Seen]):
 
     @property
     def bare(self) -> GapRevolution[Seen]:
-        """The same without its last film and its oil: what goes on from it starts as a full film where it ended."""
+        """The same without its last film and oil: what goes on from it starts as a full film where it ended."""
         turn = replace(self.turn, oil=(), last=replace(self.turn.last, stage=None))
         return replace(self, turn=turn, closing=replace(self.closing, turn=turn))
 

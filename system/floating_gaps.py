@@ -113,8 +113,8 @@ def block_revolution(
 ) -> GapRevolution[BlockSeen]:
     """The block over the turn, or over a piston pitch where chambers are alike, after which all repeats.
 
-    From a film of BLOCK_START without tilt or on from a revolution `before`, between elastic walls from where it is
-    between rigid ones. Raises ValueError where the steps do not divide among the pitches, else as
+    From a film of BLOCK_START without tilt or on from a revolution `before`; between elastic walls from where it
+    is between rigid ones. Raises ValueError where the steps do not divide among the pitches, else as
     `run_revolution`.
     """
     pistons, pump = rotor.pump.pump.pistons, rotor.pump
