@@ -31,6 +31,7 @@ from gaps.physics import FilmLaws, Physics, laws_left
 from gaps.profiles import PLAIN, Profile
 from gaps.ring import SEALED, Ring, ValvePlateGeometry
 from gaps.rubbing import Rubbed, rubbed
+from gaps.stand import Stand
 from reynolds.contact import Asperities
 from reynolds.errors import FilmInputError
 from reynolds.film import ZERO, Film, FilmProblem, FilmSolution, Held
@@ -176,7 +177,7 @@ class BlockFilm:
             fluid=laws.fluid,
             surface=laws.surface,
             asperities=laws.asperities,
-            walls=None if laws.walls is None else laws.walls.at(self.ring.drawn, 0.0),
+            walls=None if laws.walls is None else laws.walls.at(self.ring.drawn, Stand()),
         )
 
     def modes_at(self, time: float) -> Array:

@@ -23,6 +23,7 @@ from gaps.course import OverTurn
 from gaps.physics import FilmLaws, Physics, laws_left
 from gaps.profiles import PLAIN, Profile, Relief
 from gaps.rubbing import Rubbed, rubbed
+from gaps.stand import Stand
 from reynolds.contact import Asperities
 from reynolds.errors import FilmInputError
 from reynolds.film import ZERO, Film, FilmProblem, Held
@@ -177,8 +178,9 @@ class PistonFilm:
         walls = None
         if laws.walls is not None:
             reach = self._driven(time).reach
-            walls = laws.walls.at(space, reach)
-            film = widened(space, film, pressure * laws.walls.by_chamber(space, reach))
+            stand = Stand(reach, drive.piston_spin * time, drive.bore_spin * time)
+            walls = laws.walls.at(space, stand)
+            film = widened(space, film, pressure * laws.walls.by_chamber(space, stand))
         return FilmProblem(
             space=space,
             film=film,

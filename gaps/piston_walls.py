@@ -18,6 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gaps.own_body import CHAMBER
+from gaps.stand import Stand
 from reynolds.bodies.foundation import Compliance
 from reynolds.bodies.wall import Body, FacePressure, body_wall, load_opening
 from reynolds.errors import FilmInputError
@@ -76,6 +77,29 @@ def _of_one_period(influence: Array) -> Array:
     return np.ascontiguousarray(influence[:, :columns])
 
 
+def _turned(influence: Array, angle: float) -> Array:
+    """The influence of a part turned by an angle (rad) around its axis, columns staying where they are.
+
+    Between two columns the mean of the part turned to either: as good as columns are fine, and force and work stay
+    the same on both sides.
+    """
+    period, columns = influence.shape[1:3]
+    if period == 1:
+        return influence
+    whole = _all_around(influence)[:, :-1]
+    after, share = divmod(angle / (2.0 * np.pi) * columns, 1.0)
+    one, two = (np.roll(whole, (int(after) + k, int(after) + k), axis=(1, 2)) for k in (0, 1))
+    return np.asarray((1.0 - share) * one + share * two)
+
+
+def _around(opened: Array, angle: float) -> Array:
+    """What a part turned by an angle (rad) opens by, (n, columns + 1), the seam's column twice."""
+    after, share = divmod(angle / (2.0 * np.pi) * (opened.shape[1] - 1), 1.0)
+    one, two = (np.roll(opened[:, :-1], int(after) + k, axis=1) for k in (0, 1))
+    turned = (1.0 - share) * one + share * two
+    return np.column_stack([turned, turned[:, 0]])
+
+
 def _all_around(influence: Array) -> Array:
     """The influence on every column, (n, columns + 1, columns, m), from that of a period."""
     period, columns = influence.shape[1:3]
@@ -92,37 +116,38 @@ class PistonWalls:
     bushing: FaceGrid
     piston: FaceGrid
 
-    def at(self, film: FilmSpace, reach: float) -> Compliance:
-        """Both walls of a film on that mesh, the piston's end `reach` (m) inside the guide's case edge.
+    def at(self, film: FilmSpace, stand: Stand) -> Compliance:
+        """Both walls of a film on that mesh.
 
         The film plane is that of `gaps.piston_motion`. Raises FilmInputError for a film with other columns than
         the faces have, and for one that reaches beyond a part.
         """
         vertices, unknowns = _numbers(film)
         matrix = np.empty((len(film.vertices), film.size))
-        one, two = (_met(grid, film, start) for grid, start in self._parts(reach))
+        one, two = (_turned(_met(grid, film, start), angle) for grid, start, angle in self._parts(stand))
         total = _all_around(one + two) if one.shape == two.shape else _all_around(one) + _all_around(two)
         matrix[np.ix_(vertices.ravel(), unknowns.T.ravel())] = total.reshape(matrix.shape)
         return Compliance(matrix)
 
-    def by_chamber(self, film: FilmSpace, reach: float) -> Array:
+    def by_chamber(self, film: FilmSpace, stand: Stand) -> Array:
         """Opening (vertices,) m by unit pressure (Pa) in the chamber, on what the film leaves bare."""
         vertices, _ = _numbers(film)
         opened = np.empty(len(film.vertices))
         total = np.zeros(vertices.shape)
-        for grid, start in self._parts(reach):
+        for grid, start, angle in self._parts(stand):
             rows = film.vertices[vertices[:, 0], 1] - start
             _, back = _between(grid.rows, rows)
             bare = _bare(grid.rows, float(rows[0]))
             loaded = (grid.influence @ bare).sum(axis=2)
             whole = grid.by_chamber + loaded[:, np.arange(grid.columns + 1) % grid.period]
-            total += back @ whole
+            total += back @ _around(whole, angle)
         opened[vertices.ravel()] = total.ravel()
         return opened
 
-    def _parts(self, reach: float) -> tuple[tuple[FaceGrid, float], tuple[FaceGrid, float]]:
-        """Each part with the place (m) in the film plane from which its rows count."""
-        return (self.bushing, 0.0), (self.piston, self.guide_length - reach)
+    def _parts(self, stand: Stand) -> tuple[tuple[FaceGrid, float, float], tuple[FaceGrid, float, float]]:
+        """Each part with the place (m) in the film plane from which its rows count, and how far it is turned."""
+        start = self.guide_length - stand.reach
+        return (self.bushing, 0.0, stand.fixed), (self.piston, start, stand.moving)
 
 
 def _met(grid: FaceGrid, film: FilmSpace, start: float) -> Array:

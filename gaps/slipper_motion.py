@@ -21,6 +21,7 @@ from gaps.physics import FilmLaws, Physics, laws_left
 from gaps.profiles import PLAIN, Profile
 from gaps.rubbing import Rubbed, rubbed
 from gaps.slipper_lands import SlipperLands, slipper_mesh
+from gaps.stand import Stand
 from reynolds.contact import Asperities
 from reynolds.film import ZERO, Boundary, Film, FilmProblem, Held, Pocket, no_feed
 from reynolds.floating import Floating, Outer
@@ -212,7 +213,7 @@ class SlipperFilm:
             fluid=laws.fluid,
             surface=laws.surface,
             asperities=laws.asperities,
-            walls=None if laws.walls is None else laws.walls.at(space, 0.0),
+            walls=None if laws.walls is None else laws.walls.at(space, Stand()),
         )
 
     def modes_at(self, time: float) -> Array:

@@ -20,6 +20,7 @@ from gaps.bodies import (
     slipper_body,
 )
 from gaps.piston_walls import PistonWalls, face_grid
+from gaps.stand import Stand
 from reynolds.bodies.foundation import both
 from reynolds.bodies.wall import Body
 from reynolds.mesh import Array
@@ -30,10 +31,10 @@ from reynolds.walls import Walls
 class GapWalls(Protocol):
     """Both walls of a gap."""
 
-    def at(self, film: FilmSpace, reach: float) -> Walls:
-        """Those of a film on that mesh; `reach` (m) tells how far a piston stands in its guide."""
+    def at(self, film: FilmSpace, stand: Stand) -> Walls:
+        """Those of a film on that mesh, its parts standing so."""
 
-    def by_chamber(self, film: FilmSpace, reach: float) -> Array:
+    def by_chamber(self, film: FilmSpace, stand: Stand) -> Array:
         """Opening (vertices,) m by unit pressure (Pa) in the chamber beside the film."""
 
 
@@ -44,14 +45,14 @@ class PlateWalls:
     parts: tuple[SlipperPart | PlatePart, SlipperPart | PlatePart]
     _built: list[tuple[object, Walls]] = field(default_factory=list, compare=False, repr=False)
 
-    def at(self, film: FilmSpace, reach: float) -> Walls:
+    def at(self, film: FilmSpace, stand: Stand) -> Walls:
         """The walls, meshed when a film first asks; a film's mesh that has moved is the same mesh."""
         if not self._built or self._built[0][0] is not film.pattern:
             one, two = (part_wall(_plane_body(part), film) for part in self.parts)
             self._built[:] = [(film.pattern, both(one, two))]
         return self._built[0][1]
 
-    def by_chamber(self, film: FilmSpace, reach: float) -> Array:
+    def by_chamber(self, film: FilmSpace, stand: Stand) -> Array:
         """Nothing: the chamber presses on these walls through the film and its pockets alone."""
         return np.zeros(len(film.vertices))
 
@@ -67,13 +68,13 @@ class BoreWalls:
     piston: PistonPart
     bushing: BushingPart
 
-    def at(self, film: FilmSpace, reach: float) -> Walls:
+    def at(self, film: FilmSpace, stand: Stand) -> Walls:
         """See `PistonWalls.at`."""
-        return self._walls(film).at(film, reach)
+        return self._walls(film).at(film, stand)
 
-    def by_chamber(self, film: FilmSpace, reach: float) -> Array:
+    def by_chamber(self, film: FilmSpace, stand: Stand) -> Array:
         """See `PistonWalls.by_chamber`."""
-        return self._walls(film).by_chamber(film, reach)
+        return self._walls(film).by_chamber(film, stand)
 
     def _walls(self, film: FilmSpace) -> PistonWalls:
         return _bore_walls(self.piston, self.bushing, len(np.unique(film.vertices[:, 0])) - 1)

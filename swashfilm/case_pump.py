@@ -30,8 +30,8 @@ class CasePump:
 def read_case_pump(top: Table, film: Table, folder: Path) -> CasePump | None:
     """The pump of `film.pump` with [operating] and [pump.SECTION] of the case; None with the faults told.
 
-    A value of the case stands in place of the pump file's, written as it would stand there; a CSV file that it
-    names lies beside the case.
+    A value of the case stands in place of the pump file's, written as it would stand there; a file that it
+    names, of rows or a mesh, lies beside the case.
     """
     source = film.get("pump")
     operating = top.table(OPERATING)
@@ -43,7 +43,7 @@ def read_case_pump(top: Table, film: Table, folder: Path) -> CasePump | None:
     if own and OPERATING in own.values:
         top.fault(f"pump.{OPERATING}", "the operating point", f"a table [{OPERATING}] of the case")
     ours = {key: part for key, part in own.values.items() if key != OPERATING} if own else {}
-    stated = {path: _beside(value, folder) for path, value in _flat(ours)}
+    stated = {path: _beside(path, value, folder) for path, value in _flat(ours)}
     at_point = {f"{OPERATING}.{key}": value for key, value in operating.values.items()} if operating else {}
     place = source if source in builtin_pumps() else str(folder / source)
     try:
@@ -84,9 +84,10 @@ def _flat(tables: Mapping[str, Any], above: str = "") -> Iterator[tuple[str, Any
             yield above + key, value
 
 
-def _beside(value: Any, folder: Path) -> Any:
-    """A value that names a file with its path from the case's folder."""
-    return str((folder / value).absolute()) if isinstance(value, str) and value.lower().endswith(".csv") else value
+def _beside(path: str, value: Any, folder: Path) -> Any:
+    """A value that names a file, of rows or a part's mesh, with its path from the case's folder."""
+    names_file = isinstance(value, str) and (value.lower().endswith(".csv") or path.endswith(".body.mesh"))
+    return str((folder / value).absolute()) if names_file else value
 
 
 def _at_case(fault: Fault, stated: Mapping[str, Any]) -> Fault:

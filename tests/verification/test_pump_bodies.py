@@ -23,6 +23,7 @@ from gaps.bodies import (
 )
 from gaps.own_body import CHAMBER, FILM
 from gaps.piston_walls import FaceGrid, PistonWalls, face_grid
+from gaps.stand import Stand
 from reynolds.bodies.body_space import body_space
 from reynolds.bodies.cache import Origin
 from reynolds.bodies.elasticity import Elastic, pressure_forces, structure
@@ -230,7 +231,7 @@ def test_film_that_covers_a_part_meets_all_of_it():
     walls = grids()
     film = unrolled(walls.bushing.rows)
     stiff = FaceGrid(walls.piston.rows, 0.0 * walls.piston.influence, 0.0 * walls.piston.by_chamber)
-    found = PistonWalls(GUIDE, walls.bushing, stiff).at(film, GUIDE).matrix
+    found = PistonWalls(GUIDE, walls.bushing, stiff).at(film, Stand(GUIDE)).matrix
     whole = part_wall(bushing_body(BUSHING, (1, 12, 2)), film).matrix
     assert found == pytest.approx(whole, abs=1e-9 * np.abs(whole).max())
 
@@ -240,7 +241,7 @@ def test_work_is_the_same_wherever_the_piston_stands(reach):
     """int p1 w(p2) dA = int p2 w(p1) dA, and never negative: force and opening pass the same way."""
     walls = grids()
     film = unrolled(np.linspace(max(0.0, GUIDE - reach), GUIDE, 6))
-    matrix = walls.at(film, reach).matrix
+    matrix = walls.at(film, Stand(reach)).matrix
     value, area = film.reference.value, film.area
     at_points = np.zeros((area.size, film.size))
     for local in range(film.dofs.shape[1]):
@@ -259,7 +260,7 @@ def test_bore_under_one_pressure_opens_alike_wherever_the_piston_stands(reach):
     stiff = FaceGrid(walls.piston.rows, 0.0 * walls.piston.influence, 0.0 * walls.piston.by_chamber)
     alone = PistonWalls(GUIDE, walls.bushing, stiff)
     film = unrolled(np.linspace(GUIDE - reach, GUIDE, 9))
-    found = alone.at(film, reach).matrix @ np.ones(film.size) + alone.by_chamber(film, reach)
+    found = alone.at(film, Stand(reach)).matrix @ np.ones(film.size) + alone.by_chamber(film, Stand(reach))
     whole = walls.bushing.influence.sum(axis=(2, 3))
     assert found == pytest.approx(whole.mean(), rel=2e-3, abs=0.0)
 
@@ -267,11 +268,11 @@ def test_bore_under_one_pressure_opens_alike_wherever_the_piston_stands(reach):
 def test_faces_a_piston_cannot_meet():
     walls = grids()
     with pytest.raises(FilmInputError, match=r"7 cells around a film.*12, as around"):
-        walls.at(unrolled(np.linspace(0.0, GUIDE, 3), around=7), GUIDE)
+        walls.at(unrolled(np.linspace(0.0, GUIDE, 3), around=7), Stand(GUIDE))
     with pytest.raises(FilmInputError, match="within the part"):
-        walls.at(unrolled(np.linspace(0.0, GUIDE, 3)), 0.5 * GUIDE)  # a film beyond the piston's end
+        walls.at(unrolled(np.linspace(0.0, GUIDE, 3)), Stand(0.5 * GUIDE))  # a film beyond the piston's end
     with pytest.raises(FilmInputError, match="within the part"):
-        walls.at(unrolled(np.linspace(0.0, GUIDE, 3)), 2.0 * PISTON.length)
+        walls.at(unrolled(np.linspace(0.0, GUIDE, 3)), Stand(2.0 * PISTON.length))
 
 
 def test_pocket_presses_on_slipper_and_plate(tmp_path):
