@@ -22,7 +22,7 @@ from scipy.sparse.linalg import SuperLU, splu
 from reynolds.errors import FilmNotConverged
 from reynolds.krylov import gmres
 from reynolds.mesh import Array
-from reynolds.walls import Opens, columns_of
+from reynolds.walls import Opens, columns_of, compliance_of, contact_of
 
 DENSE_LIMIT = 1500  # free pressures up to which a dense factor is as fast as GMRES on two loads
 KEPT_LIMIT = 4000  # unknowns up to which a dense factor is kept: 128 MB
@@ -104,60 +104,77 @@ class _Iterated:
 
 
 def reduced_answer(balance: Balance) -> Answer:
-    """The answer of J by the dense factor of what is left of it for the free pressures.
-
-    The rest opens no wall. Held unknowns meet no other; a cavity's film fractions do: of J_rr, J_rf; J_fr, J_ff
-    the first column is sparse, and J_ff - J_fr J_rr^-1 J_rf is left.
-    """
-    free, rigid, alone = np.flatnonzero(balance.pressures), csr_array(balance.rigid), _alone(balance)
+    """The answer of J by the dense factor of what is left of it for the pressures on the walls."""
+    alone = _alone(balance)
     rest = np.flatnonzero((balance.pressures == 0.0) & ~alone)
-    factor = _eliminated(csc_array(rigid[rest][:, rest])) if rest.size else None
+    factor = _eliminated(csc_array(csr_array(balance.rigid)[rest][:, rest])) if rest.size else None
     if factor is None and rest.size:  # J need not be singular where what opens no wall is
-        return _whole_answer(balance, free)
-    wider = columns_of(balance.wider, free) * balance.pressures[free]
-    left = _added(np.asarray(balance.slope[free] @ wider), rigid[free][:, free])
-    if factor is None:
-        forth, back, met = np.zeros((0, free.size)), np.zeros((0, 0)), np.zeros(0, dtype=np.intp)
-    else:
-        forth = _added(np.asarray(balance.slope[rest] @ wider), rigid[rest][:, free])
+        return _whole_answer(balance, np.flatnonzero(balance.pressures))
+    return _Reduced(balance, np.flatnonzero(alone), rest, factor)
+
+
+class _Reduced:
+    """J by the pressures t of oil and contact together.
+
+    With C the walls' own compliance, S the contact's pressure by the gap and w = C t: p = t - S w, and
+    J p = A t + (B - A S) C t, so that no compliance need be known that contact resists. Held unknowns, `alone`,
+    meet no other. The `rest`, a cavity's film fractions, open no wall: of J_rr, J_rt; J_tr, J_tt the first column
+    is sparse, and J_tt - J_tr J_rr^-1 J_rt is left.
+    """
+
+    def __init__(
+        self, balance: Balance, alone: NDArray[np.intp], rest: NDArray[np.intp], factor: SuperLU | None
+    ) -> None:
+        rigid, contact = csr_array(balance.rigid), contact_of(balance.wider)
+        free = np.flatnonzero(balance.pressures)
+        self._free, self._alone, self._rest = free, alone, rest
+        # Contact presses on the walls of a cavity, too, where the oil's pressure stays.
+        touched = np.flatnonzero((np.diff(contact.indptr) > 0) & (balance.pressures == 0.0))
+        self._opens = columns_of(compliance_of(balance.wider), np.concatenate([free, touched]))
+        slope = csr_array(balance.slope - rigid[:, free] @ contact[free])
+        left = np.vstack([slope[free] @ self._opens, -(contact[touched] @ self._opens)])
+        _add(left, csr_array(rigid[free][:, free]))
+        left[range(free.size, len(left)), range(free.size, len(left))] += 1.0
+        self._forth = np.asarray(slope[rest] @ self._opens)
+        _add(self._forth, csr_array(rigid[rest][:, free]))
         coupled = csr_array(rigid[free][:, rest])
-        met = np.flatnonzero(np.diff(coupled.indptr))  # next to the rest: few
-        back = factor.solve(coupled[met].toarray().T, trans="T").T
-        left[met] -= back @ forth
-    reduced, single = dense_answer(left), np.flatnonzero(alone)
-    diagonal = rigid.diagonal()[single]
+        self._met = np.flatnonzero(np.diff(coupled.indptr))  # next to the rest: few
+        self._back = np.zeros((len(self._met), rest.size))
+        if factor is not None:
+            self._back = factor.solve(coupled[self._met].toarray().T, trans="T").T
+            left[self._met] -= self._back @ self._forth
+        self._factor, self._reduced, self._size = factor, dense_answer(left), len(left)
+        self._contact, self._diagonal = csr_array(contact[free]), rigid.diagonal()[alone]
 
-    def answer(load: Array, tolerance: float) -> Array:
-        change, wanted = np.empty_like(load), load[free]
-        change[single] = (load[single].T / diagonal).T
-        if factor is not None:
-            wanted[met] -= back @ load[rest]
-        change[free] = reduced(wanted, tolerance)
-        if factor is not None:
-            change[rest] = factor.solve(load[rest] - forth @ change[free])
+    def __call__(self, load: Array, tolerance: float) -> Array:
+        change, wanted = np.empty_like(load), np.zeros((self._size, *load.shape[1:]))
+        wanted[: self._free.size] = load[self._free]
+        wanted[self._met] -= self._back @ load[self._rest]
+        borne = self._reduced(wanted, tolerance)
+        change[self._free] = borne[: self._free.size]
+        if self._contact.nnz:
+            change[self._free] -= self._contact @ (self._opens @ borne)
+        change[self._alone] = (load[self._alone].T / self._diagonal).T
+        if self._factor is not None:
+            change[self._rest] = self._factor.solve(load[self._rest] - self._forth @ borne)
         return change
-
-    return answer
 
 
 def _alone(balance: Balance) -> NDArray[np.bool_]:
     """Unknowns without a pressure of their own that meet no other: held ones, (size,)."""
-    rigid, size = balance.rigid.tocoo(), len(balance.pressures)
+    rigid, slope = balance.rigid.tocoo(), balance.slope.tocoo()
     row, column = rigid.coords
     off = (row != column) & (rigid.data != 0.0)
-    meets = np.zeros(size, dtype=bool)
+    meets = np.zeros(len(balance.pressures), dtype=bool)
     meets[row[off]] = meets[column[off]] = True
-    feels = np.add.reduceat(np.abs(np.r_[balance.slope.data, 0.0]), balance.slope.indptr[:-1]) > 0.0
-    feels &= np.diff(balance.slope.indptr) > 0
-    return np.asarray((balance.pressures == 0.0) & ~meets & ~feels & (balance.rigid.diagonal() != 0.0))
+    meets[slope.coords[0][slope.data != 0.0]] = True
+    return np.asarray((balance.pressures == 0.0) & ~meets & (balance.rigid.diagonal() != 0.0))
 
 
-def _added(dense: Array, sparse: csr_array) -> Array:
-    """A dense matrix with a sparse one added in its place; an entry twice counts twice."""
+def _add(dense: Array, sparse: csr_array) -> None:
+    """Add a sparse matrix to the first columns and rows of a dense one."""
     entries = sparse.tocoo()
-    row, column = entries.coords
-    np.add.at(dense, (row, column), entries.data)
-    return dense
+    np.add.at(dense, entries.coords, entries.data)
 
 
 def _whole_answer(balance: Balance, free: NDArray[np.intp]) -> Answer:

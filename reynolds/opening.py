@@ -29,7 +29,7 @@ TOLERANCE = 1e-12  # of film thickness and asperities' height
 DEEPEST = 5.0  # standard deviations of the summits by which they may be in each other at first
 ROOM = 0.9  # of the way to where the law of contact ends
 MOST_HALVINGS, LEAST_GAIN = 8, 1e-4  # of a step; of what is missing, by a full step
-FELT = 1e-8  # of the stiffness K E'/sigma where mean planes meet: less resists nothing
+FELT = 1e-6  # of the stiffness K E'/sigma where mean planes meet: less resists nothing
 
 
 def opening(problem: FilmProblem, pressure: Array, start: Array | None = None) -> Array:
@@ -125,11 +125,15 @@ class Touch:
         here = self._within(np.ascontiguousarray(displaced[self.felt]), 0.0)
         return np.asarray(displaced + self._columns @ here)
 
+    @property
+    def weights(self) -> Array:
+        """Pressure of contact on its unknown by the gap of each vertex where it is felt, (felt,) Pa/m."""
+        return np.asarray(self.meeting.shares[self.felt] * self.bears.slope[self.felt])
+
     @cached_property
     def _columns(self) -> WallMatrix:
         """C dp_c/dh where contact is felt, (vertices, felt)."""
-        unknown = self.meeting.seats[self.felt]
-        weight = self.meeting.shares[self.felt] * self.bears.slope[self.felt]
+        unknown, weight = self.meeting.seats[self.felt], self.weights
         if isinstance(self.compliance, LowRank):
             return LowRank(self.compliance.left, self.compliance.right[:, unknown] * weight[None, :])
         columns = self.compliance[:, unknown]
@@ -157,6 +161,18 @@ class Resisted:
     def __matmul__(self, pressure: Array) -> Array:
         """Opening (vertices, ...) m by pressures (size, ...) Pa."""
         return self.touch.settled(np.asarray(self.touch.compliance @ pressure))
+
+    @property
+    def compliance(self) -> WallMatrix:
+        """C."""
+        return self.touch.compliance
+
+    @property
+    def contact(self) -> csr_array:
+        """dp_c/dh on the unknowns, (size, vertices) Pa/m."""
+        felt, shape = self.touch.felt, self.touch.compliance.shape
+        entries = self.touch.weights, (self.touch.meeting.seats[felt], felt)
+        return csr_array(entries, shape=(shape[1], shape[0]))
 
     def columns(self, unknowns: NDArray[np.intp]) -> Array:
         """Those of the matrix for some unknowns."""

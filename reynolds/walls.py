@@ -53,7 +53,15 @@ WallMatrix: TypeAlias = Array | csr_array | LowRank
 
 
 class Product(Protocol):
-    """An opening by pressures that is not multiplied out."""
+    """An opening by pressures that contact resists, (I - C S)^-1 C, not multiplied out."""
+
+    @property
+    def compliance(self) -> WallMatrix:
+        """C, what it would be without contact."""
+
+    @property
+    def contact(self) -> csr_array:
+        """S: pressure of contact on each unknown by the gap at each vertex, (size, vertices) Pa/m."""
 
     def __matmul__(self, pressure: Array) -> Array:
         """Opening (vertices, ...) m by pressures (size, ...) Pa."""
@@ -68,6 +76,18 @@ Opens: TypeAlias = WallMatrix | Product
 def full(matrix: WallMatrix) -> Array:
     """A compliance multiplied out, as an array."""
     return matrix if isinstance(matrix, np.ndarray) else np.asarray(matrix.toarray())
+
+
+def compliance_of(opens: Opens) -> WallMatrix:
+    """The walls' own compliance, (vertices, size) m/Pa."""
+    return opens if isinstance(opens, LowRank | np.ndarray | csr_array) else opens.compliance
+
+
+def contact_of(opens: Opens) -> csr_array:
+    """Pressure of contact by the gap, (size, vertices) Pa/m: nothing where nothing touches."""
+    if isinstance(opens, LowRank | np.ndarray | csr_array):
+        return csr_array(opens.shape[::-1])
+    return opens.contact
 
 
 def columns_of(matrix: Opens, unknowns: NDArray[np.intp]) -> Array:

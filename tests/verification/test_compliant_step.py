@@ -166,6 +166,39 @@ def test_any_load_is_answered(size, form, by_gmres):
         assert left <= 1e-10 * np.linalg.norm(load)
 
 
+@dataclass(frozen=True)
+class Resisted:
+    """A compliance that contact resists, multiplied out."""
+
+    compliance: Array
+    contact: csr_array
+
+    @property
+    def whole(self) -> Array:
+        size = len(self.compliance)
+        return np.linalg.solve(np.eye(size) - self.compliance @ self.contact.toarray(), self.compliance)
+
+    def __matmul__(self, pressure: Array) -> Array:
+        return self.whole @ pressure
+
+    def columns(self, unknowns: Array) -> Array:
+        return self.whole[:, unknowns]
+
+
+def test_contact_within_the_factor():
+    """Pressures of oil and contact together need no compliance that contact resists; in cavities, too."""
+    rigid, slope, bends, free = linear_balance(60)
+    random = np.random.default_rng(4)
+    touching = random.choice(60, 25, replace=False)
+    assert (free[touching] == 0.0).any()
+    contact = csr_array((-random.uniform(size=25), (touching, touching)), shape=(60, 60))
+    wider = Resisted(0.1 * bends, contact)
+    answer = compliant_answer(Balance(rigid, slope, wider, free))
+    full = rigid.toarray() + slope.toarray() @ wider.whole * free
+    for load in (random.normal(size=60), random.normal(size=(60, 3))):
+        assert full @ answer(load, 1e-11) == pytest.approx(load, abs=1e-12)
+
+
 def test_a_balance_that_iterates_badly_is_factorised(monkeypatch, by_gmres):
     rigid, slope, bends, free = linear_balance(500)
     monkeypatch.setattr(compliant, "MOST_STEPS", 3)
