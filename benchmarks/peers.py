@@ -34,6 +34,7 @@ CELLS = {1: (16, 50, 160, 500), 2: (8, 26, 80, 250)}  # round the bearing: as ma
 SIZES = ("1e2", "1e3", "1e4", "1e5")
 REPEATS = (60, 40, 15, 5)
 ERRORS = (1e-3, 1e-4)
+GOAL = 2  # place in SIZES of the mesh of this solver whose error the peers are to reach too
 TIMEOUT = 600.0
 
 
@@ -147,7 +148,8 @@ def time_to(target: float, rows: Sequence[Measured], load: float) -> tuple[str, 
 
 Lines = list[tuple[str, ...]]
 MESHES = ("solver", "elements", "unknowns", "time / ms", "x this solver", "load", "error / %", "attitude / deg")
-EQUAL = ("solver", "elements", *(f"{what}{100 * e:g} %{unit}" for e in ERRORS for what, unit in
+TARGETS = (*(f"{100 * e:g} %" for e in ERRORS), f"own error at {SIZES[GOAL]}")
+EQUAL = ("solver", "elements", *(f"{what}{target}{unit}" for target in TARGETS for what, unit in
          (("time to ", " / ms"), ("x this solver, ", ""))))  # fmt: skip
 
 
@@ -171,7 +173,10 @@ def mesh_lines(measured: Sequence[Measured], load: float) -> Lines:
 
 
 def equal_lines(measured: Sequence[Measured], load: float) -> Lines:
-    """One line per peer: time to each error, and its ratio to this solver with the same order of elements."""
+    """One line per peer: time to each error, and its ratio to this solver with the same order of elements.
+
+    The last error is that of this solver, with the same order of elements, on the mesh of GOAL.
+    """
     groups = {
         peer: [row for row in measured if row.peer == peer] for peer in dict.fromkeys(r.peer for r in measured)
     }
@@ -179,7 +184,8 @@ def equal_lines(measured: Sequence[Measured], load: float) -> Lines:
     lines: Lines = []
     for peer, group in groups.items():
         cells = [peer.name, peer.elements]
-        for target in ERRORS:
+        own_error = next((error(row, load) for row in own.get(peer.degree, ()) if row.size == GOAL), 0.0)
+        for target in (*ERRORS, own_error):
             sign, found = time_to(target, group, load)
             own_sign, base = time_to(target, own[peer.degree], load) if peer.degree in own else ("never", 0.0)
             if sign == "never":

@@ -16,6 +16,24 @@ def all_finite(values):
     return total == 0.0
 
 
+@njit(**_FAST)
+def all_equal(values, value):
+    """Whether every one of an array (n,) is this value."""
+    same = True
+    for k in range(values.shape[0]):
+        same &= values[k] == value
+    return same
+
+
+@njit(**_FAST)
+def scaled_free(values, factor, held):
+    """factor times the values (n,) that are not held, zero for those that are."""
+    out = np.empty(values.shape[0])
+    for k in range(values.shape[0]):
+        out[k] = 0.0 if held[k] else factor * values[k]
+    return out
+
+
 @njit(**_FAST | {"fastmath": {"contract", "nnan"}})
 def cubes(values, unit, out):
     """out = unit values^3, (n,) of numbers; the least and the largest of them."""

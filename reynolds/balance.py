@@ -21,6 +21,7 @@ from numpy.typing import NDArray
 from scipy.sparse import csr_array
 
 from reynolds import kernels, opening_kernels
+from reynolds.array_kernels import all_equal
 from reynolds.film import Cavitation, FilmProblem, Held
 from reynolds.fluid import CONSTANT
 from reynolds.mesh import Array
@@ -205,9 +206,12 @@ def flow_balance(problem: FilmProblem, parts: Operators, state: State) -> Balanc
     """The balance of a state; C and D are not asked for where the film is full and its density constant."""
     pattern = problem.space.pattern
     mixed = np.zeros(problem.space.size)
-    if problem.fluid is CONSTANT and bool(np.all(state.film_fraction == 1.0)):
-        net, meeting = (part.copy() for part in parts.full)
+    driven = not all_equal(state.pressure, state.pressure[0])
+    if problem.fluid is CONSTANT and all_equal(state.film_fraction, 1.0):
+        net, meeting = parts.full
         grown = parts.rate
+        if driven:
+            net, meeting = net.copy(), meeting.copy()
     else:
         ratio = density(problem, state.pressure)[0]
         filling = state.film_fraction * ratio
@@ -219,11 +223,11 @@ def flow_balance(problem: FilmProblem, parts: Operators, state: State) -> Balanc
         if level.min() < level.max():
             kernels.exchange(pattern.indptr, pattern.indices, parts.diffusion, level, mixed, meeting)
             net += mixed
-    if state.pressure.min() < state.pressure.max():
+    if driven:
         kernels.exchange(pattern.indptr, pattern.indices, parts.stiffness, state.pressure, net, meeting)
     if problem.storage is not None:
         before = problem.storage.held_before / problem.storage.step
-        net -= before
+        net = net - before
         grown = grown - before
     return Balance(net, meeting, grown, mixed)
 

@@ -17,8 +17,13 @@ _FAST = {"cache": True, "error_model": "numpy", "fastmath": {"contract"}}
 @njit(**_FAST)
 def take_in(data, places, entries, fine, top, coarse, coarsest):
     """Set up with the entries of an upper triangle, each at its place in the finest stencils (flat: `entries`)."""
+    corners, before = False, fine.corners[0]
     for k in range(places.shape[0]):
-        entries[places[k]] = data[k]
+        over = places[k] >= 3 * fine.centre.shape[0]  # the corner of a cell: of rectangles nothing couples so
+        if before or not over or data[k] != 0.0:
+            entries[places[k]] = data[k]
+            corners |= over and data[k] != 0.0
+    fine.corners[0] = corners
     return set_up(fine, top, coarse, coarsest)
 
 
@@ -29,7 +34,7 @@ def set_up(fine, top, coarse, coarsest):
     `top` is `fine`, or rounded from it.
     """
     levels = coarse.lines.shape[0]
-    fine.corners[0] = top.corners[0] = _has_corners(fine)
+    top.corners[0] = fine.corners[0]
     if fine.around:
         _repeat_stencils(fine, plain(0))
     if top.centre.itemsize < fine.centre.itemsize:
@@ -42,18 +47,6 @@ def set_up(fine, top, coarse, coarsest):
         _coarsen(coarse, level, coarse, level + 1)
         good = good and _factorise(coarse, level)
     return good and eliminate_blocks(coarsest, coarse, levels - 1)
-
-
-@njit(**_FAST)
-def _has_corners(a):
-    """Whether anything couples over the corners of cells: of rectangles nothing does. Entries are of order one."""
-    total = all_lanes(a.centre, 0.0)
-    for k in range(0, a.centre.shape[0], WIDTH):
-        one, other = lanes(a.north_east, k), lanes(a.north_west, k)
-        total += one * one + other * other
-    eight = np.empty(WIDTH)
-    put_lanes(eight, 0, total)
-    return eight.sum() != 0.0
 
 
 @njit(**_FAST)

@@ -109,7 +109,8 @@ class Film:
         """Velocity with which the walls carry the film along, w U_moving + (1 - w) U_fixed (m/s)."""
         w = self.moving_share
         x, y = (
-            w * one + (1.0 - w) * two for one, two in zip(self.velocity_moving, self.velocity_fixed, strict=True)
+            one if one is two else w * one + (1.0 - w) * two
+            for one, two in zip(self.velocity_moving, self.velocity_fixed, strict=True)
         )
         return x, y
 
@@ -194,7 +195,7 @@ class FilmProblem:
             ("fixed wall, x", oil.velocity_fixed[0]), ("fixed wall, y", oil.velocity_fixed[1]),
             ("moving wall's share", oil.moving_share), ("sliding viscosity", oil.couette_viscosity),
         ):  # fmt: skip
-            if field_values is None:  # no other viscosity than that of pressure flow
+            if field_values is None or field_values is ZERO or field_values is HALF:  # nothing to look at
                 continue
             # The compiled loops trust these shapes: another one would read beside the array.
             shape = np.shape(field_values)

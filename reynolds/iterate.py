@@ -71,10 +71,10 @@ def iterate_at(problem: FilmProblem, setting: Setting, before: Iterate, signed: 
     if problem.cavitation is Cavitation.JFO and cavity.any():
         fraction = np.where(cavity, 1.0 + signed / before.parts.lack, fraction)
     pressure = np.where(setting.held, setting.pressure, pressure)
-    state = opened(problem, pressure, fraction, before.state.opening)
     if is_linear(problem):
+        state = State(pressure, fraction, before.state.opening)
         return Iterate(signed, state, cavity, before.parts, flow_balance(problem, before.parts, state))
-    return iterate_of(problem, state, cavity, signed)
+    return iterate_of(problem, opened(problem, pressure, fraction, before.state.opening), cavity, signed)
 
 
 def advanced(problem: FilmProblem, setting: Setting, at: Iterate, signed: Array, *, downhill: bool) -> Iterate:

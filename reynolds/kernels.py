@@ -57,21 +57,36 @@ def measure(vertices, cells, geometry_gradient, weights, area):
 
 
 @njit(**_FAST)
+def _any_couples(pairs, pair):
+    """Whether any shape couples these two unknowns; most meshes tell at the first."""
+    for s in range(pairs.shape[0]):
+        for q in range(pairs.shape[2]):
+            if pairs[s, pair, q] != 0.0:
+                return True
+    return False
+
+
+@njit(**_FAST)
 def stiffness(slots, shape, pairs, conductance, basis, points, data):
     """data += int k grad f_i . grad f_j, i < j, in the fixed pattern; pairs[shape, pair, q] as `ElementTensors`.
 
-    What then stands on the diagonal means nothing: see `close_rows`.
+    What then stands on the diagonal means nothing: see `close_rows`. Pairs that no shape couples, such as opposite
+    corners of rectangles, are passed over.
     """
+    couples = np.empty(pairs.shape[1], np.bool_)
+    for pair in range(pairs.shape[1]):
+        couples[pair] = _any_couples(pairs, pair)
     for e in range(slots.shape[0]):
         s = _at(shape[e])
         k = pair = 0
         for i in range(len(basis)):
             k += 1  # the diagonal's slot
             for _ in range(i + 1, len(basis)):
-                value = 0.0
-                for q in range(len(points)):
-                    value += conductance[e, q] * pairs[s, pair, q]
-                data[_at(slots[e, k])] += value
+                if couples[pair]:
+                    value = 0.0
+                    for q in range(len(points)):
+                        value += conductance[e, q] * pairs[s, pair, q]
+                    data[_at(slots[e, k])] += value
                 k += 1
                 pair += 1
 

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from scipy.sparse import csc_array
 
 from reynolds import kernels
+from reynolds.array_kernels import scaled_free
 from reynolds.balance import NOTHING, by_opening, flow_balance, slopes
 from reynolds.compliant import Answer, Balance, NearFactor, compliant_answer
 from reynolds.film import Cavitation, FilmProblem
@@ -31,7 +32,7 @@ def symmetric_step(
     data = np.empty_like(at.parts.stiffness)
     pattern = problem.space.pattern
     kernels.hold(pattern.indptr, pattern.indices, at.parts.stiffness, 1.0 / scale, fixed, gain, data)
-    return problem.space.matrix(data), np.where(fixed, 0.0, -rest / scale)
+    return problem.space.matrix(data), scaled_free(rest, -1.0 / scale, fixed)
 
 
 def general_step(problem: FilmProblem, setting: Setting, at: Iterate) -> tuple[Array, Array, Array, float]:
@@ -56,7 +57,7 @@ def general_step(problem: FilmProblem, setting: Setting, at: Iterate) -> tuple[A
         pattern.indptr, pattern.indices, p_upper, p_lower, f_upper, f_lower, p_gain + gain, f_gain,
         fixed, at.cavity, 1.0 / unit, scale / unit, upper, lower,
     )  # fmt: skip
-    return upper, lower, np.where(fixed, 0.0, -rest / unit), scale
+    return upper, lower, scaled_free(rest, -1.0 / unit, fixed), scale
 
 
 def _largest(values: Array) -> float:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,11 +17,17 @@ SAME = 1e-9  # of the film's length: coordinates nearer than this are one
 
 @dataclass(frozen=True)
 class Ruling:
-    """Columns x (columns, 1) m and rows y (1, rows) m, and where they cross at each point, (cells, points)."""
+    """Columns x (columns, 1) m and rows y (1, rows) m, and those in which each point lies, (cells, points)."""
 
     x: Array
     y: Array
-    place: NDArray[np.intp]
+    column: NDArray[np.intp]
+    row: NDArray[np.intp]
+
+    @cached_property
+    def place(self) -> NDArray[np.intp]:
+        """Where its column and its row cross."""
+        return self.column * self.y.size + self.row
 
     def sample(self, field: Callable[[Array, Array], Array | float]) -> Array:
         """A formula at the points, (cells, points): numpy broadcasts the column x and the row y as far as it must.
@@ -28,6 +35,8 @@ class Ruling:
         Raises FilmInputError for values of another shape than that gives.
         """
         values, shape = np.asarray(field(self.x, self.y), dtype=float), (self.x.size, self.y.size)
+        if values.shape == (shape[0], 1):  # as most films are: of the angle alone
+            return values.ravel().take(self.column)
         try:
             whole = np.broadcast_to(values, shape)
         except ValueError:
@@ -42,7 +51,7 @@ def ruling_of(points: Array) -> Ruling | None:
     places = column * len(y) + row
     if len(x) * len(y) != places.size or len(np.unique(places)) != places.size:
         return None
-    return Ruling(x[:, None], y[None, :], places)
+    return Ruling(x[:, None], y[None, :], column, row)
 
 
 def _distinct(values: Array, near: float) -> tuple[Array, NDArray[np.intp]]:

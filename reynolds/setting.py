@@ -36,7 +36,6 @@ def check_pressures(problem: FilmProblem) -> None:
 def spread(problem: FilmProblem) -> Setting:
     """The boundary conditions at the unknowns; raises as `check_pressures`."""
     space = problem.space
-    names = space.film_mesh.boundary_names
     cavitates = problem.cavitation is not Cavitation.NONE
     level = problem.cavitation_pressure if cavitates else 0.0
     pressure, fraction = np.full(space.size, level), np.ones(space.size)
@@ -44,7 +43,8 @@ def spread(problem: FilmProblem) -> Setting:
     pockets = []
     for name, condition in problem.boundary.items():
         if name not in space.edge_dofs:
-            raise FilmInputError(f"boundary {name}", "no boundary of this mesh", f"one of {', '.join(names)}")
+            names = ", ".join(space.film_mesh.boundary_names)
+            raise FilmInputError(f"boundary {name}", "no boundary of this mesh", f"one of {names}")
         nodes = space.edge_dofs[name]
         if isinstance(condition, Held):
             _check_fraction(name, condition, problem)

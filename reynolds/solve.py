@@ -272,7 +272,7 @@ def _lifting(problem: FilmProblem, setting: Setting) -> Array:
 
 def _solution(problem: FilmProblem, setting: Setting, at: Iterate, path: list[float]) -> FilmSolution:
     # A cavity that is full of oil is a film whose pressure happens to be the cavity's.
-    full = (problem.cavitation is Cavitation.JFO) & (at.state.film_fraction > 1.0 - TOLERANCE)
+    carried = problem.cavitation is Cavitation.JFO and bool(at.cavity.any())
     return FilmSolution(
         problem=problem,
         pressure=at.state.pressure,
@@ -286,6 +286,6 @@ def _solution(problem: FilmProblem, setting: Setting, at: Iterate, path: list[fl
         mixing=at.balance.mixing,
         meeting=at.balance.meeting,
         held=setting.held,
-        cavity=at.cavity & ~full,
+        cavity=at.cavity & (at.state.film_fraction <= 1.0 - TOLERANCE) if carried else at.cavity,
         path=tuple(path),
     )

@@ -98,7 +98,8 @@ class Transport:
     @property
     def squeeze(self) -> Array:
         """Its rate, m/s."""
-        return self.content_slope * self.film.squeeze
+        still = self.film.squeeze.size == 1 and self.film.squeeze.item() == 0.0
+        return self.film.squeeze if still else self.content_slope * self.film.squeeze
 
     def _by_gap(self, slope: Array) -> Array:
         return slope if self.widening is None else slope * self.widening

@@ -176,6 +176,19 @@ def test_a_full_pass_is_of_the_order_of_the_mesh():
     assert np.all(np.log2(np.divide(errors[:-1], errors[1:])) > 1.9)
 
 
+def test_couplings_over_corners_come_and_go():
+    """A matrix of rectangles after one of sheared cells, and back: each as for a solver that saw no other."""
+    plain = film_space(rectangle((1.0, 1.0), (9, 6), cell=Cell.QUADRILATERAL))
+    sheared = plain.moved(plain.vertices @ np.array([[1.0, 0.0], [0.4, 1.0]]))
+    fixed, load = at_edges(plain, "left", "right"), np.linspace(1.0, 2.0, plain.size)
+    uppers = [operator(space, np.ones((1, 1)), fixed) for space in (plain, sheared)]
+    kept = solver(plain, uppers[0])
+    for upper in (uppers[1], uppers[0], uppers[1]):
+        assert kept.update(upper.data)
+        alone = solver(plain, upper)
+        np.testing.assert_array_equal(kept.solve(load, TOLERANCE)[0], alone.solve(load, TOLERANCE)[0])
+
+
 def test_nothing_loaded_is_nothing():
     space = film_space(rectangle((1.0, 1.0), (6, 6)))
     upper = operator(space, np.ones((1, 1)), at_edges(space, "left"))
