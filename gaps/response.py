@@ -30,10 +30,15 @@ class Spacing(Enum):
 
 
 class Measure(Enum):
-    """How an output is learnt and its error taken: of positive values by logarithm, relative; else as it is."""
+    """How an output is learnt and its error taken.
+
+    Of positive values by logarithm, relative; else as it is: of an output of order one the error itself, of others
+    over the largest magnitude of all learnt values.
+    """
 
     RELATIVE = "relative"
     ABSOLUTE = "absolute"
+    OF_LARGEST = "of the largest"
 
 
 @dataclass(frozen=True)
@@ -86,7 +91,7 @@ class Samples:
 
 @dataclass(frozen=True)
 class HeldOutError:
-    """Error of each of the m outputs over the held-out points, relative or absolute as the output's measure says.
+    """Error of each of the m outputs over the held-out points, as the output's measure says.
 
     rms, largest (m,); worst (m,): which held-out point the largest stands at.
     """
@@ -141,9 +146,12 @@ class Response:
         return np.where(self._logarithmic, np.exp(np.where(self._logarithmic, found, 0.0)), found)
 
     def errors(self, samples: Samples) -> Array:
-        """Error (k, m) against samples: relative or absolute, as each output's measure says; signed."""
+        """Error (k, m) against samples as each output's measure says; signed."""
         off = self.at(samples.points) - samples.values
-        return np.asarray(off / np.where(self._logarithmic, samples.values, 1.0))
+        of_largest = [output.measure is Measure.OF_LARGEST for output in self.outputs]
+        largest = np.abs(self.learnt.values).max(axis=0)
+        scale = np.where(of_largest & (largest > 0.0), largest, 1.0)
+        return np.asarray(off / np.where(self._logarithmic, samples.values, scale))
 
     @cached_property
     def held_out_error(self) -> HeldOutError:
@@ -167,6 +175,11 @@ class Response:
         values = self.learnt.values
         learnt = np.where(self._logarithmic, np.log(np.where(self._logarithmic, values, 1.0)), values)
         return RBFInterpolator(unit_places(self.axes, self.learnt.points), learnt, kernel="cubic", degree=1)
+
+
+def fewest_learnt(inputs: int) -> int:
+    """Points without which nothing is learnt: half of the fewest asked for, and what a linear law needs."""
+    return max(2**inputs, 2 * inputs + 2)
 
 
 def learnt_points(axes: Sequence[Axis], count: int) -> Array:

@@ -33,7 +33,7 @@ THINNEST = 1e-9  # m: of a film between walls without asperities, some molecules
 NEXT = 1e-2  # of the least film or of the summits' height
 SOFT_TOLERANCE = 1e-6  # of linear solves between walls that give way, for slopes that steer no more than a turn
 SOLID = 1.0 - 1e-6  # of the overlap at which the law of contact ends
-TOUCHING = "asperities that bear where walls touch, an edge relief, or less load"
+TOUCHING = "asperities that bear where walls touch, an edge relief, a finer mesh, or less load"
 ROUNDING = 1e-6  # share of the largest magnitude below which another one is none
 
 

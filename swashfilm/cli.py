@@ -316,15 +316,25 @@ def _check(options: argparse.Namespace) -> int:
         for warning in check_pump(pump).warnings:
             show(f"warning: {warning}")
     else:
-        from swashfilm.study_case import StudyCase, load_film
-
-        case = load_film(Path(options.file))
-        if isinstance(case, StudyCase):
-            show(f"a study of {len(case.points)} points")
-            case = case.case(case.points[0])
-        show(case.resolved)
+        show(_checked_film(Path(options.file), tables))
     show(f"{options.file}: ok")
     return 0
+
+
+def _checked_film(path: Path, tables: Mapping[str, Any]) -> str:
+    """The film case of a file as resolved, of a study or table at its first point; raises InputFaults."""
+    from swashfilm.gap_table_case import load_gap_table
+    from swashfilm.study_case import StudyCase, load_film
+
+    if "table" in tables:
+        asked = load_gap_table(path)
+        show(f"a table over {len(asked.axes)} keys")
+        return asked.study.case(asked.study.points[0]).resolved
+    case = load_film(path)
+    if isinstance(case, StudyCase):
+        show(f"a study of {len(case.points)} points")
+        return case.case(case.points[0]).resolved
+    return case.resolved
 
 
 def _doctor(options: argparse.Namespace) -> int:

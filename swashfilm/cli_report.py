@@ -17,6 +17,7 @@ PAGES = {
     "film_revolution": "revolution_page.write_revolution_page",
     "film_study": "series_page.write_study_page",
     "pump": "pump_page.write_pump_page",
+    "gap_table": "table_page.write_table_page",
     "response_table": "table_page.write_table_page",
 }
 """What makes the page of a run, by the `kind` of its summary.json."""

@@ -3,26 +3,40 @@
 from __future__ import annotations
 
 import argparse
-from typing import TYPE_CHECKING
+from collections.abc import Callable, Collection
+from dataclasses import replace
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
-from swashfilm.physics_switches import SWITCHES, add_switches
+from swashfilm.physics_switches import SWITCHES, add_switches, switched_keys
 from swashfilm.terminal import show, show_table
 from system.faults import Fault, InputFaults, nearest_choice
 
 if TYPE_CHECKING:
+    from swashfilm.gap_table_case import GapTableCase
+    from swashfilm.progress import Report
     from system.description import PumpDescription
     from system.table_build import Range, TableCase
+    from system.table_points import Asked
 
 COMMAND_LINE = "command line"
+_SOURCE = "films"
 RANGES = {
-    "--speed": ("500rpm..2500rpm", "shaft speeds (0.2 .. 1.2 of the rated one)"),
+    "--speed": ("operating.speed", "500rpm..2500rpm", "shaft speeds (0.2 .. 1.2 of the rated one)"),
     "--pressure": (
+        "operating.pressure",
         "5MPa..40MPa",
         "delivery pressures, gauge (0.05 beyond inlet and case .. 1.15 of the rated one)",
     ),
-    "--displacement": ("0.1..1.0", "shares of the full displacement (0.1 .. 1)"),
-    "--temperature": ("20degC..100degC", "temperatures, for the oil's viscosity (20 .. 100 degC)"),
+    "--displacement": ("operating.displacement_ratio", "0.1..1.0", "shares of the full displacement (0.1 .. 1)"),
+    "--temperature": (
+        "operating.temperature",
+        "20degC..100degC",
+        "temperatures, for the oil's viscosity (20 .. 100 degC)",
+    ),
 }
+"""Path of a pump's key, example and meaning of what a table ranges over; a single value holds it."""
 HELD = {
     "--inlet-pressure": ("operating.inlet_pressure", "25bar", "pressure at the inlet, gauge"),
     "--case-pressure": ("operating.case_pressure", "1.5bar", "pressure in the case, gauge"),
@@ -32,39 +46,62 @@ TABLE_OPTIONS = [*RANGES, *HELD, "--source", "--points", "--held-out", "--worker
 
 def add_table_options(command: argparse.ArgumentParser) -> None:
     """Give the command what it takes."""
-    command.add_argument("pump", metavar="PUMP", help="built-in name (ref90) or pump file")
-    for option, (example, what) in RANGES.items():
-        command.add_argument(option, metavar=example, help=what)
+    command.add_argument(
+        "pump", metavar="PUMP", help="built-in name (ref90) or pump file; or a gap's case with a table [table]"
+    )
+    for option, (_, example, what) in RANGES.items():
+        command.add_argument(option, metavar=example, help=f"{what}; one value holds it")
     for option, (_, example, what) in HELD.items():
         command.add_argument(option, metavar=example, help=f"{what}; the pump's own where left out")
     command.add_argument(
-        "--source", metavar="{films,floating}", default="films", help="fidelity to condense (films)"
+        "--source", metavar="{films,floating}", default=_SOURCE, help="fidelity to condense (films)"
     )
     command.add_argument("--steps", metavar="N", help="of floating gaps: steps a turn (360)")
     add_switches(command)
-    command.add_argument("--points", metavar="N", help="points to learn from, 16 of them corners (120)")
-    command.add_argument("--held-out", metavar="N", help="points that the error is taken from (30)")
+    command.add_argument(
+        "--points", metavar="N", help="points to learn from, corners of the box among them (120 of four inputs)"
+    )
+    command.add_argument("--held-out", metavar="N", help="points to take the error from (a quarter of these)")
     command.add_argument("--workers", metavar="N", help="processes that solve points side by side (1)")
 
 
 def run_table_command(options: argparse.Namespace) -> int:
     """Run `swashfilm table` and return its exit code; raises InputFaults with what is wrong in words and file."""
+    from swashfilm.table_run import run_table
+
+    if is_film_case(options.pump):
+        from swashfilm.gap_table import run_gap_table
+
+        asked, workers = _gap_case(options)
+        return _built(asked.name, asked, options, partial(run_gap_table, asked, workers=workers))
+    case, workers = _case(options)
+    return _built(case.pump.name, case, options, partial(run_table, case, workers=workers))
+
+
+def is_film_case(path: str) -> bool:
+    """Whether a file there is a film case and no pump."""
+    from swashfilm.case_table import read_toml
+
+    return Path(path).is_file() and bool({"film", "gap"} & set(read_toml(Path(path))[1]))
+
+
+def _built(
+    of: str, asked: Asked, options: argparse.Namespace, run: Callable[[Path, Report], dict[str, Any]]
+) -> int:
+    """Run in a folder of its own and tell what came of it."""
     from swashfilm.progress import progress
     from swashfilm.run_folder import Interrupted, final_folder, run_folder
     from swashfilm.table_page import error_rows, held_rows
-    from swashfilm.table_run import run_table
 
-    case, workers = _case(options)
-    name = f"table-{case.pump.name}"
     with (
-        run_folder(name, options.output) as folder,
-        progress(len(case.points), f"table {case.pump.name}") as report,
+        run_folder(f"table-{of}", options.output) as folder,
+        progress(asked.learnt + asked.held_out, f"table {of}") as report,
     ):
         try:
-            summary = run_table(case, folder, report, workers=workers)
+            summary = run(folder, report)
         except KeyboardInterrupt:
             raise Interrupted(None, "points solved are kept; the same command goes on with them") from None
-    show_table(f"Table of {case.pump.name}", held_rows(summary))
+    show_table(f"Table of {of}", held_rows(summary))
     show_table("Error of held-out points", [("output", "rms", "largest", "at"), *error_rows(summary)])
     for warning in summary["warnings"]:
         show(f"warning: {warning}")
@@ -72,40 +109,79 @@ def run_table_command(options: argparse.Namespace) -> int:
     return 0
 
 
+def _gap_case(options: argparse.Namespace) -> tuple[GapTableCase, int]:
+    """The gap's table that a command line means, and how many workers; raises InputFaults with every fault."""
+    from swashfilm.gap_table_case import load_gap_table
+
+    given = {option: _given(options, option) for option in [*RANGES, *HELD, "--steps"]}
+    given["--source"] = None if options.source == _SOURCE else options.source
+    stated = "a key of [table] or of the case"
+    faults = [Fault(name, "an option beside a gap's case", stated) for name, text in given.items() if text]
+    case = load_gap_table(Path(options.pump), switched_keys(options))
+    learnt, held_out, workers = _counts(options, faults, len(case.axes))
+    if faults:
+        raise InputFaults(COMMAND_LINE, faults)
+    return replace(case, learnt=learnt, held_out=held_out), workers
+
+
 def _case(options: argparse.Namespace) -> tuple[TableCase, int]:
     """The case that a command line means, and how many workers; raises InputFaults with every fault at once."""
     from swashfilm.cli_floating import alike_faults, floating_faults, floating_options
     from system import table_sources
-    from system.table_build import HELD_OUT, LEARNT, TableCase, table_axes
+    from system.response_tables import INPUTS
+    from system.table_build import TableCase, table_axes
     from system.table_sources import Source
 
     faults: list[Fault] = []
-    counts = [
-        _count(faults, "--points", options.points, LEARNT, 32),
-        _count(faults, "--held-out", options.held_out, HELD_OUT, 2),
-        _count(faults, "--workers", options.workers, 1, 1),
-    ]
-    ranges = _ranges(options, faults)
+    single = {option for option in RANGES if ".." not in (_given(options, option) or "..")}
+    counts = _counts(options, faults, max(1, len(RANGES) - len(single)))
+    ranges = _ranges(options, faults, single)
     sources = [source.value for source in Source]
     if options.source not in sources:
         nearest = nearest_choice(options.source, sources)
         faults.append(Fault("--source", repr(options.source), f"one of {', '.join(sources)}", nearest))
-    pump = _pump(options, faults)
+    if len(single) == len(RANGES):
+        faults.append(Fault(", ".join(RANGES), "single values alone", "at least one range to learn over"))
+    pump = _pump(options, faults, single)
     if faults := [*floating_faults(options, pump, options.source, "--source"), *alike_faults(pump)]:
         raise InputFaults(COMMAND_LINE, faults)
     solver = table_sources.solver_of(Source(options.source), floating_options(options))
-    return TableCase(pump, solver, table_axes(pump, *ranges), counts[0], counts[1]), counts[2]
+    held = [name for name, option in zip(INPUTS, RANGES, strict=True) if option in single]
+    speeds, pressures, ratios, temperatures = ranges
+    axes = table_axes(pump, speeds, pressures, ratios, temperatures, held)
+    return TableCase(pump, solver, axes, *counts[:2]), counts[2]
 
 
-def _pump(options: argparse.Namespace, faults: list[Fault]) -> PumpDescription:
-    """The pump, with the pressures that a table holds; raises InputFaults where it or `faults` has any."""
+def _counts(options: argparse.Namespace, faults: list[Fault], inputs: int) -> tuple[int, int, int]:
+    """Points to learn from and to hold out, and workers."""
+    from system.table_points import FEWEST_HELD_OUT, usual_counts
+
+    learnt, held_out = usual_counts(inputs)
+    return (
+        _count(faults, "--points", options.points, learnt, 2 ** (inputs + 1)),
+        _count(faults, "--held-out", options.held_out, held_out, FEWEST_HELD_OUT),
+        _count(faults, "--workers", options.workers, 1, 1),
+    )
+
+
+def _pump(options: argparse.Namespace, faults: list[Fault], single: Collection[str]) -> PumpDescription:
+    """The pump, with what a table holds; raises InputFaults where it or `faults` has any."""
     from system.pump_file import load_pump
 
-    stated = {path: text for option, (path, *_) in HELD.items() if (text := _given(options, option)) is not None}
+    keys = HELD | {option: RANGES[option] for option in single}
+    stated: dict[str, object] = {
+        path: text for option, (path, *_) in keys.items() if (text := _given(options, option)) is not None
+    }
+    if "--displacement" in single:
+        try:
+            stated["operating.displacement_ratio"] = float(options.displacement)
+        except ValueError:
+            faults.append(Fault("--displacement", repr(options.displacement), "a bare number such as 0.8"))
+            del stated["operating.displacement_ratio"]
     try:
         pump = load_pump(options.pump, stated)
     except InputFaults as reason:
-        option_of = {path: option for option, (path, *_) in HELD.items()}
+        option_of = {path: option for option, (path, *_) in keys.items()}
         moved = [Fault(option_of.get(f.path, f.path), f.found, f.expected, f.nearest) for f in reason.faults]
         raise InputFaults(reason.source, [*faults, *moved], reason.lines) from None
     if faults:
@@ -113,13 +189,15 @@ def _pump(options: argparse.Namespace, faults: list[Fault]) -> PumpDescription:
     return pump
 
 
-def _ranges(options: argparse.Namespace, faults: list[Fault]) -> list[Range | None]:
+def _ranges(options: argparse.Namespace, faults: list[Fault], single: Collection[str]) -> list[Range | None]:
     from system.units import Dimension
 
     dimensions = (Dimension.ANGULAR_SPEED, Dimension.PRESSURE, None, Dimension.TEMPERATURE)
     return [
-        _range(faults, option, text, dimension, example) if (text := _given(options, option)) is not None else None
-        for (option, (example, _)), dimension in zip(RANGES.items(), dimensions, strict=True)
+        _range(faults, option, text, dimension, example)
+        if option not in single and (text := _given(options, option)) is not None
+        else None
+        for (option, (_, example, _)), dimension in zip(RANGES.items(), dimensions, strict=True)
     ]
 
 

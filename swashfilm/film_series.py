@@ -68,7 +68,7 @@ def solve_point(study: StudyCase, folder: Path, point: Point) -> Outcome:
     """One point solved and kept in `folder`; a fault or a solve that does not converge is its reason."""
     try:
         case = study.case(point)
-        summary = _summary(case)
+        summary = solved_summary(case)
     except (InputFaults, FilmInputError) as reason:
         return Outcome(point, Status.FAULTY, _line(reason), {})
     except (FilmNotConverged, NotConverged) as reason:
@@ -79,7 +79,8 @@ def solve_point(study: StudyCase, folder: Path, point: Point) -> Outcome:
     return outcome
 
 
-def _summary(case: Case) -> dict[str, Any]:
+def solved_summary(case: Case) -> dict[str, Any]:
+    """The summary of a case solved here, that of a revolution with its course; raises as its solver."""
     if isinstance(case, RevolutionCase):
         study = solve_revolution(case)
         return revolution_summary(study) | {COURSE: revolution_course(study)}

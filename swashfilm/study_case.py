@@ -20,7 +20,6 @@ from system.faults import Fault, InputFaults, nearest_choice
 from system.units import Dimension, QuantityError, format_quantity, parse_quantity
 
 MOST_POINTS = 10_000
-_RANGE = ("from", "to", "points", "spacing")
 _STEP = re.compile(r"([^\[\].]+)(?:\[(\d+)\])?")
 Point = tuple[int, ...]
 
@@ -58,7 +57,7 @@ class Axis:
 class StudyCase:
     """A study: the case's tables without [study], the varied keys, and how they combine.
 
-    `path` and `text` are those of the file.
+    `path` and `text` are those of the file, `where` the table that holds the keys.
     """
 
     name: str
@@ -67,6 +66,7 @@ class StudyCase:
     tables: Mapping[str, Any]
     axes: tuple[Axis, ...]
     combine: Combine
+    where: str = "study"
 
     @property
     def shape(self) -> tuple[int, ...]:
@@ -87,10 +87,14 @@ class StudyCase:
 
     def case(self, point: Point) -> Case:
         """The case of a point; raises InputFaults with what is wrong with it."""
+        return self.case_with(self.values(point))
+
+    def case_with(self, values: Mapping[str, Any]) -> Case:
+        """The case with any values of its keys; raises InputFaults with what is wrong with it."""
         tables = copy.deepcopy(dict(self.tables))
-        for key, value in self.values(point).items():
+        for key, value in values.items():
             _put(tables, key, value)
-        text = "".join(f"# study: {key} = {value}\n" for key, value in self.values(point).items()) + self.text
+        text = "".join(f"# {self.where}: {key} = {value}\n" for key, value in values.items()) + self.text
         return read_case(self.path, text, tables)
 
 
@@ -99,13 +103,25 @@ def load_film(path: Path, switched: Mapping[str, str] | None = None) -> Case | S
 
     `switched`: values of [revolution], by key, that the command line puts in place of the file's.
     """
+    text, tables = read_switched(path, switched or {})
+    if "table" in tables:
+        fault = Fault("table", "ranges to learn over", "no such table beside a film", f"swashfilm table {path}")
+        raise InputFaults(str(path), [fault], fault_lines(text, [fault]))
+    return read_study(path, text, tables) if "study" in tables else read_case(path, text, tables)
+
+
+def read_switched(path: Path, switched: Mapping[str, str]) -> tuple[str, dict[str, Any]]:
+    """Text and tables of a case file with values of [revolution], by key, in place of the file's.
+
+    Raises InputFaults as `read_toml`, and for a case that has no revolution.
+    """
     text, tables = read_toml(path)
     if switched:
         _switch(tables, switched)
         text = "".join(
             [f"{text.rstrip()}\n", *(f"# command line: revolution.{k} = {v}\n" for k, v in switched.items())]
         )
-    return read_study(path, text, tables) if "study" in tables else read_case(path, text, tables)
+    return text, tables
 
 
 def _switch(tables: dict[str, Any], switched: Mapping[str, str]) -> None:
@@ -135,30 +151,39 @@ def read_study(path: Path, text: str, tables: Mapping[str, Any]) -> StudyCase:
     base = {key: value for key, value in tables.items() if key != "study"}
     found = [axis for axis in axes if axis]
     study = StudyCase(path.stem, path, text, base, tuple(found), combine or Combine.ALL)
-    table.faults += _unknown_constants(base, found) + _beyond_lists(base, found)
     if not table.faults:
         _check_size(table, study)
-    if not table.faults:
-        table.faults += _case_faults(study)
-    if table.faults:
-        raise InputFaults(str(path), table.faults, fault_lines(text, table.faults))
+    hold_to_case(study, table.faults)
     return study
+
+
+def hold_to_case(study: StudyCase, faults: list[Fault]) -> None:
+    """Raise InputFaults with `faults` and, where there are none, for keys that no case has, or no point at all."""
+    told = [*faults, *_unknown_constants(study), *_beyond_lists(study)] or _case_faults(study)
+    if told:
+        raise InputFaults(str(study.path), told, fault_lines(study.text, told))
 
 
 def _axis(table: Table, key: str) -> Axis | None:
     raw = table.get(key)
-    if not all(_STEP.fullmatch(step) for step in key.split(".")) or "." not in key:
-        table.faults.append(
-            Fault(_named(key), f"'{key}'", 'a key of the case in quotes, such as "film.thickness"')
-        )
+    if not is_key_of_case(table, key):
         return None
     if isinstance(raw, list) and raw:
         return _listed(key, raw)
     if isinstance(raw, dict):
-        return _ranged(Table(_named(key), raw, table.faults), key)
+        return _ranged(Table(_named(table.path, key), raw, table.faults), key)
     expected = "a list of values, or a range { from, to, points }"
-    table.faults.append(Fault(_named(key), repr(raw), expected))
+    table.faults.append(Fault(_named(table.path, key), repr(raw), expected))
     return None
+
+
+def is_key_of_case(table: Table, key: str) -> bool:
+    """Whether a key of [study] or [table] is written as a dotted key of the case; its fault is told."""
+    if "." in key and all(_STEP.fullmatch(step) for step in key.split(".")):
+        return True
+    expected = 'a key of the case in quotes, such as "film.thickness"'
+    table.faults.append(Fault(_named(table.path, key), f"'{key}'", expected))
+    return False
 
 
 def _listed(key: str, values: Sequence[Any]) -> Axis:
@@ -172,15 +197,19 @@ def _listed(key: str, values: Sequence[Any]) -> Axis:
     return Axis(key, tuple(values), numbers, dimension.si_unit)
 
 
-def _ranged(table: Table, key: str) -> Axis | None:
-    ends = [table.get(end) for end in _RANGE[:2]]
-    points, spacing = table.get("points"), table.choice("spacing", Spacing, Spacing.LINEAR)
-    table.close()
-    if type(points) is not int or not 2 <= points <= MOST_POINTS:
-        table.fault(
-            "points", "no such key" if points is None else repr(points), f"a whole number, 2 to {MOST_POINTS}"
-        )
-        return None
+@dataclass(frozen=True)
+class Ends:
+    """A range of one key, SI: its ends, the dimension of both (None: bare numbers), and how it is stepped."""
+
+    low: float
+    high: float
+    dimension: Dimension | None
+    spacing: Spacing
+
+
+def read_ends(table: Table) -> Ends | None:
+    """The range that `from`, `to` and `spacing` of a table give; None with the faults told."""
+    ends, spacing = [table.get(end) for end in ("from", "to")], table.choice("spacing", Spacing, Spacing.LINEAR)
     plain = all(isinstance(end, (int, float)) and not isinstance(end, bool) for end in ends)
     dimension = None if plain else _dimension(ends)
     if not plain and dimension is None:
@@ -191,10 +220,25 @@ def _ranged(table: Table, key: str) -> Axis | None:
     if spacing is Spacing.LOG and min(low, high) <= 0.0:
         table.fault("spacing", "'log' over a range that is not above zero", "'linear', or two ends above zero")
         return None
-    if spacing is None:
+    return Ends(low, high, dimension, spacing) if spacing else None
+
+
+def _ranged(table: Table, key: str) -> Axis | None:
+    points, ends = table.get("points"), read_ends(table)
+    table.close()
+    if type(points) is not int or not 2 <= points <= MOST_POINTS:
+        table.fault(
+            "points", "no such key" if points is None else repr(points), f"a whole number, 2 to {MOST_POINTS}"
+        )
         return None
-    steps = (np.geomspace if spacing is Spacing.LOG else np.linspace)(low, high, points)
-    numbers = [float(f"{step:.12g}") for step in steps]
+    if ends is None:
+        return None
+    steps = (np.geomspace if ends.spacing is Spacing.LOG else np.linspace)(ends.low, ends.high, points)
+    return stepped(key, [float(f"{step:.12g}") for step in steps], ends.dimension)
+
+
+def stepped(key: str, numbers: Sequence[float], dimension: Dimension | None) -> Axis:
+    """An axis of such numbers, SI, as a case writes them."""
     if dimension is None:
         return Axis(key, tuple(numbers), tuple(numbers), "")
     texts = [format_quantity(number, dimension, digits=12) for number in numbers]
@@ -213,28 +257,29 @@ def _dimension(values: Sequence[Any]) -> Dimension | None:
     return None
 
 
-def _unknown_constants(tables: Mapping[str, Any], axes: Sequence[Axis]) -> list[Fault]:
+def _unknown_constants(study: StudyCase) -> list[Fault]:
     """Faults of varied constants that the case has not: nothing would come of them."""
-    constants = tables.get("constants")
+    constants = study.tables.get("constants")
     known = [f"constants.{name}" for name in constants] if isinstance(constants, dict) else []
     expected = f"one of {', '.join(known)}" if known else "a table [constants] that has it"
     return [
-        Fault(_named(axis.key), "no such constant", expected, nearest_choice(axis.key, known))
-        for axis in axes
+        Fault(_named(study.where, axis.key), "no such constant", expected, nearest_choice(axis.key, known))
+        for axis in study.axes
         if axis.key.startswith("constants.") and axis.key not in known
     ]
 
 
-def _beyond_lists(tables: Mapping[str, Any], axes: Sequence[Axis]) -> list[Fault]:
+def _beyond_lists(study: StudyCase) -> list[Fault]:
     """Faults of varied entries, such as `film.velocity[7]`, that a list of the case has not."""
     faults = []
-    for axis in axes:
-        at: Any = tables
+    for axis in study.axes:
+        at: Any = study.tables
         path, _, index = axis.key.rstrip("]").partition("[")
         for step in path.split("."):
             at = at.get(step) if isinstance(at, dict) else None
         if index.isdecimal() and isinstance(at, list) and int(index) >= len(at):
-            faults.append(Fault(_named(axis.key), f"entry {index} of {path}", f"an entry from 0 to {len(at) - 1}"))
+            expected = f"an entry from 0 to {len(at) - 1}"
+            faults.append(Fault(_named(study.where, axis.key), f"entry {index} of {path}", expected))
     return faults
 
 
@@ -256,7 +301,7 @@ def _case_faults(study: StudyCase) -> list[Fault]:
         except InputFaults as reason:
             told = [_at_study(fault, study) for fault in reason.faults]
             first = first or told
-            if any(fault.found == "unknown key" and fault.path.startswith("study.") for fault in told):
+            if any(fault.found == "unknown key" and fault.path.startswith(f"{study.where}.") for fault in told):
                 return told
             continue
         return []
@@ -270,12 +315,12 @@ def _at_study(fault: Fault, study: StudyCase) -> Fault:
             near = fault.nearest
             if fault.found == "unknown key" and near:
                 near = f'"{axis.key.rpartition(".")[0]}.{near}"'
-            return replace(fault, path=_named(axis.key), nearest=near)
+            return replace(fault, path=_named(study.where, axis.key), nearest=near)
         head, _, rest = axis.key.partition(".")
         if fault.path == head and head not in study.tables:
             near = nearest_choice(head, list(study.tables))
             nearest = f'"{near}.{rest}"' if near else ""
-            return Fault(_named(axis.key), "unknown key", fault.expected, nearest)
+            return Fault(_named(study.where, axis.key), "unknown key", fault.expected, nearest)
     return fault
 
 
@@ -297,5 +342,5 @@ def _put(tables: dict[str, Any], key: str, value: Any) -> None:
         at[name] = [None] * int(index) + [value]
 
 
-def _named(key: str) -> str:
-    return f"study.{quoted(key)}"
+def _named(where: str, key: str) -> str:
+    return f"{where}.{quoted(key)}"

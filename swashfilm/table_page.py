@@ -8,10 +8,12 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
+from gaps.response import Measure
+from swashfilm.headline import named
 from swashfilm.table_plots import table_plots
+from swashfilm.table_run import input_text, place_text
 from system.faults import Fault, InputFaults
-from system.response_tables import axis_value
-from system.table_store import read_table
+from system.table_store import read_response
 
 FILES = ("summary.json", "resolved.toml", "table.json", "table.npz")
 
@@ -24,16 +26,15 @@ def write_table_page(folder: Path) -> Path:
     if missing:
         raise InputFaults(str(folder), [Fault(name, "no such file", "a table's run folder") for name in missing])
     summary = json.loads((folder / "summary.json").read_text("utf-8"))
-    pictures = table_plots(read_table(folder / "table.json").response)
+    response = read_response(folder / "table.json", summary["table_format"], lambda _, response: response)
+    pictures = table_plots(response, summary)
     template = Environment(loader=PackageLoader("swashfilm"), autoescape=True).get_template("table.html.jinja")
     page = template.render(
         summary=summary,
         held=list(held_rows(summary)),
         errors=list(error_rows(summary)),
-        meanings=[
-            (row["name"].replace(".", ", ").replace("_", " "), row["meaning"]) for row in summary["outputs"]
-        ],
-        failed=[(_place(summary, one["at"]), one["reason"]) for one in summary["failed"]],
+        meanings=[(named(row["name"])[0], row["meaning"]) for row in summary["outputs"]],
+        failed=[(place_text(summary["axes"], one["at"]), one["reason"]) for one in summary["failed"]],
         pictures={text: base64.b64encode(png).decode("ascii") for text, png in pictures.items()},
         resolved=(folder / "resolved.toml").read_text("utf-8"),
     )
@@ -43,15 +44,13 @@ def write_table_page(folder: Path) -> Path:
 
 
 def held_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
-    """(what, value with its unit): where a table comes from, its box, and what it is held at."""
-    yield "condensed from", f"{summary['source']} fidelity"
-    for name, text in summary["stated"].items():
-        yield name, text
+    """(what, value with its unit): where a table comes from, what it is held at, and its box."""
+    yield from summary["condensed"].items()
     for axis in summary["axes"]:
-        ends = (axis_value(axis["name"], axis[end]) for end in ("lower", "upper"))
-        yield axis["name"].replace("_", " "), " .. ".join(ends)
-    for name in ("inlet_pressure", "case_pressure"):
-        yield name.replace("_", " "), axis_value("delivery_pressure", summary[name])
+        yield (
+            axis["name"].replace("_", " "),
+            " .. ".join(input_text(axis, axis[end]) for end in ("lower", "upper")),
+        )
     points = summary["points"]
     failed = f", {len(summary['failed'])} failed" if summary["failed"] else ""
     yield "points", f"{points['learnt']} learnt, {points['held_out']} held out{failed}"
@@ -61,13 +60,15 @@ def held_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
 def error_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:
     """(output, rms, largest error of held-out points, where the largest is)."""
     for row in summary["outputs"]:
-        relative = row["measure"] == "relative"
-        errors = (
-            f"{100.0 * row[key]:.2f} %" if relative else f"{row[key]:.4f}"
-            for key in ("held_out_rms", "held_out_largest")
-        )
-        yield row["name"].replace(".", ", ").replace("_", " "), *errors, _place(summary, row["held_out_worst_at"])
+        errors = (_error_text(row["measure"], row[key]) for key in ("held_out_rms", "held_out_largest"))
+        yield named(row["name"])[0], *errors, place_text(summary["axes"], row["held_out_worst_at"])
 
 
-def _place(summary: Mapping[str, Any], at: list[float]) -> str:
-    return ", ".join(axis_value(axis["name"], value) for axis, value in zip(summary["axes"], at, strict=True))
+def _error_text(measure: str, error: float) -> str:
+    match Measure(measure):
+        case Measure.RELATIVE:
+            return f"{100.0 * error:.2f} %"
+        case Measure.OF_LARGEST:
+            return f"{100.0 * error:.2f} % of the largest"
+        case Measure.ABSOLUTE:
+            return f"{error:.4f}"

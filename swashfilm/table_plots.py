@@ -3,107 +3,153 @@
 from __future__ import annotations
 
 import io
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gaps.response import Response, Spacing
+from gaps.response import Axis, Response, Spacing
+from reynolds.mesh import Array
+from swashfilm.headline import named
+from swashfilm.revolution_data import SHOWN
 from system.response_tables import LARGE_ERROR
-from system.table_means import GAP_PAIRS, OF_EVERY_GAP
+from system.units import Dimension, in_unit, reading_unit
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-COLOURS = {"piston": "#3c7a8c", "slipper": "#8c5a3c", "valve_plate": "#5b9a5b"}
-INPUTS = {
-    "shaft_speed": (30.0 / np.pi, "shaft speed / (r/min)"),
-    "delivery_pressure": (1e-6, "delivery pressure, gauge / MPa"),
-    "displacement_ratio": (1.0, "displacement ratio"),
-    "viscosity": (1e3, "viscosity / (mPa s)"),
-}
+COLOURS = {"piston": "#3c7a8c", "slipper": "#8c5a3c", "valve_plate": "#5b9a5b", "socket": "#b8862b", "": "#3c7a8c"}
 COURSE = 80
 """Points of a line."""
+COLUMNS = 5
+"""Pictures side by side."""
+Groups = Mapping[str, Sequence[tuple[str, int]]]
+"""What is drawn together: outputs of one kind, each by whose it is ("" for a gap alone) and its column."""
 
 
-def table_plots(response: Response) -> dict[str, bytes]:
-    """Captions and PNGs of a table's pictures."""
+def table_plots(response: Response, record: Mapping[str, Any]) -> dict[str, bytes]:
+    """Captions and PNGs of a table's pictures; `record` tells the axes' dimensions and the outputs' units."""
     return {
         "Error of held-out points, rms and largest; dashed: the limit from which an output is warned of": _errors(
             response
         ),
-        "Held-out points, solved and by the table": _parity(response),
-        "Course over each input through the middle of the box: ratios to the lumped law; dots: held-out points, "
-        "wherever the other inputs stand": _courses(response),
+        "Held-out points, solved and by the table": _parity(response, record),
+        "Course over each input through the middle of the box; dots: held-out points, wherever the other inputs "
+        "stand": _courses(response, record),
     }
 
 
+def _groups(response: Response) -> Groups:
+    """`piston.leakage` and `slipper.leakage` together, `leakage_flow_m3_per_s` by itself."""
+    found: dict[str, list[tuple[str, int]]] = {}
+    for column, output in enumerate(response.outputs):
+        whose, _, what = output.name.rpartition(".")
+        found.setdefault(what, []).append((whose, column))
+    return found
+
+
 def _words(name: str) -> str:
-    return name.replace(".", ", ").replace("_", " ")
+    return named(name)[0]
 
 
 def _errors(response: Response) -> bytes:
-    figure = _figure(9.0, 4.8)
+    figure = _figure(9.0, max(2.4, 0.25 * len(response.outputs)))
     axes = figure.subplots()
-    names = [_words(output.name) for output in response.outputs]
-    error, rows = response.held_out_error, np.arange(len(names))
+    error, rows = response.held_out_error, np.arange(len(response.outputs))
     axes.barh(rows - 0.2, np.maximum(error.largest, 1e-6), 0.38, color="#c8a27c", label="largest")
     axes.barh(rows + 0.2, np.maximum(error.rms, 1e-6), 0.38, color="#3c7a8c", label="rms")
     axes.axvline(LARGE_ERROR, color="#b55a00", linestyle="--")
-    axes.set_yticks(rows, [f"{n} ({o.measure.value})" for n, o in zip(names, response.outputs, strict=True)])
+    axes.set_yticks(rows, [f"{_words(output.name)} ({output.measure.value})" for output in response.outputs])
     axes.set(xscale="log", xlabel="error", xlim=(1e-5, max(0.1, 1.3 * float(error.largest.max()))))
     axes.tick_params(axis="y", labelsize=8)
     axes.invert_yaxis()
-    axes.legend(loc="lower right")
+    axes.legend(loc="best", fontsize=8)
     axes.grid(visible=True, axis="x", alpha=0.3)
     return _png(figure)
 
 
-def _parity(response: Response) -> bytes:
-    figure = _figure(11.0, 2.9)
+def _parity(response: Response, record: Mapping[str, Any]) -> bytes:
+    groups = _groups(response)
+    lines = -(-len(groups) // COLUMNS)
+    figure = _figure(11.0, 2.6 * lines)
     solved, told = response.held_out.values, response.at(response.held_out.points)
-    columns = {output.name: k for k, output in enumerate(response.outputs)}
-    for axes, name in zip(figure.subplots(1, len(OF_EVERY_GAP)), OF_EVERY_GAP, strict=True):
-        for gap in GAP_PAIRS:
-            k = columns[f"{gap}.{name}"]
+    places = figure.subplots(lines, COLUMNS, squeeze=False).ravel()
+    for axes, (what, members) in zip(places, groups.items(), strict=False):
+        title, factor = _shown(what, members, record)
+        for whose, k in members:
             axes.plot(
-                solved[:, k], told[:, k], "o", markersize=3.5, alpha=0.8, color=COLOURS[gap], label=_words(gap)
-            )
+                factor * solved[:, k], factor * told[:, k], "o", markersize=3.5, alpha=0.8, color=COLOURS[whose],
+                label=_words(whose),
+            )  # fmt: skip
         ends = [*axes.get_xlim(), *axes.get_ylim()]
         axes.plot([min(ends), max(ends)], [min(ends), max(ends)], color="#1c2328", linewidth=0.8)
-        axes.set_title(_words(name), fontsize=9)
+        axes.set_title(title, fontsize=8)
         axes.set_xlabel("solved", fontsize=8)
         axes.tick_params(labelsize=7)
-    figure.axes[0].set_ylabel("by the table", fontsize=8)
-    figure.axes[0].legend(fontsize=7)
+        axes.locator_params(nbins=3)
+    for axes in places[len(groups) :]:
+        axes.set_axis_off()
+    places[0].set_ylabel("by the table", fontsize=8)
+    _legend(figure)
     return _png(figure)
 
 
-def _courses(response: Response) -> bytes:
-    figure = _figure(11.0, 9.0)
-    grid = figure.subplots(len(OF_EVERY_GAP), len(response.axes), sharey="row")
-    columns = {output.name: k for k, output in enumerate(response.outputs)}
+def _courses(response: Response, record: Mapping[str, Any]) -> bytes:
+    groups = _groups(response)
+    figure = _figure(max(5.0, 2.75 * len(response.axes)), 1.7 * len(groups))
+    grid = figure.subplots(len(groups), len(response.axes), sharey="row", squeeze=False)
     middle = np.array([float(axis.from_unit(np.array(0.5))) for axis in response.axes])
-    for j, axis in enumerate(response.axes):
-        scale, label = INPUTS[axis.name]
+    for j, (axis, row) in enumerate(zip(response.axes, record["axes"], strict=True)):
         along = np.tile(middle, (COURSE, 1))
         along[:, j] = axis.from_unit(np.linspace(0.0, 1.0, COURSE))
-        told = response.at(along)
-        for i, name in enumerate(OF_EVERY_GAP):
+        told, label = response.at(along), _axis_words(axis, row)
+        places, dots = (_places(row, values[:, j]) for values in (along, response.held_out.points))
+        for i, (what, members) in enumerate(groups.items()):
+            title, factor = _shown(what, members, record)
             axes = grid[i, j]
-            for gap in GAP_PAIRS:
-                k = columns[f"{gap}.{name}"]
-                axes.plot(scale * along[:, j], told[:, k], color=COLOURS[gap], label=_words(gap))
-                dots = response.held_out
-                axes.plot(scale * dots.points[:, j], dots.values[:, k], ".", color=COLOURS[gap], alpha=0.35)
+            for whose, k in members:
+                axes.plot(places, factor * told[:, k], color=COLOURS[whose], label=_words(whose))
+                axes.plot(dots, factor * response.held_out.values[:, k], ".", color=COLOURS[whose], alpha=0.35)
             if axis.spacing is Spacing.LOGARITHMIC:
                 _logarithmic(axes)
             axes.grid(visible=True, alpha=0.3)
             axes.tick_params(labelsize=7, which="both")
+            if j == 0:
+                axes.set_ylabel(title, fontsize=8)
         grid[-1, j].set_xlabel(label, fontsize=8)
-    for i, name in enumerate(OF_EVERY_GAP):
-        grid[i, 0].set_ylabel(_words(name), fontsize=9)
-    figure.legend(*grid[0, 0].get_legend_handles_labels(), loc="outside upper center", ncols=3, fontsize=8)
+    _legend(figure)
     return _png(figure)
+
+
+def _shown(what: str, members: Sequence[tuple[str, int]], record: Mapping[str, Any]) -> tuple[str, float]:
+    """Title of outputs that are drawn together, with the unit that they are shown in, and its factor on SI."""
+    unit, factor = SHOWN[record["outputs"][members[0][1]]["unit"]]
+    return (_words(what) if unit == "-" else f"{_words(what)} / {unit}"), factor
+
+
+def _axis_words(axis: Axis, row: Mapping[str, Any]) -> str:
+    words = axis.name.replace("_", " ")
+    return words if row["dimension"] is None else f"{words} / {_unit(row)}"
+
+
+def _unit(row: Mapping[str, Any]) -> str:
+    return reading_unit(row["lower"], Dimension[row["dimension"]])
+
+
+def _places(row: Mapping[str, Any], values: Array) -> Array:
+    """Values of an input in the unit that its axis is drawn in."""
+    if row["dimension"] is None:
+        return values
+    unit, dimension = _unit(row), Dimension[row["dimension"]]
+    return np.array([in_unit(float(value), unit, dimension) for value in values])
+
+
+def _legend(figure: Any) -> None:
+    """One legend of whose the curves are, where there is more than one."""
+    pairs = [axes.get_legend_handles_labels() for axes in figure.axes]
+    curves = {label: handle for handles, labels in pairs for handle, label in zip(handles, labels, strict=True)}
+    if len(curves) > 1:
+        figure.legend(curves.values(), curves, loc="outside upper center", ncols=len(curves), fontsize=8)
 
 
 def _logarithmic(axes: Any) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -11,18 +11,17 @@ import numpy as np
 from gaps.response import Region, Response
 from swashfilm.progress import Report
 from swashfilm.run_folder import write_json
+from system.floating_parts import floating_parts
 from system.pump_file import resolved_toml
 from system.response_tables import LARGE_ERROR, ResponseTable, axis_value
 from system.table_build import TableCase, build_table
 from system.table_means import MEANINGS
 from system.table_store import keep_table, table_record
+from system.units import Dimension, format_quantity
 
 TABLE = "table"
 NARROW = 0.7
 """Part of an axis within which a region of large error must lie for the axis to be named."""
-UNITS = {
-    "shaft_speed": "rad/s", "delivery_pressure": "Pa", "displacement_ratio": "1", "viscosity": "Pa s",
-}  # fmt: skip
 
 
 def run_table(case: TableCase, folder: Path, report: Report, *, workers: int = 1) -> dict[str, Any]:
@@ -33,35 +32,45 @@ def run_table(case: TableCase, folder: Path, report: Report, *, workers: int = 1
     table = build_table(case, workers=workers, report=report)
     (folder / "resolved.toml").write_text(resolved_toml(case.pump), encoding="utf-8")
     keep_table(table, folder / TABLE)
-    write_points(folder / "points.csv", table)
-    summary = table_summary(table)
+    summary = table_summary(table) | {"assumptions": [str(taken) for taken in floating_parts(case.pump).taken]}
+    write_table_files(folder, table.response, summary)
+    return summary
+
+
+def write_table_files(folder: Path, response: Response, summary: Mapping[str, Any]) -> None:
+    """Write points.csv, summary.json and, from the folder's files, report.html."""
+    write_points(folder / "points.csv", response, summary)
     write_json(folder / "summary.json", summary)
     from swashfilm.table_page import write_table_page
 
     write_table_page(folder)
-    return summary
 
 
 def table_summary(table: ResponseTable) -> dict[str, Any]:
     """What a table is worth: its origin and box, the error of each output, and warnings."""
-    record = table_record(table)
-    meanings = [row | {"meaning": MEANINGS[row["name"]]} for row in record["outputs"]]
+    record, origin = table_record(table), table.origin
+    held = dict(origin.held) | {"inlet_pressure": origin.inlet_pressure, "case_pressure": origin.case_pressure}
+    rows = [row | {"unit": "1", "meaning": MEANINGS[row["name"]]} for row in record["outputs"]]
     return record | {
         "format": 1,
         "kind": "response_table",
-        "name": table.origin.pump,
-        "outputs": meanings,
-        "warnings": table_warnings(table),
+        "name": origin.pump,
+        "condensed": {
+            "condensed from": f"{origin.source.value} fidelity",
+            **origin.stated,
+            **{name.replace("_", " "): axis_value(name, value) for name, value in held.items()},
+        },
+        "outputs": rows,
+        "warnings": table_warnings(table.response, record),
     }
 
 
-def table_warnings(table: ResponseTable) -> list[str]:
+def table_warnings(response: Response, record: Mapping[str, Any]) -> list[str]:
     """Outputs that are learnt badly, with the region in which they are; points without a result."""
-    return [*_large_errors(table), *_failures(table)]
+    return [*_large_errors(response, record["axes"]), *_failures(record)]
 
 
-def _large_errors(table: ResponseTable) -> Iterator[str]:
-    response = table.response
+def _large_errors(response: Response, axes: Sequence[Mapping[str, Any]]) -> Iterator[str]:
     for column, output in enumerate(response.outputs):
         region = response.large_error(column, LARGE_ERROR)
         if region is None:
@@ -70,41 +79,55 @@ def _large_errors(table: ResponseTable) -> Iterator[str]:
         yield (
             f"large_error: {output.name}: held-out points err by {error.largest[column]:.3g} at most, "
             f"{error.rms[column]:.3g} rms ({output.measure.value}, limit {LARGE_ERROR:g}); above the limit "
-            f"{region.count} of {len(response.held_out.points)}, {region_text(response, region)}; a smaller box "
-            "or more points"
+            f"{region.count} of {len(response.held_out.points)}, {region_text(response, region, axes)}; a smaller "
+            "box or more points"
         )
 
 
-def region_text(response: Response, region: Region) -> str:
+def region_text(response: Response, region: Region, axes: Sequence[Mapping[str, Any]]) -> str:
     """Where a region lies, by the axes along which it is narrow."""
     ends = []
-    for axis, low, high in zip(response.axes, region.lower, region.upper, strict=True):
+    for axis, row, low, high in zip(response.axes, axes, region.lower, region.upper, strict=True):
         if np.ptp(axis.to_unit(np.array([low, high]))) < NARROW:
-            shown = dict.fromkeys((axis_value(axis.name, low), axis_value(axis.name, high)))
+            shown = dict.fromkeys((input_text(row, low), input_text(row, high)))
             ends.append(f"{axis.name.replace('_', ' ')} {' .. '.join(shown)}")
     return "at " + ", ".join(ends) if ends else "all over the box"
 
 
-def _failures(table: ResponseTable) -> Iterator[str]:
-    failed = table.origin.failed
+def _failures(record: Mapping[str, Any]) -> Iterator[str]:
+    failed = record["failed"]
     if failed:
-        first = failed[0]
-        at = zip(table.response.axes, first.at, strict=True)
-        place = ", ".join(f"{axis.name.replace('_', ' ')} {axis_value(axis.name, value)}" for axis, value in at)
         yield (
-            f"points_failed: {len(failed)} points have no result and are not learnt from, such as {place}: "
-            f"{first.reason}"
+            f"points_failed: {len(failed)} points have no result and are not learnt from, such as "
+            f"{place_text(record['axes'], failed[0]['at'])}: {failed[0]['reason']}"
         )
 
 
-def write_points(path: Path, table: ResponseTable) -> None:
+def input_text(axis: Mapping[str, Any], value: float) -> str:
+    """A value of an axis (a row of the record's) as people read it."""
+    if axis["dimension"] is None:
+        return f"{value:.4g}"
+    return format_quantity(float(value), Dimension[axis["dimension"]], digits=4)
+
+
+def place_text(axes: Sequence[Mapping[str, Any]], at: Sequence[float]) -> str:
+    """A place in the box as people read it."""
+    return ", ".join(
+        f"{axis['name'].replace('_', ' ')} {input_text(axis, value)}" for axis, value in zip(axes, at, strict=True)
+    )
+
+
+def write_points(path: Path, response: Response, summary: Mapping[str, Any]) -> None:
     """Write every point: learnt or held out, inputs with their units, outputs as solved and as the table says."""
-    response = table.response
-    inputs = [f"{axis.name} [{UNITS[axis.name]}]" for axis in response.axes]
-    names = [output.name for output in response.outputs]
-    rows = [",".join(["set", *inputs, *(f"{n} [1]" for n in names), *(f"{n} by table [1]" for n in names)])]
+    inputs = [
+        f"{axis['name']} [{Dimension[axis['dimension']].si_unit if axis['dimension'] else '1'}]"
+        for axis in summary["axes"]
+    ]
+    outputs = [(row["name"], row["unit"]) for row in summary["outputs"]]
+    told = [f"{name} by table [{unit}]" for name, unit in outputs]
+    rows = [",".join(["set", *inputs, *(f"{name} [{unit}]" for name, unit in outputs), *told])]
     for kind, samples in (("learnt", response.learnt), ("held out", response.held_out)):
-        told = response.at(samples.points)
-        for numbers in np.hstack([samples.points, samples.values, told]):
+        by_table = response.at(samples.points)
+        for numbers in np.hstack([samples.points, samples.values, by_table]):
             rows.append(",".join([kind, *(f"{value:.8g}" for value in numbers)]))
     path.write_text("\n".join(rows) + "\n", encoding="utf-8")

@@ -32,6 +32,8 @@ from system.unlike import kinds
 MARCHED = Accuracy(step=1e-2)
 PISTON_CELLS, SLIPPER_CELLS, BLOCK_CELLS = (48, 16), (12, 40), (4, 16)
 LEAST_CELLS = 2
+LEAST_PISTON_CELLS = 8
+"""Along a bore: on fewer, a tilted piston with much clearance leaves the ends of its film between their points."""
 SLIPPER_START = BLOCK_START = 1e-5  # m: a film that every pump starts with
 
 
@@ -55,9 +57,23 @@ class FloatingOptions:
             self, physics=self.physics.without(Effect.ELASTIC_WALLS, Effect.PRESSURE_VISCOSITY, Effect.HEAT)
         )
 
-    def cells(self, cells: tuple[int, int]) -> tuple[int, int]:
-        """Cells of a mesh."""
-        return max(LEAST_CELLS, round(self.finer * cells[0])), max(LEAST_CELLS, round(self.finer * cells[1]))
+    @property
+    def piston_cells(self) -> tuple[int, int]:
+        """Cells around and along the piston's film."""
+        return self._cells(PISTON_CELLS, LEAST_PISTON_CELLS)
+
+    @property
+    def slipper_cells(self) -> tuple[int, int]:
+        """Cells across each land of the slipper and around it."""
+        return self._cells(SLIPPER_CELLS)
+
+    @property
+    def block_cells(self) -> tuple[int, int]:
+        """Cells across each land of the valve plate and around a piston pitch."""
+        return self._cells(BLOCK_CELLS)
+
+    def _cells(self, cells: tuple[int, int], least: int = LEAST_CELLS) -> tuple[int, int]:
+        return max(least, round(self.finer * cells[0])), max(least, round(self.finer * cells[1]))
 
 
 def piston_revolution(
@@ -72,7 +88,7 @@ def piston_revolution(
 
     Raises as `run_revolution`.
     """
-    cells = options.cells(PISTON_CELLS)
+    cells = options.piston_cells
     film = piston_film(rotor, parts, drive, options.physics, cells)
     floating, schedule = floating_piston(film), evenly(drive.shaft_speed, options.steps, keep=options.keep)
     told = _of_turn(report, options.steps, "piston")
@@ -95,7 +111,7 @@ def slipper_revolution(
     Between elastic walls from where it is between rigid ones. Raises as `run_revolution`.
     """
     before = before or _between_rigid(slipper_revolution, rotor, parts, drive, options, report)
-    cells = options.cells(SLIPPER_CELLS)
+    cells = options.slipper_cells
     film = slipper_film(rotor, parts, drive, options.physics, cells)
     floating, schedule = floating_slipper(film), evenly(drive.shaft_speed, options.steps, keep=options.keep)
     start, told = np.array([SLIPPER_START, 0.0, 0.0]), _of_turn(report, options.steps, "slipper")
@@ -123,7 +139,7 @@ def block_revolution(
     before = before or _between_rigid(block_revolution, rotor, parts, drive, options, report)
     alike = kinds(pump).alike
     steps, span = (options.steps // pistons, 2.0 * np.pi / pistons) if alike else (options.steps, 2.0 * np.pi)
-    film = block_film(rotor, parts, drive, options.physics, options.cells(BLOCK_CELLS))
+    film = block_film(rotor, parts, drive, options.physics, options.block_cells)
     schedule = evenly(drive.shaft_speed, steps, span, options.keep)
     start, told = np.array([BLOCK_START, 0.0, 0.0]), _of_turn(report, steps, "block")
     heat = block_heat(rotor, parts) if options.physics.heat else None

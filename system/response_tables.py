@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from gaps.response import Axis, Response, unit_places
+from gaps.response import Response, unit_places
 from reynolds.errors import FilmInputError
 from system.operating import OperatingPoint
 from system.table_sources import Source
@@ -19,7 +19,10 @@ from system.units import Dimension, format_quantity
 
 LARGE_ERROR = 0.03
 """Error of a held-out point from which a table is warned of."""
+HELD_TO = 1e-5
+"""Relative: how far an input that a table holds may be off."""
 SPEED, PRESSURE, RATIO, VISCOSITY = "shaft_speed", "delivery_pressure", "displacement_ratio", "viscosity"
+INPUTS = (SPEED, PRESSURE, RATIO, VISCOSITY)
 DIMENSIONS = {SPEED: Dimension.ANGULAR_SPEED, PRESSURE: Dimension.PRESSURE, VISCOSITY: Dimension.DYNAMIC_VISCOSITY}
 
 
@@ -36,8 +39,8 @@ class Origin:
     """Where a table's numbers come from.
 
     pump, pump_key: its name and its content; source with what it states of physics, mesh and accuracy; package:
-    the program's version; inlet_pressure, case_pressure Pa gauge; failed: points without a result; seconds of
-    computing that a point took, mean.
+    the program's version; inlet_pressure, case_pressure Pa gauge; held: those of INPUTS that have no axis, SI;
+    failed: points without a result; seconds of computing that a point took, mean.
     """
 
     pump: str
@@ -47,13 +50,14 @@ class Origin:
     package: str
     inlet_pressure: float
     case_pressure: float
+    held: Mapping[str, float]
     failed: tuple[Failed, ...]
     seconds: float
 
 
 @dataclass(frozen=True)
 class ResponseTable:
-    """A pump's response with its origin: axes SPEED .. VISCOSITY, outputs of `table_means.MEANINGS`."""
+    """A pump's response with its origin: axes of INPUTS but for those held, outputs of `table_means.MEANINGS`."""
 
     origin: Origin
     response: Response
@@ -61,7 +65,7 @@ class ResponseTable:
     def at(self, point: OperatingPoint) -> dict[str, float]:
         """The outputs by name at an operating point; shares of contact are held to 0 .. 1, which a share is.
 
-        Raises FilmInputError for a point outside the box or at another inlet or case pressure.
+        Raises FilmInputError for a point outside the box or at another value of what is held.
         """
         self._check_held(point)
         values = self.response.at(np.array([[getattr(point, axis.name) for axis in self.response.axes]]))[0]
@@ -70,8 +74,9 @@ class ResponseTable:
         return found | shares
 
     def holds(self, point: OperatingPoint) -> bool:
-        """Whether a point lies in the box."""
-        return all(axis.lower <= getattr(point, axis.name) <= axis.upper for axis in self.response.axes)
+        """Whether a point lies in the box, and what is held is as the table has it."""
+        held = all(_same(value, getattr(point, name)) for name, value in self.origin.held.items())
+        return held and all(axis.lower <= getattr(point, axis.name) <= axis.upper for axis in self.response.axes)
 
     def beside_failed(self, point: OperatingPoint) -> Failed | None:
         """The point without a result that is nearer than any learnt one, if any: there the table guesses."""
@@ -87,6 +92,10 @@ class ResponseTable:
         return self.origin.failed[int(distance[0].argmin())]
 
     def _check_held(self, point: OperatingPoint) -> None:
+        for name, own in self.origin.held.items():
+            if not _same(own, getattr(point, name)):
+                found, expected = axis_value(name, getattr(point, name)), axis_value(name, own)
+                raise FilmInputError(name.replace("_", " "), found, f"{expected}, at which the table is held")
         for name in ("inlet_pressure", "case_pressure"):
             own, asked = getattr(self.origin, name), getattr(point, name)
             if abs(asked - own) > 1.0:
@@ -94,20 +103,26 @@ class ResponseTable:
                 raise FilmInputError(name.replace("_", " "), *shown)
 
 
+def _same(one: float, other: float) -> bool:
+    """Whether two values of an input are one but for round-off and what a port's pressure settles to."""
+    return abs(one - other) <= HELD_TO * abs(one)
+
+
 def axis_value(name: str, value: float) -> str:
     """A value of an axis as people read it."""
     return format_quantity(value, DIMENSIONS[name], digits=4) if name in DIMENSIONS else f"{value:.4g}"
 
 
-def box_text(axes: tuple[Axis, ...]) -> str:
-    """The box as people read it."""
-    rows = (
-        f"{a.name.replace('_', ' ')} {axis_value(a.name, a.lower)} .. {axis_value(a.name, a.upper)}" for a in axes
-    )
-    return ", ".join(rows)
+def box_text(table: ResponseTable) -> str:
+    """The box of a table as people read it, with what is held."""
+    ranges = {
+        axis.name: f"{axis_value(axis.name, axis.lower)} .. {axis_value(axis.name, axis.upper)}"
+        for axis in table.response.axes
+    }
+    held = {name: axis_value(name, value) for name, value in table.origin.held.items()}
+    return ", ".join(f"{name.replace('_', ' ')} {text}" for name, text in (ranges | held).items())
 
 
 def point_text(point: OperatingPoint) -> str:
     """The inputs of a point as people read them."""
-    names = (SPEED, PRESSURE, RATIO, VISCOSITY)
-    return ", ".join(f"{name.replace('_', ' ')} {axis_value(name, getattr(point, name))}" for name in names)
+    return ", ".join(f"{name.replace('_', ' ')} {axis_value(name, getattr(point, name))}" for name in INPUTS)

@@ -1,26 +1,24 @@
-"""Building a response table: a box of inputs, its points solved and kept one by one, what they teach."""
+"""Building a pump's response table: its box of operating points, and what the solved ones teach."""
 
 from __future__ import annotations
 
-import time
-from collections.abc import Mapping
-from dataclasses import dataclass
-from functools import partial
+from collections.abc import Collection, Sequence
+from dataclasses import dataclass, replace
 from importlib.metadata import version
 from pathlib import Path
 
 import numpy as np
 
-from gaps.response import Axis, Response, Samples, Spacing, held_out_points, learnt_points
-from reynolds.bodies.cache import content_key, kept
-from reynolds.errors import FilmInputError, FilmNotConverged
+from gaps.response import Axis, Response, Spacing
+from reynolds.bodies.cache import content_key
+from reynolds.errors import FilmInputError
 from reynolds.mesh import Array
 from reynolds.oil import dynamic_viscosity, temperature_of
 from system.description import PumpDescription
-from system.errors import NotConverged
 from system.gap_cycle import Report, silent
-from system.operating import OperatingPoint
+from system.operating import OperatingPoint, operating_point
 from system.response_tables import (
+    INPUTS,
     PRESSURE,
     RATIO,
     SPEED,
@@ -29,14 +27,12 @@ from system.response_tables import (
     Origin,
     ResponseTable,
 )
-from system.side_by_side import side_by_side
-from system.table_means import MEANINGS, TABLE_FORMAT, mean_ratios, measured_outputs
+from system.table_means import TABLE_FORMAT, mean_ratios, measured_outputs
+from system.table_points import Solved, points_of, samples_of, solved_points, tables_folder
 from system.table_sources import PointSolver, with_held_ports
-from system.table_store import KEY_LENGTH, keep_table, pump_key, tables_folder
+from system.table_store import KEY_LENGTH, keep_table, pump_key
 from system.units import Dimension, format_quantity
 
-LEARNT, HELD_OUT = 120, 30
-FEWEST_LEARNT, FEWEST_HELD_OUT = 16, 2
 SPEEDS = (0.2, 1.2)
 """Of the rated speed: the box where nothing else is stated."""
 PRESSURES = (0.05, 1.15)
@@ -50,29 +46,35 @@ Range = tuple[float, float]
 
 @dataclass(frozen=True)
 class TableCase:
-    """What to condense: a pump, who solves its points, the box, how many points to learn from and to hold out."""
+    """What to condense: a pump, who solves its points, the box, how many points to learn from and to hold out.
+
+    Of INPUTS those that have no axis are held at the pump's own operating point. An `Asked`.
+    """
 
     pump: PumpDescription
     solver: PointSolver
     axes: tuple[Axis, ...]
-    learnt: int = LEARNT
-    held_out: int = HELD_OUT
+    learnt: int
+    held_out: int
 
     @property
-    def points(self) -> Array:
-        """All points (n, 4), the learnt ones first."""
-        learnt = learnt_points(self.axes, self.learnt)
-        return np.concatenate([learnt, held_out_points(self.axes, self.learnt, self.held_out)])
+    def held(self) -> dict[str, float]:
+        """The inputs that are held, SI."""
+        varied, point = {axis.name for axis in self.axes}, operating_point(self.pump)
+        return {name: getattr(point, name) for name in INPUTS if name not in varied}
 
+    def key(self, x: Array) -> str:
+        """Name of a point's content: the pump, the solver with what it states, the format, the place."""
+        solver, point = self.solver, point_at(self, x)
+        place = np.array([getattr(point, name) for name in INPUTS])
+        return content_key(
+            pump_key(self.pump), TABLE_FORMAT, solver.source.value, sorted(solver.stated.items()), place
+        )
 
-@dataclass(frozen=True)
-class Solved:
-    """What a point gave: where it stands among the case's, its outputs or why there are none, seconds it took."""
-
-    index: int
-    means: Array | None
-    reason: str
-    seconds: float
+    def solve(self, x: Array) -> Array:
+        """The gaps' means over the turn, by their ratios to the lumped law."""
+        pump = with_held_ports(self.pump)
+        return mean_ratios(pump, self.solver.solve(pump, point_at(self, x)))
 
 
 def table_axes(
@@ -81,8 +83,9 @@ def table_axes(
     pressures: Range | None = None,
     ratios: Range | None = None,
     temperatures: Range | None = None,
+    held: Collection[str] = (),
 ) -> tuple[Axis, ...]:
-    """The box of a pump's table, SI, temperatures standing for the viscosities of its oil.
+    """The box of a pump's table, SI, temperatures standing for the viscosities of its oil, without what is `held`.
 
     What is None is taken from the rating (SPEEDS, PRESSURES) or as RATIOS and TEMPERATURES. Raises FilmInputError
     for a range that is none, where the oil's law is void, and where no pump is: a delivery pressure that is not
@@ -98,7 +101,7 @@ def table_axes(
     if ratios and ratios[1] > 1.0:
         raise FilmInputError("range of displacement ratio", f"to {ratios[1]:g}", "at most 1")
     lowest = max(floor, 0.0) + PRESSURES[0] * rated.rated_pressure
-    return (
+    box = (
         Axis(SPEED, low, high, Spacing.LOGARITHMIC),
         Axis(PRESSURE, *(pressures or (lowest, PRESSURES[1] * rated.rated_pressure)), Spacing.LOGARITHMIC),
         Axis(RATIO, *(ratios or RATIOS), Spacing.LOGARITHMIC),
@@ -109,107 +112,50 @@ def table_axes(
             Spacing.LOGARITHMIC,
         ),
     )
+    return tuple(axis for axis in box if axis.name not in held)
 
 
 def build_table(
     case: TableCase, *, workers: int = 1, report: Report = silent, folder: Path | None = None
 ) -> ResponseTable:
-    """The table of a case, kept in the cache; points that are kept there already are not solved again.
+    """The table of a case, kept in the cache; its points as `solved_points`.
 
-    Interrupted, it goes on where it was at the next call. Raises NotConverged where too few points have a result.
+    Raises NotConverged where too few points have a result.
     """
-    points, key = case.points, pump_key(case.pump)
-    place = tables_folder(folder) / "points"
-    task = partial(solve_point, case, place)
-    parts = list(enumerate(points))
-    known = [(k, x) for k, x in parts if (place / f"{point_key(case, x)}.npz").is_file()]
-    found = {k: task((k, x)) for k, x in known}
-    todo = [(k, x) for k, x in parts if k not in found]
-    report(0, len(todo), f"{len(known)} points kept" if known else "solving")
-    for done, solved in enumerate(side_by_side(task, todo, workers), start=1):
-        found[solved.index] = solved
-        report(done, len(todo), "point failed" if solved.reason else "point solved")
-    table = ResponseTable(_origin(case, key, points, found), _response(case, points, found))
-    keep_table(table, tables_folder(folder) / f"{key}-{case_key(case)}")
+    found = solved_points(case, workers=workers, report=report, folder=folder)
+    learnt, held_out = samples_of(case, found)
+    outputs = measured_outputs(np.concatenate([learnt.values, held_out.values]))
+    table = ResponseTable(_origin(case, found), Response(case.axes, outputs, learnt, held_out))
+    keep_table(table, tables_folder(folder) / f"{table.origin.pump_key}-{case_key(case)}")
     return table
 
 
-def solve_point(case: TableCase, folder: Path, part: tuple[int, Array]) -> Solved:
-    """A point of a case by its index and place, solved and kept in `folder`, or taken from there.
-
-    One that does not converge, or leaves the range of a law, says why and is tried again the next time.
-    """
-    index, x = part
-    began = time.process_time()
-    try:
-        arrays = kept(point_key(case, x), partial(_solve, case, x), folder).arrays
-    except (NotConverged, FilmNotConverged, FilmInputError) as fault:
-        return Solved(index, None, str(fault), time.process_time() - began)
-    return Solved(index, arrays["means"], "", float(arrays["seconds"]))
-
-
-def _solve(case: TableCase, x: Array) -> Mapping[str, Array]:
-    began = time.process_time()
-    held = with_held_ports(case.pump)
-    means = mean_ratios(held, case.solver.solve(held, point_at(case.pump, x)))
-    return {"means": means, "seconds": np.array(time.process_time() - began)}
-
-
-def point_at(pump: PumpDescription, x: Array) -> OperatingPoint:
-    """The operating point of a place (4,) in the box: at the temperature at which the oil has its viscosity."""
-    speed, pressure, ratio, viscosity = (float(value) for value in x)
-    return OperatingPoint(
-        shaft_speed=speed,
-        delivery_pressure=pressure,
-        inlet_pressure=pump.operating.inlet_pressure,
-        case_pressure=pump.operating.case_pressure,
-        displacement_ratio=ratio,
-        temperature=temperature_of(pump.oil.fluid, viscosity),
-        viscosity=viscosity,
-    )
-
-
-def point_key(case: TableCase, x: Array) -> str:
-    """Name of a point's content: the pump, the solver with what it states, the format, the place."""
-    solver = case.solver
-    return content_key(pump_key(case.pump), TABLE_FORMAT, solver.source.value, sorted(solver.stated.items()), x)
+def point_at(case: TableCase, x: Array) -> OperatingPoint:
+    """The operating point of a place (d,) in the box: at the temperature at which the oil has its viscosity."""
+    stated = {axis.name: float(value) for axis, value in zip(case.axes, x, strict=True)}
+    if VISCOSITY in stated:
+        stated["temperature"] = temperature_of(case.pump.oil.fluid, stated[VISCOSITY])
+    return replace(operating_point(case.pump), **stated)
 
 
 def case_key(case: TableCase) -> str:
     """Name of a case among those of its pump."""
-    content = (case.solver.source.value, sorted(case.solver.stated.items()), case.axes, case.learnt, case.held_out)
-    return content_key(*content)[:KEY_LENGTH]
+    source = case.solver.source.value, sorted(case.solver.stated.items())
+    return content_key(*source, case.axes, sorted(case.held.items()), case.learnt, case.held_out)[:KEY_LENGTH]
 
 
-def _origin(case: TableCase, key: str, points: Array, found: Mapping[int, Solved]) -> Origin:
-    failed = (Failed(tuple(map(float, points[k])), found[k].reason) for k in sorted(found) if found[k].reason)
+def _origin(case: TableCase, found: Sequence[Solved]) -> Origin:
+    points = points_of(case)
+    failed = (Failed(tuple(map(float, points[one.index])), one.reason) for one in found if one.reason)
     return Origin(
         pump=case.pump.name,
-        pump_key=key,
+        pump_key=pump_key(case.pump),
         source=case.solver.source,
         stated=dict(case.solver.stated),
         package=version("swashfilm"),
         inlet_pressure=case.pump.operating.inlet_pressure,
         case_pressure=case.pump.operating.case_pressure,
+        held=case.held,
         failed=tuple(failed),
-        seconds=float(np.mean([solved.seconds for solved in found.values()])),
+        seconds=float(np.mean([solved.seconds for solved in found])),
     )
-
-
-def _response(case: TableCase, points: Array, found: Mapping[int, Solved]) -> Response:
-    """Learnt and held-out points that have a result."""
-
-    def samples(indices: range) -> Samples:
-        good = [k for k in indices if found[k].means is not None]
-        values = np.array([found[k].means for k in good]).reshape(-1, len(MEANINGS))
-        return Samples(points[good], values)
-
-    learnt, held_out = samples(range(case.learnt)), samples(range(case.learnt, len(points)))
-    if len(learnt.points) < FEWEST_LEARNT or len(held_out.points) < FEWEST_HELD_OUT:
-        reasons = [solved.reason for solved in found.values() if solved.reason]
-        raise NotConverged(
-            f"response table: {len(reasons)} of {len(points)} points have no result, expected {FEWEST_LEARNT} to "
-            f"learn from and {FEWEST_HELD_OUT} held out; the first: {reasons[0]}; try a smaller box"
-        )
-    outputs = measured_outputs(np.concatenate([learnt.values, held_out.values]))
-    return Response(case.axes, outputs, learnt, held_out)

@@ -21,7 +21,7 @@ from system.operating import OperatingPoint
 from system.pairs import Pair
 from system.power import Gaps
 
-TABLE_FORMAT = 1
+TABLE_FORMAT = 2
 """Raised when the same solved points give other numbers in a table: by what is held, or by the laws behind it."""
 GAP_PAIRS = {
     "piston": Pair.PISTON_CYLINDER,

@@ -12,7 +12,7 @@ import numpy as np
 from system.description import PumpDescription
 from system.films import POSITIONS_PER_PITCH, TOLERANCE, films_point
 from system.floating import PRESSURE_TOLERANCE, floating_point
-from system.floating_gaps import BLOCK_CELLS, PISTON_CELLS, SLIPPER_CELLS, FloatingOptions
+from system.floating_gaps import FloatingOptions
 from system.line_description import LineSection
 from system.operating import OperatingPoint
 from system.power import Gaps
@@ -84,7 +84,7 @@ class FloatingSolver:
     def stated(self) -> Mapping[str, str]:
         """What its numbers rest on."""
         options = self.options
-        cells = (options.cells(cells) for cells in (PISTON_CELLS, SLIPPER_CELLS, BLOCK_CELLS))
+        cells = (options.piston_cells, options.slipper_cells, options.block_cells)
         left_out = [effect.value.replace("_", " ") for effect in options.physics.left_out]
         exact = options.accuracy
         return {

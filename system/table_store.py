@@ -3,23 +3,25 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import asdict
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 
 from gaps.response import Axis, Measure, Output, Response, Samples, Spacing
-from reynolds.bodies.cache import cache_folder, content_key
+from reynolds.bodies.cache import content_key
 from reynolds.mesh import Array
 from system.description import PumpDescription
 from system.faults import Fault, InputFaults
 from system.operating import OperatingPoint
 from system.pump_file import resolved_toml
-from system.response_tables import Failed, Origin, ResponseTable, box_text, point_text
+from system.response_tables import DIMENSIONS, Failed, Origin, ResponseTable, box_text, point_text
 from system.table_means import MEANINGS, TABLE_FORMAT
+from system.table_points import tables_folder
 from system.table_sources import Source, with_held_ports
+from system.units import Dimension
 
 KEY_LENGTH = 24
 
@@ -33,14 +35,13 @@ def pump_key(pump: PumpDescription) -> str:
     return content_key("pump of a response table", TABLE_FORMAT, resolved_toml(bare))[:KEY_LENGTH]
 
 
-def tables_folder(folder: Path | None = None) -> Path:
-    """Where tables are kept."""
-    return cache_folder(folder) / "tables"
-
-
 def keep_table(table: ResponseTable, place: Path) -> None:
     """Write `place`.npz, the points with their values, and `place`.json, all that says what they are."""
-    response = table.response
+    write_response(place, table.response, table_record(table))
+
+
+def write_response(place: Path, response: Response, record: Mapping[str, Any]) -> None:
+    """Write `place`.npz, the points of a response with values, and `place`.json, the record of what it is."""
     place.parent.mkdir(parents=True, exist_ok=True)
     np.savez(
         place.with_suffix(".npz"),
@@ -49,23 +50,40 @@ def keep_table(table: ResponseTable, place: Path) -> None:
         held_out_points=response.held_out.points,
         held_out_values=response.held_out.values,
     )
-    place.with_suffix(".json").write_text(json.dumps(table_record(table), indent=2) + "\n", encoding="utf-8")
+    place.with_suffix(".json").write_text(json.dumps(record, indent=2) + "\n", encoding="utf-8")
+
+
+Read = TypeVar("Read")
+
+
+def read_response(path: Path, table_format: int, made: Callable[[Mapping[str, Any], Response], Read]) -> Read:
+    """What is `made` of the record and response that `write_response` wrote, by its .json or .npz.
+
+    Raises InputFaults where there is none, or of another format.
+    """
+    try:
+        record = json.loads(path.with_suffix(".json").read_text("utf-8"))
+        if record["table_format"] != table_format:
+            found = f"format {record['table_format']} of {path.with_suffix('.json')}"
+            raise InputFaults("response table", [Fault("table_format", found, str(table_format), "build it anew")])
+        with np.load(path.with_suffix(".npz"), allow_pickle=False) as arrays:
+            learnt = Samples(arrays["learnt_points"], arrays["learnt_values"])
+            held_out = Samples(arrays["held_out_points"], arrays["held_out_values"])
+        return made(record, Response(_axes(record), _outputs(record), learnt, held_out))
+    except (OSError, ValueError, KeyError, TypeError) as reason:
+        expected = "the .json and .npz that `swashfilm table` wrote, side by side"
+        raise InputFaults("response table", [Fault(str(path), repr(reason), expected)]) from None
 
 
 def read_table(path: Path) -> ResponseTable:
     """The table that `keep_table` wrote, by its .json or .npz; raises InputFaults where it is none."""
-    try:
-        record = json.loads(path.with_suffix(".json").read_text("utf-8"))
-        if record["table_format"] != TABLE_FORMAT:
-            found = f"format {record['table_format']} of {path.with_suffix('.json')}"
-            raise InputFaults("response table", [Fault("table_format", found, str(TABLE_FORMAT), "build it anew")])
-        with np.load(path.with_suffix(".npz"), allow_pickle=False) as arrays:
-            learnt = Samples(arrays["learnt_points"], arrays["learnt_values"])
-            held_out = Samples(arrays["held_out_points"], arrays["held_out_values"])
-        return ResponseTable(_origin(record), Response(_axes(record), _outputs(record), learnt, held_out))
-    except (OSError, ValueError, KeyError, TypeError) as reason:
-        expected = "the .json and .npz that `swashfilm table` wrote, side by side"
-        raise InputFaults("response table", [Fault(str(path), repr(reason), expected)]) from None
+    return read_response(path, TABLE_FORMAT, _pump_table)
+
+
+def _pump_table(record: Mapping[str, Any], response: Response) -> ResponseTable:
+    if [output.name for output in response.outputs] != list(MEANINGS):
+        raise ValueError(f"outputs {', '.join(output.name for output in response.outputs)}")
+    return ResponseTable(_origin(record), response)
 
 
 def tables_of(pump: PumpDescription, folder: Path | None = None) -> Iterator[ResponseTable]:
@@ -84,7 +102,7 @@ def find_table(pump: PumpDescription, point: OperatingPoint, folder: Path | None
     if fit:
         sources = list(Source)
         return max(fit, key=lambda t: (sources.index(t.origin.source), len(t.response.learnt.points)))
-    boxes = " or ".join(box_text(table.response.axes) for table in tables)
+    boxes = " or ".join(box_text(table) for table in tables)
     if tables:
         fault = Fault("--fidelity table", point_text(point), f"a point in the box of a table: {boxes}")
     else:
@@ -111,15 +129,30 @@ def own_table(path: Path, pump: PumpDescription) -> ResponseTable:
 
 def table_record(table: ResponseTable) -> dict[str, Any]:
     """What the .json says: origin, box, outputs with their errors."""
-    origin, response = table.origin, table.response
-    error = response.held_out_error
+    origin = table.origin
     return {
         "kind": "response_table_data",
         "table_format": TABLE_FORMAT,
         **{key: value for key, value in asdict(origin).items() if key not in ("source", "failed")},
         "source": origin.source.value,
         "units": "SI: rad/s, Pa gauge, 1, Pa s; outputs 1",
-        "axes": [asdict(axis) | {"spacing": axis.spacing.value} for axis in response.axes],
+        **response_record(table.response, DIMENSIONS),
+        "failed": [{"at": list(one.at), "reason": one.reason} for one in origin.failed],
+    }
+
+
+def response_record(response: Response, dimensions: Mapping[str, Dimension]) -> dict[str, Any]:
+    """What the .json says of a response: its box (axes of these dimensions), its outputs and their errors."""
+    error = response.held_out_error
+    return {
+        "axes": [
+            asdict(axis)
+            | {
+                "spacing": axis.spacing.value,
+                "dimension": dimensions[axis.name].name if axis.name in dimensions else None,
+            }
+            for axis in response.axes
+        ],
         "outputs": [
             {
                 "name": output.name,
@@ -131,12 +164,11 @@ def table_record(table: ResponseTable) -> dict[str, Any]:
             for k, output in enumerate(response.outputs)
         ],
         "points": {"learnt": len(response.learnt.points), "held_out": len(response.held_out.points)},
-        "failed": [{"at": list(one.at), "reason": one.reason} for one in origin.failed],
     }
 
 
 def _origin(record: Mapping[str, Any]) -> Origin:
-    plain = ("pump", "pump_key", "stated", "package", "inlet_pressure", "case_pressure", "seconds")
+    plain = ("pump", "pump_key", "stated", "package", "inlet_pressure", "case_pressure", "held", "seconds")
     failed = tuple(Failed(tuple(one["at"]), one["reason"]) for one in record["failed"])
     return Origin(source=Source(record["source"]), failed=failed, **{key: record[key] for key in plain})
 
@@ -146,10 +178,7 @@ def _axes(record: Mapping[str, Any]) -> tuple[Axis, ...]:
 
 
 def _outputs(record: Mapping[str, Any]) -> tuple[Output, ...]:
-    found = tuple(Output(row["name"], Measure(row["measure"])) for row in record["outputs"])
-    if [output.name for output in found] != list(MEANINGS):
-        raise ValueError(f"outputs {', '.join(output.name for output in found)}")
-    return found
+    return tuple(Output(row["name"], Measure(row["measure"])) for row in record["outputs"])
 
 
 def _row(values: Array) -> list[float]:

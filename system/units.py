@@ -130,8 +130,8 @@ def format_quantity(value: float, dimension: Dimension, digits: int | None = Non
     """
     if not math.isfinite(value):
         raise ValueError(f"{dimension.noun} of {value} {dimension.si_unit} cannot be shown")
-    name = _reading_unit(value, dimension)
-    shown = _in_unit(value, name, dimension)
+    name = reading_unit(value, dimension)
+    shown = in_unit(value, name, dimension)
     if digits is not None:
         return f"{_rounded(shown, digits)} {name}"
     for precision in range(1, 18):
@@ -204,16 +204,16 @@ def _unit_of(text: str) -> _Unit:
     return unit
 
 
-def _in_unit(value: float, name: str, dimension: Dimension) -> float:
+def in_unit(value: float, name: str, dimension: Dimension) -> float:
     """Return an SI value of the dimension in the unit `name`."""
     unit = _unit_of(name)
     return float((Fraction(value) * _unit_of(dimension.si_unit).factor - unit.offset) / unit.factor)
 
 
-def _reading_unit(value: float, dimension: Dimension) -> str:
+def reading_unit(value: float, dimension: Dimension) -> str:
     """Return the first reading unit in which the value is at least one, or the last of them."""
     for name in dimension.reading_units:
-        if abs(_in_unit(value, name, dimension)) >= 1.0:
+        if abs(in_unit(value, name, dimension)) >= 1.0:
             return name
     return dimension.reading_units[-1] if value != 0.0 else dimension.reading_units[0]
 

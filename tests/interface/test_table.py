@@ -109,7 +109,14 @@ def test_ctrl_c_keeps_what_is_solved(stand_in, tmp_path, capsys):
     [
         (["table", "ref90", "--speed", "500..900"], ["--speed", "500 rpm"]),
         (["table", "ref90", "--speed", "900rpm..500rpm"], ["--speed", "the lower end first"]),
-        (["table", "ref90", "--displacement", "0.5"], ["--displacement", ".. between"]),
+        (["table", "ref90", "--displacement", "half"], ["--displacement", "bare number"]),
+        (["table", "ref90", "--speed", "0.5..1..2"], ["--speed", ".. between"]),
+        (
+            ["table", "ref90", *("--speed", "900rpm", "--pressure", "9MPa", "--displacement", "1"),
+             "--temperature", "50degC"],
+            ["single values alone", "at least one range"],
+        ),
+        (["table", "ref90", "--speed", "900rpm", "--points", "15"], ["--points", "16 to"]),
         (["table", "ref90", "--displacement", "0.5..2"], ["displacement ratio", "at most 1"]),
         (["table", "ref90", "--points", "3", "--workers", "no"], ["--points", "--workers", "2 faults"]),
         (["table", "ref90", "--source", "film"], ["--source", "one of films, floating", "films"]),

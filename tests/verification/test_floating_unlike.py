@@ -20,7 +20,7 @@ ROUGHLY = FloatingOptions(
 )
 PUMP = load_pump("ref90_floating", {"operating.pressure": "5 MPa"})
 CLEARANCE = PUMP.piston.radial_clearance
-WORN, WEAR = 2, 1.5  # chamber 3; twice the clearance tips the piston into coarse films' edges
+WORN, WEAR = 2, 2.0  # chamber 3
 pytestmark = pytest.mark.slow
 
 

@@ -24,9 +24,10 @@ from system.pairs import Pair
 from system.power import Gaps
 from system.pump_file import load_pump
 from system.side_by_side import side_by_side
-from system.table_build import TableCase, build_table, point_at, point_key, table_axes
+from system.table_build import TableCase, build_table, point_at, table_axes
 from system.table_means import GAP_PAIRS, MEANINGS, SolvedPoint, mean_ratios
 from system.table_point import TablePoint, table_point
+from system.table_points import points_of
 from system.table_sources import FilmsSolver, Source
 from system.table_store import find_table, keep_table, own_table, pump_key, read_table, table_record
 
@@ -105,7 +106,7 @@ def numbers(point: PumpPoint) -> dict[str, float]:
 def test_a_learnt_point_comes_back(table):
     """Ratios and their inverse: only the pressure's own small change by other leakage is left."""
     x = table.response.learnt.points[20]
-    point = point_at(PUMP, x)
+    point = point_at(case(), x)
     direct, told = Thinning().solve(PUMP, point), table_point(PUMP, point, table)
     assert numbers(told.pump_point) == pytest.approx(numbers(direct.pump_point), rel=1e-3)
     assert asdict(told.film_mean) == pytest.approx(asdict(direct.film_mean), rel=1e-9)
@@ -117,7 +118,7 @@ def test_an_unseen_point_is_within_the_stated_error(table):
     """At every held-out point, leakage and losses of the pump against the direct run of the same point."""
     largest = dict(zip(NAMES, table.response.held_out_error.largest, strict=True))
     for x in table.response.held_out.points:
-        point = point_at(PUMP, x)
+        point = point_at(case(), x)
         direct, told = Thinning().solve(PUMP, point).pump_point, table_point(PUMP, point, table).pump_point
         for gap, pair in GAP_PAIRS.items():
             flow, friction = (
@@ -200,7 +201,7 @@ def test_a_case_can_be_sent_to_another_process():
     here = case(FilmsSolver())
     there = pickle.loads(pickle.dumps(here))
     assert there == here
-    assert point_key(there, there.points[0]) == point_key(here, here.points[0])
+    assert there.key(points_of(there)[0]) == here.key(points_of(here)[0])
     assert sorted(side_by_side(math.sqrt, [1.0, 4.0, 9.0], 2)) == [1.0, 2.0, 3.0]
 
 

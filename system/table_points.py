@@ -1,0 +1,136 @@
+"""Points that a response is learnt from: solved once each, kept by content, side by side where asked for."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+from typing import Protocol
+
+import numpy as np
+
+from gaps.response import Axis, Samples, fewest_learnt, held_out_points, learnt_points
+from reynolds.bodies.cache import cache_folder, kept
+from reynolds.errors import FilmInputError, FilmNotConverged
+from reynolds.mesh import Array
+from system.errors import NotConverged
+from system.faults import InputFaults
+from system.gap_cycle import Report, silent
+from system.side_by_side import side_by_side
+
+FEWEST_HELD_OUT = 2
+
+
+class Asked(Protocol):
+    """What is condensed over a box of inputs; frozen data that can be sent to another process."""
+
+    @property
+    def axes(self) -> tuple[Axis, ...]:
+        """The inputs."""
+        ...
+
+    @property
+    def learnt(self) -> int:
+        """How many points to learn from."""
+        ...
+
+    @property
+    def held_out(self) -> int:
+        """How many points to take the error from."""
+        ...
+
+    def key(self, x: Array) -> str:
+        """Name of the content that a place (d,) in the box has."""
+        ...
+
+    def solve(self, x: Array) -> Array:
+        """The outputs (m,) there; raises NotConverged, FilmNotConverged, FilmInputError or InputFaults."""
+        ...
+
+
+@dataclass(frozen=True)
+class Solved:
+    """What a point gave: where it stands among all, its outputs or why there are none, seconds it took."""
+
+    index: int
+    outputs: Array | None
+    reason: str
+    seconds: float
+
+
+def points_of(asked: Asked) -> Array:
+    """All points (n, d), the learnt ones first."""
+    learnt = learnt_points(asked.axes, asked.learnt)
+    return np.concatenate([learnt, held_out_points(asked.axes, asked.learnt, asked.held_out)])
+
+
+def usual_counts(inputs: int) -> tuple[int, int]:
+    """How many points to learn from and to hold out where nobody says: 8 and 2 of one input, 120 and 30 of four.
+
+    As the square of the number of inputs, which a smooth function of so many needs for its second derivatives,
+    and twice the corners of the box.
+    """
+    learnt = max(2 ** (inputs + 1), round(7.5 * inputs**2))
+    return learnt, max(FEWEST_HELD_OUT, learnt // 4)
+
+
+def tables_folder(folder: Path | None = None) -> Path:
+    """Where tables are kept, their points beside them in `points`."""
+    return cache_folder(folder) / "tables"
+
+
+def solved_points(
+    asked: Asked, *, workers: int = 1, report: Report = silent, folder: Path | None = None
+) -> tuple[Solved, ...]:
+    """Every point of `points_of`, in its order; those that are kept already are not solved again.
+
+    Interrupted, it goes on where it was at the next call. A point that does not converge, or that no law or case
+    reaches, says why and is tried again the next time.
+    """
+    place = tables_folder(folder) / "points"
+    task = partial(solve_point, asked, place)
+    parts = list(enumerate(points_of(asked)))
+    known = [(k, x) for k, x in parts if (place / f"{asked.key(x)}.npz").is_file()]
+    found = {k: task((k, x)) for k, x in known}
+    todo = [(k, x) for k, x in parts if k not in found]
+    report(0, len(todo), f"{len(known)} points kept" if known else "solving")
+    for done, solved in enumerate(side_by_side(task, todo, workers), start=1):
+        found[solved.index] = solved
+        report(done, len(todo), "point failed" if solved.reason else "point solved")
+    return tuple(found[k] for k, _ in parts)
+
+
+def solve_point(asked: Asked, folder: Path, part: tuple[int, Array]) -> Solved:
+    """A point by its index and place, solved and kept in `folder`, or taken from there."""
+    index, x = part
+    began = time.process_time()
+    try:
+        arrays = kept(asked.key(x), partial(_solve, asked, x), folder).arrays
+    except (NotConverged, FilmNotConverged, FilmInputError, InputFaults) as fault:
+        return Solved(index, None, str(fault), time.process_time() - began)
+    return Solved(index, arrays["outputs"], "", float(arrays["seconds"]))
+
+
+def _solve(asked: Asked, x: Array) -> Mapping[str, Array]:
+    began = time.process_time()
+    outputs = asked.solve(x)
+    return {"outputs": outputs, "seconds": np.array(time.process_time() - began)}
+
+
+def samples_of(asked: Asked, found: Sequence[Solved]) -> tuple[Samples, Samples]:
+    """Learnt and held-out points that have a result; raises NotConverged where these are too few."""
+    points, reasons = points_of(asked), [solved.reason for solved in found if solved.reason]
+    parts = found[: asked.learnt], found[asked.learnt :]
+    good = [[one for one in part if one.outputs is not None] for part in parts]
+    fewest = fewest_learnt(len(asked.axes))
+    if len(good[0]) < fewest or len(good[1]) < FEWEST_HELD_OUT:
+        raise NotConverged(
+            f"response table: {len(reasons)} of {len(points)} points have no result, expected {fewest} to "
+            f"learn from and {FEWEST_HELD_OUT} held out; the first: {reasons[0]}; try a smaller box"
+        )
+    learnt, held_out = (
+        Samples(points[[one.index for one in part]], np.array([one.outputs for one in part])) for part in good
+    )
+    return learnt, held_out
