@@ -75,10 +75,11 @@ class Axis:
 
 @dataclass(frozen=True)
 class Output:
-    """One output by its name, and the measure of its error."""
+    """One output by its name, the measure of its error, and what errors of the largest are taken of at least."""
 
     name: str
     measure: Measure
+    least: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -149,7 +150,8 @@ class Response:
         """Error (k, m) against samples as each output's measure says; signed."""
         off = self.at(samples.points) - samples.values
         of_largest = [output.measure is Measure.OF_LARGEST for output in self.outputs]
-        largest = np.abs(self.learnt.values).max(axis=0)
+        least = [output.least for output in self.outputs]
+        largest = np.maximum(np.abs(self.learnt.values).max(axis=0), least)
         scale = np.where(of_largest & (largest > 0.0), largest, 1.0)
         return np.asarray(off / np.where(self._logarithmic, samples.values, scale))
 

@@ -104,6 +104,7 @@ def build_parser() -> argparse.ArgumentParser:
         "--table", type=Path, metavar="FILE.json", help="response table in place of the kept one of this pump"
     )
     run.add_argument("--steps", metavar="N", help="floating gaps: angles of a turn that are reported (360)")
+    run.add_argument("--finer", metavar="X", help="floating gaps: times the usual cells each way (1)")
     add_switches(run)
     _output(run)
     film = _command(commands, "film", "one film: a free one or a gap of a pump")
@@ -156,7 +157,7 @@ def _check_command(parser: argparse.ArgumentParser, words: Sequence[str]) -> Non
 
 def _unknown(command: str | None, word: str) -> Fault:
     """The fault of a word that no option or argument takes."""
-    run_options = [*_OVERRIDES, "--fidelity", "--table", "--steps", *SWITCHES]
+    run_options = [*_OVERRIDES, "--fidelity", "--table", "--steps", "--finer", *SWITCHES]
     own = {"run": run_options, "film": _FILM_OPTIONS, "table": TABLE_OPTIONS}
     if command in own:
         options = [*own[command], "-o", "--output", "--help"]

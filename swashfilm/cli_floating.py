@@ -8,6 +8,7 @@ from dataclasses import replace
 from gaps.physics import Effect
 from swashfilm.fidelity import Fidelity
 from swashfilm.physics_switches import SWITCHES
+from swashfilm.revolution_case import FINER
 from system.description import SINGLE_PARTS, PumpDescription
 from system.faults import Fault
 from system.floating_gaps import FloatingOptions
@@ -31,18 +32,22 @@ def floating_options(options: argparse.Namespace) -> FloatingOptions:
     switched = _switched(options)
     physics = usual.physics.without(*(_LEFT_OUT[switch] for switch in switched if switch in _LEFT_OUT))
     physics = physics.including(*(_INCLUDED[switch] for switch in switched if switch in _INCLUDED))
-    return replace(usual, steps=steps, physics=physics, keep=max(1, usual.keep * steps // usual.steps))
+    finer = usual.finer if options.finer is None else float(options.finer)
+    return replace(
+        usual, steps=steps, physics=physics, finer=finer, keep=max(1, usual.keep * steps // usual.steps)
+    )
 
 
 def floating_faults(
     options: argparse.Namespace, pump: PumpDescription, chosen: str, by: str = "--fidelity"
 ) -> list[Fault]:
     """What is wrong with the options that only floating gaps have; option `by` has chosen a fidelity."""
-    stated = ([] if options.steps is None else ["--steps"]) + _switched(options)
+    numbers = {"--steps": options.steps, "--finer": options.finer}
+    stated = [option for option, text in numbers.items() if text is not None] + _switched(options)
     if chosen != Fidelity.FLOATING.value:
         wanted = f"{by} {Fidelity.FLOATING.value} beside it"
         return [Fault(option, f"{by} {chosen}", wanted) for option in stated]
-    return _steps_faults(options, pump)
+    return _steps_faults(options, pump) + _finer_faults(options)
 
 
 def alike_faults(pump: PumpDescription) -> list[Fault]:
@@ -64,6 +69,15 @@ def _steps_faults(options: argparse.Namespace, pump: PumpDescription) -> list[Fa
         nearest = min(max(round(within / pistons), -(-FEWEST_STEPS // pistons)), MOST_STEPS // pistons) * pistons
         return [Fault("--steps", options.steps, expected, str(nearest))]
     return []
+
+
+def _finer_faults(options: argparse.Namespace) -> list[Fault]:
+    try:
+        fits = options.finer is None or FINER[0] <= float(options.finer) <= FINER[1]
+    except ValueError:
+        fits = False
+    expected = f"a number, {FINER[0]:g} to {FINER[1]:g}, times the usual cells each way"
+    return [] if fits else [Fault("--finer", repr(options.finer), expected)]
 
 
 def _switched(options: argparse.Namespace) -> list[str]:

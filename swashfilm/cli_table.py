@@ -41,7 +41,17 @@ HELD = {
     "--inlet-pressure": ("operating.inlet_pressure", "25bar", "pressure at the inlet, gauge"),
     "--case-pressure": ("operating.case_pressure", "1.5bar", "pressure in the case, gauge"),
 }
-TABLE_OPTIONS = [*RANGES, *HELD, "--source", "--points", "--held-out", "--workers", "--steps", *SWITCHES]
+TABLE_OPTIONS = [
+    *RANGES,
+    *HELD,
+    "--source",
+    "--points",
+    "--held-out",
+    "--workers",
+    "--steps",
+    "--finer",
+    *SWITCHES,
+]
 
 
 def add_table_options(command: argparse.ArgumentParser) -> None:
@@ -57,6 +67,7 @@ def add_table_options(command: argparse.ArgumentParser) -> None:
         "--source", metavar="{films,floating}", default=_SOURCE, help="fidelity to condense (films)"
     )
     command.add_argument("--steps", metavar="N", help="of floating gaps: steps a turn (360)")
+    command.add_argument("--finer", metavar="X", help="of floating gaps: times the usual cells each way (1)")
     add_switches(command)
     command.add_argument(
         "--points", metavar="N", help="points to learn from, corners of the box among them (120 of four inputs)"
@@ -113,7 +124,7 @@ def _gap_case(options: argparse.Namespace) -> tuple[GapTableCase, int]:
     """The gap's table that a command line means, and how many workers; raises InputFaults with every fault."""
     from swashfilm.gap_table_case import load_gap_table
 
-    given = {option: _given(options, option) for option in [*RANGES, *HELD, "--steps"]}
+    given = {option: _given(options, option) for option in [*RANGES, *HELD, "--steps", "--finer"]}
     given["--source"] = None if options.source == _SOURCE else options.source
     stated = "a key of [table] or of the case"
     faults = [Fault(name, "an option beside a gap's case", stated) for name, text in given.items() if text]

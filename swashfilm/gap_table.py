@@ -30,6 +30,11 @@ POSITIVE = (
     "pressure_max_Pa",
 )  # fmt: skip
 """Learnt by logarithm, their error relative, where they are positive at all points."""
+NOTHING = {
+    "leakage_flow_m3_per_s": 1e-9, "friction_power_W": 0.1, "rubbing_power_W": 0.1, "least_gap_m": 1e-8,
+    "tilt_max_rad": 1e-6, "contact_load_mean_N": 1.0, "contact_load_N": 1.0, "carried_load_N": 1.0,
+}  # fmt: skip
+"""Of others: where there is no more than this anywhere, the error is a share of this."""
 MEANINGS = {
     "leakage_flow_m3_per_s": "out of the film into the case",
     "friction_power_W": "what the parts spend on shearing the film and rubbing",
@@ -130,7 +135,9 @@ def _record(asked: GapTableCase, found: Sequence[Solved], response: Response) ->
 def _measured(keys: Sequence[str], values: Array) -> tuple[Output, ...]:
     """The outputs with their measure, given values (n, m) at all points."""
     return tuple(
-        Output(key, Measure.RELATIVE if key in POSITIVE and np.all(column > 0.0) else Measure.OF_LARGEST)
+        Output(key, Measure.RELATIVE)
+        if key in POSITIVE and np.all(column > 0.0)
+        else Output(key, Measure.OF_LARGEST, NOTHING.get(key, 0.0))
         for key, column in zip(keys, values.T, strict=True)
     )
 

@@ -12,7 +12,6 @@ import numpy as np
 from gaps.response import Axis
 from gaps.response import Spacing as Scale
 from reynolds.bodies.cache import content_key
-from reynolds.errors import FilmInputError
 from reynolds.mesh import Array
 from swashfilm.case_table import Table
 from swashfilm.film_case import Case, FilmCase
@@ -140,12 +139,8 @@ def _ends(ranges: Table, key: str) -> Ends | None:
         return None
     found = read_ends(own)
     own.close()
-    if found is None:
-        return None
-    try:
-        _axis(key, found)
-    except FilmInputError as reason:
-        ranges.faults.append(Fault(own.path, reason.found, reason.expected))
+    if found and not found.low < found.high:
+        own.fault("to", f"{own.values['to']!r}, from {own.values['from']!r}", "the lower end first")
         return None
     return found
 

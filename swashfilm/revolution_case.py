@@ -19,7 +19,7 @@ from system.pump_gap import Gap
 STEPS = 360
 FILMS, RING_FILMS = 36, 180  # kept of a turn; the ring's repeat with the pitch
 _MOST = 7200  # steps or films of a turn
-_FINER = (0.25, 8.0)
+FINER = (0.25, 8.0)
 _LARGEST_TOLERANCE = 0.1
 
 
@@ -102,8 +102,8 @@ def _options(table: Table, gap: Gap | None, pump: CasePump | None) -> FloatingOp
     tolerance, finer = table.number("tolerance", MARCHED.step), table.number("finer", 1.0)
     if tolerance is not None and not 0.0 < tolerance <= _LARGEST_TOLERANCE:
         table.fault("tolerance", repr(tolerance), f"above 0, at most {_LARGEST_TOLERANCE:g} of the least film")
-    if finer is not None and not _FINER[0] <= finer <= _FINER[1]:
-        table.fault("finer", repr(finer), f"{_FINER[0]:g} to {_FINER[1]:g} times the usual cells each way")
+    if finer is not None and not FINER[0] <= finer <= FINER[1]:
+        table.fault("finer", repr(finer), f"{FINER[0]:g} to {FINER[1]:g} times the usual cells each way")
     physics = read_physics(table, FloatingOptions().physics)
     pistons = pump.rotor.pump.pump.pistons if pump else 1
     if steps and gap is Gap.VALVE_PLATE and steps % pistons:

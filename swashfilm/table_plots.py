@@ -40,11 +40,12 @@ def table_plots(response: Response, record: Mapping[str, Any]) -> dict[str, byte
 
 
 def _groups(response: Response) -> Groups:
-    """`piston.leakage` and `slipper.leakage` together, `leakage_flow_m3_per_s` by itself."""
+    """`piston.leakage` and `slipper.leakage` together, `leakage_flow_m3_per_s` by itself; not what is nothing."""
     found: dict[str, list[tuple[str, int]]] = {}
     for column, output in enumerate(response.outputs):
         whose, _, what = output.name.rpartition(".")
-        found.setdefault(what, []).append((whose, column))
+        if not np.abs(response.learnt.values[:, column]).max() < output.least:
+            found.setdefault(what, []).append((whose, column))
     return found
 
 

@@ -23,7 +23,14 @@ HELD_TO = 1e-5
 """Relative: how far an input that a table holds may be off."""
 SPEED, PRESSURE, RATIO, VISCOSITY = "shaft_speed", "delivery_pressure", "displacement_ratio", "viscosity"
 INPUTS = (SPEED, PRESSURE, RATIO, VISCOSITY)
-DIMENSIONS = {SPEED: Dimension.ANGULAR_SPEED, PRESSURE: Dimension.PRESSURE, VISCOSITY: Dimension.DYNAMIC_VISCOSITY}
+DIMENSIONS = {
+    SPEED: Dimension.ANGULAR_SPEED,
+    PRESSURE: Dimension.PRESSURE,
+    VISCOSITY: Dimension.DYNAMIC_VISCOSITY,
+    "temperature": Dimension.TEMPERATURE,
+    "inlet_pressure": Dimension.PRESSURE,
+    "case_pressure": Dimension.PRESSURE,
+}
 
 
 @dataclass(frozen=True)
@@ -109,7 +116,7 @@ def _same(one: float, other: float) -> bool:
 
 
 def axis_value(name: str, value: float) -> str:
-    """A value of an axis as people read it."""
+    """A value of an operating point's as people read it."""
     return format_quantity(value, DIMENSIONS[name], digits=4) if name in DIMENSIONS else f"{value:.4g}"
 
 

@@ -157,6 +157,7 @@ def response_record(response: Response, dimensions: Mapping[str, Dimension]) -> 
             {
                 "name": output.name,
                 "measure": output.measure.value,
+                "least": output.least,
                 "held_out_rms": float(error.rms[k]),
                 "held_out_largest": float(error.largest[k]),
                 "held_out_worst_at": _row(response.held_out.points[error.worst[k]]),
@@ -178,7 +179,7 @@ def _axes(record: Mapping[str, Any]) -> tuple[Axis, ...]:
 
 
 def _outputs(record: Mapping[str, Any]) -> tuple[Output, ...]:
-    return tuple(Output(row["name"], Measure(row["measure"])) for row in record["outputs"])
+    return tuple(Output(row["name"], Measure(row["measure"]), row["least"]) for row in record["outputs"])
 
 
 def _row(values: Array) -> list[float]:

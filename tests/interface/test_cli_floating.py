@@ -18,6 +18,9 @@ FLOATING = ["run", "ref90_floating", "--fidelity", "floating"]
         ([*FLOATING, "--steps", "70"], ["--steps", "multiple of the 9 pistons", "72"]),
         ([*FLOATING, "--steps", "1"], ["--steps", "24 to 7200", "27"]),
         ([*FLOATING, "--steps", "many"], ["--steps", "'many'", "a whole multiple"]),
+        ([*FLOATING, "--finer", "0"], ["--finer", "'0'", "0.25 to 8"]),
+        ([*FLOATING, "--finer", "fine"], ["--finer", "'fine'", "a number"]),
+        (["run", "ref90", "--finer", "1"], ["--finer", "--fidelity floating"]),
         ([*FLOATING, "--rigd"], ["--rigd", "unknown option", "--rigid"]),
         (
             ["run", "ref90", "--smooth", "--steps", "72"],
@@ -37,7 +40,17 @@ def test_bad_options_end_with_2_and_say_what_to_do(words, told, capsys, tmp_path
 def test_options_of_the_command_line():
     """Every switch takes its effect away, but for heat, which comes by one; fewer steps keep as many films."""
     usual = FloatingOptions()
-    words = [*FLOATING, "--rigid", "--isoviscous", "--smooth", "--no-cavitation", "--steps", "72"]
+    words = [
+        *FLOATING,
+        "--rigid",
+        "--isoviscous",
+        "--smooth",
+        "--no-cavitation",
+        "--steps",
+        "72",
+        "--finer",
+        "0.5",
+    ]
     given = build_parser().parse_args(words)
     assert floating_faults(given, load_pump("ref90_floating"), given.fidelity) == []
     found = floating_options(given)
@@ -47,4 +60,5 @@ def test_options_of_the_command_line():
     assert not found.physics.heat
     assert floating_options(build_parser().parse_args([*FLOATING, "--heat"])).physics.heat
     assert (found.steps, found.keep) == (72, usual.keep * 72 // usual.steps)
+    assert found.piston_cells == tuple(cells // 2 for cells in usual.piston_cells)
     assert floating_options(build_parser().parse_args(FLOATING)) == usual

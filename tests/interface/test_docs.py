@@ -15,6 +15,7 @@ from swashfilm.film_case import load_case
 from swashfilm.film_run import run_case
 from swashfilm.film_study import film_dataset, film_summary, solve_case
 from swashfilm.gap_study import GapStudy, PositionSource, gap_warnings
+from swashfilm.gap_table_case import load_gap_table
 from swashfilm.pump_data import films_dataset, point_dataset
 from swashfilm.pump_page import headline_rows
 from swashfilm.pump_run import run_pump
@@ -132,7 +133,8 @@ def test_documented_cases_load(tmp_path):
     for block in blocks:
         path = tmp_path / block.split()[1].removesuffix(":")
         path.write_text(block, encoding="utf-8")
-        assert load_film(path).name == path.stem
+        load = load_gap_table if "[table]" in block else load_film
+        assert load(path).name == path.stem
 
 
 @pytest.mark.parametrize(("section", "model"), list(section_models()), ids=[name for name, _ in section_models()])

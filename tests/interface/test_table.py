@@ -112,8 +112,13 @@ def test_ctrl_c_keeps_what_is_solved(stand_in, tmp_path, capsys):
         (["table", "ref90", "--displacement", "half"], ["--displacement", "bare number"]),
         (["table", "ref90", "--speed", "0.5..1..2"], ["--speed", ".. between"]),
         (
-            ["table", "ref90", *("--speed", "900rpm", "--pressure", "9MPa", "--displacement", "1"),
-             "--temperature", "50degC"],
+            [
+                "table",
+                "ref90",
+                *("--speed", "900rpm", "--pressure", "9MPa", "--displacement", "1"),
+                "--temperature",
+                "50degC",
+            ],
             ["single values alone", "at least one range"],
         ),
         (["table", "ref90", "--speed", "900rpm", "--points", "15"], ["--points", "16 to"]),
