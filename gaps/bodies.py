@@ -19,6 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gaps.own_body import CHAMBER, FILM, HELD, POCKET, OwnMesh, own_body, with_faces
+from gaps.slipper_lands import Land
 from reynolds.bodies.body_mesh import BodyMesh, disc, ring
 from reynolds.bodies.chart import Cylinder, Plane, Side
 from reynolds.bodies.elasticity import Elastic
@@ -35,6 +36,7 @@ FROM_ABOVE = Plane((0.0, 0.0, -1.0))
 PINHOLE = 0.05  # of a pocket's radius
 NEAR = 1e-6  # of a radius: on a mesh line or not
 Cells = tuple[int, int, int]
+Grooves = tuple[tuple[str, Land], ...]
 
 
 @dataclass(frozen=True)
@@ -72,7 +74,10 @@ class BushingPart:
 
 @dataclass(frozen=True)
 class SlipperPart:
-    """A slipper's flange (m): radii of orifice, pocket, socket and rim, and its thickness."""
+    """A slipper's flange (m): radii of orifice, pocket, socket and rim, its thickness, and closed grooves.
+
+    grooves: name of the film's edge, and radii from and to.
+    """
 
     orifice_radius: float
     pocket_radius: float
@@ -81,6 +86,7 @@ class SlipperPart:
     thickness: float
     elastic: Elastic
     own: OwnMesh | None = None
+    grooves: Grooves = ()
 
     def __post_init__(self) -> None:
         require_positive("slipper body", orifice=self.orifice_radius, thickness=self.thickness)
@@ -94,8 +100,8 @@ class SlipperPart:
 class PlatePart:
     """A plate under a film (m): inner (0: none) and outer radius about the film's origin, thickness.
 
-    `pocket_radius`: of the pocket that presses on it beside the film (0: none). `over_film`: a user's mesh of it
-    lies over the film, not under it.
+    `pocket_radius`: of the pocket that presses on it beside the film (0: none), as `grooves` do. `over_film`: a
+    user's mesh of it lies over the film, not under it.
     """
 
     inner_radius: float
@@ -105,6 +111,7 @@ class PlatePart:
     pocket_radius: float = 0.0
     over_film: bool = False
     own: OwnMesh | None = None
+    grooves: Grooves = ()
 
     def __post_init__(self) -> None:
         require_positive("plate body", radius=self.outer_radius, thickness=self.thickness)
@@ -157,7 +164,7 @@ def slipper_body(part: SlipperPart, cells: Cells = (8, 24, 2)) -> Body:
     """
     if part.own:
         return own_body(part.own, part.elastic, TOWARDS_FILM)
-    edges = part.pocket_radius, part.socket_radius
+    edges = part.pocket_radius, part.socket_radius, *_edges(part.grooves)
     mesh = _rings(part.orifice_radius, edges, part.outer_radius, part.thickness, cells)
     mesh = with_faces(
         mesh,
@@ -165,7 +172,8 @@ def slipper_body(part: SlipperPart, cells: Cells = (8, 24, 2)) -> Body:
             FILM: _facets(mesh, "top", from_cell_over=part.pocket_radius),
             POCKET: _facets(mesh, "top", up_to=part.pocket_radius),
             HELD: _facets(mesh, "bottom", up_to=part.socket_radius),
-        },
+        }
+        | _groove_faces(mesh, part.grooves),
     )
     return Body(mesh, part.elastic, Supports(clamped=(HELD,)), FILM, TOWARDS_FILM)
 
@@ -180,8 +188,10 @@ def plate_body(part: PlatePart, cells: Cells = (6, 36, 2)) -> Body:
         return own_body(part.own, part.elastic, FROM_ABOVE if part.over_film else TOWARDS_FILM)
     if part.pocket_radius > part.inner_radius:
         hole = part.inner_radius or PINHOLE * part.pocket_radius
-        mesh = _rings(hole, (part.pocket_radius,), part.outer_radius, part.thickness, cells)
-        mesh = with_faces(mesh, {POCKET: _facets(mesh, "top", up_to=part.pocket_radius)})
+        edges = part.pocket_radius, *_edges(part.grooves)
+        mesh = _rings(hole, edges, part.outer_radius, part.thickness, cells)
+        pocket = {POCKET: _facets(mesh, "top", up_to=part.pocket_radius)}
+        mesh = with_faces(mesh, pocket | _groove_faces(mesh, part.grooves))
     elif part.inner_radius > 0.0:
         mesh = _rings(part.inner_radius, (), part.outer_radius, part.thickness, cells)
     else:
@@ -193,10 +203,11 @@ def plate_body(part: PlatePart, cells: Cells = (6, 36, 2)) -> Body:
 def part_wall(body: Body, film: FilmSpace, *, folder: Path | None = None) -> Walls:
     """One part as its film feels it, by whichever is smaller: its face's nodes or the film's unknowns.
 
-    A pocket of the film presses on the part's face of that name, where it has one. Raises FilmInputError where the
-    face does not lie under the film.
+    Pocket and grooves of the film press on the part's faces of those names, where it has them. Raises
+    FilmInputError where the face does not lie under the film.
     """
-    pockets = {POCKET: POCKET} if POCKET in film.edge_dofs and POCKET in body.mesh.face_names else {}
+    alone = [name for name, unknowns in film.edge_dofs.items() if len(unknowns) == 1]
+    pockets = {name: name for name in alone if name in body.mesh.face_names}
     found = face_wall(body, film, pockets=pockets, folder=folder)
     if 2 * found.matrix.rank < film.size:
         return found
@@ -223,6 +234,18 @@ def _rings(start: float, edges: tuple[float, ...], end: float, thickness: float,
     radius = np.hypot(*places[:2])
     places[:2] *= np.interp(radius, np.linspace(start, end, len(lines)), lines) / radius
     return replace(body, mesh=replace(body.mesh, doflocs=places))
+
+
+def _edges(grooves: Grooves) -> tuple[float, ...]:
+    return tuple(radius for _, radii in grooves for radius in radii)
+
+
+def _groove_faces(body: BodyMesh, grooves: Grooves) -> dict[str, NDArray[np.int64]]:
+    """The facets of the top between the radii of each groove."""
+    return {
+        name: np.setdiff1d(_facets(body, "top", up_to=b), _facets(body, "top", up_to=a))
+        for name, (a, b) in grooves
+    }
 
 
 def _facets(body: BodyMesh, face: str, *, up_to: float = np.inf, from_cell_over: float = 0.0) -> NDArray[np.int64]:

@@ -73,10 +73,15 @@ class SlipperLands:
         return float(np.pi * sum(outer**2 - inner**2 for inner, outer in self.radii))
 
     @property
+    def closed_grooves(self) -> tuple[tuple[str, Land], ...]:
+        """Names of the closed grooves with their radii (m)."""
+        between = enumerate(pairwise(self.radii), start=1)
+        return tuple((f"groove_{n}", (one[1], two[0])) for n, (one, two) in between if n not in self.vented)
+
+    @property
     def closed(self) -> tuple[str, ...]:
         """Names of the mesh's edges with one unknown pressure: the pocket and the closed grooves."""
-        grooves = (n for n in range(1, len(self.radii)) if n not in self.vented)
-        return ("pocket", *(f"groove_{n}" for n in grooves))
+        return ("pocket", *(name for name, _ in self.closed_grooves))
 
     @property
     def open(self) -> tuple[str, ...]:

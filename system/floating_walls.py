@@ -65,6 +65,7 @@ def slipper_walls(pump: PumpDescription, elastic: Materials, taken: Taken) -> Pl
                 thickness,
                 elastic["slipper"],
                 own_mesh("slipper", part.body, taken),
+                part.lands.closed_grooves,
             ),
             PlatePart(
                 0.0,
@@ -74,6 +75,7 @@ def slipper_walls(pump: PumpDescription, elastic: Materials, taken: Taken) -> Pl
                 pocket,
                 True,
                 own_mesh("swash_plate", pump.swash_plate.body, taken),
+                part.lands.closed_grooves,
             ),
         )
     )

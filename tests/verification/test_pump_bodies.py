@@ -317,6 +317,29 @@ def test_slipper_bends_alike_on_coarse_films(refine):
     assert abs(found.finest - rim(48)) < found.tolerance()
 
 
+def test_grooves_press_on_slipper_and_plate(tmp_path):
+    """Lands, groove and pocket at one pressure press as a film without a groove: nothing is left out."""
+    from gaps.slipper_lands import SlipperLands, slipper_mesh
+
+    grooved, plain = SlipperLands(((8e-3, 10e-3), (11.5e-3, 14e-3))), SlipperLands(((8e-3, 14e-3),))
+    for body in (
+        slipper_body(
+            SlipperPart(0.5e-3, 8e-3, 7e-3, 14e-3, 5e-3, BRONZE, grooves=grooved.closed_grooves), (9, 24, 1)
+        ),
+        plate_body(PlatePart(0.0, 20e-3, 10e-3, STEEL, 8e-3, grooves=grooved.closed_grooves), (10, 24, 1)),
+    ):
+        groove = body_space(body.mesh).face("groove_1").gathered(1.0).sum()
+        assert groove == pytest.approx(np.pi * (11.5e-3**2 - 10e-3**2), rel=1e-3)
+        found = []
+        for lands in (grooved, plain):
+            film = film_space(slipper_mesh(lands.radii, (6, 24)), pockets=lands.closed)
+            opening = part_wall(body, film, folder=tmp_path).matrix @ np.full(film.size, PRESSURE)
+            radius = np.hypot(*film.vertices.T)
+            found.append([opening[np.abs(radius - at) < 1e-9].mean() for at in (8e-3, 14e-3)])
+        # The film's sectors of 15 degrees are chords, its area by 1.1 % short of the groove's arcs.
+        assert found[0] == pytest.approx(found[1], rel=0.02)
+
+
 def test_faces_have_the_areas_of_their_loads():
     """Pocket, socket and chamber: what a pressure on them presses with, to the arcs of 30 degrees."""
     slipper = slipper_body(SlipperPart(0.5e-3, 8e-3, 7e-3, 14e-3, 5e-3, BRONZE), (6, 12, 1))
