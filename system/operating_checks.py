@@ -5,14 +5,16 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
+from reynolds.errors import FilmInputError
 from reynolds.oil import walther
 from system.checks import CheckReport, CheckWarning, Finding, angle, needs, pressure, run_checks
 from system.description import OperatingSection, PumpDescription
 from system.faults import Fault
-from system.kinematics import crossed_drive, least_ratio
+from system.kinematics import ball_acceleration_along_bore, crossed_drive, drive_at_ratio, least_ratio
 from system.line_description import LineKind, ripple_faults
-from system.lumped import SAMPLES_PER_PITCH
+from system.lumped import SAMPLES_PER_PITCH, block_spring, piston_area
 from system.operating import OperatingPoint
+from system.parts_description import RetainerKind
 from system.units import Dimension, format_quantity, to_absolute, to_gauge
 
 # Below this an oil has given off its dissolved air and its light fractions boil; a mineral oil itself boils below
@@ -152,14 +154,14 @@ def oil_has_a_viscosity(pump: PumpDescription) -> Iterator[Finding]:
     temperature = pump.operating.temperature
     try:
         fluid = pump.oil.fluid
-    except ValueError as reason:
+    except FilmInputError as reason:
         yield Fault("oil.kinematic_viscosity_100C", f"no oil: {reason}", "an oil that thins from 40 to 100 degC")
         return
     try:
         walther(temperature, fluid)
-    except ValueError as reason:
+    except FilmInputError as reason:
         shown = format_quantity(temperature, Dimension.TEMPERATURE, digits=4)
-        yield Fault("operating.temperature", shown, f"a temperature at which the oil's law holds: {reason}")
+        yield Fault("operating.temperature", shown, f"where the oil's law holds: {reason.expected}")
 
 
 @needs("pump.pistons", "operating.speed")
@@ -179,6 +181,36 @@ def suction_flows_from_its_tank(pump: PumpDescription) -> Iterator[Finding]:
         yield Fault("suction_line.tank_pressure", pressure(tank), f"more than inlet_pressure, {pressure(inlet)}")
 
 
+@needs(
+    "operating.speed", "operating.displacement_ratio", "operating.inlet_pressure", "operating.case_pressure",
+    "pump.pistons", "pump.piston_diameter", "pump.pitch_radius", "pump.swash_angle_max", "pump.bore_cone_angle",
+    "pump.cross_angle", "piston.mass", "slipper.mass", "ball_guide.spring_preload", "ball_guide.spring_stiffness",
+    "ball_guide.spring_compression", "retainer.kind",
+)  # fmt: skip
+def spring_holds_the_slippers(pump: PumpDescription) -> Iterator[Finding]:
+    """The spring's share exceeds what pulls a slipper off the plate as its piston sets out from the inner dead
+    centre: inertia, and the case's pressure on the piston over the inlet's.
+    """
+    part, at = pump.pump, pump.operating
+    cross = part.cross_angle or 0.0
+    try:
+        full = crossed_drive(part.pitch_radius, part.bore_cone_angle, part.swash_angle_max, cross)
+        drive = drive_at_ratio(full, at.displacement_ratio)
+    except ValueError:  # other checks tell a plate that cannot stand so
+        return
+    inertia = (pump.piston.mass + pump.slipper.mass) * float(ball_acceleration_along_bore(drive, 0.0, at.speed))
+    pull = inertia + piston_area(pump) * (at.case_pressure - at.inlet_pressure)
+    held = block_spring(pump) / part.pistons
+    if pull > held and pump.retainer.kind is not RetainerKind.CLEARANCE:
+        yield CheckWarning(
+            "ball_guide.spring_preload",
+            f"inertia and the case's pressure over the inlet's pull a slipper off its plate with {pull:.4g} N at "
+            "the inner dead centre",
+            f"the spring's share, {held:.4g} N",
+            "a stiffer spring, a lower case_pressure, or retainer.kind = 'clearance'",
+        )
+
+
 OPERATING_CHECKS = (
     delivery_is_above_cavitation,
     inlet_is_above_cavitation,
@@ -192,6 +224,7 @@ OPERATING_CHECKS = (
     cross_angle_leaves_the_displacement,
     impedances_reach_the_ripple,
     suction_flows_from_its_tank,
+    spring_holds_the_slippers,
 )
 
 

@@ -26,9 +26,18 @@ from system.parts_checks import PARTS_CHECKS, single_parts_checked
 from system.port_checks import PORT_CHECKS
 from system.pump_values import HERE, bound, read_value, wanted, written_value
 from system.units import Dimension, QuantityError, to_gauge
+from system.value_checks import VALUE_CHECKS
 
 ABSOLUTE = "_abs"  # a pressure key that ends so is absolute
-_CHECKS = GEOMETRY_CHECKS + PORT_CHECKS + FILM_CHECKS + OPERATING_CHECKS + PARTS_CHECKS + BODY_CHECKS
+_CHECKS = (
+    *GEOMETRY_CHECKS,
+    *PORT_CHECKS,
+    *FILM_CHECKS,
+    *OPERATING_CHECKS,
+    *PARTS_CHECKS,
+    *BODY_CHECKS,
+    *VALUE_CHECKS,
+)
 _VISCOSITIES = ("kinematic_viscosity_40C", "kinematic_viscosity_100C")
 _TABLES = {name: model for name, info in PumpDescription.model_fields.items() if (model := table_of(info))}
 
