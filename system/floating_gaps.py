@@ -108,7 +108,8 @@ def slipper_revolution(
 ) -> GapRevolution[SlipperSeen]:
     """The slipper over the turn, from a film of SLIPPER_START without tilt or on from a revolution `before`.
 
-    Between elastic walls from where it is between rigid ones. Raises as `run_revolution`.
+    Between elastic walls from where it is between rigid ones. Raises as `run_revolution`; where nothing presses
+    the slipper on, that is told as the reason.
     """
     before = before or _between_rigid(slipper_revolution, rotor, parts, drive, options, report)
     cells = options.slipper_cells
@@ -116,7 +117,22 @@ def slipper_revolution(
     floating, schedule = floating_slipper(film), evenly(drive.shaft_speed, options.steps, keep=options.keep)
     start, told = np.array([SLIPPER_START, 0.0, 0.0]), _of_turn(report, options.steps, "slipper")
     heat = slipper_heat(rotor, parts) if options.physics.heat else None
-    return _run(film.space, floating, schedule, start, slipper_seen(film), options, heat, before, told)
+    try:
+        return _run(film.space, floating, schedule, start, slipper_seen(film), options, heat, before, told)
+    except FilmNotConverged as stopped:
+        raise _pulled_off(drive, options.steps, stopped) from stopped
+
+
+def _pulled_off(drive: SlipperDrive, steps: int, stopped: FilmNotConverged) -> FilmNotConverged:
+    """Why a slipper's turn has ended: pulled off its plate where its spring holds it with too little."""
+    degrees = np.linspace(0.0, 360.0, steps, endpoint=False)
+    lift = np.array([-float(np.asarray(drive.outer(np.radians(at)))[0]) for at in degrees])
+    worst = int(np.argmin(lift))
+    if lift[worst] > 0.0 or drive.retainer is not None:
+        return stopped
+    pulled = f"at {degrees[worst]:.0f} deg the slipper is pulled off its plate with {-lift[worst]:.4g} N"
+    remedy = "a stiffer spring (ball_guide.spring_preload), or retainer.kind = 'clearance'"
+    return FilmNotConverged(f"{stopped.what}; {pulled}", remedy)
 
 
 def block_revolution(
