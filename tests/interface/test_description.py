@@ -343,6 +343,10 @@ def test_a_check_waits_for_values_it_can_trust(faults_of):
         ({"operating.pressure": "400 bar"}, "operating.pressure"),
         ({"operating.speed": "2500 rpm"}, "operating.speed"),
         ({"oil.bulk_modulus": "1.6 MPa"}, "oil.bulk_modulus"),
+        ({"operating.case_pressure": "400 bar"}, "ball_guide.spring_preload"),
+        ({"piston.mass": "160 kg"}, "piston.mass"),
+        ({"slipper.mass": "50 kg"}, "slipper.mass"),
+        ({"friction.piston_cylinder": 2.6}, "friction.piston_cylinder"),
         ({"slipper.land_inner_radius": "8.6 mm"}, "slipper.land_outer_radius"),
     ],
 )
@@ -352,6 +356,21 @@ def test_doubtful_values_warn_and_load(override, path):
     assert isinstance(found[path], CheckWarning)
     assert found[path].limit
     assert found[path].remedy
+
+
+@pytest.mark.parametrize(("over", "held"), [(-1.0, True), (1.0, False)])
+def test_a_slipper_is_held_while_its_spring_outweighs_inertia_and_case(over, held):
+    speed, cylindrical = (
+        2100.0 * math.pi / 30.0,
+        {"pump.bore_cone_angle": "0 deg", "pump.displacement": "89.46 cm3/rev"},
+    )
+    inertia = 0.21 * 0.045 * math.tan(math.radians(16.2)) * speed**2  # of 210 g, the plate's fall R tan(g) w^2
+    even = 2.5e6 + (1080.0 / 9.0 - inertia) / (0.25 * math.pi * 0.022**2)
+    override = {**cylindrical, "operating.case_pressure": f"{even + 1e3 * over:.6f} Pa"}
+    found = {warning.path for warning in check_pump(load_pump("ref90", override)).warnings}
+    assert ("ball_guide.spring_preload" in found) is not held
+    clearance = load_pump("ref90", {**override, "retainer.kind": "clearance"})
+    assert "ball_guide.spring_preload" not in {warning.path for warning in check_pump(clearance).warnings}
 
 
 def test_ref90_itself_is_doubtful_in_its_engaged_length_only():
