@@ -161,11 +161,13 @@ class _Warming(Generic[Seen]):
         rubbing = float(np.mean([instant.seen.heat.rubbing for instant in found.turn.instants]))
         self._settle(rubbing)
         films = [self._warm[time] for time in self._times]
-        shares, before = self._shares(films), self.shares
+        logs = self._over_turn([np.log(one.share) for one in films])
+        shares, before = ThinnedOver(np.concatenate([[0.0], self._angles]), logs), self.shares
         self.shares = shares
         change = shares.logs if before is None else shares.logs - before.logs
         return Warmth(
             shares=shares,
+            film=self._over_turn([one.heat.mean for one in films]),
             walls=self._walls,
             mean=np.array([_mean(one) for one in films]),
             hottest=np.array([one.heat.temperature.max() for one in films]),
@@ -219,12 +221,10 @@ class _Warming(Generic[Seen]):
                 "less load, a thicker oil, or a film without heat",
             ) from None
 
-    def _shares(self, films: list[Found]) -> ThinnedOver:
-        """Viscosities of the films with those of the turn's begin, which its end has at places that moved."""
-        logs = np.log([one.share for one in films])
+    def _over_turn(self, of_films: list[Array]) -> Array:
+        """What the films have at their unknowns with that of the turn's begin: its end's, at places that moved."""
         first, last = (self._floating.shape_at(time).space for time in (0.0, self._times[-1]))
-        opening = logs[-1][seats_of(first, last)]
-        return ThinnedOver(np.concatenate([[0.0], self._angles]), np.concatenate([opening[None], logs]))
+        return np.array([of_films[-1][seats_of(first, last)], *of_films])
 
     def _flows(self, rubbing: float) -> HeatFlows:
         """Heat, mean over the turn; rubbing (W) goes into the walls that rub."""

@@ -25,10 +25,15 @@ class ThinnedOver:
 
     def at(self, angle: float) -> Array:
         """The share (size, m) at an angle (rad) within the turn."""
-        after = int(np.clip(np.searchsorted(self.angles, angle), 1, len(self.angles) - 1))
-        begin, end = self.angles[after - 1 : after + 1]
-        part = (angle - begin) / (end - begin)
-        return np.asarray(np.exp((1.0 - part) * self.logs[after - 1] + part * self.logs[after]))
+        return np.asarray(np.exp(_between(self.angles, self.logs, angle)))
+
+
+def _between(angles: Array, values: Array, angle: float) -> Array:
+    """Values (n, ..) at rising angles (n,), between them linear, at an angle within."""
+    after = int(np.clip(np.searchsorted(angles, angle), 1, len(angles) - 1))
+    begin, end = angles[after - 1 : after + 1]
+    part = (angle - begin) / (end - begin)
+    return np.asarray((1.0 - part) * values[after - 1] + part * values[after])
 
 
 def thinned(floating: Floating, shaft_speed: float, shares: ThinnedOver | None) -> Floating:
@@ -65,12 +70,14 @@ class HeatFlows:
 class Warmth:
     """A gap's temperatures that agree with its motion.
 
-    shares: the viscosity that these temperatures make; walls (2,) K of the fixed and the moving part; mean and
-    hottest (n,) K of the film at its angles; flows: means over the turn; change: root mean square relative change
-    of viscosity by one more round; rounds of motion and temperature.
+    shares: the viscosity that these temperatures make; film (n + 1, size) K, mean over the thickness at the angles
+    of `shares`; walls (2,) K of the fixed and the moving part; mean and hottest (n,) K of the film at its angles;
+    flows: means over the turn; change: root mean square relative change of viscosity by one more round; rounds of
+    motion and temperature.
     """
 
     shares: ThinnedOver
+    film: Array = field(repr=False)
     walls: Array
     mean: Array
     hottest: Array
@@ -82,3 +89,15 @@ class Warmth:
     def angles(self) -> Array:
         """Shaft angles (n,) rad at which temperatures are solved."""
         return self.shares.angles[1:]
+
+    def film_at(self, angle: float) -> Array:
+        """Temperature (size,) K of the film, mean over its thickness, at an angle (rad) within the turn."""
+        return _between(self.shares.angles, self.film, angle)
+
+    def mean_at(self, angles: Array) -> Array:
+        """Mean temperature (n,) K of the film at angles (n,) rad within the turn."""
+        return np.interp(angles, self.shares.angles, [self.mean[-1], *self.mean])
+
+    def hottest_at(self, angles: Array) -> Array:
+        """Highest temperature (n,) K in the film at angles (n,) rad within the turn."""
+        return np.interp(angles, self.shares.angles, [self.hottest[-1], *self.hottest])

@@ -12,11 +12,12 @@ from swashfilm.pump_data import GAPS
 from swashfilm.pump_plots import LPM, TITLES
 from swashfilm.revolution_plots import film_text, revolution_plots
 
-SHOWN = ("film", "path", "contact", "maps")
+SHOWN = ("film", "path", "temperature", "contact", "maps")
 SHOWN_UNLIKE = ("film", "path")
 CAPTIONS = {
     "film": "film over the shaft angle, the chamber's pressure (dashed), and what limits the film",
     "path": "where the part stands; the colour is the shaft angle",
+    "temperature": "temperature of film and walls",
     "contact": "contact, cavitation and the largest film pressure",
     "maps": "films at some of the kept angles",
 }
@@ -38,7 +39,9 @@ def floating_view(folder: Path, summary: Mapping[str, Any]) -> dict[str, Any]:
         with xarray.open_dataset(folder / "results.nc", group=group, engine="h5netcdf") as data:
             drawn = revolution_plots(data.load())
         pictures += [
-            (base64.b64encode(drawn[name]).decode("ascii"), f"{title}: {CAPTIONS[name]}") for name in names
+            (base64.b64encode(drawn[name]).decode("ascii"), f"{title}: {CAPTIONS[name]}")
+            for name in names
+            if name in drawn
         ]
     turns = {TITLES[gap]: _table(folder / f"{gap}_convergence.csv") for gap in GAPS}
     return {"head": HEAD, "rows": floating_rows(summary), "pictures": pictures, "turns": turns}

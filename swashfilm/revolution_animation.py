@@ -55,10 +55,12 @@ def _first(figure: Any, data: xarray.Dataset) -> tuple[dict[str, Any], Any, Any]
     mosaic = figure.subplot_mosaic([list(FIELDS), ["course", "course"]], height_ratios=(3, 1))
     painted = {}
     for name, (title, colours) in FIELDS.items():
-        unit, factor = SHOWN[data[name].attrs["units"]]
-        whole, axes = data[name].values * factor, mosaic[name]
+        how = SHOWN[data[name].attrs["units"]]
+        whole, axes = how.of(data[name].values), mosaic[name]
         limits = float(whole.min()), float(whole.max())
-        painted[name] = draw_map(axes, *_film(data, 0, name), f"{title} / {unit}", colours=colours, limits=limits)
+        painted[name] = draw_map(
+            axes, *_film(data, 0, name), f"{title} / {how.unit}", colours=colours, limits=limits
+        )
         axes.set(xlim=_ends(data["x"].values), ylim=_ends(data["y"].values))
     course = mosaic["course"]
     for name, colour in (("film_thickness_min", INK), ("film_thickness_mean", FILM)):
@@ -72,7 +74,7 @@ def _first(figure: Any, data: xarray.Dataset) -> tuple[dict[str, Any], Any, Any]
 def _film(data: xarray.Dataset, k: int, name: str) -> tuple[tuple[np.ndarray, np.ndarray], np.ndarray, np.ndarray]:
     """Places (mm), cells and values, in the unit that is shown, of the k-th kept film."""
     place = data["x"].values[k] * 1e3, data["y"].values[k] * 1e3
-    return place, data["cells"].values, data[name].values[k] * SHOWN[data[name].attrs["units"]][1]
+    return place, data["cells"].values, SHOWN[data[name].attrs["units"]].of(data[name].values[k])
 
 
 def _ends(places: np.ndarray) -> tuple[float, float]:

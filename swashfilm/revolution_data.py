@@ -29,11 +29,26 @@ POSITIONS = {
 """Names of a gap's coordinates, m; rises over the outer radius of the last land."""
 PISTON_END = ("eccentricity_x_end", "eccentricity_y_end")
 """Eccentricity of the piston's axis at the inner end of its film, m."""
+
+
+@dataclass(frozen=True)
+class Shown:
+    """How tables and pictures show numbers in SI: in a unit, (value - zero) x factor."""
+
+    unit: str
+    factor: float = 1.0
+    zero: float = 0.0
+
+    def of(self, values: Array) -> Array:
+        """Values in SI in the unit that is shown."""
+        return (values - self.zero) * self.factor
+
+
 SHOWN = {
-    "m": ("um", 1e6), "rad": ("mrad", 1e3), "m3/s": ("L/min", 6e4), "W": ("W", 1.0), "N": ("N", 1.0),
-    "Pa": ("MPa", 1e-6), "1": ("-", 1.0),
+    "m": Shown("um", 1e6), "rad": Shown("mrad", 1e3), "m3/s": Shown("L/min", 6e4), "W": Shown("W"),
+    "N": Shown("N"), "Pa": Shown("MPa", 1e-6), "K": Shown("degC", 1.0, 273.15), "1": Shown("-"),
 }  # fmt: skip
-"""Unit and factor with which tables and pictures show a number in SI."""
+"""By the unit in SI."""
 Instant = GapInstant[Any]
 
 
@@ -74,6 +89,11 @@ def revolution_dataset(study: RevolutionStudy) -> xarray.Dataset:
         "friction_power": ([friction_power(study, at.seen) for at in instants], "W"),
         "chamber_pressure": (study.chamber_pressure, "Pa"),
     }  # fmt: skip
+    if (warmth := found.warmth) is not None:
+        numbers |= {
+            "film_temperature_mean": (warmth.mean_at(found.angles), "K"),
+            "film_temperature_max": (warmth.hottest_at(found.angles), "K"),
+        }
     active = {kind: [float(kind in at.seen.active) for at in instants] for kind in Active}
     numbers |= {f"active_{kind.value}": (values, "1") for kind, values in active.items()}
     return xarray.Dataset(
@@ -86,8 +106,19 @@ def revolution_dataset(study: RevolutionStudy) -> xarray.Dataset:
             "gap": study.case.gap.value,
             "pressures": "gauge",
             "clearance_m": study.case.rotor.pump.piston.radial_clearance,
+            **_walls(study),
         },
     )
+
+
+def _walls(study: RevolutionStudy) -> dict[str, float]:
+    """Temperatures (K) of the walls of a gap that warms."""
+    warmth = study.revolution.warmth
+    if warmth is None:
+        return {}
+    return {
+        f"{wall}_wall_temperature_K": float(at) for wall, at in zip(("fixed", "moving"), warmth.walls, strict=True)
+    }
 
 
 def piston_end(study: RevolutionStudy) -> Array:
@@ -100,8 +131,11 @@ def piston_end(study: RevolutionStudy) -> Array:
 
 
 def _films(study: RevolutionStudy) -> dict[str, tuple[Any, ...]]:
-    """Pressure and thickness of the kept films at the vertices, whose places (m) may move with the angle."""
-    films = list(study.revolution.turn.films.values())
+    """Pressure and thickness of the kept films at the vertices, whose places (m) may move with the angle.
+
+    Of films that warm their temperature too, mean over the thickness.
+    """
+    films, warm = list(study.revolution.turn.films.values()), film_temperatures(study)
     spaces = [film.problem.space for film in films]
     nodes = ("film_angle", "vertex")
     pressure = np.array([film.pressure[film.problem.space.vertex_dofs] for film in films])
@@ -112,7 +146,15 @@ def _films(study: RevolutionStudy) -> dict[str, tuple[Any, ...]]:
         "film_pressure": (nodes, pressure, {"units": "Pa"}),
         "film_thickness": (nodes, np.array([vertex_thickness(film) for film in films]), {"units": "m"}),
         "cells": (("cell", "corner"), spaces[0].cells),
-    }
+    } | ({} if warm is None else {"film_temperature": (nodes, warm, {"units": "K"})})
+
+
+def film_temperatures(study: RevolutionStudy) -> Array | None:
+    """Temperature (k, vertices) K of the kept films, mean over the thickness; None where films do not warm."""
+    warmth, films = study.revolution.warmth, study.revolution.turn.films
+    if warmth is None:
+        return None
+    return np.array([warmth.film_at(angle)[film.problem.space.vertex_dofs] for angle, film in films.items()])
 
 
 def write_series(path: Path, data: xarray.Dataset) -> None:
@@ -122,8 +164,8 @@ def write_series(path: Path, data: xarray.Dataset) -> None:
     with path.open("w", newline="", encoding="utf-8") as file:
         table = csv.writer(file)
         shown = {name: SHOWN[data[name].attrs["units"]] for name in numbers}
-        table.writerow(["shaft_angle [deg]", *(f"{name} [{unit}]" for name, (unit, _) in shown.items()), "active"])
-        columns = [data[name].values * factor for name, (_, factor) in shown.items()]
+        table.writerow(["shaft_angle [deg]", *(f"{name} [{how.unit}]" for name, how in shown.items()), "active"])
+        columns = [how.of(data[name].values) for name, how in shown.items()]
         for k, angle in enumerate(np.degrees(data["shaft_angle"].values)):
             row = [f"{value:.8g}" for value in (angle, *(column[k] for column in columns))]
             table.writerow([*row, active_at(data, k)])

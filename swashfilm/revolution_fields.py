@@ -8,16 +8,21 @@ import numpy as np
 
 from reynolds.export import write_pvd, write_vtu
 from swashfilm.pump_fields import FIELDS, vtu_name
+from swashfilm.revolution_data import film_temperatures
 from swashfilm.revolution_study import RevolutionStudy
 from system.places import place_of
 
 
 def write_revolution_fields(folder: Path, study: RevolutionStudy) -> None:
-    """Write fields/<gap>_NNN.vtu of every kept film and, over them, <gap>.pvd (time = shaft angle in degrees)."""
+    """Write fields/<gap>_NNN.vtu of every kept film and, over them, <gap>.pvd (time = shaft angle in degrees).
+
+    Films that warm have their temperature too, `film_temperature` (K), mean over the thickness.
+    """
     (folder / FIELDS).mkdir(exist_ok=True)
-    gap, entries = study.case.gap.value, []
+    gap, entries, warm = study.case.gap.value, [], film_temperatures(study)
     for k, (angle, film) in enumerate(study.revolution.turn.films.items()):
         name = f"{FIELDS}/{vtu_name(gap, k)}"
-        write_vtu(folder / name, film, place_of(study.case.gap, study.case.rotor, study.parts, angle))
+        place = place_of(study.case.gap, study.case.rotor, study.parts, angle)
+        write_vtu(folder / name, film, place, None if warm is None else {"film_temperature": warm[k]})
         entries.append((float(np.degrees(angle)), 0, name))
     write_pvd(folder / f"{gap}.pvd", entries)

@@ -18,6 +18,12 @@ if TYPE_CHECKING:
 
 THINNEST = 0.01  # um: a film below it is not told in figures
 MAPS = 4  # kept films shown as maps
+TEMPERATURE = "film_temperature"
+MAPPED = {
+    "film_pressure": ("pressure", "viridis"), "film_thickness": ("film", "cividis"),
+    TEMPERATURE: ("temperature", "inferno"),
+}  # fmt: skip
+"""Fields of the maps, their words and colours."""
 LEAST_SHOWN = {"contact_load": 1.0, "cavitated_area_fraction": 0.01, "film_pressure_max": 0.1}
 """Ends of axes where there is less: what is next to nothing looks so."""
 INK, FILM, SECOND, THIRD = "#1c2328", "#3c7a8c", "#b8862b", "#8c5a3c"
@@ -31,8 +37,9 @@ MEANING = {
 
 
 def revolution_plots(data: xarray.Dataset) -> dict[str, bytes]:
-    """A PNG of each picture, by its name: film, path, motion, losses, contact, maps."""
-    return {
+    """A PNG of each picture, by its name: film, path, losses, contact, maps; temperature of films that warm."""
+    warm = {"temperature": _temperature(data)} if TEMPERATURE in data else {}
+    return warm | {
         "film": _film(data),
         "path": _path(data),
         "losses": _losses(data),
@@ -156,30 +163,44 @@ def _contact(data: xarray.Dataset) -> bytes:
 
 
 def _maps(data: xarray.Dataset) -> bytes:
-    """Film pressure (MPa) and thickness (um) at some of the kept angles."""
+    """Film pressure (MPa), thickness (um) and, of films that warm, temperature (degC) at some kept angles."""
     count = data.sizes["film_angle"]
     chosen = np.unique(np.linspace(0, count - 1, min(MAPS, count)).round().astype(int))
-    figure = _figure(3.3 * len(chosen), 5.6)
-    rows = figure.subplots(2, len(chosen), squeeze=False)
+    fields = [name for name in MAPPED if name in data]
+    figure = _figure(3.3 * len(chosen), 2.8 * len(fields))
+    rows = figure.subplots(len(fields), len(chosen), squeeze=False)
     for column, k in enumerate(chosen):
-        draw_film(rows[0, column], data, int(k), "film_pressure")
-        draw_film(rows[1, column], data, int(k), "film_thickness")
+        for row, name in enumerate(fields):
+            draw_film(rows[row, column], data, int(k), name)
+    return _png(figure)
+
+
+def _temperature(data: xarray.Dataset) -> bytes:
+    """Mean and highest temperature of the film (degC) over the shaft angle, and the walls', which stay."""
+    figure = _figure(9.0, 3.4)
+    axes, angle = figure.subplots(), degrees(data)
+    axes.plot(angle, shown(data, "film_temperature_max"), color=BANDS[Active.CONTACT], label="hottest place")
+    axes.plot(angle, shown(data, "film_temperature_mean"), color=FILM, label="mean of the film")
+    for wall, style in (("fixed", "--"), ("moving", ":")):
+        at = float(SHOWN["K"].of(data.attrs[f"{wall}_wall_temperature_K"]))
+        axes.axhline(at, color=INK, linestyle=style, linewidth=0.9, label=f"{wall} wall")
+    axes.set(xlabel="shaft angle / deg", ylabel="temperature / degC", xlim=(0.0, span(data)))
+    figure.legend(loc="outside upper right", fontsize=8, ncols=4)
+    axes.grid(visible=True, alpha=0.3)
     return _png(figure)
 
 
 def draw_film(axes: Any, data: xarray.Dataset, k: int, name: str) -> None:
     """Map of a field of the k-th kept film."""
     place = data["x"].values[k] * 1e3, data["y"].values[k] * 1e3
-    unit, factor = SHOWN[data[name].attrs["units"]]
-    at = np.degrees(data["film_angle"].values[k])
-    title = f"{'pressure' if name == 'film_pressure' else 'film'} / {unit} at {at:.0f} deg"
-    colours = "viridis" if name == "film_pressure" else "cividis"
-    draw_map(axes, place, data["cells"].values, data[name].values[k] * factor, title, colours=colours)
+    how, (words, colours) = SHOWN[data[name].attrs["units"]], MAPPED[name]
+    title = f"{words} / {how.unit}, {np.degrees(data['film_angle'].values[k]):.0f} deg"
+    draw_map(axes, place, data["cells"].values, how.of(data[name].values[k]), title, colours=colours)
 
 
 def shown(data: xarray.Dataset, name: str) -> np.ndarray:
     """A series in the unit that people read it in, from 0 to the end of the turn, where it begins again."""
-    values = data[name].values * SHOWN[data[name].attrs["units"]][1]
+    values = SHOWN[data[name].attrs["units"]].of(data[name].values)
     return np.append(values[-1], values)
 
 

@@ -59,14 +59,14 @@ def course_plots(data: xarray.Dataset) -> dict[str, bytes]:
 def _picture(data: xarray.Dataset, name: str) -> bytes:
     figure, axes = figure_axes()
     field = data[name]
-    unit, factor = SHOWN[field.attrs["units"]]
+    how = SHOWN[field.attrs["units"]]
     dims = [str(dim) for dim in field.dims if dim != ANGLE]
     points = list(product(*(range(data.sizes[dim]) for dim in dims)))
     for index in points[:MOST_LINES]:
         at = dict(zip(dims, index, strict=True))
-        axes.plot(data[ANGLE].values, field.isel(at).values * factor, linewidth=1.2, label=where(data, at))
+        axes.plot(data[ANGLE].values, how.of(field.isel(at).values), linewidth=1.2, label=where(data, at))
     words, _ = named(name.removeprefix(COURSES))
-    axes.set(xlabel="shaft angle / deg", ylabel=f"{words} / {unit}", title=f"{words} over the revolution")
+    axes.set(xlabel="shaft angle / deg", ylabel=f"{words} / {how.unit}", title=f"{words} over the revolution")
     axes.grid(visible=True, alpha=0.3)
     lines = min(len(points), MOST_LINES)
     title = None if lines == len(points) else f"{lines} of {len(points)} points"

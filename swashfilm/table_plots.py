@@ -124,8 +124,8 @@ def _courses(response: Response, record: Mapping[str, Any]) -> bytes:
 
 def _shown(what: str, members: Sequence[tuple[str, int]], record: Mapping[str, Any]) -> tuple[str, float]:
     """Title of outputs that are drawn together, with the unit that they are shown in, and its factor on SI."""
-    unit, factor = SHOWN[record["outputs"][members[0][1]]["unit"]]
-    return (_words(what) if unit == "-" else f"{_words(what)} / {unit}"), factor
+    how = SHOWN[record["outputs"][members[0][1]]["unit"]]
+    return (_words(what) if how.unit == "-" else f"{_words(what)} / {how.unit}"), how.factor
 
 
 def _axis_words(axis: Axis, row: Mapping[str, Any]) -> str:

@@ -133,6 +133,25 @@ def in_true_place() -> None:
     assert middle[1] == pytest.approx(0.0, abs=1e-6)
 
 
+@pytest.mark.slow
+def test_a_film_that_warms_tells_its_temperatures():
+    """In table, results, fields and page: between the oil that enters at 50 degC and the hottest place."""
+    import meshio
+
+    assert main(["film", str(written(SLIPPER)), "--heat", "-o", "out"]) == 0
+    summary, turn = json.loads(Path("out/summary.json").read_text("utf-8")), table("out/slipper.csv")
+    mean, hottest = (turn[f"film_temperature_{what} [degC]"].astype(float) for what in ("mean", "max"))
+    assert np.all((mean > 50.0) & (mean < hottest))
+    assert hottest.max() + 273.15 == pytest.approx(summary["film_temperature_max_K"], abs=1e-3)
+    with xarray.open_dataset("out/results.nc", engine="h5netcdf") as data:
+        assert data.attrs["fixed_wall_temperature_K"] == pytest.approx(summary["fixed_wall_temperature_K"])
+        kept = data["film_temperature"].values
+        assert data["film_temperature"].attrs["units"] == "K"
+    assert np.array_equal(meshio.read("out/fields/slipper_002.vtu").point_data["film_temperature"], kept[2])
+    assert 323.0 < kept.min() < kept.max() <= summary["film_temperature_max_K"]
+    assert Path("out/report.html").read_text("utf-8").count("data:image/png") == 6
+
+
 def test_the_ring_repeats_with_the_pitch():
     assert main(["film", str(written(BLOCK)), "-o", "out"]) == 0
     turn = table("out/valve_plate.csv")
