@@ -16,7 +16,7 @@ from typing import Generic, TypeVar, cast
 
 import numpy as np
 
-from gaps.revolution import GapRevolution, TurnReport, run_revolution, unheard
+from gaps.revolution import GapRevolution, Leg, TurnReport, run_revolution, unheard
 from gaps.schedule import Accuracy, Schedule
 from gaps.seen import GapSeen
 from gaps.warmth import HeatFlows, ThinnedOver, Warmth, thinned
@@ -107,7 +107,7 @@ def warm_revolution(
     Afterwards one more round would change viscosity by CLOSE at most (root mean square). Raises as
     `run_revolution`, FilmInputError where the oil's law ends, and FilmNotConverged.
     """
-    began, films, found = perf_counter(), 0, before
+    began, films, found, spent = perf_counter(), 0, before, {}
     warm = _Warming(floating, schedule, look, heat, None if before is None else before.warmth)
     for rounds in range(1, MOST_ROUNDS + 1):
         moving = thinned(floating, schedule.speed, warm.shares)
@@ -116,9 +116,12 @@ def warm_revolution(
             report=_of_round(report, rounds),
         )  # fmt: skip
         films += found.films_solved
+        if warm.shares is None:  # the motion without heat, which any way to it has
+            spent = dict(found.spent)
         warmth = warm.of(found, rounds)
         if warmth.change <= CLOSE:
-            return replace(found, films_solved=films, seconds=perf_counter() - began, warmth=warmth)
+            spent[Leg.HEAT] = perf_counter() - began - sum(spent.values())
+            return replace(found, films_solved=films, spent=spent, warmth=warmth)
     raise FilmNotConverged(
         f"{floating.name}: motion and temperature do not agree after {MOST_ROUNDS} rounds (viscosity still "
         f"changes by {warmth.change:.2g})",

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
+from enum import Enum
 from time import perf_counter
 from typing import Generic
 
@@ -28,17 +29,26 @@ def unheard(turn: str, share: float) -> None:
     """Report a turn's progress to nobody."""
 
 
+class Leg(Enum):
+    """A stretch of the way to a gap's motion, by the physics that it adds."""
+
+    RIGID = "rigid"
+    ELASTIC = "elastic"
+    HEAT = "heat"
+
+
 @dataclass(frozen=True)
 class GapRevolution(Generic[Seen]):
     """A gap whose turn closes: the turn, and how it was found (turns, changes a turn, multipliers).
 
-    warmth: temperatures over the turn, None where they are not solved.
+    spent: time (s) of each leg, of which elastic counts oil that pressure stiffens, too. warmth: temperatures over
+    the turn, None where they are not solved.
     """
 
     turn: GapTurn[Seen]
     closing: Periodic[GapTurn[Seen]] = field(repr=False)
     films_solved: int
-    seconds: float
+    spent: Mapping[Leg, float]
     warmth: Warmth | None = None
 
     @property
@@ -50,6 +60,11 @@ class GapRevolution(Generic[Seen]):
     def positions(self) -> Array:
         """Positions (n, k) m."""
         return np.array([instant.position for instant in self.turn.instants])
+
+    @property
+    def seconds(self) -> float:
+        """Time (s) that it took."""
+        return sum(self.spent.values())
 
     @property
     def bare(self) -> GapRevolution[Seen]:
@@ -98,7 +113,9 @@ def run_revolution(
         films = first.films_solved
     run = Turns(solver, floating, schedule, look, accuracy, method, opening, _told(report, "turn"))
     closing = periodic(run.turn, opening.end)
-    return GapRevolution(closing.turn, closing, films + run.films_solved, perf_counter() - began)
+    leg = Leg.RIGID if floating.shape_at(0.0).walls is None else Leg.ELASTIC
+    spent = {leg: perf_counter() - began}
+    return GapRevolution(closing.turn, closing, films + run.films_solved, spent)
 
 
 def _told(report: TurnReport, name: str) -> Callable[[int, float], None]:

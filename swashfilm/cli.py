@@ -220,7 +220,7 @@ def _pump_faults(options: argparse.Namespace, words: Sequence[str]) -> list[Faul
 def _run(options: argparse.Namespace) -> int:
     pump = _pump(options)
     stated, _ = _overrides(options)
-    from swashfilm.cli_floating import floating_options
+    from swashfilm.cli_floating import floating_options, show_floating
     from swashfilm.progress import progress
     from swashfilm.pump_page import efficiency_rows, headline_rows, pair_rows
     from swashfilm.pump_run import run_pump
@@ -238,9 +238,7 @@ def _run(options: argparse.Namespace) -> int:
     show_table("Efficiencies: paper's Eqs. (3)-(5), ISO 4391/4409", efficiency_rows(summary))
     show_table("Friction pairs: Coulomb, viscous, total, share", pair_rows(summary))
     if fidelity is Fidelity.FLOATING:
-        from swashfilm.floating_page import HEAD, floating_rows
-
-        show_table("Gaps that float: of one piston, one slipper, the block", [HEAD, *floating_rows(summary)])
+        show_floating(summary)
     if "table" in summary:
         from swashfilm.table_told import TOLD_HEAD, told_rows
 

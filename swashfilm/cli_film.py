@@ -17,8 +17,8 @@ if TYPE_CHECKING:
 COMMAND_LINE = "command line"
 EXIT_NOT_CONVERGED = 3
 SOFT_PRICE = (
-    "elastic walls: a revolution takes some six times as long as between rigid ones on 120 unknowns, more "
-    "on finer meshes; walls = 'rigid' or a smaller 'finer' costs less"
+    "elastic walls: a revolution takes some ten times as long as between rigid ones; --rigid or a smaller 'finer' "
+    "costs less"
 )
 
 

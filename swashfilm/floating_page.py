@@ -8,6 +8,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+from swashfilm.physics_told import PHYSICS_HEAD, physics_told
 from swashfilm.pump_data import GAPS
 from swashfilm.pump_plots import LPM, TITLES
 from swashfilm.revolution_plots import film_text, revolution_plots
@@ -44,7 +45,11 @@ def floating_view(folder: Path, summary: Mapping[str, Any]) -> dict[str, Any]:
             if name in drawn
         ]
     turns = {TITLES[gap]: _table(folder / f"{gap}_convergence.csv") for gap in GAPS}
-    return {"head": HEAD, "rows": floating_rows(summary), "pictures": pictures, "turns": turns}
+    return {
+        "head": HEAD, "rows": floating_rows(summary), "pictures": pictures, "turns": turns,
+        "physics_head": PHYSICS_HEAD,
+        "physics": physics_told(summary["physics_left_out"], summary["cost"]["physics_seconds"]),
+    }  # fmt: skip
 
 
 def floating_rows(summary: Mapping[str, Any]) -> list[tuple[str, ...]]:

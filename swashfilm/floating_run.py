@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from gaps.revolution import GapRevolution
+from gaps.revolution import GapRevolution, Leg
 from reynolds.export import write_pvd
 from swashfilm.fidelity import Fidelity
 from swashfilm.pump_data import PICTURED_TURN
@@ -26,7 +26,7 @@ from system.pump_gap import Gap
 RESULTS = "results.nc"
 Kept = dict[tuple[str, str], np.ndarray]
 """Shaft angles (rad) of the films that are kept, by place in the run folder and gap."""
-_OF_PUMP = ("format", "kind", "name", "gap", "physics_left_out", "assumptions", "warnings")
+_OF_PUMP = ("format", "kind", "name", "gap", "physics_left_out", "physics_seconds", "assumptions", "warnings")
 
 
 @dataclass(frozen=True)
@@ -106,6 +106,7 @@ def floating_summary(found: FloatingPoint, warnings: list[str]) -> dict[str, Any
         "cost": {
             "solve_seconds": sum(taken.seconds for taken in found.rounds),
             "rounds_seconds": [taken.seconds for taken in found.rounds],
+            "physics_seconds": {leg.value: time for leg, time in _spent(found).items() if time > 0.0},
         },
         "physics_left_out": [effect.value for effect in found.options.physics.left_out],
         "assumptions": list(
@@ -116,6 +117,11 @@ def floating_summary(found: FloatingPoint, warnings: list[str]) -> dict[str, Any
             )
         ),
     }
+
+
+def _spent(found: FloatingPoint) -> dict[Leg, float]:
+    """Time (s) that the gaps spent on each leg, in all rounds."""
+    return {leg: sum(taken.spent[leg] for taken in found.rounds) for leg in Leg}
 
 
 def write_floating(folder: Path, found: FloatingPoint) -> dict[Path, list[Path]]:

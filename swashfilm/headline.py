@@ -13,7 +13,7 @@ EFFORT = (
     "format", "kind", "name", "warnings", "mass_balance_error", "energy_balance_error", "imbalance", "dofs",
     "iterations", "solve_seconds", "pressure_max_at_m", "temperature_max_at_m", "time_s", "thermal_rounds",
     "load_rest", "films_solved", "span_deg", "turns", "turn_change_m", "step_error", "steps", "physics_left_out",
-    "assumptions",
+    "physics_seconds", "assumptions",
 )  # fmt: skip
 # Numbers that belong together: the largest of them is the size against which round-off counts.
 _FAMILIES = {

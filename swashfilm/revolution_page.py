@@ -11,13 +11,14 @@ from typing import Any
 
 from swashfilm.film_page import summary_rows
 from swashfilm.film_refine import refinement_head, refinement_rows
+from swashfilm.physics_told import PHYSICS_HEAD, physics_told
 from swashfilm.pump_plots import TITLES
 from swashfilm.revolution_plots import revolution_plots
 from system.faults import Fault, InputFaults
 from system.pump_gap import Gap
 
 FILES = ("summary.json", "resolved.toml", "results.nc", "convergence.csv")
-_LISTS = ("assumptions", "physics_left_out", "gap")
+_LISTS = ("assumptions", "physics_left_out", "physics_seconds", "gap")
 
 
 def write_revolution_page(folder: Path) -> Path:
@@ -45,6 +46,7 @@ def write_revolution_page(folder: Path) -> Path:
         gap=TITLES[Gap(summary["gap"]).value],
         pictures={name: base64.b64encode(png).decode("ascii") for name, png in pictures.items()},
         rows=list(revolution_rows(summary)),
+        physics=[PHYSICS_HEAD, *physics_told(summary["physics_left_out"], summary["physics_seconds"])],
         refinement=[refinement_head(refinement), *refinement_rows(refinement)] if refinement else [],
         convergence=convergence,
         case=(folder / "resolved.toml").read_text("utf-8"),

@@ -160,6 +160,7 @@ def revolution_summary(study: RevolutionStudy) -> dict[str, Any]:
         "mass_balance_error": balance,
         "solve_seconds": study.solve_seconds,
         "physics_left_out": [effect.value for effect in physics.left_out],
+        "physics_seconds": {leg.value: time for leg, time in study.revolution.spent.items()},
         **_warmth(study.revolution.warmth),
         "assumptions": [*study.left_out, *map(str, all_taken(study.case.rotor, study.parts, physics))],
         "warnings": revolution_warnings(study.case, study.parts, study.revolution, balance),

@@ -8,12 +8,14 @@ joint rubs by its forces and spins, and the other pairs are the lumped fidelity'
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from contextlib import nullcontext
 from dataclasses import dataclass, replace
 from time import perf_counter
 
 import numpy as np
 
+from gaps.revolution import Leg
 from gaps.seen import mass_balance_error
 from system.assembly import PumpPoint, met_point, put_together
 from system.description import PumpDescription
@@ -60,7 +62,8 @@ ROUND_LIMIT = 12
 @dataclass(frozen=True)
 class Round:
     """One round of gaps and chamber: what it changed (as the tolerances count it), the steps of its turns and how
-    nearly they closed (share of the mean film), films solved, time s."""
+    nearly they closed (share of the mean film), films solved, time s; what of it its gaps spent on each leg, s,
+    pistons beside the others counted, too."""
 
     pressure_change: float
     friction_change: float
@@ -68,6 +71,7 @@ class Round:
     closed: float
     films_solved: int
     seconds: float
+    spent: Mapping[Leg, float]
 
 
 @dataclass(frozen=True)
@@ -168,14 +172,16 @@ def _round(
         pressure=tuple(cycle.pressure for cycle in ported.cycles),
         rubbing=tuple(rubbing(own, samples) for own in gaps),
     )
+    turned = [*(gap for own in gaps for gap in (own.piston, own.slipper)), gaps[0].block]
     taken = Round(
         float(np.max(np.abs(np.array(following.pressure) - asked.pressure))) / problems[0].pressure_span,
         max(map(_rubbing_change, asked.rubbing, following.rubbing))
         / max(at.forces.lift for one in driven for at in one.group),
         asked.options.steps,
         asked.options.accuracy.closed,
-        sum(gap.films_solved for own in gaps for gap in (own.piston, own.slipper)) + gaps[0].block.films_solved,
+        sum(gap.films_solved for gap in turned),
         perf_counter() - began,
+        {leg: sum(gap.spent.get(leg, 0.0) for gap in turned) for leg in Leg},
     )
     return _Found(following, gaps, ported, taken)
 

@@ -25,7 +25,7 @@ from reynolds.space import FilmSpace
 from system.floating_heat import block_heat, piston_heat, slipper_heat
 from system.floating_parts import FloatingParts
 from system.gap_cycle import Report, silent
-from system.gap_films import RIGID, block_film, piston_film, slipper_film
+from system.gap_films import block_film, piston_film, slipper_film
 from system.instants import Rotor
 from system.unlike import kinds
 
@@ -35,16 +35,18 @@ LEAST_CELLS = 2
 LEAST_PISTON_CELLS = 8
 """Along a bore: on fewer, a tilted piston with much clearance leaves the ends of its film between their points."""
 SLIPPER_START = BLOCK_START = 1e-5  # m: a film that every pump starts with
+SOFTLY = "a coarser mesh to find where, or rigid walls for comparison"
 
 
 @dataclass(frozen=True)
 class FloatingOptions:
     """How the gaps float: what physics, in how many steps a turn, how exactly, meshes how many times `finer`.
 
-    A mesh less than one time finer is coarser. Every `keep`th film is kept.
+    Physics is all but heat, which costs as much again. A mesh less than one time finer is coarser. Every `keep`th
+    film is kept.
     """
 
-    physics: Physics = RIGID
+    physics: Physics = field(default=Physics())
     steps: int = 360
     accuracy: Accuracy = field(default=MARCHED)
     finer: float = 1.0
@@ -111,7 +113,8 @@ def slipper_revolution(
     Between elastic walls from where it is between rigid ones. Raises as `run_revolution`; where nothing presses
     the slipper on, that is told as the reason.
     """
-    before = before or _between_rigid(slipper_revolution, rotor, parts, drive, options, report)
+    if before is None and (first := _between_rigid(slipper_revolution, rotor, parts, drive, options, report)):
+        return _led(first, slipper_revolution(rotor, parts, drive, options, first.bare, report))
     cells = options.slipper_cells
     film = slipper_film(rotor, parts, drive, options.physics, cells)
     floating, schedule = floating_slipper(film), evenly(drive.shaft_speed, options.steps, keep=options.keep)
@@ -152,7 +155,8 @@ def block_revolution(
     pistons, pump = rotor.pump.pump.pistons, rotor.pump
     if options.steps % pistons:
         raise ValueError(f"steps: found {options.steps}, expected a multiple of the {pistons} pistons")
-    before = before or _between_rigid(block_revolution, rotor, parts, drive, options, report)
+    if before is None and (first := _between_rigid(block_revolution, rotor, parts, drive, options, report)):
+        return _led(first, block_revolution(rotor, parts, drive, options, first.bare, report))
     alike = kinds(pump).alike
     steps, span = (options.steps // pistons, 2.0 * np.pi / pistons) if alike else (options.steps, 2.0 * np.pi)
     film = block_film(rotor, parts, drive, options.physics, options.block_cells)
@@ -184,9 +188,14 @@ def _between_rigid(
     if not options.physics.elastic_walls:
         return None
     try:
-        return gap(rotor, parts, drive, options.rigid, None, report).bare
+        return gap(rotor, parts, drive, options.rigid, None, report)
     except FilmNotConverged:
         return None
+
+
+def _led(first: GapRevolution[OneSeen], then: GapRevolution[OneSeen]) -> GapRevolution[OneSeen]:
+    """A revolution with what the one that led to it took."""
+    return replace(then, films_solved=first.films_solved + then.films_solved, spent={**first.spent, **then.spent})
 
 
 def _run(
@@ -201,13 +210,18 @@ def _run(
     report: TurnReport,
 ) -> GapRevolution[Seen]:
     solver, accuracy = FilmSolver(space), options.accuracy
-    if heat is None:
-        return run_revolution(
-            solver, floating, schedule, start, look, accuracy=accuracy, before=before, report=report
+    try:
+        if heat is None:
+            return run_revolution(
+                solver, floating, schedule, start, look, accuracy=accuracy, before=before, report=report
+            )
+        return warm_revolution(
+            solver, floating, schedule, start, look, heat, accuracy=accuracy, before=before, report=report
         )
-    return warm_revolution(
-        solver, floating, schedule, start, look, heat, accuracy=accuracy, before=before, report=report
-    )
+    except FilmNotConverged as reason:
+        if not options.physics.elastic_walls:
+            raise
+        raise FilmNotConverged(f"between elastic walls, {reason.what}", f"{reason.remedy}; {SOFTLY}") from None
 
 
 def _of_turn(report: Report, steps: int, gap: str) -> TurnReport:

@@ -6,6 +6,8 @@ from gaps.physics import Effect
 from swashfilm.__main__ import main
 from swashfilm.cli import build_parser
 from swashfilm.cli_floating import floating_faults, floating_options
+from swashfilm.physics_switches import SWITCHES
+from swashfilm.physics_told import physics_told
 from system.floating_gaps import FloatingOptions
 from system.pump_file import load_pump
 
@@ -62,3 +64,13 @@ def test_options_of_the_command_line():
     assert (found.steps, found.keep) == (72, usual.keep * 72 // usual.steps)
     assert found.piston_cells == tuple(cells // 2 for cells in usual.piston_cells)
     assert floating_options(build_parser().parse_args(FLOATING)) == usual
+    assert usual.physics.left_out == (Effect.HEAT,)
+
+
+def test_physics_is_told_with_its_switches_and_what_it_took():
+    """A row an effect; a time stands at the effect that ends its leg; every switch is one of the command line."""
+    rows = {row[2]: row for row in physics_told(["heat", "roughness"], {"rigid": 3.0, "elastic": 40.0})}
+    assert set(rows) == set(SWITCHES)
+    assert rows["--rigid"][1:] == ("on", "--rigid", "40.0 s")
+    assert rows["--smooth"][1:] == ("off", "--smooth", "3.0 s")
+    assert rows["--heat"][1:] == ("off", "--heat", "")

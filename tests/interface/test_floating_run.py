@@ -12,13 +12,14 @@ from swashfilm.fidelity import Fidelity
 from swashfilm.pump_page import write_pump_page
 from swashfilm.pump_run import run_pump
 from system.floating_gaps import FloatingOptions
+from system.gap_films import RIGID
 from system.pump_file import load_pump
 
 pytestmark = pytest.mark.slow
 
 GAPS = ("piston", "slipper", "valve_plate")
 ROUGHLY = FloatingOptions(
-    steps=36, finer=0.25, accuracy=Accuracy(step=0.1, floor=1e-7, closed=0.5, reach=1.0), keep=2
+    RIGID, steps=36, finer=0.25, accuracy=Accuracy(step=0.1, floor=1e-7, closed=0.5, reach=1.0), keep=2
 )
 
 
@@ -56,6 +57,7 @@ def test_summary_tells_of_gaps_rounds_and_what_was_taken(folder):
     assert found["checks"]["coupling_rounds"] == 1
     assert found["cost"]["solve_seconds"] == pytest.approx(sum(found["cost"]["rounds_seconds"]))
     assert {"elastic_walls", "pressure_viscosity", "heat"} == set(found["physics_left_out"])
+    assert list(found["cost"]["physics_seconds"]) == ["rigid"]
     assert any(taken.startswith("piston.guide_length") for taken in found["assumptions"])
 
 

@@ -17,12 +17,13 @@ from system.floating_checks import check_floating
 from system.floating_drives import drives, no_rubbing
 from system.floating_gaps import FloatingOptions, block_revolution
 from system.floating_parts import floating_parts
+from system.gap_films import RIGID
 from system.instants import rotor
 from system.lumped import lumped_point
 from system.operating import operating_point
 from system.pump_file import load_pump
 
-COARSE = FloatingOptions(steps=72, accuracy=Accuracy(step=3e-2), finer=0.5)
+COARSE = FloatingOptions(RIGID, steps=72, accuracy=Accuracy(step=3e-2), finer=0.5)
 pytestmark = pytest.mark.slow
 
 

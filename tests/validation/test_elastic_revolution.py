@@ -10,8 +10,9 @@ from gaps.revolution import GapRevolution
 from gaps.schedule import Accuracy
 from gaps.seen import SlipperSeen
 from system.floating_drives import drives, no_rubbing
-from system.floating_gaps import RIGID, FloatingOptions, slipper_revolution
+from system.floating_gaps import FloatingOptions, slipper_revolution
 from system.floating_parts import floating_parts
+from system.gap_films import RIGID
 from system.instants import rotor
 from system.lumped import lumped_point
 from system.operating import operating_point

@@ -20,6 +20,7 @@ from gaps.schedule import Accuracy
 from system.floating_drives import drives, no_rubbing
 from system.floating_gaps import FloatingOptions, slipper_revolution
 from system.floating_parts import floating_parts
+from system.gap_films import RIGID
 from system.instants import rotor
 from system.leakage import piston_conductance, slipper_conductance, valve_plate_conductance
 from system.lumped import lumped_point
@@ -85,7 +86,7 @@ def test_floating_slipper_leaks_within_the_range_taken():
     cycle = lumped_point(pump, point).cycle
     group = rotor(pump, point)
     driven = drives(group, parts, cycle.shaft_angle, cycle.pressure, no_rubbing(cycle.shaft_angle.size))
-    options = FloatingOptions(steps=36, accuracy=Accuracy(step=3e-2), finer=0.5)
+    options = FloatingOptions(RIGID, steps=36, accuracy=Accuracy(step=3e-2), finer=0.5)
     turn = slipper_revolution(group, parts, driven.slipper, options).turn
     leak = 9.0 * float(np.mean([instant.seen.leakage for instant in turn.instants]))
     thin, thick = (

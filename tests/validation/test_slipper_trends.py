@@ -20,6 +20,7 @@ from reynolds.errors import FilmNotConverged
 from system.floating_drives import Drives, drives, no_rubbing
 from system.floating_gaps import FloatingOptions, slipper_revolution
 from system.floating_parts import FloatingParts, floating_parts
+from system.gap_films import RIGID
 from system.instants import Rotor, rotor
 from system.lumped import lumped_point
 from system.operating import operating_point
@@ -27,7 +28,7 @@ from system.pump_file import load_pump
 
 PAPER, SHEET = "seed paper, Fig. 9", "physics/left_out_physics.md"
 PISTONS, LITRES_A_MINUTE = 9, 6e4
-COARSE = FloatingOptions(steps=36, accuracy=Accuracy(step=3e-2), finer=0.5)
+COARSE = FloatingOptions(RIGID, steps=36, accuracy=Accuracy(step=3e-2), finer=0.5)
 COARSE_TORQUE = 0.06  # that coarse the torque is off by so much; films by 2 %
 
 

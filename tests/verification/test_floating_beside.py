@@ -11,12 +11,13 @@ from system.floating_beside import Driven, piston_beside
 from system.floating_drives import drives, no_rubbing
 from system.floating_gaps import FloatingOptions, piston_revolution
 from system.floating_parts import floating_parts
+from system.gap_films import RIGID
 from system.instants import rotor
 from system.lumped import lumped_point
 from system.operating import operating_point
 from system.pump_file import load_pump
 
-ROUGHLY = FloatingOptions(steps=36, finer=0.25, accuracy=Accuracy(step=0.1, floor=1e-7, closed=0.5), keep=6)
+ROUGHLY = FloatingOptions(RIGID, steps=36, finer=0.25, accuracy=Accuracy(step=0.1, floor=1e-7, closed=0.5), keep=6)
 
 
 def asked(options: FloatingOptions = ROUGHLY) -> Driven:
@@ -45,7 +46,7 @@ def test_a_process_of_its_own_finds_the_same_piston():
         beside.start((here,))
         (again,) = beside.fetch(lambda *_: None)
         assert again.closing.turns <= found.closing.turns
-        beside.start((asked(FloatingOptions(steps=0)),))
+        beside.start((asked(FloatingOptions(RIGID, steps=0)),))
         with pytest.raises(FilmInputError, match="revolution"):
             beside.fetch(lambda *_: None)
 

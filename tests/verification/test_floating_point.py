@@ -10,6 +10,7 @@ from system.errors import NotConverged
 from system.floating import FRICTION_TOLERANCE, PRESSURE_TOLERANCE, FloatingPoint, floating_point
 from system.floating_exchange import leak_table, leakage_heat
 from system.floating_gaps import FloatingOptions
+from system.gap_films import RIGID
 from system.operating import operating_point
 from system.pump_file import load_pump
 
@@ -23,7 +24,7 @@ def pump() -> PumpDescription:
 
 @pytest.fixture(scope="module")
 def found() -> FloatingPoint:
-    return floating_point(pump(), operating_point(pump()), FloatingOptions(steps=STEPS, finer=0.35))
+    return floating_point(pump(), operating_point(pump()), FloatingOptions(RIGID, steps=STEPS, finer=0.35))
 
 
 def test_gaps_and_chambers_agree(found):
@@ -82,4 +83,4 @@ def test_friction_is_that_of_the_films(found):
 def test_rounds_that_do_not_settle_say_so(monkeypatch):
     monkeypatch.setattr("system.floating.ROUND_LIMIT", 1)
     with pytest.raises(NotConverged, match="after 1 rounds"):
-        floating_point(pump(), operating_point(pump()), FloatingOptions(steps=STEPS, finer=0.35))
+        floating_point(pump(), operating_point(pump()), FloatingOptions(RIGID, steps=STEPS, finer=0.35))

@@ -12,11 +12,12 @@ from gaps.schedule import Accuracy
 from system.description import PumpDescription
 from system.floating import FloatingPoint, floating_point
 from system.floating_gaps import FloatingOptions
+from system.gap_films import RIGID
 from system.operating import operating_point
 from system.pump_file import load_pump
 
 ROUGHLY = FloatingOptions(
-    steps=36, finer=0.25, accuracy=Accuracy(step=0.1, floor=1e-7, closed=0.5, reach=1.0), keep=6
+    RIGID, steps=36, finer=0.25, accuracy=Accuracy(step=0.1, floor=1e-7, closed=0.5, reach=1.0), keep=6
 )
 PUMP = load_pump("ref90_floating", {"operating.pressure": "5 MPa"})
 CLEARANCE = PUMP.piston.radial_clearance
