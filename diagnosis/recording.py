@@ -1,0 +1,102 @@
+"""What a recording is: channels with their noise, steady points, traces over shaft angle, notes on the data."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import Enum
+
+import numpy as np
+from numpy.typing import NDArray
+
+from system.channels import ChannelName
+from system.kinematics import Array
+
+
+class Circuit(Enum):
+    """How the pump was fed."""
+
+    OPEN = "open"
+    CLOSED = "closed"
+
+
+class NoteKind(Enum):
+    """What came of a finding in the data."""
+
+    FAULT = "fault"
+    REMOVED = "removed"
+    TOLD = "told"
+
+
+@dataclass(frozen=True)
+class DataNote:
+    """One finding in the data: at which channel (None: several) and points (rows from 0), and what, in words."""
+
+    kind: NoteKind
+    channel: ChannelName | None
+    points: tuple[int, ...]
+    text: str
+
+
+@dataclass(frozen=True)
+class RecordedChannel:
+    """A channel of the file: column and unit there; the rest in SI.
+
+    One sigma of repeatability is sigma + sigma_relative x reading; quantum: step of the reading; lag in s;
+    gain_sigma (relative) and zero_sigma (SI): one sigma of the calibration. `assumed` names the fields that the
+    file does not state.
+    """
+
+    name: ChannelName
+    column: str
+    unit: str
+    sigma: float
+    sigma_relative: float
+    quantum: float
+    lag: float
+    gain_sigma: float
+    zero_sigma: float
+    assumed: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class SteadyTable:
+    """N steady points in the order in which they were taken.
+
+    values: (N, len(ChannelName)) in SI, pressures gauge, columns in the order of ChannelName, nan = not measured;
+    repeats: (N,), points of one number repeat one set point; hours: (N,), h from the first point, nan = not known;
+    effective: (N,), independent samples behind a mean.
+    """
+
+    values: Array
+    repeats: NDArray[np.int64]
+    hours: Array
+    effective: Array
+
+
+@dataclass(frozen=True)
+class TraceBlock:
+    """Chamber pressure over one turn at the steady point `point`: angle (K,) in rad from the inner dead centre.
+
+    mean: (K,), Pa gauge, over `cycles` turns; covariance_factor: (K, r) with covariance = factor factor^T, or None
+    where single cycles are not known.
+    """
+
+    point: int
+    angle: Array
+    mean: Array
+    covariance_factor: Array | None
+    cycles: int
+
+
+@dataclass(frozen=True)
+class Recording:
+    """A recording as understood: SI, pressures gauge. `pump` and `oil` are as its file names them, or empty."""
+
+    title: str
+    pump: str
+    oil: str
+    circuit: Circuit
+    channels: tuple[RecordedChannel, ...]
+    steady: SteadyTable
+    traces: tuple[TraceBlock, ...]
+    notes: tuple[DataNote, ...]

@@ -1,0 +1,68 @@
+"""The verdict: what is claimed, how sure, what cannot be told apart."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import Enum
+
+from diagnosis.detect import Detection
+from diagnosis.locate import Location
+from diagnosis.next_point import NextPoint
+from diagnosis.unknown import Scaling
+from diagnosis.weighed import HeldOut, Weighed
+from system.estimation.posterior import Effort, Posterior
+from system.physics.effects import EffectId, Kind
+from system.pump_gap import Gap
+from system.units import Dimension
+
+
+class Status(Enum):
+    """How far a verdict goes."""
+
+    NAMED = "named"
+    CLASS = "class"
+    SUSPICION = "suspicion"
+    INCOMPLETE = "incomplete"
+
+
+@dataclass(frozen=True)
+class Estimate:
+    """A parameter with one sigma, SI; dimension None: a pure number."""
+
+    name: str
+    value: float
+    sigma: float
+    dimension: Dimension | None
+
+
+@dataclass(frozen=True)
+class Claim:
+    """One effect that is claimed; `equivalent`: the ids that this recording cannot tell from it."""
+
+    effect: EffectId
+    pair: Gap | None
+    probability: float
+    equivalent: tuple[EffectId, ...]
+    parameters: tuple[Estimate, ...]
+
+
+@dataclass(frozen=True)
+class Diagnosis:
+    """The whole finding. hypotheses: all that were weighed, claimed first; before: the null's own fit, after: the
+    claimed one's; fit: held-out residuals; not_identifiable: pairs of things this recording cannot tell, in words.
+    """
+
+    kind: Kind
+    status: Status
+    detection: Detection
+    location: Location
+    effects: tuple[Claim, ...]
+    hypotheses: tuple[Weighed, ...]
+    before: Posterior
+    after: Posterior
+    fit: HeldOut
+    scaling: Scaling | None
+    next_point: NextPoint | None
+    not_identifiable: tuple[str, ...]
+    notes: tuple[str, ...]
+    effort: Effort

@@ -1,0 +1,80 @@
+"""Readings and what is known of their noise."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from reynolds.errors import FilmInputError
+from system.units import Dimension
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Channel:
+    """One channel of readings: its name and what it measures (None: a pure number)."""
+
+    name: str
+    dimension: Dimension | None
+
+
+@dataclass(frozen=True)
+class Observations:
+    """N points by C channels, all in SI; rows stand in the order in which they were taken.
+
+    values, sigma: (N, C), reading and one sigma of its repeatability; nan = not measured.
+    inputs, input_sigma: names of the M inputs that were measured too, and one sigma of each, (N, M).
+    quantum: (C,), the step of a digital reading, 0 for none.
+    blocks: (N,) integers, points of one block stand near each other (region of the map, stretch of time).
+    memory: coefficients of an autoregressive noise along the rows (of consecutive points of a time series), the
+    nearest first; empty: the noise of each point is its own.
+    """
+
+    channels: tuple[Channel, ...]
+    values: Array
+    sigma: Array
+    inputs: tuple[str, ...]
+    input_sigma: Array
+    quantum: Array
+    blocks: NDArray[np.int64]
+    memory: tuple[float, ...] = ()
+
+    def __post_init__(self) -> None:
+        """Raise FilmInputError for arrays that do not fit each other and for a reading without a noise."""
+        points, channels = len(self.values), len(self.channels)
+        shapes = (
+            ("values", self.values.shape, (points, channels)),
+            ("sigma", self.sigma.shape, (points, channels)),
+            ("input_sigma", self.input_sigma.shape, (points, len(self.inputs))),
+            ("quantum", self.quantum.shape, (channels,)),
+            ("blocks", self.blocks.shape, (points,)),
+        )
+        for name, found, expected in shapes:
+            if found != expected:
+                raise FilmInputError(f"observations.{name}", f"shape {found}", f"shape {expected}")
+        if not np.all(self.sigma[self.measured] > 0):
+            raise FilmInputError(
+                "observations.sigma", "a reading without a positive sigma", "one sigma for each reading"
+            )
+
+    @property
+    def measured(self) -> NDArray[np.bool_]:
+        """(N, C), true where there is a reading."""
+        return np.isfinite(self.values)
+
+    def without(self, rows: NDArray[np.bool_]) -> Observations:
+        """The same without the points where `rows` (N,) is true; memory goes on across what is left out."""
+        kept = ~rows
+        return Observations(
+            self.channels,
+            self.values[kept],
+            self.sigma[kept],
+            self.inputs,
+            self.input_sigma[kept],
+            self.quantum,
+            self.blocks[kept],
+            self.memory,
+        )

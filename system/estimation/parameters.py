@@ -1,0 +1,90 @@
+"""Parameters with priors: each a standard normal number, and the value it stands for."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from enum import Enum
+from math import exp, inf, log
+
+from reynolds.errors import FilmInputError
+from system.units import Dimension
+
+
+class Scale(Enum):
+    """How a value hangs on its standard number xi, with centre v0 and spread s."""
+
+    NORMAL = "normal"  # v0 + s xi
+    LOG = "log"  # v0 exp(s xi)
+    HALF = "half"  # v0 + s xi with xi >= 0: of one sign only
+
+
+class Role(Enum):
+    """What a parameter belongs to."""
+
+    BASE = "base"
+    FLUID = "fluid"
+    SENSOR = "sensor"
+    EXTENSION = "extension"
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """One parameter and its prior: xi ~ N(0, 1), cut to [lower, upper] in value; HALF: xi >= 0 besides.
+
+    centre, lower and upper are SI values; spread is in SI too, but for LOG relative. `dimension` is None for a
+    pure number. `source` says where the prior comes from.
+    """
+
+    name: str
+    role: Role
+    scale: Scale
+    centre: float
+    spread: float
+    lower: float
+    upper: float
+    dimension: Dimension | None
+    source: str
+
+    def __post_init__(self) -> None:
+        """Raise FilmInputError for a prior that is none."""
+        where = f"parameter {self.name}"
+        if not 0 < self.spread < inf:
+            raise FilmInputError(where, f"a spread of {self.spread}", "a positive number")
+        if not self.lower <= self.centre <= self.upper or self.lower == self.upper:
+            raise FilmInputError(where, f"centre {self.centre}", f"one within [{self.lower}, {self.upper}]")
+        if self.scale is Scale.LOG and not self.lower >= 0 < self.centre:
+            raise FilmInputError(
+                where, f"centre {self.centre}, lower {self.lower}", "positive values on a log scale"
+            )
+
+    @property
+    def lowest(self) -> float:
+        """The least xi allowed: that of `lower`, and 0 on a HALF scale."""
+        if self.scale is Scale.HALF:
+            return 0.0
+        return self.standard(self.lower)
+
+    @property
+    def highest(self) -> float:
+        """The largest xi allowed."""
+        return self.standard(self.upper)
+
+    def value(self, xi: float) -> float:
+        """The value in SI of a standard number."""
+        if self.scale is Scale.LOG:
+            return self.centre * exp(self.spread * xi)
+        return self.centre + self.spread * xi
+
+    def standard(self, value: float) -> float:
+        """The standard number of a value in SI: the inverse of `value`."""
+        if self.scale is Scale.LOG:
+            return log(value / self.centre) / self.spread if value > 0 else -inf
+        return (value - self.centre) / self.spread
+
+    def stretch(self, xi: float) -> float:
+        """d value / d xi, in SI: what a slope by value is multiplied with to be one by xi."""
+        return self.spread * (self.value(xi) if self.scale is Scale.LOG else 1.0)
+
+    def widened(self, factor: float) -> Parameter:
+        """The same parameter with a prior `factor` times as wide, between the same bounds."""
+        return replace(self, spread=self.spread * factor)

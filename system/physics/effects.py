@@ -1,0 +1,117 @@
+"""Effects by their id, what their laws may see of the pump, and what they change in it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import Enum
+
+from system.description import PumpDescription
+from system.kinematics import Array
+
+
+class Kind(Enum):
+    """What a mismatch comes from, as the verdict says it."""
+
+    MISSING_PHYSICS = "missing_physics"
+    SENSOR_FAULT = "sensor_fault"
+    WRONG_PARAMETER = "wrong_parameter"
+    UNKNOWN_PHYSICS = "unknown_physics"
+    NO_MISMATCH = "no_mismatch"
+
+
+class EffectId(Enum):
+    """The ids of the catalogue: missing physics, sensor faults, wrong parameters, and what stands in none."""
+
+    FILM_HEATING = "film_heating"
+    VISCOSITY_PRESSURE = "viscosity_pressure"
+    ENTRAINED_AIR = "entrained_air"
+    INCOMPLETE_FILLING = "incomplete_filling"
+    SHEAR_THINNING = "shear_thinning"
+    MIXED_FRICTION = "mixed_friction"
+    ELASTIC_OPENING = "elastic_opening"
+    THERMAL_CLEARANCE = "thermal_clearance"
+    SQUEEZE_PUMPING = "squeeze_pumping"
+    SLIPPER_LIFT = "slipper_lift"
+    BLOCK_TIPPING = "block_tipping"
+    CHURNING = "churning"
+    SEAL_DRAG = "seal_drag"
+    CHARGE_PUMP_DRAG = "charge_pump_drag"
+    PORT_SHORT_CIRCUIT = "port_short_circuit"
+    NOTCH_EROSION = "notch_erosion"
+    PORT_THROTTLING = "port_throttling"
+    COMPRESSION_LOSS = "compression_loss"
+    CONTROL_FLOW = "control_flow"
+    SWASH_DROOP = "swash_droop"
+    LINE_RESONANCE = "line_resonance"
+    LAMINAR_CROSS_LEAK = "laminar_cross_leak"
+    TORQUE_OFFSET = "torque_offset"
+    TORQUE_GAIN = "torque_gain"
+    Q_OUT_GAIN = "Q_out_gain"
+    Q_IN_GAIN = "Q_in_gain"
+    Q_CASE_OFFSET = "Q_case_offset"
+    Q_CASE_DRIFT = "Q_case_drift"
+    Q_CASE_GAIN = "Q_case_gain"
+    FLOW_LAG = "flow_lag"
+    P_OUT_OFFSET = "p_out_offset"
+    T_CASE_OFFSET = "T_case_offset"
+    T_IN_OFFSET = "T_in_offset"
+    FILM_THICKNESS = "film_thickness"
+    VISCOSITY_GRADE = "viscosity_grade"
+    BULK_MODULUS = "bulk_modulus"
+    DEAD_VOLUME = "dead_volume"
+    FRICTION_COEFFICIENT = "friction_coefficient"
+    DISPLACEMENT = "displacement"
+    UNKNOWN_PHYSICS = "unknown_physics"
+
+
+@dataclass(frozen=True)
+class GapCourse:
+    """One gap over the turn at N points, M shaft angles each: arrays (N, M).
+
+    pressure: chamber over case pressure in Pa; sliding_speed: of the two walls in m/s, never negative;
+    film: thickness in m.
+    """
+
+    pressure: Array
+    sliding_speed: Array
+    film: Array
+
+
+@dataclass(frozen=True)
+class BenchState:
+    """N bench points as laws see them: rad/s, Pa gauge, Pa s, K, h run; arrays (N,). `geometry` is the pump."""
+
+    speed: Array
+    displacement_ratio: Array
+    delivery_pressure: Array
+    inlet_pressure: Array
+    case_pressure: Array
+    viscosity: Array
+    temperature: Array
+    hours: Array
+    geometry: PumpDescription
+
+
+@dataclass(frozen=True)
+class Effects:
+    """What a law changes at N points and M angles; ones and zeros change nothing.
+
+    conductance, viscous, coulomb: (3, N, M), factors on leakage, shear and Coulomb friction of the gaps in the
+    order of `Gap`; extra_coulomb: (5, N, M), W, of piston, slipper, valve plate, socket, ball guide. Then (N,)
+    each: cross_flow (delivery to inlet), drain_flow (delivery to case), drain_from_inlet in m3/s; torque in N m on
+    the shaft; ideal: factor on the displacement; intake: share of the chamber that is filled; bulk_modulus:
+    factor; carried_off: W, the power that goes with all this, a sink of the power balance.
+    """
+
+    conductance: Array
+    viscous: Array
+    coulomb: Array
+    extra_coulomb: Array
+    cross_flow: Array
+    drain_flow: Array
+    drain_from_inlet: Array
+    torque: Array
+    ideal: Array
+    intake: Array
+    bulk_modulus: Array
+    carried_off: Array

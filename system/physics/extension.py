@@ -1,0 +1,45 @@
+"""An extension: a law with physical parameters, and its entry in the catalogue of effects."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+
+from system.channels import ChannelName
+from system.components import Component
+from system.estimation.parameters import Parameter
+from system.physics.effects import BenchState, EffectId, Effects, GapCourse, Kind
+from system.pump_gap import Gap
+
+Values = Mapping[str, float]  # of the parameters of one extension by name, SI
+Law = Callable[[Values, Mapping[Gap, GapCourse], BenchState], Effects]  # values of 0 change nothing, exactly
+
+
+@dataclass(frozen=True)
+class Extension:
+    """One law switched on, at one gap or (None) at the pump as a whole.
+
+    `grid` lists the values of parameters that set a scale rather than a size and are tried one after the other;
+    one empty mapping where there is none.
+    """
+
+    id: EffectId
+    pair: Gap | None
+    law: Law
+    parameters: tuple[Parameter, ...]
+    grid: tuple[Values, ...]
+
+
+@dataclass(frozen=True)
+class Entry:
+    """One id of the catalogue: where it acts, the channels it shows in, what it is mistaken for, its words."""
+
+    id: EffectId
+    verdict: Kind
+    extensions: tuple[Extension, ...]
+    components: tuple[Component, ...]
+    channels: tuple[ChannelName, ...]
+    regime: str
+    twins: tuple[EffectId, ...]
+    sentence: str
+    source: str
