@@ -21,6 +21,7 @@ from reynolds.solve import FilmSolver
 
 GROWTH = 4.0  # of a step after one that was solved
 STILL = 3  # steps in a row that move no coordinate by more than allowed, each GROWTH times as long
+PATIENCE = 3  # steps solved before a length is tried again that had no solution: looking for one is dear
 MOST_STEPS = 100
 SHORTEST = 1e-6  # of the first step
 FOR_EVER = 1e9  # s, a step after which nothing of before counts
@@ -43,16 +44,18 @@ def come_to_rest(solve: StageSolver[S], start: State[S], step: float, allowed: f
 
     `step` (s) is the first one, about the time in which the motion answers its drive. Afterwards three steps in a
     row, each four times the one before, have moved no coordinate by more than `allowed` (m). A step without
-    solution is cut to a quarter. Raises FilmInputError for a step or tolerance that is none, FilmNotConverged for
+    solution is cut to a quarter, and tried again after PATIENCE of the shorter ones. Raises FilmInputError for a step or tolerance that is none, FilmNotConverged for
     a motion that finds no rest, with its last move.
     """
     if not (np.isfinite(step) and step > 0.0 and allowed > 0.0):
         raise FilmInputError("rest", f"a step of {step:g} s and {allowed:g} m allowed", "both above zero")
     state, shortest, still, moved = replace(start, tangent=None), SHORTEST * step, 0, np.inf
+    refused, since = np.inf, 0
     for _ in range(MOST_STEPS):
         try:
             taken = advance(BACKWARD_EULER, lambda time, *rest: solve(start.time, *rest), state, step)
         except FilmNotConverged as reason:
+            refused, since = step, 0
             step, still = step / GROWTH, 0
             if step < shortest:
                 raise FilmNotConverged(f"no rest, last move {moved:.2g} m: {reason.what}", reason.remedy) from None
@@ -63,5 +66,9 @@ def come_to_rest(solve: StageSolver[S], start: State[S], step: float, allowed: f
             return taken
         # The next guess is the place itself: a rate says nothing over a step four times as long.
         state = replace(taken.state, rate=np.zeros_like(state.rate), bend=0.0)
-        step *= GROWTH
+        since += 1
+        if GROWTH * step < refused or since >= PATIENCE:
+            step, refused = GROWTH * step, np.inf
+        else:
+            still = 0
     raise FilmNotConverged(f"no rest after {MOST_STEPS} steps, last move {moved:.2g} m", "forces that balance")
