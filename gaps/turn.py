@@ -215,7 +215,7 @@ class _Course(Generic[Seen]):
     def tell(self, instant: GapInstant[Seen], stage: Stage, *, kept: bool) -> None:
         """One more reported angle."""
         self.instants.append(instant)
-        self.oil.append(stage.holds[: len(stage.solution.pressure)])
+        self.oil.append(stage.holds[: stage.instant.shape.space.size])
         if kept:
             self.films[instant.angle] = stage.solution
 
@@ -239,8 +239,8 @@ class _Course(Generic[Seen]):
 def _oil_moved(first: FilmSpace, begin: State[Stage], end: State[Stage]) -> float:
     """Oil that is elsewhere at the end, over all of it."""
     assert end.stage is not None
-    oil = slice(len(end.stage.solution.pressure))
-    return _moved(end.held[oil][seats_of(first, end.stage.solution.problem.space)], begin.held[oil])
+    space = end.stage.instant.shape.space
+    return _moved(end.held[: space.size][seats_of(first, space)], begin.held[: space.size])
 
 
 def _moved(came: Array, went: Array) -> float:

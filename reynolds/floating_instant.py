@@ -25,7 +25,7 @@ from reynolds.mesh import Array
 from reynolds.opening import opening_slope, touch_at
 from reynolds.overlap import film_between
 from reynolds.sensitivity import Response, oil_slopes, response, thickness_load
-from reynolds.solve import FilmSolver
+from reynolds.solve import FilmSolver, as_given
 
 LEAST_SHARE = 0.2  # of the least gap that a step may leave
 DEEPEST = 3.0  # standard deviations of the summits by which a step may press the walls together
@@ -114,11 +114,14 @@ class Instant:
         at = posed(self.shape, self.modes, q)
         if self.shape.walls is None and not at.least > lowest_gap(self.shape):
             raise FilmNotConverged(f"walls that touch: least gap {at.least:.3g} m", TOUCHING)
+        return self._balanced(q, at, self.solver.solve(self._problem(q, at), warm))
+
+    def _problem(self, q: Array, at: Posed) -> FilmProblem:
+        """The film at a position, an implicit step after what was held."""
         storage = Storage(self.before.oil, self.step)
-        problem = replace(
+        return replace(
             self.shape, film=at.film, asperities=at.asperities, boundary=self._with_volumes(q), storage=storage
         )
-        return self._balanced(q, at, self.solver.solve(problem, warm))
 
     def _with_volumes(self, q: Array) -> dict[str, Boundary]:
         """The boundaries, pockets fed with what their growing volume takes."""
@@ -198,12 +201,19 @@ class Instant:
         cavity = found.cavity
         if found.problem.cavitation is Cavitation.JFO:  # what fills up, and what tears
             cavity = np.where(cavity, fraction < 1.0, ~found.held & (pressure < level))
-        fraction, pressure = np.clip(fraction, 0.0, 1.0), np.maximum(pressure, level)
+        if found.problem.cavitation is not Cavitation.NONE:
+            pressure = np.maximum(pressure, level)
+        fraction = np.clip(fraction, 0.0, 1.0)
         found = replace(found, cavity=cavity)
         if found.problem.walls is None:
             return replace(found, pressure=pressure, film_fraction=fraction)
         opened = found.opening + (self.grown(at, film) - self.modes.at_vertices) @ step
         return replace(found, pressure=pressure, film_fraction=fraction, opening=opened)
+
+    def moved(self, at: Trial, step: Array, film: Response) -> FilmSolution:
+        """The film a step (k,) m on as its slopes have it, its flows those of these pressures."""
+        q = at.q + step
+        return as_given(self._problem(q, posed(self.shape, self.modes, q)), self.ahead(at, step, film))
 
     def touching(self, at: Trial) -> bool:
         """Whether walls are next to where there is no film between them, or no law of contact."""

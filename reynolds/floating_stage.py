@@ -82,18 +82,34 @@ class Stage:
 
     @cached_property
     def solution(self) -> FilmSolution:
-        """The film, with its storage, as between rigid walls of the shape that it has."""
-        return as_shaped(self.trial.solution)
+        """The film where the forces balance, with its storage, as between rigid walls of the shape that it has.
 
-    @property
+        It has followed the position along its slopes, its flows are those of that: oil is kept to the square.
+        """
+        if not self.shift.any():
+            return as_shaped(self.trial.solution)
+        return as_shaped(self.instant.moved(self.trial, self.shift, self.by_position))
+
+    @cached_property
     def gap(self) -> Array:
         """Distance of the mean planes at the quadrature points (cells, points), m; walls having given way."""
-        return self.trial.gap
+        if not self.shift.any():
+            return self.trial.gap
+        return self.trial.gap + self.instant.shape.space.sample_vertices(self._grown @ self.shift)
 
     @property
     def least_gap(self) -> float:
         """Least distance of the mean planes, m."""
-        return self.trial.least
+        if not self.shift.any():
+            return self.trial.least
+        corners = self.trial.corner_gap
+        least = float(self.gap.min())
+        return least if corners is None else min(least, float((corners + self._grown @ self.shift).min()))
+
+    @property
+    def _grown(self) -> Array:
+        """Growth of the gap by each coordinate at the vertices, (vertices, k)."""
+        return self.instant.grown(self.trial, self.by_position)
 
     @property
     def film_force(self) -> Array:

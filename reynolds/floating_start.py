@@ -61,12 +61,12 @@ def restarted(floating: Floating, time: float, last: State[Stage], q: Array) -> 
     if stage is None:
         return started(floating, time, q)
     k = len(stage.q)
-    nothing = np.zeros((len(stage.solution.pressure), k))
+    nothing = np.zeros((stage.instant.shape.space.size, k))
     film, parts = stage.trial.solution, stage.instant.solver.operators(stage.trial.solution)
     oil = oil_slopes(film, stage.trial.thicker, Response(nothing, nothing), parts)
     beside = np.zeros((len(last.held) - len(oil), k))  # position, and rates where walls have inertia
     beside[:k] = np.eye(k)
-    seats = seats_of(floating.shape_at(time).space, stage.solution.problem.space)
+    seats = seats_of(floating.shape_at(time).space, stage.instant.shape.space)
     slopes = np.vstack([oil[seats], beside])
     held = np.concatenate([last.held[: len(oil)][seats], last.held[len(oil) :]]) + slopes @ (q - stage.q)
     least = float(held[: len(oil)].min())

@@ -190,6 +190,16 @@ class FilmSolver:
         return load
 
 
+def as_given(problem: FilmProblem, given: FilmSolution) -> FilmSolution:
+    """The film of `problem` at the pressures, film fractions and opening of another one, as they are.
+
+    Its flows are theirs; what does not balance is its imbalance. Raises as the laws do.
+    """
+    setting = spread(problem)
+    at = iterate_of(problem, State(given.pressure, given.film_fraction, given.opening), given.cavity)
+    return _solution(problem, setting, at, [imbalance_of(problem, setting, at)])
+
+
 @dataclass(frozen=True)
 class _Answers:
     """The linearised balance of a film at an iterate, ready to be solved.

@@ -13,7 +13,7 @@ import pytest
 
 from reynolds.dirk import ALEXANDER_2, State, Tangent, march, nodes_only
 from reynolds.errors import FilmNotConverged
-from reynolds.periodic import periodic
+from reynolds.periodic import approached, periodic
 
 DAMPING, LOAD, TURN = 3.0e5, 40.0, 2.0 * np.pi / 220.0  # N s/m, N, s: REF90's slipper at 10 um and 2100 1/min
 
@@ -37,6 +37,7 @@ class Stage:
 class Turn:
     """One turn of an equation of motion."""
 
+    start: np.ndarray
     end: np.ndarray
     slopes: np.ndarray
     path: np.ndarray
@@ -63,7 +64,7 @@ def _turn(rate: Callable, period: float, steps: int, *, reach: float = 1.0, allo
         state = State(0.0, start, start, np.zeros(len(start)), tangent=Tangent(one, one))
         nodes = period * np.arange(1, steps + 1) / steps
         path = [taken.state for taken in march(ALEXANDER_2, solve, state, nodes, nodes_only)]
-        return Turn(path[-1].q, path[-1].tangent.q, np.array([at.q for at in path]), allowed, reach)
+        return Turn(start, path[-1].q, path[-1].tangent.q, np.array([at.q for at in path]), allowed, reach)
 
     return run
 
@@ -204,3 +205,18 @@ def test_motion_that_never_closes():
 
     with pytest.raises(FilmNotConverged, match=r"30 turns.*1e-06 m"):
         periodic(turn, np.array([1e-5]))
+
+
+def test_next_to_the_periodic_motion():
+    """A turn that forgets its start is next to the periodic motion by its end, though its start was far away."""
+    forgets = _turn(_hydrostatic(10.0 * DAMPING / TURN), TURN, 40, allowed=1e-8)
+    far = np.array([1e-4])
+    assert np.array_equal(approached(forgets, far).start, far)
+    closed = periodic(forgets, far)
+    assert closed.turns == 2
+    assert approached(forgets, far).end == pytest.approx(closed.turn.end, abs=1e-8)
+    slow = _turn(_hydrostatic(0.1 * DAMPING / TURN), TURN, 40, allowed=1e-8)
+    assert approached(slow, far).end == pytest.approx(periodic(slow, far).turn.end, abs=1e-8)
+    pushed = _turn(lambda t, h: (np.array([-1e-3]), np.zeros((1, 1))), TURN, 4, reach=1e-6)
+    with pytest.raises(FilmNotConverged, match="not periodic after 30 turns"):
+        approached(pushed, far)

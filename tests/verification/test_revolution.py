@@ -5,6 +5,7 @@ A plate on a spring and an oil film against its closed form; a journal with a ca
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
 
@@ -49,12 +50,16 @@ def _flat(space: FilmSpace) -> FilmProblem:
     return FilmProblem(space, film(THICKNESS, VISCOSITY), {"left": Held(0.0), "right": Held(0.0)}, Cavitation.NONE)
 
 
-def _swayed(share: float, schedule: Schedule, look=lambda stage: _power(stage), **options) -> GapRevolution[float]:
+def _swayed(
+    share: float, schedule: Schedule, look: Callable[[Stage], float] | None = None, **options
+) -> GapRevolution[float]:
     """The plate's revolution, for a spring of `share` times the film's c w; reports the film's power by itself."""
     space = _strip()
     floating = _plate(space, share * DAMPING * SPEED)
     start = np.array([1.001 * THICKNESS])
-    return run_revolution(FilmSolver(space), floating, schedule, start, look, **{"accuracy": CLOSE, **options})
+    return run_revolution(
+        FilmSolver(space), floating, schedule, start, look or _power, **{"accuracy": CLOSE, **options}
+    )
 
 
 def _power(stage: Stage) -> float:
@@ -121,10 +126,8 @@ def test_what_is_reported_and_kept():
     assert sorted(found.turn.films) == [schedule.angles[7], schedule.angles[15], schedule.angles[23]]
     assert set(schedule.breaks / SPEED) <= set(found.turn.times)
     least = found.least_film
-    # Films are told as the last step of Newton's method found them: next to the position, by `balance`.
-    near = Accuracy().balance * Accuracy().step
-    assert least.film_thickness_min == pytest.approx(found.positions.min(), rel=near)
-    assert least.mean_film == pytest.approx(least.position[0], rel=near)
+    assert least.film_thickness_min == pytest.approx(found.positions.min(), rel=1e-9)
+    assert least.mean_film == pytest.approx(least.position[0], rel=1e-9)
     assert found.films_solved >= 2 * len(found.turn.times) * found.closing.turns
     np.testing.assert_allclose(least.film_force + least.outer_force, 0.0, atol=1e-6 * SWAY)
 
@@ -134,6 +137,27 @@ def test_goes_on_from_another():
     again = _swayed(0.02, evenly(SPEED, 60), before=first)
     assert again.closing.turns == 1
     np.testing.assert_allclose(again.positions, first.positions, atol=2e-3 * THICKNESS)
+
+
+def test_a_turn_joins_the_one_before():
+    """Where a film forgets its start, the turn that shows that the one before closes ends as soon as they meet."""
+    first = _swayed(4.0, evenly(SPEED, 90))
+    looks: list[float] = []
+
+    def look(stage: Stage) -> float:
+        looks.append(stage.time)
+        return _power(stage)
+
+    joined = _swayed(4.1, evenly(SPEED, 90), look, before=first)
+    assert joined.closing.turns == 2
+    assert 2 * 90 < len(looks) < 3 * 90  # two stages a step of one whole turn, and of less than half of the next
+    whole = _swayed(4.1, evenly(SPEED, 90))
+    np.testing.assert_allclose(joined.positions, whole.positions, atol=CLOSE.closed * THICKNESS)
+    np.testing.assert_array_equal(joined.angles, whole.angles)
+    assert sorted(joined.turn.films) == sorted(whole.turn.films)
+    assert np.diff(joined.turn.times).min() > 0.0
+    passed = np.array([[at.passed for at in one.turn.instants] for one in (joined, whole)])
+    np.testing.assert_allclose(*passed, rtol=1e-4, atol=1e-3 * np.abs(passed).max())
 
 
 def test_steps_by_their_error():
