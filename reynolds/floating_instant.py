@@ -7,10 +7,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from reynolds.contact import LOWEST_RATIO, Asperities
 from reynolds.errors import FilmInputError, FilmNotConverged
-from reynolds.film import LEAST_FRACTION, Boundary, Cavitation, Film, FilmProblem, FilmSolution, Pocket, Storage
+from reynolds.film import LEAST_FRACTION, Boundary, Cavitation, FilmProblem, FilmSolution, Pocket, Storage
 from reynolds.floating import Floating, Outer
+from reynolds.floating_posed import THINNEST, Posed, given_way, lowest_gap, posed
 from reynolds.generalised import (
     ContactForce,
     Modes,
@@ -23,16 +23,13 @@ from reynolds.generalised import (
 from reynolds.linear import ITERATIVE_TOLERANCE
 from reynolds.mesh import Array
 from reynolds.opening import opening_slope, touch_at
-from reynolds.overlap import film_between
 from reynolds.sensitivity import Response, oil_slopes, response, thickness_load
 from reynolds.solve import FilmSolver, as_given
 
 LEAST_SHARE = 0.2  # of the least gap that a step may leave
 DEEPEST = 3.0  # standard deviations of the summits by which a step may press the walls together
-THINNEST = 1e-9  # m: of a film between walls without asperities, some molecules of oil
 NEXT = 1e-2  # of the least film or of the summits' height
 SOFT_TOLERANCE = 1e-6  # of linear solves between walls that give way, for slopes that steer no more than a turn
-SOLID = 1.0 - 1e-6  # of the overlap at which the law of contact ends
 TOUCHING = "asperities that bear where walls touch, an edge relief, a finer mesh, or less load"
 ROUNDING = 1e-6  # share of the largest magnitude below which another one is none
 
@@ -288,61 +285,6 @@ def instant_of(solver: FilmSolver, floating: Floating, time: float, step: float,
             "a shorter step, or implicit Euler",
         )
     return Instant(solver, floating, time, step, shape, modes, before)
-
-
-@dataclass(frozen=True)
-class Posed:
-    """A film at a position, before it is solved, and the asperities that its problem knows; see `Trial`."""
-
-    film: Film
-    asperities: Asperities | None
-    gap: Array
-    corner_gap: Array | None
-    least: float
-    thicker: Array
-
-
-def posed(shape: FilmProblem, modes: Modes, q: Array) -> Posed:
-    """The film of a shape at a position (k,) m.
-
-    Between rigid walls contact is left out of its problem: the gap counts there. Walls that give way feel it.
-    """
-    gap, corners = shape.film.thickness + modes.at_points @ q, shape.film.thickness_at_vertices
-    if shape.walls is not None:
-        corners = None if corners is None else corners + modes.at_vertices @ q
-        film = replace(shape.film, thickness=gap, thickness_at_vertices=corners)
-        return Posed(film, shape.asperities, gap, corners, float(gap.min()), modes.at_points)
-    between, at_corners, least = film_between(shape, gap), None, float(gap.min())
-    if corners is not None:
-        corners = corners + modes.at_vertices @ q
-        least, at_corners = min(least, float(corners.min())), film_between(shape, corners).value
-    film = replace(shape.film, thickness=between.value, thickness_at_vertices=at_corners)
-    thicker = np.ascontiguousarray(between.slope[:, :, None] * modes.at_points)
-    return Posed(film, None, gap, corners, least, thicker)
-
-
-def given_way(at: Posed, solution: FilmSolution, contact: ContactForce | None) -> Posed:
-    """What a position leaves once the walls have given way: their gap, and how it grows with the position."""
-    gap = np.broadcast_to(solution.gap, solution.problem.space.area.shape)
-    corners = None if at.corner_gap is None else at.corner_gap + solution.opening
-    thicker = at.thicker
-    if isinstance(contact, SoftContact):
-        space = solution.problem.space
-        thicker = np.ascontiguousarray(space.reference.geometry_value @ contact.grown[space.cells])
-    least = min(float(part.min()) for part in (gap, corners) if part is not None)
-    return Posed(at.film, at.asperities, gap, corners, least, thicker)
-
-
-def lowest_gap(shape: FilmProblem) -> float:
-    """The gap (m) above which there is a film: next to zero, or where the law of contact ends.
-
-    Smooth walls that give way keep any film open.
-    """
-    if shape.walls is not None and shape.asperities is None:
-        return -np.inf
-    if shape.asperities is None:
-        return THINNEST
-    return shape.asperities.summit_height + SOLID * LOWEST_RATIO * shape.asperities.height
 
 
 def solved(slopes: Array, load: Array, name: str) -> Array:

@@ -18,11 +18,10 @@ from reynolds.floating_instant import (
     Trial,
     instant_of,
     joined,
-    lowest_gap,
     parted,
-    posed,
     solved,
 )
+from reynolds.floating_posed import lowest_gap, posed
 from reynolds.generalised import modes_on
 from reynolds.iterate import is_linear
 from reynolds.mesh import Array

@@ -7,7 +7,7 @@ from typing import assert_never
 
 import numpy as np
 
-from reynolds.floating_instant import THINNEST
+from reynolds.floating_posed import THINNEST
 from reynolds.mesh import Array
 from swashfilm.case_table import Table, quoted
 from system.floating_parts import FloatingParts
