@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
-from typing import TypeVar
 
 import numpy as np
 
@@ -110,11 +109,8 @@ def slipper_revolution(
 ) -> GapRevolution[SlipperSeen]:
     """The slipper over the turn, from a film of SLIPPER_START without tilt or on from a revolution `before`.
 
-    Between elastic walls from where it is between rigid ones. Raises as `run_revolution`; where nothing presses
-    the slipper on, that is told as the reason.
+    Raises as `run_revolution`; where nothing presses the slipper on, that is told as the reason.
     """
-    if before is None and (first := _between_rigid(slipper_revolution, rotor, parts, drive, options, report)):
-        return _led(first, slipper_revolution(rotor, parts, drive, options, first.bare, report))
     cells = options.slipper_cells
     film = slipper_film(rotor, parts, drive, options.physics, cells)
     floating, schedule = floating_slipper(film), evenly(drive.shaft_speed, options.steps, keep=options.keep)
@@ -155,8 +151,10 @@ def block_revolution(
     pistons, pump = rotor.pump.pump.pistons, rotor.pump
     if options.steps % pistons:
         raise ValueError(f"steps: found {options.steps}, expected a multiple of the {pistons} pistons")
-    if before is None and (first := _between_rigid(block_revolution, rotor, parts, drive, options, report)):
-        return _led(first, block_revolution(rotor, parts, drive, options, first.bare, report))
+    if before is None and (first := _between_rigid(rotor, parts, drive, options, report)):
+        then = block_revolution(rotor, parts, drive, options, first.bare, report)
+        films = first.films_solved + then.films_solved
+        return replace(then, films_solved=films, spent={**first.spent, **then.spent})
     alike = kinds(pump).alike
     steps, span = (options.steps // pistons, 2.0 * np.pi / pistons) if alike else (options.steps, 2.0 * np.pi)
     film = block_film(rotor, parts, drive, options.physics, options.block_cells)
@@ -166,36 +164,20 @@ def block_revolution(
     return _run(film.space, floating_block(film), schedule, start, block_seen(film), options, heat, before, told)
 
 
-Drive = TypeVar("Drive", SlipperDrive, BlockDrive)
-OneSeen = TypeVar("OneSeen", SlipperSeen, BlockSeen)
-Gap = Callable[
-    [Rotor, FloatingParts, Drive, FloatingOptions, GapRevolution[OneSeen] | None, Report], GapRevolution[OneSeen]
-]
-
-
 def _between_rigid(
-    gap: Gap[Drive, OneSeen],
-    rotor: Rotor,
-    parts: FloatingParts,
-    drive: Drive,
-    options: FloatingOptions,
-    report: Report,
-) -> GapRevolution[OneSeen] | None:
-    """Where a gap whose walls give way begins: its turn between rigid ones, at a tenth of the price.
+    rotor: Rotor, parts: FloatingParts, drive: BlockDrive, options: FloatingOptions, report: Report
+) -> GapRevolution[BlockSeen] | None:
+    """Where a block whose walls give way begins: its turn between rigid ones, at a tenth of the price.
 
-    None where walls are rigid, and where nothing settles between rigid ones: elastic ones may do so all the same.
+    A block forgets where it began only over several pitches. None where walls are rigid, and where nothing settles
+    between rigid ones: elastic ones may do so all the same.
     """
     if not options.physics.elastic_walls:
         return None
     try:
-        return gap(rotor, parts, drive, options.rigid, None, report)
+        return block_revolution(rotor, parts, drive, options.rigid, None, report)
     except FilmNotConverged:
         return None
-
-
-def _led(first: GapRevolution[OneSeen], then: GapRevolution[OneSeen]) -> GapRevolution[OneSeen]:
-    """A revolution with what the one that led to it took."""
-    return replace(then, films_solved=first.films_solved + then.films_solved, spent={**first.spent, **then.spent})
 
 
 def _run(
