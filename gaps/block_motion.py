@@ -32,6 +32,7 @@ from gaps.profiles import PLAIN, Profile
 from gaps.ring import SEALED, Ring, ValvePlateGeometry
 from gaps.rubbing import Rubbed, rubbed
 from gaps.stand import Stand
+from gaps.walls import while_turning
 from reynolds.contact import Asperities
 from reynolds.errors import FilmInputError
 from reynolds.film import ZERO, Film, FilmProblem, FilmSolution, Held
@@ -41,6 +42,7 @@ from reynolds.generalised import Modes, contact_force, modes_on
 from reynolds.mesh import Array
 from reynolds.space import FilmSpace
 from reynolds.sphere import Sphere
+from reynolds.walls import Walls
 
 LEAST_LEVERAGE = 1e-3  # 1 + s/R: below, what a tilt opens is lost in round-off and shape
 
@@ -177,8 +179,17 @@ class BlockFilm:
             fluid=laws.fluid,
             surface=laws.surface,
             asperities=laws.asperities,
-            walls=None if laws.walls is None else laws.walls.at(self.ring.drawn, Stand()),
+            walls=self._walls(angle),
         )
+
+    def _walls(self, angle: float) -> Walls | None:
+        """Both walls with the block at a shaft angle (rad): past it pads turn, and plates unlike around."""
+        walls = self._laws.walls
+        if walls is None:
+            return None
+        if not self.geometry.pads and walls.alike_around:
+            return walls.at(self.space, Stand())
+        return while_turning(lambda at: walls.at(self.ring.turned(at), Stand(moving=at)), angle, self.ring.column)
 
     def modes_at(self, time: float) -> Array:
         """Growth of the film by each coordinate at the vertices, (vertices, 3): in a plane 1, x/R4, y/R4."""
@@ -277,8 +288,7 @@ def _leverage(sphere: Sphere, spline_height: float) -> float:
 def floating_block(film: BlockFilm) -> Floating:
     """The block as `reynolds.floating` takes it: coordinates (h, rise x, rise y) m, massless.
 
-    Validity: small tilts; a plane or spherical valve plate but for its face and ports; a spline without friction;
-    on a sphere walls give way as plane ones do under the same pressure seen along the shaft.
+    Validity: small tilts; a plane or spherical valve plate but for its face and ports; a spline without friction.
     """
     return Floating("block", film.problem_at, film.modes_at, film.outer_at, reference=film.drive.case_pressure)
 

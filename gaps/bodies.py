@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from gaps.own_body import CHAMBER, FILM, HELD, POCKET, OwnMesh, own_body, with_faces
 from gaps.slipper_lands import Land
 from reynolds.bodies.body_mesh import BodyMesh, disc, ring
-from reynolds.bodies.chart import Cylinder, Plane, Side
+from reynolds.bodies.chart import Cylinder, OnSphere, Plane, Side
 from reynolds.bodies.elasticity import Elastic
 from reynolds.bodies.foundation import both
 from reynolds.bodies.supports import Supports
@@ -29,10 +29,10 @@ from reynolds.bodies.wall import Body, body_wall, face_wall
 from reynolds.errors import FilmInputError
 from reynolds.laws import require_positive
 from reynolds.space import FilmSpace
+from reynolds.sphere import PLANE, Sphere
 from reynolds.walls import Walls
 
 TOWARDS_FILM = Plane((0.0, 0.0, 1.0))
-FROM_ABOVE = Plane((0.0, 0.0, -1.0))
 PINHOLE = 0.05  # of a pocket's radius
 NEAR = 1e-6  # of a radius: on a mesh line or not
 Cells = tuple[int, int, int]
@@ -101,7 +101,7 @@ class PlatePart:
     """A plate under a film (m): inner (0: none) and outer radius about the film's origin, thickness.
 
     `pocket_radius`: of the pocket that presses on it beside the film (0: none), as `grooves` do. `over_film`: a
-    user's mesh of it lies over the film, not under it.
+    user's mesh of it lies over the film, not under it. `sphere`: of its face, through the origin.
     """
 
     inner_radius: float
@@ -112,6 +112,7 @@ class PlatePart:
     over_film: bool = False
     own: OwnMesh | None = None
     grooves: Grooves = ()
+    sphere: Sphere = PLANE
 
     def __post_init__(self) -> None:
         require_positive("plate body", radius=self.outer_radius, thickness=self.thickness)
@@ -185,7 +186,7 @@ def plate_body(part: PlatePart, cells: Cells = (6, 36, 2)) -> Body:
     out: a valve plate is taken for its solid ring. About a pocket's middle the mesh leaves a pinhole.
     """
     if part.own:
-        return own_body(part.own, part.elastic, FROM_ABOVE if part.over_film else TOWARDS_FILM)
+        return own_body(part.own, part.elastic, OnSphere(part.sphere, part.over_film))
     if part.pocket_radius > part.inner_radius:
         hole = part.inner_radius or PINHOLE * part.pocket_radius
         edges = part.pocket_radius, *_edges(part.grooves)
@@ -197,7 +198,9 @@ def plate_body(part: PlatePart, cells: Cells = (6, 36, 2)) -> Body:
     else:
         across = max(cells[1] // 4, 1)
         mesh = disc(part.outer_radius, part.thickness, (across, cells[0], cells[2]), bottom=-part.thickness)
-    return Body(mesh, part.elastic, Supports(clamped=("bottom",)), "top", TOWARDS_FILM)
+    # What lies over a film is its mirror image under one: there the sphere bulges the other way.
+    sphere = Sphere(-part.sphere.radius) if part.over_film else part.sphere
+    return Body(_on(sphere, mesh), part.elastic, Supports(clamped=("bottom",)), "top", OnSphere(sphere))
 
 
 def part_wall(body: Body, film: FilmSpace, *, folder: Path | None = None) -> Walls:
@@ -233,6 +236,16 @@ def _rings(start: float, edges: tuple[float, ...], end: float, thickness: float,
     places = body.mesh.doflocs.copy()
     radius = np.hypot(*places[:2])
     places[:2] *= np.interp(radius, np.linspace(start, end, len(lines)), lines) / radius
+    return replace(body, mesh=replace(body.mesh, doflocs=places))
+
+
+def _on(sphere: Sphere, body: BodyMesh) -> BodyMesh:
+    """A plate whose top is that sphere, its thickness along z as it was; straight edges become parabolas."""
+    if sphere.is_plane:
+        return body
+    places = body.mesh.doflocs.copy()
+    reach = np.hypot(*places[:2])
+    places[2] -= sphere.radius * (1.0 - np.sqrt(1.0 - (reach / sphere.radius) ** 2))
     return replace(body, mesh=replace(body.mesh, doflocs=places))
 
 

@@ -102,7 +102,7 @@ class ValvePlateGeometry:
 class Ring:
     """The ring's space; cells = (cells across a land, cells a kidney pitch), mesh lines on the kidneys' edges.
 
-    `space` is that of the film, on a sphere if the face is one; `drawn` the same ring seen along the shaft.
+    `space` is that of the film, on a sphere if the face is one; `column` the mean angle (rad) of a cell.
     """
 
     def __init__(self, geometry: ValvePlateGeometry, cells: tuple[int, int]) -> None:
@@ -110,11 +110,12 @@ class Ring:
         ring_mesh = _ring_mesh(geometry, cells)
         # Pressure over a pad is a parabola, over a land nearly a line: twice the cells.
         mesh = with_pads(ring_mesh, geometry.pads, 2 * cells[0], geometry.turned) if geometry.pads else ring_mesh
-        self.drawn = film_space(mesh)
-        self.space = _on(geometry.sphere, self.drawn)
+        drawn = film_space(mesh)
+        self.space = _on(geometry.sphere, drawn)
+        self.column = geometry.pitch / cells[1]
         self._vertices, self._cells = ring_mesh.mesh.p.shape[1], ring_mesh.mesh.t.shape[1]
         _, r2, r3, _ = geometry.land_radii
-        radius = np.hypot(*self.drawn.vertices.T)
+        radius = np.hypot(*drawn.vertices.T)
         self._in_kidney_ring = (radius > r2 * (1.0 - 1e-9)) & (radius < r3 * (1.0 + 1e-9))
 
     def turned(self, shaft_angle: float) -> FilmSpace:

@@ -22,6 +22,7 @@ from gaps.profiles import PLAIN, Profile
 from gaps.rubbing import Rubbed, rubbed
 from gaps.slipper_lands import SlipperLands, slipper_mesh
 from gaps.stand import Stand
+from gaps.walls import while_turning
 from reynolds.contact import Asperities
 from reynolds.film import ZERO, Boundary, Film, FilmProblem, Held, Pocket, no_feed
 from reynolds.floating import Floating, Outer
@@ -29,6 +30,7 @@ from reynolds.floating_stage import Stage
 from reynolds.laws import Tangent, require_positive
 from reynolds.mesh import Array
 from reynolds.space import FilmSpace, film_space
+from reynolds.walls import Walls
 
 RIM_PLACES = 48  # around a slipper, at which its retainer presses
 
@@ -213,8 +215,18 @@ class SlipperFilm:
             fluid=laws.fluid,
             surface=laws.surface,
             asperities=laws.asperities,
-            walls=None if laws.walls is None else laws.walls.at(space, Stand()),
+            walls=self._walls(time),
         )
+
+    def _walls(self, time: float) -> Walls | None:
+        """Both walls at a time (s); a slipper that is not alike around and spins turns in its film."""
+        walls = self._laws.walls
+        if walls is None:
+            return None
+        if walls.alike_around or self.drive.spin == 0.0:
+            return walls.at(self._space, Stand())
+        column = 2.0 * np.pi / self._around
+        return while_turning(lambda at: walls.at(self._space, Stand(moving=at)), self.drive.spin * time, column)
 
     def modes_at(self, time: float) -> Array:
         """Growth of the film by each coordinate at the vertices, (vertices, 3): 1, x/r2, y/r2."""

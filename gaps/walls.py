@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import lru_cache
 from typing import Protocol
@@ -21,15 +22,21 @@ from gaps.bodies import (
 )
 from gaps.piston_walls import PistonWalls, face_grid
 from gaps.stand import Stand
-from reynolds.bodies.foundation import both
+from reynolds.bodies.foundation import Compliance, both
 from reynolds.bodies.wall import Body
 from reynolds.mesh import Array
 from reynolds.space import FilmSpace
-from reynolds.walls import Walls
+from reynolds.walls import Walls, full
+
+KEPT = 2.5e8  # bytes of walls that are kept as parts turn
 
 
 class GapWalls(Protocol):
     """Both walls of a gap."""
+
+    @property
+    def alike_around(self) -> bool:
+        """True where parts that turn stay what they were."""
 
     def at(self, film: FilmSpace, stand: Stand) -> Walls:
         """Those of a film on that mesh, its parts standing so."""
@@ -40,21 +47,57 @@ class GapWalls(Protocol):
 
 @dataclass(frozen=True)
 class PlateWalls:
-    """Both parts of a plane film, which lie under it in the same way at any time."""
+    """Both parts of a film across an axis, the moving one first.
+
+    What is made from sizes is alike all around; a part by a mesh of the user's need not be.
+    """
 
     parts: tuple[SlipperPart | PlatePart, SlipperPart | PlatePart]
-    _built: list[tuple[object, Walls]] = field(default_factory=list, compare=False, repr=False)
+    _built: list[tuple[FilmSpace, Stand, Walls]] = field(default_factory=list, compare=False, repr=False)
+
+    @property
+    def alike_around(self) -> bool:
+        """True where parts that turn stay what they were."""
+        return all(part.own is None for part in self.parts)
 
     def at(self, film: FilmSpace, stand: Stand) -> Walls:
-        """The walls, meshed when a film first asks; a film's mesh that has moved is the same mesh."""
-        if not self._built or self._built[0][0] is not film.pattern:
-            one, two = (part_wall(_plane_body(part), film) for part in self.parts)
-            self._built[:] = [(film.pattern, both(one, two))]
-        return self._built[0][1]
+        """The walls, meshed when a film first asks; the last ones are kept."""
+        if self.alike_around:
+            stand = Stand()
+        for known, stood, walls in self._built:
+            if known.pattern is film.pattern and stood == stand and np.array_equal(known.vertices, film.vertices):
+                return walls
+        angles = (stand.moving, stand.fixed)
+        one, two = (
+            part_wall(_plane_body(part), seen_from(film, angle))
+            for part, angle in zip(self.parts, angles, strict=True)
+        )
+        found = both(one, two)
+        self._built.append((film, stand, found))
+        del self._built[: -max(2, int(KEPT / (8.0 * np.prod(found.matrix.shape))))]
+        return found
 
     def by_chamber(self, film: FilmSpace, stand: Stand) -> Array:
         """Nothing: the chamber presses on these walls through the film and its pockets alone."""
         return np.zeros(len(film.vertices))
+
+
+def seen_from(film: FilmSpace, angle: float) -> FilmSpace:
+    """A film about an axis in the axes of a part that is turned by an angle (rad) in the film's."""
+    if angle == 0.0:
+        return film
+    c, s = np.cos(angle), np.sin(angle)
+    return film.moved(np.ascontiguousarray(film.vertices @ np.array([[c, -s], [s, c]])))
+
+
+def while_turning(walls_at: Callable[[float], Walls], angle: float, column: float) -> Walls:
+    """Walls that change as parts turn: between those at multiples of a column (rad), by their shares.
+
+    Force and work stay the same on both sides; the opening errs by the square of a column.
+    """
+    before, share = divmod(angle / column, 1.0)
+    one, two = (full(walls_at((before + k) * column).matrix) for k in (0, 1))
+    return Compliance((1.0 - share) * one + share * two)
 
 
 def _plane_body(part: SlipperPart | PlatePart) -> Body:
@@ -67,6 +110,11 @@ class BoreWalls:
 
     piston: PistonPart
     bushing: BushingPart
+
+    @property
+    def alike_around(self) -> bool:
+        """True where parts that turn stay what they were."""
+        return self.piston.own is None and self.bushing.own is None
 
     def at(self, film: FilmSpace, stand: Stand) -> Walls:
         """See `PistonWalls.at`."""

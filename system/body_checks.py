@@ -7,18 +7,18 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from gaps.bodies import FROM_ABOVE, TOWARDS_FILM
 from gaps.own_body import OwnMesh
 from reynolds.bodies.body_space import BodySpace, Face, body_space
-from reynolds.bodies.chart import Chart, Cylinder, Side
+from reynolds.bodies.chart import Chart, Cylinder, OnSphere, Side
 from reynolds.bodies.transfer import transfer
 from reynolds.errors import FilmInputError
-from reynolds.mesh import Array, Cell, FilmMesh, annulus, rectangle
-from reynolds.space import film_space
+from reynolds.mesh import Array, Cell, annulus, rectangle
+from reynolds.space import FilmSpace, film_space
+from reynolds.sphere import PLANE, Sphere
 from system.checks import CheckWarning, Finding, length, needs
 from system.description import PumpDescription
 from system.faults import Fault, nearest_choice
@@ -35,7 +35,7 @@ class _Place:
     """Where a part's film lies: its chart, all of it that is met, its shape in words, and its width (m)."""
 
     chart: Chart
-    film: FilmMesh
+    film: FilmSpace
     shape: str
     width: float
     turn: float
@@ -43,23 +43,26 @@ class _Place:
     @property
     def points(self) -> Array:
         """Its corners in the part's axes, (n, 3) m."""
-        return self.chart.places(self.film.mesh.p.T)
+        return self.chart.places(self.film.vertices)
 
 
 def _cylinder(diameter: float, reach: float, side: Side) -> _Place:
     radius, turn = 0.5 * diameter, math.pi * diameter
-    film = rectangle((turn, reach), (AROUND, 8), cell=Cell.QUADRILATERAL, periodic_x=True)
+    film = film_space(rectangle((turn, reach), (AROUND, 8), cell=Cell.QUADRILATERAL, periodic_x=True))
     shape = f"radius {length(radius)} about z, z 0 to {length(reach)}, the body "
     shape += "within" if side is Side.SHAFT else "around it"
     return _Place(Cylinder(radius, side), film, shape, reach, turn)
 
 
-def _ring(inner: float, outer: float, *, over: bool = False) -> _Place:
+def _ring(inner: float, outer: float, *, over: bool = False, sphere: Sphere = PLANE) -> _Place:
     shape = (
         f"z = 0 from radius {length(inner)} to {length(outer)} about z, the body {'over' if over else 'under'} it"
     )
-    chart = FROM_ABOVE if over else TOWARDS_FILM
-    return _Place(chart, annulus(inner, outer, (4, AROUND)), shape, outer - inner, 2.0 * math.pi * outer)
+    if not sphere.is_plane:
+        shape = f"on a sphere of radius {length(sphere.radius)} that bulges out of the valve plate, " + shape
+    inner, outer = (float(radius * sphere.stretch(radius)) for radius in (inner, outer))
+    film = replace(film_space(annulus(inner, outer, (4, AROUND))), sphere=sphere)
+    return _Place(OnSphere(sphere, over), film, shape, outer - inner, 2.0 * math.pi * outer)
 
 
 @needs("piston.body", "pump.piston_diameter", "piston.engaged_length", "piston.overhang")
@@ -116,8 +119,11 @@ def _plate_fits(path: str, pump: PumpDescription, body: BodySection | None, *, o
     plate = pump.valve_plate
     if body is None or plate.land_radius_1 >= plate.outer_radius:
         return
+    if plate.sphere.radius <= plate.outer_radius:
+        return
     # Webs between kidneys pass over all of the face between the lands, and over its ports.
-    yield from _fits(path, body, _ring(plate.land_radius_1, plate.outer_radius, over=over), ("held",))
+    place = _ring(plate.land_radius_1, plate.outer_radius, over=over, sphere=plate.sphere)
+    yield from _fits(path, body, place, ("held",))
 
 
 BODY_CHECKS = (
@@ -181,7 +187,7 @@ def _lies(path: str, body: BodySection, space: BodySpace, face: Face, place: _Pl
         yield Fault(f"{path}.unit", f"a face {length(float(found))} wide", expected, f"unit = '{unit.value}'")
         return
     try:
-        transfer(film_space(place.film), face, place.chart)
+        transfer(place.film, face, place.chart)
     except FilmInputError as reason:
         where = f"a face over {_box(face.places)}; {reason.found}"
         yield Fault(f"{path}.film", where, place.shape, _remedy(face, place))

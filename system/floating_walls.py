@@ -82,9 +82,10 @@ def slipper_walls(pump: PumpDescription, elastic: Materials, taken: Taken) -> Pl
 
 
 def block_walls(pump: PumpDescription, elastic: Materials, taken: Taken) -> PlateWalls:
-    """The block's end and the valve plate, solid rings held at their backs, a little wider than the lands."""
+    """The block's end and the valve plate, solid rings held at their backs, a little wider than lands and pads."""
     plate, length = pump.valve_plate, Dimension.LENGTH
-    inner, outer = (1.0 - BEYOND) * plate.land_radius_1, (1.0 + BEYOND) * plate.land_radius_4
+    inner, rim = (1.0 - BEYOND) * plate.land_radius_1, plate.outer_radius
+    outer = min((1.0 + BEYOND) * rim, 0.5 * (rim + plate.sphere.radius))
     thickness = taken.value(
         "valve_plate.thickness", plate.thickness, RING_DEPTH * plate.land_radius_4,
         "0.15 of its outer radius; a solid ring, its back held", length,
@@ -93,14 +94,12 @@ def block_walls(pump: PumpDescription, elastic: Materials, taken: Taken) -> Plat
         "block.end_thickness", pump.block.end_thickness, 0.5 * pump.pump.piston_diameter,
         "half a bore's diameter between bores and face; a solid ring, its back held", length,
     )  # fmt: skip
+    upper = PlatePart(inner, outer, end, elastic["block"], over_film=True, sphere=plate.sphere)
+    lower = PlatePart(inner, outer, thickness, elastic["valve_plate"], sphere=plate.sphere)
     return PlateWalls(
         (
-            PlatePart(
-                inner, outer, end, elastic["block"], over_film=True, own=own_mesh("block", pump.block.body, taken)
-            ),
-            PlatePart(
-                inner, outer, thickness, elastic["valve_plate"], own=own_mesh("valve_plate", plate.body, taken)
-            ),
+            replace(upper, own=own_mesh("block", pump.block.body, taken)),
+            replace(lower, own=own_mesh("valve_plate", plate.body, taken)),
         )
     )
 

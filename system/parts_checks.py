@@ -212,7 +212,7 @@ def sphere_reaches_over_the_face(pump: PumpDescription) -> Iterator[Finding]:
     yield CheckWarning(
         path,
         f"a plate that bulges into a hollow block, {length(radius)}",
-        "a plane one: so lumped laws take the shear of its lands, and elastic walls their bodies",
+        "a plane one: so lumped laws take the shear of its lands",
         "films and floating for shear on the sphere; leakage is that of the sphere in every fidelity",
     )
 

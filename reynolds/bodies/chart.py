@@ -10,6 +10,7 @@ import numpy as np
 
 from reynolds.errors import FilmInputError
 from reynolds.mesh import Array
+from reynolds.sphere import Sphere
 
 Vector = tuple[float, float, float]
 
@@ -22,7 +23,7 @@ class Side(Enum):
 
 
 class Chart(Protocol):
-    """A film plane on a body's surface, developed without stretch: film areas are areas of the wall."""
+    """A film plane on a body's surface, without stretch but for a sphere's, which the film's space has."""
 
     def places(self, film_points: Array) -> Array:
         """Points (n, 3) m of the wall at points (n, 2) m of the film plane."""
@@ -74,6 +75,27 @@ class Cylinder:
     def normals(self, body_points: Array) -> Array:
         flat = body_points * np.array([1.0, 1.0, 0.0])
         return self.side.value * flat / np.linalg.norm(flat, axis=1)[:, None]
+
+
+@dataclass(frozen=True)
+class OnSphere:
+    """A film on a sphere through the origin, as its space has it (`reynolds.sphere`); a plane where it is none.
+
+    The body lies under it, at z < 0, or over it.
+    """
+
+    sphere: Sphere
+    over: bool = False
+
+    def places(self, film_points: Array) -> Array:
+        return self.sphere.in_space(film_points)
+
+    def normals(self, body_points: Array) -> Array:
+        side = -1.0 if self.over else 1.0
+        if self.sphere.is_plane:
+            return np.broadcast_to(np.array([0.0, 0.0, side]), (len(body_points), 3))
+        out = body_points + np.array([0.0, 0.0, self.sphere.radius])
+        return side * np.sign(self.sphere.radius) * out / np.linalg.norm(out, axis=1)[:, None]
 
 
 def on_section(points: Array, normals: Array) -> tuple[Array, Array]:

@@ -30,7 +30,7 @@ _BASIS = {
 
 @dataclass(frozen=True)
 class FilmRule:
-    """Points (n, 2) m of the film plane; area (cells, points of a cell) m2 of each, in the same order.
+    """Points (n, 2) m of the film plane; area (cells, points of a cell) m2 of each on the wall, in the same order.
 
     by_unknown (n, size) and by_vertex (n, vertices): area of each point times the basis there, m2. Vertices' hats
     are linear (bilinear).
@@ -73,8 +73,8 @@ def film_rule(film: FilmSpace, splits: int = 1) -> FilmRule:
     places = film.vertices[film.cells]
     tangent = np.einsum("daq,eak->eqdk", slope, places)
     measure = tangent[:, :, 0, 0] * tangent[:, :, 1, 1] - tangent[:, :, 0, 1] * tangent[:, :, 1, 0]
-    area = np.abs(measure) * weights
     points = np.einsum("aq,eak->eqk", hat, places).reshape(-1, 2)
+    area = np.abs(measure) * weights * film.sphere.scale(*points.T).reshape(measure.shape) ** 2
     return FilmRule(
         film, points, area,
         _at_points(area[:, :, None] * value.T, film.dofs, film.size),

@@ -31,6 +31,7 @@ from gaps.piston_walls import FaceGrid, PistonWalls, face_grid
 from gaps.schedule import Accuracy
 from gaps.slipper_lands import slipper_mesh
 from gaps.stand import Stand
+from gaps.walls import PlateWalls, seen_from, while_turning
 from reynolds.bodies.body_file import body_from_file
 from reynolds.bodies.body_mesh import BodyMesh, ring
 from reynolds.bodies.body_space import body_space
@@ -158,9 +159,8 @@ def test_part_written_and_read_back_is_the_same_part(kind, suffix, tmp_path):
     assert np.abs(two - one).max() < 0.03 * np.abs(one).max()
 
 
-@pytest.mark.parametrize("over", [False, True])
-def test_a_mesh_lies_in_the_axes_of_its_film(over, tmp_path):
-    """A plate that is missing under y < 0 on one side opens there most, whichever side of the film it lies on."""
+def thin_quarter(place: Path, *, over: bool = False) -> OwnMesh:
+    """A plate held on its back that is half as thick where x, y > 0."""
     mesh = skfem.MeshHex.from_mesh(ring((20e-3, 50e-3), 10e-3, (4, 24, 2), bottom=-10e-3).mesh)
     x, y, z = mesh.p[:, mesh.t].mean(axis=1)
     cut = (x > 0.0) & (y > 0.0) & (z < -5e-3)
@@ -171,8 +171,14 @@ def test_a_mesh_lies_in_the_axes_of_its_film(over, tmp_path):
         "film": np.flatnonzero(outside & (np.abs(facet[2]) < 1e-9).all(axis=0)),
         "held": np.flatnonzero(outside & (np.abs(facet[2] + 10e-3) < 1e-9).all(axis=0)),
     }
-    place = written(tmp_path / "plate.msh", left, faces, mirrored=(1, 1, -1 if over else 1))
-    own = OwnMesh(place, 1e-3, held=("held",))
+    file = written(place / "plate.msh", left, faces, mirrored=(1, 1, -1 if over else 1))
+    return OwnMesh(file, 1e-3, held=("held",))
+
+
+@pytest.mark.parametrize("over", [False, True])
+def test_a_mesh_lies_in_the_axes_of_its_film(over, tmp_path):
+    """A plate that is missing its back on a quarter opens there most, whichever side of the film it lies on."""
+    own = thin_quarter(tmp_path, over=over)
     film = film_space(annulus(25e-3, 45e-3, (3, 24)))
     body = plate_body(PlatePart(20e-3, 50e-3, 10e-3, STEEL, over_film=over, own=own))
     opening = part_wall(body, film, folder=tmp_path).matrix @ np.ones(film.size)
@@ -214,6 +220,27 @@ def test_a_bushing_that_turns_is_the_turned_bushing(columns, tolerance, tmp_path
     for turned, as_built in zip(*found, strict=True):
         assert np.ptp(as_built) > 0.1 * np.abs(as_built).max()
         assert np.abs(turned - as_built).max() < tolerance * np.abs(as_built).max()
+
+
+@pytest.mark.parametrize(("columns", "tolerance"), [(3.0, 1e-3), (2.5, 0.11)])
+def test_plates_turn_in_their_film(columns, tolerance, tmp_path):
+    """A moving plate turned one way is a film and its pressure turned the other; between columns nearly so.
+
+    Openings change over a thickness t = 10 mm, columns are d = 9.2 mm: d^2/(8 t^2). The other has 36 sectors.
+    """
+    film = film_space(annulus(25e-3, 45e-3, (3, 24)))
+    column = 2.0 * np.pi / 24
+    walls = PlateWalls((
+        PlatePart(20e-3, 50e-3, 10e-3, STEEL, own=thin_quarter(tmp_path)), PlatePart(20e-3, 50e-3, 10e-3, STEEL),
+    ))  # fmt: skip
+    assert not walls.alike_around
+    x, y = seen_from(film, columns * column).vertices.T
+    pressure = np.empty(film.size)
+    pressure[film.vertex_dofs] = 1.0 + x / 50e-3
+    turned = while_turning(lambda at: walls.at(film, Stand(moving=at)), columns * column, column)
+    as_built = walls.at(seen_from(film, columns * column), Stand()).matrix @ pressure
+    assert np.abs(turned.matrix @ pressure - as_built).max() < tolerance * np.abs(as_built).max()
+    assert np.abs(as_built[(x > 0.0) & (y > 0.0)]).mean() > 1.3 * np.abs(as_built[(x < 0.0) & (y < 0.0)]).mean()
 
 
 @pytest.mark.slow
