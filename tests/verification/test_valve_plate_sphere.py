@@ -259,8 +259,9 @@ def test_elastic_plates_under_a_sphere(validation, tmp_path):
     plane = film_space(annulus(inner, outer, (3, 16)))
     far = Sphere(100.0)
     nearly = replace(plane, sphere=far)
-    one = part_wall(plate_body(flat, cells), plane, folder=tmp_path).matrix @ np.ones(plane.size)
-    two = part_wall(plate_body(replace(flat, sphere=far), cells), nearly, folder=tmp_path).matrix @ np.ones(
-        plane.size
+    ball = replace(flat, sphere=far)
+    one, two = (
+        part_wall(plate_body(part, cells), film, folder=tmp_path).matrix @ np.ones(film.size)
+        for part, film in ((flat, plane), (ball, nearly))
     )
     assert two == pytest.approx(one, rel=1e-3)
