@@ -1,11 +1,26 @@
-"""How well a hypothesis stands: scores of columns."""
+"""How well hypotheses stand: evidence of a fit, scores and evidences of columns that were not fitted.
+
+A column v is the whitened change of all readings by one spread of a parameter that the fit does not have. With the
+fit's slopes A, precision H = A^T A + 1 and residual r everything follows from g = v.r and
+G = v.(v - A H^-1 A^T v): linear and Gaussian, exact where the readings are linear in the parameters.
+All evidences are natural logarithms.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import Enum
+from math import inf, log, sqrt
+
+import numpy as np
+from scipy.linalg import cho_factor, cho_solve
+from scipy.special import log_ndtr, logsumexp
 
 from system.estimation.observations import Array
+from system.estimation.posterior import Posterior
+
+NOTHING_LEFT = 1e-12  # of a column's square: less is round-off of taking the fitted parameters out
 
 
 class Sign(Enum):
@@ -18,13 +33,63 @@ class Sign(Enum):
 
 @dataclass(frozen=True)
 class Score:
-    """A column against a residual, nuisances projected out.
+    """A column against a residual, the fitted parameters projected out.
 
     z: size over sigma; size, sigma in spreads of the column's parameter; projected: the whitened column (n,) less
-    what the fitted parameters can take up of it.
+    what the fitted parameters can take up of it. A column they take up wholly has z = size = 0, sigma = inf.
     """
 
     z: float
     size: float
     sigma: float
     projected: Array
+
+
+def score(posterior: Posterior, column: Array) -> Score:
+    """Score test of one column (n,) (Rao 1948): z = g / sqrt G, size = g / G, sigma = 1 / sqrt G."""
+    projected = project(posterior, column)
+    content = float(column @ projected)
+    if content <= NOTHING_LEFT * float(column @ column):
+        return Score(0.0, 0.0, inf, projected)
+    agreement = float(column @ posterior.residual)
+    return Score(agreement / sqrt(content), agreement / content, 1.0 / sqrt(content), projected)
+
+
+def project(posterior: Posterior, columns: Array) -> Array:
+    """Whitened columns (n,) or (n, m) less what the fitted parameters can take up: v - A H^-1 A^T v."""
+    taken = cho_solve(cho_factor(posterior.precision), posterior.slopes.T @ columns)
+    left: Array = columns - posterior.slopes @ taken
+    return left
+
+
+def mixture_evidence(found: Score, widths: Sequence[float], sign: Sign) -> float:
+    """ln evidence for a column over none, its size of prior N(0, w^2) averaged over the widths w (in spreads).
+
+    For one width, V = 1/(G + 1/w^2) and m = V g: g^2 V / 2 - ln(1 + w^2 G) / 2, and with a sign
+    + ln 2 + ln Phi(m / sqrt V) (design/diagnosis.md 2.3).
+    """
+    if found.sigma == inf:
+        return 0.0
+    content = found.sigma**-2
+    agreement = found.size * content * (-1.0 if sign is Sign.NEGATIVE else 1.0)
+    width = np.asarray(widths, dtype=float)
+    variance = 1.0 / (content + width**-2)
+    each = 0.5 * agreement**2 * variance - 0.5 * np.log1p(width**2 * content)
+    if sign is not Sign.EITHER:
+        each += log(2.0) + log_ndtr(agreement * np.sqrt(variance))
+    return float(logsumexp(each)) - log(width.size)
+
+
+def multiplier_evidence(posterior: Posterior, columns: Array, widths: Sequence[float]) -> float:
+    """ln evidence for m columns (n, m) together over none, each of prior N(0, w^2), averaged over the widths w.
+
+    For one width g^T (1/w^2 + G)^-1 g / 2 - ln det(1 + w^2 G) / 2 with g = V^T r, G = V^T P V.
+    """
+    agreement = columns.T @ posterior.residual
+    content = columns.T @ project(posterior, columns)
+    level, axes = np.linalg.eigh(0.5 * (content + content.T))
+    level = np.maximum(level, 0.0)
+    along = (axes.T @ agreement) ** 2
+    width = np.asarray(widths, dtype=float)[:, None]
+    each = 0.5 * (along / (width**-2 + level) - np.log1p(width**2 * level)).sum(axis=1)
+    return float(logsumexp(each)) - log(width.size)

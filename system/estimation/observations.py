@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -66,15 +66,5 @@ class Observations:
         return np.isfinite(self.values)
 
     def without(self, rows: NDArray[np.bool_]) -> Observations:
-        """The same without the points where `rows` (N,) is true; memory goes on across what is left out."""
-        kept = ~rows
-        return Observations(
-            self.channels,
-            self.values[kept],
-            self.sigma[kept],
-            self.inputs,
-            self.input_sigma[kept],
-            self.quantum,
-            self.blocks[kept],
-            self.memory,
-        )
+        """The same, as if the points where `rows` (N,) is true had not been measured; N stays."""
+        return replace(self, values=np.where(rows[:, None], np.nan, self.values))

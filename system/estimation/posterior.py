@@ -3,25 +3,25 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
+from time import process_time
 
-from system.estimation.observations import Array
+import numpy as np
+from scipy.linalg import cho_factor, cho_solve
+
+from reynolds.errors import FilmInputError
+from system.estimation.laplace import laplace
+from system.estimation.observations import Array, Observations
 from system.estimation.parameters import Parameter
-from system.estimation.whitening import Whitening
+from system.estimation.simulator import Simulator
+from system.estimation.whitening import Whitening, whitener
 
-
-@dataclass(frozen=True)
-class FitLimits:
-    """When a fit ends: steps at most, change of the objective, largest step in xi, renewals of the whitening."""
-
-    steps: int = 30
-    change: float = 1e-2
-    largest_step: float = 2.0
-    whitening_rounds: int = 2
+UNSEEN = 1e-9  # share of its prior variance by which a parameter must be known better to have a pull
 
 
 @dataclass(frozen=True)
 class Effort:
-    """What a fit has cost: predictions, slopes (maps of one column each), seconds of process time."""
+    """What a fit has cost: predictions, slopes (maps of all columns), seconds of process time."""
 
     predictions: int
     slopes: int
@@ -49,3 +49,82 @@ class Posterior:
     predictions: Array
     whitening: Whitening
     effort: Effort
+
+    @cached_property
+    def covariance(self) -> Array:
+        """(k, k), of xi: the inverse of the precision."""
+        inverse: Array = cho_solve(cho_factor(self.precision), np.eye(self.xi.size))
+        return inverse
+
+    @cached_property
+    def pulls(self) -> Array:
+        """(k,), xi / sqrt(1 - its variance): N(0, 1) where the priors are right; 0 where readings say nothing."""
+        gained = 1.0 - np.diag(self.covariance)
+        seen = gained > UNSEEN
+        pulls: Array = np.where(seen, self.xi / np.sqrt(np.where(seen, gained, 1.0)), 0.0)
+        return pulls
+
+    def index(self, name: str) -> int:
+        """The place of a parameter in every vector. Raises FilmInputError for a name that is none."""
+        names = [parameter.name for parameter in self.parameters]
+        if name not in names:
+            raise FilmInputError("posterior", f"parameter {name!r}", f"one of {', '.join(names)}")
+        return names.index(name)
+
+    def sigma(self, name: str) -> float:
+        """One sigma of a parameter in SI, to first order about the peak."""
+        at = self.index(name)
+        return abs(self.parameters[at].stretch(self.xi[at])) * float(np.sqrt(self.covariance[at, at]))
+
+    def correlation(self, first: str, second: str) -> float:
+        """Correlation of two parameters, -1 to 1."""
+        one, two = self.index(first), self.index(second)
+        covariance = self.covariance
+        return float(covariance[one, two] / np.sqrt(covariance[one, one] * covariance[two, two]))
+
+
+def values_at(parameters: tuple[Parameter, ...], xi: Array) -> Array:
+    """SI values (k,) of standard numbers."""
+    return np.array([parameter.value(number) for parameter, number in zip(parameters, xi, strict=True)])
+
+
+def standard_slopes(simulator: Simulator, xi: Array) -> Array:
+    """d readings / d xi, (N, C, k), in SI per standard number, of all parameters of a simulator."""
+    parameters = simulator.parameters
+    slopes = simulator.slopes(values_at(parameters, xi), tuple(parameter.name for parameter in parameters))
+    stretch = np.array([parameter.stretch(number) for parameter, number in zip(parameters, xi, strict=True)])
+    return slopes * stretch
+
+
+def linear_posterior(simulator: Simulator, observations: Observations) -> Posterior:
+    """The posterior of the model made linear about its prior mean (xi = 0): one prediction, one set of slopes.
+
+    Peak H xi = A^T r0, r = r0 - A xi. Bounds do not hold here: a score at the prior mean asks which way a
+    parameter would go, and a wrong model would drag a bounded fit to its corners.
+    """
+    begun = process_time()
+    parameters = simulator.parameters
+    start = np.zeros(len(parameters))
+    values = values_at(parameters, start)
+    predictions = simulator.predict(values)
+    whitening = whitener(observations, simulator.input_slopes(values))
+    raw = standard_slopes(simulator, start)
+    slopes = whitening.whiten(raw)
+    offset = whitening.whiten(observations.values - predictions)
+    precision = slopes.T @ slopes + np.eye(start.size)
+    xi = cho_solve(cho_factor(precision), slopes.T @ offset)
+    residual = offset - slopes @ xi
+    objective = float(residual @ residual + xi @ xi)
+    return Posterior(
+        parameters=parameters,
+        xi=xi,
+        values=values_at(parameters, xi),
+        residual=residual,
+        slopes=slopes,
+        precision=precision,
+        objective=objective,
+        log_evidence=laplace(objective, precision) + whitening.log_determinant,
+        predictions=predictions + raw @ xi,
+        whitening=whitening,
+        effort=Effort(1, 1, process_time() - begun),
+    )

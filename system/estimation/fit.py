@@ -1,0 +1,216 @@
+"""The peak of the posterior: damped Gauss-Newton steps that slopes lead and predictions decide.
+
+Levenberg (1944) and Marquardt (1963) with bounds by holding what they stop. After each trial the slopes are
+corrected along its step by what the trial itself shows (Broyden 1965), so that approximate slopes still lead
+to the peak of the true objective, and slopes are asked for anew only where they fail.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from time import process_time
+
+import numpy as np
+
+from system.errors import NotConverged
+from system.estimation.laplace import laplace, log_mass
+from system.estimation.observations import Array, Observations
+from system.estimation.posterior import Effort, Posterior, standard_slopes, values_at
+from system.estimation.simulator import Simulator
+from system.estimation.trust import Bounds, Quadratic, bounded_step
+from system.estimation.whitening import Whitening, whitener
+
+HARDER, EASIER = 4.0, 1.0 / 3.0  # the damping after a trial that failed, that held
+LEAST_DAMPING, FIRST_DAMPING, MOST_DAMPING = 1e-6, 1e-2, 1e8
+GOOD = 0.5  # share of the promised fall: below it the slopes are asked for anew
+NEAR = 0.1  # in xi: slopes taken no farther away serve for the covariance
+SAME_NOISE = 1e-2  # relative change of the whitening below which it is not renewed
+STALLED = 1.0  # fall promised, by slopes that hold no step, with which a peak is still one: half a nat
+
+
+@dataclass(frozen=True)
+class FitLimits:
+    """When a fit ends: steps at most, change of the objective, largest step in xi, rounds of whitening."""
+
+    steps: int = 30
+    change: float = 1e-2
+    largest_step: float = 2.0
+    whitening_rounds: int = 2
+
+
+LIMITS = FitLimits()
+
+
+@dataclass(frozen=True)
+class _Place:
+    """Where a fit stands: xi, predictions (N, C), whitened residual (n,), objective."""
+
+    xi: Array
+    predictions: Array
+    residual: Array
+    objective: float
+
+
+@dataclass(frozen=True)
+class _Walk:
+    """A place, the slopes that lead on from it and the xi they were taken at, the damping of the next step."""
+
+    place: _Place
+    slopes: Array
+    taken: Array
+    damping: float
+
+
+class _Fit:
+    """One fit on its way: the model, the readings, and what is spent."""
+
+    def __init__(self, simulator: Simulator, observations: Observations, limits: FitLimits) -> None:
+        self.simulator, self.observations, self.limits = simulator, observations, limits
+        self.bounds = Bounds.of(simulator.parameters)
+        self.predictions = self.slope_maps = 0
+
+    def place(self, xi: Array, whitening: Whitening) -> _Place:
+        """Predict at xi. Raises NotConverged where the simulator does."""
+        self.predictions += 1
+        return self.seen(xi, self.simulator.predict(values_at(self.simulator.parameters, xi)), whitening)
+
+    def seen(self, xi: Array, predictions: Array, whitening: Whitening) -> _Place:
+        """A place with its residual by a whitening."""
+        residual = whitening.whiten(self.observations.values - predictions)
+        return _Place(xi, predictions, residual, float(residual @ residual + xi @ xi))
+
+    def slopes(self, xi: Array, whitening: Whitening) -> Array:
+        """d prediction / d xi at xi, whitened."""
+        self.slope_maps += 1
+        return whitening.whiten(standard_slopes(self.simulator, xi))
+
+    def whitening(self, xi: Array) -> Whitening:
+        """The whitening with the input slopes at xi."""
+        values = values_at(self.simulator.parameters, xi)
+        return whitener(self.observations, self.simulator.input_slopes(values))
+
+    def promised(self, walk: _Walk) -> float:
+        """By how much the objective would fall to the peak that the slopes promise."""
+        model = Quadratic.of(walk.place.xi, walk.place.residual, walk.slopes)
+        return model.fall(bounded_step(model, self.bounds, 0.0, np.inf))
+
+
+def maximum_posterior(
+    simulator: Simulator, observations: Observations, start: Array | None = None, limits: FitLimits = LIMITS
+) -> Posterior:
+    """The peak of the posterior within the parameters' bounds, from the standard numbers `start` (k,) or 0.
+
+    Objective J = r.r + xi.xi of the whitened residual r. The noise that inputs bring is renewed at the peak, and
+    the peak found again, as often as `limits` say. Evidence by `laplace`, with the mass that bounds cut off told
+    one parameter at a time. Raises NotConverged where steps run out before a peak, and what the simulator raises
+    at the start.
+    """
+    begun = process_time()
+    fit = _Fit(simulator, observations, limits)
+    xi = fit.bounds.within(np.zeros(len(simulator.parameters)) if start is None else start)
+    whitening = fit.whitening(xi)
+    place, slopes = _descend(fit, fit.place(xi, whitening), whitening)
+    for _ in range(limits.whitening_rounds - 1):
+        renewed = fit.whitening(place.xi)
+        if renewed.change(whitening) < SAME_NOISE:
+            break
+        whitening = renewed
+        place, slopes = _descend(fit, fit.seen(place.xi, place.predictions, whitening), whitening)
+    effort = Effort(fit.predictions, fit.slope_maps, process_time() - begun)
+    return _posterior(fit, place, slopes, whitening, effort)
+
+
+def best_posterior(
+    simulator: Simulator, observations: Observations, starts: Sequence[Array], limits: FitLimits = LIMITS
+) -> Posterior:
+    """The peak of greatest evidence among those found from several starts; its effort is that of all.
+
+    For parameters that do nothing below a threshold, or whose effect has several peaks. Raises NotConverged
+    where no start leads to a peak.
+    """
+    found: list[Posterior] = []
+    failed: list[NotConverged] = []
+    for start in starts:
+        try:
+            found.append(maximum_posterior(simulator, observations, start, limits))
+        except NotConverged as reason:
+            failed.append(reason)
+    if not found:
+        raise NotConverged(f"none of {len(starts)} starts leads to a peak; the last: {failed[-1]}")
+    best = max(found, key=lambda posterior: posterior.log_evidence)
+    return replace(
+        best,
+        effort=Effort(
+            sum(each.effort.predictions for each in found),
+            sum(each.effort.slopes for each in found),
+            sum(each.effort.seconds for each in found),
+        ),
+    )
+
+
+def _descend(fit: _Fit, place: _Place, whitening: Whitening) -> tuple[_Place, Array]:
+    """Go down to a peak. Return it with slopes taken no farther than NEAR from it."""
+    slopes = fit.slopes(place.xi, whitening)
+    walk = _Walk(place, slopes, place.xi, LEAST_DAMPING)
+    for _ in range(fit.limits.steps):
+        if fit.promised(walk) < fit.limits.change or walk.damping > MOST_DAMPING:
+            break
+        walk = _tried(fit, walk, whitening)
+    place, promised = walk.place, fit.promised(walk)
+    if promised >= STALLED:
+        raise NotConverged(
+            f"the fit of {place.xi.size} parameters stopped at an objective of {place.objective:.1f}, a fall of "
+            f"{promised:.2g} still promised (limit {STALLED:g}), after {fit.predictions} predictions. "
+            f"Try another start, or more steps than {fit.limits.steps}"
+        )
+    near = np.abs(place.xi - walk.taken).max(initial=0.0) <= NEAR
+    return place, walk.slopes if near else fit.slopes(place.xi, whitening)
+
+
+def _tried(fit: _Fit, walk: _Walk, whitening: Whitening) -> _Walk:
+    """One trial: gone there where the objective falls, the damping and the slopes after what it showed."""
+    place = walk.place
+    model = Quadratic.of(place.xi, place.residual, walk.slopes)
+    goal = fit.bounds.within(place.xi + bounded_step(model, fit.bounds, walk.damping, fit.limits.largest_step))
+    step = goal - place.xi
+    harder = max(walk.damping * HARDER, FIRST_DAMPING)
+    try:
+        trial = fit.place(goal, whitening)
+    except NotConverged:
+        return replace(walk, damping=harder)
+    missed = place.residual - trial.residual - walk.slopes @ step
+    slopes = walk.slopes + np.outer(missed, step) / (step @ step)
+    fallen = place.objective - trial.objective
+    damping = max(walk.damping * EASIER, LEAST_DAMPING) if fallen > 0 else harder
+    reached = trial if fallen > 0 else place
+    if fallen < GOOD * model.fall(step) and reached.xi is not walk.taken:
+        return _Walk(reached, fit.slopes(reached.xi, whitening), reached.xi, damping)
+    return _Walk(reached, slopes, walk.taken, damping)
+
+
+def _posterior(fit: _Fit, place: _Place, slopes: Array, whitening: Whitening, effort: Effort) -> Posterior:
+    """The posterior at a peak, with the evidence of the part of its bell that lies within the bounds."""
+    model = Quadratic.of(place.xi, place.residual, slopes)
+    covariance = np.linalg.inv(model.precision)
+    beyond = covariance @ model.gradient  # from the peak within bounds to that of the bell
+    objective = place.objective - float(model.gradient @ beyond)
+    zero, one = np.zeros_like(place.xi), np.ones_like(place.xi)
+    sigma = np.sqrt(np.diag(covariance))
+    inside = log_mass(place.xi + beyond, sigma, fit.bounds.lowest, fit.bounds.highest)
+    before = log_mass(zero, one, fit.bounds.lowest, fit.bounds.highest)
+    evidence = laplace(objective, model.precision) + float((inside - before).sum()) + whitening.log_determinant
+    parameters = fit.simulator.parameters
+    return Posterior(
+        parameters=parameters,
+        xi=place.xi,
+        values=values_at(parameters, place.xi),
+        residual=place.residual,
+        slopes=slopes,
+        precision=model.precision,
+        objective=place.objective,
+        log_evidence=evidence,
+        predictions=place.predictions,
+        whitening=whitening,
+        effort=effort,
+    )

@@ -1,0 +1,68 @@
+"""One step towards the peak of a quadratic model between bounds."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from system.estimation.observations import Array
+from system.estimation.parameters import Parameter
+
+
+@dataclass(frozen=True)
+class Bounds:
+    """Least and largest xi, (k,) each."""
+
+    lowest: Array
+    highest: Array
+
+    @classmethod
+    def of(cls, parameters: tuple[Parameter, ...]) -> Bounds:
+        """Those of some parameters."""
+        lowest = np.array([parameter.lowest for parameter in parameters])
+        return cls(lowest, np.array([parameter.highest for parameter in parameters]))
+
+    def within(self, xi: Array) -> Array:
+        """The nearest xi between the bounds."""
+        return np.clip(xi, self.lowest, self.highest)
+
+
+@dataclass(frozen=True)
+class Quadratic:
+    """The objective about xi by its slopes: J(xi + d) = J - 2 gradient.d + d.precision.d."""
+
+    xi: Array
+    gradient: Array
+    precision: Array
+
+    @classmethod
+    def of(cls, xi: Array, residual: Array, slopes: Array) -> Quadratic:
+        """Of J = r.r + xi.xi with dr/dxi = -slopes."""
+        return cls(xi, slopes.T @ residual - xi, slopes.T @ slopes + np.eye(xi.size))
+
+    def fall(self, step: Array) -> float:
+        """By how much the model's objective falls along a step."""
+        return float(2.0 * self.gradient @ step - step @ self.precision @ step)
+
+
+def bounded_step(model: Quadratic, bounds: Bounds, damping: float, largest: float) -> Array:
+    """The damped Newton step of the model, none of it beyond a bound, none longer than `largest` in any xi.
+
+    (precision + damping diag(precision)) d = gradient; what would pass a bound is held on it and the rest solved
+    anew; a step too long is shortened as a whole.
+    """
+    below, above = bounds.lowest - model.xi, bounds.highest - model.xi
+    damped = model.precision + damping * np.diag(np.diag(model.precision))
+    step = np.zeros_like(model.xi)
+    free = np.ones(step.size, dtype=bool)
+    while free.any():
+        push = model.gradient[free] - damped[np.ix_(free, ~free)] @ step[~free]
+        step[free] = np.linalg.solve(damped[np.ix_(free, free)], push)
+        over = free & ((step > above) | (step < below))
+        if not over.any():
+            break
+        step[over] = np.clip(step[over], below[over], above[over])
+        free &= ~over
+    length = float(np.abs(step).max(initial=0.0))
+    return step if length <= largest else step * (largest / length)
