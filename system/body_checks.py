@@ -123,7 +123,7 @@ def _plate_fits(path: str, pump: PumpDescription, body: BodySection | None, *, o
         return
     # Webs between kidneys pass over all of the face between the lands, and over its ports.
     place = _ring(plate.land_radius_1, plate.outer_radius, over=over, sphere=plate.sphere)
-    yield from _fits(path, body, place, ("held",))
+    yield from _fits(path, body, replace(place, shape=f"{place.shape}, kidneys and ports filled"), ("held",))
 
 
 BODY_CHECKS = (

@@ -302,6 +302,16 @@ class PumpDescription(Section):
     single_pistons: tuple[tuple[int, PistonSection], ...] = ()  # by chamber, complete
     single_slippers: tuple[tuple[int, SlipperSection], ...] = ()
 
+    @property
+    def bodies(self) -> tuple[BodySection, ...]:
+        """The meshes that are stated for parts."""
+        stated = (
+            self.piston.body, self.bore.body, self.slipper.body, self.swash_plate.body, self.block.body,
+            self.valve_plate.body, *(part.body for _, part in self.single_pistons),
+            *(part.body for _, part in self.single_slippers),
+        )  # fmt: skip
+        return tuple(body for body in stated if body is not None)
+
     def of_chamber(self, chamber: int) -> PumpDescription:
         """The pump with the piston and slipper of a chamber (1 .. z) in place of all, and no single parts."""
         return self.model_copy(

@@ -5,11 +5,12 @@ Every key may be left out; `system.floating_parts` says what is then taken, and 
 
 from __future__ import annotations
 
+import hashlib
 import math
 from enum import Enum
 from typing import Annotated
 
-from pydantic import Field
+from pydantic import Field, computed_field
 
 from system.fields import (
     Angle,
@@ -82,6 +83,12 @@ class BodySection(Section):
     sliding: FaceNames | None = None  # held across, free along
     chamber: FaceName | None = None  # where the chamber presses on piston or bore beside the film
     pocket: FaceName | None = None  # where a slipper's pocket presses on slipper or swash plate
+
+    @computed_field  # type: ignore[prop-decorator]
+    @property
+    def content(self) -> str:
+        """A name for what the file holds, part of the table's repr: a mesh that has changed is another."""
+        return hashlib.sha256(self.mesh.read_bytes()).hexdigest() if self.mesh.is_file() else "absent"
 
 
 class BoreSection(Section):

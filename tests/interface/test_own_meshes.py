@@ -11,6 +11,7 @@ import pytest
 from system.faults import Fault, InputFaults
 from system.floating_parts import floating_parts
 from system.pump_file import check_pump, load_pump, resolved_toml
+from system.table_store import pump_key
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "films" / "slipper.vtu"
 OWN = {"mesh": str(EXAMPLE), "unit": "mm"}
@@ -102,3 +103,25 @@ def test_what_is_doubtful_about_a_mesh(tmp_path):
     assert "no face 'pocket'" in told
     assert "no face held" in told
     assert "a free body" in " ".join(map(str, floating_parts(pump).taken))
+
+
+def test_a_mesh_that_has_changed_is_another_pump(tmp_path):
+    """What is kept by content is not taken for a pump whose mesh has changed since."""
+    file = tmp_path / "slipper.vtu"
+    file.write_bytes(EXAMPLE.read_bytes())
+    before = load_pump("ref90_floating", {"slipper.body": OWN | {"mesh": str(file)}})
+    keys = [pump_key(before), repr(before)]
+    raw = meshio.read(file)
+    raw.points[:, :2] *= 1.0001
+    raw.write(file)
+    after = load_pump("ref90_floating", {"slipper.body": OWN | {"mesh": str(file)}})
+    assert pump_key(after) != keys[0]
+    assert repr(after) != keys[1]
+    assert pump_key(load_pump("ref90_floating")) != keys[0]
+
+
+def test_block_and_plate_are_closed_rings(tmp_path):
+    """A face with a port through it is told with the remedy."""
+    fault = faults_of(OWN | {"film": "pocket"}, "valve_plate")["film"]
+    assert "no face under them" in fault.found
+    assert "kidneys and ports filled" in fault.expected
