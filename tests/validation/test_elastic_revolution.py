@@ -6,14 +6,14 @@ import numpy as np
 import pytest
 
 from gaps.physics import Effect, Physics
-from gaps.revolution import GapRevolution
+from gaps.revolution import GapRevolution, Leg
 from gaps.schedule import Accuracy
 from gaps.seen import SlipperSeen
-from system.floating_drives import drives, no_rubbing
-from system.floating_gaps import FloatingOptions, slipper_revolution
-from system.floating_parts import floating_parts
+from system.floating_drives import Drives, drives, no_rubbing
+from system.floating_gaps import FloatingOptions, block_revolution, slipper_revolution
+from system.floating_parts import FloatingParts, floating_parts
 from system.gap_films import RIGID
-from system.instants import rotor
+from system.instants import Rotor, rotor
 from system.lumped import lumped_point
 from system.operating import operating_point
 from system.pump_file import load_pump
@@ -22,13 +22,18 @@ COARSE = FloatingOptions(RIGID, steps=24, accuracy=Accuracy(step=0.1), finer=0.5
 SOFT = Physics().without(Effect.PRESSURE_VISCOSITY)
 
 
+def driven_at(pressure: str) -> tuple[Rotor, FloatingParts, Drives]:
+    """ref90_floating at a delivery pressure and what drives its gaps."""
+    pump = load_pump("ref90_floating", {"operating.pressure": pressure})
+    at, parts = rotor(pump, operating_point(pump)), floating_parts(pump)
+    cycle = lumped_point(pump, at.point).cycle
+    return at, parts, drives(at, parts, cycle.shaft_angle, cycle.pressure, no_rubbing(len(cycle.shaft_angle)))
+
+
 @pytest.fixture(scope="module")
 def slippers() -> tuple[GapRevolution[SlipperSeen], GapRevolution[SlipperSeen]]:
     """That of ref90_floating at 10 MPa between rigid and between elastic walls."""
-    pump = load_pump("ref90_floating", {"operating.pressure": "10 MPa"})
-    at, parts = rotor(pump, operating_point(pump)), floating_parts(pump)
-    cycle = lumped_point(pump, at.point).cycle
-    driven = drives(at, parts, cycle.shaft_angle, cycle.pressure, no_rubbing(len(cycle.shaft_angle)))
+    at, parts, driven = driven_at("10 MPa")
     rigid, soft = (
         slipper_revolution(at, parts, driven.slipper, replace(COARSE, physics=physics))
         for physics in (RIGID, SOFT)
@@ -63,3 +68,20 @@ def test_walls_give_way_to_the_pressure(slippers):
     assert soft[0] > rigid[0]
     assert 0.0 < soft[1] < rigid[1]
     assert soft[2] < 1.01 * rigid[2]
+
+
+@pytest.mark.slow
+def test_elastic_block_closes():
+    """With contact and oil that stiffens, at rated pressure; begun between rigid walls, it says what both took."""
+    at, parts, driven = driven_at("35 MPa")
+    options = FloatingOptions(steps=27, accuracy=Accuracy(step=0.1, closed=3e-3), finer=0.25, keep=3)
+    found = block_revolution(at, parts, driven.block, options)
+    turn = found.turn
+    assert turn.repeats
+    assert np.abs(turn.end - turn.start).max() <= turn.allowed
+    assert found.closing.largest_multiplier < 1.0
+    assert list(found.spent) == [Leg.RIGID, Leg.ELASTIC]
+    for instant in turn.instants:
+        missing = instant.film_force + instant.contact_force + instant.outer_force
+        assert np.abs(missing).max() < 1e-3 * np.abs(instant.outer_force).max()
+        assert instant.pressure_max < 100e6
