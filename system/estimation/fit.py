@@ -21,10 +21,10 @@ from system.estimation.simulator import Simulator
 from system.estimation.trust import Bounds, Quadratic, bounded_step
 from system.estimation.whitening import Whitening, whitener
 
-HARDER, EASIER = 4.0, 1.0 / 3.0  # the damping after a trial that failed, that held
+HARDER, EASIER = 4.0, 1.0 / 3.0  # the damping after a trial that failed, that kept its promise
 LEAST_DAMPING, FIRST_DAMPING, MOST_DAMPING = 1e-6, 1e-2, 1e8
 GOOD = 0.5  # share of the promised fall: below it the slopes are asked for anew
-NEAR = 0.1  # in xi: slopes taken no farther away serve for the covariance
+NEAR = 0.02  # in xi: slopes taken no farther away tell of a peak and of its covariance
 SAME_NOISE = 1e-2  # relative change of the whitening below which it is not renewed
 STALLED = 1.0  # fall promised, by slopes that hold no step, with which a peak is still one: half a nat
 
@@ -33,7 +33,7 @@ STALLED = 1.0  # fall promised, by slopes that hold no step, with which a peak i
 class FitLimits:
     """When a fit ends: steps at most, change of the objective, largest step in xi, rounds of whitening."""
 
-    steps: int = 30
+    steps: int = 50
     change: float = 1e-2
     largest_step: float = 2.0
     whitening_rounds: int = 2
@@ -61,6 +61,11 @@ class _Walk:
     taken: Array
     damping: float
 
+    @property
+    def moved(self) -> float:
+        """How far in any xi the place is from where the slopes were taken."""
+        return float(np.abs(self.place.xi - self.taken).max(initial=0.0))
+
 
 class _Fit:
     """One fit on its way: the model, the readings, and what is spent."""
@@ -84,6 +89,10 @@ class _Fit:
         """d prediction / d xi at xi, whitened."""
         self.slope_maps += 1
         return whitening.whiten(standard_slopes(self.simulator, xi))
+
+    def renewed(self, walk: _Walk, whitening: Whitening) -> _Walk:
+        """The same place with slopes taken there."""
+        return replace(walk, slopes=self.slopes(walk.place.xi, whitening), taken=walk.place.xi)
 
     def whitening(self, xi: Array) -> Whitening:
         """The whitening with the input slopes at xi."""
@@ -151,21 +160,22 @@ def best_posterior(
 
 def _descend(fit: _Fit, place: _Place, whitening: Whitening) -> tuple[_Place, Array]:
     """Go down to a peak. Return it with slopes taken no farther than NEAR from it."""
-    slopes = fit.slopes(place.xi, whitening)
-    walk = _Walk(place, slopes, place.xi, LEAST_DAMPING)
+    walk = _Walk(place, fit.slopes(place.xi, whitening), place.xi, LEAST_DAMPING)
     for _ in range(fit.limits.steps):
         if fit.promised(walk) < fit.limits.change or walk.damping > MOST_DAMPING:
-            break
+            if walk.moved <= NEAR:
+                break
+            walk = fit.renewed(walk, whitening)
         walk = _tried(fit, walk, whitening)
-    place, promised = walk.place, fit.promised(walk)
+    promised = fit.promised(walk)
     if promised >= STALLED:
         raise NotConverged(
-            f"the fit of {place.xi.size} parameters stopped at an objective of {place.objective:.1f}, a fall of "
-            f"{promised:.2g} still promised (limit {STALLED:g}), after {fit.predictions} predictions. "
+            f"the fit of {walk.place.xi.size} parameters stopped at an objective of {walk.place.objective:.1f}, a "
+            f"fall of {promised:.2g} still promised (limit {STALLED:g}), after {fit.predictions} predictions. "
             f"Try another start, or more steps than {fit.limits.steps}"
         )
-    near = np.abs(place.xi - walk.taken).max(initial=0.0) <= NEAR
-    return place, walk.slopes if near else fit.slopes(place.xi, whitening)
+    walk = walk if walk.moved <= NEAR else fit.renewed(walk, whitening)
+    return walk.place, walk.slopes
 
 
 def _tried(fit: _Fit, walk: _Walk, whitening: Whitening) -> _Walk:
@@ -174,19 +184,24 @@ def _tried(fit: _Fit, walk: _Walk, whitening: Whitening) -> _Walk:
     model = Quadratic.of(place.xi, place.residual, walk.slopes)
     goal = fit.bounds.within(place.xi + bounded_step(model, fit.bounds, walk.damping, fit.limits.largest_step))
     step = goal - place.xi
-    harder = max(walk.damping * HARDER, FIRST_DAMPING)
     try:
         trial = fit.place(goal, whitening)
     except NotConverged:
-        return replace(walk, damping=harder)
+        return replace(walk, damping=_damping(walk.damping, 0.0))
     missed = place.residual - trial.residual - walk.slopes @ step
     slopes = walk.slopes + np.outer(missed, step) / (step @ step)
-    fallen = place.objective - trial.objective
-    damping = max(walk.damping * EASIER, LEAST_DAMPING) if fallen > 0 else harder
-    reached = trial if fallen > 0 else place
-    if fallen < GOOD * model.fall(step) and reached.xi is not walk.taken:
-        return _Walk(reached, fit.slopes(reached.xi, whitening), reached.xi, damping)
-    return _Walk(reached, slopes, walk.taken, damping)
+    kept = (place.objective - trial.objective) / model.fall(step)
+    damping = _damping(walk.damping, kept)
+    reached = trial if kept > 0 else place
+    here = _Walk(reached, slopes, walk.taken, damping)
+    return fit.renewed(here, whitening) if kept < GOOD and here.moved > 0 else here
+
+
+def _damping(damping: float, kept: float) -> float:
+    """The damping after a trial that kept this share of the fall promised (Nielsen 1999)."""
+    if kept <= 0:
+        return max(damping * HARDER, FIRST_DAMPING)
+    return max(damping * max(EASIER, 1.0 - (2.0 * kept - 1.0) ** 3), LEAST_DAMPING)
 
 
 def _posterior(fit: _Fit, place: _Place, slopes: Array, whitening: Whitening, effort: Effort) -> Posterior:

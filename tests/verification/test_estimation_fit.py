@@ -1,0 +1,231 @@
+"""Fits: peaks of the posterior found by predictions that decide and slopes that lead."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+import pytest
+from scipy.optimize import least_squares
+
+from reynolds.errors import FilmInputError
+from system.errors import NotConverged
+from system.estimation.fit import FitLimits, best_posterior, maximum_posterior
+from system.estimation.observations import Array, Channel, Observations
+from system.estimation.parameters import Parameter, Role, Scale
+from system.estimation.posterior import Posterior
+
+OPEN = (-np.inf, np.inf)
+
+
+@dataclass(frozen=True)
+class Law:
+    """A simulator of one channel from a function of its values, slopes by differences times `wrong` (k,)."""
+
+    parameters: tuple[Parameter, ...]
+    law: Callable[[Array], Array]
+    wrong: float = 1.0
+
+    def predict(self, values: Array) -> Array:
+        return self.law(values)[:, None]
+
+    def slopes(self, values: Array, names: tuple[str, ...]) -> Array:
+        steps = 1e-6 * np.maximum(np.abs(values), 1e-6)
+        columns = [
+            (self.predict(values + step * unit) - self.predict(values - step * unit)) / (2 * step)
+            for step, unit in zip(steps, np.eye(values.size), strict=True)
+        ]
+        return self.wrong * np.stack(columns, axis=-1)
+
+    def input_slopes(self, values: Array) -> Array:
+        return np.zeros((self.predict(values).size, 1, 0))
+
+    def with_parameters(self, parameters: tuple[Parameter, ...]) -> Law:
+        return replace(self, parameters=parameters)
+
+
+def _parameter(name: str, centre: float, spread: float, bounds: tuple[float, float], scale: Scale) -> Parameter:
+    return Parameter(name, Role.BASE, scale, centre, spread, *bounds, None, "test")
+
+
+def _readings(values: Array, sigma: float) -> Observations:
+    points = values.size
+    return Observations(
+        channels=(Channel("y", None),),
+        values=values[:, None],
+        sigma=np.full((points, 1), sigma),
+        inputs=(),
+        input_sigma=np.zeros((points, 0)),
+        quantum=np.zeros(1),
+        blocks=np.arange(points),
+    )
+
+
+def _valley(values: Array) -> Array:
+    """Rosenbrock's curved valley as two residuals."""
+    x, y = values
+    return np.array([10.0 * (y - x * x), 1.0 - x])
+
+
+def _rosenbrock(bounds: tuple[float, float] = OPEN, wrong: float = 1.0) -> Posterior:
+    parameters = (
+        _parameter("x", 0.0, 3.0, bounds, Scale.NORMAL),
+        _parameter("y", 0.0, 3.0, OPEN, Scale.NORMAL),
+    )
+    start = np.array([-1.2, 1.0]) / 3.0
+    return maximum_posterior(Law(parameters, _valley, wrong), _readings(np.zeros(2), 0.1), start)
+
+
+DOSE = np.array([77.6, 114.9, 141.1, 190.8, 239.9, 289.0, 332.8, 378.4, 434.8, 477.3, 536.8, 593.1, 689.1, 760.0])
+VOLUME = np.array(
+    [10.07, 14.73, 17.94, 23.93, 29.61, 35.18, 40.02, 44.82, 50.76, 55.05, 61.01, 66.4, 75.47, 81.78]
+)
+CERTIFIED = {"b1": (2.3894212918e02, 2.7070075241e00), "b2": (5.5015643181e-04, 7.2668688436e-06)}
+
+
+def test_misra1a(validation) -> None:
+    """NIST's Misra1a from its far start, with priors far wider than the answer."""
+    spreads = {"b1": 1000.0, "b2": 2e-3}
+    parameters = tuple(_parameter(name, 0.0, spread, OPEN, Scale.NORMAL) for name, spread in spreads.items())
+    simulator = Law(parameters, lambda values: -values[0] * np.expm1(-values[1] * DOSE))
+    observations = _readings(VOLUME, 1.0187876330e-01)
+    start = np.array([0.5, 0.05])  # b1 500, b2 1e-4
+    found = maximum_posterior(simulator, observations, start, FitLimits(steps=100, change=1e-8))
+    for name, (value, sigma) in CERTIFIED.items():
+        at = found.index(name)
+        prior_pull = abs(value) * (sigma / spreads[name]) ** 2
+        validation(
+            case="NIST StRD Misra1a",
+            source="NIST, Statistical Reference Datasets, nonlinear regression (1997), certified values",
+            quantity=f"{name}",
+            unit="1",
+            expected=value,
+            obtained=float(found.values[at]),
+            tolerance=3.0 * prior_pull + 1e-4 * sigma,
+        )
+        validation(
+            case="NIST StRD Misra1a",
+            source="NIST, Statistical Reference Datasets, nonlinear regression (1997), certified values",
+            quantity=f"standard deviation of {name}",
+            unit="1",
+            expected=sigma,
+            obtained=found.sigma(name),
+            relative_tolerance=1e-3,
+        )
+
+
+def test_curved_valley() -> None:
+    """The peak is where scipy's least squares of the stacked residuals end, to within the change allowed."""
+    found = _rosenbrock()
+    reference = least_squares(lambda xi: np.concatenate((_valley(3.0 * xi) / 0.1, xi)), np.array([0.3, 0.3]))
+    assert found.objective == pytest.approx(2.0 * reference.cost, abs=FitLimits().change)
+    off = found.xi - reference.x
+    assert float(off @ found.precision @ off) < 1.1 * FitLimits().change
+    assert found.effort.predictions < 50
+
+
+def test_wrong_slopes_lead_to_the_same_peak() -> None:
+    """Slopes a tenth off: the trials correct them, and the peak is that of the predictions."""
+    right, led = _rosenbrock(), _rosenbrock(wrong=0.9)
+    assert led.objective == pytest.approx(right.objective, abs=2 * FitLimits().change)
+    assert led.values == pytest.approx(right.values, abs=0.02)
+
+
+def test_active_bound() -> None:
+    """What wants beyond a bound is held on it, and the rest is best there: y = x^2 but for the prior."""
+    found = _rosenbrock(bounds=(-2.0, 0.5))
+    assert found.values[0] == 0.5
+    held = 0.25 * 1e4 / (1e4 + 1.0 / 9.0)
+    assert found.values[1] == pytest.approx(held, abs=1e-3)
+
+
+def test_half_stays_at_nothing() -> None:
+    """An effect of one sign that readings deny ends at exactly 0."""
+    parameter = _parameter("effect", 0.0, 1.0, (0.0, np.inf), Scale.HALF)
+    simulator = Law((parameter,), lambda values: np.full(5, values[0]))
+    found = maximum_posterior(simulator, _readings(np.full(5, -0.3), 0.1))
+    assert found.xi[0] == 0.0
+
+
+def _limited(values: Array) -> Array:
+    if values[0] > 1.5:
+        raise NotConverged("the model ends at 1.5")
+    return np.array([np.exp(values[0]), 3.0 * values[0]])
+
+
+def test_failing_predictions_are_gone_round() -> None:
+    """A trial that the simulator cannot do is shortened; a start it cannot do is told."""
+    parameter = _parameter("x", 0.0, 1.0, OPEN, Scale.NORMAL)
+    readings = _readings(_limited(np.array([1.4])), 0.01)
+    found = maximum_posterior(Law((parameter,), _limited), readings, np.array([-1.0]))
+    assert found.values[0] == pytest.approx(1.4, abs=1e-3)
+    with pytest.raises(NotConverged, match=r"ends at 1\.5"):
+        maximum_posterior(Law((parameter,), _limited), readings, np.array([2.0]))
+
+
+def test_too_few_steps_are_told() -> None:
+    with pytest.raises(NotConverged, match=r"still promised .* more steps than 1"):
+        maximum_posterior(
+            Law(
+                (_parameter("x", 0.0, 3.0, OPEN, Scale.NORMAL), _parameter("y", 0.0, 3.0, OPEN, Scale.NORMAL)),
+                _valley,
+            ),
+            _readings(np.zeros(2), 0.1),
+            np.array([-0.4, 0.33]),
+            FitLimits(steps=1),
+        )
+
+
+def _threshold(values: Array) -> Array:
+    """Nothing below 1, then a steep line: no slope at the prior mean tells of it."""
+    return np.maximum(values[0] - 1.0, 0.0) * np.array([1.0, 2.0, 3.0])
+
+
+def test_starts_find_what_a_threshold_hides() -> None:
+    parameter = _parameter("size", 0.0, 1.0, (0.0, np.inf), Scale.HALF)
+    simulator = Law((parameter,), _threshold)
+    readings = _readings(_threshold(np.array([2.0])), 0.1)
+    blind = maximum_posterior(simulator, readings)
+    found = best_posterior(simulator, readings, [np.array([start]) for start in (0.1, 1.5, 3.0)])
+    assert blind.values[0] == 0.0
+    assert found.values[0] == pytest.approx(2.0, abs=0.01)
+    assert found.log_evidence > blind.log_evidence + 100.0
+
+
+@pytest.mark.parametrize("scale", Scale)
+def test_scales(scale: Scale) -> None:
+    """Value and standard number are inverse; `stretch` is the slope of the one by the other."""
+    centre = 0.0 if scale is Scale.HALF else 2.0
+    parameter = _parameter("p", centre, 0.3, (0.0, 9.0), scale)
+    xi = 0.7
+    assert parameter.standard(parameter.value(xi)) == pytest.approx(xi, rel=1e-12)
+    slope = (parameter.value(xi + 1e-6) - parameter.value(xi - 1e-6)) / 2e-6
+    assert parameter.stretch(xi) == pytest.approx(slope, rel=1e-8)
+    assert parameter.value(parameter.highest) == pytest.approx(9.0)
+    assert parameter.lowest == {Scale.HALF: 0.0, Scale.LOG: -np.inf, Scale.NORMAL: -2.0 / 0.3}[scale]
+    assert parameter.widened(10.0).spread == 3.0
+
+
+@pytest.mark.parametrize(
+    ("centre", "spread", "bounds", "scale", "told"),
+    [
+        (1.0, 0.0, OPEN, Scale.NORMAL, "spread of 0.0"),
+        (1.0, 0.1, (2.0, 3.0), Scale.NORMAL, "centre 1.0"),
+        (0.0, 0.1, (0.0, 3.0), Scale.LOG, "positive values on a log scale"),
+    ],
+)
+def test_priors_that_are_none(
+    centre: float, spread: float, bounds: tuple[float, float], scale: Scale, told: str
+) -> None:
+    with pytest.raises(FilmInputError, match=told):
+        _parameter("p", centre, spread, bounds, scale)
+
+
+def test_readings_that_do_not_fit() -> None:
+    whole = _readings(np.zeros(3), 0.1)
+    with pytest.raises(FilmInputError, match="input_sigma"):
+        replace(whole, input_sigma=np.zeros((2, 0)))
+    with pytest.raises(FilmInputError, match="positive sigma"):
+        replace(whole, sigma=np.zeros((3, 1)))
+    assert not whole.without(np.array([True, False, False])).measured[0, 0]
