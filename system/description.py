@@ -171,6 +171,23 @@ class ValvePlateSection(Section):
         return max([self.land_radius_4, *(pad.outer for pad in self.pads)])
 
 
+class DeliverySection(Section):
+    """[ports.delivery]: what the delivery port has in place of [ports], angles from its own dead centre."""
+
+    groove_start: Angle | None = None
+    groove_end: Angle | None = None
+    groove_area: Area | None = None
+    kidney_full_start: Angle | None = None
+    kidney_full_end: Angle | None = None
+    kidney_end: Angle | None = None
+    kidney_area: Area | None = None
+    grooves: tuple[GrooveSection, ...] = ()
+    webs: Webs | None = None
+
+
+_ONE_GROOVE = ("groove_start", "groove_area")
+
+
 class PortsSection(Section):
     """[ports]: opening of either port over the angle from its own dead centre."""
 
@@ -186,6 +203,24 @@ class PortsSection(Section):
     grooves: tuple[GrooveSection, ...] = ()  # in place of groove_start and groove_area
 
     webs: Webs | None = None  # that part the port into several kidneys
+    delivery: DeliverySection | None = None  # what differs there
+
+    @property
+    def sides(self) -> tuple[PortsSection, PortsSection]:
+        """The ports of suction and delivery side, each as if both were it.
+
+        Grooves of the one way of stating them take the place of those of the other.
+        """
+        if self.delivery is None:
+            return self, self
+        stated = {key: getattr(self.delivery, key) for key in DeliverySection.model_fields}
+        own = {key: value for key, value in stated.items() if value not in (None, ())}
+        if "grooves" in own:
+            own = dict.fromkeys(_ONE_GROOVE) | own
+        elif own.keys() & set(_ONE_GROOVE):
+            own |= {"grooves": ()}
+        bare = self.model_copy(update={"delivery": None})
+        return bare, bare.model_copy(update=own)
 
     @property
     def web_spans(self) -> tuple[tuple[float, float], ...]:

@@ -12,6 +12,7 @@ from system.checks import CheckWarning, Finding, angle, length, needs
 from system.description import PumpDescription, SlipperSection
 from system.faults import Fault
 from system.kinematics import SwashDrive, ball_radius, displacement, stroke
+from system.port_checks import of_sides
 from system.units import Dimension, format_quantity
 
 DISPLACEMENT_TOLERANCE = 0.01
@@ -232,6 +233,7 @@ def kidneys_leave_webs(pump: PumpDescription) -> Iterator[Finding]:
 @needs(
     "ports.kidney_area", "valve_plate.kidney_pitch_radius", "valve_plate.kidney_width", "valve_plate.kidney_arc"
 )
+@of_sides
 def port_opening_fits_the_kidney(pump: PumpDescription) -> Iterator[Finding]:
     """A port opens at most the whole kidney: pitch radius x arc x width, square ends."""
     plate = pump.valve_plate

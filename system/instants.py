@@ -48,16 +48,16 @@ def valve_plate_geometry(pump: PumpDescription, turned: float = 0.0) -> ValvePla
     A port opens when the kidney's leading edge reaches it (end of the groove) and shuts when the trailing edge
     leaves it. `turned` (rad): the drive's `dead_centre_shift`, of no matter where radii alone are asked for.
     """
-    part, ports = pump.valve_plate, pump.ports
-    half = 0.5 * part.kidney_arc
-    arc = (ports.groove_end + half, ports.kidney_end - half)
+    part, half = pump.valve_plate, 0.5 * pump.valve_plate.kidney_arc
+    sides = tuple(zip(pump.ports.sides, (0.0, np.pi), strict=True))
+    suction, delivery = ((dead + side.groove_end + half, dead + side.kidney_end - half) for side, dead in sides)
     return ValvePlateGeometry(
         land_radii=(part.land_radius_1, part.land_radius_2, part.land_radius_3, part.land_radius_4),
         pistons=pump.pump.pistons,
         kidney_arc=part.kidney_arc,
-        suction_arc=arc,
-        delivery_arc=(arc[0] + np.pi, arc[1] + np.pi),
-        webs=tuple((start + dead, end + dead) for dead in (0.0, np.pi) for start, end in ports.web_spans),
+        suction_arc=suction,
+        delivery_arc=delivery,
+        webs=tuple((start + dead, end + dead) for side, dead in sides for start, end in side.web_spans),
         turned=turned,
         pads=part.bearing_pads,
         sphere=part.sphere,

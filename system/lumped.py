@@ -10,7 +10,7 @@ from system import pairs
 from system.assembly import PumpPoint, assemble
 from system.chamber import TOLERANCE, ChamberCycle
 from system.chamber_problem import ChamberProblem, LeakTable
-from system.description import PumpDescription
+from system.description import PortsSection, PumpDescription
 from system.kinematics import (
     Array,
     SwashDrive,
@@ -117,7 +117,8 @@ def swept_displacement(pump: PumpDescription, drive: SwashDrive) -> float:
     (+ 2 delta/dp, 0.14 %).
     """
     area = piston_area(pump) + np.pi * pump.pump.piston_diameter * pump.piston.radial_clearance / 2.0
-    shuts = port_opening(pump, 0.0).shuts + drive.dead_centre_shift + np.array([0.0, np.pi])
+    ports = port_openings(pump, drive.dead_centre_shift)
+    shuts = np.array([port.dead_centre + port.shuts for port in ports])
     suction, delivery = piston_displacement(drive, shuts)
     return float(pump.pump.pistons * area * (suction - delivery))
 
@@ -166,6 +167,7 @@ def chamber_problem(
 ) -> ChamberProblem:
     """One chamber of the pump at the point, with gaps that leak as `leaks` says, whoever filled it."""
     area = piston_area(pump)
+    suction, delivery = port_openings(pump, motion.drive.dead_centre_shift)
     return ChamberProblem(
         drive=motion.drive,
         shaft_speed=point.shaft_speed,
@@ -179,18 +181,23 @@ def chamber_problem(
         kinematic_viscosity=point.viscosity / pump.oil.density,
         flow_coefficient=pump.ports.flow_coefficient,
         critical_reynolds=pump.ports.critical_reynolds,
-        delivery_port=port_opening(pump, np.pi + motion.drive.dead_centre_shift),
-        suction_port=port_opening(pump, motion.drive.dead_centre_shift),
+        delivery_port=delivery,
+        suction_port=suction,
         leaks=leaks,
     )
 
 
-def port_opening(pump: PumpDescription, dead_centre: float) -> PortOpening:
-    """The valve plate's port that opens at a dead centre: shaft angle 0 for suction, pi for delivery.
+def port_openings(pump: PumpDescription, shift: float = 0.0) -> tuple[PortOpening, PortOpening]:
+    """The valve plate's ports, that of suction from shaft angle 0 on, that of delivery from pi.
 
-    With a cross angle both lie later by the drive's `dead_centre_shift`: the plate's own dead centres.
+    With a cross angle both lie later by the drive's `dead_centre_shift`, `shift`: the plate's own dead centres.
     """
-    p, radius = pump.ports, pump.valve_plate.kidney_pitch_radius
+    suction, delivery = pump.ports.sides
+    return _port_opening(pump, suction, shift), _port_opening(pump, delivery, np.pi + shift)
+
+
+def _port_opening(pump: PumpDescription, p: PortsSection, dead_centre: float) -> PortOpening:
+    radius = pump.valve_plate.kidney_pitch_radius
     return PortOpening(
         dead_centre=dead_centre,
         kidney_start=p.groove_end,

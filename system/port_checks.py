@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+from functools import wraps
 from itertools import pairwise
+from operator import itemgetter
 
 from system.checks import CheckWarning, Finding, angle, needs
-from system.description import PumpDescription
+from system.description import PortsSection, PumpDescription
 from system.faults import Fault
 from system.port_description import groove_faults, throats
 from system.port_webs import MOST_WEBS
@@ -18,30 +21,80 @@ _KIDNEY_ANGLES = ("groove_end", "kidney_full_start", "kidney_full_end", "kidney_
 _KIDNEY = tuple(f"ports.{name}" for name in _KIDNEY_ANGLES)
 
 
+def of_sides(findings: Callable[[PumpDescription], Iterator[Finding]]) -> Callable[..., Iterator[Finding]]:
+    """The findings of a port, of suction and delivery side where these differ; each told at its own keys."""
+
+    @wraps(findings)
+    def of_both(pump: PumpDescription) -> Iterator[Finding]:
+        suction, delivery = (pump.model_copy(update={"ports": side}) for side in pump.ports.sides)
+        found = list(findings(suction))
+        yield from found
+        if pump.ports.delivery is not None:
+            yield from (_at_delivery(pump, finding) for finding in findings(delivery) if finding not in found)
+
+    return of_both
+
+
+def _at_delivery(pump: PumpDescription, finding: Finding) -> Finding:
+    """A finding of the delivery side told at the table that brought it."""
+    key = finding.path.removeprefix("ports.").partition(".")[0]
+    if getattr(pump.ports.delivery, key, None) in (None, ()):
+        return finding
+    return replace(finding, path=finding.path.replace("ports.", "ports.delivery.", 1))
+
+
 @needs(*_KIDNEY)
+@of_sides
 def ports_open_in_order(pump: PumpDescription) -> Iterator[Finding]:
-    """The angles of a port grow, and it is shut before the other port, half a turn later, opens."""
-    ports = pump.ports
-    angles = {} if ports.groove_start is None else {"groove_start": ports.groove_start}
-    angles |= {name: getattr(ports, name) for name in _KIDNEY_ANGLES}
+    """The angles of a port grow."""
+    angles = _angles(pump.ports)
     for before, after in pairwise(angles):
         if angles[before] >= angles[after]:
             yield Fault(f"ports.{after}", angle(angles[after]), f"more than {before}, {angle(angles[before])}")
-    listed = list(enumerate(ports.grooves, start=1))
-    ends = {"kidney_end": ports.kidney_end} | {f"grooves.{n}.end": groove.end for n, groove in listed}
-    starts = angles | {f"grooves.{n}.start": groove.start for n, groove in listed}
-    last, first = max(ends, key=ends.__getitem__), min(starts, key=starts.__getitem__)
-    shut, opens = ends[last], math.pi + starts[first]
-    if shut >= opens:
-        yield Fault(
-            f"ports.{last}",
-            f"{angle(shut)}: suction is still open when delivery opens",
-            f"less than {angle(opens)} (180 deg + {first}), else the ports are short-circuited",
-            f"a smaller {last} or a larger {first}",
-        )
+
+
+@needs(*_KIDNEY)
+def ports_shut_before_the_other_opens(pump: PumpDescription) -> Iterator[Finding]:
+    """Each port is shut before the other, half a turn later, opens."""
+    names, sides = ("suction", "delivery"), pump.ports.sides
+    told = set()
+    for k, side in enumerate(sides):
+        other = sides[1 - k]
+        last, first = _last(side), _first(other)
+        shut, opens = last[1], math.pi + first[1]
+        if shut >= opens and (last, first) not in told:
+            told.add((last, first))
+            yield _at_delivery(
+                pump,
+                Fault(
+                    f"ports.{last[0]}",
+                    f"{angle(shut)}: {names[k]} is still open when {names[1 - k]} opens",
+                    f"less than {angle(opens)} (180 deg + {first[0]}), else the ports are short-circuited",
+                    f"a smaller {last[0]} or a larger {first[0]}",
+                ),
+            )
+
+
+def _angles(ports: PortsSection) -> dict[str, float]:
+    """Angles of a port that grow, by key."""
+    start = {} if ports.groove_start is None else {"groove_start": ports.groove_start}
+    return start | {name: getattr(ports, name) for name in _KIDNEY_ANGLES}
+
+
+def _last(ports: PortsSection) -> tuple[str, float]:
+    """Key and angle at which a port shuts."""
+    ends = {f"grooves.{n}.end": groove.end for n, groove in enumerate(ports.grooves, start=1)}
+    return max(({"kidney_end": ports.kidney_end} | ends).items(), key=itemgetter(1))
+
+
+def _first(ports: PortsSection) -> tuple[str, float]:
+    """Key and angle at which a port begins to open."""
+    starts = {f"grooves.{n}.start": groove.start for n, groove in enumerate(ports.grooves, start=1)}
+    return min((_angles(ports) | starts).items(), key=itemgetter(1))
 
 
 @needs("valve_plate.kidney_arc", *_KIDNEY)
+@of_sides
 def ports_belong_to_the_kidney(pump: PumpDescription) -> Iterator[Finding]:
     """A kidney opens and shuts over its own arc, and that leaves a port between."""
     arc, ports = pump.valve_plate.kidney_arc, pump.ports
@@ -67,12 +120,14 @@ def ports_belong_to_the_kidney(pump: PumpDescription) -> Iterator[Finding]:
 
 
 @needs(*_KIDNEY)
+@of_sides
 def grooves_fit_the_port(pump: PumpDescription) -> Iterator[Finding]:
     """Grooves have the keys of their shapes and lie ahead of the kidney or behind it."""
     yield from groove_faults(pump.ports)
 
 
 @needs("ports.kidney_area", "valve_plate.kidney_pitch_radius", *_KIDNEY)
+@of_sides
 def grooves_are_smaller_than_the_kidney(pump: PumpDescription) -> Iterator[Finding]:
     """The relief grooves on either side open less than the kidney does."""
     ports = pump.ports
@@ -88,6 +143,7 @@ def grooves_are_smaller_than_the_kidney(pump: PumpDescription) -> Iterator[Findi
 
 
 @needs("ports.webs", "valve_plate.kidney_arc", "ports.groove_end", "ports.kidney_end")
+@of_sides
 def webs_part_the_port(pump: PumpDescription) -> Iterator[Finding]:
     """Webs lie inside the port with kidneys between them, each narrower than the kidney of the block."""
     arc, spans = pump.valve_plate.kidney_arc, pump.ports.web_spans
@@ -107,6 +163,7 @@ def webs_part_the_port(pump: PumpDescription) -> Iterator[Finding]:
 
 PORT_CHECKS = (
     ports_open_in_order,
+    ports_shut_before_the_other_opens,
     ports_belong_to_the_kidney,
     grooves_fit_the_port,
     grooves_are_smaller_than_the_kidney,

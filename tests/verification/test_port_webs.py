@@ -8,7 +8,7 @@ import pytest
 from gaps.ring import Ring
 from system.faults import InputFaults
 from system.instants import valve_plate_geometry
-from system.lumped import lumped_point, port_opening
+from system.lumped import lumped_point, port_openings
 from system.operating import operating_point
 from system.port_webs import PortWebs
 from system.ports import PortOpening, break_angles, opening_area
@@ -61,7 +61,7 @@ def test_webs_reach_the_chamber(tmp_path):
     file = tmp_path / "pump.toml"
     file.write_text(resolved_toml(pump), "utf-8")
     assert load_pump(file) == pump
-    area = opening_area(port_opening(pump, np.pi), np.radians([270.0, 230.0]))
+    area = opening_area(port_openings(pump)[1], np.radians([270.0, 230.0]))
     assert area == pytest.approx([152e-6 * (1.0 - 20.0 / 30.0), 152e-6])
     plain, point = load_pump("ref90"), operating_point(pump)
     throttled, free = (lumped_point(one, point).cycle.pressure[270] for one in (pump, plain))

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from system.faults import InputFaults
-from system.lumped import full_drive, lumped_point, port_opening, swept_displacement
+from system.lumped import full_drive, lumped_point, port_openings, swept_displacement
 from system.operating import operating_point
 from system.ports import PortOpening, break_angles, opening_area
 from system.pump_file import load_pump, resolved_toml
@@ -100,12 +100,12 @@ def test_shapes_reach_the_chamber(grooved, tmp_path):
     file = tmp_path / "again.toml"
     file.write_text(resolved_toml(pump), "utf-8")
     assert load_pump(file) == pump
-    port = port_opening(pump, 0.0)
+    port = port_openings(pump)[0]
     assert [groove.begins < groove.deep for groove in port.grooves] == [True, True, False]
     found = lumped_point(pump, operating_point(pump))
     assert found.checks.energy_balance_error < 1e-3
     bare = grooved(None)
-    assert port_opening(bare, 0.0).grooves == ()
+    assert port_openings(bare)[0].grooves == ()
     assert lumped_point(bare, operating_point(bare)).cycle.pressure.max() > found.cycle.pressure.max()
     drive = full_drive(pump)
     # The groove behind lets the port shut at 171 deg instead of 170: nearer to the full stroke.
@@ -114,7 +114,7 @@ def test_shapes_reach_the_chamber(grooved, tmp_path):
 
 def test_paper_groove_is_one_of_a_known_area(grooved):
     own = grooved([{"start": "-5 deg", "end": "10 deg", "shape": "area", "area": "4 mm2"}])
-    assert port_opening(own, 0.0) == port_opening(load_pump("ref90"), 0.0)
+    assert port_openings(own)[0] == port_openings(load_pump("ref90"))[0]
 
 
 @pytest.mark.parametrize(
