@@ -29,7 +29,7 @@ from reynolds.solve import FilmSolver, as_given
 LEAST_SHARE = 0.2  # of the least gap that a step may leave
 DEEPEST = 3.0  # standard deviations of the summits by which a step may press the walls together
 NEXT = 1e-2  # of the least film or of the summits' height
-SOFT_TOLERANCE = 1e-6  # of linear solves between walls that give way, for slopes that steer no more than a turn
+SOFT_TOLERANCE = 1e-6  # of slopes between walls that give way, for what steers no more than a turn
 TOUCHING = "asperities that bear where walls touch, an edge relief, a finer mesh, or less load"
 ROUNDING = 1e-6  # share of the largest magnitude below which another one is none
 

@@ -33,6 +33,7 @@ from reynolds.transient import oil_held
 TOLERANCE = 1e-8  # of the magnitudes that balance in a generalised force
 GOOD_ENOUGH = 1e-6  # where no step comes nearer to balance: round-off of the film's pressures
 LOOSE = 1e-5  # of the linear solves for a Newton step's slopes
+SOFT_LOOSE = 1e-3  # the same between walls that give way, whose factors are dear
 MOST_STEPS = 40
 MOST_HALVINGS = 8
 MOST_FAILED = 5  # films that have not settled, in one stage
@@ -296,7 +297,7 @@ class _Search:
         """The step of Newton's method and how the film answers to the position; None where nothing resists."""
         instant = self._instant
         try:
-            film = instant.by_position(at, LOOSE)
+            film = instant.by_position(at, LOOSE if instant.shape.walls is None else SOFT_LOOSE)
             return -solved(instant.slopes(at, film), at.missing, instant.floating.name), film
         except FilmNotConverged as reason:
             self.why, self.remedy = reason.what, reason.remedy

@@ -20,7 +20,16 @@ from reynolds.errors import FilmInputError, FilmNotConverged
 from reynolds.film import LEAST_FRACTION, Cavitation, FilmProblem, FilmSolution
 from reynolds.fluid import CONSTANT
 from reynolds.grid import grid_of
-from reynolds.iterate import Iterate, advanced, fixed_in, imbalance_of, is_linear, iterate_of, opened
+from reynolds.iterate import (
+    Iterate,
+    advanced,
+    fixed_in,
+    imbalance_of,
+    is_linear,
+    iterate_of,
+    opened,
+    with_pockets,
+)
 from reynolds.linear import ITERATIVE_TOLERANCE, Factor, GeneralFactor, Solve, row_by_row
 from reynolds.mesh import Array
 from reynolds.newton import compliant, general_step, signed_after, symmetric_step
@@ -35,6 +44,9 @@ TOLERANCE = 1e-9
 NEAR = 1e-6  # of which one more step leaves round-off
 ROUND_OFF = 1e-12
 SOFT_STEP = 1e-5  # residual of a first step between walls that give way over its load
+KEPT = 1e-3  # imbalance from which on a linearisation between walls that give way, which is dear, is kept
+KEPT_GAIN = 0.03  # of the imbalance is left, at most, by a step of a kept one that another one may follow
+KEPT_TOLERANCE = 1e-11  # after such a step, which gains less than Newton's
 LOOSEST = 1e-2  # residual of a linear solve over its load
 LESS = 0.3  # of a pocket's flow before, from where its supply's law leads up to more without a mirrored step
 LEAST_GAP = 0.1  # of the largest film, where walls overlap that a first pressure parts
@@ -76,20 +88,28 @@ class FilmSolver:
         seen = {at.cavity.tobytes()}
         cycles = near = False
         path: list[float] = []
-        imbalance = 1.0
+        soft_series = keeps = start is not None and start.problem.walls is not None and problem.walls is not None
+        imbalance = imbalance_of(problem, setting, at) if soft_series else 1.0
         for iteration in range(1, MAX_ITERATIONS + 1):
             tolerance = max(ITERATIVE_TOLERANCE, min(LOOSEST, 0.1 * ROUND_OFF / max(imbalance, ROUND_OFF)))
             if problem.walls is not None:  # no step between them is exact: one that gains as Newton's does will do
                 tolerance = max(tolerance, min(SOFT_STEP, 0.1 * imbalance))
-            signed = self._step(problem, setting, at, tolerance)
+            keeps = keeps and imbalance < KEPT and self._serves(fixed_in(problem, setting, at), at)
+            signed = (
+                self._step_kept(problem, setting, at, tolerance, imbalance)
+                if keeps
+                else self._step(problem, setting, at, tolerance, imbalance)
+            )
             if iteration == 1 and (guessed := self._ruptured(problem, setting, at, signed)) is not at:
-                at, signed = guessed, self._step(problem, setting, guessed, tolerance)
+                at, signed = guessed, self._step(problem, setting, guessed, tolerance, imbalance)
             new = advanced(problem, setting, at, signed, downhill=cycles)
             settled, at = bool(np.array_equal(new.cavity, at.cavity)), new
             _check_degree(problem, at.cavity)
-            imbalance = imbalance_of(problem, setting, at)
+            before, imbalance = imbalance, imbalance_of(problem, setting, at)
+            enough = KEPT_TOLERANCE if keeps else TOLERANCE
+            keeps = soft_series and (not keeps or imbalance < KEPT_GAIN * before)
             path.append(imbalance)
-            if (settled and imbalance < ROUND_OFF) or (imbalance < TOLERANCE and near):
+            if (settled and imbalance < ROUND_OFF) or (imbalance < enough and near):
                 _check_filled(at)
                 return self._found(_solution(problem, setting, at, path))
             # Under JFO an unknown next to zero may change sides for ever: either side is the solution.
@@ -155,9 +175,9 @@ class FilmSolver:
 
         By its linearised balance, held unknowns and cavity as they are: a free unknown changes pressure, one of
         the cavity its film fraction. Where the last film solved is this one its last factor is used again, which
-        for a balance that is not linear was made some 1e-6 before the solution.
+        for a balance that is not linear was made some 1e-6 before the solution, or `tolerance` before it.
         """
-        if self._answers is None or not self._answers.belong_to(solution):
+        if self._answers is None or not self._answers.belong_to(solution) or self._answers.aged > tolerance:
             problem, state = solution.problem, State(solution.pressure, solution.film_fraction, solution.opening)
             setting = spread(problem)
             self._linear(problem, setting, iterate_of(problem, state, solution.cavity))
@@ -165,11 +185,30 @@ class FilmSolver:
         assert self._answers is not None
         return self._answers.to(inflow, tolerance)
 
-    def _step(self, problem: FilmProblem, setting: Setting, at: Iterate, tolerance: float) -> Array:
+    def _serves(self, fixed: NDArray[np.bool_], at: Iterate) -> bool:
+        """Whether the linearisation made last has the same unknowns: held ones, pressures and cavity."""
+        kept = self._answers
+        return kept is not None and bool(
+            np.array_equal(kept.at.cavity, at.cavity) and np.array_equal(kept.fixed, fixed)
+        )
+
+    def _step(
+        self, problem: FilmProblem, setting: Setting, at: Iterate, tolerance: float, imbalance: float
+    ) -> Array:
         """The signed unknowns after one Newton step of the free ones; held ones stay as they are."""
         load = self._linear(problem, setting, at)
         assert self._answers is not None
+        self._answers = replace(self._answers, made=imbalance)
         return signed_after(problem, at, self._answers.solve(load, tolerance), self._answers.scale)
+
+    def _step_kept(
+        self, problem: FilmProblem, setting: Setting, at: Iterate, tolerance: float, imbalance: float
+    ) -> Array:
+        """The same by the linearisation made last, of the same unknowns: the simplified Newton method."""
+        assert self._answers is not None
+        self._answers = kept = self._answers.again_from(imbalance)
+        load = np.where(kept.fixed, 0.0, -with_pockets(setting, at)[0] / kept.unit)
+        return signed_after(problem, at, kept.solve(load, tolerance), kept.scale)
 
     def _linear(self, problem: FilmProblem, setting: Setting, at: Iterate) -> Array:
         """Linearise the balance: afterwards `_answers` solves it. The load of a Newton step, scaled likewise."""
@@ -205,14 +244,26 @@ class _Answers:
     """The linearised balance of a film at an iterate, ready to be solved.
 
     `solve(load or rows of them, tolerance)`, both sides scaled; `scale` turns an unknown of the cavity into a film
-    fraction; `solution`: the film that came of it.
+    fraction; `solution`: the film that came of it; `made`: imbalance of the iterate; `aged`: how far from balance
+    what they serve may be from where they were made.
     """
 
     solve: Solve
     at: Iterate
     fixed: NDArray[np.bool_]
     scale: float
+    made: float = 0.0
     solution: FilmSolution | None = None
+    aged: float = 0.0
+
+    def again_from(self, imbalance: float) -> _Answers:
+        """The same for an iterate of such an imbalance, maybe of another problem."""
+        return replace(self, solution=None, aged=max(self.made, self.aged, imbalance))
+
+    @property
+    def unit(self) -> float:
+        """Over which `newton` scales the balance, m3/(s Pa)."""
+        return float(self.at.parts.stiffness.max())
 
     def belong_to(self, solution: FilmSolution) -> bool:
         """Whether they are of that film, and of its cavity but for what is full all the same."""
@@ -220,10 +271,9 @@ class _Answers:
 
     def to(self, inflow: Array, tolerance: float) -> tuple[Array, Array]:
         """What inflows (size, m) m3/s change: pressures and film fractions, (size, m) each."""
-        unit = float(self.at.parts.stiffness.max())  # over which `newton` scales the balance
-        if unit == 0.0:
+        if self.unit == 0.0:
             raise FilmInputError("response", "a film that is all pocket", "one in which pressure drives a flow")
-        load = np.where(self.fixed[:, None], 0.0, inflow / unit)
+        load = np.where(self.fixed[:, None], 0.0, inflow / self.unit)
         change = self.solve(np.ascontiguousarray(load.T), tolerance).T
         cavity = self.at.cavity[:, None]
         return np.where(cavity, 0.0, change), np.where(cavity, self.scale * change, 0.0)
