@@ -17,6 +17,7 @@ from reynolds.bodies.wall import Body
 from reynolds.errors import FilmInputError
 from swashfilm.case_table import Table
 from swashfilm.mesh_case import CaseMesh
+from system.parts_description import MeshUnit
 from system.units import Dimension
 
 UPWARDS = Plane((0.0, 0.0, 1.0))
@@ -108,8 +109,11 @@ def file_body(entry: Table, elastic: Elastic | None, folder: Path) -> Body | Non
     raw, face, clamped = entry.get("mesh"), entry.get("face"), entry.get("clamped") or []
     radius = entry.positive("radius", Dimension.LENGTH) if entry.get("radius") is not None else None
     around = entry.choice("side", Around, Around.BORE)
+    unit = entry.choice("unit", MeshUnit, MeshUnit.METRE)
+    if unit is None:
+        return None
     try:
-        mesh = body_from_file(folder / str(raw))
+        mesh = body_from_file(folder / str(raw), unit.metres)
     except FilmInputError as reason:
         entry.fault("mesh", reason.found, reason.expected)
         return None

@@ -8,6 +8,8 @@ import meshio
 import numpy as np
 import pytest
 
+from swashfilm.film_case import load_case
+from swashfilm.film_study import film_summary, solve_case
 from system.faults import Fault, InputFaults
 from system.floating_parts import floating_parts
 from system.pump_file import check_pump, load_pump, resolved_toml
@@ -125,3 +127,33 @@ def test_block_and_plate_are_closed_rings(tmp_path):
     fault = faults_of(OWN | {"film": "pocket"}, "valve_plate")["film"]
     assert "no face under them" in fault.found
     assert "kidneys and ports filled" in fault.expected
+
+
+FREE = """
+format = 1
+[film]
+mesh = { kind = "annulus", inner_radius = "8.2 mm", outer_radius = "14 mm", cells = [2, 12] }
+thickness = "10 um"
+viscosity = "0.03 Pa s"
+[boundary]
+inner = { pressure = "10 MPa" }
+outer = { pressure = "0 MPa" }
+[elastic.fixed]
+mesh = "MESH"
+unit = "mm"
+face = "film"
+clamped = ["held"]
+youngs_modulus = "110 GPa"
+poissons_ratio = 0.34
+"""
+
+
+def test_a_free_film_on_a_mesh_in_its_unit(tmp_path):
+    """The same example under a film that is no gap of a pump; in metres it does not lie under it."""
+    file = tmp_path / "own.toml"
+    file.write_text(FREE.replace("MESH", str(EXAMPLE)), "utf-8")
+    summary = film_summary(solve_case(load_case(file)))
+    assert 0.1e-6 < summary["deformation_max_m"] < 10e-6
+    file.write_text(file.read_text("utf-8").replace('unit = "mm"\n', ""), "utf-8")
+    with pytest.raises(InputFaults, match="no face under them"):
+        load_case(file)
