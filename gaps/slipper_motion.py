@@ -78,7 +78,8 @@ class SlipperDrive:
 
     shaft_speed rad/s; viscosity Pa s, density kg/m3, pressures Pa; spin rad/s about the plate's normal. Over the
     shaft angle: chamber_pressure Pa; sliding (2,) m/s over the plate along x and y; outer (3,) N, the generalised
-    forces of all but film, pocket and retainer (`face_force`).
+    forces of all but film, pocket and retainer (`face_force`). inertia (3, 3) kg: generalised masses of what moves
+    with it (`face_inertia`), None: none.
     """
 
     shaft_speed: float
@@ -91,11 +92,23 @@ class SlipperDrive:
     sliding: OverTurn
     outer: OverTurn
     retainer: Retainer | None = None
+    inertia: Array | None = None
 
 
 def face_force(outer_radius: float, lift: float, pressed: Array) -> Array:
     """Generalised forces (3,) N that ask a film for a lift (N) and for int p (x, y) dA = pressed (2,) N m."""
     return -np.array([lift, pressed[0] / outer_radius, pressed[1] / outer_radius])
+
+
+def face_inertia(outer_radius: float, lifted: float, mass: float, centre_of_mass: float, tilt: float) -> Array:
+    """Generalised masses (3, 3) kg of a slipper that moves with its piston along a bore tilted by `tilt` (rad).
+
+    Both, `lifted` kg, move by h/cos(tilt) as the film grows by h. A slipper of `mass` kg tilts about the ball, its
+    centre of mass l (m) from there: m (l^2 + r2^2/4), as a disc of its rim. Small beside a film's damping, but all
+    there is where none is left: in the flight of a slipper that its retainer has to catch.
+    """
+    turned = mass * (centre_of_mass**2 + 0.25 * outer_radius**2) / outer_radius**2
+    return np.diag([lifted / np.cos(tilt) ** 2, turned, turned])
 
 
 def pressed_by(
@@ -309,7 +322,7 @@ class SlipperFilm:
 
 
 def floating_slipper(film: SlipperFilm) -> Floating:
-    """A slipper as `reynolds.floating` takes it: coordinates (h, rise x, rise y) m, massless across the film.
+    """A slipper as `reynolds.floating` takes it: coordinates (h, rise x, rise y) m.
 
     Validity: film thin beside the land's width; forces above case pressure.
     """
@@ -320,4 +333,5 @@ def floating_slipper(film: SlipperFilm) -> Floating:
         film.outer_at,
         reference=film.drive.case_pressure,
         pockets=film.pockets,
+        inertia=film.drive.inertia,
     )

@@ -22,7 +22,7 @@ from scipy.sparse import csr_array
 
 from reynolds import kernels, opening_kernels
 from reynolds.array_kernels import all_equal
-from reynolds.film import Cavitation, FilmProblem, Held
+from reynolds.film import Cavitation, FilmProblem, Held, contents
 from reynolds.fluid import CONSTANT
 from reynolds.mesh import Array
 from reynolds.opening_pattern import Openings
@@ -95,8 +95,8 @@ class Operators:
 
     @cached_property
     def content(self) -> Array:
-        """Integral of the content, (size,) m3."""
-        return self.problem.space.lumped(self.transport.content)
+        """Integral of the content, pockets' volumes in it, (size,) m3."""
+        return contents(self.problem, self.transport.content)
 
     @cached_property
     def rate(self) -> Array:

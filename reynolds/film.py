@@ -54,10 +54,12 @@ class Pocket:
     """Boundary of uniform unknown pressure, fed from outside.
 
     `feed(p)` gives the inflow (m3/s) into the film at pocket pressure p (Pa) and its derivative dq/dp <= 0.
-    A groove without supply is fed by `no_feed`. The boundary must be a pocket of the space.
+    A groove without supply is fed by `no_feed`. `volume` (m3) is what a film with storage holds there, which like
+    the film is filled in part at cavitation pressure. The boundary must be a pocket of the space.
     """
 
     feed: Callable[[float], tuple[float, float]]
+    volume: float = 0.0
 
 
 def no_feed(pressure: float) -> tuple[float, float]:
@@ -221,7 +223,7 @@ class FilmProblem:
         ):  # fmt: skip
             if values is not None and np.shape(values) != (size,):
                 raise FilmInputError(name, f"an array of shape {np.shape(values)}", f"({size},)")
-        if held is not None and not held.min() >= LEAST_FRACTION * held.max():
+        if held is not None and not holds_oil(self, held):
             raise FilmInputError("storage", f"{held.min():.3g} m3 of oil at an unknown", "none, or more than none")
 
 
@@ -256,7 +258,7 @@ class FilmSolution:
     def holds(self) -> Array:
         """Oil of each unknown, (size,) m3 at reference density."""
         ratio = self.problem.fluid.density(self.pressure)[0]
-        return self.problem.space.lumped(self.content) * self.film_fraction * ratio
+        return contents(self.problem, self.content) * self.film_fraction * ratio
 
     @property
     def gap(self) -> Array:
@@ -276,3 +278,21 @@ class FilmSolution:
     def iterations(self) -> int:
         """Steps that the solver took."""
         return len(self.path)
+
+
+def contents(problem: FilmProblem, content: Array) -> Array:
+    """What each unknown of a full film holds, (size,) m3 at reference density: the film's content (m), pockets."""
+    held = problem.space.lumped(content)
+    for name, condition in problem.boundary.items():
+        if isinstance(condition, Pocket) and condition.volume:
+            held[problem.space.edge_dofs[name]] += condition.volume
+    return held
+
+
+def holds_oil(problem: FilmProblem, held: Array) -> bool:
+    """Whether no unknown holds (size,) m3 less than no oil, but for what cells with obtuse angles overshoot."""
+    film = np.ones(problem.space.size, dtype=bool)
+    for name, condition in problem.boundary.items():
+        if isinstance(condition, Pocket) and name in problem.space.edge_dofs:
+            film[problem.space.edge_dofs[name]] = False
+    return bool(held.min() >= LEAST_FRACTION * held[film].max(initial=0.0))

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
 
-from reynolds.errors import FilmInputError, FilmNotConverged
-from reynolds.film import LEAST_FRACTION, Boundary, Cavitation, FilmProblem, FilmSolution, Pocket, Storage
+from reynolds.errors import FilmNotConverged
+from reynolds.film import Cavitation, FilmProblem, FilmSolution, Storage, holds_oil
 from reynolds.floating import Floating, Outer
+from reynolds.floating_pockets import filled, pockets_grown
 from reynolds.floating_posed import THINNEST, Posed, given_way, lowest_gap, posed
 from reynolds.generalised import (
     ContactForce,
@@ -116,21 +116,8 @@ class Instant:
     def _problem(self, q: Array, at: Posed) -> FilmProblem:
         """The film at a position, an implicit step after what was held."""
         storage = Storage(self.before.oil, self.step)
-        return replace(
-            self.shape, film=at.film, asperities=at.asperities, boundary=self._with_volumes(q), storage=storage
-        )
-
-    def _with_volumes(self, q: Array) -> dict[str, Boundary]:
-        """The boundaries, pockets fed with what their growing volume takes."""
-        boundary = dict(self.shape.boundary)
-        for name, area in self.floating.pockets.items():
-            condition = boundary.get(name)
-            if not isinstance(condition, Pocket):
-                found = f"{type(condition).__name__} at boundary {name}"
-                raise FilmInputError(f"{self.floating.name}, pockets", found, "a Pocket")
-            taken = float(area @ (q - self.before.position)) / self.step
-            boundary[name] = Pocket(_less(condition.feed, taken))
-        return boundary
+        boundary = filled(self.floating, self.shape, q)
+        return replace(self.shape, film=at.film, asperities=at.asperities, boundary=boundary, storage=storage)
 
     def _balanced(self, q: Array, at: Posed, solution: FilmSolution) -> Trial:
         reference, contact = self.floating.reference, self._contact(at, solution)
@@ -226,7 +213,7 @@ class Instant:
     def by_position(self, at: Trial, tolerance: float) -> Response:
         """How the film at a position answers to it, on the film's last factor, to a tolerance of linear solves."""
         parts = self.solver.operators(at.solution)
-        load = thickness_load(at.solution, at.thicker, parts) + self.modes.pockets / self.step
+        load = thickness_load(at.solution, at.thicker, parts) + pockets_grown(at.solution, self.modes) / self.step
         return response(self.solver, at.solution, -load, tolerance)
 
     def slopes(self, at: Trial, film: Response) -> Array:
@@ -245,16 +232,16 @@ class Instant:
     def oil_moved(self, at: Trial, own: Response, moved: Array) -> Array:
         """Change of what the unknowns hold, (size, m) m3, with the position (k, m) m alone."""
         both = Response(own.pressure @ moved, own.film_fraction @ moved)
-        return oil_slopes(at.solution, at.thicker @ moved, both, self.solver.operators(at.solution))
+        return self._oil_by(at, both, moved)
+
+    def _oil_by(self, at: Trial, both: Response, moved: Array) -> Array:
+        """Change of what the unknowns hold, pockets' oil in it, with film and position (k, m) m."""
+        oil = oil_slopes(at.solution, at.thicker @ moved, both, self.solver.operators(at.solution))
+        return np.asarray(oil + pockets_grown(at.solution, self.modes) @ moved)
 
     def by_before(self, at: Trial, changed: Kept) -> tuple[Response, Array]:
         """Change of the film and of `missing` (k, m) with what was held before, the position as it is."""
-        film = response(
-            self.solver,
-            at.solution,
-            (changed.oil + self.modes.pockets @ changed.position) / self.step,
-            self.exactness,
-        )
+        film = response(self.solver, at.solution, changed.oil / self.step, self.exactness)
         missing = self.modes.weights.T @ film.pressure - at.outer.by_rate @ changed.position / self.step
         if at.contact is not None:
             missing += at.contact.by_pressure(film.pressure)
@@ -270,8 +257,7 @@ class Instant:
         film, missing = self.by_before(at, changed)
         q = -solved(slopes, missing, self.floating.name)
         both = Response(film.pressure + own.pressure @ q, film.film_fraction + own.film_fraction @ q)
-        oil = oil_slopes(at.solution, at.thicker @ q, both, self.solver.operators(at.solution))
-        return Kept(oil, q, (q - changed.position) / self.step)
+        return Kept(self._oil_by(at, both, q), q, (q - changed.position) / self.step)
 
 
 def instant_of(solver: FilmSolver, floating: Floating, time: float, step: float, held: Array) -> Instant:
@@ -279,7 +265,7 @@ def instant_of(solver: FilmSolver, floating: Floating, time: float, step: float,
     shape = floating.shape_at(time)
     modes = modes_on(shape.space, floating.modes_at(time), floating.pockets)
     before = parted(floating, held, shape.space.size)
-    if not before.oil.min() >= LEAST_FRACTION * before.oil.max():
+    if not holds_oil(shape, before.oil):
         raise FilmNotConverged(
             f"{floating.name}: {before.oil.min():.3g} m3 of oil left in a cavity between two stages",
             "a shorter step, or implicit Euler",
@@ -293,11 +279,3 @@ def solved(slopes: Array, load: Array, name: str) -> Array:
         return np.asarray(np.linalg.solve(slopes, load))
     except np.linalg.LinAlgError:
         raise FilmNotConverged(f"{name}: no force resists some motion of the walls", "a shorter step") from None
-
-
-def _less(feed: Callable[[float], tuple[float, float]], taken: float) -> Callable[[float], tuple[float, float]]:
-    def less(pressure: float) -> tuple[float, float]:
-        inflow, slope = feed(pressure)
-        return inflow - taken, slope
-
-    return less

@@ -16,6 +16,7 @@ from reynolds.floating_instant import (
     Instant,
     Kept,
     Trial,
+    filled,
     instant_of,
     joined,
     parted,
@@ -233,14 +234,8 @@ def standing(floating: Floating, time: float, q: Array, rate: Array | None = Non
     at = posed(shape, modes_on(shape.space, floating.modes_at(time), floating.pockets), q)
     if shape.walls is None and not at.least > lowest_gap(shape):
         raise FilmInputError(f"{floating.name} at {time:.6g} s", f"a least gap of {at.least:.3g} m", "walls apart")
-    return joined(
-        floating,
-        Kept(
-            oil_held(replace(shape, film=at.film, asperities=at.asperities)),
-            q,
-            np.zeros(len(q)) if rate is None else rate,
-        ),
-    )
+    full = replace(shape, film=at.film, asperities=at.asperities, boundary=filled(floating, shape, q))
+    return joined(floating, Kept(oil_held(full), q, np.zeros(len(q)) if rate is None else rate))
 
 
 class _Search:

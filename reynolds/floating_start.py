@@ -11,6 +11,7 @@ from scipy.spatial import cKDTree
 from reynolds.dirk import State, Tangent
 from reynolds.errors import FilmInputError
 from reynolds.floating import Floating
+from reynolds.floating_pockets import pockets_grown
 from reynolds.floating_stage import Stage, solve_stage, standing
 from reynolds.mesh import Array
 from reynolds.sensitivity import Response, oil_slopes
@@ -64,6 +65,7 @@ def restarted(floating: Floating, time: float, last: State[Stage], q: Array) -> 
     nothing = np.zeros((stage.instant.shape.space.size, k))
     film, parts = stage.trial.solution, stage.instant.solver.operators(stage.trial.solution)
     oil = oil_slopes(film, stage.trial.thicker, Response(nothing, nothing), parts)
+    oil = oil + pockets_grown(film, stage.instant.modes)
     beside = np.zeros((len(last.held) - len(oil), k))  # position, and rates where walls have inertia
     beside[:k] = np.eye(k)
     seats = seats_of(floating.shape_at(time).space, stage.instant.shape.space)

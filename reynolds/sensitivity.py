@@ -99,7 +99,7 @@ def oil_slopes(solution: FilmSolution, thicker: Array, changed: Response, parts:
         thicker = thicker + space.reference.geometry_value @ opened[space.cells]
     wider = np.ascontiguousarray(terms.content_slope[:, :, None] * thicker)
     generalised_kernels.weigh(space.dofs, space.reference.value, space.area, wider, *space.reference.loops, grown)
-    content, fraction = space.lumped(solution.content)[:, None], solution.film_fraction[:, None]
+    content, fraction = parts.content[:, None], solution.film_fraction[:, None]
     ratio, ratio_slope = ratio[:, None], ratio_slope[:, None]
     return np.asarray(
         fraction * ratio * grown

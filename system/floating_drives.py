@@ -16,7 +16,7 @@ from gaps.ball_joint import BallForces, DrivenBody, ball_forces, ball_friction, 
 from gaps.block_motion import BlockDrive, wrench_about
 from gaps.course import Course, OverTurn
 from gaps.piston_motion import PistonDrive, PistonShape, lateral_force, lateral_moment
-from gaps.slipper_motion import Orifice, Retainer, SlipperDrive, SlipperShape, face_force, pressed_by
+from gaps.slipper_motion import Orifice, Retainer, SlipperDrive, SlipperShape, face_force, face_inertia, pressed_by
 from system.chamber_kernel import CAVITY_PRESSURE
 from system.directions import bore_axis, bore_sides, plate_axes
 from system.floating_parts import FloatingParts
@@ -182,13 +182,13 @@ def _piston_drive(
 def _slipper_drive(
     rotor: Rotor, parts: FloatingParts, angles: Array, chamber: OverTurn, group: tuple[GroupInstant, ...]
 ) -> SlipperDrive:
-    point, outer_radius = rotor.point, slipper_shape(rotor, parts).outer_radius
+    pump, point, outer_radius = rotor.pump, rotor.point, slipper_shape(rotor, parts).outer_radius
     outer = np.array([face_force(outer_radius, at.forces.lift + at.held, at.pressed) for at in group])
     clearance = parts.slipper.retainer.kind is RetainerKind.CLEARANCE
     return SlipperDrive(
         shaft_speed=point.shaft_speed,
         viscosity=point.viscosity,
-        density=rotor.pump.oil.density,
+        density=pump.oil.density,
         case_pressure=point.case_pressure,
         cavitation_pressure=CAVITY_PRESSURE,
         spin=rotor.spins.slipper,
@@ -198,6 +198,13 @@ def _slipper_drive(
         retainer=Retainer(parts.slipper.retainer.clearance, parts.slipper.retainer.stiffness)
         if clearance
         else None,
+        inertia=face_inertia(
+            outer_radius,
+            pump.piston.mass + pump.slipper.mass,
+            pump.slipper.mass,
+            pump.slipper.centre_of_mass_to_ball,
+            rotor.drive.swash_angle,
+        ),
     )
 
 

@@ -225,6 +225,7 @@ def test_hydrostatic_slipper(validation, refine):
         rest = _lifted(n, 1e6)
         before = np.zeros((len(rest.holds), 1))
         before[:-1, 0], before[-1, 0] = rest.solution.problem.space.share, 1.0  # a full film lifted by one metre
+        before[rest.solution.problem.space.edge_dofs["inner"], 0] += np.pi * INNER**2
         step = 1.0 / _hydrostatic_rate(_hydrostatic_film())
         left = float(_lifted(n, step).carried(before)[0][0, 0])  # 1/(1 + rate step) of a disturbance
         return float(rest.q[0]), (1.0 / left - 1.0) / step
