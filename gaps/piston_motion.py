@@ -8,7 +8,8 @@ depth inside the case edge, s = guide_length - y,
 
     h = c + bore(s) + piston(depth from its end) - e(s) . (cos, sin),   e(s) = e1 + (e0 - e1) s/guide_length.
 
-The mesh spans what is engaged and stretches as the piston moves; wall velocities are relative to it.
+The mesh spans what is engaged and stretches as the piston moves; wall velocities are relative to it. Between walls
+that give way its rows are closer at both edges.
 """
 
 from __future__ import annotations
@@ -34,6 +35,8 @@ from reynolds.loads import evaluate
 from reynolds.mesh import Array, Cell, rectangle, rename
 from reynolds.overlap import vertex_thickness
 from reynolds.space import FilmSpace, film_space
+
+EDGES = 0.8  # of a row's length between soft walls is taken off at the edges, and put on in the middle
 
 
 @dataclass(frozen=True)
@@ -135,6 +138,8 @@ class PistonFilm:
         mesh = rectangle((np.pi * shape.diameter, 1.0), cells, cell=Cell.QUADRILATERAL, periodic_x=True)
         # Of length one; what is engaged stretches its places and keeps their angles.
         self._unit = film_space(rename(mesh, {"bottom": "chamber", "top": "case"}))
+        if self._laws.walls is not None:
+            self._unit = self._unit.moved(_towards_edges(self._unit.vertices))
         self._space = self._unit
         self._points, self._vertices = self._unit.points, self._unit.vertices.T
         angle = 2.0 * self._vertices[0] / shape.diameter
@@ -314,6 +319,12 @@ class PistonFilm:
         """What is taken off the bore at places of the unit mesh; it turns with the block."""
         angle, depth = 2.0 * around / self.shape.diameter, self._engaged(time) * (1.0 - along)
         return self.shape.bore(depth, angle - self.drive.bore_spin * time)
+
+
+def _towards_edges(vertices: Array) -> Array:
+    """Places of the unit mesh (vertices, 2), its rows drawn to both edges: there a run-in edge's wedge carries."""
+    around, along = vertices.T
+    return np.column_stack([around, along - EDGES / (2.0 * np.pi) * np.sin(2.0 * np.pi * along)])
 
 
 def widened(space: FilmSpace, film: Film, opened: Array) -> Film:
