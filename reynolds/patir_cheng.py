@@ -45,6 +45,7 @@ class Row:
 
     @property
     def lowest(self) -> float:
+        """Least h/sigma that the row is published for."""
         return 1.0 if self.peklenik < 1.0 else 0.5
 
     @property

@@ -36,18 +36,6 @@ class Response:
     film_fraction: Array
 
 
-def thickness_slopes(
-    solver: FilmSolver, solution: FilmSolution, thicker: Array, tolerance: float = ITERATIVE_TOLERANCE
-) -> Response:
-    """dp/dq_j and dtheta/dq_j of a film whose thickness grows by `thicker` (cells, points, k) per unit of q_j.
-
-    Exact for the set of cavitated unknowns of the solution, all other things (boundaries, what was held before,
-    wall speeds) as they are, to a tolerance of the linear solves. `solver` is the one that gave the solution: its
-    factor is used again.
-    """
-    return response(solver, solution, -thickness_load(solution, thicker, solver.operators(solution)), tolerance)
-
-
 def response(
     solver: FilmSolver, solution: FilmSolution, inflow: Array, tolerance: float = ITERATIVE_TOLERANCE
 ) -> Response:

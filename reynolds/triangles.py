@@ -29,6 +29,7 @@ class BothTriangles:
         return np.asarray(np.take(np.concatenate([upper, lower]), self.source))
 
     def matrix(self, entries: Array) -> csc_array:
+        """The matrix of such entries, by columns."""
         size = len(self.diagonal)
         return csc_array((entries, self.indices, self.indptr), shape=(size, size))
 

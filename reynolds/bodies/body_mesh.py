@@ -32,6 +32,7 @@ class BodyMesh:
 
     @property
     def face_names(self) -> tuple[str, ...]:
+        """Names of the mesh's faces, in order."""
         return tuple(sorted(self.mesh.boundaries or {}))
 
 

@@ -85,6 +85,7 @@ class BodySpace:
 
     @property
     def dim(self) -> int:
+        """Coordinates of a place: 3, or 2 of an axisymmetric body."""
         return self.places.shape[1]
 
     @property

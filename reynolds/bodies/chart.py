@@ -51,9 +51,11 @@ class Plane:
             raise FilmInputError("film plane", found, "three unit vectors at right angles")
 
     def places(self, film_points: Array) -> Array:
+        """As `Chart.places`."""
         return np.asarray(self.origin) + film_points @ np.array([self.along_x, self.along_y])
 
     def normals(self, body_points: Array) -> Array:
+        """As `Chart.normals`."""
         return np.broadcast_to(np.asarray(self.outward), (len(body_points), 3))
 
 
@@ -67,12 +69,14 @@ class Cylinder:
     base: float = 0.0
 
     def places(self, film_points: Array) -> Array:
+        """As `Chart.places`."""
         angle = self.zero_angle + film_points[:, 0] / self.radius
         return np.column_stack(
             [self.radius * np.cos(angle), self.radius * np.sin(angle), self.base + film_points[:, 1]]
         )
 
     def normals(self, body_points: Array) -> Array:
+        """As `Chart.normals`."""
         flat = body_points * np.array([1.0, 1.0, 0.0])
         return self.side.value * flat / np.linalg.norm(flat, axis=1)[:, None]
 
@@ -88,9 +92,11 @@ class OnSphere:
     over: bool = False
 
     def places(self, film_points: Array) -> Array:
+        """As `Chart.places`."""
         return self.sphere.in_space(film_points)
 
     def normals(self, body_points: Array) -> Array:
+        """As `Chart.normals`."""
         side = -1.0 if self.over else 1.0
         if self.sphere.is_plane:
             return np.broadcast_to(np.array([0.0, 0.0, side]), (len(body_points), 3))
