@@ -41,7 +41,11 @@ def posed(shape: FilmProblem, modes: Modes, q: Array) -> Posed:
     between, at_corners, least = film_between(shape, gap), None, float(gap.min())
     if corners is not None:
         corners = corners + modes.at_vertices @ q
-        least, at_corners = min(least, float(corners.min())), film_between(shape, corners).value
+        at_corners = film_between(shape, corners).value
+        if shape.asperities is not None and shape.surface is not None:
+            corners = None  # summits bear at the points, and a film is between them at any gap of the corners
+        else:
+            least = min(least, float(corners.min()))
     film = replace(shape.film, thickness=between.value, thickness_at_vertices=at_corners)
     thicker = np.ascontiguousarray(between.slope[:, :, None] * modes.at_points)
     return Posed(film, None, gap, corners, least, thicker)
