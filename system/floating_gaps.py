@@ -131,7 +131,7 @@ def _pulled_off(drive: SlipperDrive, steps: int, stopped: FilmNotConverged) -> F
         return stopped
     pulled = f"at {degrees[worst]:.0f} deg the slipper is pulled off its plate with {-lift[worst]:.4g} N"
     remedy = "a stiffer spring (ball_guide.spring_preload), or retainer.kind = 'clearance'"
-    return FilmNotConverged(f"{stopped.what}; {pulled}", remedy)
+    return FilmNotConverged(f"{stopped.what}; {pulled}", f"{remedy}; {stopped.remedy}")
 
 
 def block_revolution(
