@@ -13,6 +13,7 @@ import pstats
 import time
 from collections import Counter
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -23,13 +24,15 @@ from gaps.block_motion import BlockFilm, floating_block
 from gaps.physics import Physics
 from gaps.piston_motion import PistonFilm, floating_piston
 from gaps.revolution import GapRevolution, run_revolution
-from gaps.schedule import Accuracy, evenly
+from gaps.schedule import evenly
+from gaps.seen import GapSeen, block_seen, piston_seen, slipper_seen
 from gaps.slipper_motion import SlipperFilm, floating_slipper
 from reynolds.floating import Floating
-from reynolds.loads import Loads, loads
+from reynolds.floating_stage import Stage
 from reynolds.mesh import Array
 from reynolds.solve import FilmSolver
 from system.floating_drives import drives, no_rubbing, piston_shape, slipper_shape
+from system.floating_gaps import MARCHED
 from system.floating_parts import floating_parts
 from system.instants import rotor, valve_plate_geometry
 from system.lumped import lumped_point
@@ -50,8 +53,11 @@ PARTS = {
 }
 
 
-def floating_gap(gap: str, cells: tuple[int, int]) -> tuple[Floating, Array, float]:
-    """A gap of the pump, where its search starts (k,) m, and the shaft's speed rad/s."""
+Look = Callable[[Stage], GapSeen]
+
+
+def floating_gap(gap: str, cells: tuple[int, int]) -> tuple[Floating, Look, Array, float]:
+    """A gap of the pump, what is told of it, where its search starts (k,) m, and the shaft's speed rad/s."""
     pump = load_pump(PUMP, {"operating.pressure": PRESSURE})
     point = operating_point(pump)
     parts, shaft = floating_parts(pump), rotor(pump, point)
@@ -60,30 +66,30 @@ def floating_gap(gap: str, cells: tuple[int, int]) -> tuple[Floating, Array, flo
     physics = Physics(elastic_walls=False, pressure_viscosity=False)
     if gap == "slipper":
         slipper = SlipperFilm(slipper_shape(shaft, parts), drive.slipper, parts.slipper.laws, physics, cells=cells)
-        return floating_slipper(slipper), np.array([10e-6, 0.0, 0.0]), point.shaft_speed
+        return floating_slipper(slipper), slipper_seen(slipper), np.array([10e-6, 0.0, 0.0]), point.shaft_speed
     if gap == "piston":
         piston = PistonFilm(piston_shape(shaft, parts), drive.piston, parts.piston.laws, physics, cells=cells)
-        return floating_piston(piston), np.zeros(4), point.shaft_speed
+        return floating_piston(piston), piston_seen(piston), np.zeros(4), point.shaft_speed
     plate = parts.block
     block = BlockFilm(valve_plate_geometry(pump), drive.block, plate.plate, plate.laws, physics, cells=cells)
-    return floating_block(block), np.array([8e-6, 0.0, 0.0]), point.shaft_speed
+    return floating_block(block), block_seen(block), np.array([8e-6, 0.0, 0.0]), point.shaft_speed
 
 
-def turned(gap: str, cells: tuple[int, int], angles: int, step: float) -> Callable[[], GapRevolution[Loads]]:
+def turned(gap: str, cells: tuple[int, int], angles: int, step: float) -> Callable[[], GapRevolution[GapSeen]]:
     """The search of the gap's periodic turn, ready to run."""
-    floating, start, speed = floating_gap(gap, cells)
+    floating, look, start, speed = floating_gap(gap, cells)
     solver = FilmSolver(floating.shape_at(0.0).space)
     return lambda: run_revolution(
         solver,
         floating,
         evenly(speed, angles // REPEATS[gap], 2.0 * np.pi / REPEATS[gap]),
         start,
-        lambda stage: loads(stage.solution),
-        accuracy=Accuracy(step=step),
+        look,
+        accuracy=replace(MARCHED, step=step),
     )
 
 
-def timed(work: Callable[[], GapRevolution[Loads]]) -> tuple[GapRevolution[Loads], float]:
+def timed(work: Callable[[], GapRevolution[GapSeen]]) -> tuple[GapRevolution[GapSeen], float]:
     """The result and the process time it took, s."""
     began = time.process_time()
     found = work()
@@ -110,7 +116,7 @@ def part_of(place: str) -> str | None:
     return next((part for part, marks in PARTS.items() if any(mark in place for mark in marks)), None)
 
 
-def row_of(gap: str, cells: tuple[int, int], found: GapRevolution[Loads], seconds: float) -> list[str]:
+def row_of(gap: str, cells: tuple[int, int], found: GapRevolution[GapSeen], seconds: float) -> list[str]:
     """One line of the table of costs."""
     unknowns = len(found.turn.last.held)
     steps, turns = len(found.turn.times), found.closing.turns
@@ -119,8 +125,8 @@ def row_of(gap: str, cells: tuple[int, int], found: GapRevolution[Loads], second
     return [gap, f"{cells[0]} x {cells[1]}", *map(str, numbers), f"{each:.2f}", f"{seconds:.1f}"]
 
 
-def save(found: GapRevolution[Loads], file: Path) -> None:
-    """Angles rad, positions m, forces N, leakage m3/s, least film m and pressure Pa of the periodic turn."""
+def save(found: GapRevolution[GapSeen], file: Path) -> None:
+    """The periodic turn: angles rad, positions m, forces N, least film m, pressure Pa, leakage m3/s, heat W."""
     instants = found.turn.instants
     np.savez(
         file,
@@ -130,8 +136,8 @@ def save(found: GapRevolution[Loads], file: Path) -> None:
         contact_force=np.array([at.contact_force for at in instants]),
         least_film=np.array([at.film_thickness_min for at in instants]),
         pressure_max=np.array([at.pressure_max for at in instants]),
-        flow=np.array([list(at.seen.flow.values()) for at in instants]),
-        dissipation=np.array([at.seen.dissipation for at in instants]),
+        leakage=np.array([at.seen.leakage for at in instants]),
+        heat=np.array([at.seen.heat.total for at in instants]),
     )
 
 
