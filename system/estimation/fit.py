@@ -22,21 +22,26 @@ from system.estimation.trust import Bounds, Quadratic, bounded_step
 from system.estimation.whitening import Whitening, whitener
 
 HARDER, EASIER = 4.0, 1.0 / 3.0  # the damping after a trial that failed, that kept its promise
-LEAST_DAMPING, FIRST_DAMPING, MOST_DAMPING = 1e-6, 1e-2, 1e8
+LEAST_DAMPING, FIRST_DAMPING, MOST_DAMPING = 1e-6, 1e-2, 1e6
+LOCAL = 1e2  # damping from which a trial that fails tells of the slopes here, not of the curve on the way
 GOOD = 0.5  # share of the promised fall: below it the slopes are asked for anew
 NEAR = 0.02  # in xi: slopes taken no farther away tell of a peak and of its covariance
 SAME_NOISE = 1e-2  # relative change of the whitening below which it is not renewed
-STALLED = 1.0  # fall promised, by slopes that hold no step, with which a peak is still one: half a nat
 
 
 @dataclass(frozen=True)
 class FitLimits:
-    """When a fit ends: steps at most, change of the objective, largest step in xi, rounds of whitening."""
+    """When a fit ends: steps at most, change of the objective, largest step in xi, rounds of whitening.
+
+    stall: fall of the objective still promised with which a place that no step betters is a peak all the same.
+    Half a nat serves smooth models; models with kinks promise more than they hold.
+    """
 
     steps: int = 50
     change: float = 1e-2
     largest_step: float = 2.0
     whitening_rounds: int = 2
+    stall: float = 1.0
 
 
 LIMITS = FitLimits()
@@ -168,11 +173,11 @@ def _descend(fit: _Fit, place: _Place, whitening: Whitening) -> tuple[_Place, Ar
             walk = fit.renewed(walk, whitening)
         walk = _tried(fit, walk, whitening)
     promised = fit.promised(walk)
-    if promised >= STALLED:
+    if promised >= fit.limits.stall:
         raise NotConverged(
-            f"the fit of {walk.place.xi.size} parameters stopped at an objective of {walk.place.objective:.1f}, a "
-            f"fall of {promised:.2g} still promised (limit {STALLED:g}), after {fit.predictions} predictions. "
-            f"Try another start, or more steps than {fit.limits.steps}"
+            f"the fit of {walk.place.xi.size} parameters stopped at an objective of {walk.place.objective:.1f}, "
+            f"a fall of {promised:.2g} still promised (limit {fit.limits.stall:g}), after {fit.predictions} "
+            f"predictions. Try another start, or more steps than {fit.limits.steps}"
         )
     walk = walk if walk.moved <= NEAR else fit.renewed(walk, whitening)
     return walk.place, walk.slopes
@@ -188,9 +193,11 @@ def _tried(fit: _Fit, walk: _Walk, whitening: Whitening) -> _Walk:
         trial = fit.place(goal, whitening)
     except NotConverged:
         return replace(walk, damping=_damping(walk.damping, 0.0))
-    missed = place.residual - trial.residual - walk.slopes @ step
-    slopes = walk.slopes + np.outer(missed, step) / (step @ step)
     kept = (place.objective - trial.objective) / model.fall(step)
+    slopes = walk.slopes
+    if kept > 0 or walk.damping > LOCAL:
+        missed = place.residual - trial.residual - slopes @ step
+        slopes = slopes + np.outer(missed, step) / (step @ step)
     damping = _damping(walk.damping, kept)
     reached = trial if kept > 0 else place
     here = _Walk(reached, slopes, walk.taken, damping)

@@ -1,0 +1,85 @@
+"""Cascaded tanks: what a model leaves out, named from a real record and shown on another.
+
+recordings/cascaded_tanks by examples/cascaded_tanks: the engine of the pump's diagnosis with another model.
+"""
+
+from __future__ import annotations
+
+import importlib.util
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+from types import ModuleType
+
+import numpy as np
+import pytest
+
+FOLDER = Path(__file__).resolve().parents[2] / "examples" / "cascaded_tanks"
+SOURCE = "recordings/cascaded_tanks, test record; design/diagnosis.md, Cascaded Tanks"
+RIVALS = ("outflow exponent of tank 2", "sensor offset", "leak of tank 2")
+
+
+@pytest.fixture(scope="module")
+def overflow() -> Iterator[ModuleType]:
+    """The example as a module, its neighbour `tanks` on the path while it is loaded."""
+    spec = importlib.util.spec_from_file_location("cascaded_tanks_overflow", FOLDER / "overflow.py")
+    assert spec is not None
+    assert spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    sys.path.insert(0, str(FOLDER))
+    sys.modules[spec.name] = module
+    try:
+        spec.loader.exec_module(module)
+        yield module
+    finally:
+        sys.path.remove(str(FOLDER))
+        del sys.modules[spec.name], sys.modules["tanks"]
+
+
+def test_a_tank_drains(overflow: ModuleType) -> None:
+    """Without inflow Torricelli's law is solved outright: sqrt(x) falls linearly."""
+    tanks = overflow.Tanks(np.zeros(10))
+    values = np.array([1e-9, 0.0, 0.05, 0.05, 0.0, 9.0])
+    time = 4.0 * np.arange(10)
+    assert tanks.predict(values)[:, 0] == pytest.approx((3.0 - 0.025 * time) ** 2, rel=1e-6)
+
+
+def test_slopes_are_those_of_the_predictions(overflow: ModuleType) -> None:
+    """A step twice as far as the differences that make the slopes."""
+    pump = 3.0 + np.sin(np.arange(40.0))
+    tanks = overflow.Tanks(pump)
+    values = np.array([0.05, 0.05, 0.05, 0.04, 5.0, 5.0])
+    slopes = tanks.slopes(values, tuple(parameter.name for parameter in tanks.parameters))
+    for at, size in enumerate(values):
+        step = 1e-5 * size * np.eye(6)[at]
+        secant = (tanks.predict(values + step) - tanks.predict(values - step)) / (2e-5 * size)
+        assert slopes[..., at] == pytest.approx(secant, rel=1e-5, abs=1e-6 * np.abs(secant).max())
+
+
+@pytest.mark.slow
+def test_overflow_is_named(overflow: ModuleType, shared: Path, validation) -> None:
+    """By evidence with the memory of what is left over; sizes and errors by simulating all of the record."""
+    record = overflow.read_record(shared / "recordings" / "cascaded_tanks" / "dataBenchmark.csv")
+    base = overflow.base_fit(record)
+    names = ("overflow of tank 1", overflow.OVERFLOW, *RIVALS)
+    first, second, *others = overflow.additions(record, base, names)
+    assert {first.name, second.name} == {"overflow of tank 1", overflow.OVERFLOW}
+    assert min(first.evidence, second.evidence) > 3.0 + max(other.evidence for other in others)
+    both = first if first.name == overflow.OVERFLOW else second
+    rows = (
+        ("Torricelli's law", 0.67, overflow.errors(record, base)[1]),
+        ("with overflow", 0.52, both.test_error),
+    )
+    for model, expected, obtained in rows:
+        validation(
+            case="Cascaded tanks",
+            source=SOURCE,
+            quantity=f"RMS error on the test record, {model}",
+            unit="V",
+            expected=expected,
+            obtained=obtained,
+            tolerance=0.02,
+        )
+    best, next_best, *_ = overflow.additions(record, both.fit, RIVALS)
+    assert {best.name, next_best.name} == {"outflow exponent of tank 2", "sensor offset"}
+    assert best.test_error < 0.6 * both.test_error
