@@ -15,8 +15,8 @@ from reynolds.bodies.elasticity import Elastic
 from reynolds.bodies.supports import Supports
 from reynolds.bodies.wall import Body
 from reynolds.errors import FilmInputError
-from swashfilm.case_table import Table
 from swashfilm.mesh_case import CaseMesh
+from system.case_table import Table
 from system.parts_description import MeshUnit
 from system.units import Dimension
 

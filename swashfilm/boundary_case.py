@@ -8,10 +8,10 @@ from itertools import combinations
 import numpy as np
 
 from reynolds.film import Cavitation
-from swashfilm.case_table import Table
 from swashfilm.field_reader import FieldReader
 from swashfilm.fields import CellData, InTime, MeshData, PointData, Uniform, read_field
 from swashfilm.film_statement import BoundaryStatement
+from system.case_table import Table
 from system.faults import nearest_choice
 from system.units import Dimension, QuantityError, format_quantity
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from swashfilm.case_table import Table, quoted
+from system.case_table import Table, quoted
 from system.faults import Fault, InputFaults
 from system.instants import Rotor, rotor
 from system.operating import OperatingPoint, operating_point

@@ -194,7 +194,7 @@ def _pump(options: argparse.Namespace) -> PumpDescription:
 
 def _expect(path: str | Path, wanted: str, command: str) -> None:
     """Raise InputFaults for a file of the other kind ("pump" or "film"), with the command that takes it."""
-    from swashfilm.case_table import read_toml
+    from system.case_table import read_toml
 
     if not Path(path).is_file():
         return
@@ -296,7 +296,7 @@ def _film(options: argparse.Namespace) -> int:
 
 
 def _check(options: argparse.Namespace) -> int:
-    from swashfilm.case_table import read_toml
+    from system.case_table import read_toml
     from system.pump_file import builtin_pumps, check_pump, load_pump, resolved_toml
 
     is_pump = options.file in builtin_pumps()

@@ -91,7 +91,7 @@ def run_table_command(options: argparse.Namespace) -> int:
 
 def is_film_case(path: str) -> bool:
     """Whether a file there is a film case and no pump."""
-    from swashfilm.case_table import read_toml
+    from system.case_table import read_toml
 
     return Path(path).is_file() and bool({"film", "gap"} & set(read_toml(Path(path))[1]))
 

@@ -6,8 +6,8 @@ import keyword
 import math
 from collections.abc import Mapping
 
-from swashfilm.case_table import Table
 from swashfilm.expressions import CONSTANTS, FUNCTIONS, IN_TIME
+from system.case_table import Table
 from system.units import Dimension, QuantityError, parse_quantity
 
 _EXAMPLE = "a bare number, or a quantity with its unit, such as '10 um'"

@@ -13,8 +13,8 @@ from reynolds.errors import FilmInputError
 from reynolds.space import FilmSpace
 from reynolds.walls import Walls
 from swashfilm.body_case import BodyKind, built_body, file_body
-from swashfilm.case_table import Table, quoted
 from swashfilm.mesh_case import CaseMesh
+from system.case_table import Table, quoted
 from system.units import Dimension, format_quantity
 
 

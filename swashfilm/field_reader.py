@@ -8,10 +8,10 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from reynolds.space import FilmSpace
-from swashfilm.case_table import Table
 from swashfilm.expressions import PLACE
 from swashfilm.fields import Field, MeshData, may_be_data, read_field
 from swashfilm.mesh_case import CaseMesh
+from system.case_table import Table
 from system.units import Dimension, QuantityError
 
 

@@ -12,7 +12,6 @@ from reynolds.film import Cavitation, FilmProblem
 from reynolds.setting import check_pressures
 from reynolds.space import film_space
 from swashfilm.boundary_case import check_boundaries, read_boundaries
-from swashfilm.case_table import Table, fault_lines, read_toml
 from swashfilm.constants_case import read_constants
 from swashfilm.elastic_case import read_elastic
 from swashfilm.expressions import IN_TIME, PLACE
@@ -29,6 +28,7 @@ from swashfilm.revolution_case import RevolutionCase, read_revolution_case
 from swashfilm.roughness_case import read_roughness
 from swashfilm.thermal_case import check_bodies, read_thermal
 from swashfilm.time_case import initial_film_fraction, read_time
+from system.case_table import Table, fault_lines, read_toml
 from system.faults import InputFaults
 from system.units import Dimension
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from reynolds.floating_posed import THINNEST
 from reynolds.mesh import Array
-from swashfilm.case_table import Table, quoted
+from system.case_table import Table, quoted
 from system.floating_parts import FloatingParts
 from system.given_positions import eccentric
 from system.instants import Rotor, travel

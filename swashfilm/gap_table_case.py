@@ -13,7 +13,6 @@ from gaps.response import Axis
 from gaps.response import Spacing as Scale
 from reynolds.bodies.cache import content_key
 from reynolds.mesh import Array
-from swashfilm.case_table import Table
 from swashfilm.film_case import Case, FilmCase
 from swashfilm.film_series import digest, solved_summary
 from swashfilm.headline import headline_numbers
@@ -29,6 +28,7 @@ from swashfilm.study_case import (
     read_switched,
     stepped,
 )
+from system.case_table import Table
 from system.faults import Fault, InputFaults
 from system.table_points import usual_counts
 from system.units import Dimension, format_quantity

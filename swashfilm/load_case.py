@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from reynolds.carried_load import RigidLoad
-from swashfilm.case_table import Table
+from system.case_table import Table
 from system.units import Dimension, format_quantity
 
 _MOMENTS = ("moment_x", "moment_y")

@@ -10,8 +10,8 @@ from pathlib import Path
 from reynolds.errors import FilmInputError
 from reynolds.mesh import Cell, FilmMesh, annulus, mesh_from_file, rectangle
 from reynolds.mesh_refine import refine_mesh
-from swashfilm.case_table import Table, quoted
 from swashfilm.fields import MeshData, mesh_data
+from system.case_table import Table, quoted
 from system.units import Dimension, format_quantity
 
 MOST_CELLS = 10_000_000  # some 10 GB of memory

@@ -15,7 +15,7 @@ from reynolds.oil import ISO_GRADES, Oil, dynamic_viscosity, walther
 from reynolds.rheology import Carreau, Cross, Eyring
 from reynolds.shear import ShearLaw
 from reynolds.viscosity import Barus, Roelands
-from swashfilm.case_table import Table
+from system.case_table import Table
 from system.faults import nearest_choice
 from system.units import Dimension, format_quantity
 

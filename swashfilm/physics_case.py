@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from enum import Enum
 
 from gaps.physics import Effect, Physics
-from swashfilm.case_table import Table
+from system.case_table import Table
 
 
 class Walls(Enum):

@@ -8,10 +8,10 @@ from typing import Protocol
 
 from gaps.schedule import Accuracy
 from swashfilm.case_pump import CasePump, operating_rows, own_rows, read_case_pump
-from swashfilm.case_table import Table, quoted
 from swashfilm.gap_case import FORMAT
 from swashfilm.physics_case import physics_rows, read_physics
 from swashfilm.revolution_pressure import ChamberPressure, read_chamber_pressure
+from system.case_table import Table, quoted
 from system.floating_gaps import MARCHED, FloatingOptions
 from system.instants import Rotor
 from system.pump_gap import Gap

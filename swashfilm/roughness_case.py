@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from reynolds.contact import Asperities, composite_modulus
 from reynolds.errors import FilmInputError
 from reynolds.roughness import Surface
-from swashfilm.case_table import Table
+from system.case_table import Table
 from system.units import Dimension, format_quantity
 
 

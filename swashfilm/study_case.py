@@ -13,9 +13,9 @@ from typing import Any
 
 import numpy as np
 
-from swashfilm.case_table import Table, fault_lines, quoted, read_toml
 from swashfilm.film_case import Case, read_case
 from swashfilm.physics_switches import switch_of
+from system.case_table import Table, fault_lines, quoted, read_toml
 from system.faults import Fault, InputFaults, nearest_choice
 from system.units import Dimension, QuantityError, format_quantity, parse_quantity
 

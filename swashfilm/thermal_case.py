@@ -9,10 +9,10 @@ from reynolds.across import DEFAULT_LEVELS
 from reynolds.energy import Heat
 from reynolds.space import FilmSpace
 from reynolds.wall_heat import Adiabatic, Convecting, GivenTemperature, Turning, Wall
-from swashfilm.case_table import Table
 from swashfilm.elastic_case import ElasticStatement
 from swashfilm.oil_case import OilStatement
 from swashfilm.warm_body_case import WarmBody, read_warm_body
+from system.case_table import Table
 from system.units import Dimension, format_quantity
 
 _WALLS = (

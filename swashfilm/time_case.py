@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from swashfilm.case_table import Table
 from swashfilm.expressions import ExpressionError, parse_expression
 from swashfilm.field_reader import FieldReader
 from swashfilm.fields import Field, Formula
+from system.case_table import Table
 from system.units import Dimension, format_quantity
 
 MOST_STEPS = 1_000_000

@@ -9,7 +9,7 @@ from reynolds.bodies.wall import Body, heated_wall
 from reynolds.errors import FilmInputError
 from reynolds.space import FilmSpace
 from reynolds.wall_heat import Body as HeatedBody
-from swashfilm.case_table import Table, quoted
+from system.case_table import Table, quoted
 from system.units import Dimension
 
 

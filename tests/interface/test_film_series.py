@@ -11,8 +11,8 @@ import xarray
 
 from swashfilm import film_series
 from swashfilm.__main__ import main
-from swashfilm.case_table import Table
 from swashfilm.study_case import StudyCase, _axis, load_film
+from system.case_table import Table
 from system.faults import InputFaults
 
 BASE = """
