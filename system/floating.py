@@ -50,7 +50,7 @@ FRICTION_TOLERANCE = 2e-3
 """Largest change of a film's friction between two rounds, of the largest force on a slipper."""
 FIRST_CLOSED = 0.05
 """Distance from the periodic motion at which the first round lets its turns be, share of the mean film."""
-FEW_STEPS = 20
+FEW_STEPS = 8
 """Steps a pitch of rounds before gaps and chambers nearly agree."""
 NEARLY = 10.0
 """Times as large as their tolerances may the changes of a round be for gaps and chambers to nearly agree."""
