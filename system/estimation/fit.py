@@ -33,8 +33,9 @@ SAME_NOISE = 1e-2  # relative change of the whitening below which it is not rene
 class FitLimits:
     """When a fit ends: steps at most, change of the objective, largest step in xi, rounds of whitening.
 
-    stall: fall of the objective still promised with which a place that no step betters is a peak all the same.
-    Half a nat serves smooth models; models with kinks promise more than they hold.
+    stall: fall of the objective still promised with which a place that no step betters is a peak all the same, in
+    units of the objective per reading where that is above one. Half a nat serves smooth models; models with kinks
+    promise more than they hold.
     """
 
     steps: int = 50
@@ -69,7 +70,7 @@ class _Walk:
     @property
     def moved(self) -> float:
         """How far in any xi the place is from where the slopes were taken."""
-        return float(np.abs(self.place.xi - self.taken).max(initial=0.0))
+        return _apart(self.place.xi, self.taken)
 
 
 class _Fit:
@@ -79,30 +80,49 @@ class _Fit:
         self.simulator, self.observations, self.limits = simulator, observations, limits
         self.bounds = Bounds.of(simulator.parameters)
         self.predictions = self.slope_maps = 0
+        self.taken, self.raw = np.full(len(simulator.parameters), np.inf), np.zeros(0)  # the last slopes, where
 
     def place(self, xi: Array, whitening: Whitening) -> _Place:
         """Predict at xi. Raises NotConverged where the simulator does."""
         self.predictions += 1
         return self.seen(xi, self.simulator.predict(values_at(self.simulator.parameters, xi)), whitening)
 
+    def trial(self, xi: Array, whitening: Whitening) -> _Place | None:
+        """Predict at the xi within the bounds; None where the simulator fails."""
+        try:
+            return self.place(self.bounds.within(xi), whitening)
+        except NotConverged:
+            return None
+
     def seen(self, xi: Array, predictions: Array, whitening: Whitening) -> _Place:
         """A place with its residual by a whitening."""
         residual = whitening.whiten(self.observations.values - predictions)
         return _Place(xi, predictions, residual, float(residual @ residual + xi @ xi))
 
-    def slopes(self, xi: Array, whitening: Whitening) -> Array:
-        """d prediction / d xi at xi, whitened."""
-        self.slope_maps += 1
-        return whitening.whiten(standard_slopes(self.simulator, xi))
+    def walk(self, place: _Place, whitening: Whitening) -> _Walk:
+        """A walk from a place, with the last slopes where they were taken near it."""
+        if not _apart(place.xi, self.taken) <= NEAR:
+            self.slopes(place.xi)
+        return _Walk(place, whitening.whiten(self.raw), self.taken, LEAST_DAMPING)
 
     def renewed(self, walk: _Walk, whitening: Whitening) -> _Walk:
         """The same place with slopes taken there."""
-        return replace(walk, slopes=self.slopes(walk.place.xi, whitening), taken=walk.place.xi)
+        self.slopes(walk.place.xi)
+        return replace(walk, slopes=whitening.whiten(self.raw), taken=self.taken)
+
+    def slopes(self, xi: Array) -> None:
+        """Take d prediction / d xi at xi."""
+        self.slope_maps += 1
+        self.taken, self.raw = xi, standard_slopes(self.simulator, xi)
 
     def whitening(self, xi: Array) -> Whitening:
         """The whitening with the input slopes at xi."""
         values = values_at(self.simulator.parameters, xi)
         return whitener(self.observations, self.simulator.input_slopes(values))
+
+    def stall(self, place: _Place) -> float:
+        """The fall promised with which a place that no step betters is a peak."""
+        return self.limits.stall * max(1.0, place.objective / place.residual.size)
 
     def promised(self, walk: _Walk) -> float:
         """By how much the objective would fall to the peak that the slopes promise."""
@@ -165,18 +185,18 @@ def best_posterior(
 
 def _descend(fit: _Fit, place: _Place, whitening: Whitening) -> tuple[_Place, Array]:
     """Go down to a peak. Return it with slopes taken no farther than NEAR from it."""
-    walk = _Walk(place, fit.slopes(place.xi, whitening), place.xi, LEAST_DAMPING)
+    walk = fit.walk(place, whitening)
     for _ in range(fit.limits.steps):
         if fit.promised(walk) < fit.limits.change or walk.damping > MOST_DAMPING:
             if walk.moved <= NEAR:
                 break
             walk = fit.renewed(walk, whitening)
         walk = _tried(fit, walk, whitening)
-    promised = fit.promised(walk)
-    if promised >= fit.limits.stall:
+    promised, limit = fit.promised(walk), fit.stall(walk.place)
+    if promised >= limit:
         raise NotConverged(
             f"the fit of {walk.place.xi.size} parameters stopped at an objective of {walk.place.objective:.1f}, "
-            f"a fall of {promised:.2g} still promised (limit {fit.limits.stall:g}), after {fit.predictions} "
+            f"a fall of {promised:.2g} still promised (limit {limit:.2g}), after {fit.predictions} "
             f"predictions. Try another start, or more steps than {fit.limits.steps}"
         )
     walk = walk if walk.moved <= NEAR else fit.renewed(walk, whitening)
@@ -187,21 +207,40 @@ def _tried(fit: _Fit, walk: _Walk, whitening: Whitening) -> _Walk:
     """One trial: gone there where the objective falls, the damping and the slopes after what it showed."""
     place = walk.place
     model = Quadratic.of(place.xi, place.residual, walk.slopes)
-    goal = fit.bounds.within(place.xi + bounded_step(model, fit.bounds, walk.damping, fit.limits.largest_step))
-    step = goal - place.xi
-    try:
-        trial = fit.place(goal, whitening)
-    except NotConverged:
+    step = bounded_step(model, fit.bounds, walk.damping, fit.limits.largest_step)
+    promised = model.fall(step)
+    trial = fit.trial(place.xi + step, whitening)
+    if trial is None:
         return replace(walk, damping=_damping(walk.damping, 0.0))
-    kept = (place.objective - trial.objective) / model.fall(step)
+    straight = kept = (place.objective - trial.objective) / promised
+    if straight < GOOD:
+        bent = fit.trial(trial.xi + _correction(fit, walk, model, trial), whitening)
+        if bent is not None and bent.objective < trial.objective:
+            trial, kept = bent, (place.objective - bent.objective) / promised
     slopes = walk.slopes
     if kept > 0 or walk.damping > LOCAL:
-        missed = place.residual - trial.residual - slopes @ step
-        slopes = slopes + np.outer(missed, step) / (step @ step)
-    damping = _damping(walk.damping, kept)
-    reached = trial if kept > 0 else place
-    here = _Walk(reached, slopes, walk.taken, damping)
-    return fit.renewed(here, whitening) if kept < GOOD and here.moved > 0 else here
+        went = trial.xi - place.xi
+        missed = place.residual - trial.residual - slopes @ went
+        slopes = slopes + np.outer(missed, went) / (went @ went)
+    here = _Walk(trial if kept > 0 else place, slopes, walk.taken, _damping(walk.damping, kept))
+    return fit.renewed(here, whitening) if straight < GOOD and here.moved > 0 else here
+
+
+def _correction(fit: _Fit, walk: _Walk, model: Quadratic, trial: _Place) -> Array:
+    """What leads from a trial back to where the slopes had it: along a curved valley, down to its floor.
+
+    Half the second derivative of the readings along the step, answered by the slopes (geodesic acceleration;
+    Transtrum and Sethna 2012), none of it longer than the step.
+    """
+    step = trial.xi - walk.place.xi
+    missed = walk.place.residual - trial.residual - walk.slopes @ step
+    curved = Quadratic(trial.xi, -walk.slopes.T @ missed, model.precision)
+    return bounded_step(curved, fit.bounds, walk.damping, float(np.abs(step).max()))
+
+
+def _apart(one: Array, other: Array) -> float:
+    """The largest distance of any xi."""
+    return float(np.abs(one - other).max(initial=0.0))
 
 
 def _damping(damping: float, kept: float) -> float:

@@ -140,6 +140,30 @@ def test_active_bound() -> None:
     assert found.values[1] == pytest.approx(held, abs=1e-3)
 
 
+PRESSURE = np.linspace(0.1, 1.0, 20)
+
+
+def _two_films(values: Array) -> Array:
+    """Leakage of two films together, and the drag of one, by which alone they can be told apart."""
+    one, two = values
+    return np.concatenate((PRESSURE * (one**3 + two**3), 0.05 * PRESSURE / two))
+
+
+def test_films_that_change_places() -> None:
+    """From a thick wrong film back along a valley that bends: the peak that starts from the truth reach, soon."""
+    parameters = (
+        _parameter("one", 1.0, 0.08, (0.0, np.inf), Scale.LOG),
+        _parameter("two", 1.0, 0.8, (0.0, np.inf), Scale.LOG),
+    )
+    simulator = Law(parameters, _two_films)
+    readings = _readings(_two_films(np.array([1.05, 2.0])), 0.004)
+    swapped = maximum_posterior(simulator, readings, np.array([8.0, -1.0]))
+    direct = maximum_posterior(simulator, readings, np.array([0.5, 0.85]))
+    assert swapped.objective == pytest.approx(direct.objective, abs=2 * FitLimits().change)
+    assert direct.values[1] == pytest.approx(2.0, rel=0.01)
+    assert swapped.effort.predictions < 60
+
+
 def test_half_stays_at_nothing() -> None:
     """An effect of one sign that readings deny ends at exactly 0."""
     parameter = _parameter("effect", 0.0, 1.0, (0.0, np.inf), Scale.HALF)
