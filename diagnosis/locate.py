@@ -10,6 +10,20 @@ from system.channels import ChannelName
 from system.components import Component
 
 
+class ComponentGroup(Enum):
+    """Components that a bench map rarely tells from each other."""
+
+    FILM_LEAKAGE = "leakage of the films"
+    CROSS_FLOW = "flow from delivery to inlet"
+    DRAIN_FLOW = "flow to the case beside the films"
+    DISPLACEMENT = "displacement and compression"
+    FRICTION = "friction"
+    COMMUTATION = "commutation"
+    CASE_DRAG = "drag in the case"
+    THERMAL_STATE = "thermal state"
+    SENSOR = "a sensor"
+
+
 class TimeKind(Enum):
     """How a mismatch goes with the order of the points."""
 
@@ -29,20 +43,23 @@ class AngleWindow:
 
 @dataclass(frozen=True)
 class TimeMark:
-    """A drift or an onset at point `at` of the order."""
+    """A drift, or an onset at point `at` of the order, of a channel; `parameter`: what wanders with time, if any."""
 
     kind: TimeKind
+    channel: ChannelName
     at: int
     p_value: float
+    parameter: str | None
 
 
 @dataclass(frozen=True)
 class Location:
-    """components: ln evidence of each, best first; tie: those that cannot be told from the best."""
+    """components, groups: ln evidence of each, best first; tie: components that cannot be told from the best."""
 
     channels: tuple[ChannelName, ...]
     region: Region | None
     components: tuple[tuple[Component, float], ...]
+    groups: tuple[tuple[ComponentGroup, float], ...]
     tie: tuple[Component, ...]
     angle: AngleWindow | None
     time: TimeMark | None

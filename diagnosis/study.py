@@ -1,32 +1,79 @@
-"""A pump and a recording made ready: simulator, readings, linear posterior, and the columns of all candidates."""
+"""A recording and its simulator made ready: readings, linear posterior, and the columns of all candidates."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
+from typing import Protocol, Self
 
-from diagnosis.recording import Recording
+import numpy as np
+
+from diagnosis.recording import Recording, TraceBlock
+from diagnosis.thresholds import Thresholds
 from system.components import Component
 from system.estimation.evidence import Sign
 from system.estimation.observations import Array, Observations
-from system.estimation.posterior import Posterior
+from system.estimation.parameters import Parameter, Scale
+from system.estimation.posterior import Posterior, linear_posterior, values_at
 from system.estimation.simulator import Simulator
-from system.physics.extension import Entry, Extension
+from system.physics.effects import EffectId
+from system.physics.extension import Entry, Extension, Values
+
+
+class PumpSimulator(Simulator, Protocol):
+    """A simulator of a pump's bench map that laws of the catalogue can be switched on in."""
+
+    def with_parameters(self, parameters: tuple[Parameter, ...]) -> Self:
+        """The same model with these parameters: replaced where a name is there already, added where not."""
+        ...
+
+    def with_extension(self, extension: Extension, scale: Values) -> Self:
+        """The same pump with the law on: its parameters appended, but for those that `scale` holds."""
+        ...
+
+    def components(self, values: Array) -> Mapping[Component, Array]:
+        """Contribution (N, C) of each component to the readings, in SI."""
+        ...
 
 
 @dataclass(frozen=True)
 class Candidate:
-    """One way in which an entry of the catalogue may act: its whitened column (n,) per spread `width`.
+    """One way in which an entry of the catalogue may act: its whitened column (n,) for one spread of `parameter`.
 
     extension is None for sensors and parameters, which are there already; grid: place in the extension's grid.
+    The size is looked for within N(0, (w width)^2) spreads for the widths w of the thresholds: width is 1 for an
+    extension, whose spread is its own size, and the fault factor for what has a stated tolerance.
     """
 
     entry: Entry
     extension: Extension | None
     grid: int
+    parameter: str
     column: Array
     width: float
     sign: Sign
+
+
+@dataclass(frozen=True)
+class PortEvent:
+    """A shaft angle in rad at which a port begins or ends to open or close, and what happens there."""
+
+    angle: float
+    text: str
+
+
+@dataclass(frozen=True)
+class TraceMisfit:
+    """A recorded chamber pressure less the simulated one, (K,) in Pa, with what may explain it away.
+
+    nuisances: (K, m), change of the simulated trace by one spread of each parameter it hangs on, encoder offset
+    included; sigma: (K,), one sigma of the recorded mean, Pa.
+    """
+
+    block: TraceBlock
+    residual: Array
+    nuisances: Array
+    sigma: Array
 
 
 @dataclass(frozen=True)
@@ -38,9 +85,82 @@ class Study:
     """
 
     recording: Recording
-    simulator: Simulator
+    simulator: PumpSimulator
     observations: Observations
     base: Posterior
     candidates: tuple[Candidate, ...]
     components: Mapping[Component, Array]
     axes: Array
+    traces: tuple[TraceMisfit, ...] = ()
+    events: tuple[PortEvent, ...] = ()
+
+
+def study_of(
+    recording: Recording,
+    simulator: PumpSimulator,
+    observations: Observations,
+    axes: Array,
+    catalogue: Iterable[Entry],
+    thresholds: Thresholds,
+) -> Study:
+    """The study of readings that are at hand with their simulator.
+
+    Everything is taken at the prior mean: a null model fitted to readings it cannot explain drags its parameters
+    tens of sigma away, and slopes from there tell nothing (design/diagnosis.md, 2.0).
+    """
+    base = linear_posterior(simulator, observations)
+    start = np.zeros(base.xi.size)
+    centre = values_at(simulator.parameters, start)
+    plain = simulator.predict(centre)
+    factor = thresholds.name.fault_factor
+    candidates = tuple(
+        candidate
+        for entry in catalogue
+        for candidate in (
+            _of_extensions(entry, simulator, base, plain)
+            if entry.extensions
+            else _of_parameters(entry, base, factor)
+        )
+    )
+    return Study(recording, simulator, observations, base, candidates, simulator.components(centre), axes)
+
+
+def concerned(effect: EffectId, parameters: Iterable[Parameter]) -> tuple[str, ...]:
+    """Names of the base and sensor parameters that an effect without a law of its own is about.
+
+    Such a parameter has the effect's id for a name, with the part behind it where there are several:
+    "torque_gain", "film_thickness slipper".
+    """
+    names = (parameter.name for parameter in parameters)
+    return tuple(name for name in names if name == effect.value or name.startswith(effect.value + " "))
+
+
+def _of_parameters(entry: Entry, base: Posterior, factor: float) -> Iterator[Candidate]:
+    """Columns of what the model has already, to be looked for far beyond its stated tolerance."""
+    for name in concerned(entry.id, base.parameters):
+        yield Candidate(entry, None, 0, name, base.slopes[:, base.index(name)], factor, Sign.EITHER)
+
+
+def _of_extensions(entry: Entry, simulator: PumpSimulator, base: Posterior, plain: Array) -> Iterator[Candidate]:
+    """Columns of laws that the model lacks: what one spread of each size changes.
+
+    A difference, not a slope: laws with a threshold have no slope where they are off.
+    """
+    for extension in entry.extensions:
+        for place, scale in enumerate(extension.grid):
+            extended = simulator.with_extension(extension, scale)
+            added = extended.parameters[len(simulator.parameters) :]
+            for at, parameter in enumerate(added, start=len(simulator.parameters)):
+                xi = np.zeros(len(extended.parameters))
+                xi[at] = 1.0
+                change = extended.predict(values_at(extended.parameters, xi)) - plain
+                column = base.whitening.whiten(change)
+                if np.any(column):
+                    yield Candidate(entry, extension, place, parameter.name, column, 1.0, _sign(parameter))
+
+
+def _sign(parameter: Parameter) -> Sign:
+    """The sign that a size may have: of HALF scales and of bounds at the centre."""
+    if parameter.scale is Scale.HALF or parameter.lower == parameter.centre:
+        return Sign.POSITIVE
+    return Sign.NEGATIVE if parameter.upper == parameter.centre else Sign.EITHER

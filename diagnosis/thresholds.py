@@ -1,0 +1,129 @@
+"""The numbers that decide a verdict, read from thresholds.toml beside this file."""
+
+from __future__ import annotations
+
+import tomllib
+from dataclasses import dataclass, fields
+from functools import cache
+from hashlib import sha256
+from math import radians
+from pathlib import Path
+from typing import Any
+
+from reynolds.errors import FilmInputError
+
+FILE = Path(__file__).with_name("thresholds.toml")
+
+
+@dataclass(frozen=True)
+class MismatchLimits:
+    """When a recording differs from its simulation: see thresholds.toml for each number's meaning."""
+
+    holm: float
+    null_probability: float
+    flag_rate: float
+    pull: float
+
+
+@dataclass(frozen=True)
+class LocateLimits:
+    """What counts as a place. Windows are in degrees of shaft angle, as in the file."""
+
+    channel_share: float
+    region_share: float
+    p_value: float
+    narrowest_window: float
+    widest_window: float
+    draws: int
+    multiplier_widths: tuple[float, ...]
+
+    @property
+    def windows(self) -> tuple[float, float]:
+        """The narrowest and the widest window in rad."""
+        return radians(self.narrowest_window), radians(self.widest_window)
+
+
+@dataclass(frozen=True)
+class NameLimits:
+    """When an effect is named. Odds are natural logarithms (nats); widths are in spreads of an entry's prior."""
+
+    odds: float
+    probability: float
+    class_gap: float
+    sure: float
+    shortlist: int
+    shortlist_gap: float
+    mixture_widths: tuple[float, ...]
+    fault_factor: float
+    allowance: float
+    temperature: float
+
+
+@dataclass(frozen=True)
+class HeldOutLimits:
+    """When regions that took no part in a fit veto a name: gain in nats of one, number of negative ones."""
+
+    veto_gain: float
+    veto_regions: int
+
+
+@dataclass(frozen=True)
+class PriorMasses:
+    """Prior weight of each kind of hypothesis, to be normalised, and the factor for each further effect."""
+
+    none: float
+    missing_physics: float
+    sensor_fault: float
+    wrong_parameter: float
+    unknown_physics: float
+    pair_penalty: float
+
+
+@dataclass(frozen=True)
+class Seeds:
+    """Seeds of what is drawn."""
+
+    locate: int
+    proof: int
+    development: int
+
+
+@dataclass(frozen=True)
+class Thresholds:
+    """All of thresholds.toml, and the sha256 of the file in `digest`."""
+
+    mismatch: MismatchLimits
+    locate: LocateLimits
+    name: NameLimits
+    heldout: HeldOutLimits
+    prior: PriorMasses
+    seeds: Seeds
+    digest: str
+
+
+@cache
+def load_thresholds(path: Path = FILE) -> Thresholds:
+    """The thresholds of a file. Raises FilmInputError for keys that are missing or that nothing reads."""
+    content = path.read_bytes()
+    tables = tomllib.loads(content.decode())
+
+    def read(kind: type, name: str) -> Any:
+        return kind(**_table(kind, name, tables, path))
+
+    return Thresholds(
+        read(MismatchLimits, "mismatch"),
+        read(LocateLimits, "locate"),
+        read(NameLimits, "name"),
+        read(HeldOutLimits, "heldout"),
+        read(PriorMasses, "prior"),
+        read(Seeds, "seeds"),
+        sha256(content).hexdigest(),
+    )
+
+
+def _table(kind: type, name: str, tables: dict[str, Any], path: Path) -> dict[str, Any]:
+    found = tables.get(name, {})
+    expected = [field.name for field in fields(kind)]
+    if sorted(found) != sorted(expected):
+        raise FilmInputError(f"{path}: [{name}]", ", ".join(found) or "nothing", ", ".join(expected))
+    return {key: tuple(value) if isinstance(value, list) else value for key, value in found.items()}
