@@ -1,8 +1,9 @@
 """The peak of the posterior: damped Gauss-Newton steps that slopes lead and predictions decide.
 
-Levenberg (1944) and Marquardt (1963) with bounds by holding what they stop. After each trial the slopes are
-corrected along its step by what the trial itself shows (Broyden 1965), so that approximate slopes still lead
-to the peak of the true objective, and slopes are asked for anew only where they fail.
+Levenberg (1944) and Marquardt (1963), bounds holding what they stop. Slopes are corrected along each step by what it
+shows (Broyden 1965), so that approximate ones still lead to the peak of the true objective; they are asked for anew
+where a step keeps little of its promise, and at the peak. A step that leaves the floor of a curved valley is bent
+back to it.
 """
 
 from __future__ import annotations
@@ -158,7 +159,7 @@ def maximum_posterior(
 def best_posterior(
     simulator: Simulator, observations: Observations, starts: Sequence[Array], limits: FitLimits = LIMITS
 ) -> Posterior:
-    """The peak of greatest evidence among those found from several starts; its effort is that of all.
+    """The peak of greatest evidence among those found from several starts; its effort is theirs together.
 
     For parameters that do nothing below a threshold, or whose effect has several peaks. Raises NotConverged
     where no start leads to a peak.
@@ -190,8 +191,9 @@ def _descend(fit: _Fit, place: _Place, whitening: Whitening) -> tuple[_Place, Ar
         if fit.promised(walk) < fit.limits.change or walk.damping > MOST_DAMPING:
             if walk.moved <= NEAR:
                 break
-            walk = fit.renewed(walk, whitening)
-        walk = _tried(fit, walk, whitening)
+            walk = fit.walk(walk.place, whitening)
+        else:
+            walk = _tried(fit, walk, whitening)
     promised, limit = fit.promised(walk), fit.stall(walk.place)
     if promised >= limit:
         raise NotConverged(
@@ -209,7 +211,7 @@ def _tried(fit: _Fit, walk: _Walk, whitening: Whitening) -> _Walk:
     model = Quadratic.of(place.xi, place.residual, walk.slopes)
     step = bounded_step(model, fit.bounds, walk.damping, fit.limits.largest_step)
     promised = model.fall(step)
-    trial = fit.trial(place.xi + step, whitening)
+    trial = fit.trial(place.xi + step, whitening) if promised > 0 else None
     if trial is None:
         return replace(walk, damping=_damping(walk.damping, 0.0))
     straight = kept = (place.objective - trial.objective) / promised

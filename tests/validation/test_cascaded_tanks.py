@@ -80,6 +80,7 @@ def test_overflow_is_named(overflow: ModuleType, shared: Path, validation) -> No
             obtained=obtained,
             tolerance=0.02,
         )
-    best, next_best, *_ = overflow.additions(record, both.fit, RIVALS)
-    assert {best.name, next_best.name} == {"outflow exponent of tank 2", "sensor offset"}
-    assert best.test_error < 0.6 * both.test_error
+    best, rival, last = overflow.additions(record, both.fit, RIVALS)
+    assert {best.name, rival.name} == {"outflow exponent of tank 2", "sensor offset"}
+    assert rival.evidence > 3.0 + last.evidence
+    assert max(best.test_error, rival.test_error) < 0.7 * both.test_error
