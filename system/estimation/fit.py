@@ -1,9 +1,9 @@
 """The peak of the posterior: damped Gauss-Newton steps that slopes lead and predictions decide.
 
-Levenberg (1944) and Marquardt (1963), bounds holding what they stop. Slopes are corrected along each step by what it
-shows (Broyden 1965), so that approximate ones still lead to the peak of the true objective; they are asked for anew
-where a step keeps little of its promise, and at the peak. A step that leaves the floor of a curved valley is bent
-back to it.
+Levenberg (1944) and Marquardt (1963), bounds holding what they stop. Slopes are corrected along each step by what
+it shows (Broyden 1965), so that approximate ones still lead to the peak of the true objective; they are asked for
+anew where a step keeps little of its promise, and at the peak. A step that leaves the floor of a curved valley is
+bent back to it.
 """
 
 from __future__ import annotations
