@@ -164,6 +164,20 @@ def test_films_that_change_places() -> None:
     assert swapped.effort.predictions < 60
 
 
+def test_intervals_of_curved_models_hold_the_truth() -> None:
+    """Two films drawn from their priors, 150 fits: 90 % intervals hold 84 to 96 % (sampling alone: 90 +- 1.7)."""
+    rng = np.random.default_rng(41)
+    parameters = tuple(_parameter(name, 1.0, 0.2, (0.0, np.inf), Scale.LOG) for name in ("one", "two"))
+    simulator = Law(parameters, _two_films)
+    inside = []
+    for _ in range(150):
+        truth = rng.normal(size=2)
+        readings = _two_films(np.exp(0.2 * truth)) + 0.02 * rng.normal(size=2 * PRESSURE.size)
+        found = maximum_posterior(simulator, _readings(readings, 0.02))
+        inside.append(np.abs(found.xi - truth) < 1.6448536 * np.sqrt(np.diag(found.covariance)))
+    assert 0.84 < np.mean(inside) < 0.96
+
+
 def test_half_stays_at_nothing() -> None:
     """An effect of one sign that readings deny ends at exactly 0."""
     parameter = _parameter("effect", 0.0, 1.0, (0.0, np.inf), Scale.HALF)
