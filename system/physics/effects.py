@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from enum import Enum
+
+import numpy as np
 
 from system.description import PumpDescription
 from system.kinematics import Array
@@ -66,15 +68,20 @@ class EffectId(Enum):
 
 @dataclass(frozen=True)
 class GapCourse:
-    """One gap over the turn at N points, M shaft angles each: arrays (N, M).
+    """One gap over the turn at N points, M shaft angles each: arrays (N, M), of one piston, one slipper, the ring.
 
     pressure: chamber over case pressure in Pa; sliding_speed: of the two walls in m/s, never negative;
-    film: thickness in m.
+    film: thickness in m; normal_force: what Coulomb friction multiplies, N; coulomb, viscous: loss in W without
+    any effect; land_area (N,): of the sealing lands in m2.
     """
 
     pressure: Array
     sliding_speed: Array
     film: Array
+    normal_force: Array
+    coulomb: Array
+    viscous: Array
+    land_area: Array
 
 
 @dataclass(frozen=True)
@@ -97,10 +104,13 @@ class Effects:
     """What a law changes at N points and M angles; ones and zeros change nothing.
 
     conductance, viscous, coulomb: (3, N, M), factors on leakage, shear and Coulomb friction of the gaps in the
-    order of `Gap`; extra_coulomb: (5, N, M), W, of piston, slipper, valve plate, socket, ball guide. Then (N,)
-    each: cross_flow (delivery to inlet), drain_flow (delivery to case), drain_from_inlet in m3/s; torque in N m on
-    the shaft; ideal: factor on the displacement; intake: share of the chamber that is filled; bulk_modulus:
-    factor; carried_off: W, the power that goes with all this, a sink of the power balance.
+    order of `Gap`; extra_coulomb: (5, N, M), W, of one piston, one slipper, the valve plate, one socket, the ball
+    guide. Then (N,) each, flows in m3/s of volume at the port they leave: cross_flow (delivery to inlet),
+    drain_flow (delivery to case), drain_from_inlet; torque in N m on the shaft; ideal: factor on the displacement;
+    intake: share of the displaced volume that is filled with oil; delivery_reading: factor on what the delivery's
+    meter reads; groove_advance in rad and groove_area, factor: by how much sooner and wider the relief grooves
+    ahead of both kidneys open; carried_off: W, where the power of the flows and the torque goes, a sink of the
+    power balance.
     """
 
     conductance: Array
@@ -113,5 +123,31 @@ class Effects:
     torque: Array
     ideal: Array
     intake: Array
-    bulk_modulus: Array
+    delivery_reading: Array
+    groove_advance: Array
+    groove_area: Array
     carried_off: Array
+
+
+FACTORS = (
+    "conductance", "viscous", "coulomb", "ideal", "intake", "delivery_reading", "groove_area",
+)  # fmt: skip
+"""Fields of `Effects` that multiply; the others add."""
+
+
+def neutral(points: int, angles: int) -> Effects:
+    """The effects of no law at all."""
+    shapes = {"conductance": (3, points, angles), "viscous": (3, points, angles), "coulomb": (3, points, angles),
+              "extra_coulomb": (5, points, angles)}  # fmt: skip
+    return Effects(
+        **{
+            field.name: np.full(shapes.get(field.name, (points,)), 1.0 if field.name in FACTORS else 0.0)
+            for field in fields(Effects)
+        }
+    )
+
+
+def both(one: Effects, other: Effects) -> Effects:
+    """Two laws at once, each as if the other were not: factors multiply, all else adds."""
+    pairs = {field.name: (getattr(one, field.name), getattr(other, field.name)) for field in fields(Effects)}
+    return Effects(**{name: a * b if name in FACTORS else a + b for name, (a, b) in pairs.items()})

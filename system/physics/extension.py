@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from system.channels import ChannelName
 from system.components import Component
@@ -19,15 +19,31 @@ Law = Callable[[Values, Mapping[Gap, GapCourse], BenchState], Effects]  # values
 class Extension:
     """One law switched on, at one gap or (None) at the pump as a whole.
 
-    `grid` lists the values of parameters that set a scale rather than a size and are tried one after the other;
-    one empty mapping where there is none.
+    Parameters are named as in a pump file, `elastic_opening.slipper.opening`; the law knows the last part. `grid`
+    lists the values of parameters that set a scale rather than a size and are tried one after the other: one empty
+    mapping where there is none. Values are those of the grid's first member beside the parameters'.
     """
 
     id: EffectId
     pair: Gap | None
     law: Law
     parameters: tuple[Parameter, ...]
-    grid: tuple[Values, ...]
+    grid: tuple[Values, ...] = ({},)
+
+    @property
+    def members(self) -> tuple[Extension, ...]:
+        """One extension for each member of the grid."""
+        return tuple(replace(self, grid=(member,)) for member in self.grid)
+
+    @property
+    def neutral(self) -> dict[str, float]:
+        """Parameters by name with which the law changes nothing: their centres."""
+        return {parameter.name: parameter.centre for parameter in self.parameters}
+
+    def effects(self, values: Mapping[str, float], courses: Mapping[Gap, GapCourse], state: BenchState) -> Effects:
+        """What the law changes with parameters by name; those of other extensions beside them do not matter."""
+        own = {one.name.rpartition(".")[2]: values[one.name] for one in self.parameters}
+        return self.law({**self.grid[0], **own}, courses, state)
 
 
 @dataclass(frozen=True)

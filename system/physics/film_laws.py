@@ -1,0 +1,144 @@
+"""Laws of the films: oil that thickens under pressure, warms or thins by shear, walls that give way or expand."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+
+import numpy as np
+
+from system.kinematics import Array
+from system.physics.effects import BenchState, Effects, GapCourse
+from system.physics.extension import Law, Values
+from system.physics.state import GAPS, unchanged, warmed
+from system.pump_gap import Gap
+
+ISENTROPIC_RISE = 0.45e-6
+"""K/Pa by which throttled mineral oil warms, (1 - alpha T)/(rho cp)."""
+WARM_PASSES = 8
+"""Rounds between a film's loss and its temperature; each leaves less than b R q <~ 1/2 of the error before."""
+SMALL = 1e-9
+
+Courses = Mapping[Gap, GapCourse]
+
+
+def barus_flow(exponent: Array) -> Array:
+    """(1 - exp(-a p))/(a p): flow through a film of falling pressure p .. 0 over that of constant viscosity.
+
+    Barus 1893, mu = mu0 exp(a p); exact for plane and annular films alike. `exponent` a p, 0 or more; up to about
+    100 MPa, beyond it Roelands' law rises less.
+    """
+    return np.asarray(np.where(exponent > SMALL, -np.expm1(-exponent) / np.maximum(exponent, SMALL), 1.0))
+
+
+def barus_shear(exponent: Array) -> Array:
+    """(exp(a p) - 1)/(a p): shear of a film whose pressure falls linearly from p to 0, over that without."""
+    return np.asarray(np.where(exponent > SMALL, np.expm1(exponent) / np.maximum(exponent, SMALL), 1.0))
+
+
+def opening_flow(opening: Array) -> Array:
+    """((1 + c)^4 - 1)/(4 c): flow through a film that opens by the share c where the pressure is full.
+
+    The mean of (h/h0)^3 along a pressure that falls linearly and lifts the wall in proportion.
+    """
+    return np.asarray(
+        np.where(opening > SMALL, ((1.0 + opening) ** 4 - 1.0) / np.maximum(4.0 * opening, SMALL), 1.0)
+    )
+
+
+def cross_ratio(shear_rate: Array, drop: float, rate: float) -> Array:
+    """Viscosity at a shear rate (1/s) over that at rest: Cross 1965 with exponent 1, `drop` lost at high rates."""
+    relative = shear_rate / rate
+    return np.asarray(1.0 - drop * relative / (1.0 + relative))
+
+
+def viscosity_pressure(values: Values, courses: Courses, state: BenchState) -> Effects:
+    """Barus' law in all three films: `coefficient` 1/Pa. Less leakage at high pressure, more shear under it."""
+    exponents = [values["coefficient"] * np.maximum(courses[gap].pressure, 0.0) for gap in GAPS]
+    return _in_films(
+        courses, state, [barus_flow(own) for own in exponents], [barus_shear(own) for own in exponents]
+    )
+
+
+def elastic_opening(gap: Gap) -> Law:
+    """The law of one gap that opens under its pressure: `opening` 1/Pa, of the film's thickness."""
+
+    def law(values: Values, courses: Courses, state: BenchState) -> Effects:
+        share = values["opening"] * np.maximum(courses[gap].pressure, 0.0)
+        return _in_one_film(gap, courses, state, opening_flow(share), 1.0 / (1.0 + 0.5 * share))
+
+    return law
+
+
+def thermal_clearance(gap: Gap) -> Law:
+    """The law of one gap whose walls expand unlike: `rate` 1/K of the film, from the pump's own temperature on."""
+
+    def law(values: Values, courses: Courses, state: BenchState) -> Effects:
+        warmer = state.temperature - state.geometry.operating.temperature
+        film = (1.0 + values["rate"] * warmer)[:, None] * np.ones_like(courses[gap].film)
+        return _in_one_film(gap, courses, state, film**3, 1.0 / film)
+
+    return law
+
+
+def shear_thinning(values: Values, courses: Courses, state: BenchState) -> Effects:
+    """Cross' law at the shear rate speed/film of sliding: `drop`, and `rate` 1/s at which half of it is lost.
+
+    Thins shear alone: leakage runs at rates a tenth as high, and across the sliding.
+    """
+    shear = [
+        cross_ratio(courses[gap].sliding_speed / courses[gap].film, values["drop"], values["rate"]) for gap in GAPS
+    ]
+    return _in_films(courses, state, [np.ones_like(own) for own in shear], shear)
+
+
+def film_heating(values: Values, courses: Courses, state: BenchState) -> Effects:
+    """Films warmer than the case, by what they lose and by what is throttled in them.
+
+    Mean rise of a film over the turn: `resistance` (K m2/W) times its pair's loss, Coulomb and shear, over the
+    land area, plus `throttling_share` of 0.45 K/MPa. Viscosity at that temperature serves leakage and shear, which
+    falls with it: the balance is found in WARM_PASSES rounds. A resistance of h/(12 k) is Couette flow between
+    two walls at case temperature, h/(3 k) with one of them insulated (Nahme 1940), both to first order.
+    """
+    ratios = []
+    for gap in GAPS:
+        own, ratio = courses[gap], np.ones(state.speed.size)
+        throttled = values["throttling_share"] * ISENTROPIC_RISE * np.maximum(own.pressure, 0.0).mean(axis=1)
+        for _ in range(WARM_PASSES):
+            loss = own.coulomb.mean(axis=1) + ratio * own.viscous.mean(axis=1)
+            ratio = warmed(state, values["resistance"] * loss / own.land_area + throttled)
+        ratios.append(ratio[:, None] * np.ones_like(own.film))
+    return _in_films(courses, state, [1.0 / ratio for ratio in ratios], ratios)
+
+
+def _in_one_film(gap: Gap, courses: Courses, state: BenchState, flow: Array, shear: Array) -> Effects:
+    """Effects of a factor on one gap's flow and one on its shear."""
+    ones = np.ones_like(flow)
+    return _in_films(
+        courses,
+        state,
+        [flow if own is gap else ones for own in GAPS],
+        [shear if own is gap else ones for own in GAPS],
+    )
+
+
+def _in_films(courses: Courses, state: BenchState, flows: list[Array], shears: list[Array]) -> Effects:
+    """Effects of factors (N, M) on the flow through each gap's lands and on its shear.
+
+    The slipper's orifice takes its share of the pressure as before; the ring's shear is that of all chambers, so
+    it takes the turn's mean.
+    """
+    behind = GAPS.index(Gap.SLIPPER)
+    ring = GAPS.index(Gap.VALVE_PLATE)
+    flows[behind] = through_orifice(flows[behind], state)
+    shears[ring] = np.broadcast_to(shears[ring].mean(axis=1, keepdims=True), shears[ring].shape)
+    return replace(unchanged(courses), conductance=np.stack(flows), viscous=np.stack(shears))
+
+
+def through_orifice(lands: Array, state: BenchState) -> Array:
+    """Factor on a slipper's leakage when its lands let through `lands` times as much: Eq. (16)."""
+    slipper = state.geometry.slipper
+    d4, h3 = slipper.orifice_diameter**4, slipper.film_thickness**3
+    share = 128.0 * h3 * slipper.orifice_length
+    share /= share + 6.0 * d4 * slipper.lands.log_ratio
+    return np.asarray(1.0 / ((1.0 - share) / lands + share))

@@ -1,0 +1,64 @@
+"""Laws of the swash plate and the ports: a plate that gives way, grooves that wear, a line that resonates."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+
+import numpy as np
+
+from system.kinematics import Array
+from system.physics.effects import BenchState, Effects, GapCourse
+from system.physics.extension import Values
+from system.physics.state import pressure_difference, swash_tangent, unchanged
+from system.ports import PortOpening
+from system.pump_gap import Gap
+
+RESONANCE_WIDTH = 0.05
+"""Half width of a line's resonance, of its speed: a quality of 10 (5 to 15 are usual)."""
+
+Courses = Mapping[Gap, GapCourse]
+
+
+def swash_droop(values: Values, courses: Courses, state: BenchState) -> Effects:
+    """A plate that gives way under load: `rate` (1/Pa) of its displacement and `play` rad of its angle.
+
+    Ideal flow and torque fall alike.
+    """
+    angle = np.arctan(swash_tangent(state))
+    play = np.tan(np.maximum(angle - values["play"], 0.0)) / np.tan(angle)
+    return replace(unchanged(courses), ideal=(1.0 - values["rate"] * pressure_difference(state)) * play)
+
+
+def notch_erosion(values: Values, courses: Courses, state: BenchState) -> Effects:
+    """Worn relief grooves: they begin `advance` rad sooner, their throats wider by the share `widening`."""
+    ones = np.ones_like(state.speed)
+    return replace(
+        unchanged(courses), groove_advance=values["advance"] * ones, groove_area=(1.0 + values["widening"]) * ones
+    )
+
+
+def eroded(port: PortOpening, advance: float, area: float) -> PortOpening:
+    """A port whose grooves ahead of the kidney begin `advance` rad sooner, throats `area` times as wide."""
+    grooves = tuple(
+        replace(groove, begins=groove.begins - advance, area=groove.area * area)
+        if groove.begins < groove.deep
+        else groove
+        for groove in port.grooves
+    )
+    return replace(port, grooves=grooves)
+
+
+def lorentz(speed: Array, at: float) -> Array:
+    """1/(1 + ((n - n0)/(b n0))^2) (N,): a resonance at the shaft speed n0 = `at` rad/s, b RESONANCE_WIDTH."""
+    return np.asarray(1.0 / (1.0 + ((speed - at) / (RESONANCE_WIDTH * at)) ** 2))
+
+
+def line_resonance(values: Values, courses: Courses, state: BenchState) -> Effects:
+    """A delivery meter that reads `height` (share) too much where the ripple meets the line's resonance.
+
+    Mean bias of turbine meters in pulsing flow; the pump itself is unmoved. `speed`: of the shaft, rad/s.
+    """
+    return replace(
+        unchanged(courses), delivery_reading=1.0 + values["height"] * lorentz(state.speed, values["speed"])
+    )
