@@ -13,10 +13,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from system import chamber_kernel as kernel
-from system.chamber_course import Constants, Course, constants, periodic_values, turn_nodes
+from system.chamber_course import Course, constants, periodic_values, turn_nodes
 from system.chamber_problem import ChamberProblem
 from system.errors import NotConverged
 from system.kinematics import Array, piston_displacement, stroke
+from system.map_kernels import run_in
 from system.ports import TURN
 
 TOLERANCE = 1e-6
@@ -24,7 +25,6 @@ TOLERANCE = 1e-6
 PERIODICITY = 1e-8
 """Largest change of the pressure at shaft angle 0 from one revolution to the next, of the pressure difference."""
 REVOLUTION_LIMIT = 60
-RUN_IN_NODES = 6
 
 
 @dataclass(frozen=True)
@@ -106,10 +106,10 @@ def solve_cycle(problem: ChamberProblem, samples: int, tolerance: float = TOLERA
     `chamber_kernel.CAVITY_PRESSURE` a cavity opens and fills again; the ports' and case's oil is always liquid.
     """
     given = constants(problem)
-    nodes, sample_nodes = turn_nodes(problem, samples)
+    nodes, sample_nodes = turn_nodes(problem.suction_port, problem.delivery_port, samples)
     course = Course.over(nodes)
     limit = PERIODICITY * problem.pressure_span
-    start = _run_in(problem, given, nodes, tolerance)
+    start = run_in(given, nodes, tolerance, course.totals)
     turns, change = 0, np.inf
     while abs(change) > limit:
         if turns == REVOLUTION_LIMIT:
@@ -126,17 +126,6 @@ def solve_cycle(problem: ChamberProblem, samples: int, tolerance: float = TOLERA
     checks = _checks(problem, course.totals, drift, change)
     effort = Effort(turns, steps, refused)
     return _cycle(problem, effort, course.at(nodes, sample_nodes), course.totals, checks)
-
-
-def _run_in(problem: ChamberProblem, given: Constants, nodes: Array, tolerance: float) -> float:
-    """A pressure at nodes[0] that an open port has already made its own: most pumps are periodic from there on."""
-    before = nodes[-RUN_IN_NODES:] - TURN
-    start, found = kernel.slaved_pressure(*given, before[0])
-    if not found:
-        return problem.inlet_pressure
-    course = Course.over(before)
-    *_, status = course.run(given, before, start, tolerance)
-    return float(course.pressures[-1]) if status == kernel.OK else problem.inlet_pressure
 
 
 def _step_message(status: int, problem: ChamberProblem) -> str:

@@ -9,7 +9,7 @@ import numpy as np
 from system import chamber_kernel as kernel
 from system.chamber_problem import ChamberProblem
 from system.kinematics import Array
-from system.ports import TURN, as_array, break_angles
+from system.ports import TURN, PortOpening, as_array, break_angles
 
 Constants = tuple[np.ndarray, Array, Array]
 """The record of the chamber's constants, the table of its gaps and that of its ports."""
@@ -20,16 +20,15 @@ def constants(problem: ChamberProblem) -> Constants:
     return _record(problem), _gap_cubics(problem), _port_cubics(problem)
 
 
-def turn_nodes(problem: ChamberProblem, samples: int) -> tuple[Array, np.ndarray]:
+def turn_nodes(suction: PortOpening, delivery: PortOpening, samples: int) -> tuple[Array, np.ndarray]:
     """One turn of angles that steps must end on, and where in nodes[1:] the samples from angle 0 lie.
 
     The turn begins at the sample nearest the middle of the open suction kidney: the port holds the pressure there.
     """
-    port = problem.suction_port
-    middle = port.dead_centre + 0.5 * (port.kidney_full_start + port.kidney_full_end)
+    middle = suction.dead_centre + 0.5 * (suction.kidney_full_start + suction.kidney_full_end)
     first = round(middle / TURN * samples) % samples
     grid = TURN * (first + np.arange(samples + 1)) / samples
-    breaks = np.concatenate([break_angles(problem.suction_port), break_angles(problem.delivery_port)])
+    breaks = np.concatenate([break_angles(suction), break_angles(delivery)])
     breaks = (breaks - grid[0]) % TURN + grid[0]
     apart = np.min(np.abs(breaks[:, None] - grid), axis=1) > 1e-9
     nodes = np.unique(np.concatenate([grid, breaks[apart]]))

@@ -3,17 +3,20 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Generic
 
 import numpy as np
 
 from system import chamber_kernel as kernel
-from system.kinematics import Array, SwashDrive
+from system.kinematics import Array, Number, SwashDrive
 from system.ports import PortOpening
 
 
 @dataclass(frozen=True)
 class LeakTable:
-    """Leakage of the piston, slipper and valve-plate gap of one chamber (rows 0, 1, 2) over one turn.
+    """Leakage of the piston, slipper and valve-plate gap of one chamber (rows 0, 1, 2) over one turn: (3, N).
+
+    Of P operating points at once: (P, 3, N).
 
     Columns: N equidistant shaft angles 2 pi j/N from 0; conductance in m3/(s Pa), all >= 0, carried_flow in m3/s,
     both for flow out of the chamber. Between the columns runs a periodic cubic spline: with two continuous
@@ -26,7 +29,7 @@ class LeakTable:
 
     def __post_init__(self) -> None:
         shape = self.conductance.shape
-        if len(shape) != 2 or shape[0] != 3 or shape[1] < 4 or self.carried_flow.shape != shape:
+        if len(shape) not in (2, 3) or shape[-2] != 3 or shape[-1] < 4 or self.carried_flow.shape != shape:
             raise ValueError(
                 f"leak table: found shapes {shape} and {self.carried_flow.shape}, expected (3, N) with N >= 4"
             )
@@ -53,27 +56,29 @@ class PortPressure:
 
 
 @dataclass(frozen=True)
-class ChamberProblem:
+class ChamberProblem(Generic[Number]):
     """One chamber at one operating point: SI units, pressures gauge, oil properties constant.
 
     delivery_pressure and inlet_pressure are the ports' means over the turn; without `port_pressure` they are held.
     growth (N,) m3 at N equidistant shaft angles from 0: what the parts' own small motion adds to the volume.
+
+    ChamberProblem[Array]: at P operating points, each value a column (P, 1); so may the ports' `dead_centre` be.
     """
 
-    drive: SwashDrive
-    shaft_speed: float
+    drive: SwashDrive[Number]
+    shaft_speed: Number
     piston_area: float
-    dead_volume: float
-    delivery_pressure: float
-    inlet_pressure: float
-    case_pressure: float
+    dead_volume: Number
+    delivery_pressure: Number
+    inlet_pressure: Number
+    case_pressure: Number
     bulk_modulus: float
     density: float
-    kinematic_viscosity: float
+    kinematic_viscosity: Number
     flow_coefficient: float
     critical_reynolds: float
-    delivery_port: PortOpening
-    suction_port: PortOpening
+    delivery_port: PortOpening[Number]
+    suction_port: PortOpening[Number]
     leaks: LeakTable
     port_pressure: PortPressure | None = None
     growth: Array | None = None
@@ -83,6 +88,6 @@ class ChamberProblem:
         return float(kernel.oil_state(pressure, self.bulk_modulus)[0])
 
     @property
-    def pressure_span(self) -> float:
+    def pressure_span(self) -> Number:
         """Pressure difference of the ports and 1 bar, Pa: the size by which pressures are judged."""
         return abs(self.delivery_pressure - self.inlet_pressure) + 1e5

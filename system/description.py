@@ -92,6 +92,7 @@ class PistonSection(Section):
     eccentricity_ratio: Annotated[float, Field(ge=0.0, lt=1.0)]  # given; used where no balance is
     mass: Mass
     spin_ratio: float | None = None  # spin relative to the block / shaft speed
+    stand_out_share: Annotated[float, Field(ge=0.0, le=1.2)] | None = None  # of (H_max - H)/2 at part stroke
     guide_length: Length | None = None  # of the land in the bore, from the case edge inwards
     centre_of_mass: Length | None = None  # from the ball centre into the bore
     profile: Profile | None = None  # from the chamber's end

@@ -10,8 +10,8 @@ import numpy as np
 from gaps.ball_joint import Spins
 from gaps.ring import ValvePlateGeometry
 from system.description import PumpDescription
-from system.kinematics import SwashDrive, drive_at_ratio, piston_displacement, stand_out
-from system.lumped import full_drive
+from system.kinematics import SwashDrive, drive_at_ratio, piston_displacement
+from system.lumped import full_drive, piston_stand_out
 from system.operating import OperatingPoint
 from system.spins import spins
 
@@ -39,7 +39,7 @@ def rotor(pump: PumpDescription, point: OperatingPoint) -> Rotor:
 
 def travel(rotor: Rotor, shaft_angle: float) -> float:
     """Way of the piston (m) beyond its innermost place at full displacement."""
-    return stand_out(rotor.full, rotor.drive) + float(piston_displacement(rotor.drive, shaft_angle))
+    return piston_stand_out(rotor.pump, rotor.drive) + float(piston_displacement(rotor.drive, shaft_angle))
 
 
 def valve_plate_geometry(pump: PumpDescription, turned: float = 0.0) -> ValvePlateGeometry:

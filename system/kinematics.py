@@ -8,15 +8,20 @@ and finite for a cylindrical block (beta = 0). All are valid for t < 1 (the swas
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Generic
 
 import numpy as np
 from numpy.typing import NDArray
+from typing_extensions import TypeVar
 
 Array = NDArray[np.float64]
 
+Number = TypeVar("Number", float, Array, default=float)
+"""What belongs to one operating point, or for N points at once a column (N, 1), shaft angles being the rows."""
+
 
 @dataclass(frozen=True)
-class SwashDrive:
+class SwashDrive(Generic[Number]):
     """Geometry that moves the pistons: pitch_radius in m (ball centres at zero swash), angles in rad.
 
     swash_angle is the plate's whole tilt, dead_centre_shift the angle from the inner dead centre on to the valve
@@ -26,29 +31,30 @@ class SwashDrive:
 
     pitch_radius: float
     bore_cone_angle: float
-    swash_angle: float
-    dead_centre_shift: float = 0.0
+    swash_angle: Number
+    dead_centre_shift: Number | float = 0.0
 
     def __post_init__(self) -> None:
-        if not 0.0 <= self.cone_swash_product < 1.0:
+        product = np.asarray(self.cone_swash_product)
+        if not np.all((product >= 0.0) & (product < 1.0)):
             raise ValueError(
-                f"swash angle {np.degrees(self.swash_angle):.3g} deg with bore cone angle "
+                f"swash angle {np.degrees(np.max(self.swash_angle)):.3g} deg with bore cone angle "
                 f"{np.degrees(self.bore_cone_angle):.3g} deg: tan(cone) tan(swash) is "
-                f"{self.cone_swash_product:.3g}, expected 0 or more and below 1"
+                f"{np.max(product):.3g}, expected 0 or more and below 1"
             )
 
     @property
-    def cone_swash_product(self) -> float:
+    def cone_swash_product(self) -> Number:
         """t = tan(beta) tan(gamma), dimensionless; zero for a cylindrical block."""
-        return float(np.tan(self.bore_cone_angle) * np.tan(self.swash_angle))
+        return np.tan(self.bore_cone_angle) * np.tan(self.swash_angle)
 
     @property
-    def stroke_scale(self) -> float:
+    def stroke_scale(self) -> Number:
         """R tan(gamma)/cos(beta) in m: half the stroke of the machine but for terms of order t^2."""
-        return float(self.pitch_radius * np.tan(self.swash_angle) / np.cos(self.bore_cone_angle))
+        return self.pitch_radius * np.tan(self.swash_angle) / np.cos(self.bore_cone_angle)
 
 
-def piston_displacement(drive: SwashDrive, shaft_angle: Array | float) -> Array:
+def piston_displacement(drive: SwashDrive[Number], shaft_angle: Array | float) -> Array:
     """Way of the piston out of the block from its inner dead centre, in m; paper Eq. (6).
 
     Solves S = (R/sin b) t/(1+t) (1-cos phi)/(1+t cos phi); shape of `shaft_angle` (rad).
@@ -58,12 +64,12 @@ def piston_displacement(drive: SwashDrive, shaft_angle: Array | float) -> Array:
     return np.asarray(drive.stroke_scale * (1.0 - c) / ((1.0 + t) * (1.0 + t * c)))
 
 
-def stroke(drive: SwashDrive) -> float:
+def stroke(drive: SwashDrive[Number]) -> Number:
     """Full stroke in m, Eq. (6) at the outer dead centre: H = (R/sin b) 2t/(1-t^2)."""
     return 2.0 * drive.stroke_scale / (1.0 - drive.cone_swash_product**2)
 
 
-def piston_velocity(drive: SwashDrive, shaft_angle: Array | float, shaft_speed: float) -> Array:
+def piston_velocity(drive: SwashDrive[Number], shaft_angle: Array | float, shaft_speed: Number) -> Array:
     """Velocity of the piston along its bore in m/s, positive out of the block; paper Eq. (7).
 
     Solves v = w (R/sin b) t sin phi/(1+t cos phi)^2; shaft_speed w in rad/s.
@@ -74,7 +80,7 @@ def piston_velocity(drive: SwashDrive, shaft_angle: Array | float, shaft_speed: 
     )
 
 
-def piston_acceleration(drive: SwashDrive, shaft_angle: Array | float, shaft_speed: float) -> Array:
+def piston_acceleration(drive: SwashDrive[Number], shaft_angle: Array | float, shaft_speed: Number) -> Array:
     """Acceleration of the piston along its bore in m/s2 at constant shaft speed; paper Eq. (8), corrected.
 
     Solves a = w^2 (R/sin b) [t^2 (1+sin^2 phi) + t cos phi]/(1+t cos phi)^3. The print has cos phi where the
@@ -87,7 +93,9 @@ def piston_acceleration(drive: SwashDrive, shaft_angle: Array | float, shaft_spe
     )
 
 
-def ball_acceleration_along_bore(drive: SwashDrive, shaft_angle: Array | float, shaft_speed: float) -> Array:
+def ball_acceleration_along_bore(
+    drive: SwashDrive[Number], shaft_angle: Array | float, shaft_speed: Number
+) -> Array:
     """Acceleration of the ball centre along its bore in m/s2, out of the block, in a frame that does not turn.
 
     Eq. (8) less the bore's share of the centripetal acceleration, w^2 r sin(b): the block carries an inclined bore
@@ -97,7 +105,7 @@ def ball_acceleration_along_bore(drive: SwashDrive, shaft_angle: Array | float, 
     return np.asarray(piston_acceleration(drive, shaft_angle, shaft_speed) - swept)
 
 
-def slipper_sliding_velocity(drive: SwashDrive, shaft_angle: Array | float, shaft_speed: float) -> Array:
+def slipper_sliding_velocity(drive: SwashDrive[Number], shaft_angle: Array | float, shaft_speed: Number) -> Array:
     """Velocity of the slipper's ball centre on the swash plate in m/s; paper Eq. (9), corrected.
 
     Shape (2, ...): along the swash plate's steepest line (the one square to its tilt axis) and along the tilt
@@ -110,7 +118,7 @@ def slipper_sliding_velocity(drive: SwashDrive, shaft_angle: Array | float, shaf
     return np.stack([-scale * s / np.cos(drive.swash_angle), scale * (c + t)])
 
 
-def slipper_sliding_speed(drive: SwashDrive, shaft_angle: Array | float, shaft_speed: float) -> Array:
+def slipper_sliding_speed(drive: SwashDrive[Number], shaft_angle: Array | float, shaft_speed: Number) -> Array:
     """Magnitude of `slipper_sliding_velocity` in m/s, shape of `shaft_angle`; paper Eq. (9), corrected."""
     return np.hypot(*slipper_sliding_velocity(drive, shaft_angle, shaft_speed))
 
@@ -127,19 +135,19 @@ def slipper_acceleration(drive: SwashDrive, shaft_angle: float, shaft_speed: flo
     return drive.pitch_radius * shaft_speed**2 * np.array([along, across])
 
 
-def ball_radius(drive: SwashDrive, shaft_angle: Array | float) -> Array:
+def ball_radius(drive: SwashDrive[Number], shaft_angle: Array | float) -> Array:
     """Distance of a ball centre from the shaft axis in m: R/(1 + t cos phi), plate and bore axis cutting there."""
     return np.asarray(drive.pitch_radius / (1.0 + drive.cone_swash_product * np.cos(shaft_angle)))
 
 
-def swash_angle_for_stroke(stroke_length: float, pitch_radius: float, bore_cone_angle: float) -> float:
+def swash_angle_for_stroke(stroke_length: Number, pitch_radius: float, bore_cone_angle: float) -> Number:
     """Swash angle in rad that gives a stroke in m: the positive root of H (1-t^2) = 2 R tan(g)/cos(b).
 
     Written as tan g = H/(r + sqrt(r^2 + H^2 tan^2 b)), r = R/cos(b), which is exact for a cylindrical block.
     """
     radius = pitch_radius / np.cos(bore_cone_angle)
     root = np.hypot(radius, stroke_length * np.tan(bore_cone_angle))
-    return float(np.arctan(stroke_length / (radius + root)))
+    return np.arctan(stroke_length / (radius + root))
 
 
 def crossed_drive(
@@ -164,7 +172,7 @@ def least_ratio(full: SwashDrive) -> float:
     return stroke(alone) / stroke(full)
 
 
-def drive_at_ratio(full: SwashDrive, displacement_ratio: float) -> SwashDrive:
+def drive_at_ratio(full: SwashDrive, displacement_ratio: Number) -> SwashDrive[Number]:
     """The same pump set to a fraction of its full displacement; `full` is the drive at its largest swash angle.
 
     Displacement is proportional to the stroke, so the swash angle is the inverse of Eq. (6) at
@@ -174,18 +182,16 @@ def drive_at_ratio(full: SwashDrive, displacement_ratio: float) -> SwashDrive:
     angle = swash_angle_for_stroke(wanted, full.pitch_radius, full.bore_cone_angle)
     if full.dead_centre_shift == 0.0:
         return SwashDrive(full.pitch_radius, full.bore_cone_angle, angle)
-    if displacement_ratio < least_ratio(full):
+    if np.any(displacement_ratio < least_ratio(full)):
         raise ValueError(
-            f"displacement ratio: found {displacement_ratio:.3g}, expected at least {least_ratio(full):.3g}, that "
-            "of the cross angle alone"
+            f"displacement ratio: found {np.min(displacement_ratio):.3g}, expected at least "
+            f"{least_ratio(full):.3g}, that of the cross angle alone"
         )
     crossed = np.tan(full.swash_angle) * np.sin(full.dead_centre_shift) / np.tan(angle)
-    return SwashDrive(
-        full.pitch_radius, full.bore_cone_angle, angle, float(np.arcsin(np.clip(crossed, -1.0, 1.0)))
-    )
+    return SwashDrive(full.pitch_radius, full.bore_cone_angle, angle, np.arcsin(np.clip(crossed, -1.0, 1.0)))
 
 
-def stand_out(full: SwashDrive, drive: SwashDrive) -> float:
+def stand_out(full: SwashDrive, drive: SwashDrive[Number]) -> Number:
     """How far the piston stands out at its inner dead centre beyond full displacement, in m: (H_max - H)/2.
 
     The plate pivots on the shaft axis, so both dead centres draw towards mid stroke as it is set back. Exact for

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from system.kinematics import Array
+from system.kinematics import Array, Number
 
 
 def piston_conductance(
@@ -16,7 +16,7 @@ def piston_conductance(
     radial_clearance: float,
     engaged_length: Array | float,
     eccentricity_ratio: float,
-    viscosity: float,
+    viscosity: Array | float,
 ) -> Array:
     """Pressure-driven leakage of one piston per pascal; first term of paper Eq. (15).
 
@@ -45,8 +45,8 @@ def slipper_conductance(
     film_thickness: float,
     orifice_diameter: float,
     orifice_length: float,
-    viscosity: float,
-) -> float:
+    viscosity: Number,
+) -> Number:
     """Leakage of one slipper per pascal: capillary orifice and parallel disc lands in series; paper Eq. (16).
 
     G = pi d^4 h^3/(mu [6 d^4 ln(r2/r1) + 128 h^3 l_o]), ln(r2/r1) the log_ratio, of several lands the sum.
@@ -54,7 +54,7 @@ def slipper_conductance(
     """
     d4, h3 = orifice_diameter**4, film_thickness**3
     resistance = 6.0 * d4 * log_ratio + 128.0 * h3 * orifice_length
-    return float(np.pi * d4 * h3 / (viscosity * resistance))
+    return np.pi * d4 * h3 / (viscosity * resistance)
 
 
 def slipper_leakage_short_orifice(
@@ -77,8 +77,8 @@ def slipper_leakage_short_orifice(
 
 
 def valve_plate_conductance(
-    land_radii: tuple[float, float, float, float], film_thickness: float, pistons: int, viscosity: float
-) -> float:
+    land_radii: tuple[float, float, float, float], film_thickness: float, pistons: int, viscosity: Number
+) -> Number:
     """Leakage of one chamber over both sealing lands of the valve plate per pascal; paper Eq. (17).
 
     G = alpha h^3/(12 mu) [1/ln(R2/R1) + 1/ln(R4/R3)], alpha = 2 pi/z: each chamber pressurises its own pitch.
@@ -87,4 +87,4 @@ def valve_plate_conductance(
     r1, r2, r3, r4 = land_radii
     pitch = 2.0 * np.pi / pistons
     lands = 1.0 / np.log(r2 / r1) + 1.0 / np.log(r4 / r3)
-    return float(pitch * film_thickness**3 / (12.0 * viscosity) * lands)
+    return pitch * film_thickness**3 / (12.0 * viscosity) * float(lands)

@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Generic, Protocol
 
 import numpy as np
 
 from system import pairs
 from system.assembly import PumpPoint, assemble
-from system.chamber import TOLERANCE, ChamberCycle
+from system.chamber import TOLERANCE
 from system.chamber_problem import ChamberProblem, LeakTable
 from system.description import PortsSection, PumpDescription
 from system.kinematics import (
     Array,
+    Number,
     SwashDrive,
     ball_acceleration_along_bore,
     crossed_drive,
@@ -46,18 +48,29 @@ SAMPLES_PER_PITCH = 40
 
 
 @dataclass(frozen=True)
-class PistonMotion:
+class PistonMotion(Generic[Number]):
     """One piston over N equidistant shaft angles, SI: drive, velocity, acceleration along the bore,
     slipper sliding speed, engaged length and overhang of the ball.
+
+    PistonMotion[Array]: at P operating points, each over its N angles, (P, N).
     """
 
-    drive: SwashDrive
+    drive: SwashDrive[Number]
     shaft_angle: Array
     velocity: Array
     acceleration: Array
     sliding_speed: Array
     engaged_length: Array
     overhang: Array
+
+
+class Pressed(Protocol):
+    """Whatever has the chamber's pressure (Pa gauge) over the motion's shaft angles."""
+
+    @property
+    def pressure(self) -> Array:
+        """(N,), or (P, N) at P operating points."""
+        ...
 
 
 def lumped_point(pump: PumpDescription, point: OperatingPoint, tolerance: float = TOLERANCE) -> PumpPoint:
@@ -123,17 +136,27 @@ def swept_displacement(pump: PumpDescription, drive: SwashDrive) -> float:
     return float(pump.pump.pistons * area * (suction - delivery))
 
 
-def piston_motion(pump: PumpDescription, point: OperatingPoint) -> PistonMotion:
-    """Kinematics of one piston at the point's displacement ratio, at SAMPLES_PER_PITCH z shaft angles.
+def piston_stand_out(pump: PumpDescription, drive: SwashDrive[Number]) -> Number:
+    """How far the piston stands out of its bore at inner dead centre beyond full displacement, in m.
 
-    The piston stands out by (H_max - H)/2 more at reduced displacement; by that and its way S the engaged length
-    is shorter and the ball's overhang longer.
+    [piston] stand_out_share of (H_max - H)/2 (`kinematics.stand_out`): all of it where the plate pivots on the
+    shaft axis, none where the inner dead centre stays; all of it where nothing is stated.
     """
-    full = full_drive(pump)
-    drive = drive_at_ratio(full, point.displacement_ratio)
-    samples = SAMPLES_PER_PITCH * pump.pump.pistons
+    share = pump.piston.stand_out_share
+    return (1.0 if share is None else share) * stand_out(full_drive(pump), drive)
+
+
+def piston_motion(
+    pump: PumpDescription, point: OperatingPoint[Number], samples_per_pitch: int = SAMPLES_PER_PITCH
+) -> PistonMotion[Number]:
+    """Kinematics of one piston at the point's displacement ratio, at samples_per_pitch z shaft angles.
+
+    By its way S and by `piston_stand_out` the engaged length is shorter and the ball's overhang longer.
+    """
+    drive = drive_at_ratio(full_drive(pump), point.displacement_ratio)
+    samples = samples_per_pitch * pump.pump.pistons
     angle = TURN * np.arange(samples) / samples
-    out = stand_out(full, drive) + piston_displacement(drive, angle)
+    out = piston_stand_out(pump, drive) + piston_displacement(drive, angle)
     return PistonMotion(
         drive=drive,
         shaft_angle=angle,
@@ -145,7 +168,7 @@ def piston_motion(pump: PumpDescription, point: OperatingPoint) -> PistonMotion:
     )
 
 
-def lumped_leaks(pump: PumpDescription, point: OperatingPoint, motion: PistonMotion) -> LeakTable:
+def lumped_leaks(pump: PumpDescription, point: OperatingPoint[Number], motion: PistonMotion[Number]) -> LeakTable:
     """Leakage of one chamber's gaps over shaft angle: paper Eqs. (15)-(17), viscosity at case temperature."""
     p, s, v, mu = pump.piston, pump.slipper, pump.valve_plate, point.viscosity
     diameter = pump.pump.piston_diameter
@@ -157,14 +180,14 @@ def lumped_leaks(pump: PumpDescription, point: OperatingPoint, motion: PistonMot
     piston = piston_conductance(diameter, p.radial_clearance, motion.engaged_length, p.eccentricity_ratio, mu)
     carried = piston_carried_flow(diameter, p.radial_clearance, motion.velocity)
     return LeakTable(
-        conductance=np.stack([piston, slipper * ones, plate * ones]),
-        carried_flow=np.stack([carried, 0.0 * ones, 0.0 * ones]),
+        conductance=np.stack([piston, slipper * ones, plate * ones], axis=-2),
+        carried_flow=np.stack([carried, 0.0 * carried, 0.0 * carried], axis=-2),
     )
 
 
 def chamber_problem(
-    pump: PumpDescription, point: OperatingPoint, motion: PistonMotion, leaks: LeakTable
-) -> ChamberProblem:
+    pump: PumpDescription, point: OperatingPoint[Number], motion: PistonMotion[Number], leaks: LeakTable
+) -> ChamberProblem[Number]:
     """One chamber of the pump at the point, with gaps that leak as `leaks` says, whoever filled it."""
     area = piston_area(pump)
     suction, delivery = port_openings(pump, motion.drive.dead_centre_shift)
@@ -187,7 +210,9 @@ def chamber_problem(
     )
 
 
-def port_openings(pump: PumpDescription, shift: float = 0.0) -> tuple[PortOpening, PortOpening]:
+def port_openings(
+    pump: PumpDescription, shift: Number | float = 0.0
+) -> tuple[PortOpening[Number], PortOpening[Number]]:
     """The valve plate's ports, that of suction from shaft angle 0 on, that of delivery from pi.
 
     With a cross angle both lie later by the drive's `dead_centre_shift`, `shift`: the plate's own dead centres.
@@ -196,7 +221,7 @@ def port_openings(pump: PumpDescription, shift: float = 0.0) -> tuple[PortOpenin
     return _port_opening(pump, suction, shift), _port_opening(pump, delivery, np.pi + shift)
 
 
-def _port_opening(pump: PumpDescription, p: PortsSection, dead_centre: float) -> PortOpening:
+def _port_opening(pump: PumpDescription, p: PortsSection, dead_centre: Number | float) -> PortOpening[Number]:
     radius = pump.valve_plate.kidney_pitch_radius
     return PortOpening(
         dead_centre=dead_centre,
@@ -211,7 +236,7 @@ def _port_opening(pump: PumpDescription, p: PortsSection, dead_centre: float) ->
 
 
 def lumped_pairs(
-    pump: PumpDescription, point: OperatingPoint, motion: PistonMotion, cycle: ChamberCycle
+    pump: PumpDescription, point: OperatingPoint[Number], motion: PistonMotion[Number], cycle: Pressed
 ) -> FrictionPairs:
     """REF90's nominal losses of the seven pairs at the pressures of a cycle (sampled at the motion's angles)."""
     area = piston_area(pump)
@@ -239,7 +264,9 @@ def lumped_pairs(
     )
 
 
-def _piston_cylinder(pump: PumpDescription, point: OperatingPoint, motion: PistonMotion, side: Array) -> PairLoss:
+def _piston_cylinder(
+    pump: PumpDescription, point: OperatingPoint[Number], motion: PistonMotion[Number], side: Array
+) -> PairLoss:
     length, velocity = motion.engaged_length, motion.velocity
     coulomb = pairs.piston_cylinder_coulomb(pump.friction.piston_cylinder, side, length, motion.overhang, velocity)
     viscous = pairs.piston_cylinder_shear(
@@ -254,7 +281,7 @@ def _piston_cylinder(pump: PumpDescription, point: OperatingPoint, motion: Pisto
 
 
 def _slipper_swash_plate(
-    pump: PumpDescription, point: OperatingPoint, motion: PistonMotion, axial: Array
+    pump: PumpDescription, point: OperatingPoint[Number], motion: PistonMotion[Number], axial: Array
 ) -> PairLoss:
     s, speed = pump.slipper, motion.sliding_speed
     coulomb = pairs.slipper_swash_plate_coulomb(
@@ -265,7 +292,7 @@ def _slipper_swash_plate(
 
 
 def _piston_slipper_socket(
-    pump: PumpDescription, point: OperatingPoint, motion: PistonMotion, axial: Array
+    pump: PumpDescription, point: OperatingPoint[Number], motion: PistonMotion[Number], axial: Array
 ) -> PairLoss:
     coulomb = pairs.piston_slipper_socket_coulomb(
         pump.friction.piston_slipper_socket,
@@ -277,7 +304,7 @@ def _piston_slipper_socket(
     return PairLoss(pump.pump.pistons, coulomb, np.zeros_like(axial))
 
 
-def _valve_plate_cylinder(pump: PumpDescription, point: OperatingPoint, pressure_sum: Array) -> PairLoss:
+def _valve_plate_cylinder(pump: PumpDescription, point: OperatingPoint[Number], pressure_sum: Array) -> PairLoss:
     v, radius = pump.valve_plate, pump.valve_plate.kidney_pitch_radius
     clamping = pairs.clamping_force(pressure_sum, v.residual_clamping, block_spring(pump))
     coulomb = pairs.valve_plate_coulomb(pump.friction.valve_plate_cylinder, clamping, point.shaft_speed, radius)
@@ -285,16 +312,18 @@ def _valve_plate_cylinder(pump: PumpDescription, point: OperatingPoint, pressure
     shear = pairs.valve_plate_shear(point.viscosity, radii, point.shaft_speed, radius, v.film_thickness)
     for pads in v.bearing_pads:
         speed = point.shaft_speed * pads.mean_radius
-        shear += pairs.pads_shear(point.viscosity, pads.area, speed, v.film_thickness)
+        shear = shear + pairs.pads_shear(point.viscosity, pads.area, speed, v.film_thickness)
     return PairLoss(1, coulomb, np.full_like(coulomb, shear))
 
 
-def _ball_guide_retainer(pump: PumpDescription, point: OperatingPoint, motion: PistonMotion) -> PairLoss:
+def _ball_guide_retainer(
+    pump: PumpDescription, point: OperatingPoint[Number], motion: PistonMotion[Number]
+) -> PairLoss:
     guide = BallGuide(pump.ball_guide.radius, pump.ball_guide.contact_latitude)
     speed = mean_sliding_speed(guide, motion.drive.swash_angle, point.shaft_speed)
     friction = pump.friction.ball_guide_retainer
     loss = pairs.ball_guide_coulomb(friction, block_spring(pump), guide.contact_latitude, speed)
-    return PairLoss(1, np.full_like(motion.shaft_angle, loss), np.zeros_like(motion.shaft_angle))
+    return PairLoss(1, loss * np.ones_like(motion.shaft_angle), np.zeros_like(motion.shaft_angle))
 
 
 def block_spring(pump: PumpDescription) -> float:

@@ -3,22 +3,27 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Generic
 
 from reynolds.oil import dynamic_viscosity
 from system.description import PumpDescription
+from system.kinematics import Number
 
 
 @dataclass(frozen=True)
-class OperatingPoint:
-    """One steady point. Speed in rad/s, pressures in Pa gauge, temperature in K, viscosity in Pa s."""
+class OperatingPoint(Generic[Number]):
+    """One steady point. Speed in rad/s, pressures in Pa gauge, temperature in K, viscosity in Pa s.
 
-    shaft_speed: float
-    delivery_pressure: float
-    inlet_pressure: float
-    case_pressure: float
-    displacement_ratio: float
-    temperature: float
-    viscosity: float
+    OperatingPoint[Array]: N points at once, each value a column (N, 1).
+    """
+
+    shaft_speed: Number
+    delivery_pressure: Number
+    inlet_pressure: Number
+    case_pressure: Number
+    displacement_ratio: Number
+    temperature: Number
+    viscosity: Number
 
 
 def operating_point(

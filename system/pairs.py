@@ -12,7 +12,7 @@ from enum import Enum
 
 import numpy as np
 
-from system.kinematics import Array
+from system.kinematics import Array, Number
 
 
 class Pair(Enum):
@@ -97,18 +97,19 @@ def revolution_mean(loss: Array, count: int) -> float:
 
 
 def over_chambers(values: Sequence[Array], pistons: int) -> Array:
-    """Sum (N,) of a periodic quantity over all chambers, each 2 pi/z further on; N a multiple of z.
+    """Sum (..., N) of a periodic quantity over all chambers, each 2 pi/z further on; N a multiple of z.
 
-    values: (N,) over a chamber's own angle, of one chamber for all z or of each.
+    values: (..., N) over a chamber's own angle, of one chamber for all z or of each.
     """
-    pitch = values[0].size // pistons
+    *points, samples = values[0].shape
+    pitch = samples // pistons
     if len(values) == 1:
-        return np.tile(values[0].reshape(pistons, pitch).sum(axis=0), pistons)
-    return np.asarray(sum(np.roll(own, -k * pitch) for k, own in enumerate(values)))
+        return np.tile(values[0].reshape(*points, pistons, pitch).sum(axis=-2), pistons)
+    return np.asarray(sum(np.roll(own, -k * pitch, axis=-1) for k, own in enumerate(values)))
 
 
 def axial_force(
-    pressure: Array, case_pressure: float, piston_area: float, mass: float, acceleration: Array
+    pressure: Array, case_pressure: Array | float, piston_area: float, mass: float, acceleration: Array
 ) -> Array:
     """Force Fa = Ap (p - p_case) - m a of a piston with its slipper on the swash plate, along the bore.
 
@@ -117,7 +118,7 @@ def axial_force(
     return piston_area * (pressure - case_pressure) - mass * acceleration
 
 
-def side_force(axial: Array, swash_angle: float) -> Array:
+def side_force(axial: Array, swash_angle: Array | float) -> Array:
     """Size of the swash plate's side force on a piston: |Fa| tan(gamma)."""
     return np.abs(axial) * np.tan(swash_angle)
 
@@ -130,7 +131,7 @@ def piston_cylinder_coulomb(
 
 
 def piston_cylinder_shear(
-    viscosity: float,
+    viscosity: Array | float,
     piston_diameter: float,
     engaged_length: Array,
     velocity: Array,
@@ -142,18 +143,20 @@ def piston_cylinder_shear(
     return viscosity * area * velocity**2 / (radial_clearance * np.sqrt(1.0 - eccentricity_ratio**2))
 
 
-def slipper_swash_plate_coulomb(friction: float, axial: Array, swash_angle: float, speed: Array) -> Array:
+def slipper_swash_plate_coulomb(friction: float, axial: Array, swash_angle: Array | float, speed: Array) -> Array:
     """Loss f |Fa|/cos(gamma) v_s of one slipper on the swash plate."""
     return friction * np.abs(axial) / np.cos(swash_angle) * speed
 
 
-def slipper_swash_plate_shear(viscosity: float, land_area: float, speed: Array, film_thickness: float) -> Array:
+def slipper_swash_plate_shear(
+    viscosity: Array | float, land_area: float, speed: Array, film_thickness: float
+) -> Array:
     """Shear loss mu A v_s^2/delta of one slipper's lands, A = pi (r2^2 - r1^2) in m2 of a single one."""
     return viscosity * land_area * speed**2 / film_thickness
 
 
 def piston_slipper_socket_coulomb(
-    friction: float, axial: Array, swash_angle: float, ball_radius: float, shaft_speed: float
+    friction: float, axial: Array, swash_angle: Number, ball_radius: float, shaft_speed: Number
 ) -> Array:
     """Loss f |Fa|/cos(gamma) r_ball w sin(gamma): the slipper tilts once per turn on its ball."""
     return friction * np.abs(axial) / np.cos(swash_angle) * ball_radius * shaft_speed * np.sin(swash_angle)
@@ -164,43 +167,45 @@ def clamping_force(pressure_force: Array, residual_clamping: float, spring: floa
     return residual_clamping * pressure_force + spring
 
 
-def valve_plate_coulomb(friction: float, clamping: Array, shaft_speed: float, mean_radius: float) -> Array:
+def valve_plate_coulomb(friction: float, clamping: Array, shaft_speed: Array | float, mean_radius: float) -> Array:
     """Loss f N w R_v of the block on the valve plate."""
     return friction * np.abs(clamping) * shaft_speed * mean_radius
 
 
 def valve_plate_shear(
-    viscosity: float,
+    viscosity: Number,
     land_radii: tuple[float, float, float, float],
-    shaft_speed: float,
+    shaft_speed: Number,
     mean_radius: float,
     film_thickness: float,
-) -> float:
+) -> Number:
     """Shear loss mu A_lands (w R_v)^2/delta of both sealing lands, taken at the mean radius.
 
     REF90's nominal law; the integral of r^2 over lands far from the mean radius is larger (13 % on REF90).
     """
     r1, r2, r3, r4 = land_radii
     lands = np.pi * (r2**2 - r1**2 + r4**2 - r3**2)
-    return float(viscosity * lands * (shaft_speed * mean_radius) ** 2 / film_thickness)
+    return viscosity * lands * (shaft_speed * mean_radius) ** 2 / film_thickness
 
 
-def pads_shear(viscosity: float, area: float, mean_speed: float, film_thickness: float) -> float:
+def pads_shear(viscosity: Number, area: float, mean_speed: Number, film_thickness: float) -> Number:
     """Shear loss mu A (w R_m)^2/delta of outer bearing pads, at the speed (m/s) on their mean radius."""
     return viscosity * area * mean_speed**2 / film_thickness
 
 
 def ball_guide_coulomb(
-    friction: float, spring: float, contact_latitude: float, mean_sliding_speed: float
-) -> float:
+    friction: float, spring: float, contact_latitude: float, mean_sliding_speed: Number
+) -> Number:
     """Loss f F_s/sin(latitude) mean|dV| of ball guide and retainer.
 
     REF90's nominal law: it leaves the cos(gamma) of Eq. (23) out (see `retainer.uniform_normal_force`, 4 % at 16.2
     deg). Independent of pressure.
     """
-    return float(friction * spring / np.sin(contact_latitude) * mean_sliding_speed)
+    return friction * spring / np.sin(contact_latitude) * mean_sliding_speed
 
 
-def bearing_coulomb(friction: float, share: float, side_sum: Array, shaft_speed: float, diameter: float) -> Array:
+def bearing_coulomb(
+    friction: float, share: float, side_sum: Array, shaft_speed: Array | float, diameter: float
+) -> Array:
     """Loss f share sum(Fs) w d/2 of one shaft bearing that takes its share of all pistons' side forces."""
     return friction * share * side_sum * shaft_speed * diameter / 2.0

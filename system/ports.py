@@ -8,11 +8,12 @@ suction port counts its angles from the inner dead centre (shaft angle 0), the d
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Generic
 
 import numba
 import numpy as np
 
-from system.kinematics import Array
+from system.kinematics import Array, Number
 from system.port_webs import WEBS_SIZE, PortWebs, covered_share
 from system.relief_grooves import SIZE, ReliefGroove, throat_area
 
@@ -27,7 +28,7 @@ NO_WEBS = PortWebs()
 
 
 @dataclass(frozen=True)
-class PortOpening:
+class PortOpening(Generic[Number]):
     """One port: angles in rad from its own dead centre, in rising order, and the area of its kidney in m2.
 
     `dead_centre` is the shaft angle of that dead centre: 0 for suction, pi for delivery. Grooves that sink with
@@ -35,7 +36,7 @@ class PortOpening:
     than MOST_GROOVES.
     """
 
-    dead_centre: float
+    dead_centre: Number | float
     kidney_start: float
     kidney_full_start: float
     kidney_full_end: float

@@ -12,7 +12,7 @@ from enum import Enum
 
 import numpy as np
 
-from system.kinematics import Array
+from system.kinematics import Array, Number
 
 QUADRATURE_POINTS = 256
 """Points of the periodic rule round the contact circle: exact to round-off for the smooth speeds met here."""
@@ -48,7 +48,7 @@ def relative_locus(guide: BallGuide, swash_angle: float, psi: Array | float) -> 
     return contact_point(guide, swash_angle, psi) - contact_point(guide, 0.0, psi)
 
 
-def azimuth_rate_ratio(guide: BallGuide, swash_angle: float, psi: Array | float) -> Array:
+def azimuth_rate_ratio(guide: BallGuide, swash_angle: Array | float, psi: Array | float) -> Array:
     """The paper's k(psi) = (dpsi/dt)/w of Eq. (12), for a contact point that keeps the ball guide's azimuth."""
     sl, cl = np.sin(guide.contact_latitude), np.cos(guide.contact_latitude)
     sg, cg = np.sin(swash_angle), np.cos(swash_angle)
@@ -60,9 +60,9 @@ def azimuth_rate_ratio(guide: BallGuide, swash_angle: float, psi: Array | float)
 
 def relative_velocity(
     guide: BallGuide,
-    swash_angle: float,
+    swash_angle: Number,
     psi: Array | float,
-    shaft_speed: float,
+    shaft_speed: Number,
     motion: RetainerMotion = RetainerMotion.RIGID,
 ) -> Array:
     """Sliding velocity of the retainer on the ball guide in m/s, shape (3, ...); paper Eq. (11).
@@ -84,14 +84,15 @@ def relative_velocity(
 
 def mean_sliding_speed(
     guide: BallGuide,
-    swash_angle: float,
-    shaft_speed: float,
+    swash_angle: Number,
+    shaft_speed: Number,
     motion: RetainerMotion = RetainerMotion.RIGID,
-) -> float:
+) -> Number:
     """Mean of |dV| round the contact circle in m/s: Eq. (25) per unit of uniform normal force and friction."""
     psi = 2.0 * np.pi * np.arange(QUADRATURE_POINTS) / QUADRATURE_POINTS
     velocity = relative_velocity(guide, swash_angle, psi, shaft_speed, motion)
-    return float(np.mean(np.linalg.norm(velocity, axis=0)))
+    speed = np.linalg.norm(velocity, axis=0)
+    return np.mean(speed, axis=-1, keepdims=speed.ndim > 1)
 
 
 def spring_force(preload: float, stiffness: float, compression: float) -> float:

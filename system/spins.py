@@ -9,8 +9,8 @@ import numpy as np
 from gaps.ball_joint import Spins, bore_drag, free_spins, land_drag
 from system.description import PumpDescription
 from system.directions import plate_axes
-from system.kinematics import SwashDrive, stand_out, stroke
-from system.lumped import full_drive, piston_area
+from system.kinematics import SwashDrive, stroke
+from system.lumped import piston_area, piston_stand_out
 from system.operating import OperatingPoint
 
 
@@ -29,7 +29,7 @@ def spins(pump: PumpDescription, point: OperatingPoint, drive: SwashDrive) -> Sp
         return Spins(piston_spin, slipper_spin)
     above = 0.5 * (point.delivery_pressure + point.inlet_pressure) - point.case_pressure
     force = piston_area(pump) * abs(above) / math.cos(drive.swash_angle)
-    engaged = part.engaged_length - stand_out(full_drive(pump), drive) - 0.5 * stroke(drive)
+    engaged = part.engaged_length - piston_stand_out(pump, drive) - 0.5 * stroke(drive)
     length = min(engaged, part.guide_length or engaged)
     lands = (land_drag(point.viscosity, *land, slipper.film_thickness) for land in slipper.lands.radii)
     return free_spins(
