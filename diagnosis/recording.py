@@ -58,6 +58,11 @@ class RecordedChannel:
     assumed: tuple[str, ...]
 
 
+def reading_sigma(channel: RecordedChannel, readings: Array) -> Array:
+    """Return one sigma of repeatability of readings, both in SI: sigma + sigma_relative |reading|."""
+    return channel.sigma + channel.sigma_relative * np.abs(readings)
+
+
 @dataclass(frozen=True)
 class SteadyTable:
     """N steady points in the order in which they were taken.
@@ -71,6 +76,10 @@ class SteadyTable:
     repeats: NDArray[np.int64]
     hours: Array
     effective: Array
+
+    def column(self, name: ChannelName) -> Array:
+        """Readings (N,) of one channel in SI."""
+        return self.values[:, list(ChannelName).index(name)]
 
 
 @dataclass(frozen=True)
@@ -100,3 +109,7 @@ class Recording:
     steady: SteadyTable
     traces: tuple[TraceBlock, ...]
     notes: tuple[DataNote, ...]
+
+    def channel(self, name: ChannelName) -> RecordedChannel | None:
+        """The channel of a name, None where it is not measured."""
+        return next((channel for channel in self.channels if channel.name is name), None)

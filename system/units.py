@@ -186,6 +186,21 @@ def _unit(text: str) -> _Unit | None:
     )
 
 
+def unit_scale(name: str, dimension: Dimension) -> tuple[float, float]:
+    """Return (factor, offset) with SI value = factor * number of the unit + offset.
+
+    Raises QuantityError for a unit that is not known or measures something else.
+    """
+    unit = _unit(name)
+    expected = f"a unit of {dimension.noun}, such as '{_example_unit(dimension)}'"
+    if unit is None:
+        raise QuantityError(f"{name!r}, a unit that is not known", expected)
+    if not _measures(unit, dimension):
+        raise QuantityError(f"{name!r}, which is not of {dimension.noun}", expected)
+    si = _unit_of(dimension.si_unit)
+    return float(unit.factor / si.factor), float(unit.offset / si.factor)
+
+
 def _in_si(number: str, unit: _Unit, dimension: Dimension) -> Fraction:
     """Return a decimal number of a unit in the SI unit of the dimension, without rounding."""
     return (Fraction(number) * unit.factor + unit.offset) / _unit_of(dimension.si_unit).factor
