@@ -1,0 +1,190 @@
+"""The next point to record: it separates what the recording leaves together, and says so in numbers that hold."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from diagnosis.bench_box import rig_box
+from diagnosis.next_point import Contender, NextPoint, divergence, gains_at, next_point
+from diagnosis.recording import Circuit, RecordedChannel, Recording, SteadyTable
+from diagnosis.study import Study
+from system.bench_points import BenchPoints
+from system.channels import ChannelName
+from system.components import Component
+from system.estimation.fit import maximum_posterior
+from system.estimation.observations import Array, Channel, Observations
+from system.estimation.parameters import Parameter, Role, Scale
+from system.physics.effects import EffectId
+from system.pump_file import load_pump
+from system.units import Dimension
+
+MPA, LPM = 1e6, 1.0 / 60000.0
+SPEED, PRESSURE = 150.0, 20 * MPA
+SIGMA = 0.01 * LPM
+Law = Callable[[BenchPoints], Array]
+
+
+@dataclass(frozen=True)
+class Drain:
+    """Case flow of a pump: a leak ~ p of size known to a tenth, and one law more of free size."""
+
+    points: BenchPoints
+    law: Law
+    parameters: tuple[Parameter, ...]
+
+    def predict(self, values: Array) -> Array:
+        return (values[0] * self.points.p_out / PRESSURE + values[1] * self.law(self.points))[:, None]
+
+    def slopes(self, values: Array, names: tuple[str, ...]) -> Array:
+        columns = np.stack([self.points.p_out / PRESSURE, self.law(self.points)], axis=-1)
+        return columns[:, None, [[one.name for one in self.parameters].index(name) for name in names]]
+
+    def input_slopes(self, values: Array) -> Array:
+        return np.zeros((len(self.points.speed), 1, 0))
+
+    def with_parameters(self, parameters: tuple[Parameter, ...]) -> Drain:
+        return replace(self, parameters=parameters)
+
+    def with_extension(self, *_: Any) -> Drain:
+        raise NotImplementedError("no law of the catalogue acts here")
+
+    def components(self, values: Array) -> Mapping[Component, Array]:
+        return {}
+
+    def elsewhere(self, points: BenchPoints) -> Drain:
+        return replace(self, points=points)
+
+
+def _square(points: BenchPoints) -> Array:
+    return (points.p_out / PRESSURE) ** 2
+
+
+def _fast(points: BenchPoints) -> Array:
+    return points.p_out * points.speed / (PRESSURE * SPEED)
+
+
+def _drain(points: BenchPoints, law: Law, size: float) -> Drain:
+    known = ("leak", Role.BASE, Scale.NORMAL, LPM, 0.1 * LPM), (-np.inf, np.inf)
+    free = ("size", Role.EXTENSION, Scale.HALF, 0.0, size), (0.0, np.inf)
+    return Drain(
+        points, law, tuple(Parameter(*own, *ends, Dimension.VOLUME_FLOW, "test") for own, ends in (known, free))
+    )
+
+
+def _points() -> BenchPoints:
+    """A campaign in which speed went with pressure: the two laws look alike in it."""
+    pressure = np.linspace(5 * MPA, 20 * MPA, 24)
+    speed = SPEED * (pressure / PRESSURE + 0.06 * np.sin(7 * np.arange(24)))
+    same, order = np.ones(24), np.arange(24.0)
+    return BenchPoints(
+        speed, same, pressure, 1 * MPA * same, 0.1 * MPA * same, 323 * same, 323 * same, order, order
+    )
+
+
+def _recording(points: BenchPoints, flow: Array) -> Recording:
+    values = np.full((24, len(ChannelName)), np.nan)
+    columns = {ChannelName.SPEED: points.speed, ChannelName.P_OUT: points.p_out, ChannelName.Q_CASE: flow}
+    for name, column in columns.items():
+        values[:, list(ChannelName).index(name)] = column
+    channel = RecordedChannel(ChannelName.Q_CASE, "Q_case", "L/min", SIGMA, 0.0, 0.0, 0.0, 0.0, 0.0, ())
+    steady = SteadyTable(values, np.arange(24), np.full(24, np.nan), np.ones(24))
+    return Recording("toy", "ref90", "", Circuit.CLOSED, (channel,), steady, (), ())
+
+
+def _rivals(true: Law, seed: int) -> tuple[Study, Contender, Contender]:
+    """Readings made by one law, and both laws fitted to them."""
+    points = _points()
+    flow = points.p_out / PRESSURE * LPM + 0.3 * LPM * true(points)
+    flow = flow + SIGMA * np.random.default_rng(seed).normal(size=24)
+    readings = Observations(
+        channels=(Channel("Q_case", Dimension.VOLUME_FLOW),),
+        values=flow[:, None],
+        sigma=np.full((24, 1), SIGMA),
+        inputs=(),
+        input_sigma=np.zeros((24, 0)),
+        quantum=np.zeros(1),
+        blocks=np.arange(24),
+    )
+    drains = [_drain(points, law, 0.3 * LPM) for law in (_square, _fast)]
+    fits = [maximum_posterior(drain, readings) for drain in drains]
+    ids = (EffectId.ELASTIC_OPENING,), (EffectId.FILM_HEATING,)
+    first, second = (Contender(*each) for each in zip(ids, drains, fits, strict=True))
+    return Study(_recording(points, flow), drains[0], readings, fits[0], (), {}, np.zeros((24, 4))), first, second
+
+
+def _asked(point: NextPoint) -> BenchPoints:
+    at = point.point
+    numbers = (
+        at.shaft_speed, at.displacement_ratio, at.delivery_pressure, at.inlet_pressure, at.case_pressure,
+        at.temperature, at.temperature, 0.0, 24.0,
+    )  # fmt: skip
+    return BenchPoints(*(np.array([number]) for number in numbers))
+
+
+@pytest.mark.parametrize("true", [_square, _fast])
+def test_next_point_separates_twice_as_well_as_one_more_of_the_same(true: Law) -> None:
+    """The gate of diagnosis.md 2.3: at least twice the separation of a reading at the campaign's median point."""
+    study, first, second = _rivals(true, seed=5)
+    found = next_point(study, load_pump("ref90"), first, second)
+    assert found is not None
+    per_point = gains_at(study, first, second, _points())
+    assert found.gain >= 2 * np.median(per_point)
+    assert found.gain == pytest.approx(gains_at(study, first, second, _asked(found))[0], rel=1e-9)
+    assert found.separates == (EffectId.ELASTIC_OPENING, EffectId.FILM_HEATING)
+
+
+def test_next_point_leaves_the_line_that_the_campaign_ran_along() -> None:
+    """Speed and pressure went together: what separates p^2 from p n is to take them apart."""
+    study, first, second = _rivals(_square, seed=5)
+    found = next_point(study, load_pump("ref90"), first, second)
+    assert found is not None
+    apart = found.point.shaft_speed / SPEED - found.point.delivery_pressure / PRESSURE
+    assert abs(apart) > 0.3
+    assert "Q_case" in found.why
+    assert "elastic_opening" in found.why
+
+
+def test_gain_is_the_mean_log_odds_that_readings_bring() -> None:
+    """Draw readings from one forecast and weigh them by both: the mean of ln odds is the divergence."""
+    rng = np.random.default_rng(3)
+    factors = [rng.normal(size=(3, 3)) + 2 * np.eye(3) for _ in range(2)]
+    one, other = (factor @ factor.T for factor in factors)
+    apart = rng.normal(size=3)
+    draws = np.linalg.cholesky(one) @ rng.normal(size=(3, 200000))
+
+    def log_density(offset: Array, covariance: Array) -> Array:
+        white = np.linalg.solve(np.linalg.cholesky(covariance), offset)
+        return np.asarray(-0.5 * (white**2).sum(axis=0) - 0.5 * np.linalg.slogdet(covariance)[1])
+
+    odds = log_density(draws, one) - log_density(draws - apart[:, None], other)
+    error = odds.std() / np.sqrt(odds.size)
+    assert divergence(apart, one, other) == pytest.approx(odds.mean(), abs=4 * error)
+    assert divergence(np.zeros(3), one, one) == pytest.approx(0.0, abs=1e-12)
+
+
+def test_two_names_for_one_law_have_no_next_point() -> None:
+    """Where no point of the box parts two explanations, none is proposed."""
+    study, first, _ = _rivals(_square, seed=5)
+    assert next_point(study, load_pump("ref90"), first, replace(first, effects=(EffectId.FILM_HEATING,))) is None
+
+
+def test_box_holds_what_the_rig_can_do() -> None:
+    """A tenth beyond the recorded range, within the rating; what was not measured stays as the pump states it."""
+    pump = load_pump("ref90")
+    points = _points()
+    box = rig_box(_recording(points, points.p_out), pump)
+    (slow, fast), (low, high), ratio, temperature = box.ends
+    span = np.ptp(points.speed)
+    assert fast == pytest.approx(min(points.speed.max() + 0.1 * span, pump.pump.rated_speed))
+    assert 0 < slow < points.speed.min()
+    assert (low, high) == pytest.approx((3.5 * MPA, 21.5 * MPA))
+    assert ratio == (pump.operating.displacement_ratio,) * 2
+    assert temperature == (pump.operating.temperature,) * 2
+    grid = box.points((np.array([slow, fast]), np.array([low, high]), np.array([1.0]), np.array([320.0])))
+    assert len(grid.speed) == 4
+    assert set(grid.order) == {24.0}
