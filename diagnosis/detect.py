@@ -5,33 +5,32 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from diagnosis.study import Candidate
+import numpy as np
+from scipy.stats import chi2, norm
+
+from diagnosis.contrasts import contrasts, misfit
+from diagnosis.map_axes import axis_values
+from diagnosis.regions import Region, flagged
+from diagnosis.study import Candidate, Study
+from diagnosis.thresholds import Thresholds
 from system.channels import ChannelName
-from system.estimation.evidence import Score
+from system.estimation.evidence import Score, Sign, score
 
 
 @dataclass(frozen=True)
 class ChannelMisfit:
-    """One channel's chi-square per reading, and its share of the whole mismatch."""
+    """One channel's chi-square per degree of freedom, and its share of all channels' excess."""
 
     chi2_per_dof: float
     share: float
 
 
 @dataclass(frozen=True)
-class Region:
-    """A part of the map where a channel stands out: bounds in SI by input name, contrast in sigma, and words."""
-
-    channel: ChannelName
-    lower: Mapping[str, float]
-    upper: Mapping[str, float]
-    contrast: float
-    text: str
-
-
-@dataclass(frozen=True)
 class Detection:
-    """Goodness of fit (p by bootstrap), the smallest p of all candidates after Holm, the strongest, and flags."""
+    """Goodness of fit, the smallest p of all candidates after Holm, the candidates by strength, and flags.
+
+    p_value, chi2_per_dof: of the objective of the linear posterior with n degrees of freedom, n readings.
+    """
 
     p_value: float
     chi2_per_dof: float
@@ -39,3 +38,57 @@ class Detection:
     holm_p: float
     strongest: tuple[tuple[Candidate, Score], ...]
     flags: tuple[Region, ...]
+
+
+def detect(study: Study, thresholds: Thresholds) -> Detection:
+    """What in the readings the simulator, its tolerances and the noise do not account for.
+
+    The objective r.r + xi.xi at the peak is that of the readings' own distribution N(0, 1 + A A^T): it is
+    chi-square distributed with n degrees of freedom where noise is normal, without a bootstrap. Heavy tails of
+    the noise raise it; the directed scores of the candidates are averages over many readings and stand them.
+    """
+    base = study.base
+    scored = [(candidate, score(base, candidate.column)) for candidate in study.candidates]
+    p_values = np.array([_p_value(found, candidate.sign) for candidate, found in scored])
+    order = np.argsort(p_values, kind="stable")
+    by_channel = {
+        ChannelName.named(channel.name): contrasts(base, at)
+        for at, channel in enumerate(study.observations.channels)
+    }
+    readings = base.residual.size
+    return Detection(
+        p_value=float(chi2.sf(base.objective, readings)),
+        chi2_per_dof=base.objective / readings,
+        channels=channel_misfits(study),
+        holm_p=holm(p_values),
+        strongest=tuple(scored[at] for at in order),
+        flags=flagged(by_channel, axis_values(study.recording), thresholds.mismatch.flag_rate),
+    )
+
+
+def holm(p_values: np.ndarray) -> float:
+    """The smallest of several p-values after Holm (1979): the chance of one as small if nothing is there."""
+    return min(1.0, float(p_values.min(initial=1.0)) * max(p_values.size, 1))
+
+
+def channel_misfits(study: Study) -> dict[ChannelName, ChannelMisfit]:
+    """Chi-square of each channel over what the model leaves it free, and its share of the excess."""
+    found = misfit(study.base)
+    observed, free = (found.pull**2).sum(axis=0), found.variance.sum(axis=0)
+    excess = np.maximum(observed - free, 0.0)
+    share = excess / excess.sum() if excess.any() else excess
+    return {
+        ChannelName.named(channel.name): ChannelMisfit(float(observed[at] / free[at]), float(share[at]))
+        for at, channel in enumerate(study.observations.channels)
+        if free[at] > 0
+    }
+
+
+def _p_value(found: Score, sign: Sign) -> float:
+    match sign:
+        case Sign.POSITIVE:
+            return float(norm.sf(found.z))
+        case Sign.NEGATIVE:
+            return float(norm.cdf(found.z))
+        case Sign.EITHER:
+            return float(2.0 * norm.sf(abs(found.z)))

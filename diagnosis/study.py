@@ -17,7 +17,29 @@ from system.estimation.parameters import Parameter, Scale
 from system.estimation.posterior import Posterior, linear_posterior, values_at
 from system.estimation.simulator import Simulator
 from system.physics.effects import EffectId
-from system.physics.extension import Entry, Extension, Values
+from system.physics.extension import Entry, Extension
+
+
+SUBJECTS: Mapping[EffectId, str] = {
+    EffectId.TORQUE_OFFSET: "torque.zero",
+    EffectId.TORQUE_GAIN: "torque.gain",
+    EffectId.Q_OUT_GAIN: "Q_out.gain",
+    EffectId.Q_IN_GAIN: "Q_in.gain",
+    EffectId.Q_CASE_OFFSET: "Q_case.zero",
+    EffectId.Q_CASE_DRIFT: "Q_case.drift",
+    EffectId.Q_CASE_GAIN: "Q_case.gain",
+    EffectId.FLOW_LAG: "Q_out.lag",
+    EffectId.P_OUT_OFFSET: "p_out.zero",
+    EffectId.T_CASE_OFFSET: "T_case.zero",
+    EffectId.T_IN_OFFSET: "T_in.zero",
+    EffectId.FILM_THICKNESS: "film_thickness",
+    EffectId.VISCOSITY_GRADE: "viscosity",
+    EffectId.BULK_MODULUS: "bulk_modulus",
+    EffectId.DEAD_VOLUME: "dead_volume",
+    EffectId.FRICTION_COEFFICIENT: "friction",
+    EffectId.DISPLACEMENT: "displacement",
+}
+"""What an effect without a law is about: a parameter's name, or its part before the dot where there are several."""
 
 
 class PumpSimulator(Simulator, Protocol):
@@ -27,8 +49,8 @@ class PumpSimulator(Simulator, Protocol):
         """The same model with these parameters: replaced where a name is there already, added where not."""
         ...
 
-    def with_extension(self, extension: Extension, scale: Values) -> Self:
-        """The same pump with the law on: its parameters appended, but for those that `scale` holds."""
+    def with_extension(self, extension: Extension) -> Self:
+        """The same pump with the law of one member of a grid: the extension's parameters appended."""
         ...
 
     def components(self, values: Array) -> Mapping[Component, Array]:
@@ -40,7 +62,8 @@ class PumpSimulator(Simulator, Protocol):
 class Candidate:
     """One way in which an entry of the catalogue may act: its whitened column (n,) for one spread of `parameter`.
 
-    extension is None for sensors and parameters, which are there already; grid: place in the extension's grid.
+    extension, of one member of its grid, is None for sensors and parameters, which are there already; grid: the
+    member's place.
     The size is looked for within N(0, (w width)^2) spreads for the widths w of the thresholds: width is 1 for an
     extension, whose spread is its own size, and the fault factor for what has a stated tolerance.
     """
@@ -106,7 +129,7 @@ def study_of(
     """The study of readings that are at hand with their simulator.
 
     Everything is taken at the prior mean: a null model fitted to readings it cannot explain drags its parameters
-    tens of sigma away, and slopes from there tell nothing (design/diagnosis.md, 2.0).
+    tens of sigma away, and slopes from there tell nothing.
     """
     base = linear_posterior(simulator, observations)
     start = np.zeros(base.xi.size)
@@ -126,13 +149,10 @@ def study_of(
 
 
 def concerned(effect: EffectId, parameters: Iterable[Parameter]) -> tuple[str, ...]:
-    """Names of the base and sensor parameters that an effect without a law of its own is about.
-
-    Such a parameter has the effect's id for a name, with the part behind it where there are several:
-    "torque_gain", "film_thickness slipper".
-    """
+    """Names of the base and sensor parameters that an effect without a law of its own is about."""
+    subject = SUBJECTS.get(effect)
     names = (parameter.name for parameter in parameters)
-    return tuple(name for name in names if name == effect.value or name.startswith(effect.value + " "))
+    return tuple(name for name in names if subject and (name == subject or name.startswith(subject + ".")))
 
 
 def _of_parameters(entry: Entry, base: Posterior, factor: float) -> Iterator[Candidate]:
@@ -147,16 +167,15 @@ def _of_extensions(entry: Entry, simulator: PumpSimulator, base: Posterior, plai
     A difference, not a slope: laws with a threshold have no slope where they are off.
     """
     for extension in entry.extensions:
-        for place, scale in enumerate(extension.grid):
-            extended = simulator.with_extension(extension, scale)
-            added = extended.parameters[len(simulator.parameters) :]
-            for at, parameter in enumerate(added, start=len(simulator.parameters)):
+        for place, member in enumerate(extension.members):
+            extended = simulator.with_extension(member)
+            for at, parameter in enumerate(member.parameters, start=len(simulator.parameters)):
                 xi = np.zeros(len(extended.parameters))
                 xi[at] = 1.0
                 change = extended.predict(values_at(extended.parameters, xi)) - plain
                 column = base.whitening.whiten(change)
                 if np.any(column):
-                    yield Candidate(entry, extension, place, parameter.name, column, 1.0, _sign(parameter))
+                    yield Candidate(entry, member, place, parameter.name, column, 1.0, _sign(parameter))
 
 
 def _sign(parameter: Parameter) -> Sign:

@@ -29,11 +29,19 @@ class ChannelName(Enum):
     dimension: Dimension | None
 
     def __new__(cls, name: str, dimension: Dimension | None) -> ChannelName:
-        """A member whose value is its name alone, so that ChannelName("Q_case") is found."""
+        """A member whose value is its name alone."""
         member = object.__new__(cls)
         member._value_ = name
         member.dimension = dimension
         return member
+
+    @classmethod
+    def named(cls, name: str) -> ChannelName:
+        """The channel of a standard name. Raises ValueError for a name that is none."""
+        found: ChannelName = cls._value2member_map_.get(name)  # type: ignore[assignment]
+        if found is None:
+            raise ValueError(f"channel {name!r}; expected one of {', '.join(each.value for each in cls)}")
+        return found
 
 
 INPUTS = (

@@ -46,6 +46,23 @@ class Whitening:
             white[own] = solve_triangular(factor, white[own], lower=True)
         return white
 
+    def unwhiten(self, white: Array) -> Array:
+        """(n, ...) in sigma back to (N, C, ...) in SI, the inverse of `whiten`; 0 where nothing was measured."""
+        white = white.copy()
+        for index, factor in enumerate(self.serial):
+            own = self.rows[:, 1] == index
+            white[own] = factor @ white[own]
+        known = np.zeros(self.measured.shape + white.shape[1:])
+        known[self.measured] = white
+        back: Array = np.einsum("nij,nj...->ni...", np.linalg.inv(self.factors), known)
+        return back
+
+    @property
+    def sigma(self) -> Array:
+        """(N, C) in SI: one sigma of each reading, with what its inputs bring."""
+        spread: Array = np.sqrt((np.linalg.inv(self.factors) ** 2).sum(axis=2))
+        return spread
+
 
 def whitener(observations: Observations, input_slopes: Array) -> Whitening:
     """The whitening of observations whose inputs are known to their own sigma only.

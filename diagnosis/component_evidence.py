@@ -1,0 +1,102 @@
+"""Which component of the pump a mismatch lies in, without a catalogue.
+
+The law of one component at a time is given a free smooth multiplier 1 + Phi(n, p, eps, T) beta, and the
+evidences are compared: the mismatch is laid at that component whose own pattern, bent smoothly, explains it best.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from enum import Enum
+from math import log
+
+from scipy.special import logsumexp
+
+from diagnosis.map_axes import smooth_shapes
+from diagnosis.study import Study
+from diagnosis.thresholds import Thresholds
+from system.components import Component
+from system.estimation.evidence import multiplier_evidence
+
+Ranking = tuple[tuple[Component, float], ...]
+
+
+class ComponentGroup(Enum):
+    """Components that a bench map rarely tells from each other."""
+
+    FILM_LEAKAGE = "leakage of the films"
+    CROSS_FLOW = "flow from delivery to inlet"
+    DRAIN_FLOW = "flow to the case beside the films"
+    DISPLACEMENT = "displacement and compression"
+    FRICTION = "friction"
+    COMMUTATION = "commutation"
+    CASE_DRAG = "drag in the case"
+    THERMAL_STATE = "thermal state"
+    SENSOR = "a sensor"
+
+
+MEMBERS: Mapping[ComponentGroup, tuple[Component, ...]] = {
+    ComponentGroup.FILM_LEAKAGE: (
+        Component.PISTON_LEAKAGE,
+        Component.SLIPPER_LEAKAGE,
+        Component.PLATE_LEAKAGE,
+    ),
+    ComponentGroup.CROSS_FLOW: (Component.CROSS_FLOW,),
+    ComponentGroup.DRAIN_FLOW: (Component.DRAIN_FLOW,),
+    ComponentGroup.DISPLACEMENT: (Component.DISPLACEMENT, Component.COMPRESSION),
+    ComponentGroup.FRICTION: (
+        Component.PISTON_FRICTION,
+        Component.SLIPPER_FRICTION,
+        Component.SOCKET_FRICTION,
+        Component.PLATE_FRICTION,
+        Component.GUIDE_FRICTION,
+        Component.BEARINGS,
+    ),
+    ComponentGroup.COMMUTATION: (Component.COMMUTATION,),
+    ComponentGroup.CASE_DRAG: (Component.CASE_DRAG,),
+    ComponentGroup.THERMAL_STATE: (Component.THERMAL_STATE,),
+    ComponentGroup.SENSOR: (
+        Component.Q_OUT_SENSOR,
+        Component.Q_IN_SENSOR,
+        Component.Q_CASE_SENSOR,
+        Component.TORQUE_SENSOR,
+        Component.T_OUT_SENSOR,
+        Component.ELECTRIC_POWER_SENSOR,
+    ),
+}
+
+
+def component_evidences(study: Study, thresholds: Thresholds) -> Ranking:
+    """ln evidence of each component over none, best first: multipliers up to second order in the scaled axes.
+
+    The size of the multiplier is averaged over prior widths from .1 % to 30 %.
+    """
+    shapes = smooth_shapes(study.axes)
+    whiten = study.base.whitening.whiten
+    widths = thresholds.locate.multiplier_widths
+    found = [
+        (
+            component,
+            multiplier_evidence(study.base, whiten(part[:, :, None] * shapes[:, None, :]), widths),
+        )
+        for component, part in study.components.items()
+    ]
+    return tuple(sorted(found, key=lambda each: -each[1]))
+
+
+def group_evidences(ranking: Ranking) -> tuple[tuple[ComponentGroup, float], ...]:
+    """ln evidence of each group that has members in the ranking, best first: the mean over its members."""
+    known = dict(ranking)
+    found = []
+    for group, members in MEMBERS.items():
+        own = [known[member] for member in members if member in known]
+        if own:
+            found.append((group, float(logsumexp(own)) - log(len(own))))
+    return tuple(sorted(found, key=lambda each: -each[1]))
+
+
+def tied(ranking: Ranking, odds: float) -> tuple[Component, ...]:
+    """The components within `odds` nats of the best; none where the best is not that far ahead of nothing."""
+    if not ranking or ranking[0][1] < odds:
+        return ()
+    return tuple(component for component, evidence in ranking if ranking[0][1] - evidence < odds)
