@@ -19,7 +19,6 @@ from system.estimation.simulator import Simulator
 from system.physics.effects import EffectId
 from system.physics.extension import Entry, Extension
 
-
 SUBJECTS: Mapping[EffectId, str] = {
     EffectId.TORQUE_OFFSET: "torque.zero",
     EffectId.TORQUE_GAIN: "torque.gain",
@@ -39,7 +38,7 @@ SUBJECTS: Mapping[EffectId, str] = {
     EffectId.FRICTION_COEFFICIENT: "friction",
     EffectId.DISPLACEMENT: "displacement",
 }
-"""What an effect without a law is about: a parameter's name, or its part before the dot where there are several."""
+"""What an effect without a law is about: a parameter, or its name up to the dot where there are several."""
 
 
 class PumpSimulator(Simulator, Protocol):

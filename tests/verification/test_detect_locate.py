@@ -1,0 +1,318 @@
+"""Detecting and locating on a toy pump whose truth is known."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from functools import cache
+
+import numpy as np
+import pytest
+
+from diagnosis.component_evidence import ComponentGroup
+from diagnosis.contrasts import contrasts, misfit
+from diagnosis.detect import Detection, detect, holm
+from diagnosis.locate import locate
+from diagnosis.map_axes import AXES, axis_values, scaled_axes
+from diagnosis.recording import Circuit, Recording, SteadyTable
+from diagnosis.study import Study, concerned, study_of
+from diagnosis.thresholds import load_thresholds
+from diagnosis.time_scan import TimeKind
+from system.channels import ChannelName
+from system.components import Component
+from system.estimation.evidence import Sign
+from system.estimation.observations import Array, Channel, Observations
+from system.estimation.parameters import Parameter, Role, Scale
+from system.physics.effects import EffectId, Kind
+from system.physics.extension import Entry, Extension
+
+POINTS = 80
+CHANNELS = (ChannelName.Q_OUT, ChannelName.Q_CASE, ChannelName.TORQUE)
+SIGMA = np.array([0.1, 0.02, 0.3])
+LIMITS = load_thresholds()
+
+
+@cache
+def _map() -> Recording:
+    """80 points of speed, pressure, displacement and temperature in an order of no system."""
+    rng = np.random.default_rng(50)
+    values = np.full((POINTS, len(ChannelName)), np.nan)
+    grid = np.array([(n, p, e) for n in (50, 120, 200) for p in (5e6, 15e6, 25e6, 35e6) for e in (0.3, 0.6, 1.0)])
+    picked = grid[rng.permutation(np.arange(POINTS) % len(grid))]
+    columns = (*picked.T, rng.choice([313.0, 333.0, 353.0], POINTS))
+    order = list(ChannelName)
+    for axis, column in zip(AXES, columns, strict=True):
+        values[:, order.index(axis)] = column
+    table = SteadyTable(values, np.arange(POINTS), np.full(POINTS, np.nan), np.ones(POINTS))
+    return Recording("toy", "toy", "", Circuit.CLOSED, (), table, (), ())
+
+
+def _parts() -> dict[str, Array]:
+    """What each part of the toy adds to the readings (N, 3): flows in L/min, torque in N m."""
+    n, p, e, heat = (values for values in axis_values(_map()).values())
+    viscosity = np.exp(-0.035 * (heat - 333.0))
+    leakage, one = p / 35e6, np.ones(POINTS)
+    parts = {
+        "displacement": (0.85 * n * e, 0 * n, 1.4e-5 * p * e),
+        "compression": (-0.02 * n * e * leakage, 0 * n, 0 * n),
+        "piston_leakage": (-leakage / viscosity, leakage / viscosity, 0 * n),
+        "slipper_leakage": (-0.6 * leakage * (1.0 - 0.3 * e) / viscosity, 0.6 * leakage / viscosity, 0 * n),
+        "coulomb": (0 * n, 0 * n, 6.0 * leakage * e),
+        "viscous": (0 * n, 0 * n, 4.0 * viscosity * n / 200.0),
+        "Q_case.zero": (0 * n, one, 0 * n),
+        "torque.zero": (0 * n, 0 * n, one),
+    }
+    return {name: np.stack(columns, axis=1) for name, columns in parts.items()}
+
+
+EFFECTS = {
+    EffectId.ELASTIC_OPENING: lambda n, p, e, T: (-((p / 35e6) ** 3), (p / 35e6) ** 3, 0 * n),
+    EffectId.CHURNING: lambda n, p, e, T: (0 * n, 0 * n, (n / 200) ** 2),
+    EffectId.PORT_SHORT_CIRCUIT: lambda n, p, e, T: (-np.sqrt(p / 35e6), 0 * n, 0 * n),
+    EffectId.CONTROL_FLOW: lambda n, p, e, T: (-np.sqrt(p / 35e6), np.sqrt(p / 35e6), 0 * n),
+    EffectId.SHEAR_THINNING: lambda n, p, e, T: (0 * n, 0 * n, -((n / 200) ** 2) * np.exp(-0.035 * (T - 333))),
+}
+
+
+def _effect(effect: EffectId) -> Array:
+    return np.stack(EFFECTS[effect](*axis_values(_map()).values()), axis=1)
+
+
+@dataclass(frozen=True)
+class ToyPump:
+    """A pump linear in its parameters: every part has a factor or a zero of its own."""
+
+    parameters: tuple[Parameter, ...]
+    columns: tuple[Array, ...]  # (N, 3) by parameter, in SI
+
+    def predict(self, values: Array) -> Array:
+        return sum(value * column for value, column in zip(values, self.columns, strict=True))
+
+    def slopes(self, values: Array, names: tuple[str, ...]) -> Array:
+        return np.stack(self.columns, axis=2)
+
+    def input_slopes(self, values: Array) -> Array:
+        return np.zeros((POINTS, len(CHANNELS), 0))
+
+    def with_parameters(self, parameters: tuple[Parameter, ...]) -> ToyPump:
+        raise NotImplementedError
+
+    def with_extension(self, extension: Extension) -> ToyPump:
+        column = _effect(extension.id)
+        return ToyPump(self.parameters + extension.parameters, (*self.columns, column))
+
+    def components(self, values: Array) -> Mapping[Component, Array]:
+        parts, plain = _parts(), self.predict(values)
+        sensors = [plain * (np.arange(3) == channel) for channel in range(3)]
+        return {
+            Component.DISPLACEMENT: parts["displacement"],
+            Component.PISTON_LEAKAGE: parts["piston_leakage"],
+            Component.SLIPPER_LEAKAGE: parts["slipper_leakage"],
+            Component.PISTON_FRICTION: parts["coulomb"],
+            Component.CASE_DRAG: parts["viscous"],
+            Component.Q_OUT_SENSOR: sensors[0],
+            Component.Q_CASE_SENSOR: sensors[1],
+            Component.TORQUE_SENSOR: sensors[2],
+        }
+
+
+@cache
+def _pump() -> ToyPump:
+    parts = _parts()
+    spreads = (0.002, 0.1, 0.2, 0.2, 0.15, 0.15, 0.01, 0.2)
+    parameters = []
+    for (name, _), spread in zip(parts.items(), spreads, strict=True):
+        zero = name.endswith("zero")
+        role = Role.SENSOR if zero else Role.BASE
+        centre = 0.0 if zero else 1.0
+        parameters.append(Parameter(name, role, Scale.NORMAL, centre, spread, -np.inf, np.inf, None, "toy"))
+    return ToyPump(tuple(parameters), tuple(parts.values()))
+
+
+def _catalogue() -> list[Entry]:
+    entries = []
+    for effect in EFFECTS:
+        name = f"{effect.value}.size"
+        size = Parameter(name, Role.EXTENSION, Scale.HALF, 0.0, 1.0, 0.0, 10.0, None, "toy")
+        extension = Extension(effect, None, lambda values, courses, state: None, (size,), ({},))  # type: ignore[arg-type, return-value]
+        entries.append(Entry(effect, Kind.MISSING_PHYSICS, (extension,), (), (), "", (), "", ""))
+    for effect in (EffectId.TORQUE_OFFSET, EffectId.Q_CASE_OFFSET):
+        entries.append(Entry(effect, Kind.SENSOR_FAULT, (), (), (), "", (), "", ""))
+    return entries
+
+
+def _study(added: Array | float = 0.0, seed: int = 0) -> Study:
+    """A study of readings of a pump within tolerance, with something added that the simulator lacks."""
+    rng = np.random.default_rng([51, seed])
+    pump = _pump()
+    values = np.array(
+        [parameter.value(xi) for parameter, xi in zip(pump.parameters, rng.normal(size=8), strict=True)]
+    )
+    readings = pump.predict(values) + added + SIGMA * rng.normal(size=(POINTS, 3))
+    observations = Observations(
+        channels=tuple(Channel(channel.value, channel.dimension) for channel in CHANNELS),
+        values=readings,
+        sigma=np.tile(SIGMA, (POINTS, 1)),
+        inputs=(),
+        input_sigma=np.zeros((POINTS, 0)),
+        quantum=np.zeros(3),
+        blocks=np.arange(POINTS) // 8,
+    )
+    return study_of(_map(), pump, observations, scaled_axes(_map()), _catalogue(), LIMITS)
+
+
+def _sized(effect: EffectId, z: float) -> Array:
+    """An effect of the size that its own score is expected to be z."""
+    found = detect(_study(), LIMITS)
+    sigma = next(score.sigma for candidate, score in found.strongest if candidate.entry.id is effect)
+    return z * sigma * _effect(effect)
+
+
+@pytest.fixture(scope="module")
+def nulls() -> list[Detection]:
+    """300 recordings with nothing in them."""
+    return [detect(_study(seed=seed), LIMITS) for seed in range(300)]
+
+
+def test_holm_alarms_as_often_as_it_says(nulls: list[Detection]) -> None:
+    """300 readings without mismatch: Holm's p is below .05 in 2 to 8 % (4 sigma of 5 %, less what signs share)."""
+    alarms = [found.holm_p < 0.05 for found in nulls]
+    assert 0.01 <= np.mean(alarms) <= 0.08
+
+
+def test_the_objective_is_chi_square_distributed(nulls: list[Detection]) -> None:
+    """p of the goodness of fit is uniform where the model holds: below .1 in 10 +- 7 % of 300 (4 sigma)."""
+    p_values = np.array([found.p_value for found in nulls])
+    assert abs(np.mean(p_values < 0.1) - 0.1) < 0.07
+    assert abs(np.median(p_values) - 0.5) < 4 * 0.5 / np.sqrt(300)
+
+
+def test_pulls_have_the_variance_that_is_promised() -> None:
+    """Squares of single readings' residuals over their variance under the model: 1 on average, per channel."""
+    squares = np.stack([misfit(_study(seed=seed).base).pull ** 2 for seed in range(100)])
+    free = misfit(_study().base).variance
+    ratio = squares.mean(axis=0).sum(axis=0) / free.sum(axis=0)
+    assert np.abs(ratio - 1.0).max() < 4 * np.sqrt(2.0 / (100 * POINTS))
+
+
+def test_an_effect_of_eight_sigma_is_detected_and_leads() -> None:
+    for effect in EFFECTS:
+        found = detect(_study(_sized(effect, 8.0), seed=3), LIMITS)
+        assert found.holm_p < LIMITS.mismatch.holm
+        assert found.strongest[0][0].entry.id is effect
+
+
+def test_a_size_of_the_wrong_sign_is_no_evidence() -> None:
+    """Churning that takes torque away is none: its p is above one half, whatever its size."""
+    found = detect(_study(_sized(EffectId.CHURNING, -8.0), seed=3), LIMITS)
+    place = [candidate.entry.id for candidate, _ in found.strongest].index(EffectId.CHURNING)
+    assert found.strongest[place][0].sign is Sign.POSITIVE
+    assert found.strongest[place][1].z < -5.0
+    assert place > 0
+
+
+def test_channels_share_the_excess() -> None:
+    found = detect(_study(_sized(EffectId.CHURNING, 15.0)), LIMITS)
+    assert found.channels[ChannelName.TORQUE].share > 0.9
+    assert found.channels[ChannelName.TORQUE].chi2_per_dof > 2.0
+    assert sum(channel.share for channel in found.channels.values()) == pytest.approx(1.0)
+
+
+def test_holm_counts_all_candidates() -> None:
+    assert holm(np.array([0.01, 0.3])) == pytest.approx(0.02)
+    assert holm(np.array([])) == 1.0
+
+
+@pytest.mark.parametrize(
+    ("lower", "upper"),
+    [
+        ({"p_out": 20e6}, {}),
+        ({}, {"speed": 80.0}),
+        ({"p_out": 20e6}, {"displacement_ratio": 0.8}),
+        ({"T_case": 343.0}, {}),
+    ],
+)
+def test_a_planted_region_is_found(lower: dict[str, float], upper: dict[str, float]) -> None:
+    """Intersection over union of the points within, .7 at least, for a step of 4 sigma in the drain flow."""
+    axes = axis_values(_map())
+    within = np.ones(POINTS, dtype=bool)
+    for axis, values in axes.items():
+        within &= (values >= lower.get(axis.value, -np.inf)) & (values < upper.get(axis.value, np.inf))
+    added = np.zeros((POINTS, 3))
+    added[within, 1] = 4 * SIGMA[1]
+    region = locate(_study(added, seed=4), LIMITS).region
+    assert region is not None
+    assert region.channel is ChannelName.Q_CASE
+    found = np.ones(POINTS, dtype=bool)
+    for axis, values in axes.items():
+        found &= values >= region.lower.get(axis.value, -np.inf)
+        found &= values < region.upper.get(axis.value, np.inf)
+    assert np.sum(found & within) / np.sum(found | within) >= 0.7
+    assert set(region.lower) | set(region.upper) == set(lower) | set(upper)
+    assert all(name in region.text for name in (*lower, *upper))
+
+
+def test_no_regions_are_flagged_without_a_mismatch(nulls: list[Detection]) -> None:
+    """Benjamini and Hochberg at .05: any flag at all in 5 % of nulls, 10 % of 300 at most (4 sigma)."""
+    assert np.mean([len(found.flags) > 0 for found in nulls]) < 0.10
+
+
+def test_components_are_found_or_tied() -> None:
+    opening = locate(_study(_sized(EffectId.ELASTIC_OPENING, 20.0)), LIMITS)
+    assert opening.groups[0][0] is ComponentGroup.FILM_LEAKAGE
+    assert {Component.PISTON_LEAKAGE, Component.SLIPPER_LEAKAGE} & set(opening.tie)
+    churning = locate(_study(_sized(EffectId.CHURNING, 20.0)), LIMITS)
+    assert {Component.CASE_DRAG, Component.TORQUE_SENSOR} >= set(churning.tie)
+    assert churning.components[0][0] is Component.CASE_DRAG
+
+
+def test_nothing_is_located_in_nulls() -> None:
+    """No component 3 nats ahead of nothing, no drift, in 60 nulls, but for 3 of them at most."""
+    found = [locate(_study(seed=seed), LIMITS) for seed in range(60)]
+    assert sum(bool(place.tie) for place in found) <= 3
+    assert sum(place.time is not None for place in found) <= 3
+    assert all(place.angle is None for place in found)
+
+
+def test_a_drift_and_an_onset_are_told() -> None:
+    order = np.arange(POINTS)
+    drift, onset = np.zeros((2, POINTS, 3))
+    drift[:, 1] = 5 * SIGMA[1] * order / POINTS
+    onset[order >= 50, 1] = 3 * SIGMA[1]
+    drifting, set_in = (locate(_study(added, seed=5), LIMITS).time for added in (drift, onset))
+    assert drifting is not None
+    assert set_in is not None
+    assert (drifting.kind, drifting.channel) == (TimeKind.DRIFT, ChannelName.Q_CASE)
+    assert (set_in.kind, set_in.channel) == (TimeKind.ONSET, ChannelName.Q_CASE)
+    assert abs(set_in.at - 50) <= 1
+    assert set_in.parameter == "Q_case.zero"
+
+
+def test_an_effect_of_pressure_is_no_drift_when_pressure_rises_with_time() -> None:
+    study = _study(_sized(EffectId.ELASTIC_OPENING, 20.0))
+    pressure = axis_values(_map())[ChannelName.P_OUT]
+    order = np.argsort(pressure, kind="stable")
+    steady = study.recording.steady
+    recording = replace(study.recording, steady=replace(steady, values=steady.values[order]))
+    readings = study.observations
+    sorted_readings = replace(readings, values=readings.values[order], sigma=readings.sigma[order])
+    pump = ToyPump(_pump().parameters, tuple(column[order] for column in _pump().columns))
+    again = study_of(recording, pump, sorted_readings, scaled_axes(recording), [], LIMITS)
+    again = replace(again, components={})
+    assert locate(again, LIMITS).time is None
+
+
+def test_contrasts_are_standard_normal_and_leave_out_what_parameters_take_up() -> None:
+    """z of a random pattern over 300 nulls: variance 1 within 4 sigma; a parameter's own pattern, freed, is 0."""
+    pattern = np.random.default_rng(52).normal(size=(POINTS, 1))
+    z = [float(contrasts(_study(seed=seed).base, 0).z(pattern)[0]) for seed in range(300)]
+    assert abs(np.var(z) - 1.0) < 4 * np.sqrt(2.0 / 300)
+    study = _study(seed=7)
+    beside = study.base.whitening.whiten(1e6 * SIGMA[:, None] * np.ones((POINTS, 3, 1)) * np.eye(3)[1][:, None])
+    freed = contrasts(study.base, 1, beside)
+    assert abs(freed.z(np.ones((POINTS, 1)))[0]) < 1e-3
+
+
+def test_effects_without_a_law_find_their_parameters() -> None:
+    assert concerned(EffectId.Q_CASE_OFFSET, _pump().parameters) == ("Q_case.zero",)
+    assert concerned(EffectId.CHURNING, _pump().parameters) == ()
