@@ -63,6 +63,8 @@ class Dimension(Enum):
     TEMPERATURE_COEFFICIENT = ("a temperature coefficient", "1/K", ("1/K",), "0.03 1/K")
     CONDUCTIVITY = ("a thermal conductivity", "W/(m K)", ("W/(m K)",), "0.13 W/(m K)")
     HEAT_TRANSFER = ("a heat transfer coefficient", "W/(m2 K)", ("W/(m2 K)",), "80 W/(m2 K)")
+    THERMAL_RESISTANCE = ("a thermal resistance of an area", "m2 K/W", ("m2 K/W",), "2e-5 m2 K/W")
+    SHEAR_RATE = ("a shear rate", "1/s", ("1/s",), "1e6 1/s")
     FOUNDATION = ("a stiffness per area", "Pa/m", ("GPa/m",), "1e13 Pa/m")
     FREQUENCY = ("a frequency", "Hz", ("kHz", "Hz"), "315 Hz")
     HYDRAULIC_IMPEDANCE = ("a hydraulic impedance", "Pa s/m3", ("Pa s/m3",), "1e9 Pa s/m3")

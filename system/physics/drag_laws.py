@@ -34,7 +34,7 @@ SHELTER = 0.25
 """Of a piston behind its neighbour."""
 CO_ROTATION = 0.4
 """Left of a piston's dynamic pressure when the oil turns with the group."""
-CHARGE_EFFICIENCY = 0.85
+CHARGE_EFFICIENCY = 0.88
 """Hydromechanical, of a small gear pump (usual)."""
 
 Courses = Mapping[Gap, GapCourse]

@@ -1,0 +1,23 @@
+"""Priors of extensions: what a parameter of a law may be before a recording is looked at."""
+
+from __future__ import annotations
+
+from system.estimation.parameters import Parameter, Role, Scale
+from system.physics.effects import EffectId
+from system.pump_gap import Gap
+from system.units import Dimension
+
+
+def half(path: str, spread: float, upper: float, dimension: Dimension | None, source: str) -> Parameter:
+    """A size that is never negative: half a normal law of that spread, up to `upper`."""
+    return Parameter(path, Role.EXTENSION, Scale.HALF, 0.0, spread, 0.0, upper, dimension, source)
+
+
+def signed(path: str, spread: float, bound: float, dimension: Dimension | None, source: str) -> Parameter:
+    """A size of either sign: normal, within -bound .. bound."""
+    return Parameter(path, Role.EXTENSION, Scale.NORMAL, 0.0, spread, -bound, bound, dimension, source)
+
+
+def path_of(effect: EffectId, key: str, pair: Gap | None = None) -> str:
+    """The name of a parameter: its key's path in a pump file below [physics]."""
+    return ".".join([effect.value, *([pair.value] if pair else []), key])
