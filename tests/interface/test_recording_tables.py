@@ -1,0 +1,215 @@
+"""Tables of recordings: what was written by another program is read to the last bit, or refused with words."""
+
+import logging
+
+import h5py
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy.io import savemat
+
+from diagnosis.tables import TableFault, TableSource, read_columns
+
+SPEED = np.array([1001.4, 998.25, 1500.0, 2100.5, -3.0])
+TORQUE = np.array([28.968, 53.0, np.nan, 1e-3, 7.25e2])
+NUMBERS = st.floats(allow_nan=False, allow_infinity=False, width=64)
+
+
+def _read(path, **form):
+    return read_columns(TableSource(path, **form))
+
+
+def _same(columns, names=("speed", "torque")):
+    assert np.array_equal(columns.values[names[0]], SPEED)
+    assert np.array_equal(columns.values[names[1]], TORQUE, equal_nan=True)
+
+
+@pytest.mark.parametrize(
+    ("separator", "decimal"), [(",", "."), (";", "."), (";", ","), ("\t", "."), ("\t", ","), ("|", ",")]
+)
+def test_text_tells_its_own_form(tmp_path, separator, decimal):
+    cells = [["speed", "torque"], *([repr(float(a)), repr(float(b))] for a, b in zip(SPEED, TORQUE, strict=True))]
+    rows = [separator.join(cell.replace(".", decimal) for cell in row) for row in cells]
+    path = tmp_path / "steady.csv"
+    path.write_text("\n".join(rows), encoding="utf-8-sig")
+    _same(_read(path))
+
+
+def test_loggers_put_lines_above_and_units_below_the_head(tmp_path):
+    path = tmp_path / "run.csv"
+    path.write_text(
+        "Bench 4\nprinted,2026-01-02\n\nspeed,torque,p\nrpm,N m,bar\n1500,2.5,over\n1501,2.6,3\n1502,,4\n", "utf-8"
+    )
+    columns = _read(path)
+    assert np.array_equal(columns.values["speed"], [1500.0, 1501.0, 1502.0])
+    assert np.array_equal(columns.values["p"], [np.nan, 3.0, 4.0], equal_nan=True)
+    told = " ".join(columns.told)
+    assert "2 rows above the head" in told
+    assert "rpm" in told
+    assert "over" in told
+
+
+def test_times_become_seconds(tmp_path):
+    path = tmp_path / "run.csv"
+    path.write_text("when;speed\n2026-01-02 10:00:00;1\n2026-01-02 10:00:02.5;2\n", "utf-8")
+    assert np.array_equal(_read(path).values["when"], [0.0, 2.5])
+
+
+@pytest.mark.parametrize(
+    ("text", "found"),
+    [
+        ("", "empty"),
+        ("1,2\n3,4\n", "no head"),
+        ("speed,speed\n1,2\n", "twice"),
+        ("speed,torque\n1,2\n1,2\n1,2,3\n", "3 cells"),
+        ("speed,torque\n", "no row"),
+        ("a\0b", "no text"),
+    ],
+)
+def test_what_is_no_table_is_refused(tmp_path, text, found):
+    path = tmp_path / "steady.csv"
+    path.write_text(text, "utf-8")
+    with pytest.raises(TableFault, match=found):
+        _read(path)
+
+
+def test_absent_and_foreign_files_are_refused(tmp_path):
+    (tmp_path / "steady.csv").write_text("a,b\n1,2\n", "utf-8")
+    with pytest.raises(TableFault) as absent:
+        _read(tmp_path / "stedy.csv")
+    assert absent.value.nearest.endswith("steady.csv")
+    (tmp_path / "steady.docx").write_bytes(b"")
+    with pytest.raises(TableFault, match="docx"):
+        _read(tmp_path / "steady.docx")
+    for ending in ("mat", "xlsx", "parquet", "tdms", "mf4"):
+        (tmp_path / f"broken.{ending}").write_bytes(b"no such thing" * 40)
+        with pytest.raises(TableFault):
+            _read(tmp_path / f"broken.{ending}")
+
+
+@settings(max_examples=40, deadline=None)
+@given(
+    rows=st.lists(st.tuples(NUMBERS, NUMBERS, NUMBERS), min_size=1, max_size=6),
+    form=st.sampled_from([(",", "."), (";", ","), (";", "."), ("\t", ",")]),
+)
+def test_any_numbers_come_back_from_text(tmp_path_factory, rows, form):
+    separator, decimal = form
+    path = tmp_path_factory.mktemp("fuzz") / "t.csv"
+    lines = ["a b" + separator + "c" + separator + "d"]
+    lines += [separator.join(repr(number).replace(".", decimal) for number in row) for row in rows]
+    path.write_text("\n".join(lines), "utf-8")
+    columns = _read(path, separator=separator, decimal=decimal)
+    assert np.array_equal(np.stack([columns.values[k] for k in ("a b", "c", "d")], axis=1), rows)
+
+
+@settings(max_examples=60, deadline=None)
+@given(text=st.text(alphabet="1,;.\t\n ae-\"'#", max_size=60))
+def test_any_text_is_read_or_refused(tmp_path_factory, text):
+    path = tmp_path_factory.mktemp("fuzz") / "t.csv"
+    path.write_text(text, "utf-8", newline="")
+    try:
+        columns = _read(path)
+    except TableFault:
+        return
+    assert columns.rows > 0
+
+
+@pytest.mark.parametrize("struct", [False, True])
+def test_matlab_vectors_and_structs(tmp_path, struct):
+    data = {"speed": SPEED, "torque": TORQUE[:, None]}
+    savemat(tmp_path / "a.mat", {"run": data, "note": "x"} if struct else {**data, "k": 3.0})
+    _same(_read(tmp_path / "a.mat", variable="run" if struct else ""))
+    if struct:
+        with pytest.raises(TableFault, match="no vector") as plain:
+            _read(tmp_path / "a.mat")
+        assert plain.value.nearest == "run"
+        with pytest.raises(TableFault, match="ruin"):
+            _read(tmp_path / "a.mat", variable="ruin")
+
+
+def test_matlab_matrix_columns_are_numbered(tmp_path):
+    savemat(tmp_path / "a.mat", {"M": np.stack([SPEED, TORQUE], axis=1)})
+    _same(_read(tmp_path / "a.mat", variable="M"), ("M:1", "M:2"))
+
+
+def test_matlab_v73(tmp_path):
+    with h5py.File(tmp_path / "a.mat", "w", userblock_size=512) as file:
+        run = file.create_group("run")
+        run["speed"], run["torque"] = SPEED[None, :], TORQUE[None, :]  # as MATLAB stores columns
+    with (tmp_path / "a.mat").open("r+b") as file:
+        file.write(b"MATLAB 7.3 MAT-file, Platform: GLNXA64".ljust(128))
+    _same(_read(tmp_path / "a.mat", variable="run"))
+
+
+def test_matlab_objects_are_refused_with_the_way_out(tmp_path):
+    with h5py.File(tmp_path / "a.mat", "w") as file:
+        file.create_dataset("T", data=np.zeros(6)).attrs["MATLAB_object_decode"] = 3
+    with pytest.raises(TableFault, match="object") as refused:
+        _read(tmp_path / "a.mat")
+    assert "table2struct" in refused.value.nearest
+
+
+def test_workbook(tmp_path):
+    openpyxl = pytest.importorskip("openpyxl")
+    book = openpyxl.Workbook()
+    sheet = book.active
+    sheet.title = "points"
+    sheet.append(["speed", "torque"])
+    for speed, torque in zip(SPEED, TORQUE, strict=True):
+        sheet.append([float(speed), None if np.isnan(torque) else float(torque)])
+    book.save(tmp_path / "a.xlsx")
+    _same(_read(tmp_path / "a.xlsx"))
+    book.create_sheet("notes")
+    book.save(tmp_path / "a.xlsx")
+    _same(_read(tmp_path / "a.xlsx", sheet="points"))
+    with pytest.raises(TableFault, match="points, notes"):
+        _read(tmp_path / "a.xlsx")
+
+
+def test_parquet(tmp_path):
+    pyarrow = pytest.importorskip("pyarrow")
+    from pyarrow import parquet
+
+    when = np.array([0, 1, 2, 3, 4], dtype="datetime64[s]")
+    table = pyarrow.table({"speed": SPEED, "torque": TORQUE, "name": list("abcde"), "when": when})
+    parquet.write_table(table, tmp_path / "a.parquet")
+    columns = _read(tmp_path / "a.parquet")
+    _same(columns)
+    assert np.array_equal(columns.values["when"], np.arange(5.0))
+    assert "'name' holds no numbers" in " ".join(columns.told)
+
+
+def _tdms(path, properties):
+    nptdms = pytest.importorskip("nptdms")
+    speed = nptdms.ChannelObject("run", "speed", SPEED, properties={"wf_increment": 0.5, **properties})
+    with nptdms.TdmsWriter(path) as file:
+        file.write_segment([speed, nptdms.ChannelObject("run", "torque", TORQUE)])
+
+
+def test_tdms(tmp_path):
+    _tdms(tmp_path / "a.tdms", {"wf_start_offset": 0.0, "wf_samples": 5})
+    columns = _read(tmp_path / "a.tdms")
+    _same(columns)
+    assert np.array_equal(columns.values["time"], 0.5 * np.arange(5))
+
+
+def test_tdms_scale_that_would_leave_raw_counts_is_refused(tmp_path, caplog):
+    caplog.set_level(logging.CRITICAL)
+    _tdms(tmp_path / "a.tdms", {"NI_Number_Of_Scales": 1, "NI_Scale[0]_Scale_Type": "Reciprocal"})
+    with pytest.raises(TableFault, match="Reciprocal"):
+        _read(tmp_path / "a.tdms")
+
+
+def test_mdf(tmp_path):
+    asammdf = pytest.importorskip("asammdf")
+    time = 0.1 * np.arange(5)
+    signals = [
+        asammdf.Signal(samples=x, timestamps=time, name=n) for n, x in (("speed", SPEED), ("torque", TORQUE))
+    ]
+    with asammdf.MDF(version="4.10") as file:
+        file.append(signals)
+        file.save(tmp_path / "a.mf4")
+    columns = _read(tmp_path / "a.mf4")
+    _same(columns)
+    assert np.allclose(columns.values["time"], time)
