@@ -1,0 +1,63 @@
+"""What the readings of a recording tell about themselves before any simulation: faults, readings put aside."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import replace
+
+import numpy as np
+
+from diagnosis.outliers import outliers
+from diagnosis.recording import DataNote, NoteKind, Recording
+from diagnosis.sensor_checks import copies, noiseless, stuck
+from diagnosis.unit_checks import implausible
+from system.channels import OUTPUTS, ChannelName
+
+
+def check_recording(recording: Recording, displacement: float | None) -> Recording:
+    """Return the recording with what its readings tell: notes added, readings that are put aside made nan.
+
+    displacement: of the pump in m3/rev, against which flow and torque are held; None where it is not known.
+    FAULT: nothing can be made of the recording before it is put right (units, a channel that copies another, no
+    noise at all). REMOVED: these readings are not used (outliers, a stuck sensor). TOLD: to be borne in mind.
+    """
+    recording = _noted(recording, [*implausible(recording, displacement), *_gaps(recording)])
+    for find in (stuck, copies, noiseless, outliers):
+        recording = _noted(recording, find(recording))
+    return recording
+
+
+def too_few(recording: Recording, parameters: int) -> DataNote | None:
+    """Return the fault of a recording with no more readings of outputs than parameters; None where it has more."""
+    readings = sum(int(np.isfinite(recording.steady.column(name)).sum()) for name in OUTPUTS)
+    if readings > parameters:
+        return None
+    return DataNote(
+        NoteKind.FAULT, None, (), f"{readings} readings for {parameters} parameters: record more points than these"
+    )
+
+
+def _noted(recording: Recording, notes: Iterable[DataNote]) -> Recording:
+    """The recording with notes added and, of those that remove, the readings of their channel made nan."""
+    found = tuple(notes)
+    values = recording.steady.values.copy()
+    for note in found:
+        if note.kind is NoteKind.REMOVED and note.channel is not None:
+            values[list(note.points), list(ChannelName).index(note.channel)] = np.nan
+    steady = replace(recording.steady, values=values)
+    return replace(recording, steady=steady, notes=(*recording.notes, *found))
+
+
+def _gaps(recording: Recording) -> Iterable[DataNote]:
+    """Tell of channels with missing readings; a channel without a single one is a fault."""
+    for channel in recording.channels:
+        if channel.name in (ChannelName.ANGLE, ChannelName.P_CHAMBER):
+            continue
+        missing = np.flatnonzero(~np.isfinite(recording.steady.column(channel.name)))
+        count = len(recording.steady.values)
+        if len(missing) == count:
+            yield DataNote(NoteKind.FAULT, channel.name, (), f"{channel.name.value} holds no number at all")
+        elif len(missing):
+            points = tuple(int(point) for point in missing)
+            text = f"{channel.name.value} is missing at {len(missing)} of {count} points"
+            yield DataNote(NoteKind.TOLD, channel.name, points, text)

@@ -1,0 +1,174 @@
+"""What the readings of a recording tell: each planted slip is found, and nothing in sound ones."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from diagnosis.data_checks import check_recording, too_few
+from diagnosis.recording import Circuit, NoteKind, RecordedChannel, Recording, SteadyTable
+from system.channels import INPUTS, OUTPUTS, ChannelName
+
+DISPLACEMENT = 90e-6  # m3/rev
+COLUMNS = {name: place for place, name in enumerate(ChannelName)}
+UNITS = {
+    "speed": ("rpm", 0.05), "displacement_ratio": ("1", 0.0), "p_out": ("bar", 1.5e4), "p_in": ("bar", 2e3),
+    "p_case": ("bar", 1e3), "T_in": ("degC", 0.15), "T_case": ("degC", 0.2), "Q_out": ("L/min", 2e-6),
+    "Q_in": ("L/min", 2e-6), "Q_case": ("L/min", 4e-7), "torque": ("N m", 0.3),
+}  # fmt: skip
+
+
+def _sound(seed: int = 1) -> Recording:
+    """A map of a pump with slips, leakage and friction, and noise: 4 speeds x 6 pressures x 2 ratios x 2 T."""
+    rng = np.random.default_rng(seed)
+    speed, p_out, ratio, hot = (
+        a.ravel() for a in np.meshgrid([105, 160, 210, 260], np.linspace(5e6, 38e6, 6), [0.5, 1.0], [323.0, 343.0])
+    )
+    viscosity = 0.03 * np.exp(-0.03 * (hot - 323.0))
+    leak = 1e-5 * p_out / 35e6 * 0.03 / viscosity * (1.0 + 0.3 * p_out / 35e6)
+    flow = ratio * DISPLACEMENT / (2 * np.pi) * speed
+    clean = {
+        "speed": speed, "displacement_ratio": ratio, "p_out": p_out, "p_in": 2.4e6 + 0 * p_out,
+        "p_case": 5e4 + 2e9 * leak, "T_in": hot - 3.0, "T_case": hot + 1e-7 * p_out, "Q_in": flow,
+        "Q_out": flow * (1 - p_out / 1.7e9) - leak, "Q_case": leak,
+        "torque": ratio * DISPLACEMENT / (2 * np.pi) * (p_out - 2.4e6) * 1.03 + 5.0 + 0.02 * speed,
+    }  # fmt: skip
+    values = np.full((len(speed), len(ChannelName)), np.nan)
+    channels = []
+    for name, (unit, sigma) in UNITS.items():
+        values[:, COLUMNS[ChannelName.named(name)]] = clean[name] + sigma * rng.standard_normal(len(speed))
+        channels.append(
+            RecordedChannel(ChannelName.named(name), name, unit, sigma, 0.0, 0.01 * sigma, 0, 0, 0, ())
+        )
+    count = len(speed)
+    steady = SteadyTable(values, np.arange(count), np.full(count, np.nan), np.ones(count))
+    return Recording("map", "", "", Circuit.CLOSED, tuple(channels), steady, (), ())
+
+
+def _with(name: str, change) -> Recording:
+    """The sound recording with one channel's readings changed."""
+    recording = _sound()
+    values = recording.steady.values.copy()
+    place = COLUMNS[ChannelName.named(name)]
+    values[:, place] = change(values[:, place])
+    return replace(recording, steady=replace(recording.steady, values=values))
+
+
+def _told(recording: Recording) -> list:
+    return [(note.kind, note.channel, note.text) for note in check_recording(recording, DISPLACEMENT).notes]
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_sound_readings_tell_nothing(seed):
+    recording = _sound(seed)
+    checked = check_recording(recording, DISPLACEMENT)
+    assert checked.notes == ()
+    assert np.array_equal(checked.steady.values, recording.steady.values, equal_nan=True)
+
+
+@pytest.mark.parametrize(
+    ("name", "factor", "hint"),
+    [
+        ("p_out", 0.1, "p_out in 'MPa'"),
+        ("p_out", 10.0, "factor of 10"),
+        ("Q_out", 10.0, "factor of 10"),
+        ("Q_out", 60.0 / 1000.0, "'m3/h'"),
+        ("torque", 0.1, "factor of 0.1"),
+        ("torque", 1e-3, "'kN m'"),
+        ("speed", 0.1, "factor of 10"),
+        ("displacement_ratio", 100.0, "unit = '%'"),
+    ],
+)
+def test_units_off_by_a_factor_are_faults_with_the_unit_that_mends_them(name, factor, hint):
+    notes = _told(_with(name, lambda x: factor * x))
+    assert hint in " ".join(text for kind, _, text in notes if kind is NoteKind.FAULT)
+
+
+def test_kelvin_read_as_celsius():
+    kind, channel, text = _told(_with("T_case", lambda x: x + 273.15))[0]
+    assert (kind, channel) == (NoteKind.FAULT, ChannelName.T_CASE)
+    assert "'K'" in text
+
+
+def test_gauge_read_as_absolute_and_places_changed():
+    assert "gauge pressure taken as absolute" in _told(_with("p_case", lambda x: x - 2.0e5))[0][2]
+    recording = _sound()
+    values = recording.steady.values.copy()
+    pair = [COLUMNS[ChannelName.P_OUT], COLUMNS[ChannelName.P_IN]]
+    values[:, pair] = values[:, pair[::-1]]
+    swapped = replace(recording, steady=replace(recording.steady, values=values))
+    assert any("changed places" in text and kind is NoteKind.FAULT for kind, _, text in _told(swapped))
+
+
+@pytest.mark.parametrize("name", ["Q_out", "Q_case", "torque"])
+@pytest.mark.parametrize("size", [12.0, -15.0])
+def test_one_slip_is_put_aside_and_nothing_else(name, size):
+    def slip(column):
+        column = column.copy()
+        column[41] += size * max(0.004 * abs(column[41]), UNITS[name][1])
+        return column
+
+    recording = _with(name, slip)
+    checked = check_recording(recording, DISPLACEMENT)
+    removed = [note for note in checked.notes if note.kind is NoteKind.REMOVED]
+    assert [(note.channel.value, note.points) for note in removed] == [(name, (41,))]
+    assert np.isnan(checked.steady.column(ChannelName.named(name))[41])
+    assert np.isfinite(checked.steady.values).sum() == np.isfinite(recording.steady.values).sum() - 1
+
+
+def test_an_effect_at_the_rim_of_the_map_is_no_outlier():
+    recording = _sound()
+    speed, p_out = recording.steady.column(ChannelName.SPEED), recording.steady.column(ChannelName.P_OUT)
+
+    def starved(flow):
+        return np.where((speed > 250.0) & (p_out > 30e6), 0.97 * flow, flow)
+
+    assert not [note for note in _told(_with("Q_out", starved)) if note[0] is NoteKind.REMOVED]
+
+
+def test_stuck_sensor_is_put_aside():
+    def hold(column):
+        column = column.copy()
+        column[20:27] = column[20]
+        return column
+
+    removed = [n for n in check_recording(_with("torque", hold), DISPLACEMENT).notes if n.kind is NoteKind.REMOVED]
+    assert removed[0].channel is ChannelName.TORQUE
+    assert removed[0].points == tuple(range(20, 27))
+
+
+def test_copies_and_readings_without_noise_are_faults():
+    recording = _sound()
+    own = recording.steady.column(ChannelName.Q_OUT)
+    assert any("follows" in text for _, _, text in _told(_with("Q_in", lambda _: 1.02 * own + 1e-6)))
+    values = np.repeat(recording.steady.values[::2], 2, axis=0)
+    values[1::2, COLUMNS[ChannelName.TORQUE]] += 0.3
+    numbers = np.repeat(np.arange(len(values) // 2), 2)
+    repeated = replace(recording, steady=replace(recording.steady, values=values, repeats=numbers))
+    found = {n.channel for n in check_recording(repeated, DISPLACEMENT).notes if "without noise at" in n.text}
+    assert found == {ChannelName.Q_OUT, ChannelName.Q_IN, ChannelName.Q_CASE}
+
+
+def test_gaps_and_too_few_readings_are_told():
+    def gap(column):
+        column = column.copy()
+        column[[3, 4]] = np.nan
+        return column
+
+    (kind, channel, text), *_ = _told(_with("Q_case", gap))
+    assert (kind, channel) == (NoteKind.TOLD, ChannelName.Q_CASE)
+    assert "2 of 96" in text
+    count = 4 * 96
+    assert too_few(_sound(), count - 1) is None
+    fault = too_few(_sound(), count)
+    assert fault is not None
+    assert fault.kind is NoteKind.FAULT
+    assert len(OUTPUTS) + len(INPUTS) <= len(ChannelName)
+
+
+def test_bench_recordings_tell_nothing(shared):
+    from diagnosis.recording_reader import read_recording
+
+    for folder in sorted((shared / "recordings" / "bench").glob("open-*")):
+        recording = read_recording(folder)
+        assert check_recording(recording, DISPLACEMENT).notes == recording.notes, folder.name
