@@ -1,0 +1,77 @@
+"""Numbers of a diagnosis as people read them: the unit of each quantity, values with their sigma, ids as words."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from diagnosis.verdict import Estimate
+from system.channels import ChannelName
+from system.physics.effects import EffectId
+from system.pump_gap import Gap
+from system.units import Dimension, in_unit, reading_unit
+
+BENCH_UNITS = {Dimension.PRESSURE: "bar", Dimension.TEMPERATURE: "degC", Dimension.VOLUME_FLOW: "L/min"}
+"""What a bench reads in, where it is not the usual reading unit."""
+
+PLACES = {Gap.PISTON: "the pistons", Gap.SLIPPER: "the slippers", Gap.VALVE_PLATE: "the valve plate"}
+
+
+def channel_unit(channel: ChannelName) -> str:
+    """The unit a bench reads a channel in; "1" for a pure number."""
+    dimension = channel.dimension
+    if dimension is None:
+        return "1"
+    return BENCH_UNITS.get(dimension, dimension.reading_units[0])
+
+
+def difference_unit(channel: ChannelName) -> str:
+    """The unit of a difference of two readings: of two temperatures K."""
+    return "K" if channel.dimension is Dimension.TEMPERATURE else channel_unit(channel)
+
+
+def reading(channel: ChannelName, value: float) -> float:
+    """A reading in SI in the unit that the bench reads it in."""
+    dimension = channel.dimension
+    return value if dimension is None else in_unit(value, channel_unit(channel), dimension)
+
+
+def difference(channel: ChannelName, value: float) -> float:
+    """A difference of two readings in SI in its unit."""
+    return reading(channel, value) - reading(channel, 0.0)
+
+
+def estimate_text(estimate: Estimate) -> str:
+    """A parameter with one sigma: "opening 22 +- 2 1/GPa". Temperatures are differences, in K."""
+    value, sigma, dimension = estimate.value, estimate.sigma, estimate.dimension
+    unit = ""
+    if dimension is Dimension.TEMPERATURE:
+        unit = " K"
+    elif dimension is not None:
+        name = reading_unit(value, dimension)
+        value, sigma = (in_unit(number, name, dimension) for number in (value, sigma))
+        unit = f" {name}"
+    return f"{last_word(estimate.name)} {value:.3g} +- {sigma:.2g}{unit}"
+
+
+def last_word(name: str) -> str:
+    """What a parameter is, without where: "elastic_opening.slipper.opening" is an opening."""
+    return name.rpartition(".")[2].replace("_", " ")
+
+
+def effect_words(effects: Iterable[EffectId], pair: Gap | None = None) -> str:
+    """Ids as words: "elastic opening of the slippers", "churning and torque offset", "nothing"."""
+    words = listed(effect.value.replace("_", " ") for effect in effects) or "nothing"
+    return f"{words} at {PLACES[pair]}" if pair else words
+
+
+def listed(words: Iterable[str], last: str = "and") -> str:
+    """Words in a row: "a", "a and b", "a, b and c"."""
+    *before, final = list(words) or [""]
+    return f"{', '.join(before)} {last} {final}" if before else final
+
+
+def chance(probability: float) -> str:
+    """A probability that never claims to be certain."""
+    if probability > 0.999:
+        return "above 0.999"
+    return "below 0.001" if probability < 0.001 else f"{probability:.2g}"

@@ -1,0 +1,179 @@
+"""A diagnosis in plain words: where, what, how much, how sure, and what to record next."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from diagnosis.locate import Location
+from diagnosis.next_point import NextPoint
+from diagnosis.shown import (
+    PLACES,
+    chance,
+    channel_unit,
+    difference,
+    difference_unit,
+    effect_words,
+    estimate_text,
+    listed,
+    reading,
+)
+from diagnosis.time_scan import TimeKind
+from diagnosis.unknown import Scaling
+from diagnosis.verdict import Claim, Diagnosis, Status
+from system.channels import ChannelName
+from system.physics.catalogue import entry_of
+from system.physics.effects import EffectId, Kind
+
+RIVALS = 3  # told by name at most
+WORTH_TELLING = 0.01  # probability of a rival
+
+
+def statement(diagnosis: Diagnosis) -> str:
+    """One to three sentences: where, what, how much, how sure."""
+    if diagnosis.status is Status.SUSPICION:
+        return f"{_where(diagnosis.location)}: {_suspicion(diagnosis)}."
+    if diagnosis.kind is Kind.NO_MISMATCH:
+        return f"Simulation and recording agree within noise and tolerance ({_misfit(diagnosis)})."
+    if diagnosis.kind is Kind.UNKNOWN_PHYSICS:
+        return f"{_where(diagnosis.location)}: {_unknown(diagnosis)}."
+    said = "; besides, ".join(_claim(claim) for claim in diagnosis.effects)
+    ends = {
+        Status.INCOMPLETE: "The name is sure, but a part of the mismatch remains that it does not explain.",
+        Status.CLASS: _class(diagnosis),
+        Status.NAMED: "",
+    }
+    return f"{_where(diagnosis.location)}: {said}. {ends[diagnosis.status]}".rstrip()
+
+
+def paragraphs(diagnosis: Diagnosis) -> tuple[str, ...]:
+    """The statement, and behind it what was held out, rivals, what cannot be told, and the next point."""
+    told = (
+        statement(diagnosis),
+        held_out_text(diagnosis),
+        _rivals(diagnosis),
+        next_point_text(diagnosis.next_point) if diagnosis.next_point else "",
+    )
+    return tuple(text for text in told if text)
+
+
+def held_out_text(diagnosis: Diagnosis) -> str:
+    """What the repaired simulation does on points that took no part in the fit, channel by channel."""
+    fit = diagnosis.fit
+    channels = [channel for channel in diagnosis.location.channels if channel in fit.after] or list(fit.after)
+    if not diagnosis.effects or not channels:
+        return ""
+    parts = [
+        f"{channel.value} {_number(channel, fit.before[channel])} -> {_number(channel, fit.after[channel])} "
+        f"(noise {_number(channel, fit.noise[channel])}) {difference_unit(channel)}"
+        for channel in channels
+    ]
+    return f"On points held out ({fit.how}) the rms residual falls: {'; '.join(parts)}."
+
+
+def next_point_text(found: NextPoint) -> str:
+    """What to record next, with units, and what it brings."""
+    point = found.point
+    values = {
+        ChannelName.SPEED: point.shaft_speed,
+        ChannelName.P_OUT: point.delivery_pressure,
+        ChannelName.DISPLACEMENT_RATIO: point.displacement_ratio,
+        ChannelName.T_CASE: point.temperature,
+    }
+    told = [
+        f"{channel.value} {reading(channel, value):.4g} {channel_unit(channel)}".removesuffix(" 1")
+        for channel, value in values.items()
+    ]
+    times = "once" if found.repeats == 1 else f"{found.repeats} times"
+    return (
+        f"To separate {effect_words(found.separates)}, record {', '.join(told)}, {times}: {found.why}; one "
+        f"reading is worth {found.gain:.2g} nats."
+    )
+
+
+def _where(location: Location) -> str:
+    """Channels, part of the map, shaft angles, time."""
+    channels = listed(channel.value for channel in location.channels) or "No single channel"
+    return ", ".join([channels, *_places(location)])
+
+
+def _places(location: Location) -> Iterator[str]:
+    if location.region is not None:
+        yield location.region.text
+    if location.angle is not None:
+        start, end = (reading(ChannelName.ANGLE, angle) for angle in (location.angle.start, location.angle.end))
+        events = f" ({listed(location.angle.events)})" if location.angle.events else ""
+        yield f"shaft angle {start:.3g} to {end:.3g} deg{events}"
+    if location.time is not None:
+        since = "in the course of the recording" if location.time.kind is TimeKind.DRIFT else "from one point on"
+        yield f"{since} (point {location.time.at + 1})"
+
+
+def _claim(claim: Claim) -> str:
+    """What acts, where, how much, how sure."""
+    sizes = listed(estimate_text(estimate) for estimate in claim.parameters)
+    place = f", at {PLACES[claim.pair]}" if claim.pair else ""
+    return (
+        f"{entry_of(claim.effect).sentence} ({claim.effect.value}){place}"
+        f"{': ' if sizes else ''}{sizes}, probability {chance(claim.probability)}"
+    )
+
+
+def _class(diagnosis: Diagnosis) -> str:
+    alike = [
+        f"{claim.effect.value} from {listed((one.value for one in claim.equivalent), 'or')}"
+        for claim in diagnosis.effects
+        if claim.equivalent
+    ]
+    return f"This recording cannot tell {listed(alike)}." if alike else "Its pair cannot be told."
+
+
+def _suspicion(diagnosis: Diagnosis) -> str:
+    likely = _likeliest(diagnosis)
+    thought = f"; likeliest are {listed(likely)}" if likely else ""
+    return f"a mismatch short of proof ({_misfit(diagnosis)}), nothing is claimed{thought}"
+
+
+def _unknown(diagnosis: Diagnosis) -> str:
+    law = _power_law(diagnosis.scaling) if diagnosis.scaling else ""
+    parts = listed((one.value.replace("_", " ") for one in diagnosis.location.tie), "or")
+    place = f", most like a change of the {parts}" if parts else ""
+    return f"no effect of the catalogue explains the mismatch ({_misfit(diagnosis)}){law}{place}"
+
+
+def _power_law(scaling: Scaling) -> str:
+    powers = [
+        f"{name}^({exponent:.2g} +- {scaling.sigma[name]:.1g})"
+        for name, exponent in scaling.exponents.items()
+        if abs(exponent) > scaling.sigma[name]
+    ]
+    grows = f"grows as {' '.join(powers)}" if powers else "is the same all over the map"
+    return f"; what is left of {scaling.channel.value} {grows}"
+
+
+def _misfit(diagnosis: Diagnosis) -> str:
+    found = diagnosis.detection
+    return f"chi2 {found.chi2_per_dof:.3g} per reading, p {found.p_value:.2g}"
+
+
+def _likeliest(diagnosis: Diagnosis) -> list[str]:
+    """The likeliest hypotheses that are not what is claimed, with their probabilities."""
+    claimed = {claim.effect for claim in diagnosis.effects}
+    others = [one for one in diagnosis.hypotheses if one.hypothesis.effects and one.probability >= WORTH_TELLING]
+    rivals = [one for one in others if not claimed & set(one.hypothesis.effects)]
+    ranked = sorted(rivals, key=lambda one: -one.probability)[:RIVALS]
+    return [_rival(one.hypothesis.effects, one.probability) for one in ranked]
+
+
+def _rival(effects: tuple[EffectId, ...], probability: float) -> str:
+    return f"{effect_words(effects)} ({chance(probability)})"
+
+
+def _rivals(diagnosis: Diagnosis) -> str:
+    if diagnosis.status is Status.SUSPICION or not diagnosis.effects:
+        return ""
+    standing = _likeliest(diagnosis)
+    return f"Still possible: {listed(standing)}." if standing else "No rival has a probability above 0.01."
+
+
+def _number(channel: ChannelName, value: float) -> str:
+    return f"{difference(channel, value):.3g}"

@@ -1,0 +1,244 @@
+"""A diagnosis told: the sentence of every status, diagnosis.json, and the page that is made from its folder."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from diagnosis.angle_scan import AngleWindow
+from diagnosis.detect import ChannelMisfit, Detection
+from diagnosis.diagnosis_file import diagnosis_record, read_diagnosis, write_diagnosis
+from diagnosis.hypotheses import Hypothesis
+from diagnosis.locate import Location
+from diagnosis.next_point import NextPoint
+from diagnosis.regions import Region
+from diagnosis.time_scan import TimeKind, TimeMark
+from diagnosis.unknown import Scaling
+from diagnosis.verdict import Claim, Diagnosis, Estimate, Status
+from diagnosis.weighed import HeldOut, Weighed
+from diagnosis.words import paragraphs, statement
+from system.channels import ChannelName
+from system.components import Component
+from system.estimation.fit import maximum_posterior
+from system.estimation.observations import Array, Channel, Observations
+from system.estimation.parameters import Parameter, Role, Scale
+from system.estimation.posterior import Effort, Posterior
+from system.faults import InputFaults
+from system.operating import operating_point
+from system.physics.effects import EffectId, Kind
+from system.pump_file import load_pump
+from system.pump_gap import Gap
+from system.units import Dimension
+
+LPM = 1.0 / 60000.0
+PRESSURE = np.tile(np.linspace(5e6, 35e6, 7), 4)
+SPEED = np.repeat([60.0, 110.0, 160.0, 210.0], 7)
+E = EffectId
+Q, T = ChannelName.Q_CASE, ChannelName.TORQUE
+
+
+@dataclass(frozen=True)
+class Lines:
+    """Case flow ~ p and torque ~ p; the second parameter is a leak ~ p^2."""
+
+    parameters: tuple[Parameter, ...]
+
+    def predict(self, values: Array) -> Array:
+        return np.einsum("nck,k->nc", self._columns(), np.append(values, 0.0)[:3])
+
+    def _columns(self) -> Array:
+        level = PRESSURE / 35e6
+        nothing = np.zeros_like(level)
+        flow = np.stack([5 * LPM * level, nothing, 2 * LPM * level**2], axis=-1)
+        torque = np.stack([nothing, 400 * level + SPEED / 50, nothing], axis=-1)
+        return np.stack([flow, torque], axis=1)
+
+    def slopes(self, values: Array, names: tuple[str, ...]) -> Array:
+        return self._columns()[:, :, [[one.name for one in self.parameters].index(name) for name in names]]
+
+    def input_slopes(self, values: Array) -> Array:
+        return np.zeros((PRESSURE.size, 2, 0))
+
+    def with_parameters(self, parameters: tuple[Parameter, ...]) -> Lines:
+        return replace(self, parameters=parameters)
+
+
+def _readings() -> Observations:
+    rng = np.random.default_rng(5)
+    sigma = np.tile([0.02 * LPM, 0.8], (PRESSURE.size, 1))
+    truth = Lines(()).predict(np.array([1.0, 1.0, 0.4]))
+    return Observations(
+        channels=(Channel("Q_case", Dimension.VOLUME_FLOW), Channel("torque", Dimension.TORQUE)),
+        values=truth + sigma * rng.normal(size=truth.shape),
+        sigma=sigma,
+        inputs=(),
+        input_sigma=np.zeros((PRESSURE.size, 0)),
+        quantum=np.zeros(2),
+        blocks=np.arange(PRESSURE.size),
+    )
+
+
+def _fit(names: tuple[str, ...]) -> Posterior:
+    def prior(name: str) -> Parameter:
+        if name == "opening":
+            return Parameter(name, Role.EXTENSION, Scale.HALF, 0.0, 1.0, 0.0, np.inf, None, "test")
+        return Parameter(name, Role.BASE, Scale.NORMAL, 1.0, 0.05, 0.0, 5.0, None, "test")
+
+    return maximum_posterior(Lines(tuple(prior(name) for name in names)), _readings())
+
+
+def _hypothesis(*effects: EffectId, pair: Gap | None = None, kind: Kind = Kind.MISSING_PHYSICS) -> Hypothesis:
+    return Hypothesis(effects, pair, kind, (), (), -2.0)
+
+
+@pytest.fixture(scope="module")
+def named() -> Diagnosis:
+    """A valve plate that opens under pressure, named."""
+    before, after = _fit(("film", "friction")), _fit(("film", "friction", "opening"))
+    rms = ({Q: 1e-6, T: 0.81}, {Q: 2.6e-7, T: 0.8}, {Q: 2.5e-7, T: 0.8})
+    fit = HeldOut({"high p": 40.0, "low n": 3.0}, *rms, False, "five random fifths")
+    opening = Estimate("elastic_opening.valve_plate.opening", 2.2e-8, 2e-9, Dimension.PRESSURE_COEFFICIENT)
+    weighed = (
+        Weighed(_hypothesis(E.ELASTIC_OPENING, pair=Gap.VALVE_PLATE), -20.0, False, after, 22.0, 0.93, fit),
+        Weighed(_hypothesis(E.FILM_HEATING), -24.0, False, before, 20.0, 0.06, None),
+        Weighed(_hypothesis(kind=Kind.NO_MISMATCH), -400.0, False, before, 0.0, 0.0, None),
+    )
+    point = operating_point(load_pump("ref90"), shaft_speed=104.7, delivery_pressure=37e6)
+    return Diagnosis(
+        kind=Kind.MISSING_PHYSICS,
+        status=Status.NAMED,
+        detection=Detection(
+            1e-30, 9.1, {Q: ChannelMisfit(17.0, 0.97), T: ChannelMisfit(1.1, 0.03)}, 1e-20, (), ()
+        ),
+        location=Location(
+            channels=(Q,),
+            region=Region(Q, {"p_out": 25e6}, {}, 12.0, "p_out above 250 bar"),
+            components=((Component.PLATE_LEAKAGE, 200.0),),
+            groups=(),
+            tie=(Component.PLATE_LEAKAGE,),
+            angle=None,
+            time=None,
+        ),
+        effects=(Claim(E.ELASTIC_OPENING, Gap.VALVE_PLATE, 0.93, (), (opening,)),),
+        hypotheses=weighed,
+        before=before,
+        after=after,
+        fit=fit,
+        scaling=Scaling(Q, {"speed": 0.02, "pressure": 2.1}, {"speed": 0.1, "pressure": 0.1}),
+        next_point=NextPoint(point, (E.ELASTIC_OPENING, E.FILM_HEATING), 1.7, 3, "there Q_case parts"),
+        not_identifiable=("film_thickness slipper vs film_thickness piston",),
+        notes=("row 3 of Q_case was removed",),
+        effort=Effort(10, 3, 1.0),
+    )
+
+
+def _agreeing(diagnosis: Diagnosis) -> Diagnosis:
+    detection = replace(diagnosis.detection, p_value=0.4, chi2_per_dof=1.0)
+    return replace(
+        diagnosis, kind=Kind.NO_MISMATCH, detection=detection, effects=(), scaling=None, next_point=None
+    )
+
+
+def test_a_named_effect_is_told_with_place_size_and_odds(named: Diagnosis) -> None:
+    text = statement(named)
+    for part in ("Q_case", "p_out above 250 bar", "a film opens under pressure", "the valve plate",
+                 "22 +- 2 1/GPa", "0.93"):  # fmt: skip
+        assert part in text
+    told = " ".join(paragraphs(named))
+    for part in ("0.06 -> 0.0156 (noise 0.015) L/min", "film heating (0.06)", "999.8 rpm", "370 bar", "3 times"):
+        assert part in told, told
+
+
+@pytest.mark.parametrize("status", Status)
+@pytest.mark.parametrize("kind", Kind)
+def test_every_kind_and_status_has_a_sentence(named: Diagnosis, kind: Kind, status: Status) -> None:
+    claims = () if kind in (Kind.NO_MISMATCH, Kind.UNKNOWN_PHYSICS) else named.effects
+    claims = tuple(replace(claim, equivalent=(E.FILM_HEATING,)) for claim in claims)
+    text = statement(replace(named, kind=kind, status=status, effects=claims))
+    assert text.endswith(".")
+    assert "  " not in text
+    assert "None" not in text
+    if status is Status.SUSPICION:
+        assert "nothing is claimed" in text
+    elif claims and status is Status.CLASS:
+        assert "cannot tell elastic_opening from film_heating" in text
+
+
+@pytest.mark.parametrize("effect", [effect for effect in E if effect is not E.UNKNOWN_PHYSICS])
+def test_every_effect_can_be_said(named: Diagnosis, effect: EffectId) -> None:
+    text = statement(replace(named, effects=(Claim(effect, None, 0.99, (), ()),)))
+    assert f"({effect.value})" in text
+
+
+def test_unknown_physics_is_described_by_its_exponents(named: Diagnosis) -> None:
+    text = statement(replace(named, kind=Kind.UNKNOWN_PHYSICS, effects=()))
+    assert "pressure^(2.1 +- 0.1)" in text
+    assert "speed^" not in text
+    assert "plate leakage" in text
+
+
+def test_angles_and_times_are_part_of_where(named: Diagnosis) -> None:
+    angle = AngleWindow(0.1, 0.3, 1e-3, ("delivery groove opens",))
+    time = TimeMark(TimeKind.ONSET, Q, 39, 1e-4, None)
+    found = replace(named, location=replace(named.location, angle=angle, time=time))
+    assert "shaft angle 5.73 to 17.2 deg (delivery groove opens)" in statement(found)
+    assert "point 40" in statement(found)
+    where = diagnosis_record(found)["where"]
+    assert where["shaft_angle_deg"] == pytest.approx([5.7296, 17.1887], rel=1e-4)
+    assert where["time"] == {"kind": "onset", "point": 39}
+
+
+def test_temperatures_off_are_told_as_differences(named: Diagnosis) -> None:
+    """An offset of 2 K is no temperature of -271 degC."""
+    off = Claim(E.T_CASE_OFFSET, None, 0.95, (), (Estimate("T_case.zero", 2.0, 0.3, Dimension.TEMPERATURE),))
+    assert "zero 2 +- 0.3 K" in statement(replace(named, kind=Kind.SENSOR_FAULT, effects=(off,)))
+    warm = replace(
+        named.fit, before={ChannelName.T_OUT: 2.0}, after={ChannelName.T_OUT: 0.5}, noise={ChannelName.T_OUT: 0.4}
+    )
+    row = diagnosis_record(replace(named, fit=warm))["fit"]["heldout"]["T_out"]
+    assert (row["before"], row["unit"]) == (pytest.approx(2.0), "K")
+
+
+def test_the_file_has_the_form_of_format_1(named: Diagnosis, tmp_path: Path) -> None:
+    """Keys, types and units of shared/recordings/README.md."""
+    path = tmp_path / "diagnosis.json"
+    write_diagnosis(path, named)
+    record = read_diagnosis(path)
+    assert record == json.loads(path.read_text("utf-8"))
+    assert (record["verdict"], record["status"]) == ("missing_physics", "named")
+    assert record["mismatch"]["channels"]["Q_case"] == {"chi2_per_dof": 17.0, "share": 0.97}
+    assert record["where"]["pair"] == "valve_plate"
+    assert record["effects"] == [
+        {
+            "id": "elastic_opening", "pair": "valve_plate", "probability": 0.93, "equivalent": [],
+            "parameters": [{"name": "opening", "value": 2.2e-8, "sigma": 2e-9, "unit": "1/Pa"}],
+        }
+    ]  # fmt: skip
+    assert record["hypotheses"][0]["heldout_rmse"] == pytest.approx(0.0156)
+    assert record["hypotheses"][0]["bic"] == 40.0
+    assert record["fit"]["heldout"]["Q_case"]["unit"] == "L/min"
+    assert record["fit"]["heldout"]["Q_case"]["before"] == pytest.approx(0.06)
+    assert record["next_test"]["point"]["p_out_bar"] == pytest.approx(370)
+    assert record["next_test"]["point"]["speed_rpm"] == pytest.approx(999.8, abs=0.1)
+    assert record["scaling"]["exponents"]["pressure"] == 2.1
+
+
+def test_agreement_claims_nothing(named: Diagnosis, tmp_path: Path) -> None:
+    found = _agreeing(named)
+    assert "agree within noise and tolerance" in statement(found)
+    record = diagnosis_record(found)
+    assert (record["effects"], record["next_test"], record["where"]["channels"]) == ([], None, [])
+
+
+@pytest.mark.parametrize(
+    ("text", "fault"), [("{}", "format"), ('{"format": 1}', "verdict"), ("[", "file"), ("[]", "list")]
+)
+def test_a_file_that_is_none_is_refused(tmp_path: Path, text: str, fault: str) -> None:
+    path = tmp_path / "diagnosis.json"
+    path.write_text(text, encoding="utf-8")
+    with pytest.raises(InputFaults, match=fault):
+        read_diagnosis(path)
