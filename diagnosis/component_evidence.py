@@ -10,13 +10,15 @@ from collections.abc import Mapping
 from enum import Enum
 from math import log
 
+import numpy as np
 from scipy.special import logsumexp
 
 from diagnosis.map_axes import smooth_shapes
 from diagnosis.study import Study
 from diagnosis.thresholds import Thresholds
 from system.components import Component
-from system.estimation.evidence import multiplier_evidence
+from system.estimation.evidence import multiplier_evidence, project
+from system.estimation.observations import Array
 
 Ranking = tuple[tuple[Component, float], ...]
 
@@ -82,6 +84,23 @@ def component_evidences(study: Study, thresholds: Thresholds) -> Ranking:
         for component, part in study.components.items()
     ]
     return tuple(sorted(found, key=lambda each: -each[1]))
+
+
+def missing_pattern(study: Study, component: Component, thresholds: Thresholds) -> Array:
+    """(N, C), in sigma: what a smooth multiplier of one component's law adds to the readings, at its most likely.
+
+    The mean of N(0, w^2) multipliers given the readings, (1/w^2 + G)^-1 g, at the width w of greatest evidence:
+    the mismatch with the noise smoothed away, and without what the fitted parameters take up of it.
+    """
+    base = study.base
+    part = study.components[component]
+    columns = base.whitening.whiten(part[:, :, None] * smooth_shapes(study.axes)[:, None, :])
+    width = max(thresholds.locate.multiplier_widths, key=lambda width: multiplier_evidence(base, columns, [width]))
+    content = columns.T @ project(base, columns)
+    beta = np.linalg.solve(np.eye(len(content)) / width**2 + content, columns.T @ base.residual)
+    sigma = np.where(base.whitening.measured, base.whitening.sigma, 1.0)
+    pattern: Array = base.whitening.unwhiten(columns @ beta) / sigma
+    return pattern
 
 
 def group_evidences(ranking: Ranking) -> tuple[tuple[ComponentGroup, float], ...]:

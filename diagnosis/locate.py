@@ -4,10 +4,17 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+import numpy as np
+
 from diagnosis.angle_scan import AngleWindow, scan_angles
-from diagnosis.component_evidence import ComponentGroup, component_evidences, group_evidences, tied
+from diagnosis.component_evidence import (
+    ComponentGroup,
+    component_evidences,
+    group_evidences,
+    missing_pattern,
+    tied,
+)
 from diagnosis.contrasts import contrasts
-from diagnosis.detect import channel_misfits
 from diagnosis.map_axes import axis_values
 from diagnosis.regions import Region, densest_region
 from diagnosis.study import Study
@@ -19,10 +26,10 @@ from system.components import Component
 
 @dataclass(frozen=True)
 class Location:
-    """Channels that take part, the one of greatest excess first, and the region of that one (None: everywhere).
+    """Channels in which it shows, most first, and the region of the first (None: everywhere).
 
-    components, groups: ln evidence of each, best first; tie: components that cannot be told from the best, none
-    where no component is ahead of nothing.
+    components, groups: ln evidence of each, best first; tie: components that cannot be told from the best. Where
+    no component is ahead of nothing there are no channels, no region and no tie.
     """
 
     channels: tuple[ChannelName, ...]
@@ -38,25 +45,27 @@ def locate(study: Study, thresholds: Thresholds) -> Location:
     """Where the readings part from the simulation. Means something only where `detect` finds that they do."""
     limits = thresholds.locate
     ranking = component_evidences(study, thresholds)
-    channels = _channels(study, limits.channel_share)
+    tie = tied(ranking, thresholds.name.odds)
+    channels = _channels(study, tie[0], thresholds) if tie else ()
     return Location(
         channels=channels,
         region=_region(study, channels[0], limits.region_share) if channels else None,
         components=ranking,
         groups=group_evidences(ranking),
-        tie=tied(ranking, thresholds.name.odds),
+        tie=tie,
         angle=scan_angles(study.traces, study.events, limits, thresholds.seeds.locate),
         time=scan_time(study, thresholds),
     )
 
 
-def _channels(study: Study, least_share: float) -> tuple[ChannelName, ...]:
-    found = channel_misfits(study)
-    ranked = sorted(found, key=lambda channel: -found[channel].share)
-    return tuple(channel for channel in ranked if found[channel].share >= least_share)
+def _channels(study: Study, component: Component, thresholds: Thresholds) -> tuple[ChannelName, ...]:
+    """Those in which the best component's missing part shows: raw excess would count every channel's noise."""
+    energy = (missing_pattern(study, component, thresholds) ** 2).sum(axis=0)
+    order = np.argsort(-energy)
+    least = thresholds.locate.channel_share * energy.sum()
+    return tuple(ChannelName.named(study.observations.channels[at].name) for at in order if energy[at] >= least)
 
 
 def _region(study: Study, channel: ChannelName, share: float) -> Region | None:
-    names = [each.name for each in study.observations.channels]
-    own = contrasts(study.base, names.index(channel.value))
-    return densest_region(channel, own, axis_values(study.recording), share)
+    at = [each.name for each in study.observations.channels].index(channel.value)
+    return densest_region(channel, contrasts(study.base, at), axis_values(study.recording), share)

@@ -62,20 +62,19 @@ def densest_region(
     if not axes:
         return None
     sides = [_half_lines(axis, values) for axis, values in axes.items()]
-    chosen, patterns = _all_boxes(sides, axes)
-    count = patterns.sum(axis=0)
-    squares = np.where(count >= LEAST_POINTS, found.z(patterns.astype(float)) ** 2, 0.0)
+    chosen, marks = _all_boxes(sides, axes)
+    z = found.z(marks.astype(float))
+    squares = np.where(marks.sum(axis=0) >= LEAST_POINTS, z**2, 0.0)
     bounds = (chosen > 0).sum(axis=0)
     good = squares >= share * squares.max()
     best = int(np.argmax(np.where(good & (bounds == bounds[good].min()), squares, -1.0)))
-    if bounds[best] == 0:
-        return None
     picked = [side[number] for side, number in zip(sides, chosen[:, best], strict=True)]
-    lower = {part.axis.value: part.lower for part in picked if part.lower is not None}
-    upper = {part.axis.value: part.upper for part in picked if part.upper is not None}
-    text = ", ".join(part.text for part in picked if part.bounded)
-    contrast = float(found.z(inside(axes, lower, upper).astype(float)[:, None])[0])
-    return Region(channel, lower, upper, contrast, text)
+    bounded = [part for part in picked if part.bounded]
+    if not bounded:
+        return None
+    lower = {part.axis.value: part.lower for part in bounded if part.lower is not None}
+    upper = {part.axis.value: part.upper for part in bounded if part.upper is not None}
+    return Region(channel, lower, upper, float(z[best]), ", ".join(part.text for part in bounded))
 
 
 @dataclass(frozen=True)

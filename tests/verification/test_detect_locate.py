@@ -13,7 +13,7 @@ from diagnosis.component_evidence import ComponentGroup
 from diagnosis.contrasts import contrasts, misfit
 from diagnosis.detect import Detection, detect, holm
 from diagnosis.locate import locate
-from diagnosis.map_axes import AXES, axis_values, scaled_axes
+from diagnosis.map_axes import AXES, axis_values, inside, scaled_axes
 from diagnosis.recording import Circuit, Recording, SteadyTable
 from diagnosis.study import Study, concerned, study_of
 from diagnosis.thresholds import load_thresholds
@@ -233,20 +233,14 @@ def test_holm_counts_all_candidates() -> None:
     ],
 )
 def test_a_planted_region_is_found(lower: dict[str, float], upper: dict[str, float]) -> None:
-    """Intersection over union of the points within, .7 at least, for a step of 4 sigma in the drain flow."""
+    """Intersection over union of the points within, .7 at least, for a step of 3 sigma in the drain flow."""
     axes = axis_values(_map())
-    within = np.ones(POINTS, dtype=bool)
-    for axis, values in axes.items():
-        within &= (values >= lower.get(axis.value, -np.inf)) & (values < upper.get(axis.value, np.inf))
-    added = np.zeros((POINTS, 3))
-    added[within, 1] = 4 * SIGMA[1]
+    within = inside(axes, lower, upper)
+    added = 3 * SIGMA * within[:, None] * np.array([0, 1, 0])
     region = locate(_study(added, seed=4), LIMITS).region
     assert region is not None
     assert region.channel is ChannelName.Q_CASE
-    found = np.ones(POINTS, dtype=bool)
-    for axis, values in axes.items():
-        found &= values >= region.lower.get(axis.value, -np.inf)
-        found &= values < region.upper.get(axis.value, np.inf)
+    found = inside(axes, region.lower, region.upper)
     assert np.sum(found & within) / np.sum(found | within) >= 0.7
     assert set(region.lower) | set(region.upper) == set(lower) | set(upper)
     assert all(name in region.text for name in (*lower, *upper))
@@ -255,6 +249,20 @@ def test_a_planted_region_is_found(lower: dict[str, float], upper: dict[str, flo
 def test_no_regions_are_flagged_without_a_mismatch(nulls: list[Detection]) -> None:
     """Benjamini and Hochberg at .05: any flag at all in 5 % of nulls, 10 % of 300 at most (4 sigma)."""
     assert np.mean([len(found.flags) > 0 for found in nulls]) < 0.10
+
+
+def test_an_effect_shows_in_its_channel_and_region() -> None:
+    """Churning in the torque at high speed, opening in the drain flow at high pressure, from 8 sigma on."""
+    churning, opening = (
+        locate(_study(_sized(effect, 8.0), seed=3), LIMITS)
+        for effect in (EffectId.CHURNING, EffectId.ELASTIC_OPENING)
+    )
+    assert churning.channels[0] is ChannelName.TORQUE
+    assert churning.region is not None
+    assert churning.region.lower.keys() == {"speed"}
+    assert opening.channels[0] is ChannelName.Q_CASE
+    assert opening.region is not None
+    assert opening.region.lower.keys() == {"p_out"}
 
 
 def test_components_are_found_or_tied() -> None:

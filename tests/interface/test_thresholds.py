@@ -1,0 +1,34 @@
+"""The file of thresholds: complete, and read as it stands."""
+
+from __future__ import annotations
+
+from hashlib import sha256
+from pathlib import Path
+
+import pytest
+
+from diagnosis.thresholds import FILE, load_thresholds
+from reynolds.errors import FilmInputError
+
+
+def test_the_digest_is_that_of_the_file() -> None:
+    assert load_thresholds().digest == sha256(FILE.read_bytes()).hexdigest()
+
+
+def test_what_decides_is_consistent() -> None:
+    limits = load_thresholds()
+    assert 0 < limits.mismatch.holm <= limits.mismatch.null_probability < 1 - limits.name.probability
+    assert limits.locate.windows[0] < limits.locate.windows[1]
+    assert list(limits.name.mixture_widths) == sorted(limits.name.mixture_widths)
+    assert limits.heldout.veto_gain < 0
+
+
+@pytest.mark.parametrize(
+    ("before", "after"),
+    [("holm = 0.01", ""), ("holm = 0.01", "holm = 0.01\nhulm = 0.02"), ("[heldout]", "[held]")],
+)
+def test_a_key_that_is_missing_or_not_known_is_refused(before: str, after: str, tmp_path: Path) -> None:
+    file = tmp_path / "thresholds.toml"
+    file.write_text(FILE.read_text(encoding="utf-8").replace(before, after), encoding="utf-8")
+    with pytest.raises(FilmInputError, match=r"mismatch|held"):
+        load_thresholds(file)
