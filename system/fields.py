@@ -64,6 +64,7 @@ PressureCoefficient = Annotated[float, Dimension.PRESSURE_COEFFICIENT, NotNegati
 ArealDensity = Annotated[float, Dimension.AREAL_DENSITY, Positive]
 Fraction = Annotated[float, Field(ge=0.0, le=1.0)]
 Coefficient = Annotated[float, NotNegative]
+Spread = Annotated[float, Field(gt=0.0, le=2.0)]  # one sigma, a pure number
 
 Profile = Annotated[
     tuple[tuple[float, ...], ...],

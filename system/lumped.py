@@ -235,16 +235,29 @@ def _port_opening(pump: PumpDescription, p: PortsSection, dead_centre: Number | 
     )
 
 
+def piston_forces(
+    pump: PumpDescription, point: OperatingPoint[Number], motion: PistonMotion[Number], cycle: Pressed
+) -> tuple[Array, Array]:
+    """Force of one piston with its slipper along the bore and size of the swash plate's side force on it, in N."""
+    mass = pump.piston.mass + pump.slipper.mass
+    area = piston_area(pump)
+    axial = pairs.axial_force(cycle.pressure, point.case_pressure, area, mass, motion.acceleration)
+    return axial, pairs.side_force(axial, motion.drive.swash_angle)
+
+
+def block_clamping(pump: PumpDescription, point: OperatingPoint[Number], cycle: Pressed) -> Array:
+    """Force in N with which the block rubs on the valve plate."""
+    pressed = pairs.over_chambers([cycle.pressure - point.case_pressure], pump.pump.pistons)
+    force = piston_area(pump) * pressed
+    return pairs.clamping_force(force, pump.valve_plate.residual_clamping, block_spring(pump))
+
+
 def lumped_pairs(
     pump: PumpDescription, point: OperatingPoint[Number], motion: PistonMotion[Number], cycle: Pressed
 ) -> FrictionPairs:
     """REF90's nominal losses of the seven pairs at the pressures of a cycle (sampled at the motion's angles)."""
-    area = piston_area(pump)
-    mass = pump.piston.mass + pump.slipper.mass
-    axial = pairs.axial_force(cycle.pressure, point.case_pressure, area, mass, motion.acceleration)
-    side = pairs.side_force(axial, motion.drive.swash_angle)
+    axial, side = piston_forces(pump, point, motion, cycle)
     side_sum = pairs.over_chambers([side], pump.pump.pistons)
-    pressure_sum = area * pairs.over_chambers([cycle.pressure - point.case_pressure], pump.pump.pistons)
     bearings, friction = pump.bearings, pump.friction
     front = pairs.bearing_coulomb(
         friction.front_bearing, bearings.front_share, side_sum, point.shaft_speed, bearings.front_diameter
@@ -256,7 +269,7 @@ def lumped_pairs(
     return FrictionPairs(
         piston_cylinder=_piston_cylinder(pump, point, motion, side),
         slipper_swash_plate=_slipper_swash_plate(pump, point, motion, axial),
-        valve_plate_cylinder=_valve_plate_cylinder(pump, point, pressure_sum),
+        valve_plate_cylinder=_valve_plate_cylinder(pump, point, cycle),
         ball_guide_retainer=_ball_guide_retainer(pump, point, motion),
         piston_slipper_socket=_piston_slipper_socket(pump, point, motion, axial),
         front_bearing=PairLoss(1, front, none),
@@ -304,9 +317,9 @@ def _piston_slipper_socket(
     return PairLoss(pump.pump.pistons, coulomb, np.zeros_like(axial))
 
 
-def _valve_plate_cylinder(pump: PumpDescription, point: OperatingPoint[Number], pressure_sum: Array) -> PairLoss:
+def _valve_plate_cylinder(pump: PumpDescription, point: OperatingPoint[Number], cycle: Pressed) -> PairLoss:
     v, radius = pump.valve_plate, pump.valve_plate.kidney_pitch_radius
-    clamping = pairs.clamping_force(pressure_sum, v.residual_clamping, block_spring(pump))
+    clamping = block_clamping(pump, point, cycle)
     coulomb = pairs.valve_plate_coulomb(pump.friction.valve_plate_cylinder, clamping, point.shaft_speed, radius)
     radii = (v.land_radius_1, v.land_radius_2, v.land_radius_3, v.land_radius_4)
     shear = pairs.valve_plate_shear(point.viscosity, radii, point.shaft_speed, radius, v.film_thickness)

@@ -1,0 +1,248 @@
+"""A bench map simulated by the lumped fidelity, all points at once: a `Simulator` of parameters with priors."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import reduce
+from hashlib import blake2b
+
+import numpy as np
+
+from reynolds.errors import FilmInputError
+from system.bench_courses import Courses, other_gaps, solve_map
+from system.bench_parameters import BASE_NAMES
+from system.bench_points import BenchPoints
+from system.bench_setting import Setting, affected, setting
+from system.bench_truth import SIMULATED, Affected, truth
+from system.channels import INPUTS, ChannelName
+from system.description import PumpDescription
+from system.estimation.parameters import Parameter
+from system.gap_courses import bench_state, gap_courses
+from system.kinematics import Array
+from system.lumped import lumped_pairs
+from system.physics.effects import both
+from system.physics.extension import Extension
+from system.ports import TURN
+from system.sensors import ENCODER_OFFSET, SENSOR_NAMES, read
+from system.unlike import kinds
+
+SAMPLES_PER_PITCH = 10
+"""Shaft angles a piston pitch: torque within .07 sigma of a class A bench, flows within 5e-4."""
+TOLERANCE = 1e-5
+TRACE_SAMPLES_PER_PITCH = 80
+STEP = 0.1
+"""Of slopes by difference, in spreads of the parameter."""
+KEPT = 8
+"""Courses of a map that are remembered, the last ones."""
+INPUT_STEPS = {
+    ChannelName.SPEED: 1.0,
+    ChannelName.DISPLACEMENT_RATIO: -2e-3,
+    ChannelName.P_OUT: 1e5,
+    ChannelName.P_IN: 2e4,
+    ChannelName.P_CASE: 1e4,
+    ChannelName.T_IN: 1.0,
+    ChannelName.T_CASE: 0.2,
+}
+"""Steps of slopes by input, SI: some ten times what a sensor is good to."""
+
+
+@dataclass(frozen=True)
+class Solved:
+    """A map at given values: as it is without laws of what physics left out (`plain`), and with them."""
+
+    plain: Setting
+    plain_courses: Courses
+    setting: Setting
+    courses: Courses
+    affected: Affected | None
+
+
+class LumpedBench:
+    """The readings of a bench at N points, by the lumped fidelity; a `system.estimation.simulator.Simulator`.
+
+    channels: the C outputs of SIMULATED that are read, inputs: the M measured inputs, both in the order of the
+    observations. Parameters: of `base_parameters`, `sensor_parameters` and those of the extensions in `physics`,
+    which join where they are not among them; what none of them names is as the pump states it. Ports are held at
+    their mean pressures: lines behind them and their ripple are left out. Raises FilmInputError for a channel it
+    does not know, for a parameter that is none of these, and for chambers that differ.
+    """
+
+    def __init__(
+        self,
+        pump: PumpDescription,
+        points: BenchPoints,
+        channels: tuple[ChannelName, ...],
+        parameters: tuple[Parameter, ...],
+        physics: tuple[Extension, ...] = (),
+        inputs: tuple[ChannelName, ...] = INPUTS,
+        samples_per_pitch: int = SAMPLES_PER_PITCH,
+        tolerance: float = TOLERANCE,
+    ) -> None:
+        for channel in channels:
+            if channel not in SIMULATED:
+                names = ", ".join(known.value for known in SIMULATED)
+                raise FilmInputError("bench.channels", channel.value, f"one of {names}")
+        if not kinds(pump).alike:
+            raise FilmInputError("bench.pump", "single pistons or slippers", "chambers that are alike")
+        self.pump, self.points, self.channels, self.inputs = pump, points, channels, inputs
+        self.physics, self.samples_per_pitch, self.tolerance = physics, samples_per_pitch, tolerance
+        own = {parameter.name for parameter in parameters}
+        joining = [one for law in physics for one in law.parameters if one.name not in own]
+        self._parameters = (*parameters, *joining)
+        _hold_known(self._parameters, physics)
+        self._columns = [SIMULATED.index(channel) for channel in channels]
+        self._kept: dict[bytes, Courses] = {}
+
+    @property
+    def parameters(self) -> tuple[Parameter, ...]:
+        """All parameters with their priors; the order of every vector of values."""
+        return self._parameters
+
+    def predict(self, values: Array) -> Array:
+        """Readings (N, C) in SI at the values (k,). Raises NotConverged."""
+        return self._read(self.solved(values), values, self.points)
+
+    def difference(self, values: Array, other: Array) -> Array:
+        """Readings (N, C) at `other` values less those at `values`, by `other_gaps` where gaps alone differ.
+
+        Friction and sensors are exact; leakage is good to 0.5 % of its change, what it takes from the ports to
+        some 8 %. Chambers are solved anew where anything else of them differs.
+        """
+        solved = self.solved(values)
+        near = self._near(solved, other, self.points)
+        return self._read(near, other, self.points) - self._read(solved, values, self.points)
+
+    def slopes(self, values: Array, names: tuple[str, ...]) -> Array:
+        """d readings / d value of the named parameters, (N, C, len(names)), by `difference` over STEP spreads."""
+        columns = []
+        for name in names:
+            index = [parameter.name for parameter in self.parameters].index(name)
+            step = self._step(index, float(values[index]))
+            moved = np.array(values, dtype=float)
+            moved[index] += step
+            columns.append(self.difference(values, moved) / step)
+        return np.stack(columns, axis=-1) if columns else np.zeros((*self._shape, 0))
+
+    def input_slopes(self, values: Array) -> Array:
+        """d readings / d input, (N, C, M), in SI per SI."""
+        solved, columns = self.solved(values), []
+        before = self._read(solved, values, self.points)
+        for channel in self.inputs:
+            step = INPUT_STEPS[channel]
+            moved = replace(self.points, **{channel.value: getattr(self.points, channel.value) + step})
+            near = self._near(solved, values, moved)
+            columns.append((self._read(near, values, moved) - before) / step)
+        return np.stack(columns, axis=-1) if columns else np.zeros((*self._shape, 0))
+
+    def with_parameters(self, parameters: tuple[Parameter, ...]) -> LumpedBench:
+        """The same bench with these parameters: replaced where a name is there already, added where not."""
+        return self._with(parameters, self.physics)
+
+    def with_extensions(self, extensions: tuple[Extension, ...]) -> LumpedBench:
+        """The same bench with these laws, each of its own parameters, beside those it has."""
+        joining = tuple(parameter for extension in extensions for parameter in extension.parameters)
+        return self._with(joining, (*self.physics, *extensions))
+
+    def traces(self, values: Array, points: tuple[int, ...], angles: Array) -> Array:
+        """Chamber pressure (len(points), K) in Pa gauge at shaft angles (K,) rad as an encoder reads them.
+
+        The parameter `encoder_offset` (rad), where there is one, is what the encoder reads too much.
+        """
+        chosen = list(points)
+        some = replace(self.points, **{name: getattr(self.points, name)[chosen] for name in vars(self.points)})
+        fine = LumpedBench(
+            self.pump, some, self.channels, self.parameters, self.physics, self.inputs, TRACE_SAMPLES_PER_PITCH,
+            self.tolerance,
+        )  # fmt: skip
+        pressure = fine.solved(values).courses.pressure
+        place = (angles - self._named(values).get(ENCODER_OFFSET, 0.0)) % TURN
+        grid = TURN * np.arange(pressure.shape[1]) / pressure.shape[1]
+        return np.stack([np.interp(place, grid, one, period=TURN) for one in pressure])
+
+    def courses(self, values: Array) -> Courses:
+        """Chamber pressure over the turn at all points, and the totals of a turn."""
+        return self.solved(values).courses
+
+    def solved(self, values: Array) -> Solved:
+        """The map at the values (k,): what readings, components and traces come from."""
+        plain = self._setting(values, self.points)
+        return self._complete(plain, self._solve(plain), values, self._solve)
+
+    def _named(self, values: Array) -> dict[str, float]:
+        return {parameter.name: float(value) for parameter, value in zip(self.parameters, values, strict=True)}
+
+    @property
+    def _shape(self) -> tuple[int, int]:
+        return len(self.points.speed), len(self.channels)
+
+    def _setting(self, values: Array, points: BenchPoints) -> Setting:
+        return setting(self.pump, points, self._named(values), self.samples_per_pitch)
+
+    def _solve(self, at: Setting) -> Courses:
+        """The courses of a setting, remembered by all that they hang on."""
+        key = blake2b(at.problem.key).digest()
+        if key not in self._kept:
+            self._kept[key] = solve_map(self.pump, at.problem, self.tolerance)
+            for oldest in list(self._kept)[:-KEPT]:
+                del self._kept[oldest]
+        return self._kept[key]
+
+    def _near(self, solved: Solved, values: Array, points: BenchPoints) -> Solved:
+        """A map beside a solved one, chambers solved anew where more than gaps differ."""
+        plain = self._setting(values, points)
+        courses = self._moved(solved.plain, solved.plain_courses, plain)
+        return self._complete(
+            plain, courses, values, lambda changed: self._moved(solved.setting, solved.courses, changed)
+        )
+
+    def _moved(self, before: Setting, courses: Courses, after: Setting) -> Courses:
+        if before.problem.differs_in_gaps_alone(after.problem):
+            return other_gaps(courses, before.problem, after.problem)
+        return self._solve(after)
+
+    def _complete(
+        self, plain: Setting, courses: Courses, values: Array, solve: Callable[[Setting], Courses]
+    ) -> Solved:
+        """Laws at the pressures of chambers without them, then chambers with them: leakage moves these little."""
+        if not self.physics:
+            return Solved(plain, courses, plain, courses, None)
+        found = lumped_pairs(plain.pump, plain.point, plain.motion, courses)
+        gaps = gap_courses(plain.pump, plain.point, plain.motion, courses, found)
+        state = bench_state(plain.pump, plain.point, self.points.hours)
+        named = self._named(values)
+        effects = reduce(both, (law.effects(named, gaps, state) for law in self.physics))
+        changed = affected(plain, effects)
+        return Solved(plain, courses, changed, solve(changed), Affected(effects, state))
+
+    def _read(self, solved: Solved, values: Array, points: BenchPoints) -> Array:
+        found = truth(solved.setting, solved.courses, solved.affected)[:, self._columns]
+        return read(found, self.channels, points, self._named(values))
+
+    def _step(self, index: int, value: float) -> float:
+        """A step of a value in SI, away from its nearer bound."""
+        parameter = self.parameters[index]
+        step = STEP * parameter.stretch(parameter.standard(value))
+        return -step if value + step > parameter.upper else step
+
+    def _with(self, parameters: tuple[Parameter, ...], physics: tuple[Extension, ...]) -> LumpedBench:
+        new = {parameter.name: parameter for parameter in parameters}
+        own = tuple(new.pop(parameter.name, parameter) for parameter in self.parameters)
+        bench = LumpedBench(
+            self.pump, self.points, self.channels, (*own, *new.values()), physics, self.inputs,
+            self.samples_per_pitch, self.tolerance,
+        )  # fmt: skip
+        bench._kept = self._kept
+        return bench
+
+
+def _hold_known(parameters: tuple[Parameter, ...], physics: tuple[Extension, ...]) -> None:
+    """Raise FilmInputError for a parameter that nothing listens to."""
+    laws = {parameter.name for law in physics for parameter in law.parameters}
+    for parameter in parameters:
+        if parameter.name not in BASE_NAMES | laws | SENSOR_NAMES:
+            raise FilmInputError(
+                "bench.parameters",
+                parameter.name,
+                "a parameter of the pump, of its sensors or of a law switched on",
+            )

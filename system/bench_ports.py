@@ -1,0 +1,52 @@
+"""The ports of the valve plate at the points of a bench map: turned by a cross angle, worn at their grooves."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from system.chamber_course import turn_nodes
+from system.description import PumpDescription
+from system.kinematics import Array
+from system.lumped import port_openings
+from system.physics.port_laws import eroded
+from system.ports import as_array
+
+
+@dataclass(frozen=True)
+class MapPorts:
+    """Suction and delivery port at N points, as compiled code reads them.
+
+    suction, delivery: (N, PORT_SIZE); nodes: every point's nodes of a turn, end to end, of point i from firsts[i]
+    to firsts[i + 1]; wheres (N, M): where in a point's nodes[1:] the M samples lie.
+    """
+
+    suction: Array
+    delivery: Array
+    nodes: Array
+    firsts: NDArray[np.int64]
+    wheres: NDArray[np.int64]
+
+
+def map_ports(pump: PumpDescription, state: Array, samples: int) -> MapPorts:
+    """The ports at N points of which state (N, 3) tells what differs.
+
+    Its columns: by how much the ports lie later (rad, `SwashDrive.dead_centre_shift`), by how much sooner the
+    grooves ahead of the kidneys begin (rad) and by what factor their throats are larger. Points alike share the
+    work.
+    """
+    kinds, of_point = np.unique(state, axis=0, return_inverse=True)
+    found = [_kind(pump, float(shift), float(advance), float(area), samples) for shift, advance, area in kinds]
+    by_point = [found[kind] for kind in of_point.ravel()]
+    suction, delivery, nodes, wheres = zip(*by_point, strict=True)
+    firsts = np.cumsum([0, *(own.size for own in nodes)])
+    return MapPorts(np.stack(suction), np.stack(delivery), np.concatenate(nodes), firsts, np.stack(wheres))
+
+
+def _kind(
+    pump: PumpDescription, shift: float, advance: float, area: float, samples: int
+) -> tuple[Array, Array, Array, NDArray[np.int64]]:
+    suction, delivery = (eroded(port, advance, area) for port in port_openings(pump, shift))
+    return as_array(suction), as_array(delivery), *turn_nodes(suction, delivery, samples)

@@ -1,0 +1,103 @@
+"""Flows and torque of a pump at the points of a bench map, before sensors read them, and their parts."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from system.bench_courses import Courses
+from system.bench_setting import Setting
+from system.channels import ChannelName
+from system.kinematics import Array
+from system.lumped import lumped_pairs
+from system.pairs import FrictionPairs, Pair, PairLoss
+from system.physics.effects import BenchState, Effects
+from system.physics.outside import outside
+from system.ports import TURN
+from system.pump_gap import Gap
+
+SIMULATED = (ChannelName.Q_OUT, ChannelName.Q_IN, ChannelName.Q_CASE, ChannelName.TORQUE)
+"""Outputs that the lumped bench knows, in the order of `truth`."""
+OF_GAP = {
+    Gap.PISTON: Pair.PISTON_CYLINDER,
+    Gap.SLIPPER: Pair.SLIPPER_SWASH_PLATE,
+    Gap.VALVE_PLATE: Pair.VALVE_PLATE_CYLINDER,
+}
+EXTRA = (*OF_GAP.values(), Pair.PISTON_SLIPPER_SOCKET, Pair.BALL_GUIDE_RETAINER)
+"""Pairs in the order of `Effects.extra_coulomb`."""
+
+
+@dataclass(frozen=True)
+class Affected:
+    """What laws change at a setting, and the state they have seen."""
+
+    effects: Effects
+    state: BenchState
+
+
+def losses(setting: Setting, courses: Courses, affected: Affected | None) -> FrictionPairs:
+    """Losses of the seven pairs, (N, M) W, with what laws change of them."""
+    found = lumped_pairs(setting.pump, setting.point, setting.motion, courses)
+    return found if affected is None else _with_effects(found, affected.effects)
+
+
+def pair_torque(setting: Setting, loss: PairLoss) -> Array:
+    """Mean torque (N,) N m on the shaft of all pairs of a kind."""
+    power = loss.count * np.mean(loss.coulomb + loss.viscous + np.zeros_like(setting.motion.velocity), axis=-1)
+    return np.asarray(power / np.ravel(setting.point.shaft_speed))
+
+
+def truth(setting: Setting, courses: Courses, affected: Affected | None) -> Array:
+    """Delivery, inlet and drain flow in m3/s at their own port's pressure and shaft torque in N m, (N, 4).
+
+    As `assembly.put_together` reads one point: flows by the chambers' oil, torque by the pistons' work less what
+    carried oil gives back, and by friction.
+    """
+    flows, torque = _chambers(setting, courses)
+    found = losses(setting, courses, affected)
+    torque = torque + sum(pair_torque(setting, found.loss(pair)) for pair in Pair)
+    read = np.column_stack([*flows, torque])
+    if affected is None:
+        return read
+    beside = outside(affected.effects, affected.state)
+    read += np.column_stack([beside.delivery, beside.inlet, beside.drain, beside.torque])
+    read[:, 0] *= affected.effects.delivery_reading
+    return read
+
+
+def throttling_torque(setting: Setting, courses: Courses) -> Array:
+    """Torque (N,) N m that throttling in both ports takes."""
+    return np.asarray(setting.pump.pump.pistons / TURN * courses.totals[:, 6:8].sum(axis=1))
+
+
+def _chambers(setting: Setting, courses: Courses) -> tuple[tuple[Array, Array, Array], Array]:
+    """Flows at the ports and the drain, and the torque of the pistons' work less that of carried oil."""
+    point, totals, pistons = setting.point, courses.totals, setting.pump.pump.pistons
+    rate = pistons * np.ravel(point.shaft_speed) / TURN
+    modulus = setting.problem.chambers["bulk_modulus"]
+    volume = {
+        name: np.exp(-np.ravel(getattr(point, name)) / modulus)
+        for name in ("delivery_pressure", "inlet_pressure", "case_pressure")
+    }
+    flows = (
+        rate * totals[:, 0] * volume["delivery_pressure"],
+        -rate * totals[:, 1] * volume["inlet_pressure"],
+        rate * totals[:, 2:5].sum(axis=1) * volume["case_pressure"],
+    )
+    return flows, pistons / TURN * (totals[:, 5] - totals[:, 11:14].sum(axis=1))
+
+
+def _with_effects(found: FrictionPairs, effects: Effects) -> FrictionPairs:
+    changed: dict[Pair, PairLoss] = {}
+    for row, pair in enumerate(OF_GAP.values()):
+        loss = found.loss(pair)
+        changed[pair] = replace(
+            loss, coulomb=loss.coulomb * effects.coulomb[row], viscous=loss.viscous * effects.viscous[row]
+        )
+    for row, pair in enumerate(EXTRA):
+        loss = changed.get(pair, found.loss(pair))
+        changed[pair] = replace(loss, coulomb=loss.coulomb + effects.extra_coulomb[row])
+    named: Mapping[str, PairLoss] = {pair.value: loss for pair, loss in changed.items()}
+    return replace(found, **named)

@@ -1,0 +1,120 @@
+"""What sensors make of the truth: a gain, a zero, a drift, a lag; and the settings that a bench believes in."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
+from math import inf
+from typing import Protocol
+
+import numpy as np
+
+from system.bench_points import BenchPoints
+from system.channels import OUTPUTS, ChannelName
+from system.estimation.parameters import Parameter, Role, Scale
+from system.kinematics import Array
+from system.units import Dimension
+
+BIASED_INPUTS = (ChannelName.P_OUT, ChannelName.T_CASE, ChannelName.DISPLACEMENT_RATIO)
+"""Inputs of which a bias is told apart from others'; their place in `BenchPoints` is their name."""
+CALIBRATION = "calibration of the channel"
+ENCODER_OFFSET = "encoder_offset"
+SENSOR_NAMES = frozenset(
+    {
+        ENCODER_OFFSET,
+        *(f"{channel.value}.{what}" for channel in OUTPUTS for what in ("gain", "zero", "drift", "lag")),
+        *(f"{channel.value}.zero" for channel in BIASED_INPUTS),
+    }
+)
+"""Names of all parameters of sensors."""
+
+
+class Sensor(Protocol):
+    """A channel with one sigma of its calibration: gain relative, zero in SI."""
+
+    @property
+    def name(self) -> ChannelName: ...
+    @property
+    def gain_sigma(self) -> float: ...
+    @property
+    def zero_sigma(self) -> float: ...
+
+
+def sensor_parameters(sensors: Iterable[Sensor]) -> tuple[Parameter, ...]:
+    """CHANNEL.gain and CHANNEL.zero of every output, CHANNEL.zero of the inputs in BIASED_INPUTS.
+
+    A reading is the truth (1 + gain) + zero. What is known for certain (sigma 0) has no parameter.
+    """
+    found = []
+    for sensor in sensors:
+        if sensor.name in OUTPUTS and sensor.gain_sigma > 0.0:
+            found.append(_bias(sensor.name, "gain", sensor.gain_sigma, None, 0.9))
+        if sensor.name in (*OUTPUTS, *BIASED_INPUTS) and sensor.zero_sigma > 0.0:
+            found.append(_bias(sensor.name, "zero", sensor.zero_sigma, sensor.name.dimension, inf))
+    return tuple(found)
+
+
+def drift_parameter(channel: ChannelName, sigma: float) -> Parameter:
+    """CHANNEL.drift: what an output reads too much at the last point, growing evenly from the first (SI)."""
+    return _bias(channel, "drift", sigma, channel.dimension, inf)
+
+
+def lag_parameter(channel: ChannelName, sigma: float) -> Parameter:
+    """CHANNEL.lag in s: time constant with which an output follows from the reading at the point before."""
+    return Parameter(
+        f"{channel.value}.lag", Role.SENSOR, Scale.HALF, 0.0, sigma, 0.0, inf, Dimension.TIME, CALIBRATION
+    )
+
+
+def encoder_parameter(sigma: float) -> Parameter:
+    """encoder_offset in rad: what the encoder of traces reads too much."""
+    return Parameter(
+        ENCODER_OFFSET, Role.SENSOR, Scale.NORMAL, 0.0, sigma, -0.2, 0.2, Dimension.ANGLE, CALIBRATION
+    )
+
+
+def actual(points: BenchPoints, values: Mapping[str, float]) -> BenchPoints:
+    """The points as they were, by their readings less the zeros of BIASED_INPUTS."""
+    changed = {}
+    for channel in BIASED_INPUTS:
+        zero = values.get(f"{channel.value}.zero", 0.0)
+        if zero != 0.0:
+            changed[channel.value] = getattr(points, channel.value) - zero
+    return replace(points, **changed)
+
+
+def read(truth: Array, channels: Sequence[ChannelName], points: BenchPoints, values: Mapping[str, float]) -> Array:
+    """Readings (N, C) of the truth (N, C), both in SI, with the sensors' values by name."""
+    found = truth.copy()
+    progress = _progress(points)
+    for column, channel in enumerate(channels):
+        gain, zero, drift = (values.get(f"{channel.value}.{what}", 0.0) for what in ("gain", "zero", "drift"))
+        found[:, column] = found[:, column] * (1.0 + gain) + zero + drift * progress
+        lag = values.get(f"{channel.value}.lag", 0.0)
+        if lag > 0.0:
+            found[:, column] = _lagging(found[:, column], points, lag)
+    return found
+
+
+def _bias(channel: ChannelName, what: str, sigma: float, dimension: Dimension | None, bound: float) -> Parameter:
+    name = f"{channel.value}.{what}"
+    return Parameter(name, Role.SENSOR, Scale.NORMAL, 0.0, sigma, -bound, bound, dimension, CALIBRATION)
+
+
+def _progress(points: BenchPoints) -> Array:
+    """From 0 at the first point taken to 1 at the last: by the hours where they are known, else by the order."""
+    time = points.hours if np.all(np.isfinite(points.hours)) and np.ptp(points.hours) > 0.0 else points.order
+    span = np.ptp(time)
+    return np.asarray((time - np.min(time)) / span) if span > 0.0 else np.zeros(len(time))
+
+
+def _lagging(reading: Array, points: BenchPoints, lag: float) -> Array:
+    """Readings that have come only part of the way from those at the point before, exp(-t/lag) being left."""
+    sequence = np.argsort(points.order, kind="stable")
+    ordered, hours = reading[sequence], points.hours[sequence]
+    left = np.exp(-3600.0 * np.diff(hours) / lag)
+    late = ordered.copy()
+    late[1:] -= np.diff(ordered) * left
+    found = np.empty_like(reading)
+    found[sequence] = late
+    return found
