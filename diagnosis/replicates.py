@@ -32,8 +32,8 @@ def repeatability(readings: Array, inputs: Array, numbers: Numbers) -> float | N
     free = len(deviation) - groups
     if free < FEWEST:
         return None
-    shifts = np.stack([_within(np.nan_to_num(column[known]), numbers[known])[0] for column in inputs.T], axis=1)
-    shifts = shifts[:, np.any(np.abs(shifts) > 0.0, axis=0)]
+    moved = [_within(np.nan_to_num(column[known]), numbers[known])[0] for column in inputs.T]
+    shifts = np.array([shift for shift in moved if np.any(shift)]).reshape(-1, len(deviation)).T
     rank = int(np.linalg.matrix_rank(shifts)) if shifts.size else 0
     if rank and free - rank >= FEWEST:
         size, *_ = np.linalg.lstsq(shifts / np.max(np.abs(shifts), axis=0), deviation, rcond=None)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from itertools import islice
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,14 +13,16 @@ from system.kinematics import Array
 
 Flags = NDArray[np.bool_]
 LONGEST_MEMORY = 0.99  # lag-one correlation beyond which a window counts as one sample
+PARTS = 10
+MOST_MEMORY = 0.9  # that a tenth of a window can tell
 
 
 @dataclass(frozen=True)
 class SteadyRule:
-    """Steady is a window of `samples` whose slope and bow are each within noise or within what is harmless.
+    """Steady is a window of `samples` of which neither slope nor bow nor any tenth counts.
 
-    Within noise: below `limit` standard errors, counted with the noise's own memory. Harmless: what they change
-    over the window stays below one sigma of repeatability of the channel.
+    Each may be within noise: below `limit` standard errors (a tenth, one of ten, below one more), counted with the
+    noise's own memory. Or harmless: what it changes over the window stays below one sigma of repeatability.
     """
 
     samples: int
@@ -42,26 +45,45 @@ def steady_stretches(inputs: Array, sigma: Array, rule: SteadyRule) -> tuple[sli
 
 
 def is_steady(window: Array, sigma: Array, rule: SteadyRule) -> bool:
-    """True where no column (T, M) of a window without gaps has a slope or a bow that counts (`SteadyRule`).
+    """True where no column (T, M) of a window without gaps moves in a way that counts (`SteadyRule`).
 
-    Slope and bow are the coefficients of the Legendre polynomials P1 and P2 over the window, fitted by least
-    squares; their standard errors carry the factor (1 + r)/(1 - r) of noise with lag-one correlation r.
+    From the means of ten parts: slope and bow are the coefficients of the Legendre polynomials P1 and P2, by least
+    squares; noise is taken from within the parts, so that no movement between them hides in it.
     """
     if not np.all(np.isfinite(window)):
         return False
-    place = np.linspace(-1.0, 1.0, len(window))
-    shapes = np.stack([np.ones_like(place), place, 1.5 * place**2 - 0.5], axis=1)
-    size, *_ = np.linalg.lstsq(shapes, window, rcond=None)
-    noise = window - shapes @ size
-    for column, (slope, bow) in enumerate(size[1:].T):
-        variance = (
-            np.sum(noise[:, column] ** 2) / (len(window) - 3) * len(window) / effective_number(noise[:, column])
-        )
-        for change, amplitude, norm in ((2.0 * slope, slope, shapes[:, 1]), (1.5 * bow, bow, shapes[:, 2])):
-            error = np.sqrt(variance / np.sum(norm**2))
-            if abs(change) > sigma[column] and abs(amplitude) > rule.limit * error:
+    borders = np.linspace(0, len(window), min(PARTS, len(window) // 4) + 1).astype(np.int64)
+    middle = (borders[1:] + borders[:-1]) / len(window) - 1.0
+    shapes = np.stack([np.ones_like(middle), middle, 1.5 * middle**2 - 0.5], axis=1)
+    for column, harmless in zip(window.T, sigma, strict=True):
+        means, error = _parts(column, borders)
+        size, *_ = np.linalg.lstsq(shapes, means, rcond=None)
+        errors = error * np.sqrt(np.diag(np.linalg.inv(shapes.T @ shapes)))
+        for change, amplitude, one in zip((2.0, 1.5), size[1:], errors[1:], strict=True):
+            if abs(change * amplitude) > harmless and abs(amplitude) > rule.limit * one:
                 return False
+        if np.max(np.abs(means - np.median(means))) > max(harmless, (rule.limit + 1.0) * error):
+            return False
     return True
+
+
+def _parts(column: Array, borders: NDArray[np.int64]) -> tuple[Array, float]:
+    """Means of the parts between borders, and their standard error from the scatter within, noise being AR(1)."""
+    counts = np.diff(borders)
+    means = np.add.reduceat(column, borders[:-1]) / counts
+    inner = column - np.repeat(means, counts)
+    powers = np.add.reduceat(inner**2, borders[:-1])
+    follows = np.append(inner[1:] * inner[:-1], 0.0)
+    follows[borders[1:] - 1] = 0.0
+    size = float(np.mean(counts))
+    known = powers > 0.0
+    if not known.any():
+        return means, 0.0
+    seen = float(np.median(np.add.reduceat(follows, borders[:-1])[known] / powers[known]))
+    memory = min(max((seen * size + 1.0) / (size - 3.0), 0.0), MOST_MEMORY) if size > 4.0 else max(seen, 0.0)
+    spread = (1.0 + memory) / (1.0 - memory) / size  # variance of a part's mean over that of a sample
+    variance = float(np.median(powers)) / (size - 1.0) / max(1.0 - spread, 0.3)
+    return means, float(np.sqrt(variance * spread))
 
 
 def effective_number(noise: Array) -> float:
@@ -94,10 +116,14 @@ def _runs(starts: Sequence[int], step: int, length: int) -> Iterator[slice]:
 
 
 def _pieces(run: slice, inputs: Array, sigma: Array, rule: SteadyRule) -> Iterator[slice]:
-    """A run, or its halves where it is not steady as a whole."""
+    """A run, or its halves where it is not steady as a whole; of a short one its first steady window."""
     length = run.stop - run.start
-    if length < 2 * rule.samples or is_steady(inputs[run], sigma, rule):
+    if is_steady(inputs[run], sigma, rule):
         yield run
+        return
+    if length < 2 * rule.samples:
+        windows = (slice(run.start + k, run.start + k + rule.samples) for k in range(length - rule.samples + 1))
+        yield from islice((one for one in windows if is_steady(inputs[one], sigma, rule)), 1)
         return
     middle = run.start + length // 2
     yield from _pieces(slice(run.start, middle), inputs, sigma, rule)

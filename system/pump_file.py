@@ -72,6 +72,14 @@ def load_pump(source: str | Path, overrides: Mapping[str, object] | None = None)
     return _describe(label, tables, lines, folder)
 
 
+def pump_of_tables(label: str, tables: Mapping[str, Any], folder: Path = HERE) -> PumpDescription:
+    """Return the description of a pump file's tables, as TOML gives them; files are looked for from the folder.
+
+    Raises InputFaults, under the name `label`, with everything that is wrong with them.
+    """
+    return _describe(label, tables, {}, folder)
+
+
 def check_pump(pump: PumpDescription) -> CheckReport:
     """Return what is impossible and what is doubtful about a description and its own operating point."""
     return single_parts_checked(_CHECKS, pump, run_checks(_CHECKS, pump))

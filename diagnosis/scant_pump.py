@@ -1,0 +1,225 @@
+"""A pump of which little is known: the rest is that of REF90, scaled to its displacement and number of pistons."""
+
+from __future__ import annotations
+
+import math
+import tomllib
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from system.assumptions import Assumption
+from system.case_table import Table, fault_lines, read_toml
+from system.description import FORMAT, PumpDescription
+from system.faults import InputFaults
+from system.kinematics import SwashDrive, stroke
+from system.pump_file import builtin_pumps, load_pump, pump_of_tables, resolved_toml
+from system.units import Dimension, QuantityError, format_quantity, parse_quantity
+
+MODEL = "ref90"
+TELLING = ("slipper", "valve_plate", "ports")
+"""Tables without which a pump file is a scant one."""
+FEWEST, MOST = 5, 15  # pistons for which REF90's ports can be parted anew
+NARROWER = 0.999  # kidneys, so that rounded values still lie between their lands
+_POWERS = {
+    "pump.piston_diameter": (1, 0),
+    "pump.pitch_radius": (0, 1),
+    "pump.rated_speed": (0, -1),
+    "piston.overhang": (1, 0),
+    "piston.mass": (2, 1),
+    "slipper.land_inner_radius": (1, 0),
+    "slipper.land_outer_radius": (1, 0),
+    "slipper.orifice_diameter": (1, 0),
+    "slipper.orifice_length": (1, 0),
+    "slipper.mass": (3, 0),
+    "slipper.centre_of_mass_to_ball": (1, 0),
+    "slipper.ball_joint_radius": (1, 0),
+    "valve_plate.kidney_pitch_radius": (0, 1),
+    "ports.groove_area": (2, 0),
+    "ports.kidney_area": (2, 0),
+    "ball_guide.radius": (0, 1),
+    "ball_guide.spring_preload": (2, 0),
+    "block.mass": (0, 3),
+    "bearings.front_diameter": (0, 1),
+    "bearings.rear_diameter": (0, 1),
+    "operating.speed": (0, -1),
+}
+"""Powers of the scales of the pistons (diameter) and of the group (pitch radius) with which a value goes."""
+
+
+@dataclass(frozen=True)
+class KnownPump:
+    """A pump and how it is known: `stated` are the paths that its file gives, `assumptions` what was taken.
+
+    scant: whether most of it was scaled, so that its films, friction and lengths are wide.
+    """
+
+    pump: PumpDescription
+    scant: bool
+    stated: frozenset[str]
+    assumptions: tuple[Assumption, ...]
+
+
+def load_known_pump(source: str | Path) -> KnownPump:
+    """Return a built-in pump or that of a file, which may be scant: state little more than displacement and oil.
+
+    A file is scant if it lacks one of the tables `TELLING`; then what it leaves out is REF90's, scaled. Raises
+    InputFaults as `load_pump`; for a scant file also where pump.displacement, pump.pistons or the oil's viscosity
+    is not stated.
+    """
+    if str(source) not in builtin_pumps() and Path(source).is_file():
+        text, tables = read_toml(Path(source))
+        if any(name not in tables for name in TELLING):
+            return _scaled(str(source), text, tables, Path(source).parent)
+    pump = load_pump(source)
+    return KnownPump(pump, False, frozenset(), ())
+
+
+@dataclass(frozen=True)
+class _Facts:
+    """What is known of the size: displacement m3/rev, pistons, full swash angle, piston diameter, pitch radius."""
+
+    displacement: float
+    pistons: int
+    swash: float | None
+    diameter: float | None
+    radius: float | None
+
+
+def _scaled(source: str, text: str, stated: Mapping[str, Any], folder: Path) -> KnownPump:
+    """The pump of a scant file."""
+    top = Table("", stated, [])
+    facts = _facts(top)
+    oil = stated.get("oil")
+    if not (isinstance(oil, dict) and ("grade" in oil or "kinematic_viscosity_40C" in oil)):
+        top.fault("oil.grade", "no such key", "the oil's grade, such as 'ISO VG 46', or its two viscosities")
+    if facts is None or top.faults:
+        raise InputFaults(source, top.faults, fault_lines(text, top.faults))
+    tables: dict[str, Any] = {"name": Path(source).stem, "format": FORMAT, **_tables(facts)}
+    paths = set()
+    for name, table in stated.items():
+        if isinstance(table, dict) and isinstance(tables.get(name, {}), dict):
+            if name == "oil" and "grade" in table:
+                tables["oil"] = {k: v for k, v in tables["oil"].items() if not k.startswith("kinematic")}
+            tables[name] = {**tables.get(name, {}), **table}
+            paths |= {f"{name}.{key}" for key in table}
+        else:
+            tables[name] = table
+    tables["pump"]["displacement"] = format_quantity(facts.displacement, Dimension.DISPLACEMENT)
+    pump = pump_of_tables(source, tables, folder)
+    return KnownPump(pump, True, frozenset(paths), _assumptions(tables, paths))
+
+
+def _facts(top: Table) -> _Facts | None:
+    """The size that a scant file states; None with the faults told."""
+    table = top.table("pump", needed="with displacement and pistons")
+    if table is None:
+        return None
+    raw, pistons = table.get("displacement"), table.get("pistons")
+    displacement = _displacement(table, raw)
+    if isinstance(pistons, bool) or not isinstance(pistons, int) or not FEWEST <= pistons <= MOST:
+        found = "no such key" if pistons is None else repr(pistons)
+        table.fault("pistons", found, f"a whole number from {FEWEST} to {MOST}")
+        return None
+    kinds = {
+        "swash_angle_max": Dimension.ANGLE, "piston_diameter": Dimension.LENGTH, "pitch_radius": Dimension.LENGTH,
+    }  # fmt: skip
+    sizes = {key: table.positive(key, kind) if key in table.values else None for key, kind in kinds.items()}
+    if displacement is None or top.faults:
+        return None
+    return _Facts(displacement, pistons, *sizes.values())
+
+
+def _displacement(table: Table, raw: object) -> float | None:
+    """A displacement per revolution, for which "60 cm3" may stand here; None with its fault told."""
+    try:
+        value = parse_quantity(raw, Dimension.VOLUME)
+    except QuantityError:
+        return table.positive("displacement", Dimension.DISPLACEMENT)
+    return value if value > 0.0 else table.positive("displacement", Dimension.DISPLACEMENT)
+
+
+def _tables(facts: _Facts) -> dict[str, dict[str, Any]]:
+    """REF90's tables at the size of the facts, values as text.
+
+    Pistons keep their share of the pitch circle: with the scale s of diameters and r of radii, r = s z/9 and
+    s^2 r = V/(z area stroke) of REF90 at the swash angle. Films, clearances, angles and friction are REF90's,
+    sliding speeds on the pitch circle at rated speed too; ports are parted by z.
+    """
+    model = load_pump(MODEL)
+    tables = {k: dict(v) for k, v in tomllib.loads(resolved_toml(model)).items() if isinstance(v, dict)}
+    swash = model.pump.swash_angle_max if facts.swash is None else facts.swash
+    drive = SwashDrive(model.pump.pitch_radius, model.pump.bore_cone_angle, swash)
+    area = math.pi / 4.0 * model.pump.piston_diameter**2
+    size = facts.displacement / (facts.pistons * area * stroke(drive))  # = s^2 r
+    share = facts.pistons / model.pump.pistons
+    piston, group = _scales(facts, model, size, share)
+
+    def put(path: str, value: float, dimension: Dimension) -> None:
+        section, key = path.split(".")
+        tables[section][key] = format_quantity(float(value), dimension, digits=5)
+
+    for path, (of_piston, of_group) in _POWERS.items():
+        section, key = path.split(".")
+        value = getattr(getattr(model, section), key) * piston**of_piston * group**of_group
+        put(path, value, _dimension(path))
+    plate, ports = model.valve_plate, model.ports
+    for key in ("land_radius_1", "land_radius_2", "land_radius_3", "land_radius_4"):
+        beside = getattr(plate, key) - plate.kidney_pitch_radius
+        put(f"valve_plate.{key}", plate.kidney_pitch_radius * group + beside * piston, Dimension.LENGTH)
+    put("valve_plate.kidney_arc", plate.kidney_arc / share, Dimension.ANGLE)
+    put("ports.kidney_full_start", ports.groove_end + plate.kidney_arc / share, Dimension.ANGLE)
+    put("ports.kidney_full_end", ports.kidney_end - plate.kidney_arc / share, Dimension.ANGLE)
+    lift, old_lift = stroke(drive) * group, _stroke(model)
+    put("pump.dead_volume", model.pump.dead_volume * piston**2 * lift / old_lift, Dimension.VOLUME)
+    left = (model.piston.engaged_length - old_lift) * piston  # in the bore at the outer dead centre
+    put("piston.engaged_length", left + lift, Dimension.LENGTH)
+    put("valve_plate.kidney_width", NARROWER * plate.kidney_width * piston, Dimension.LENGTH)
+    put("pump.displacement", facts.displacement, Dimension.DISPLACEMENT)
+    tables["pump"]["pistons"] = facts.pistons
+    if facts.swash is not None:
+        put("pump.swash_angle_max", facts.swash, Dimension.ANGLE)
+    return tables
+
+
+def _scales(facts: _Facts, model: PumpDescription, size: float, share: float) -> tuple[float, float]:
+    """Scales s of the pistons and r of the group with s^2 r = size; what is stated holds, else r = s z/9."""
+    piston = None if facts.diameter is None else facts.diameter / model.pump.piston_diameter
+    group = None if facts.radius is None else facts.radius / model.pump.pitch_radius
+    if piston is None and group is None:
+        piston = (size / share) ** (1.0 / 3.0)
+    if piston is None:
+        assert group is not None
+        piston = math.sqrt(size / group)
+    return piston, size / piston**2 if group is None else group
+
+
+def _stroke(model: PumpDescription) -> float:
+    return stroke(SwashDrive(model.pump.pitch_radius, model.pump.bore_cone_angle, model.pump.swash_angle_max))
+
+
+def _dimension(path: str) -> Dimension:
+    """Dimension of a scaled value."""
+    if path.endswith("speed"):
+        return Dimension.ANGULAR_SPEED
+    if path.endswith("mass"):
+        return Dimension.MASS
+    if path.endswith("area"):
+        return Dimension.AREA
+    return Dimension.FORCE if path.endswith("preload") else Dimension.LENGTH
+
+
+def _assumptions(tables: Mapping[str, Any], stated: set[str]) -> tuple[Assumption, ...]:
+    """What the file does not state, with how it was taken."""
+    scaled = {*_POWERS, "pump.dead_volume", "piston.engaged_length"}
+    taken = []
+    for name, table in tables.items():
+        for key, value in table.items() if isinstance(table, dict) else ():
+            path = f"{name}.{key}"
+            if path in stated:
+                continue
+            wide = path in scaled or name in ("valve_plate", "ports")
+            reason = "REF90's, scaled to displacement and pistons" if wide else "REF90's"
+            taken.append(Assumption(path, str(value), reason))
+    return tuple(taken)
