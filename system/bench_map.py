@@ -2,20 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Mapping
+from dataclasses import replace
 from functools import reduce
 from hashlib import blake2b
 
 import numpy as np
 
 from reynolds.errors import FilmInputError
+from system.bench_components import WARMER, components
 from system.bench_courses import Courses, other_gaps, solve_map
 from system.bench_parameters import BASE_NAMES
 from system.bench_points import BenchPoints
 from system.bench_setting import Setting, affected, setting
-from system.bench_truth import SIMULATED, Affected, truth
+from system.bench_truth import SIMULATED, Affected, Solved, truth
 from system.channels import INPUTS, ChannelName
+from system.components import Component
 from system.description import PumpDescription
 from system.estimation.parameters import Parameter
 from system.gap_courses import bench_state, gap_courses
@@ -45,17 +47,6 @@ INPUT_STEPS = {
     ChannelName.T_CASE: 0.2,
 }
 """Steps of slopes by input, SI: some ten times what a sensor is good to."""
-
-
-@dataclass(frozen=True)
-class Solved:
-    """A map at given values: as it is without laws of what physics left out (`plain`), and with them."""
-
-    plain: Setting
-    plain_courses: Courses
-    setting: Setting
-    courses: Courses
-    affected: Affected | None
 
 
 class LumpedBench:
@@ -169,6 +160,12 @@ class LumpedBench:
         plain = self._setting(values, self.points)
         return self._complete(plain, self._solve(plain), values, self._solve)
 
+    def components(self, values: Array) -> Mapping[Component, Array]:
+        """What each component of the pump's balance adds to the readings (N, C), SI (`bench_components`)."""
+        solved = self.solved(values)
+        warm = replace(self.points, T_case=self.points.T_case + WARMER)
+        return components(solved, self._near(solved, values, warm), self.channels)
+
     def _named(self, values: Array) -> dict[str, float]:
         return {parameter.name: float(value) for parameter, value in zip(self.parameters, values, strict=True)}
 
@@ -216,7 +213,7 @@ class LumpedBench:
         return Solved(plain, courses, changed, solve(changed), Affected(effects, state))
 
     def _read(self, solved: Solved, values: Array, points: BenchPoints) -> Array:
-        found = truth(solved.setting, solved.courses, solved.affected)[:, self._columns]
+        found = truth(solved)[:, self._columns]
         return read(found, self.channels, points, self._named(values))
 
     def _step(self, index: int, value: float) -> float:

@@ -37,10 +37,22 @@ class Affected:
     state: BenchState
 
 
-def losses(setting: Setting, courses: Courses, affected: Affected | None) -> FrictionPairs:
+@dataclass(frozen=True)
+class Solved:
+    """A map at given values: as it is without laws of what physics left out (`plain`), and with them."""
+
+    plain: Setting
+    plain_courses: Courses
+    setting: Setting
+    courses: Courses
+    affected: Affected | None
+
+
+def losses(solved: Solved) -> FrictionPairs:
     """Losses of the seven pairs, (N, M) W, with what laws change of them."""
-    found = lumped_pairs(setting.pump, setting.point, setting.motion, courses)
-    return found if affected is None else _with_effects(found, affected.effects)
+    at = solved.setting
+    found = lumped_pairs(at.pump, at.point, at.motion, solved.courses)
+    return found if solved.affected is None else _with_effects(found, solved.affected.effects)
 
 
 def pair_torque(setting: Setting, loss: PairLoss) -> Array:
@@ -49,15 +61,15 @@ def pair_torque(setting: Setting, loss: PairLoss) -> Array:
     return np.asarray(power / np.ravel(setting.point.shaft_speed))
 
 
-def truth(setting: Setting, courses: Courses, affected: Affected | None) -> Array:
+def truth(solved: Solved) -> Array:
     """Delivery, inlet and drain flow in m3/s at their own port's pressure and shaft torque in N m, (N, 4).
 
     As `assembly.put_together` reads one point: flows by the chambers' oil, torque by the pistons' work less what
     carried oil gives back, and by friction.
     """
-    flows, torque = _chambers(setting, courses)
-    found = losses(setting, courses, affected)
-    torque = torque + sum(pair_torque(setting, found.loss(pair)) for pair in Pair)
+    flows, torque = _chambers(solved.setting, solved.courses)
+    found, affected = losses(solved), solved.affected
+    torque = torque + sum(pair_torque(solved.setting, found.loss(pair)) for pair in Pair)
     read = np.column_stack([*flows, torque])
     if affected is None:
         return read
