@@ -80,7 +80,7 @@ def _noise(trace: TraceMisfit, residual: Array, limits: LocateLimits, seed: int)
     factor = trace.block.covariance_factor
     if factor is not None:
         signs = random.choice([-1.0, 1.0], size=(factor.shape[1], limits.draws))
-        return _without_nuisances(trace, factor @ signs / np.sqrt(trace.block.cycles) / trace.sigma[:, None])
+        return _without_nuisances(trace, factor @ signs / trace.sigma[:, None])
     memory, scale = _memory(residual, limits)
     fresh = random.standard_normal((len(residual) + SETTLING, limits.draws)) * np.sqrt(1.0 - memory**2)
     drawn = lfilter([1.0], [1.0, -memory], fresh, axis=0)[SETTLING:]

@@ -86,8 +86,8 @@ class SteadyTable:
 class TraceBlock:
     """Chamber pressure over one turn at the steady point `point`: angle (K,) in rad from the inner dead centre.
 
-    mean: (K,), Pa gauge, over `cycles` turns; covariance_factor: (K, r) with covariance = factor factor^T, or None
-    where single cycles are not known.
+    mean: (K,), Pa gauge, over `cycles` turns; covariance_factor: (K, r), the mean's covariance is factor factor^T;
+    None where single cycles are not known.
     """
 
     point: int

@@ -48,8 +48,16 @@ class PumpSimulator(Simulator, Protocol):
         """The same model with these parameters: replaced where a name is there already, added where not."""
         ...
 
-    def with_extension(self, extension: Extension) -> Self:
-        """The same pump with the law of one member of a grid: the extension's parameters appended."""
+    def with_extensions(self, extensions: tuple[Extension, ...]) -> Self:
+        """The same pump with these laws, each of one member of its grid: their parameters appended."""
+        ...
+
+    def difference(self, values: Array, other: Array) -> Array:
+        """Readings (N, C) at `other` values less those at `values`; may be approximate, as slopes are."""
+        ...
+
+    def traces(self, values: Array, points: tuple[int, ...], angles: Array) -> Array:
+        """Chamber pressure (len(points), K) in Pa gauge at shaft angles (K,) in rad as an encoder reads them."""
         ...
 
     def components(self, values: Array) -> Mapping[Component, Array]:
@@ -131,17 +139,13 @@ def study_of(
     tens of sigma away, and slopes from there tell nothing.
     """
     base = linear_posterior(simulator, observations)
-    start = np.zeros(base.xi.size)
-    centre = values_at(simulator.parameters, start)
-    plain = simulator.predict(centre)
+    centre = values_at(simulator.parameters, np.zeros(base.xi.size))
     factor = thresholds.name.fault_factor
     candidates = tuple(
         candidate
         for entry in catalogue
         for candidate in (
-            _of_extensions(entry, simulator, base, plain)
-            if entry.extensions
-            else _of_parameters(entry, base, factor)
+            _of_extensions(entry, simulator, base) if entry.extensions else _of_parameters(entry, base, factor)
         )
     )
     return Study(recording, simulator, observations, base, candidates, simulator.components(centre), axes)
@@ -160,18 +164,22 @@ def _of_parameters(entry: Entry, base: Posterior, factor: float) -> Iterator[Can
         yield Candidate(entry, None, 0, name, base.slopes[:, base.index(name)], factor, Sign.EITHER)
 
 
-def _of_extensions(entry: Entry, simulator: PumpSimulator, base: Posterior, plain: Array) -> Iterator[Candidate]:
+def _of_extensions(entry: Entry, simulator: PumpSimulator, base: Posterior) -> Iterator[Candidate]:
     """Columns of laws that the model lacks: what one spread of each size changes.
 
     A difference, not a slope: laws with a threshold have no slope where they are off.
     """
     for extension in entry.extensions:
         for place, member in enumerate(extension.members):
-            extended = simulator.with_extension(member)
-            for at, parameter in enumerate(member.parameters, start=len(simulator.parameters)):
-                xi = np.zeros(len(extended.parameters))
-                xi[at] = 1.0
-                change = extended.predict(values_at(extended.parameters, xi)) - plain
+            extended = simulator.with_extensions((member,))
+            names = [parameter.name for parameter in extended.parameters]
+            off = np.zeros(len(names))
+            for parameter in member.parameters:
+                on = off.copy()
+                on[names.index(parameter.name)] = 1.0
+                change = extended.difference(
+                    values_at(extended.parameters, off), values_at(extended.parameters, on)
+                )
                 column = base.whitening.whiten(change)
                 if np.any(column):
                     yield Candidate(entry, member, place, parameter.name, column, 1.0, _sign(parameter))

@@ -29,7 +29,7 @@ def _trace(bump: float, seed: int, cycles: int = 0, memory: float = 0.6, scale: 
     count = max(cycles, 1)
     fresh = random.standard_normal((STEPS + 50, count)) * np.sqrt(1 - memory**2)
     noise = scale * SIGMA * lfilter([1.0], [1.0, -memory], fresh, axis=0)[50:] * np.sqrt(count)
-    factor = (noise - noise.mean(axis=1, keepdims=True)) / np.sqrt(count - 1) if cycles else None
+    factor = (noise - noise.mean(axis=1, keepdims=True)) / np.sqrt(count * (count - 1)) if cycles else None
     slope = np.gradient(1.5e7 * np.tanh((ANGLE - radians(200)) / radians(5)), ANGLE)[:, None] * radians(0.3)
     within = (radians(180) <= ANGLE) & (radians(190) > ANGLE)
     residual = noise.mean(axis=1) + bump * SIGMA * within + 1.5 * slope[:, 0]

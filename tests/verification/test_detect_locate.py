@@ -97,9 +97,15 @@ class ToyPump:
     def with_parameters(self, parameters: tuple[Parameter, ...]) -> ToyPump:
         raise NotImplementedError
 
-    def with_extension(self, extension: Extension) -> ToyPump:
-        column = _effect(extension.id)
-        return ToyPump(self.parameters + extension.parameters, (*self.columns, column))
+    def with_extensions(self, extensions: tuple[Extension, ...]) -> ToyPump:
+        added = tuple(parameter for one in extensions for parameter in one.parameters)
+        return ToyPump(self.parameters + added, (*self.columns, *(_effect(one.id) for one in extensions)))
+
+    def difference(self, values: Array, other: Array) -> Array:
+        return self.predict(other) - self.predict(values)
+
+    def traces(self, values: Array, points: tuple[int, ...], angles: Array) -> Array:
+        raise NotImplementedError
 
     def components(self, values: Array) -> Mapping[Component, Array]:
         parts, plain = _parts(), self.predict(values)

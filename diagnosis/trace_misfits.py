@@ -1,0 +1,76 @@
+"""Recorded chamber pressures against simulated ones, and the events of the ports they are read by."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+from system.sensors import encoder_parameter
+
+from diagnosis.recording import RecordedChannel, Recording, TraceBlock, reading_sigma
+from diagnosis.study import PortEvent, PumpSimulator, TraceMisfit
+from system.channels import ChannelName
+from system.description import PumpDescription
+from system.estimation.observations import Array
+from system.estimation.posterior import values_at
+from system.lumped import port_openings
+from system.ports import TURN, PortOpening
+
+MOVING = ("encoder_offset", "bulk_modulus", "dead_volume", "flow_coefficient", "stand_out_share", "p_out.zero")
+"""Parameters that a chamber's pressure over the turn hangs on."""
+NO_ENCODER = 1e-6  # rad: one sigma of an encoder that is stated to be without offset
+
+
+def trace_misfits(recording: Recording, simulator: PumpSimulator) -> tuple[TraceMisfit, ...]:
+    """The recorded traces less those simulated at the prior mean, with what may explain them away.
+
+    Beside the pump's own parameters: the offset of the encoder, gain and zero of the pressure sensor.
+    """
+    channel = recording.channel(ChannelName.P_CHAMBER)
+    if channel is None:
+        return ()
+    encoder = recording.channel(ChannelName.ANGLE)
+    offset = max(NO_ENCODER, 0.0 if encoder is None else encoder.zero_sigma)
+    with_encoder = simulator.with_parameters((encoder_parameter(offset),))
+    return tuple(_misfit(trace, channel, with_encoder) for trace in recording.traces)
+
+
+def port_events(pump: PumpDescription) -> tuple[PortEvent, ...]:
+    """What the ports of a valve plate do over the turn, by shaft angle in [0, 2 pi)."""
+    found = []
+    for name, port in zip(("suction", "delivery"), port_openings(pump), strict=True):
+        found += [
+            PortEvent((float(port.dead_centre) + angle) % TURN, f"{name} {text}") for angle, text in _of(port)
+        ]
+    dead_centres = (PortEvent(0.0, "inner dead centre"), PortEvent(np.pi, "outer dead centre"))
+    return tuple(sorted((*found, *dead_centres), key=lambda event: event.angle))
+
+
+def _of(port: PortOpening[float]) -> Iterator[tuple[float, str]]:
+    for groove in port.grooves:
+        ahead = groove.begins < groove.deep
+        yield groove.begins, "groove begins to open" if ahead else "groove is shut"
+        yield groove.deep, "groove is open" if ahead else "groove begins to close"
+    yield port.kidney_start, "kidney begins to open"
+    yield port.kidney_full_start, "kidney is open"
+    yield port.kidney_full_end, "kidney begins to close"
+    yield port.kidney_end, "kidney is shut"
+
+
+def _misfit(trace: TraceBlock, channel: RecordedChannel, simulator: PumpSimulator) -> TraceMisfit:
+    parameters = simulator.parameters
+    start = np.zeros(len(parameters))
+
+    def simulated(xi: Array) -> Array:
+        return simulator.traces(values_at(parameters, xi), (trace.point,), trace.angle)[0]
+
+    plain = simulated(start)
+    moved = []
+    for at, parameter in enumerate(parameters):
+        if parameter.name in MOVING:
+            xi = start.copy()
+            xi[at] = 1.0
+            moved.append(simulated(xi) - plain)
+    sensor = (channel.gain_sigma * plain, np.full_like(plain, channel.zero_sigma))
+    sigma = np.hypot(reading_sigma(channel, trace.mean), channel.quantum / np.sqrt(12.0)) / np.sqrt(trace.cycles)
+    return TraceMisfit(trace, trace.mean - plain, np.stack([*moved, *sensor], axis=1), sigma)

@@ -1,0 +1,67 @@
+"""From a recording to points and readings: what is missing is told, never guessed in silence."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from diagnosis.readings import bench_points, complete, measured, observations
+from diagnosis.recording import Circuit, NoteKind, RecordedChannel, Recording, SteadyTable, TraceBlock
+from reynolds.errors import FilmInputError
+from system.channels import INPUTS, ChannelName
+from system.pump_file import load_pump
+
+C = ChannelName
+SIGMAS = {C.SPEED: 0.05, C.P_OUT: 1.5e4, C.T_IN: 0.2, C.Q_CASE: 2.5e-7}
+
+
+def _channel(name: ChannelName) -> RecordedChannel:
+    return RecordedChannel(name, name.value, "", SIGMAS[name], 1e-3, 0.0, 0.0, 1e-3, SIGMAS[name], ())
+
+
+def _recording(circuit: Circuit = Circuit.CLOSED) -> Recording:
+    """Six points of speed, delivery pressure, inlet temperature and drain flow; the third has no speed."""
+    order = list(C)
+    values = np.full((6, len(order)), np.nan)
+    values[:, order.index(C.SPEED)] = [50.0, 100.0, np.nan, 150.0, 200.0, 200.0]
+    values[:, order.index(C.P_OUT)] = np.linspace(5e6, 30e6, 6)
+    values[:, order.index(C.T_IN)] = 320.0
+    values[:, order.index(C.Q_CASE)] = np.linspace(1e-5, 4e-5, 6)
+    angle = np.linspace(0.0, 6.0, 40)
+    traces = tuple(TraceBlock(point, angle, angle, None, 1) for point in (2, 4))
+    table = SteadyTable(values, np.arange(6), np.full(6, np.nan), np.ones(6))
+    return Recording("six", "", "", circuit, tuple(map(_channel, SIGMAS)), table, traces, ())
+
+
+def test_a_point_without_an_input_is_taken_out_and_told() -> None:
+    found = complete(_recording())
+    assert len(found.steady.values) == len(found.steady.repeats) == 5
+    assert [trace.point for trace in found.traces] == [3]
+    assert found.notes[-1].kind is NoteKind.REMOVED
+    assert found.notes[-1].points == (2,)
+    assert complete(found) is found
+
+
+def test_what_is_not_measured_is_taken_and_told() -> None:
+    pump = load_pump("ref90")
+    points, notes = bench_points(complete(_recording()), pump)
+    assert {note.channel for note in notes} == {C.DISPLACEMENT_RATIO, C.P_IN, C.P_CASE, C.T_CASE}
+    assert np.all(points.p_in == pump.operating.inlet_pressure)
+    assert np.all(points.T_case == 320.0)
+    assert np.all(points.displacement_ratio == pump.operating.displacement_ratio)
+    assert any("T_case is not measured: taken as T_in" in note.text for note in notes)
+    opened, _ = bench_points(complete(_recording(Circuit.OPEN)), pump)
+    assert np.all(opened.p_in == 0.0)
+
+
+def test_readings_carry_their_noise_and_that_of_the_inputs() -> None:
+    recording = complete(_recording())
+    inputs = measured(recording, INPUTS)
+    assert inputs == (C.SPEED, C.P_OUT, C.T_IN)
+    found = observations(recording, (C.Q_CASE,), inputs)
+    assert found.values.shape == (5, 1)
+    assert found.sigma[:, 0] == pytest.approx(2.5e-7 + 1e-3 * found.values[:, 0])
+    assert found.input_sigma[:, 1] == pytest.approx(1.5e4 + 1e-3 * recording.steady.column(C.P_OUT))
+    assert len(set(found.blocks)) > 1
+    with pytest.raises(FilmInputError, match="torque"):
+        observations(recording, (C.TORQUE,), inputs)
