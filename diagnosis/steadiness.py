@@ -14,6 +14,7 @@ from system.kinematics import Array
 Flags = NDArray[np.bool_]
 LONGEST_MEMORY = 0.99  # lag-one correlation beyond which a window counts as one sample
 PARTS = 10
+ROUNDING = 1e-12
 MOST_MEMORY = 0.9  # that a tenth of a window can tell
 
 
@@ -41,7 +42,8 @@ def steady_stretches(inputs: Array, sigma: Array, rule: SteadyRule) -> tuple[sli
     step = max(1, length // 10)
     starts = range(0, len(inputs) - length + 1, step)
     steady = [start for start in starts if is_steady(inputs[start : start + length], sigma, rule)]
-    return tuple(part for run in _runs(steady, step, length) for part in _pieces(run, inputs, sigma, rule))
+    runs = _joined(_runs(steady, step, length), inputs, sigma, rule)
+    return tuple(part for run in runs for part in _pieces(run, inputs, sigma, rule))
 
 
 def is_steady(window: Array, sigma: Array, rule: SteadyRule) -> bool:
@@ -93,7 +95,7 @@ def effective_number(noise: Array) -> float:
     """
     deviation = noise - np.mean(noise)
     power = float(deviation @ deviation)
-    if power == 0.0:
+    if power <= (ROUNDING * float(np.max(np.abs(noise)))) ** 2 * len(noise):
         return float(len(noise))
     memory = float(deviation[1:] @ deviation[:-1]) / power
     if memory >= LONGEST_MEMORY:
@@ -113,6 +115,25 @@ def _runs(starts: Sequence[int], step: int, length: int) -> Iterator[slice]:
         last = start
     if first is not None and last is not None:
         yield slice(first, last + length)
+
+
+def _joined(runs: Iterator[slice], inputs: Array, sigma: Array, rule: SteadyRule) -> Iterator[slice]:
+    """Runs that overlap as one where that is steady as a whole (a window failed by chance), else cut."""
+    last: slice | None = None
+    for run in runs:
+        if last is not None and run.start < last.stop:
+            whole = slice(last.start, run.stop)
+            if is_steady(inputs[whole], sigma, rule):
+                last = whole
+                continue
+            run = slice(last.stop, run.stop)
+            if run.stop - run.start < rule.samples:
+                continue
+        if last is not None:
+            yield last
+        last = run
+    if last is not None:
+        yield last
 
 
 def _pieces(run: slice, inputs: Array, sigma: Array, rule: SteadyRule) -> Iterator[slice]:
