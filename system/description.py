@@ -63,6 +63,7 @@ from system.parts_description import (
     SwashPlateSection,
     WavinessSection,
 )
+from system.physics_description import PhysicsSection
 from system.tolerance_description import ToleranceSection
 from system.units import Dimension
 
@@ -336,6 +337,7 @@ class PumpDescription(Section):
     surfaces: SurfacesSection = SurfacesSection()
     delivery_line: LineSection = LineSection()
     suction_line: LineSection = LineSection()
+    physics: PhysicsSection = PhysicsSection()
     tolerance: ToleranceSection = ToleranceSection()
     single_pistons: tuple[tuple[int, PistonSection], ...] = ()  # by chamber, complete
     single_slippers: tuple[tuple[int, SlipperSection], ...] = ()

@@ -56,13 +56,13 @@ def suction_loss(state: BenchState) -> Array:
 
 
 def incomplete_filling(values: Values, courses: Courses, state: BenchState) -> Effects:
-    """Above the speed at which suction falls to `gas_pressure` (Pa absolute) the flow grows no more.
+    """Above the speed at which suction falls to `gas_pressure` (Pa gauge) the flow grows no more.
 
     `inlet_loss` 1 is the kidney's own loss, which goes with speed squared: the share that fills is n_c/n, n_c/n =
     sqrt((p_in - p_gas)/loss), and 1 below.
     """
     loss = values["inlet_loss"] * suction_loss(state)
-    left = np.maximum(absolute(state.inlet_pressure) - values["gas_pressure"], 0.0)
+    left = np.maximum(state.inlet_pressure - values["gas_pressure"], 0.0)
     filled = np.sqrt(left / np.maximum(np.maximum(loss, left), 1e-9))
     return replace(unchanged(courses), intake=filled)
 
