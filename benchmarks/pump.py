@@ -12,7 +12,7 @@ from rich.console import Console
 from rich.table import Table
 
 from system.films import films_point
-from system.lumped import lumped_point
+from system.lumped_point import lumped_point
 from system.operating import operating_point
 from system.pump_file import load_pump
 

@@ -35,7 +35,7 @@ from system.floating_drives import drives, no_rubbing, piston_shape, slipper_sha
 from system.floating_gaps import MARCHED
 from system.floating_parts import floating_parts
 from system.instants import rotor, valve_plate_geometry
-from system.lumped import lumped_point
+from system.lumped_point import lumped_point
 from system.operating import operating_point
 from system.pump_file import load_pump
 

@@ -20,7 +20,7 @@ from system.description import PumpDescription
 from system.films import FilmsPoint, films_point
 from system.floating import floating_point
 from system.floating_gaps import FloatingOptions
-from system.lumped import lumped_point
+from system.lumped_point import lumped_point
 from system.operating import operating_point
 from system.pump_file import check_pump, resolved_toml
 

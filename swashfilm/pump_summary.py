@@ -164,6 +164,7 @@ def _power(point: PumpPoint) -> dict[str, float]:
         "throttling_delivery_W": power.throttling_delivery,
         "throttling_suction_W": power.throttling_suction,
         "friction_W": power.friction,
+        "extended_W": power.extended,
     }
 
 

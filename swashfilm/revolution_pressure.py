@@ -15,7 +15,8 @@ from system.chamber_kernel import CAVITY_PRESSURE
 from system.faults import nearest_choice
 from system.fields import Points
 from system.instants import Rotor
-from system.lumped import lumped_point, piston_motion
+from system.lumped import piston_motion
+from system.lumped_point import lumped_point
 from system.point_files import read_rows
 from system.pump_values import listed_rows
 from system.units import Dimension, QuantityError, format_quantity, parse_quantity

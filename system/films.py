@@ -25,11 +25,11 @@ from system.lumped import (
     chamber_problem,
     group_masses,
     lumped_pairs,
-    lumped_point,
     piston_motion,
     port_lines,
     swept_displacement,
 )
+from system.lumped_point import lumped_point
 from system.operating import OperatingPoint
 from system.pairs import FrictionPairs
 from system.ports import TURN

@@ -37,7 +37,8 @@ from system.floating_kinds import Asked, Group, by_chamber, chamber_problems, dr
 from system.floating_parts import FloatingParts
 from system.gap_cycle import Report, silent
 from system.instants import Rotor, rotor
-from system.lumped import lumped_pairs, lumped_point, piston_motion, port_lines, swept_displacement
+from system.lumped import lumped_pairs, piston_motion, port_lines, swept_displacement
+from system.lumped_point import lumped_point
 from system.operating import OperatingPoint
 from system.pairs import over_chambers
 from system.ports_coupling import PortedCycle, ported_cycle

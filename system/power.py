@@ -49,7 +49,8 @@ class PowerBalance:
     hydraulic: p Q summed over delivery, inlet (negative) and case; elastic: stored in the oil that leaves, less
     that which enters (compression: a machine downstream can take it back); ripple: what both ports' lines take
     besides, as pressure and flow pulse together; leakage: turned into heat in each gap by the pressure;
-    throttling_delivery, throttling_suction: in the ports; friction: the seven pairs.
+    throttling_delivery, throttling_suction: in the ports; friction: the seven pairs; extended: what effects of
+    [physics] carry off past the chambers and the pairs.
     """
 
     shaft: float
@@ -60,6 +61,7 @@ class PowerBalance:
     throttling_delivery: float
     throttling_suction: float
     friction: float
+    extended: float = 0.0
 
     @property
     def throttling(self) -> float:
@@ -70,7 +72,7 @@ class PowerBalance:
     def accounted(self) -> float:
         """All that the shaft power goes into."""
         delivered = self.hydraulic + self.elastic + self.ripple
-        return delivered + self.leakage.total + self.throttling + self.friction
+        return delivered + self.leakage.total + self.throttling + self.friction + self.extended
 
 
 def port_draw(problem: ChamberProblem, exchange: GapExchange) -> tuple[float, float]:

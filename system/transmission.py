@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 
 from system.assembly import PumpPoint
 from system.description import PumpDescription
-from system.lumped import lumped_point
+from system.lumped_point import lumped_point
 from system.operating import OperatingPoint
 
 SPEED_RATIOS = (0.05, 2.0)

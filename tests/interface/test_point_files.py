@@ -10,7 +10,8 @@ from reynolds.errors import FilmInputError
 from system.faults import InputFaults
 from system.floating_parts import floating_parts
 from system.lines import ImpedanceLine
-from system.lumped import lumped_point, port_lines
+from system.lumped import port_lines
+from system.lumped_point import lumped_point
 from system.operating import operating_point
 from system.pump_file import load_pump, resolved_toml
 

@@ -16,7 +16,7 @@ from swashfilm.revolution_case import RevolutionCase
 from swashfilm.revolution_study import revolution_summary, solve_revolution
 from swashfilm.study_case import load_film
 from system.faults import InputFaults
-from system.lumped import lumped_point
+from system.lumped_point import lumped_point
 
 SLIPPER = """format = 1
 [film]

@@ -12,7 +12,7 @@ import pytest
 from swashfilm.__main__ import main
 from swashfilm.cli_table import TABLE_OPTIONS
 from system import table_sources
-from system.lumped import lumped_point
+from system.lumped_point import lumped_point
 from system.operating import operating_point
 from system.power import Gaps
 from system.pump_file import load_pump

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from system.films import FilmsPoint, films_point
-from system.lumped import lumped_point
+from system.lumped_point import lumped_point
 from system.operating import operating_point
 from system.pairs import Pair
 from system.pump_file import load_pump

@@ -8,7 +8,8 @@ import pytest
 
 from system.assembly import PumpPoint
 from system.bench import ideal_flow, ideal_torque
-from system.lumped import lumped_pairs, lumped_point, piston_motion
+from system.lumped import lumped_pairs, piston_motion
+from system.lumped_point import lumped_point
 from system.operating import operating_point
 from system.pairs import Pair
 from system.pump_file import load_pump

@@ -23,7 +23,7 @@ from system.floating_parts import floating_parts
 from system.gap_films import RIGID
 from system.instants import rotor
 from system.leakage import piston_conductance, slipper_conductance, valve_plate_conductance
-from system.lumped import lumped_point
+from system.lumped_point import lumped_point
 from system.operating import operating_point
 from system.pump_file import load_pump
 

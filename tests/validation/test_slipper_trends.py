@@ -22,7 +22,7 @@ from system.floating_gaps import FloatingOptions, slipper_revolution
 from system.floating_parts import FloatingParts, floating_parts
 from system.gap_films import RIGID
 from system.instants import Rotor, rotor
-from system.lumped import lumped_point
+from system.lumped_point import lumped_point
 from system.operating import operating_point
 from system.pump_file import load_pump
 

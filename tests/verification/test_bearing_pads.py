@@ -19,7 +19,7 @@ from reynolds.solve import FilmSolver
 from system.faults import InputFaults
 from system.floating_checks import check_floating
 from system.instants import valve_plate_geometry
-from system.lumped import lumped_point
+from system.lumped_point import lumped_point
 from system.operating import operating_point
 from system.pairs import Pair
 from system.pump_file import load_pump, resolved_toml

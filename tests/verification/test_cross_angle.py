@@ -11,11 +11,11 @@ from system.instants import rotor, valve_plate_geometry
 from system.lumped import (
     chamber_problem,
     lumped_leaks,
-    lumped_point,
     piston_area,
     piston_motion,
     swept_displacement,
 )
+from system.lumped_point import lumped_point
 from system.operating import operating_point
 from system.ports import break_angles
 from system.pump_file import load_pump

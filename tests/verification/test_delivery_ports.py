@@ -5,7 +5,8 @@ import pytest
 
 from system.faults import InputFaults
 from system.instants import valve_plate_geometry
-from system.lumped import lumped_point, port_openings
+from system.lumped import port_openings
+from system.lumped_point import lumped_point
 from system.operating import operating_point
 from system.ports import opening_area
 from system.pump_file import load_pump, resolved_toml

@@ -22,7 +22,7 @@ from system.gap_cycle import gap_cycle
 from system.given_positions import given_slipper
 from system.instants import rotor
 from system.kinematics import slipper_sliding_velocity
-from system.lumped import lumped_point
+from system.lumped_point import lumped_point
 from system.operating import operating_point
 from system.pump_file import load_pump
 

@@ -44,7 +44,7 @@ from system.floating_drives import drives, no_rubbing
 from system.floating_gaps import FloatingOptions, slipper_revolution
 from system.floating_parts import floating_parts
 from system.instants import rotor
-from system.lumped import lumped_point
+from system.lumped_point import lumped_point
 from system.operating import operating_point
 from system.pump_file import load_pump
 

@@ -11,9 +11,7 @@ from system.pump_gap import Gap
 
 REF90 = load_pump("ref90")
 POINTS, ANGLES = 3, 6
-BY_NAME = [
-    pytest.param(one, id=".".join([one.id.value, *([one.pair.value] if one.pair else [])])) for one in EXTENSIONS
-]
+BY_NAME = [pytest.param(one, id=one.parameters[0].name) for one in EXTENSIONS]
 
 
 @pytest.fixture(scope="module")

@@ -8,7 +8,8 @@ import pytest
 from gaps.ring import Ring
 from system.faults import InputFaults
 from system.instants import valve_plate_geometry
-from system.lumped import lumped_point, port_openings
+from system.lumped import port_openings
+from system.lumped_point import lumped_point
 from system.operating import operating_point
 from system.port_webs import PortWebs
 from system.ports import PortOpening, break_angles, opening_area

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from system.faults import InputFaults
-from system.lumped import full_drive, lumped_point, port_openings, swept_displacement
+from system.lumped import full_drive, port_openings, swept_displacement
+from system.lumped_point import lumped_point
 from system.operating import operating_point
 from system.ports import PortOpening, break_angles, opening_area
 from system.pump_file import load_pump, resolved_toml

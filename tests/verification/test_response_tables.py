@@ -18,7 +18,7 @@ from reynolds.errors import FilmInputError, FilmNotConverged
 from system.assembly import PumpPoint
 from system.errors import NotConverged
 from system.faults import InputFaults
-from system.lumped import lumped_point
+from system.lumped_point import lumped_point
 from system.operating import operating_point
 from system.pairs import Pair
 from system.power import Gaps

@@ -22,7 +22,8 @@ from system.kinematics import (
     slipper_sliding_velocity,
 )
 from system.line_description import LineKind, LineSection
-from system.lumped import chamber_problem, group_masses, lumped_leaks, lumped_point, piston_motion
+from system.lumped import chamber_problem, group_masses, lumped_leaks, piston_motion
+from system.lumped_point import lumped_point
 from system.operating import operating_point
 from system.pairs import over_chambers
 from system.pump_file import load_pump

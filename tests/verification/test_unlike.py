@@ -7,7 +7,7 @@ import pytest
 
 from system.description import PumpDescription
 from system.films import films_point
-from system.lumped import lumped_point
+from system.lumped_point import lumped_point
 from system.operating import operating_point
 from system.pairs import over_chambers
 from system.pump_file import load_pump

@@ -1,0 +1,29 @@
+"""The effects that a pump's description switches on, with the values it states."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from functools import reduce
+
+from system.description import PumpDescription
+from system.physics.catalogue import EXTENSIONS
+from system.physics.effects import BenchState, Effects, GapCourse, both
+from system.physics.extension import Extension, Values
+from system.physics.state import unchanged
+from system.pump_gap import Gap
+
+
+def switched_on(pump: PumpDescription) -> Iterator[tuple[Extension, Values]]:
+    """Every extension of which the pump has a table below [physics], with its law's values."""
+    for extension in EXTENSIONS:
+        section = getattr(pump.physics, extension.id.value)
+        if section is not None and extension.pair is not None:
+            section = getattr(section, extension.pair.value)
+        if section is not None:
+            yield extension, {key: float(value) for key, value in dict(section).items()}
+
+
+def stated_effects(pump: PumpDescription, courses: Mapping[Gap, GapCourse], state: BenchState) -> Effects:
+    """What all of them change together; nothing where none is on."""
+    found = (extension.law(values, courses, state) for extension, values in switched_on(pump))
+    return reduce(both, found, unchanged(courses))
