@@ -25,6 +25,7 @@ from system.kinematics import Array
 from system.lumped import lumped_pairs
 from system.physics.effects import both
 from system.physics.extension import Extension
+from system.physics.switched import stated_effects
 from system.ports import TURN
 from system.sensors import ENCODER_OFFSET, SENSOR_NAMES, read
 from system.unlike import kinds
@@ -54,9 +55,9 @@ class LumpedBench:
 
     channels: the C outputs of SIMULATED that are read, inputs: the M measured inputs, both in the order of the
     observations. Parameters: of `base_parameters`, `sensor_parameters` and those of the extensions in `physics`,
-    which join where they are not among them; what none of them names is as the pump states it. Ports are held at
-    their mean pressures: lines behind them and their ripple are left out. Raises FilmInputError for a channel it
-    does not know, for a parameter that is none of these, and for chambers that differ.
+    which join where they are not among them; what none of them names is as the pump states it, its own
+    [physics] too. Ports are held at their mean pressures: lines behind them and their ripple are left out. Raises
+    FilmInputError for a channel it does not know, a parameter that is none of these, and chambers that differ.
     """
 
     def __init__(
@@ -202,13 +203,14 @@ class LumpedBench:
         self, plain: Setting, courses: Courses, values: Array, solve: Callable[[Setting], Courses]
     ) -> Solved:
         """Laws at the pressures of chambers without them, then chambers with them: leakage moves these little."""
-        if not self.physics:
+        if not (self.physics or plain.pump.physics.on):
             return Solved(plain, courses, plain, courses, None)
         found = lumped_pairs(plain.pump, plain.point, plain.motion, courses)
         gaps = gap_courses(plain.pump, plain.point, plain.motion, courses, found)
         state = bench_state(plain.pump, plain.point, self.points.hours)
         named = self._named(values)
-        effects = reduce(both, (law.effects(named, gaps, state) for law in self.physics))
+        stated = stated_effects(plain.pump, gaps, state)
+        effects = reduce(both, (law.effects(named, gaps, state) for law in self.physics), stated)
         changed = affected(plain, effects)
         return Solved(plain, courses, changed, solve(changed), Affected(effects, state))
 

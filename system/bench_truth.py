@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -15,18 +14,11 @@ from system.lumped import lumped_pairs
 from system.pairs import FrictionPairs, Pair, PairLoss
 from system.physics.effects import BenchState, Effects
 from system.physics.outside import outside
+from system.physics.rubbing import rubbed
 from system.ports import TURN
-from system.pump_gap import Gap
 
 SIMULATED = (ChannelName.Q_OUT, ChannelName.Q_IN, ChannelName.Q_CASE, ChannelName.TORQUE)
 """Outputs that the lumped bench knows, in the order of `truth`."""
-OF_GAP = {
-    Gap.PISTON: Pair.PISTON_CYLINDER,
-    Gap.SLIPPER: Pair.SLIPPER_SWASH_PLATE,
-    Gap.VALVE_PLATE: Pair.VALVE_PLATE_CYLINDER,
-}
-EXTRA = (*OF_GAP.values(), Pair.PISTON_SLIPPER_SOCKET, Pair.BALL_GUIDE_RETAINER)
-"""Pairs in the order of `Effects.extra_coulomb`."""
 
 
 @dataclass(frozen=True)
@@ -52,7 +44,7 @@ def losses(solved: Solved) -> FrictionPairs:
     """Losses of the seven pairs, (N, M) W, with what laws change of them."""
     at = solved.setting
     found = lumped_pairs(at.pump, at.point, at.motion, solved.courses)
-    return found if solved.affected is None else _with_effects(found, solved.affected.effects)
+    return found if solved.affected is None else rubbed(found, solved.affected.effects)
 
 
 def pair_torque(setting: Setting, loss: PairLoss) -> Array:
@@ -99,17 +91,3 @@ def _chambers(setting: Setting, courses: Courses) -> tuple[tuple[Array, Array, A
         rate * totals[:, 2:5].sum(axis=1) * volume["case_pressure"],
     )
     return flows, pistons / TURN * (totals[:, 5] - totals[:, 11:14].sum(axis=1))
-
-
-def _with_effects(found: FrictionPairs, effects: Effects) -> FrictionPairs:
-    changed: dict[Pair, PairLoss] = {}
-    for row, pair in enumerate(OF_GAP.values()):
-        loss = found.loss(pair)
-        changed[pair] = replace(
-            loss, coulomb=loss.coulomb * effects.coulomb[row], viscous=loss.viscous * effects.viscous[row]
-        )
-    for row, pair in enumerate(EXTRA):
-        loss = changed.get(pair, found.loss(pair))
-        changed[pair] = replace(loss, coulomb=loss.coulomb + effects.extra_coulomb[row])
-    named: Mapping[str, PairLoss] = {pair.value: loss for pair, loss in changed.items()}
-    return replace(found, **named)

@@ -32,6 +32,7 @@ from system.lumped import (
 from system.lumped_point import lumped_point
 from system.operating import OperatingPoint
 from system.pairs import FrictionPairs
+from system.physics.switched import hold_plain
 from system.ports import TURN
 from system.ports_coupling import ported_cycle
 from system.power import GapExchange, Gaps
@@ -76,6 +77,7 @@ def films_point(
     touch at a given position. Films are rigid, smooth, isothermal, without history.
     """
     kinds(pump).hold_alike()
+    hold_plain(pump)
     if positions_per_pitch % 2 or SAMPLES_PER_PITCH % positions_per_pitch:
         raise ValueError(
             f"positions per pitch: found {positions_per_pitch}, expected an even divisor of {SAMPLES_PER_PITCH}"

@@ -41,6 +41,7 @@ from system.lumped import lumped_pairs, piston_motion, port_lines, swept_displac
 from system.lumped_point import lumped_point
 from system.operating import OperatingPoint
 from system.pairs import over_chambers
+from system.physics.switched import hold_plain
 from system.ports_coupling import PortedCycle, ported_cycle
 from system.power import Gaps
 from system.unlike import mean_of
@@ -116,8 +117,10 @@ def floating_point(
     """One periodic operating point with the three gaps floating; side by side: the pistons in a second process.
 
     Raises NotConverged where gaps and chamber pressure do not settle within ROUND_LIMIT rounds, FilmNotConverged
-    where a film does not, ValueError for steps that do not divide among the pistons.
+    where a film does not, ValueError for steps that do not divide among the pistons, FilmInputError where
+    [physics] switches effects on.
     """
+    hold_plain(pump)
     options = options or FloatingOptions()
     lumped = lumped_point(pump, point)
     at = rotor(pump, lumped.point)

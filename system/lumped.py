@@ -8,8 +8,6 @@ from typing import Generic, Protocol
 import numpy as np
 
 from system import pairs
-from system.assembly import PumpPoint, assemble
-from system.chamber import TOLERANCE
 from system.chamber_problem import ChamberProblem, LeakTable
 from system.description import PortsSection, PumpDescription
 from system.kinematics import (
@@ -37,11 +35,8 @@ from system.pairs import FrictionPairs, PairLoss
 from system.port_description import relief_groove
 from system.port_webs import PortWebs
 from system.ports import TURN, PortOpening
-from system.ports_coupling import ported_cycle
-from system.power import chamber_exchange
 from system.retainer import BallGuide, mean_sliding_speed, spring_force
 from system.shaft_torque import GroupMasses
-from system.unlike import kinds
 
 SAMPLES_PER_PITCH = 40
 """Sampled shaft angles for each piston pitch: 1 deg on nine pistons; even, so the quadrature can be halved."""
@@ -71,29 +66,6 @@ class Pressed(Protocol):
     def pressure(self) -> Array:
         """(N,), or (P, N) at P operating points."""
         ...
-
-
-def lumped_point(pump: PumpDescription, point: OperatingPoint, tolerance: float = TOLERANCE) -> PumpPoint:
-    """One periodic operating point of a pump with films of given thickness: REF90's nominal loss model.
-
-    Chambers that differ have each its own cycle; what rubs about the shaft takes the mean of pumps with chambers
-    like each. Raises NotConverged when the chamber pressure does not become periodic. Valid for films thick
-    against their roughness at the viscosity of the case; what it leaves out is in `left_out_physics.md`.
-    """
-    found = kinds(pump)
-    motions = [piston_motion(own, point) for own in found.pumps]
-    problems = [
-        chamber_problem(own, point, motion, lumped_leaks(own, point, motion))
-        for own, motion in zip(found.pumps, motions, strict=True)
-    ]
-    pistons, samples = pump.pump.pistons, motions[0].shaft_angle.size
-    ported = ported_cycle(found.by_chamber(problems), port_lines(pump, point), pistons, samples, tolerance)
-    chambers = list(zip(found.by_chamber(found.pumps), found.by_chamber(motions), ported.cycles, strict=True))
-    losses = [lumped_pairs(own, point, motion, cycle) for own, motion, cycle in chambers]
-    exchange = chamber_exchange(ported.cycle, pistons * point.shaft_speed / TURN)
-    derived = float(np.mean([swept_displacement(own, motion.drive) for own, motion, _ in chambers]))
-    masses = [group_masses(own) for own, _, _ in chambers]
-    return assemble(point, ported, losses, pistons, derived, exchange, masses)
 
 
 def port_lines(pump: PumpDescription, point: OperatingPoint) -> Lines:

@@ -25,6 +25,7 @@ from system.lumped import (
 )
 from system.operating import OperatingPoint
 from system.pairs import FrictionPairs, Pair, PairLoss
+from system.physics.switched import hold_plain
 from system.ports import TURN
 from system.ports_coupling import ported_cycle
 from system.power import GapExchange, Gaps, chamber_exchange, port_draw
@@ -56,6 +57,7 @@ def table_point(pump: PumpDescription, point: OperatingPoint, table: ResponseTab
     `ported_cycle` and where an orifice line does not settle, ValueError where chambers differ.
     """
     kinds(pump).hold_alike()
+    hold_plain(pump)
     motion, lines, pistons = piston_motion(pump, point), port_lines(pump, point), pump.pump.pistons
     asked = point
     for _ in range(ROUND_LIMIT):

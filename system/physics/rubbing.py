@@ -5,17 +5,16 @@ from __future__ import annotations
 from dataclasses import replace
 
 from system.kinematics import Array
-from system.pairs import FrictionPairs, PairLoss
+from system.pairs import FrictionPairs, Pair, PairLoss
 from system.physics.effects import Effects
 from system.physics.state import GAPS
 from system.pump_gap import Gap
 
 OF_GAP = {
-    Gap.PISTON: "piston_cylinder",
-    Gap.SLIPPER: "slipper_swash_plate",
-    Gap.VALVE_PLATE: "valve_plate_cylinder",
+    Gap.PISTON: Pair.PISTON_CYLINDER,
+    Gap.SLIPPER: Pair.SLIPPER_SWASH_PLATE,
+    Gap.VALVE_PLATE: Pair.VALVE_PLATE_CYLINDER,
 }
-"""The pair of each gap, by its field in `FrictionPairs`."""
 SOCKET, GUIDE = 3, 4
 """Rows of `Effects.extra_coulomb` behind those of the gaps."""
 
@@ -23,10 +22,10 @@ SOCKET, GUIDE = 3, 4
 def rubbed(losses: FrictionPairs, effects: Effects) -> FrictionPairs:
     """The pairs' losses over N points and M angles, arrays (N, M), with an effect's factors and additions."""
     changed = {
-        name: _rubbed(
-            getattr(losses, name), effects.coulomb[row], effects.viscous[row], effects.extra_coulomb[row]
+        pair.value: _rubbed(
+            losses.loss(pair), effects.coulomb[row], effects.viscous[row], effects.extra_coulomb[row]
         )
-        for row, name in enumerate(OF_GAP[gap] for gap in GAPS)
+        for row, pair in enumerate(OF_GAP[gap] for gap in GAPS)
     }
     return replace(
         losses,

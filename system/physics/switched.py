@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from functools import reduce
 
+from reynolds.errors import FilmInputError
 from system.description import PumpDescription
 from system.physics.catalogue import EXTENSIONS
 from system.physics.effects import BenchState, Effects, GapCourse, both
@@ -21,6 +22,13 @@ def switched_on(pump: PumpDescription) -> Iterator[tuple[Extension, Values]]:
             section = getattr(section, extension.pair.value)
         if section is not None:
             yield extension, {key: float(value) for key, value in dict(section).items()}
+
+
+def hold_plain(pump: PumpDescription) -> None:
+    """Raise FilmInputError where a pump has effects switched on that a fidelity does not read."""
+    if pump.physics.on:
+        found = ", ".join(dict.fromkeys(extension.id.value for extension, _ in switched_on(pump)))
+        raise FilmInputError("physics", found, "no effects, or the lumped fidelity, which alone reads them")
 
 
 def stated_effects(pump: PumpDescription, courses: Mapping[Gap, GapCourse], state: BenchState) -> Effects:

@@ -5,8 +5,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from system.bench_map import LumpedBench
+from system.bench_points import BenchPoints
+from system.bench_truth import SIMULATED
 from system.description import PumpDescription
 from system.kinematics import Array
+from system.lumped import SAMPLES_PER_PITCH
 from system.lumped_point import lumped_point
 from system.operating import operating_point
 from system.physics.catalogue import EXTENSIONS
@@ -17,6 +21,17 @@ from system.pump_file import load_pump, resolved_toml
 
 REF90 = load_pump("ref90")
 BY_NAME = [pytest.param(one, id=one.parameters[0].name) for one in EXTENSIONS]
+POINTS = BenchPoints(
+    speed=np.array([219.9, 300.0]),
+    displacement_ratio=np.array([1.0, 0.6]),
+    p_out=np.array([35e6, 35e6]),
+    p_in=np.array([2.5e6, 1e5]),
+    p_case=np.array([0.15e6, 0.15e6]),
+    T_case=np.array([323.15, 333.15]),
+    T_in=np.array([318.15, 318.15]),
+    hours=np.zeros(2),
+    order=np.arange(2.0),
+)
 CLOSED = 1e-3
 """Largest error of the power balance with an effect on, of the shaft power."""
 
@@ -106,3 +121,20 @@ def test_effects_are_read_from_a_file_and_written_back(tmp_path):
             own.name.rpartition(".")[2] for own in extension.parameters
         }
     assert "physics" not in text
+
+
+@pytest.mark.parametrize("extension", BY_NAME)
+def test_a_bench_map_reads_the_same_with_an_effect_stated_as_with_its_law(extension):
+    """The map's law at its values, the map of a pump that states them, and the point of that pump."""
+    values = np.array([one.value(1.0) for one in extension.parameters])
+    member = extension.members[-1]
+    law = LumpedBench(REF90, POINTS, SIMULATED, member.parameters, (member,), samples_per_pitch=SAMPLES_PER_PITCH)
+    stated = LumpedBench(with_effect(extension), POINTS, SIMULATED, (), samples_per_pitch=SAMPLES_PER_PITCH)
+    read = law.predict(values)
+    np.testing.assert_allclose(stated.predict(np.array([])), read, rtol=1e-12)
+    asked = operating_point(
+        REF90, displacement_ratio=0.6, temperature=333.15, shaft_speed=300.0, inlet_pressure=1e5
+    )
+    bench = lumped_point(with_effect(extension), asked).bench
+    one = [bench.delivery_flow, bench.inlet_flow, bench.drain_flow, bench.shaft_torque]
+    np.testing.assert_allclose(read[1], one, rtol=3e-5)
