@@ -47,12 +47,25 @@ _POWERS = {
 }
 """Powers of the scales of the pistons (diameter) and of the group (pitch radius) with which a value goes."""
 
+_WIDE = {
+    "film_thickness": 0.5,
+    "eccentricity_ratio": 0.2,
+    "bulk_modulus": 0.1,
+    "friction": 0.6,
+    "guide_friction": 0.6,
+    "bearing_friction": 0.6,
+    "displacement": 0.005,
+    "dead_volume": 0.3,
+    "flow_coefficient": 0.1,
+}
+"""[tolerance] of what is scaled, so that a recording decides: the films of HST 196 are 1.5 to 1.9 times REF90's."""
+
 
 @dataclass(frozen=True)
 class KnownPump:
     """A pump and how it is known: `stated` are the paths that its file gives, `assumptions` what was taken.
 
-    scant: whether most of it was scaled, so that its films, friction and lengths are wide.
+    scant: whether most of it was scaled; its [tolerance] is then wide where the file does not state it.
     """
 
     pump: PumpDescription
@@ -96,7 +109,12 @@ def _scaled(source: str, text: str, stated: Mapping[str, Any], folder: Path) -> 
         top.fault("oil.grade", "no such key", "the oil's grade, such as 'ISO VG 46', or its two viscosities")
     if facts is None or top.faults:
         raise InputFaults(source, top.faults, fault_lines(text, top.faults))
-    tables: dict[str, Any] = {"name": Path(source).stem, "format": FORMAT, **_tables(facts)}
+    tables: dict[str, Any] = {
+        "name": Path(source).stem,
+        "format": FORMAT,
+        **_tables(facts),
+        "tolerance": dict(_WIDE),
+    }
     paths = set()
     for name, table in stated.items():
         if isinstance(table, dict) and isinstance(tables.get(name, {}), dict):
@@ -219,7 +237,11 @@ def _assumptions(tables: Mapping[str, Any], stated: set[str]) -> tuple[Assumptio
             path = f"{name}.{key}"
             if path in stated:
                 continue
-            wide = path in scaled or name in ("valve_plate", "ports")
-            reason = "REF90's, scaled to displacement and pistons" if wide else "REF90's"
+            if name == "tolerance":
+                reason = "wide, since the pump is scaled from another"
+            elif path in scaled or name in ("valve_plate", "ports"):
+                reason = "REF90's, scaled to displacement and pistons"
+            else:
+                reason = "REF90's"
             taken.append(Assumption(path, str(value), reason))
     return tuple(taken)

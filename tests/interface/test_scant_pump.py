@@ -8,6 +8,7 @@ from diagnosis.scant_pump import load_known_pump
 from system.faults import InputFaults
 from system.kinematics import SwashDrive, displacement, stroke
 from system.pump_file import check_pump, load_pump
+from system.tolerances import tolerances
 
 SCANT = '[pump]\ndisplacement = "{}"\npistons = {}\n[oil]\ngrade = "ISO VG 46"\n'
 
@@ -78,6 +79,15 @@ def test_what_is_stated_holds(tmp_path):
     paths = {assumption.path for assumption in known.assumptions}
     assert "slipper.film_thickness" in paths
     assert not paths & known.stated
+
+
+def test_what_is_scaled_is_wide_and_what_is_stated_is_not(tmp_path):
+    text = SCANT.format("60 cm3", 9) + "[tolerance]\nfriction = 0.2\n"
+    wide, _ = tolerances(_load(tmp_path, text).pump)
+    usual, _ = tolerances(load_pump("ref90"))
+    assert wide.film_thickness > 5.0 * usual.film_thickness
+    assert wide.friction == 0.2
+    assert wide.bearing_friction > usual.bearing_friction
 
 
 def test_complete_pumps_are_as_they_are():
