@@ -13,6 +13,7 @@ from system.faults import Fault, InputFaults
 
 COMMAND_LINE = "command line"
 PAGES = {
+    "diagnosis": "diagnose_page.write_diagnose_page",
     "film": "film_page.write_film_page",
     "film_revolution": "revolution_page.write_revolution_page",
     "film_study": "series_page.write_study_page",

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import io
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from swashfilm.figure_png import figure_of, png_of
 from swashfilm.maps import draw_map
 from swashfilm.pump_data import GAPS, PICTURED_TURN
 from swashfilm.pump_summary import ABBREVIATION
@@ -15,7 +15,6 @@ from system.pairs import Pair
 
 if TYPE_CHECKING:
     import xarray
-    from matplotlib.figure import Figure
 
 LPM = 6e4
 """L/min for one m3/s."""
@@ -24,7 +23,7 @@ TITLES = {"piston": "piston-cylinder", "slipper": "slipper-swash plate", "valve_
 
 def loss_bar(summary: Mapping[str, Any]) -> bytes:
     """Losses of the seven pairs (W) as one stacked bar each for Coulomb and viscous, share written on it."""
-    figure = _figure(8.4, 3.4)
+    figure = figure_of(8.4, 3.4)
     axes = figure.subplots()
     names = [f"{ABBREVIATION[pair]}" for pair in Pair]
     losses = [summary["pair_loss"][pair.value] for pair in Pair]
@@ -36,12 +35,12 @@ def loss_bar(summary: Mapping[str, Any]) -> bytes:
     axes.invert_yaxis()
     axes.set(xlabel="loss / W", xlim=(0.0, 1.25 * max(loss["total_W"] for loss in losses)))
     axes.legend(loc="lower right")
-    return _png(figure)
+    return png_of(figure)
 
 
 def chamber_plot(data: xarray.Dataset, summary: Mapping[str, Any]) -> bytes:
     """Chamber pressure (MPa) and port openings (mm2) over the shaft angle, the dead-centre regions enlarged."""
-    figure = _figure(10.0, 5.6)
+    figure = figure_of(10.0, 5.6)
     wide, near = figure.subplots(2, 1)
     angle = np.degrees(data["shaft_angle"].values)
     pressure = data["chamber_pressure"].values * 1e-6
@@ -62,12 +61,12 @@ def chamber_plot(data: xarray.Dataset, summary: Mapping[str, Any]) -> bytes:
     )
     inlet = summary["operating_point"]["inlet_pressure_Pa"] * 1e-6
     near.set_ylim(min(-0.5, inlet - 3.0), 1.08 * pressure.max())
-    return _png(figure)
+    return png_of(figure)
 
 
 def flow_plot(data: xarray.Dataset) -> bytes:
     """Delivery flow of the pump and leakage of one chamber's gaps (L/min) over the shaft angle."""
-    figure = _figure(10.0, 3.4)
+    figure = figure_of(10.0, 3.4)
     left, right = figure.subplots(1, 2)
     angle = np.degrees(data["shaft_angle"].values)
     left.plot(angle, data["pump_delivery_flow"].values * LPM, color="#1c2328")
@@ -76,12 +75,12 @@ def flow_plot(data: xarray.Dataset) -> bytes:
         right.plot(angle, data[f"{gap}_leakage"].values * LPM, label=TITLES[gap])
     right.set(xlabel="shaft angle / deg", ylabel="flow out of one chamber / L/min", xlim=(0, 360), title="gaps")
     right.legend()
-    return _png(figure)
+    return png_of(figure)
 
 
 def ripple_plot(data: xarray.Dataset) -> bytes:
     """Port pressures (MPa, off their means), line flows (L/min) and shaft torque (N m) over two piston pitches."""
-    figure = _figure(10.0, 3.4)
+    figure = figure_of(10.0, 3.4)
     left, middle, right = figure.subplots(1, 3)
     angle = np.degrees(data["shaft_angle"].values)
     for name, colour in (("delivery", "#b8862b"), ("inlet", "#5b9a5b")):
@@ -97,7 +96,7 @@ def ripple_plot(data: xarray.Dataset) -> bytes:
         axes.set(xlabel="shaft angle / deg", xlim=(0, 2.0 * data.attrs["pitch_deg"]))
     for axes in (left, middle):  # below, where no curve runs
         axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.22), ncols=2, fontsize="small", frameon=False)
-    return _png(figure)
+    return png_of(figure)
 
 
 def gap_maps(data: xarray.Dataset) -> dict[str, bytes]:
@@ -107,7 +106,7 @@ def gap_maps(data: xarray.Dataset) -> dict[str, bytes]:
 
 def film_series(data: xarray.Dataset) -> bytes:
     """Minimum film, carried share of the load and friction of one piston and one slipper over the turn."""
-    figure = _figure(10.0, 3.4)
+    figure = figure_of(10.0, 3.4)
     left, middle, right = figure.subplots(1, 3)
     for gap in ("piston", "slipper"):
         angle = np.degrees(data[f"{gap}_angle"].values)
@@ -124,7 +123,7 @@ def film_series(data: xarray.Dataset) -> bytes:
     for axes in (left, middle, right):
         axes.set(xlabel="shaft angle / deg", xlim=(0, 360))
         axes.legend()
-    return _png(figure)
+    return png_of(figure)
 
 
 def pictured(data: xarray.Dataset, gap: str) -> int:
@@ -143,21 +142,9 @@ def _gap_map(data: xarray.Dataset, gap: str) -> bytes:
             ("angle from the inner dead centre's side / deg", "from the guide's inner end / mm"),
         )
     cells = data[f"{gap}_cells"].values
-    figure = _figure(10.0, 3.9)
+    figure = figure_of(10.0, 3.9)
     left, right = figure.subplots(1, 2)
     pressure, thickness = (data[f"{gap}_{name}"].values[k] for name in ("film_pressure", "film_thickness"))
     draw_map(left, (x, y), cells, pressure * 1e-6, "film pressure / MPa", labels)
     draw_map(right, (x, y), cells, thickness * 1e6, "film thickness / um", labels, "cividis")
-    return _png(figure)
-
-
-def _figure(width: float, height: float) -> Figure:
-    from matplotlib.figure import Figure
-
-    return Figure(figsize=(width, height), layout="constrained")
-
-
-def _png(figure: Figure) -> bytes:
-    picture = io.BytesIO()
-    figure.savefig(picture, format="png", dpi=110)
-    return picture.getvalue()
+    return png_of(figure)

@@ -2,19 +2,18 @@
 
 from __future__ import annotations
 
-import io
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from gaps.seen import Active
+from swashfilm.figure_png import figure_of, png_of
 from swashfilm.maps import draw_map
 from swashfilm.revolution_data import PISTON_END, POSITIONS, SHOWN
 from system.pump_gap import Gap
 
 if TYPE_CHECKING:
     import xarray
-    from matplotlib.figure import Figure
 
 THINNEST = 0.01  # um: a film below it is not told in figures
 MAPS = 4  # kept films shown as maps
@@ -55,7 +54,7 @@ def film_text(thickness: float) -> str:
 
 def _film(data: xarray.Dataset) -> bytes:
     """Least to mean film (um) over the shaft angle, the chamber's pressure beside it, what limits it below."""
-    figure = _figure(9.0, 4.6)
+    figure = figure_of(9.0, 4.6)
     axes, bands = figure.subplots(2, 1, sharex=True, height_ratios=(5, 1))
     angle = degrees(data)
     least, mean = (shown(data, name) for name in ("film_thickness_min", "film_thickness_mean"))
@@ -73,7 +72,7 @@ def _film(data: xarray.Dataset) -> bytes:
     figure.legend(loc="outside upper right", fontsize=8, ncols=2)
     draw_bands(bands, data)
     bands.set(xlabel="shaft angle from inner dead centre / deg", xlim=(0.0, span(data)))
-    return _png(figure)
+    return png_of(figure)
 
 
 def draw_bands(axes: Any, data: xarray.Dataset) -> None:
@@ -91,7 +90,7 @@ def draw_bands(axes: Any, data: xarray.Dataset) -> None:
 
 def _path(data: xarray.Dataset) -> bytes:
     """The piston's two ends in the clearance circle (um), or the tilt of slipper or block as rises (um)."""
-    figure = _figure(9.0, 4.4)
+    figure = figure_of(9.0, 4.4)
     gap, angle = Gap(data.attrs["gap"]), degrees(data)
     names = POSITIONS[gap]
     if gap is Gap.PISTON:
@@ -102,7 +101,7 @@ def _path(data: xarray.Dataset) -> bytes:
             axes.plot(clearance * np.cos(circle), clearance * np.sin(circle), color="#9aa4ab", linewidth=1.0)
             _orbit(axes, shown(data, pair[0]), shown(data, pair[1]), angle)
             axes.set(title=title, xlabel="eccentricity, to inner dead centre / um", ylabel="across / um")
-        return _png(figure)
+        return png_of(figure)
     orbit, course = figure.subplots(1, 2)
     _orbit(orbit, shown(data, "rise_x"), shown(data, "rise_y"), angle)
     orbit.set(title="tilt", xlabel="rise along x over the rim's radius / um", ylabel="rise along y / um")
@@ -110,7 +109,7 @@ def _path(data: xarray.Dataset) -> bytes:
         course.plot(angle, shown(data, name), color=colour, label=name.replace("_", " "))
     course.set(xlabel="shaft angle / deg", ylabel="coordinate / um", xlim=(0.0, span(data)))
     course.legend(fontsize=8)
-    return _png(figure)
+    return png_of(figure)
 
 
 def _orbit(axes: Any, x: np.ndarray, y: np.ndarray, angle: np.ndarray) -> None:
@@ -128,7 +127,7 @@ def _orbit(axes: Any, x: np.ndarray, y: np.ndarray, angle: np.ndarray) -> None:
 
 def _losses(data: xarray.Dataset) -> bytes:
     """Tilt (mrad), leakage (L/min) and friction (W) over the shaft angle."""
-    figure = _figure(9.0, 5.6)
+    figure = figure_of(9.0, 5.6)
     tilt, leakage, friction = figure.subplots(3, 1, sharex=True)
     angle = degrees(data)
     tilt.plot(angle, shown(data, "tilt"), color=INK)
@@ -142,12 +141,12 @@ def _losses(data: xarray.Dataset) -> bytes:
     friction.set_ylabel("friction / W")
     friction.legend(fontsize=8)
     friction.set(xlabel="shaft angle / deg", xlim=(0.0, span(data)))
-    return _png(figure)
+    return png_of(figure)
 
 
 def _contact(data: xarray.Dataset) -> bytes:
     """Contact load (N), cavitated share of the area and largest film pressure (MPa) over the shaft angle."""
-    figure = _figure(9.0, 5.0)
+    figure = figure_of(9.0, 5.0)
     rows = {
         "contact_load": ("contact / N", "#b33a3a"),
         "cavitated_area_fraction": ("cavitated share", "#4d8bb8"),
@@ -159,7 +158,7 @@ def _contact(data: xarray.Dataset) -> bytes:
         most = max(1.05 * float(shown(data, name).max()), LEAST_SHOWN[name])
         axes.set(ylabel=title, ylim=(0.0, most), xlim=(0.0, span(data)))
     axes.set_xlabel("shaft angle / deg")
-    return _png(figure)
+    return png_of(figure)
 
 
 def _maps(data: xarray.Dataset) -> bytes:
@@ -167,17 +166,17 @@ def _maps(data: xarray.Dataset) -> bytes:
     count = data.sizes["film_angle"]
     chosen = np.unique(np.linspace(0, count - 1, min(MAPS, count)).round().astype(int))
     fields = [name for name in MAPPED if name in data]
-    figure = _figure(3.3 * len(chosen), 2.8 * len(fields))
+    figure = figure_of(3.3 * len(chosen), 2.8 * len(fields))
     rows = figure.subplots(len(fields), len(chosen), squeeze=False)
     for column, k in enumerate(chosen):
         for row, name in enumerate(fields):
             draw_film(rows[row, column], data, int(k), name)
-    return _png(figure)
+    return png_of(figure)
 
 
 def _temperature(data: xarray.Dataset) -> bytes:
     """Mean and highest temperature of the film (degC) over the shaft angle, and the walls', which stay."""
-    figure = _figure(9.0, 3.4)
+    figure = figure_of(9.0, 3.4)
     axes, angle = figure.subplots(), degrees(data)
     axes.plot(angle, shown(data, "film_temperature_max"), color=BANDS[Active.CONTACT], label="hottest place")
     axes.plot(angle, shown(data, "film_temperature_mean"), color=FILM, label="mean of the film")
@@ -187,7 +186,7 @@ def _temperature(data: xarray.Dataset) -> bytes:
     axes.set(xlabel="shaft angle / deg", ylabel="temperature / degC", xlim=(0.0, span(data)))
     figure.legend(loc="outside upper right", fontsize=8, ncols=4)
     axes.grid(visible=True, alpha=0.3)
-    return _png(figure)
+    return png_of(figure)
 
 
 def draw_film(axes: Any, data: xarray.Dataset, k: int, name: str) -> None:
@@ -212,15 +211,3 @@ def degrees(data: xarray.Dataset) -> np.ndarray:
 def span(data: xarray.Dataset) -> float:
     """Shaft angle after which all repeats, deg."""
     return float(degrees(data)[-1])
-
-
-def _figure(width: float, height: float) -> Figure:
-    from matplotlib.figure import Figure
-
-    return Figure(figsize=(width, height), layout="constrained")
-
-
-def _png(figure: Figure) -> bytes:
-    picture = io.BytesIO()
-    figure.savefig(picture, format="png", dpi=110)
-    return picture.getvalue()

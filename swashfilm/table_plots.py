@@ -2,21 +2,18 @@
 
 from __future__ import annotations
 
-import io
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from gaps.response import Axis, Response, Spacing
 from reynolds.mesh import Array
+from swashfilm.figure_png import figure_of, png_of
 from swashfilm.headline import named
 from swashfilm.revolution_data import SHOWN
 from system.response_tables import LARGE_ERROR
 from system.units import Dimension, in_unit, reading_unit
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 COLOURS = {"piston": "#3c7a8c", "slipper": "#8c5a3c", "valve_plate": "#5b9a5b", "socket": "#b8862b", "": "#3c7a8c"}
 COURSE = 80
@@ -54,7 +51,7 @@ def _words(name: str) -> str:
 
 
 def _errors(response: Response) -> bytes:
-    figure = _figure(9.0, max(2.4, 0.25 * len(response.outputs)))
+    figure = figure_of(9.0, max(2.4, 0.25 * len(response.outputs)))
     axes = figure.subplots()
     error, rows = response.held_out_error, np.arange(len(response.outputs))
     axes.barh(rows - 0.2, np.maximum(error.largest, 1e-6), 0.38, color="#c8a27c", label="largest")
@@ -66,13 +63,13 @@ def _errors(response: Response) -> bytes:
     axes.invert_yaxis()
     axes.legend(loc="best", fontsize=8)
     axes.grid(visible=True, axis="x", alpha=0.3)
-    return _png(figure)
+    return png_of(figure)
 
 
 def _parity(response: Response, record: Mapping[str, Any]) -> bytes:
     groups = _groups(response)
     lines = -(-len(groups) // COLUMNS)
-    figure = _figure(11.0, 2.6 * lines)
+    figure = figure_of(11.0, 2.6 * lines)
     solved, told = response.held_out.values, response.at(response.held_out.points)
     places = figure.subplots(lines, COLUMNS, squeeze=False).ravel()
     for axes, (what, members) in zip(places, groups.items(), strict=False):
@@ -92,12 +89,12 @@ def _parity(response: Response, record: Mapping[str, Any]) -> bytes:
         axes.set_axis_off()
     places[0].set_ylabel("by the table", fontsize=8)
     _legend(figure)
-    return _png(figure)
+    return png_of(figure)
 
 
 def _courses(response: Response, record: Mapping[str, Any]) -> bytes:
     groups = _groups(response)
-    figure = _figure(max(5.0, 2.75 * len(response.axes)), 1.7 * len(groups))
+    figure = figure_of(max(5.0, 2.75 * len(response.axes)), 1.7 * len(groups))
     grid = figure.subplots(len(groups), len(response.axes), sharey="row", squeeze=False)
     middle = np.array([float(axis.from_unit(np.array(0.5))) for axis in response.axes])
     for j, (axis, row) in enumerate(zip(response.axes, record["axes"], strict=True)):
@@ -119,7 +116,7 @@ def _courses(response: Response, record: Mapping[str, Any]) -> bytes:
                 axes.set_ylabel(title, fontsize=8)
         grid[-1, j].set_xlabel(label, fontsize=8)
     _legend(figure)
-    return _png(figure)
+    return png_of(figure)
 
 
 def _shown(what: str, members: Sequence[tuple[str, int]], record: Mapping[str, Any]) -> tuple[str, float]:
@@ -161,15 +158,3 @@ def _logarithmic(axes: Any) -> None:
     axes.xaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
     axes.xaxis.set_major_formatter(ScalarFormatter())
     axes.xaxis.set_minor_formatter(NullFormatter())
-
-
-def _figure(width: float, height: float) -> Figure:
-    from matplotlib.figure import Figure
-
-    return Figure(figsize=(width, height), layout="constrained")
-
-
-def _png(figure: Any) -> bytes:
-    picture = io.BytesIO()
-    figure.savefig(picture, format="png", dpi=110)
-    return picture.getvalue()

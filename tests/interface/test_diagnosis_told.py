@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -12,15 +13,21 @@ import pytest
 from diagnosis.angle_scan import AngleWindow
 from diagnosis.detect import ChannelMisfit, Detection
 from diagnosis.diagnosis_file import diagnosis_record, read_diagnosis, write_diagnosis
+from diagnosis.diagnosis_tables import pull_sums
 from diagnosis.hypotheses import Hypothesis
 from diagnosis.locate import Location
 from diagnosis.next_point import NextPoint
+from diagnosis.recording import Circuit, DataNote, NoteKind, RecordedChannel, Recording, SteadyTable
 from diagnosis.regions import Region
+from diagnosis.study import Study
+from diagnosis.thresholds import load_thresholds
 from diagnosis.time_scan import TimeKind, TimeMark
 from diagnosis.unknown import Scaling
 from diagnosis.verdict import Claim, Diagnosis, Estimate, Status
 from diagnosis.weighed import HeldOut, Weighed
 from diagnosis.words import paragraphs, statement
+from swashfilm.__main__ import main
+from swashfilm.diagnose_files import read_rows, write_diagnosis_files
 from system.channels import ChannelName
 from system.components import Component
 from system.estimation.fit import maximum_posterior
@@ -136,6 +143,26 @@ def named() -> Diagnosis:
     )
 
 
+@pytest.fixture(scope="module")
+def study(named: Diagnosis) -> Study:
+    """The recording that it was found in."""
+    values = np.full((PRESSURE.size, len(ChannelName)), np.nan)
+    order = list(ChannelName)
+    for name, column in {ChannelName.SPEED: SPEED, ChannelName.P_OUT: PRESSURE}.items():
+        values[:, order.index(name)] = column
+    values[:, [order.index(Q), order.index(T)]] = _readings().values
+    channels = (
+        RecordedChannel(Q, "Q_case", "L/min", 0.02 * LPM, 0.0, 0.0, 0.0, 0.0, 0.0, ("gain_sigma",)),
+        RecordedChannel(T, "M", "N m", 0.8, 0.0, 0.0, 0.0, 0.0, 0.0, ()),
+    )
+    notes = (DataNote(NoteKind.REMOVED, Q, (2,), "far from its neighbours"),)
+    nan, ones = np.full(PRESSURE.size, np.nan), np.ones(PRESSURE.size)
+    steady = SteadyTable(values, np.arange(PRESSURE.size), nan, ones)
+    recording = Recording("Bench <4>", "ref90", "ISO VG 46", Circuit.CLOSED, channels, steady, (), notes)
+    lines: Any = Lines(named.before.parameters)
+    return Study(recording, lines, _readings(), named.before, (), {}, np.zeros((PRESSURE.size, 4)))
+
+
 def _agreeing(diagnosis: Diagnosis) -> Diagnosis:
     detection = replace(diagnosis.detection, p_value=0.4, chi2_per_dof=1.0)
     return replace(
@@ -232,6 +259,50 @@ def test_agreement_claims_nothing(named: Diagnosis, tmp_path: Path) -> None:
     assert "agree within noise and tolerance" in statement(found)
     record = diagnosis_record(found)
     assert (record["effects"], record["next_test"], record["where"]["channels"]) == ([], None, [])
+
+
+def test_the_folder_holds_tables_and_a_page(study: Study, named: Diagnosis, tmp_path: Path) -> None:
+    """Pulls in residuals.csv are of the fit they name; the page is made anew from the folder alone."""
+    write_diagnosis_files(tmp_path, study, named, load_thresholds())
+    rows = read_rows(tmp_path / "residuals.csv")
+    assert len(rows) == 2 * PRESSURE.size
+    flow = [row for row in rows if row["channel"] == "Q_case"]
+    before, after = (
+        np.sqrt(np.mean([float(row[key]) ** 2 for row in flow])) for key in ("pull_before", "pull_after")
+    )
+    assert after < 1.3 < 2.0 < before
+    assert float(flow[0]["p_out [bar]"]) == pytest.approx(50)
+    assert float(flow[0]["measured"]) == pytest.approx(float(study.observations.values[0, 0]) / LPM, rel=1e-5)
+    assert [row["behind [nats]"] for row in read_rows(tmp_path / "hypotheses.csv")] == ["0", "4", "380"]
+    opening = next(row for row in read_rows(tmp_path / "parameters.csv") if row["name"] == "opening")
+    assert opening["before"] == ""
+    assert float(opening["after"]) == pytest.approx(0.4, abs=4 * float(opening["sigma"]))
+    page = (tmp_path / "report.html").read_text("utf-8")
+    for part in (
+        "Bench &lt;4&gt;",
+        "a film opens under pressure",
+        "point 3: far from its neighbours",
+        "gain_sigma",
+    ):
+        assert part in page
+    (tmp_path / "report.html").unlink()
+    assert main(["report", str(tmp_path)]) == 0
+    assert (tmp_path / "report.html").read_text("utf-8") == page
+
+
+def test_a_right_name_lets_the_pulls_fall(named: Diagnosis) -> None:
+    before, after = pull_sums(named.before, named.after)
+    assert after < 0.5 * before
+
+
+@pytest.mark.parametrize("kind", [Kind.NO_MISMATCH, Kind.UNKNOWN_PHYSICS])
+def test_a_page_without_a_claim(study: Study, named: Diagnosis, tmp_path: Path, kind: Kind) -> None:
+    found = replace(
+        _agreeing(named), kind=kind, after=named.before, fit=HeldOut({}, {}, {}, {}, False, "not split")
+    )
+    write_diagnosis_files(tmp_path, study, found, load_thresholds())
+    page = (tmp_path / "report.html").read_text("utf-8")
+    assert "<h2>What</h2>" not in page
 
 
 @pytest.mark.parametrize(

@@ -1,0 +1,129 @@
+"""The tables of a diagnosis, as rows of text by column: what was measured and simulated, parameters, hypotheses.
+
+Every column that carries a number names its unit in brackets.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+
+import numpy as np
+
+from diagnosis.recording import Recording
+from diagnosis.shown import channel_unit, difference, reading
+from diagnosis.study import Study
+from diagnosis.verdict import Diagnosis
+from system.channels import ChannelName
+from system.estimation.parameters import Parameter
+from system.estimation.posterior import Posterior
+from system.units import Dimension
+
+AXES = (ChannelName.SPEED, ChannelName.P_OUT, ChannelName.DISPLACEMENT_RATIO, ChannelName.T_CASE)
+Row = Mapping[str, str]
+
+
+def steady_rows(recording: Recording) -> Iterator[Row]:
+    """The steady points as understood: every channel that was measured at all, in its reading unit."""
+    table = recording.steady
+    names = list(ChannelName)
+    seen = [name for name in names if np.any(np.isfinite(table.values[:, names.index(name)]))]
+    for point, values in enumerate(table.values):
+        row = {"point": str(point)}
+        for name in seen:
+            row[f"{name.value} [{channel_unit(name)}]"] = _reading(name, float(values[names.index(name)]))
+        yield row
+
+
+def residual_rows(study: Study, diagnosis: Diagnosis) -> Iterator[Row]:
+    """Each reading: where it was taken, measured and simulated by the null and by what is claimed, pulls.
+
+    sigma is that of a reading, the noise of the point's inputs included; pull = (measured - simulated) / sigma.
+    """
+    order = list(ChannelName)
+    sigma = diagnosis.before.whitening.sigma
+    before, after = diagnosis.before.predictions, diagnosis.after.predictions
+    for point, at in np.argwhere(study.observations.measured):
+        channel = ChannelName.named(study.observations.channels[at].name)
+        measured, one = study.observations.values[point, at], sigma[point, at]
+        place = {
+            f"{axis.value} [{channel_unit(axis)}]": _reading(
+                axis, float(study.recording.steady.values[point, order.index(axis)])
+            )
+            for axis in AXES
+        }
+        yield {
+            "point": str(point),
+            "channel": channel.value,
+            "unit": channel_unit(channel),
+            **place,
+            "measured": _text(reading(channel, measured)),
+            "before": _text(reading(channel, before[point, at])),
+            "after": _text(reading(channel, after[point, at])),
+            "sigma": _text(difference(channel, one)),
+            "pull_before": _text((measured - before[point, at]) / one),
+            "pull_after": _text((measured - after[point, at]) / one),
+        }
+
+
+def hypothesis_rows(diagnosis: Diagnosis) -> Iterator[Row]:
+    """What was weighed: odds in nats behind the best, probability, score, gain of the folds held out."""
+    best = max((one.log_evidence for one in diagnosis.hypotheses), default=0.0)
+    for one in diagnosis.hypotheses:
+        heldout = one.heldout
+        yield {
+            "effects": " + ".join(effect.value for effect in one.hypothesis.effects),
+            "pair": one.hypothesis.pair.value if one.hypothesis.pair else "",
+            "kind": one.hypothesis.kind.value,
+            "probability": _text(one.probability),
+            "behind [nats]": _text(best - one.log_evidence),
+            "refitted": "no" if one.linear else "yes",
+            "z": _text(one.z),
+            "held_out_gain [nats]": _text(sum(heldout.gains.values())) if heldout else "",
+            "vetoed": ("yes" if heldout.vetoed else "no") if heldout else "",
+        }
+
+
+def parameter_rows(diagnosis: Diagnosis) -> Iterator[Row]:
+    """Every parameter of the claimed fit: prior, value and pull by the null's fit and by the claimed one."""
+    before, after = diagnosis.before, diagnosis.after
+    known = {parameter.name for parameter in before.parameters}
+    for at, parameter in enumerate(after.parameters):
+        had = before.index(parameter.name) if parameter.name in known else None
+        yield {
+            "name": parameter.name,
+            "unit": _unit(parameter),
+            "role": parameter.role.value,
+            "prior": _text(parameter.centre),
+            "prior_sigma": _text(abs(parameter.stretch(0.0))),
+            "before": _text(float(before.values[had])) if had is not None else "",
+            "after": _text(float(after.values[at])),
+            "sigma": _text(after.sigma(parameter.name)),
+            "pull_before": _text(float(before.pulls[had])) if had is not None else "",
+            "pull_after": _text(float(after.pulls[at])),
+            "source": parameter.source,
+        }
+
+
+def pull_sums(before: Posterior, after: Posterior) -> tuple[float, float]:
+    """Sum of the squared pulls of the parameters that both fits have: it falls where a name is right."""
+    names = {parameter.name for parameter in before.parameters} & {one.name for one in after.parameters}
+
+    def total(fit: Posterior) -> float:
+        return float(sum(fit.pulls[fit.index(name)] ** 2 for name in names))
+
+    return total(before), total(after)
+
+
+def _reading(channel: ChannelName, value: float) -> str:
+    """A reading in SI in its unit, empty where there is none."""
+    return _text(reading(channel, value)) if np.isfinite(value) else ""
+
+
+def _unit(parameter: Parameter) -> str:
+    if parameter.dimension is Dimension.TEMPERATURE:
+        return "K"
+    return parameter.dimension.si_unit if parameter.dimension else "1"
+
+
+def _text(value: float) -> str:
+    return f"{value:.6g}" if np.isfinite(value) else ""

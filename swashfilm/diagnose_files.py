@@ -1,0 +1,78 @@
+"""The run folder of a diagnosis: what was found as files that programs and the page read."""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+from typing import Any
+
+from diagnosis.diagnosis_file import write_diagnosis
+from diagnosis.diagnosis_tables import hypothesis_rows, parameter_rows, pull_sums, residual_rows, steady_rows
+from diagnosis.recording import DataNote
+from diagnosis.study import Study
+from diagnosis.thresholds import Thresholds
+from diagnosis.verdict import Diagnosis
+from swashfilm.run_folder import write_json
+
+KIND = "diagnosis"
+
+
+def write_diagnosis_files(folder: Path, study: Study, diagnosis: Diagnosis, thresholds: Thresholds) -> None:
+    """Write diagnosis.json, summary.json, four tables and report.html into a run folder."""
+    write_rows(folder / "steady.csv", steady_rows(study.recording))
+    write_rows(folder / "residuals.csv", residual_rows(study, diagnosis))
+    write_rows(folder / "hypotheses.csv", hypothesis_rows(diagnosis))
+    write_rows(folder / "parameters.csv", parameter_rows(diagnosis))
+    write_diagnosis(folder / "diagnosis.json", diagnosis)
+    write_json(folder / "summary.json", diagnosis_summary(study, diagnosis, thresholds))
+    from swashfilm.diagnose_page import write_diagnose_page
+
+    write_diagnose_page(folder)
+
+
+def diagnosis_summary(study: Study, diagnosis: Diagnosis, thresholds: Thresholds) -> dict[str, Any]:
+    """What the page needs beside diagnosis.json: the recording, its data notes, what was taken, what decides."""
+    before, after = pull_sums(diagnosis.before, diagnosis.after)
+    recording = study.recording
+    return {
+        "format": 1,
+        "kind": KIND,
+        "name": recording.title,
+        "pump": recording.pump,
+        "oil": recording.oil,
+        "points": len(recording.steady.values),
+        "channels": [channel.name.value for channel in recording.channels],
+        "data_notes": [note_text(note) for note in recording.notes],
+        "assumptions": [
+            f"{channel.name.value}: {', '.join(channel.assumed)} not stated by the recording"
+            for channel in recording.channels
+            if channel.assumed
+        ],
+        "squared_pulls": {"before": before, "after": after},
+        "thresholds_sha256": thresholds.digest,
+        "seconds": diagnosis.effort.seconds,
+    }
+
+
+def note_text(note: DataNote) -> str:
+    """A finding in the data with its channel and its points, counted from 1."""
+    where = [note.channel.value] if note.channel else []
+    if note.points:
+        where.append("point " + ", ".join(str(point + 1) for point in note.points))
+    return f"{note.kind.value}: {': '.join([' '.join(where), note.text] if where else [note.text])}"
+
+
+def write_rows(path: Path, rows: Iterable[Mapping[str, str]]) -> None:
+    """Write rows of one set of columns as CSV."""
+    listed = list(rows)
+    with path.open("w", encoding="utf-8", newline="") as file:
+        writer = csv.DictWriter(file, list(listed[0]) if listed else [], lineterminator="\n")
+        writer.writeheader()
+        writer.writerows(listed)
+
+
+def read_rows(path: Path) -> list[dict[str, str]]:
+    """Read what `write_rows` wrote."""
+    with path.open(encoding="utf-8", newline="") as file:
+        return list(csv.DictReader(file))

@@ -1,0 +1,123 @@
+"""The page of a diagnosis: report.html made from the run folder's own files."""
+
+from __future__ import annotations
+
+import base64
+import json
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from diagnosis.diagnosis_file import read_diagnosis
+from swashfilm import diagnose_plots
+from swashfilm.diagnose_files import read_rows
+from system.faults import Fault, InputFaults
+
+FILES = ("summary.json", "diagnosis.json", "residuals.csv", "hypotheses.csv", "parameters.csv")
+AXES = {"speed": "speed [rpm]", "pressure": "p_out [bar]", "displacement": "displacement_ratio [1]",
+        "viscosity": "T_case [degC]"}  # fmt: skip
+"""The column that an exponent of a scaling goes over."""
+
+
+def write_diagnose_page(folder: Path) -> Path:
+    """Write report.html of a diagnosis; raises InputFaults where one of its files is not there."""
+    from jinja2 import Environment, PackageLoader
+
+    missing = [name for name in FILES if not (folder / name).is_file()]
+    if missing:
+        faults = [Fault(name, "no such file", "a diagnosis's run folder") for name in missing]
+        raise InputFaults(str(folder), faults)
+    found = read_diagnosis(folder / "diagnosis.json")
+    tables = {name: read_rows(folder / f"{name}.csv") for name in ("residuals", "hypotheses", "parameters")}
+    template = Environment(loader=PackageLoader("swashfilm"), autoescape=True).get_template("diagnose.html.jinja")
+    page = template.render(
+        summary=json.loads((folder / "summary.json").read_text("utf-8")),
+        found=found,
+        channels=list(channel_rows(found)),
+        place=list(place_rows(found)),
+        claims=list(claim_rows(found)),
+        parameters=list(parameter_rows(tables["parameters"])),
+        pictures={name: base64.b64encode(png).decode("ascii") for name, png in _pictures(found, tables).items()},
+    )
+    path = folder / "report.html"
+    path.write_text(page, encoding="utf-8")
+    return path
+
+
+def channel_rows(found: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:
+    """(channel, chi2 per reading, share, held-out rms before, after, noise): what each channel says."""
+    for name, misfit in found["mismatch"]["channels"].items():
+        fit = found["fit"]["heldout"].get(name, {})
+        shown = (f"{fit[key]:.3g} {fit['unit']}" if fit.get(key) is not None else "" for key in _HELD_OUT)
+        yield name, f"{misfit['chi2_per_dof']:.3g}", f"{100 * misfit['share']:.0f} %", *shown
+
+
+_HELD_OUT = ("before", "after", "noise")
+
+
+def place_rows(found: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
+    """(what, value): where the mismatch sits."""
+    where = found["where"]
+    yield "channels", ", ".join(where["channels"]) or "none"
+    yield "region of the map", where["region"] or "everywhere"
+    if where["components"]:
+        yield "component", " or ".join(where["components"]).replace("_", " ")
+    if where["pair"]:
+        yield "pair", where["pair"].replace("_", " ")
+    if where["shaft_angle_deg"]:
+        yield "shaft angle", " to ".join(f"{angle:.3g}" for angle in where["shaft_angle_deg"]) + " deg"
+    if where["time"]:
+        yield where["time"]["kind"], f"point {where['time']['point'] + 1}"
+
+
+def claim_rows(found: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:
+    """(effect, pair, probability, what it cannot be told from, parameters with their sigma)."""
+    for claim in found["effects"]:
+        sizes = (
+            f"{one['name']} {one['value']:.3g} +- {one['sigma']:.2g} {one['unit']}" for one in claim["parameters"]
+        )
+        yield (
+            claim["id"],
+            (claim["pair"] or "").replace("_", " "),
+            f"{claim['probability']:.3f}",
+            ", ".join(claim["equivalent"]),
+            "; ".join(sizes),
+        )
+
+
+def parameter_rows(rows: Sequence[Mapping[str, str]]) -> Iterator[tuple[str, ...]]:
+    """(parameter, stated, before, after, pulls), the most pulled first."""
+    ranked = sorted(rows, key=lambda row: -abs(float(row["pull_after"])))
+    for row in ranked:
+        unit = "" if row["unit"] == "1" else f" {row['unit']}"
+        before = f"{row['before']}{unit}" if row["before"] else "not there"
+        yield (
+            row["name"],
+            f"{row['prior']} +- {row['prior_sigma']}{unit}",
+            before,
+            f"{row['after']} +- {row['sigma']}{unit}",
+            f"{row['pull_before'] or '-'} -> {row['pull_after']}",
+        )
+
+
+def _pictures(found: Mapping[str, Any], tables: Mapping[str, Sequence[Mapping[str, str]]]) -> dict[str, bytes]:
+    """Captions and PNGs."""
+    residuals = tables["residuals"]
+    held_out = {name: row for name, row in found["fit"]["heldout"].items() if all(row[key] for key in _HELD_OUT)}
+    pictures = {"maps": diagnose_plots.residual_maps(residuals)}
+    channel, axis = _course(found)
+    if channel is not None and found["effects"] and any(row[axis] for row in residuals):
+        pictures["course"] = diagnose_plots.effect_course(residuals, channel, axis)
+    if held_out:
+        pictures["held_out"] = diagnose_plots.held_out_bars(held_out)
+    if tables["hypotheses"]:
+        pictures["hypotheses"] = diagnose_plots.hypothesis_bars(tables["hypotheses"])
+    pictures["pulls"] = diagnose_plots.pull_changes(tables["parameters"])
+    return pictures
+
+
+def _course(found: Mapping[str, Any]) -> tuple[str | None, str]:
+    """The channel, and the axis that its residual grows with most."""
+    channel = next(iter(found["where"]["channels"]), None)
+    exponents = (found["scaling"] or {}).get("exponents", {"pressure": 1.0})
+    return channel, AXES[max(exponents, key=lambda name: abs(exponents[name]))]

@@ -1,0 +1,171 @@
+"""Pictures of a diagnosis, drawn from the tables of its run folder."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from reynolds.mesh import Array
+from swashfilm.figure_png import figure_of, png_of
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+Row = Mapping[str, str]
+BEFORE, AFTER, NOISE = "#b55a00", "#3c7a8c", "#9aa4ab"
+MOST_BARS = 12
+RATIO_STEP = 0.1
+"""Points whose displacement ratios differ by less are drawn together."""
+
+
+def residual_maps(rows: Sequence[Row]) -> bytes:
+    """Pulls over speed and pressure, a row for each channel, before and after side by side, on one scale."""
+    channels = list(dict.fromkeys(row["channel"] for row in rows))
+    levels = _levels(_column(rows, "displacement_ratio [1]"))
+    figure = figure_of(1.5 + 2.1 * 2 * len(levels), 0.6 + 2.1 * len(channels))
+    grid = figure.subplots(len(channels), 2 * len(levels), squeeze=False, sharex=True, sharey=True)
+    most = max(3.0, float(np.nanpercentile(np.abs(_column(rows, "pull_before")), 98)))
+    drawn: Any = None
+    for line, channel in zip(grid, channels, strict=True):
+        for at, level in enumerate(levels):
+            own = [row for row in rows if row["channel"] == channel and _of_level(row, level)]
+            for shift, key in enumerate(("pull_before", "pull_after")):
+                axes = line[2 * at + shift]
+                drawn = _map(axes, own, key, most)
+        line[0].set_ylabel(f"{channel}\np_out / bar", fontsize=8)
+    titles = [_title(level, key) for level in levels for key in ("pull_before", "pull_after")]
+    for top, bottom, title in zip(grid[0], grid[-1], titles, strict=True):
+        top.set_title(title, fontsize=8)
+        bottom.set_xlabel("speed / rpm", fontsize=8)
+    bar = figure.colorbar(drawn, ax=grid.ravel().tolist(), shrink=0.8, extend="both")
+    bar.set_label("(measured - simulated) / sigma", fontsize=8)
+    return png_of(figure)
+
+
+def held_out_bars(held_out: Mapping[str, Mapping[str, Any]]) -> bytes:
+    """RMS of held-out residuals before and after, in units of each channel's noise."""
+    names = list(held_out)
+    figure = figure_of(7.0, 1.2 + 0.5 * len(names))
+    axes, places = figure.subplots(), np.arange(len(names))
+    for shift, (key, colour) in enumerate((("before", BEFORE), ("after", AFTER))):
+        sizes = [held_out[name][key] / held_out[name]["noise"] for name in names]
+        axes.barh(places + 0.38 * shift - 0.19, sizes, 0.36, color=colour, label=key)
+    axes.axvline(1.0, color=NOISE, linestyle="--", label="noise")
+    axes.set_yticks(places, names)
+    axes.set_xlabel("rms of held-out residuals / noise")
+    axes.invert_yaxis()
+    axes.legend(fontsize=8)
+    axes.grid(visible=True, axis="x", alpha=0.3)
+    return png_of(figure)
+
+
+def hypothesis_bars(rows: Sequence[Row]) -> bytes:
+    """The likeliest hypotheses: probability, and how far behind the best each lies."""
+    ranked = sorted(rows, key=lambda row: -float(row["probability"]))[:MOST_BARS]
+    figure = figure_of(8.0, 1.0 + 0.34 * len(ranked))
+    axes, places = figure.subplots(), np.arange(len(ranked))
+    axes.barh(places, [float(row["probability"]) for row in ranked], 0.6, color=AFTER)
+    for place, row in enumerate(ranked):
+        text = f"{float(row['behind [nats]']):.3g} nats behind, z {float(row['z'] or 0):.3g}"
+        axes.text(float(row["probability"]) + 0.01, place, text, va="center", fontsize=8)
+    axes.set_yticks(places, [_name(row) for row in ranked], fontsize=8)
+    axes.set(xlim=(0.0, 1.35), xlabel="probability", xticks=np.linspace(0, 1, 6))
+    axes.invert_yaxis()
+    return png_of(figure)
+
+
+def pull_changes(rows: Sequence[Row]) -> bytes:
+    """Pulls of the parameters that either fit drags the most, from before to after."""
+    common = [row for row in rows if row["pull_before"]]
+    ranked = sorted(common, key=lambda row: -max(abs(float(row[key])) for key in ("pull_before", "pull_after")))
+    ranked = ranked[:MOST_BARS]
+    figure = figure_of(8.0, 1.0 + 0.3 * len(ranked))
+    axes, places = figure.subplots(), np.arange(len(ranked))
+    ends = [np.array([float(row[key]) for row in ranked]) for key in ("pull_before", "pull_after")]
+    axes.axvspan(-2, 2, color=NOISE, alpha=0.2)
+    axes.hlines(places, ends[0], ends[1], color=NOISE)
+    for values, colour, label in zip(ends, (BEFORE, AFTER), ("before", "after"), strict=True):
+        axes.plot(values, places, "o", color=colour, label=label)
+    axes.set_yticks(places, [row["name"].replace("_", " ") for row in ranked], fontsize=8)
+    axes.set_xlabel("pull in stated tolerances; grey: within two")
+    axes.invert_yaxis()
+    axes.legend(fontsize=8)
+    return png_of(figure)
+
+
+def effect_course(rows: Sequence[Row], channel: str, axis: str) -> bytes:
+    """What the effect adds to a channel over one axis, beside what the null leaves of the readings."""
+    own = [row for row in rows if row["channel"] == channel and row[axis]]
+    place, before = _column(own, axis), _column(own, "before")
+    figure = figure_of(8.0, 4.0)
+    axes = figure.subplots()
+    axes.errorbar(
+        place, _column(own, "measured") - before, _column(own, "sigma"), fmt="o", markersize=4, color=BEFORE,
+        markerfacecolor="none", ecolor=NOISE, label="measured less simulated before", alpha=0.8,
+    )  # fmt: skip
+    axes.plot(
+        place,
+        _column(own, "after") - before,
+        "x",
+        color=AFTER,
+        markeredgewidth=1.8,
+        label="simulated after less before",
+        zorder=3,
+    )
+    axes.axhline(0.0, color="#1c2328", linewidth=0.8)
+    name, _, unit = axis.partition(" [")
+    axes.set_xlabel(f"{name} / {unit.rstrip(']')}")
+    axes.set_ylabel(f"{channel} / {own[0]['unit'].replace('degC', 'K')}")
+    axes.legend(fontsize=8)
+    axes.grid(visible=True, alpha=0.3)
+    return png_of(figure)
+
+
+def _map(axes: Axes, rows: Sequence[Row], key: str, most: float) -> Any:
+    """One map of pulls; points at one place (of other temperatures) stand side by side."""
+    speed, pressure = _column(rows, "speed [rpm]"), _column(rows, "p_out [bar]")
+    warm = _column(rows, "T_case [degC]")
+    spread = np.ptp(warm[np.isfinite(warm)]) if np.any(np.isfinite(warm)) else 0.0
+    shift = np.nan_to_num((warm - np.nanmean(warm)) / spread) if spread > 0 else 0.0
+    width = 0.1 * (float(np.ptp(pressure)) or 1.0)
+    axes.tick_params(labelsize=7)
+    return axes.scatter(
+        speed, pressure + width * shift, c=_column(rows, key), cmap="RdBu_r", vmin=-most, vmax=most, s=16,
+        edgecolors="#6b747a", linewidths=0.3,
+    )  # fmt: skip
+
+
+def _levels(ratios: Array) -> list[tuple[float, float]]:
+    """Groups of displacement ratios: ends of each; one group of everything where there are too many."""
+    known = np.unique(ratios[np.isfinite(ratios)])
+    if known.size == 0:
+        return [(-np.inf, np.inf)]
+    groups = np.split(known, np.flatnonzero(np.diff(known) > RATIO_STEP) + 1)
+    ends = [(float(group[0]), float(group[-1])) for group in groups]
+    return ends if len(ends) <= 3 else [(float(known[0]), float(known[-1]))]
+
+
+def _of_level(row: Row, level: tuple[float, float]) -> bool:
+    lower, upper = level
+    text = row["displacement_ratio [1]"]
+    return not text or lower <= float(text) <= upper
+
+
+def _title(level: tuple[float, float], key: str) -> str:
+    when = key.removeprefix("pull_")
+    if not np.all(np.isfinite(level)):
+        return when
+    lower, upper = level
+    one = f"{(lower + upper) / 2:.2g}" if upper - lower < RATIO_STEP / 2 else f"{lower:.2g} to {upper:.2g}"
+    return f"displacement {one}, {when}"
+
+
+def _name(row: Row) -> str:
+    words = row["effects"].replace("_", " ") or row["kind"].replace("_", " ")
+    return f"{words}, {row['pair'].replace('_', ' ')}" if row["pair"] else words
+
+
+def _column(rows: Sequence[Row], key: str) -> Array:
+    return np.array([float(row[key]) if row[key] else np.nan for row in rows])
