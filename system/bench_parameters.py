@@ -69,12 +69,15 @@ def pump_with(pump: PumpDescription, values: Mapping[str, float]) -> PumpDescrip
     for pair in FrictionSection.model_fields:
         _set(changed, pump, "friction", pair, values.get(f"friction.{pair}"))
     _set(changed, pump, "pump", "dead_volume", values.get("dead_volume"))
-    _set(changed, pump, "pump", "swash_angle_max", _swash_angle(pump, values.get("displacement", 1.0)))
+    factor = values.get("displacement", 1.0)
+    _set(changed, pump, "pump", "swash_angle_max", _swash_angle(pump, factor))
+    if pump.pump.displacement is not None:
+        _set(changed, pump, "pump", "displacement", factor * pump.pump.displacement)
     _set(changed, pump, "ports", "flow_coefficient", values.get("flow_coefficient"))
     _set(changed, pump, "oil", "bulk_modulus", values.get("bulk_modulus"))
-    factor, slope = values.get("viscosity", 1.0), values.get("viscosity_slope", 0.0)
+    thicker, slope = values.get("viscosity", 1.0), values.get("viscosity_slope", 0.0)
     for key, kelvin in (("kinematic_viscosity_40C", 313.15), ("kinematic_viscosity_100C", 373.15)):
-        _set(changed, pump, "oil", key, getattr(pump.oil, key) * factor * np.exp(slope * (kelvin - SLOPE_ABOUT)))
+        _set(changed, pump, "oil", key, getattr(pump.oil, key) * thicker * np.exp(slope * (kelvin - SLOPE_ABOUT)))
     return pump.model_copy(update=changed)
 
 
