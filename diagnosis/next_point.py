@@ -14,11 +14,12 @@ import numpy as np
 from scipy.linalg import cho_factor, cho_solve
 
 from diagnosis.bench_box import rig_box, rows
-from diagnosis.study import PumpSimulator, Study
+from diagnosis.study import Study
 from system.bench_points import BenchPoints
 from system.description import PumpDescription
 from system.estimation.observations import Array, Observations
 from system.estimation.posterior import Posterior, standard_slopes
+from system.estimation.simulator import Simulator
 from system.estimation.whitening import Whitening, whitener
 from system.operating import OperatingPoint, operating_point
 from system.physics.effects import EffectId
@@ -42,7 +43,7 @@ class NextPoint:
     why: str
 
 
-class MovableSimulator(PumpSimulator, Protocol):
+class MovableSimulator(Simulator, Protocol):
     """A simulator of a bench map that can be asked at other points."""
 
     def elsewhere(self, points: BenchPoints) -> Self:

@@ -136,6 +136,13 @@ class LumpedBench:
         joining = tuple(parameter for extension in extensions for parameter in extension.parameters)
         return self._with(joining, (*self.physics, *extensions))
 
+    def elsewhere(self, points: BenchPoints) -> LumpedBench:
+        """The same pump with the same parameters and laws at other points."""
+        return LumpedBench(
+            self.pump, points, self.channels, self.parameters, self.physics, self.inputs, self.samples_per_pitch,
+            self.tolerance,
+        )  # fmt: skip
+
     def traces(self, values: Array, points: tuple[int, ...], angles: Array) -> Array:
         """Chamber pressure (len(points), K) in Pa gauge at shaft angles (K,) rad as an encoder reads them.
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -13,14 +13,17 @@ from diagnosis.bench_box import rig_box
 from diagnosis.next_point import Contender, NextPoint, divergence, gains_at, next_point
 from diagnosis.recording import Circuit, RecordedChannel, Recording, SteadyTable
 from diagnosis.study import Study
+from system.bench_map import LumpedBench
+from system.bench_parameters import base_parameters
 from system.bench_points import BenchPoints
 from system.channels import ChannelName
-from system.components import Component
 from system.estimation.fit import maximum_posterior
 from system.estimation.observations import Array, Channel, Observations
 from system.estimation.parameters import Parameter, Role, Scale
+from system.physics.catalogue import entry_of
 from system.physics.effects import EffectId
 from system.pump_file import load_pump
+from system.tolerances import tolerances
 from system.units import Dimension
 
 MPA, LPM = 1e6, 1.0 / 60000.0
@@ -49,12 +52,6 @@ class Drain:
 
     def with_parameters(self, parameters: tuple[Parameter, ...]) -> Drain:
         return replace(self, parameters=parameters)
-
-    def with_extension(self, *_: Any) -> Drain:
-        raise NotImplementedError("no law of the catalogue acts here")
-
-    def components(self, values: Array) -> Mapping[Component, Array]:
-        return {}
 
     def elsewhere(self, points: BenchPoints) -> Drain:
         return replace(self, points=points)
@@ -114,7 +111,8 @@ def _rivals(true: Law, seed: int) -> tuple[Study, Contender, Contender]:
     fits = [maximum_posterior(drain, readings) for drain in drains]
     ids = (EffectId.ELASTIC_OPENING,), (EffectId.FILM_HEATING,)
     first, second = (Contender(*each) for each in zip(ids, drains, fits, strict=True))
-    return Study(_recording(points, flow), drains[0], readings, fits[0], (), {}, np.zeros((24, 4))), first, second
+    simulator: Any = drains[0]  # nothing else of it is asked for
+    return Study(_recording(points, flow), simulator, readings, fits[0], (), {}, np.zeros((24, 4))), first, second
 
 
 def _asked(point: NextPoint) -> BenchPoints:
@@ -188,3 +186,23 @@ def test_box_holds_what_the_rig_can_do() -> None:
     grid = box.points((np.array([slow, fast]), np.array([low, high]), np.array([1.0]), np.array([320.0])))
     assert len(grid.speed) == 4
     assert set(grid.order) == {24.0}
+
+
+def test_a_bench_elsewhere_is_the_bench_of_those_points() -> None:
+    """A lumped bench moved to another point reads there what one made for it reads, laws and parameters kept."""
+    pump = load_pump("ref90")
+    here, there = (_one_point(speed) for speed in (100.0, 150.0))
+    parameters = base_parameters(pump, tolerances(pump)[0])
+    law = entry_of(EffectId.CHURNING).extensions[0].members[0]
+    bench = LumpedBench(pump, here, (ChannelName.Q_CASE, ChannelName.TORQUE), parameters).with_extensions((law,))
+    moved = bench.elsewhere(there)
+    assert moved.parameters == bench.parameters
+    values = np.array([parameter.centre for parameter in bench.parameters])
+    own = LumpedBench(pump, there, bench.channels, bench.parameters, bench.physics)
+    np.testing.assert_array_equal(moved.predict(values), own.predict(values))
+    assert np.all(moved.predict(values) != bench.predict(values))
+
+
+def _one_point(speed: float) -> BenchPoints:
+    numbers = (speed, 1.0, 20 * MPA, 2.5 * MPA, 0.15 * MPA, 323.15, 323.15, 0.0, 0.0)
+    return BenchPoints(*(np.array([number]) for number in numbers))
