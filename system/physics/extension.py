@@ -42,8 +42,11 @@ class Extension:
 
     def effects(self, values: Mapping[str, float], courses: Mapping[Gap, GapCourse], state: BenchState) -> Effects:
         """What the law changes with parameters by name; those of other extensions beside them do not matter."""
-        own = {one.name.rpartition(".")[2]: values[one.name] for one in self.parameters}
-        return self.law({**self.grid[0], **own}, courses, state)
+        return self.law(self.stated(values), courses, state)
+
+    def stated(self, values: Mapping[str, float]) -> dict[str, float]:
+        """The law's values by its own keys, as a pump file's table states them, of parameters by name."""
+        return {**self.grid[0], **{one.name.rpartition(".")[2]: values[one.name] for one in self.parameters}}
 
 
 @dataclass(frozen=True)

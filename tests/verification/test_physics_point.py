@@ -5,10 +5,15 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from reynolds.errors import FilmInputError
 from system.bench_map import LumpedBench
+from system.bench_parameters import base_parameters
 from system.bench_points import BenchPoints
 from system.bench_truth import SIMULATED
 from system.description import PumpDescription
+from system.extended_pump import extended_pump
+from system.films import films_point
+from system.floating import floating_point
 from system.kinematics import Array
 from system.lumped import SAMPLES_PER_PITCH
 from system.lumped_point import lumped_point
@@ -18,11 +23,12 @@ from system.physics.extension import Extension
 from system.physics.switched import switched_on
 from system.physics_description import PhysicsSection
 from system.pump_file import load_pump, resolved_toml
+from system.tolerances import tolerances
 
 REF90 = load_pump("ref90")
 BY_NAME = [pytest.param(one, id=one.parameters[0].name) for one in EXTENSIONS]
 POINTS = BenchPoints(
-    speed=np.array([219.9, 300.0]),
+    speed=np.array([2100 * np.pi / 30, 300.0]),
     displacement_ratio=np.array([1.0, 0.6]),
     p_out=np.array([35e6, 35e6]),
     p_in=np.array([2.5e6, 1e5]),
@@ -138,3 +144,34 @@ def test_a_bench_map_reads_the_same_with_an_effect_stated_as_with_its_law(extens
     bench = lumped_point(with_effect(extension), asked).bench
     one = [bench.delivery_flow, bench.inlet_flow, bench.drain_flow, bench.shaft_torque]
     np.testing.assert_allclose(read[1], one, rtol=3e-5)
+
+
+def test_a_fit_makes_a_pump_file_that_runs_to_its_readings(tmp_path):
+    """Base parameters, two effects of gaps and one of a grid; what a sensor reads wrong stays out of the pump."""
+    by_name = {one.parameters[0].name: one for one in EXTENSIONS}
+    names = ("elastic_opening.slipper.opening", "churning.factor", "control_flow.area")
+    found = [by_name[name].members[-1] for name in names]
+    values = {
+        "film_thickness.slipper": 11e-6, "friction.piston_cylinder": 0.03, "displacement": 1.002,
+        "viscosity": 1.03, "viscosity_slope": 1e-3, "stand_out_share": 0.4, "bulk_modulus": 1.5e9,
+        "torque.gain": 0.01,
+        "elastic_opening.slipper.opening": 1e-8, "churning.factor": 0.8, "control_flow.area": 1e-7,
+    }  # fmt: skip
+    told = {one.name: one for one in base_parameters(REF90, tolerances(REF90)[0])}
+    parameters = tuple(told[name] for name in values if name in told)
+    fitted = LumpedBench(REF90, POINTS, SIMULATED, parameters, tuple(found), samples_per_pitch=SAMPLES_PER_PITCH)
+    read = fitted.predict(np.array([values[one.name] for one in fitted.parameters]))
+    file = tmp_path / "extended.toml"
+    file.write_text(resolved_toml(extended_pump(REF90, values, found)), "utf-8")
+    pump = load_pump(file)
+    bench = lumped_point(pump, operating_point(pump)).bench
+    one = [bench.delivery_flow, bench.inlet_flow, bench.drain_flow, bench.shaft_torque]
+    np.testing.assert_allclose(read[0], one, rtol=3e-5)
+
+
+def test_films_refuse_a_pump_with_effects():
+    pump = with_effect(EXTENSIONS[0])
+    with pytest.raises(FilmInputError, match="physics: film_heating; expected no effects"):
+        films_point(pump, operating_point(pump))
+    with pytest.raises(FilmInputError, match="the lumped fidelity"):
+        floating_point(pump, operating_point(pump))

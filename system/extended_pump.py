@@ -1,0 +1,35 @@
+"""The pump that a fit of its readings makes: parameters at their values, effects switched on."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from system.bench_parameters import pump_with
+from system.description import PumpDescription
+from system.physics.extension import Extension
+from system.physics_description import PhysicsSection
+
+
+def extended_pump(
+    pump: PumpDescription, values: Mapping[str, float], extensions: Sequence[Extension]
+) -> PumpDescription:
+    """The pump with `base_parameters` and the extensions' parameters at values (SI) by name.
+
+    extensions: each with a grid of one; an effect that the pump has switched on already is stated anew. Names of
+    sensors do not matter. `system.pump_file.resolved_toml` writes it as a file that runs to the readings of a
+    `LumpedBench` at these values. Raises pydantic's ValidationError for values outside the effects' bounds.
+    """
+    own = pump_with(pump, values)
+    stated: dict[str, Any] = pump.physics.model_dump(exclude_none=True)
+    for extension in extensions:
+        table = extension.stated(values)
+        if extension.pair is None:
+            stated[extension.id.value] = table
+        else:
+            stated[extension.id.value] = stated.get(extension.id.value, {}) | {extension.pair.value: table}
+    displacement = pump.pump.displacement
+    if displacement is not None:
+        displacement *= values.get("displacement", 1.0)
+    part = own.pump.model_copy(update={"displacement": displacement})
+    return own.model_copy(update={"pump": part, "physics": PhysicsSection.model_validate(stated)})
