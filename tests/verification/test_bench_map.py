@@ -16,6 +16,7 @@ from system.channels import INPUTS, ChannelName
 from system.components import Component
 from system.errors import NotConverged
 from system.kinematics import stroke
+from system.lumped_point import lumped_point
 from system.operating import operating_point
 from system.pump_file import load_pump, resolved_toml
 from system.sensors import encoder_parameter
@@ -65,7 +66,7 @@ def _lumped_points(pump, points, tolerance):
             delivery_pressure=points.p_out[n], inlet_pressure=points.p_in[n], case_pressure=points.p_case[n],
             temperature=points.T_case[n],
         )  # fmt: skip
-        yield lumped.lumped_point(pump, point, tolerance)
+        yield lumped_point(pump, point, tolerance)
 
 
 def _one_by_one(pump, points, tolerance):
