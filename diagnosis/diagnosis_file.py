@@ -158,6 +158,7 @@ def _next_test(found: NextPoint) -> dict[str, Any]:
             "speed_rpm": reading(ChannelName.SPEED, point.shaft_speed),
             "p_out_bar": reading(ChannelName.P_OUT, point.delivery_pressure),
             "displacement_ratio": point.displacement_ratio,
+            "T_in_degC": reading(ChannelName.T_IN, found.inlet_temperature),
             "T_case_degC": reading(ChannelName.T_CASE, point.temperature),
         },
         "separates": [effect.value for effect in found.separates],

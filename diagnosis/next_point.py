@@ -34,9 +34,13 @@ LEAST_GAIN = 0.05  # nats, below which a point separates nothing
 
 @dataclass(frozen=True)
 class NextPoint:
-    """A point, the ids it separates, the gain of one reading in nats, repeats to be sure, and why in words."""
+    """A point, the ids it separates, the gain of one reading in nats, repeats to be sure, and why in words.
+
+    point.temperature is that of the case; inlet_temperature, in K, what it goes with in the recording.
+    """
 
     point: OperatingPoint
+    inlet_temperature: float
     separates: tuple[EffectId, ...]
     gain: float
     repeats: int
@@ -94,7 +98,7 @@ def next_point(study: Study, pump: PumpDescription, first: Contender, second: Co
     repeats = next((n for n in range(1, MOST_REPEATS) if forecasts[at].gain(n) >= ENOUGH), MOST_REPEATS)
     separates = tuple(dict.fromkeys((*first.effects, *second.effects)))
     why = _why(study, first, second, rows(some, np.array([at])))
-    return NextPoint(_operating(pump, some, at), separates, gains[at], repeats, why)
+    return NextPoint(_operating(pump, some, at), float(some.T_in[at]), separates, gains[at], repeats, why)
 
 
 def gains_at(study: Study, first: Contender, second: Contender, points: BenchPoints) -> Array:

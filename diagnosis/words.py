@@ -77,6 +77,7 @@ def next_point_text(found: NextPoint) -> str:
         ChannelName.SPEED: point.shaft_speed,
         ChannelName.P_OUT: point.delivery_pressure,
         ChannelName.DISPLACEMENT_RATIO: point.displacement_ratio,
+        ChannelName.T_IN: found.inlet_temperature,
         ChannelName.T_CASE: point.temperature,
     }
     told = [

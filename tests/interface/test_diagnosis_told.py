@@ -135,8 +135,12 @@ def named() -> Diagnosis:
         before=before,
         after=after,
         fit=fit,
-        scaling=Scaling(Q, {"speed": 0.02, "pressure": 2.1}, {"speed": 0.1, "pressure": 0.1}),
-        next_point=NextPoint(point, (E.ELASTIC_OPENING, E.FILM_HEATING), 1.7, 3, "there Q_case parts"),
+        scaling=Scaling(
+            Q,
+            {"speed": 0.02, "pressure": 2.1, "displacement": 0.0, "viscosity": -1.0},
+            dict.fromkeys(("speed", "pressure", "displacement", "viscosity"), 0.1),
+        ),
+        next_point=NextPoint(point, 343.15, (E.ELASTIC_OPENING, E.FILM_HEATING), 1.7, 3, "there Q_case parts"),
         not_identifiable=("film_thickness slipper vs film_thickness piston",),
         notes=("row 3 of Q_case was removed",),
         effort=Effort(10, 3, 1.0),
@@ -252,6 +256,31 @@ def test_the_file_has_the_form_of_format_1(named: Diagnosis, tmp_path: Path) -> 
     assert record["next_test"]["point"]["p_out_bar"] == pytest.approx(370)
     assert record["next_test"]["point"]["speed_rpm"] == pytest.approx(999.8, abs=0.1)
     assert record["scaling"]["exponents"]["pressure"] == 2.1
+
+
+def test_the_file_has_every_key_of_the_stated_form(named: Diagnosis) -> None:
+    """The example of recordings/README.md: its keys at every level, values of its kinds."""
+    form = Path(__file__).parents[3] / "shared" / "recordings" / "README.md"
+    if not form.is_file():
+        pytest.skip("needs ../shared/recordings/README.md, which states the form")
+    text = form.read_text("utf-8")
+    example = json.loads(
+        text[text.index("```json") + 7 : text.index("```", text.index("```json") + 7)].replace("...", "")
+    )
+    _same_form(example, diagnosis_record(named))
+
+
+def _same_form(example: Any, record: Any, where: str = "diagnosis") -> None:
+    if isinstance(example, dict):
+        assert set(example) <= set(record), where
+        for key, value in example.items():
+            _same_form(value, record[key], f"{where}.{key}")
+    elif isinstance(example, list) and example:
+        assert record, where
+        _same_form(example[0], record[0], f"{where}[0]")
+    elif example is not None:
+        kinds = (int, float) if isinstance(example, int | float) else type(example)
+        assert isinstance(record, kinds), where
 
 
 def test_agreement_claims_nothing(named: Diagnosis, tmp_path: Path) -> None:
