@@ -27,8 +27,9 @@ def recorded_channel(form: ChannelForm, readings: Array, found: float | None) ->
     """Return a channel with noise and calibration in SI; None where its repeatability is neither stated nor found.
 
     found: repeatability from the data (replicates, window scatter), or None. Calibration that is not stated is
-    that of the accuracy class, else gain = max(sigma_relative, 0.1 %) and zero = sigma; a displacement ratio of
-    sigma 0 is a setting, good to 0.05 % of full. `assumed` names every field so taken.
+    that of the accuracy class, else gain = max(sigma_relative, 0.1 %) and zero = sigma, or class A where sigma is
+    not stated either (scatter says nothing of calibration); a displacement ratio of sigma 0 is a setting, good to
+    0.05 % of full. `assumed` names every field so taken.
     """
     assumed = []
     sigma, relative = form.sigma, form.sigma_relative
@@ -89,14 +90,17 @@ def _calibration(form: ChannelForm, sigma: float, relative: float, readings: Arr
     name, dimension = form.name, form.name.dimension
     if name is ChannelName.ANGLE:
         return 0.0, ENCODER
-    if form.accuracy is not None and dimension is not None:
+    accuracy = form.accuracy
+    if accuracy is None and form.sigma is None and form.sigma_relative is None:
+        accuracy = AccuracyClass.A
+    if accuracy is not None and dimension is not None:
         low = dimension is Dimension.PRESSURE and np.nanmax(np.abs(readings)) < LOW_PRESSURE
         if dimension is Dimension.TEMPERATURE:
-            return 0.0, _KELVIN[form.accuracy] / math.sqrt(3.0)
+            return 0.0, _KELVIN[accuracy] / math.sqrt(3.0)
         if low:
-            return 0.0, _LOW_PRESSURE[form.accuracy] / math.sqrt(3.0)
+            return 0.0, _LOW_PRESSURE[accuracy] / math.sqrt(3.0)
         wide = dimension in (Dimension.VOLUME_FLOW, Dimension.PRESSURE)
-        return (_FLOW_SHARES if wide else _SHARES)[form.accuracy] / math.sqrt(3.0), 0.0
+        return (_FLOW_SHARES if wide else _SHARES)[accuracy] / math.sqrt(3.0), 0.0
     if name is ChannelName.DISPLACEMENT_RATIO:
         return 0.0, max(sigma, SETTING_SHARE)
     gain = 0.0 if dimension is Dimension.TEMPERATURE else max(relative, LEAST_GAIN)

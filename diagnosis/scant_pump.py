@@ -58,7 +58,7 @@ _WIDE = {
     "dead_volume": 0.3,
     "flow_coefficient": 0.1,
 }
-"""[tolerance] of what is scaled, so that a recording decides: the films of HST 196 are 1.5 to 1.9 times REF90's."""
+"""[tolerance] of what is scaled, which a recording decides: the films of HST 196 are 1.5 to 1.9 times REF90's."""
 
 
 @dataclass(frozen=True)
