@@ -8,9 +8,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from diagnosis.readings import bench_points
 from diagnosis.recording import Recording
 from system.bench_points import BenchPoints
-from system.channels import ChannelName
 from system.description import PumpDescription
 from system.kinematics import Array
 
@@ -56,41 +56,23 @@ def rows(points: BenchPoints, chosen: NDArray[np.int64]) -> BenchPoints:
 def rig_box(recording: Recording, pump: PumpDescription) -> BenchBox:
     """The ranges of a recording and a tenth beyond each end, within the pump's rating and its full displacement.
 
-    What was not measured is as [operating] of the pump states it, as a simulation of the recording takes it; other
+    What was not measured is as a simulation of the recording takes it (`diagnosis.readings.bench_points`); other
     pressures and the difference of case and inlet temperature stay at their median.
     """
-    stated, rated = pump.operating, pump.pump
-    usual = {
-        ChannelName.SPEED: stated.speed,
-        ChannelName.P_OUT: stated.pressure,
-        ChannelName.DISPLACEMENT_RATIO: stated.displacement_ratio,
-        ChannelName.T_CASE: stated.temperature,
-        ChannelName.P_IN: stated.inlet_pressure,
-        ChannelName.P_CASE: stated.case_pressure,
-    }
-    seen = {name: _measured(recording, name, value) for name, value in usual.items()}
-    case = seen[ChannelName.T_CASE]
-    inlet = _measured(recording, ChannelName.T_IN, float(np.median(case)))
-    hours = recording.steady.hours
+    points, _ = bench_points(recording, pump)
+    rated = pump.pump
     return BenchBox(
         ends=(
-            _ends(seen[ChannelName.SPEED], rated.rated_speed),
-            _ends(seen[ChannelName.P_OUT], rated.rated_pressure),
-            _ends(seen[ChannelName.DISPLACEMENT_RATIO], 1.0),
-            _ends(case, np.inf),
+            _ends(points.speed, rated.rated_speed),
+            _ends(points.p_out, rated.rated_pressure),
+            _ends(points.displacement_ratio, 1.0),
+            _ends(points.T_case, np.inf),
         ),
-        inlet_pressure=float(np.median(seen[ChannelName.P_IN])),
-        case_pressure=float(np.median(seen[ChannelName.P_CASE])),
-        warmer=float(np.median(case) - np.median(inlet)),
-        last=(float(len(hours)), float(np.nanmax(hours)) if np.any(np.isfinite(hours)) else 0.0),
+        inlet_pressure=float(np.median(points.p_in)),
+        case_pressure=float(np.median(points.p_case)),
+        warmer=float(np.median(points.T_case - points.T_in)),
+        last=(float(points.order.max()) + 1.0, float(points.hours.max())),
     )
-
-
-def _measured(recording: Recording, name: ChannelName, usual: float) -> Array:
-    """What was measured of a channel, or the usual value alone."""
-    column = recording.steady.values[:, list(ChannelName).index(name)]
-    known: Array = column[np.isfinite(column)]
-    return known if known.size else np.array([usual])
 
 
 def _ends(values: Array, rating: float) -> tuple[float, float]:

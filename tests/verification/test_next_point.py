@@ -88,9 +88,12 @@ def _recording(points: BenchPoints, flow: Array) -> Recording:
     columns = {ChannelName.SPEED: points.speed, ChannelName.P_OUT: points.p_out, ChannelName.Q_CASE: flow}
     for name, column in columns.items():
         values[:, list(ChannelName).index(name)] = column
-    channel = RecordedChannel(ChannelName.Q_CASE, "Q_case", "L/min", SIGMA, 0.0, 0.0, 0.0, 0.0, 0.0, ())
+    noise = {ChannelName.SPEED: 0.1, ChannelName.P_OUT: 1e4, ChannelName.Q_CASE: SIGMA}
+    channels = tuple(
+        RecordedChannel(name, name.value, "", sigma, 0.0, 0.0, 0.0, 0.0, 0.0, ()) for name, sigma in noise.items()
+    )
     steady = SteadyTable(values, np.arange(24), np.full(24, np.nan), np.ones(24))
-    return Recording("toy", "ref90", "", Circuit.CLOSED, (channel,), steady, (), ())
+    return Recording("toy", "ref90", "", Circuit.CLOSED, channels, steady, (), ())
 
 
 def _rivals(true: Law, seed: int) -> tuple[Study, Contender, Contender]:
