@@ -19,7 +19,7 @@ from system.bench_truth import SIMULATED, Affected, Solved, truth
 from system.channels import INPUTS, ChannelName
 from system.components import Component
 from system.description import PumpDescription
-from system.estimation.parameters import Parameter
+from system.estimation.parameters import Parameter, Scale
 from system.gap_courses import bench_state, gap_courses
 from system.kinematics import Array
 from system.lumped import lumped_pairs
@@ -36,6 +36,8 @@ TOLERANCE = 1e-5
 TRACE_SAMPLES_PER_PITCH = 80
 STEP = 0.1
 """Of slopes by difference, in spreads of the parameter."""
+LOG_STEP = 0.01
+"""The largest, of the value, on a logarithmic scale: leakage goes with the cube of a film."""
 KEPT = 8
 """Courses of a map that are remembered, the last ones."""
 INPUT_STEPS = {
@@ -229,6 +231,8 @@ class LumpedBench:
         """A step of a value in SI, away from its nearer bound."""
         parameter = self.parameters[index]
         step = STEP * parameter.stretch(parameter.standard(value))
+        if parameter.scale is Scale.LOG:
+            step = min(step, LOG_STEP * value)
         return -step if value + step > parameter.upper else step
 
     def _with(self, parameters: tuple[Parameter, ...], physics: tuple[Extension, ...]) -> LumpedBench:

@@ -23,6 +23,7 @@ REF90 = files("system").joinpath("pumps", "ref90.toml").read_text("utf-8")
 PROFILE = [["0 mm", "3 um"], ["3 mm", "0 um"], ["45 mm", "0.5 um"]]
 EVERY = {
     "pump.cross_angle": "1 deg",
+    "piston.stand_out_share": 0.5,
     "piston.guide_length": "40 mm",
     "piston.centre_of_mass": "30 mm",
     "piston.profile": PROFILE,
@@ -50,6 +51,11 @@ EVERY = {
     "oil.pressure_viscosity": "18 1/GPa",
     "oil.thermal_conductivity": "0.13 W/(m K)",
     "oil.thermal_expansion": "7e-4 1/K",
+    "tolerance.viscosity_slope": "5e-4 1/K",
+    "tolerance.displacement": 0.001,
+    "tolerance.dead_volume": 0.02,
+    "tolerance.flow_coefficient": 0.05,
+    "tolerance.stand_out_share": 0.5,
     "bore.profile": [["0 mm", "0.1 um"], ["41 mm", "0 um"]],
     "bore.edge_relief": {"width": "2 mm", "depth": "1 um"},
     "retainer.kind": "clearance",
