@@ -102,7 +102,7 @@ def make_environment() -> None:
 
 def install_locked_packages() -> None:
     """Leave in `.venv` the packages of `requirements.lock`, by uv where possible and by pip otherwise."""
-    print("Installing the locked packages (1.4 GB on disk) ...", flush=True)
+    print("Installing the locked packages (1.6 GB on disk) ...", flush=True)
     hashed = ("--require-hashes", "--only-binary", ":all:")
     if succeeds(*pip_install(), *hashed, "--requirement", str(UV_LOCK)):
         uv = (str(VENV / "bin" / "uv"), "pip", "sync", "--quiet", "--python", str(PYTHON))

@@ -3,9 +3,9 @@
     python examples/uci_hydraulic/rig.py DATA FOLDER [--leak 0|1|2] [--cooler 3|20|100]
 
 DATA: recordings/uci_hydraulic (CC BY 4.0; cite Helwig, Pignanelli, Schuetze, I2MTC 2015,
-doi 10.1109/I2MTC.2015.7151267). One row is one stable cycle of 60 s: means over its seconds 30 to 57, in which valve
-and pressure stand still. Pump leakage is a bypass orifice that the rig switches on; it is no column of what is
-written. Shaft speed, displacement and torque were not recorded; the motor's electric power was.
+doi 10.1109/I2MTC.2015.7151267). One row is one stable cycle of 60 s: means over its seconds 30 to 57, in which
+valve and pressure stand still. Pump leakage is a bypass orifice that the rig switches on; it is no column of
+what is written. Shaft speed, displacement and torque were not recorded; the motor's electric power was.
 """
 
 from __future__ import annotations
