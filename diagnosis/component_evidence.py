@@ -19,6 +19,7 @@ from diagnosis.thresholds import Thresholds
 from system.components import Component
 from system.estimation.evidence import multiplier_evidence, project
 from system.estimation.observations import Array
+from system.estimation.posterior import Posterior
 
 Ranking = tuple[tuple[Component, float], ...]
 
@@ -73,33 +74,39 @@ def component_evidences(study: Study, thresholds: Thresholds) -> Ranking:
 
     The size of the multiplier is averaged over prior widths from .1 % to 30 %.
     """
-    shapes = smooth_shapes(study.axes)
-    whiten = study.base.whitening.whiten
     widths = thresholds.locate.multiplier_widths
     found = [
-        (
-            component,
-            multiplier_evidence(study.base, whiten(part[:, :, None] * shapes[:, None, :]), widths),
-        )
-        for component, part in study.components.items()
+        (component, multiplier_evidence(study.base, multiplier_columns(study, study.base, component), widths))
+        for component in study.components
     ]
     return tuple(sorted(found, key=lambda each: -each[1]))
+
+
+def multiplier_columns(study: Study, posterior: Posterior, component: Component) -> Array:
+    """Whitened columns (n, 15) of one component's law times each smooth shape of the map."""
+    shapes = smooth_shapes(study.axes)
+    return posterior.whitening.whiten(study.components[component][:, :, None] * shapes[:, None, :])
+
+
+def likeliest_multiplier(study: Study, component: Component, thresholds: Thresholds) -> Array:
+    """(15,), the mean of N(0, w^2) multipliers given the readings, at the width w of greatest evidence."""
+    base = study.base
+    columns = multiplier_columns(study, base, component)
+    width = max(thresholds.locate.multiplier_widths, key=lambda width: multiplier_evidence(base, columns, [width]))
+    content = columns.T @ project(base, columns)
+    precision = content + np.eye(len(content)) / width**2
+    return np.asarray(np.linalg.solve(precision, columns.T @ base.residual), dtype=float)
 
 
 def missing_pattern(study: Study, component: Component, thresholds: Thresholds) -> Array:
     """(N, C), in sigma: what a smooth multiplier of one component's law adds to the readings, at its most likely.
 
-    The mean of N(0, w^2) multipliers given the readings, (1/w^2 + G)^-1 g, at the width w of greatest evidence:
-    the mismatch with the noise smoothed away, and without what the fitted parameters take up of it.
+    The mismatch with the noise smoothed away, and without what the fitted parameters take up of it.
     """
-    base = study.base
-    part = study.components[component]
-    columns = base.whitening.whiten(part[:, :, None] * smooth_shapes(study.axes)[:, None, :])
-    width = max(thresholds.locate.multiplier_widths, key=lambda width: multiplier_evidence(base, columns, [width]))
-    content = columns.T @ project(base, columns)
-    beta = np.linalg.solve(np.eye(len(content)) / width**2 + content, columns.T @ base.residual)
-    sigma = np.where(base.whitening.measured, base.whitening.sigma, 1.0)
-    pattern: Array = base.whitening.unwhiten(columns @ beta) / sigma
+    whitening = study.base.whitening
+    columns = multiplier_columns(study, study.base, component)
+    sigma = np.where(whitening.measured, whitening.sigma, 1.0)
+    pattern: Array = whitening.unwhiten(columns @ likeliest_multiplier(study, component, thresholds)) / sigma
     return pattern
 
 

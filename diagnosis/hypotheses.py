@@ -2,10 +2,17 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from itertools import product
+from math import log
 
+from diagnosis.study import Candidate, PumpSimulator, Study
+from diagnosis.thresholds import PriorMasses, Thresholds
+from system.components import Component
 from system.estimation.parameters import Parameter
 from system.physics.effects import EffectId, Kind
+from system.physics.extension import Extension
 from system.pump_gap import Gap
 
 
@@ -14,7 +21,8 @@ class Hypothesis:
     """One explanation: effects (several where they act together), at a gap or None.
 
     extra: parameters added to the simulator; widened: names of those whose prior is widened; log_prior: natural
-    logarithm of its prior probability.
+    logarithm of its prior probability; laws: what is switched on, each with the members of its grid that are open;
+    component: of unknown physics, whose law is bent freely over the map.
     """
 
     effects: tuple[EffectId, ...]
@@ -23,3 +31,121 @@ class Hypothesis:
     extra: tuple[Parameter, ...]
     widened: tuple[str, ...]
     log_prior: float
+    laws: tuple[Extension, ...] = ()
+    component: Component | None = None
+
+    @property
+    def members(self) -> tuple[Hypothesis, ...]:
+        """One hypothesis for each choice of members of its laws' grids."""
+        return tuple(replace(self, laws=chosen) for chosen in product(*(law.members for law in self.laws)))
+
+    @property
+    def open_names(self) -> tuple[str, ...]:
+        """Names of the parameters that it sets free beyond the null: added and widened."""
+        return (*(parameter.name for parameter in self.extra), *self.widened)
+
+    @property
+    def places(self) -> tuple[Gap | None, ...]:
+        """The gap of each effect: of its law, or of the parameter that it is about."""
+        gaps = {law.id: law.pair for law in self.laws}
+        widened = iter(self.widened)
+        return tuple(gaps[effect] if effect in gaps else gap_of(next(widened, "")) for effect in self.effects)
+
+    @property
+    def text(self) -> str:
+        """Its ids, each with its place: "elastic_opening (slipper) + churning", "nothing"."""
+        if self.component is not None:
+            return f"{self.effects[0].value} ({self.component.value})"
+        told = [
+            f"{effect.value} ({place.value})" if place else effect.value
+            for effect, place in zip(self.effects, self.places, strict=True)
+        ]
+        return " + ".join(told) or "nothing"
+
+
+def hypotheses(study: Study, thresholds: Thresholds) -> tuple[Hypothesis, ...]:
+    """All single explanations that show in the readings at all, nothing first; their prior probabilities sum to 1.
+
+    A kind's mass is shared evenly by its ids, an id's by the places where it may act.
+    """
+    single = [*_of_candidates(study), *_unknown(study)]
+    mass = thresholds.prior
+    kinds = {Kind.NO_MISMATCH} | {each.kind for each in single}
+    total = sum(_mass(mass, kind) for kind in kinds)
+    nothing = Hypothesis((), None, Kind.NO_MISMATCH, (), (), log(mass.none / total))
+    return (nothing, *(_with_prior(each, single, mass, total) for each in single))
+
+
+def together(first: Hypothesis, second: Hypothesis, penalty: float) -> Hypothesis:
+    """Both at once: prior the product of theirs times the penalty; physics if one is, else the first's kind."""
+    kinds = (first.kind, second.kind)
+    places = {each for each in (first.pair, second.pair) if each is not None}
+    return Hypothesis(
+        effects=first.effects + second.effects,
+        pair=places.pop() if len(places) == 1 else None,
+        kind=Kind.MISSING_PHYSICS if Kind.MISSING_PHYSICS in kinds else first.kind,
+        extra=first.extra + second.extra,
+        widened=first.widened + second.widened,
+        log_prior=first.log_prior + second.log_prior + log(penalty),
+        laws=first.laws + second.laws,
+    )
+
+
+def gap_of(parameter: str) -> Gap | None:
+    """The gap that a parameter's name ends with: "film_thickness.slipper"."""
+    part = parameter.rpartition(".")[2]
+    return next((gap for gap in Gap if gap.value == part), None)
+
+
+def simulator_of(simulator: PumpSimulator, hypothesis: Hypothesis, factor: float) -> PumpSimulator:
+    """The simulator with a hypothesis's laws on (first member of each grid) and its parameters widened."""
+    if hypothesis.laws:
+        simulator = simulator.with_extensions(tuple(law.members[0] for law in hypothesis.laws))
+    wider = tuple(each.widened(factor) for each in simulator.parameters if each.name in hypothesis.widened)
+    return simulator.with_parameters(wider) if wider else simulator
+
+
+def candidates_of(study: Study, member: Hypothesis) -> tuple[Candidate, ...]:
+    """The columns of what a hypothesis of one member sets free; not of what moves nothing."""
+    return tuple(
+        each
+        for each in study.candidates
+        if (each.extension in member.laws if each.extension else each.parameter in member.widened)
+    )
+
+
+def _of_candidates(study: Study) -> Iterator[Hypothesis]:
+    """One for each law at each place and for each parameter, in the order of the candidates."""
+    seen: set[tuple[EffectId, Gap | None, str]] = set()
+    for each in study.candidates:
+        law = next((one for one in each.entry.extensions if each.extension in one.members), None)
+        key = (each.entry.id, law.pair if law else None, "" if law else each.parameter)
+        if key in seen:
+            continue
+        seen.add(key)
+        if law:
+            yield Hypothesis((each.entry.id,), law.pair, each.entry.verdict, law.parameters, (), 0.0, (law,))
+        else:
+            place = gap_of(each.parameter)
+            yield Hypothesis((each.entry.id,), place, each.entry.verdict, (), (each.parameter,), 0.0)
+
+
+def _unknown(study: Study) -> Iterator[Hypothesis]:
+    for component in study.components:
+        yield Hypothesis((EffectId.UNKNOWN_PHYSICS,), None, Kind.UNKNOWN_PHYSICS, (), (), 0.0, component=component)
+
+
+def _with_prior(own: Hypothesis, single: list[Hypothesis], mass: PriorMasses, total: float) -> Hypothesis:
+    ids = {each.effects for each in single if each.kind is own.kind}
+    places = sum(each.effects == own.effects for each in single)
+    return replace(own, log_prior=log(_mass(mass, own.kind) / total / len(ids) / places))
+
+
+def _mass(mass: PriorMasses, kind: Kind) -> float:
+    return {
+        Kind.NO_MISMATCH: mass.none,
+        Kind.MISSING_PHYSICS: mass.missing_physics,
+        Kind.SENSOR_FAULT: mass.sensor_fault,
+        Kind.WRONG_PARAMETER: mass.wrong_parameter,
+        Kind.UNKNOWN_PHYSICS: mass.unknown_physics,
+    }[kind]

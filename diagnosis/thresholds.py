@@ -64,6 +64,7 @@ class HeldOutLimits:
     """When regions that took no part in a fit veto a name: gain in nats of one, number of negative ones."""
 
     veto_gain: float
+    negative_gain: float
     veto_regions: int
 
 

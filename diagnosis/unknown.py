@@ -1,11 +1,18 @@
-"""A mismatch that no entry explains, described by the exponents of what it grows with."""
+"""A mismatch described by the exponents of what it grows with."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+import numpy as np
+
 from system.channels import ChannelName
+from system.estimation.observations import Array
+
+LEAST_RANGE = 1.2  # largest over smallest value of a coordinate that an exponent is asked for
+STEPS = 50
+LARGEST_STEP = 1.0  # of an exponent
 
 
 @dataclass(frozen=True)
@@ -15,3 +22,62 @@ class Scaling:
     channel: ChannelName
     exponents: Mapping[str, float]
     sigma: Mapping[str, float]
+
+
+def scaling(channel: ChannelName, signal: Array, sigma: Array, coordinates: Mapping[str, Array]) -> Scaling | None:
+    """Exponents n_k of signal = C prod x_k^n_k: least squares on the signal itself, which may be noise at places.
+
+    signal, sigma: (N,) in SI; coordinates: (N,) each, positive where a point is to count; those that hardly move
+    get no exponent. Sigma of the exponents is scaled with what the power law leaves (Birge 1932), where that is
+    more than noise. None where too few points are left or no power law is found.
+    """
+    used = np.isfinite(signal) & (sigma > 0)
+    for values in coordinates.values():
+        used &= values > 0
+    moving = {name: values[used] for name, values in coordinates.items() if used.any() and _moves(values[used])}
+    if used.sum() < len(moving) + 2:
+        return None
+    logs = np.stack([np.ones(int(used.sum())), *(np.log(x / np.median(x)) for x in moving.values())], axis=1)
+    fitted = _power_law(signal[used] / sigma[used], logs, 1.0 / sigma[used])
+    if fitted is None:
+        return None
+    exponents, spread = fitted
+    names = list(moving)
+    return Scaling(
+        channel,
+        dict(zip(names, exponents[1:].tolist(), strict=True)),
+        dict(zip(names, spread[1:].tolist(), strict=True)),
+    )
+
+
+def _power_law(target: Array, logs: Array, weight: Array) -> tuple[Array, Array] | None:
+    """ln C and exponents (1 + k,) of sign x exp(logs n) weight = target, and their sigma, or None."""
+    sign = float(np.sign(target @ weight))
+    start = float(np.log(np.abs(target @ weight) / (weight @ weight) + 1e-300))
+    found = np.r_[start, np.zeros(logs.shape[1] - 1)]
+    objective = np.inf
+    for _ in range(STEPS):
+        model = sign * np.exp(logs @ found) * weight
+        slopes = model[:, None] * logs
+        left = target - model
+        step = np.linalg.lstsq(slopes, left, rcond=None)[0]
+        step *= min(1.0, LARGEST_STEP / max(float(np.abs(step).max()), 1e-300))
+        while True:
+            trial = target - sign * np.exp(np.clip(logs @ (found + step), -700.0, 700.0)) * weight
+            if trial @ trial <= left @ left or np.abs(step).max() < 1e-9:
+                break
+            step = 0.5 * step
+        found, objective = found + step, float(trial @ trial)
+        if np.abs(step).max() < 1e-6:
+            break
+    else:
+        return None
+    precision = slopes.T @ slopes
+    if np.linalg.cond(precision) > 1e12:
+        return None
+    excess = max(1.0, objective / max(target.size - found.size, 1))
+    return found, np.sqrt(np.diag(np.linalg.inv(precision)) * excess)
+
+
+def _moves(values: Array) -> bool:
+    return bool(values.max() > LEAST_RANGE * values.min())

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from scipy.special import log_softmax
 
 from diagnosis.hypotheses import Hypothesis
 from system.channels import ChannelName
@@ -25,9 +28,12 @@ class HeldOut:
     how: str
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Weighed:
-    """A hypothesis with its evidence (natural logarithm), from the linear model or from a refit (`posterior`)."""
+    """A hypothesis with its evidence (natural logarithm), from the linear model or from a refit (`posterior`).
+
+    z: score of the linear model, or the size over its sigma of a refit. Compared by identity.
+    """
 
     hypothesis: Hypothesis
     log_evidence: float
@@ -36,3 +42,18 @@ class Weighed:
     z: float
     probability: float
     heldout: HeldOut | None
+
+    @property
+    def log_weight(self) -> float:
+        """ln evidence plus ln prior: what hypotheses are ranked by."""
+        return self.log_evidence + self.hypothesis.log_prior
+
+
+def with_probabilities(weighed: Sequence[Weighed], temperature: float) -> tuple[Weighed, ...]:
+    """The same with probabilities that sum to 1, the likeliest first.
+
+    P ~ exp((ln evidence + ln prior) / temperature).
+    """
+    logs = log_softmax(np.array([each.log_weight for each in weighed]) / temperature)
+    told = [replace(each, probability=float(np.exp(one))) for each, one in zip(weighed, logs, strict=True)]
+    return tuple(sorted(told, key=lambda each: -each.log_weight))

@@ -1,0 +1,49 @@
+"""Which explanations a recording cannot tell from each other."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from diagnosis.thresholds import Thresholds
+from diagnosis.weighed import Weighed
+from system.physics.effects import Kind
+
+NOT_NAMED = (Kind.NO_MISMATCH, Kind.UNKNOWN_PHYSICS)
+
+
+def equivalents(best: Weighed, weighed: Sequence[Weighed], thresholds: Thresholds) -> tuple[Weighed, ...]:
+    """Explanations of as many effects as the best that stand as well after a refit, the best first.
+
+    As well: ln evidence within the class gap; or, within twice the gap, the same readings foretold (the
+    difference of the refitted predictions worth less than the gap, delta^2 / 2 nats): then only the widths of
+    priors part them. Likeness of slopes makes no class: laws of one slope part by their curvature.
+    """
+    rivals = [each for each in weighed if each is not best and _comparable(each, best)]
+    gap = thresholds.name.class_gap
+    found = []
+    for each in rivals:
+        behind = best.log_evidence - each.log_evidence
+        if behind <= gap or (behind <= 2.0 * gap and parting(best, each) <= gap):
+            found.append(each)
+    return (best, *found)
+
+
+def parting(one: Weighed, other: Weighed) -> float:
+    """Nats by which readings like these would part two refitted explanations: delta^2 / 2; inf if not refitted."""
+    if one.posterior is None or other.posterior is None:
+        return float("inf")
+    apart = one.posterior.whitening.whiten(one.posterior.predictions - other.posterior.predictions)
+    return 0.5 * float(apart @ apart)
+
+
+def agrees(each: Weighed, members: Sequence[Weighed]) -> bool:
+    """Whether an explanation claims at least what one of the members claims: it, or it and more."""
+    return any(
+        set(member.hypothesis.open_names) <= set(each.hypothesis.open_names) and each.hypothesis.effects
+        for member in members
+    )
+
+
+def _comparable(each: Weighed, best: Weighed) -> bool:
+    own = each.hypothesis
+    return own.kind not in NOT_NAMED and len(own.effects) == len(best.hypothesis.effects)

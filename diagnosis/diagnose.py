@@ -1,0 +1,211 @@
+"""The way through: detect, locate, name."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from diagnosis.detect import Detection, detect
+from diagnosis.heldout import held_out
+from diagnosis.hypotheses import hypotheses
+from diagnosis.judge import Verdict, judge
+from diagnosis.locate import Location, locate
+from diagnosis.map_axes import AXES
+from diagnosis.pairs import combine
+from diagnosis.refit import try_refit
+from diagnosis.repair import repair
+from diagnosis.screen import screen, unknown_gain
+from diagnosis.shortlist import is_settled, shortlist
+from diagnosis.study import Study
+from diagnosis.thresholds import Thresholds
+from diagnosis.unknown import Scaling, scaling
+from diagnosis.verdict import Diagnosis, Status
+from diagnosis.weighed import Weighed, with_probabilities
+from system.channels import ChannelName
+from system.estimation.observations import Array
+from system.estimation.posterior import Effort, Posterior
+from system.gap_cycle import Report, silent
+from system.physics.effects import Kind
+
+FORETOLD = 6  # explanations, the likeliest, whose held-out points are looked at
+ALIKE = 0.9  # correlation beyond which two parameters are told as not identifiable
+
+
+def diagnose_study(study: Study, viscosity: Array, thresholds: Thresholds, report: Report = silent) -> Diagnosis:
+    """The whole finding on a study but for the next point; `viscosity` (N,) Pa s, of the oil at the case.
+
+    What could not be refitted is told in the notes, and stands as the linear model has it.
+    """
+    detection, location = detect(study, thresholds), locate(study, thresholds)
+    screened = screen(study, hypotheses(study, thresholds), thresholds)
+    report(0, 1, "fitting the model as it is")
+    null, not_null = _null(study, screened[0], thresholds)
+    settled = is_settled(detection, null, thresholds)
+    listed = shortlist(study, screened, settled, thresholds)
+    refitted, failed = _refit_all(study, listed, thresholds, report)
+    combined: tuple[Weighed, ...] = ()
+    if not settled:
+        report(len(listed), len(listed) + 1, "two and three effects together")
+        combined, not_combined = combine(study, null, _placed(study, screened, null, refitted), thresholds)
+        failed = (*failed, *not_combined)
+    weighed = _unknown_anew(study, _placed(study, screened, null, refitted), null, thresholds)
+    ranked = with_probabilities((*weighed, *combined), thresholds.name.temperature)
+    ranked = _foretold(study, null, ranked, thresholds)
+    verdict = judge(study, detection, ranked, thresholds)
+    notes = (*(note.text for note in study.recording.notes), *verdict.reasons, *not_null, *failed)
+    return _finding(study, detection, location, ranked, verdict, viscosity, notes, thresholds)
+
+
+def _null(study: Study, linear: Weighed, thresholds: Thresholds) -> tuple[Weighed, tuple[str, ...]]:
+    """The null refitted; where that fails, in the linear model about the prior mean, with what failed in words."""
+    null, reason = try_refit(study, linear, thresholds)
+    return (null, ()) if reason is None else (replace(null, posterior=study.base), (reason,))
+
+
+def _refit_all(
+    study: Study, listed: Sequence[Weighed], thresholds: Thresholds, report: Report
+) -> tuple[tuple[Weighed, ...], tuple[str, ...]]:
+    """The refits of a shortlist, and what could not be refitted."""
+    done: list[Weighed] = []
+    failed: list[str] = []
+    for number, each in enumerate(listed):
+        report(number, len(listed) + 1, f"fitting {each.hypothesis.text}")
+        weighed, reason = try_refit(study, each, thresholds)
+        done.append(weighed)
+        failed += [reason] if reason else []
+    return tuple(done), tuple(failed)
+
+
+def _placed(
+    study: Study, screened: Sequence[Weighed], null: Weighed, refitted: Sequence[Weighed]
+) -> tuple[Weighed, ...]:
+    """All singles on one scale: the refits in the place of their linear forms, the others moved along.
+
+    What was not refitted stays as far behind as the linear model has it, measured from the best of those that
+    were: a linear model that fits by impossible nuisances is ahead of no refit.
+    """
+    fresh = {each.hypothesis.open_names: each for each in (null, *refitted)}
+    linear = [each.log_evidence for each in screened if _key(each) in fresh and _key(each) is not None]
+    moved = max(each.log_evidence for each in fresh.values()) - max(linear)
+    return tuple(
+        fresh[each.hypothesis.open_names]
+        if _key(each) in fresh
+        else replace(each, log_evidence=each.log_evidence + min(moved, 0.0))
+        for each in screened
+    )
+
+
+def _key(each: Weighed) -> tuple[str, ...] | None:
+    return None if each.hypothesis.component is not None else each.hypothesis.open_names
+
+
+def _unknown_anew(
+    study: Study, weighed: Sequence[Weighed], null: Weighed, thresholds: Thresholds
+) -> tuple[Weighed, ...]:
+    """Unknown physics seen from the prior mean and from the null's refit, whichever is better for it."""
+    fit = null.posterior
+
+    def seen(each: Weighed) -> Weighed:
+        component = each.hypothesis.component
+        if component is None or fit is None:
+            return each
+        anew = null.log_evidence + unknown_gain(study, fit, component, thresholds)
+        return replace(each, log_evidence=max(each.log_evidence, anew))
+
+    return tuple(seen(each) for each in weighed)
+
+
+def _foretold(
+    study: Study, null: Weighed, ranked: Sequence[Weighed], thresholds: Thresholds
+) -> tuple[Weighed, ...]:
+    """The same with held-out points of the likeliest refits."""
+    before = null.posterior
+    if before is None:
+        return tuple(ranked)
+    known = [each for each in ranked if each.posterior is not None][:FORETOLD]
+
+    def foretold(each: Weighed) -> Weighed:
+        if each not in known or each.posterior is None:
+            return each
+        return replace(each, heldout=held_out(study, before, each.posterior, thresholds))
+
+    return tuple(foretold(each) for each in ranked)
+
+
+def _finding(
+    study: Study,
+    detection: Detection,
+    location: Location,
+    ranked: Sequence[Weighed],
+    verdict: Verdict,
+    viscosity: Array,
+    notes: tuple[str, ...],
+    thresholds: Thresholds,
+) -> Diagnosis:
+    """All of it put together, the claimed explanation first."""
+    null = next(each for each in ranked if each.hypothesis.kind is Kind.NO_MISMATCH)
+    claimed = verdict.members[0] if verdict.members else None
+    shown = claimed or null
+    before, after = _fit_of(null), _fit_of(shown)
+    first = claimed or ranked[0]
+    told = verdict.status is not Status.SUSPICION and verdict.kind is not Kind.NO_MISMATCH
+    described = first if told else None
+    return Diagnosis(
+        kind=verdict.kind,
+        status=verdict.status,
+        detection=detection,
+        location=location,
+        effects=verdict.claims,
+        hypotheses=(first, *(each for each in ranked if each is not first)),
+        before=before,
+        after=after,
+        fit=shown.heldout or held_out(study, before, after, thresholds),
+        scaling=None if described is None else scaling_of(study, described, viscosity, thresholds),
+        next_point=None,
+        not_identifiable=_not_identifiable(verdict, after),
+        notes=notes,
+        effort=_effort(ranked),
+    )
+
+
+def scaling_of(study: Study, weighed: Weighed, viscosity: Array, thresholds: Thresholds) -> Scaling | None:
+    """Exponents of the mismatch as an explanation sees it, in the channel where it is greatest in sigma."""
+    found = repair(study, weighed, thresholds)
+    sigma = study.base.whitening.sigma
+    strength = np.where(study.observations.measured, (found.added / sigma) ** 2, 0.0).sum(axis=0)
+    at = int(np.argmax(strength))
+    values = study.recording.steady.values
+    order = list(ChannelName)
+    speed, pressure, stroke = (values[:, order.index(axis)] for axis in AXES[:3])
+    coordinates = {"speed": speed, "pressure": pressure, "displacement": stroke, "viscosity": viscosity}
+    known = {name: x for name, x in coordinates.items() if np.all(np.isfinite(x))}
+    channel = ChannelName.named(study.observations.channels[at].name)
+    return scaling(channel, found.mismatch[:, at], sigma[:, at], known)
+
+
+def _fit_of(weighed: Weighed) -> Posterior:
+    if weighed.posterior is None:
+        raise ValueError(f"{weighed.hypothesis.text}: not refitted")
+    return weighed.posterior
+
+
+def _not_identifiable(verdict: Verdict, after: Posterior) -> tuple[str, ...]:
+    """Members of the class that is claimed, and parameters that the readings tie to each other."""
+    told = [f"{verdict.members[0].hypothesis.text} vs {each.hypothesis.text}" for each in verdict.members[1:]]
+    spread = np.sqrt(np.diag(after.covariance))
+    correlation = np.triu(after.covariance / np.outer(spread, spread), 1)
+    names = [parameter.name for parameter in after.parameters]
+    tied = [f"{names[one]} vs {names[other]}" for one, other in np.argwhere(np.abs(correlation) > ALIKE)]
+    return (*told, *tied)
+
+
+def _effort(ranked: Sequence[Weighed]) -> Effort:
+    """What all refits have cost together."""
+    spent = [each.posterior.effort for each in ranked if each.posterior is not None]
+    return Effort(
+        sum(each.predictions for each in spent),
+        sum(each.slopes for each in spent),
+        sum(each.seconds for each in spent),
+    )

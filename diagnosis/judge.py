@@ -1,0 +1,218 @@
+"""From weighed explanations to a verdict: what is claimed, and how far."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.special import logsumexp
+from scipy.stats import chi2
+
+from diagnosis.classes import agrees, equivalents
+from diagnosis.component_evidence import MEMBERS, ComponentGroup, multiplier_columns
+from diagnosis.contrasts import contrasts
+from diagnosis.detect import Detection
+from diagnosis.hypotheses import Hypothesis
+from diagnosis.map_axes import axis_values
+from diagnosis.regions import flagged
+from diagnosis.study import Study
+from diagnosis.thresholds import Thresholds
+from diagnosis.verdict import Claim, Estimate, Status
+from diagnosis.weighed import Weighed
+from system.channels import ChannelName
+from system.estimation.evidence import multiplier_evidence
+from system.estimation.posterior import Posterior
+from system.physics.effects import Kind
+from system.pump_gap import Gap
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """What is claimed: kind, status, claims (none where nothing is), its class, and why not more, in words."""
+
+    kind: Kind
+    status: Status
+    claims: tuple[Claim, ...]
+    members: tuple[Weighed, ...]
+    reasons: tuple[str, ...]
+
+
+def judge(study: Study, detection: Detection, weighed: Sequence[Weighed], thresholds: Thresholds) -> Verdict:
+    """The verdict on explanations with their probabilities, the likeliest first, the null among them.
+
+    A mismatch needs both a candidate's score after Holm and an improbable null; one of the two is a suspicion, of
+    the likeliest kind, and claims nothing. A name needs probability, odds to all that claim something else, sizes
+    that are sure, no veto of held-out regions; it is incomplete while something is left over.
+    """
+    null = next(each for each in weighed if each.hypothesis.kind is Kind.NO_MISMATCH)
+    signs = (
+        detection.holm_p < thresholds.mismatch.holm,
+        null.probability < thresholds.mismatch.null_probability,
+    )
+    if not any(signs):
+        return Verdict(Kind.NO_MISMATCH, Status.NAMED, (), (), ())
+    if not all(signs):
+        return _suspicion(weighed, ("a mismatch by one of two tests only",))
+    best = max((each for each in weighed if each is not null), key=lambda each: each.log_weight)
+    if best.hypothesis.kind is Kind.UNKNOWN_PHYSICS:
+        return _unknown(weighed, thresholds)
+    members = equivalents(best, weighed, thresholds)
+    against = _objections(best, members, weighed, thresholds)
+    if against:
+        return _suspicion(weighed, against)
+    left = _left_over(study, null, best, thresholds)
+    ids = {frozenset(each.hypothesis.effects) for each in members}
+    status = Status.INCOMPLETE if left else Status.CLASS if len(ids) > 1 else Status.NAMED
+    return Verdict(best.hypothesis.kind, status, _claims(members, weighed, thresholds), members, left)
+
+
+def _suspicion(weighed: Sequence[Weighed], reasons: tuple[str, ...]) -> Verdict:
+    kinds = {each.hypothesis.kind for each in weighed}
+    likeliest = max(kinds, key=lambda kind: _probability(weighed, kind))
+    return Verdict(likeliest, Status.SUSPICION, (), (), reasons)
+
+
+def _probability(weighed: Sequence[Weighed], kind: Kind) -> float:
+    return sum(each.probability for each in weighed if each.hypothesis.kind is kind)
+
+
+def _unknown(weighed: Sequence[Weighed], thresholds: Thresholds) -> Verdict:
+    """Unknown physics is the verdict, without an effect, when all its hypotheses together are sure."""
+    probability = _probability(weighed, Kind.UNKNOWN_PHYSICS)
+    if probability < thresholds.name.probability:
+        return _suspicion(weighed, (f"unknown physics at a probability of {probability:.2f} only",))
+    return Verdict(Kind.UNKNOWN_PHYSICS, Status.NAMED, (), (), ())
+
+
+def _objections(
+    best: Weighed, members: Sequence[Weighed], weighed: Sequence[Weighed], thresholds: Thresholds
+) -> tuple[str, ...]:
+    """Why the class may not be named."""
+    limits = thresholds.name
+    probability = sum(each.probability for each in weighed if agrees(each, members))
+    others = [each for each in weighed if each not in members and not agrees(each, members)]
+    rival = max(others, key=lambda each: each.log_weight)
+    ahead = best.log_weight - rival.log_weight
+    found = []
+    if probability < limits.probability:
+        found.append(f"a probability of {probability:.2f} only")
+    if ahead < limits.odds:
+        found.append(f"{rival.hypothesis.text} stands {ahead:.1f} nats behind")
+    if best.posterior is None:
+        found.append("it could not be refitted")
+    elif not _sure(best.posterior, best.hypothesis, thresholds):
+        found.append("its size is not sure")
+    if best.heldout is not None and best.heldout.vetoed:
+        gains = ", ".join(
+            f"{name} {gain:+.1f}"
+            for name, gain in best.heldout.gains.items()
+            if gain < thresholds.heldout.negative_gain
+        )
+        found.append(f"regions held out speak against it (nats): {gains}")
+    return tuple(found)
+
+
+def _sure(posterior: Posterior, hypothesis: Hypothesis, thresholds: Thresholds) -> bool:
+    """Each law with a size more than some sigma from nothing; each wrong parameter beyond its stated tolerance."""
+    for law in hypothesis.laws:
+        if not any(_sigmas(posterior, one.name) > thresholds.name.sure for one in law.parameters):
+            return False
+    for name in hypothesis.widened:
+        beyond = abs(posterior.xi[posterior.index(name)]) * thresholds.name.fault_factor
+        if beyond <= thresholds.mismatch.pull or _sigmas(posterior, name) <= thresholds.name.sure:
+            return False
+    return True
+
+
+def _sigmas(posterior: Posterior, name: str) -> float:
+    at = posterior.index(name)
+    return float(abs(posterior.xi[at]) / np.sqrt(posterior.covariance[at, at]))
+
+
+def _left_over(study: Study, null: Weighed, best: Weighed, thresholds: Thresholds) -> tuple[str, ...]:
+    """What the best explanation leaves, in words."""
+    after, before = best.posterior, null.posterior
+    if after is None or before is None:
+        return ()
+    found = []
+    p_value = float(chi2.sf(after.objective, after.residual.size))
+    if p_value < thresholds.mismatch.holm:
+        found.append(f"chi-square per reading stays at {after.objective / after.residual.size:.2f}")
+    by_channel = {
+        ChannelName.named(channel.name): contrasts(after, at)
+        for at, channel in enumerate(study.observations.channels)
+    }
+    flags = flagged(by_channel, axis_values(study.recording), thresholds.mismatch.flag_rate)
+    found += [f"{flag.channel.value} stays {flag.contrast:+.1f} sigma off at {flag.text}" for flag in flags[:2]]
+    if _pulls(after, best.hypothesis) - _pulls(before, best.hypothesis) > 2.0 * thresholds.name.odds:
+        found.append("parameters move farther from their stated values than without it")
+    if _allowed_gain(study, before, after, thresholds) < thresholds.name.odds:
+        found.append(f"errors of form of {thresholds.name.allowance:.1%} would explain as much")
+    return tuple(found)
+
+
+def _pulls(posterior: Posterior, hypothesis: Hypothesis) -> float:
+    """Sum of xi^2 over what the hypothesis does not set free."""
+    kept = np.array([each.name not in hypothesis.open_names for each in posterior.parameters])
+    return float((posterior.xi[kept] ** 2).sum())
+
+
+def _allowed_gain(study: Study, before: Posterior, after: Posterior, thresholds: Thresholds) -> float:
+    """ln evidence over the null if every leakage and friction law may be bent over the map by the allowance."""
+    laws = (*MEMBERS[ComponentGroup.FILM_LEAKAGE], *MEMBERS[ComponentGroup.FRICTION])
+    bent = [component for component in laws if component in study.components]
+
+    def evidence(posterior: Posterior) -> float:
+        if not bent:
+            return posterior.log_evidence
+        columns = np.hstack([multiplier_columns(study, posterior, component) for component in bent])
+        return posterior.log_evidence + multiplier_evidence(posterior, columns, (thresholds.name.allowance,))
+
+    return evidence(after) - evidence(before)
+
+
+def _claims(members: Sequence[Weighed], weighed: Sequence[Weighed], thresholds: Thresholds) -> tuple[Claim, ...]:
+    """One claim for each effect of the best member: its probability counts all that claim it too."""
+    best = members[0]
+    own = best.hypothesis
+    rivals = {effect for each in members for effect in each.hypothesis.effects} - set(own.effects)
+    shared = set.intersection(*(set(each.hypothesis.effects) for each in members))
+    claims = []
+    for at, effect in enumerate(own.effects):
+        probability = sum(each.probability for each in weighed if effect in each.hypothesis.effects)
+        equivalent = () if effect in shared else tuple(sorted(rivals, key=lambda one: one.value))
+        pair = _pair(own, at, members, thresholds)
+        claims.append(Claim(effect, pair, probability, equivalent, _estimates(best, at)))
+    return tuple(claims)
+
+
+def _pair(own: Hypothesis, at: int, members: Sequence[Weighed], thresholds: Thresholds) -> Gap | None:
+    """The gap of one effect; None where it has none, or where another one is too likely for it to be told."""
+    place = own.places[at]
+    same = [each for each in members if each.hypothesis.effects == own.effects]
+    here = [each.log_weight for each in same if each.hypothesis.places[at] is place]
+    share = np.exp(logsumexp(here) - logsumexp([each.log_weight for each in same]))
+    return place if share >= thresholds.name.probability else None
+
+
+def _estimates(best: Weighed, at: int) -> tuple[Estimate, ...]:
+    """The parameters of one effect as found; of a law by the last part of their path."""
+    posterior, own = best.posterior, best.hypothesis
+    if posterior is None:
+        return ()
+    laws = {law.id: law for law in own.laws}
+    effect = own.effects[at]
+    if effect in laws:
+        names = [one.name for one in laws[effect].parameters]
+    else:
+        without = [each for each in own.effects if each not in laws]
+        names = [own.widened[without.index(effect)]]
+    return tuple(_estimate(posterior, name, effect in laws) for name in names)
+
+
+def _estimate(posterior: Posterior, name: str, short: bool) -> Estimate:
+    at = posterior.index(name)
+    told = name.rpartition(".")[2] if short else name
+    dimension = posterior.parameters[at].dimension
+    return Estimate(told, float(posterior.values[at]), posterior.sigma(name), dimension)

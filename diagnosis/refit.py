@@ -1,0 +1,141 @@
+"""Hypotheses fitted in full: the coupled simulator, all nuisances, and what a hypothesis sets free."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from math import log
+
+import numpy as np
+from scipy.linalg import cho_factor, cho_solve
+from scipy.special import logsumexp
+
+from diagnosis.hypotheses import Hypothesis, candidates_of, simulator_of
+from diagnosis.screen import joint_evidence
+from diagnosis.study import Study
+from diagnosis.thresholds import Thresholds
+from diagnosis.weighed import Weighed
+from system.errors import NotConverged
+from system.estimation.fit import maximum_posterior
+from system.estimation.observations import Array
+from system.estimation.parameters import Parameter
+from system.estimation.posterior import Posterior, values_at
+from system.estimation.simulator import Simulator
+from system.estimation.trust import Bounds
+
+SIZES = (0.1, 0.3, 1.0, 2.0)  # spreads that a start is looked for at
+ROUGHLY = (0.3, 1.0)  # the same for a first look
+REACH = 3.0  # xi of a nuisance where a fit may start: the linear model knows no bounds
+GRID_MEMBERS = 2  # of a grid that are refitted: those best in the linear model
+
+
+def refit(study: Study, hypothesis: Hypothesis, thresholds: Thresholds) -> Weighed:
+    """The hypothesis at the peak of its posterior; of a grid the best member, its evidence averaged over all.
+
+    Members that are not refitted count as nothing, so that the average is never too high. Raises NotConverged
+    where no member comes to a peak.
+    """
+    members = _likeliest(study, hypothesis, thresholds)
+    found: list[tuple[Hypothesis, Posterior]] = []
+    failed: list[NotConverged] = []
+    for member in members:
+        simulator = simulator_of(study.simulator, member, thresholds.name.fault_factor)
+        try:
+            start = _start(study, simulator, member.open_names, SIZES)[1]
+            found.append((member, maximum_posterior(simulator, study.observations, start)))
+        except NotConverged as reason:
+            failed.append(reason)
+    if not found:
+        raise failed[0]
+    best, posterior = max(found, key=lambda each: each[1].log_evidence)
+    evidence = float(logsumexp([each.log_evidence for _, each in found])) - log(len(hypothesis.members))
+    return Weighed(best, evidence, False, posterior, _size_over_sigma(posterior, best), 0.0, None)
+
+
+def try_refit(study: Study, linear: Weighed, thresholds: Thresholds) -> tuple[Weighed, str | None]:
+    """The hypothesis refitted; where that fails as it stands in the linear model, with what failed in words."""
+    try:
+        return replace(refit(study, linear.hypothesis, thresholds), heldout=linear.heldout), None
+    except NotConverged as reason:
+        return linear, f"{linear.hypothesis.text} could not be refitted: {reason}"
+
+
+def _likeliest(study: Study, hypothesis: Hypothesis, thresholds: Thresholds) -> list[Hypothesis]:
+    members = hypothesis.members
+    if len(members) <= 1:
+        return list(members)
+    widths = thresholds.name.mixture_widths
+
+    def evidence(member: Hypothesis) -> float:
+        return joint_evidence(study.base, candidates_of(study, member), widths).evidence
+
+    return sorted(members, key=evidence, reverse=True)[:GRID_MEMBERS]
+
+
+def first_look(study: Study, hypothesis: Hypothesis, thresholds: Thresholds) -> float:
+    """The least objective at a few sizes of what a hypothesis sets free, the nuisances linear: no fit.
+
+    For parameters whose slope tells little of what a large change does.
+    """
+    simulator = simulator_of(study.simulator, hypothesis, thresholds.name.fault_factor)
+    return _start(study, simulator, hypothesis.open_names, ROUGHLY)[0]
+
+
+def _start(
+    study: Study, simulator: Simulator, names: tuple[str, ...], sizes: tuple[float, ...]
+) -> tuple[float, Array]:
+    """The objective and xi where a fit starts: of the sizes tried what leaves least, the nuisances linear.
+
+    What a hypothesis sets free is tried one after the other, in full; its slope at nothing may tell little of it
+    (a threshold, a film twice as thick).
+    """
+    nuisances = _Nuisances(study, simulator, names)
+    least, start = nuisances.settled(np.zeros(len(simulator.parameters)))
+    for name in names:
+        at = [parameter.name for parameter in simulator.parameters].index(name)
+        for size in _signed(sizes, simulator.parameters[at]):
+            trial = np.where(nuisances.free, 0.0, start)
+            trial[at] = size
+            try:
+                objective, settled = nuisances.settled(trial)
+            except NotConverged:
+                continue
+            if objective < least:
+                least, start = objective, settled
+    return least, start
+
+
+def _signed(sizes: tuple[float, ...], parameter: Parameter) -> list[float]:
+    tried = [size for one in sizes for size in (one, -one)]
+    return [size for size in tried if parameter.lowest <= size <= parameter.highest]
+
+
+class _Nuisances:
+    """All that a hypothesis does not set free, with its slopes at the prior mean."""
+
+    def __init__(self, study: Study, simulator: Simulator, names: tuple[str, ...]) -> None:
+        self.study, self.simulator = study, simulator
+        self.free = np.array([parameter.name not in names for parameter in simulator.parameters])
+        kept = [p.name for p in simulator.parameters if p.name not in names]
+        self.slopes = study.base.slopes[:, [study.base.index(name) for name in kept]]
+        self.factor = cho_factor(self.slopes.T @ self.slopes + np.eye(len(kept)))
+        self.bounds = Bounds.of(simulator.parameters)
+
+    def settled(self, xi: Array) -> tuple[float, Array]:
+        """The objective and xi once the nuisances, 0 in `xi`, follow in the linear model.
+
+        Raises NotConverged where the simulator does.
+        """
+        predicted = self.simulator.predict(values_at(self.simulator.parameters, xi))
+        offset = self.study.base.whitening.whiten(self.study.observations.values - predicted)
+        taken = cho_solve(self.factor, self.slopes.T @ offset)
+        left = offset - self.slopes @ taken
+        settled = xi.copy()
+        settled[self.free] = np.clip(taken, -REACH, REACH)
+        return float(left @ left + taken @ taken + xi @ xi), self.bounds.within(settled)
+
+
+def _size_over_sigma(posterior: Posterior, hypothesis: Hypothesis) -> float:
+    """xi over its sigma of what a hypothesis sets free, the largest."""
+    places = [posterior.index(name) for name in hypothesis.open_names]
+    sizes = [float(posterior.xi[at] / np.sqrt(posterior.covariance[at, at])) for at in places]
+    return max(sizes, key=abs, default=0.0)

@@ -1,0 +1,55 @@
+"""What an explanation adds to the readings, and what is left: the mismatch as the explanation sees it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from diagnosis.component_evidence import likeliest_multiplier, multiplier_columns
+from diagnosis.hypotheses import simulator_of
+from diagnosis.map_axes import smooth_shapes
+from diagnosis.study import Study
+from diagnosis.thresholds import Thresholds
+from diagnosis.weighed import Weighed
+from system.components import Component
+from system.estimation.evidence import project
+from system.estimation.observations import Array
+from system.estimation.posterior import values_at
+
+
+@dataclass(frozen=True)
+class Repair:
+    """added: what the explanation adds to the predictions; left: reading less prediction with it; (N, C) in SI."""
+
+    added: Array
+    left: Array
+
+    @property
+    def mismatch(self) -> Array:
+        """(N, C), what the readings show of it: nan where nothing was measured."""
+        return self.added + self.left
+
+
+def repair(study: Study, weighed: Weighed, thresholds: Thresholds) -> Repair:
+    """The repair by a refitted explanation, or by a component's law bent freely. Raises NotConverged."""
+    if weighed.hypothesis.component is not None:
+        return _bent(study, weighed.hypothesis.component, thresholds)
+    posterior, own = weighed.posterior, weighed.hypothesis
+    if posterior is None:
+        nothing = np.zeros_like(study.base.predictions)
+        return Repair(nothing, study.observations.values - study.base.predictions)
+    simulator = simulator_of(study.simulator, own, thresholds.name.fault_factor)
+    closed = np.array([each.name in own.open_names for each in posterior.parameters])
+    without = simulator.predict(values_at(posterior.parameters, np.where(closed, 0.0, posterior.xi)))
+    return Repair(posterior.predictions - without, study.observations.values - posterior.predictions)
+
+
+def _bent(study: Study, component: Component, thresholds: Thresholds) -> Repair:
+    """The component's law times 1 + Phi beta, beta at its most likely in the linear model."""
+    base = study.base
+    beta = likeliest_multiplier(study, component, thresholds)
+    added = study.components[component] * (smooth_shapes(study.axes) @ beta)[:, None]
+    apart = project(base, multiplier_columns(study, base, component))
+    left = base.whitening.unwhiten(base.residual - apart @ beta)
+    return Repair(added, np.where(study.observations.measured, left, np.nan))

@@ -1,0 +1,60 @@
+"""Which explanations are worth a refit."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from scipy.stats import chi2
+
+from diagnosis.detect import Detection
+from diagnosis.refit import first_look
+from diagnosis.study import Study
+from diagnosis.thresholds import Thresholds
+from diagnosis.weighed import Weighed
+from system.errors import NotConverged
+from system.physics.effects import Kind
+
+PARAMETERS = 4  # wrong parameters that are refitted in any case where there is a mismatch
+
+
+def is_settled(detection: Detection, null: Weighed, thresholds: Thresholds) -> bool:
+    """Whether nothing speaks against the null's own refit: no candidate's score, no goodness of fit."""
+    fit = null.posterior
+    if fit is None:
+        return False
+    p_value = float(chi2.sf(fit.objective, fit.residual.size))
+    return min(detection.holm_p, p_value) >= thresholds.mismatch.holm
+
+
+def shortlist(
+    study: Study, screened: Sequence[Weighed], settled: bool, thresholds: Thresholds
+) -> tuple[Weighed, ...]:
+    """The explanations of the catalogue to refit: those within the gap of the best in the linear model.
+
+    Where the null holds, only those that gain on it. Where it does not, wrong parameters besides: large changes of
+    a film move the slopes of all others, so that the linear model puts them anywhere; those that leave least at a
+    first look are refitted.
+    """
+    limits = thresholds.name
+    known = [each for each in screened if each.hypothesis.open_names]
+    ranked = sorted(known, key=lambda each: -each.log_weight)
+    if not ranked:
+        return ()
+    least = max(
+        ranked[0].log_evidence - limits.shortlist_gap,
+        study.base.log_evidence if settled else -float("inf"),
+    )
+    chosen = [each for each in ranked[: limits.shortlist] if each.log_evidence > least]
+    if settled:
+        return tuple(chosen)
+    wrong = [each for each in ranked if each.hypothesis.kind is Kind.WRONG_PARAMETER]
+    looks = {id(each): _look(study, each, thresholds) for each in wrong}
+    promising = sorted(wrong, key=lambda each: looks[id(each)])[:PARAMETERS]
+    return (*chosen, *(each for each in promising if each not in chosen))
+
+
+def _look(study: Study, wrong: Weighed, thresholds: Thresholds) -> float:
+    try:
+        return first_look(study, wrong.hypothesis, thresholds)
+    except NotConverged:
+        return float("inf")

@@ -1,0 +1,386 @@
+"""Naming on a toy pump whose truth is known: films, friction, sensors, laws on top, non-linear in their sizes."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from functools import cache
+
+import numpy as np
+import pytest
+
+from diagnosis.diagnose import diagnose_study
+from diagnosis.heldout import held_out, regions
+from diagnosis.hypotheses import hypotheses
+from diagnosis.map_axes import AXES, scaled_axes
+from diagnosis.recording import Circuit, Recording, SteadyTable
+from diagnosis.screen import joint_evidence
+from diagnosis.study import Candidate, Study, study_of
+from diagnosis.thresholds import load_thresholds
+from diagnosis.unknown import scaling
+from diagnosis.verdict import Diagnosis, Status
+from system.channels import ChannelName
+from system.components import Component
+from system.errors import NotConverged
+from system.estimation.evidence import mixture_evidence, score
+from system.estimation.observations import Array, Channel, Observations
+from system.estimation.parameters import Parameter, Role, Scale
+from system.physics.effects import EffectId, Kind
+from system.physics.extension import Entry, Extension
+from system.pump_gap import Gap
+
+POINTS = 96
+CHANNELS = (ChannelName.Q_OUT, ChannelName.Q_CASE, ChannelName.TORQUE)
+SIGMA = np.array([0.1, 0.02, 0.3])
+LIMITS = load_thresholds()
+
+
+@cache
+def _recording() -> Recording:
+    rng = np.random.default_rng(60)
+    values = np.full((POINTS, len(ChannelName)), np.nan)
+    grid = np.array([(n, p, e) for n in (50, 90, 130, 200) for p in (5e6, 15e6, 25e6, 35e6) for e in (0.3, 1.0)])
+    picked = grid[rng.permutation(np.arange(POINTS) % len(grid))]
+    order = list(ChannelName)
+    for axis, column in zip(AXES, (*picked.T, rng.choice([313.0, 333.0, 353.0], POINTS)), strict=True):
+        values[:, order.index(axis)] = column
+    table = SteadyTable(values, np.arange(POINTS), np.full(POINTS, np.nan), np.ones(POINTS))
+    return Recording("toy", "toy", "", Circuit.CLOSED, (), table, (), ())
+
+
+def _axes() -> tuple[Array, ...]:
+    order = list(ChannelName)
+    n, p, e, heat = (_recording().steady.values[:, order.index(axis)] for axis in AXES)
+    return n / 200.0, p / 35e6, e, np.exp(-0.035 * (heat - 333.0))
+
+
+def _prior(name: str, scale: Scale, centre: float, spread: float, role: Role = Role.BASE) -> Parameter:
+    lower = 0.0 if scale is Scale.LOG else -np.inf
+    return Parameter(name, role, scale, centre, spread, lower, np.inf, None, "toy")
+
+
+BASE = (
+    _prior("film_thickness.slipper", Scale.LOG, 1.0, 0.08),
+    _prior("film_thickness.valve_plate", Scale.LOG, 1.0, 0.08),
+    _prior("friction.piston", Scale.LOG, 1.0, 0.15),
+    _prior("viscosity", Scale.LOG, 1.0, 0.02, Role.FLUID),
+    _prior("displacement", Scale.NORMAL, 1.0, 0.001),
+    _prior("torque.gain", Scale.NORMAL, 0.0, 0.001, Role.SENSOR),
+    _prior("torque.zero", Scale.NORMAL, 0.0, 0.1, Role.SENSOR),
+    _prior("Q_case.zero", Scale.NORMAL, 0.0, 0.01, Role.SENSOR),
+)
+
+
+def _size(name: str, spread: float) -> Parameter:
+    return Parameter(name, Role.EXTENSION, Scale.HALF, 0.0, spread, 0.0, 20.0 * spread, None, "toy")
+
+
+def _law(effect: EffectId, pair: Gap | None = None, grid: tuple[dict[str, float], ...] = ({},)) -> Extension:
+    name = ".".join([effect.value, *([pair.value] if pair else []), "size"])
+    return Extension(effect, pair, lambda values, courses, state: None, (_size(name, 0.3),), grid)  # type: ignore[arg-type, return-value]
+
+
+OPENING = {gap: _law(EffectId.ELASTIC_OPENING, gap) for gap in (Gap.SLIPPER, Gap.VALVE_PLATE)}
+MIXED = _law(EffectId.MIXED_FRICTION, grid=({"scale": 0.03}, {"scale": 0.1}, {"scale": 0.3}))
+CHURNING, SEAL = _law(EffectId.CHURNING), _law(EffectId.SEAL_DRAG)
+SHORT, CONTROL = _law(EffectId.PORT_SHORT_CIRCUIT), _law(EffectId.CONTROL_FLOW)
+
+
+def _entry(effect: EffectId, kind: Kind, *laws: Extension) -> Entry:
+    return Entry(effect, kind, laws, (), (), "", (), "", "")
+
+
+CATALOGUE = (
+    _entry(EffectId.ELASTIC_OPENING, Kind.MISSING_PHYSICS, *OPENING.values()),
+    *(_entry(law.id, Kind.MISSING_PHYSICS, law) for law in (MIXED, CHURNING, SEAL, SHORT, CONTROL)),
+    *(
+        _entry(effect, Kind.SENSOR_FAULT)
+        for effect in (EffectId.TORQUE_GAIN, EffectId.TORQUE_OFFSET, EffectId.Q_CASE_OFFSET)
+    ),
+    *(
+        _entry(effect, Kind.WRONG_PARAMETER)
+        for effect in (EffectId.FILM_THICKNESS, EffectId.FRICTION_COEFFICIENT, EffectId.DISPLACEMENT)
+    ),
+)
+
+
+def _readings(known: Mapping[str, float], scale: float = 0.1) -> dict[Component, Array]:
+    """Contributions (N, 3) of the parts: flows in L/min, torque in N m."""
+    n, p, e, mu = _axes()
+    mu = mu * known["viscosity"]
+    zero = np.zeros(POINTS)
+
+    def size(effect: EffectId, gap: Gap | None = None) -> float:
+        return known.get(".".join([effect.value, *([gap.value] if gap else []), "size"]), 0.0)
+
+    def leak(gap: Gap, shape: Array) -> Array:
+        film = known[f"film_thickness.{gap.value}"] * (1.0 + size(EffectId.ELASTIC_OPENING, gap) * p)
+        flow = film**3 * shape * p / mu
+        return np.stack([-flow, flow, 2.0 * mu * n / film], axis=1)
+
+    cross, control = (size(law.id) * np.sqrt(p) for law in (SHORT, CONTROL))
+    coulomb = known["friction.piston"] * 6.0 * p * e
+    mixed = size(EffectId.MIXED_FRICTION) * 20.0 * p * e * np.exp(-mu * n / (p * scale))
+    drag = size(EffectId.CHURNING) * 10.0 * n**2 + size(EffectId.SEAL_DRAG) * 3.0
+    ideal = known["displacement"] * e
+    return {
+        Component.DISPLACEMENT: np.stack([170.0 * n * ideal, zero, 490.0 * p * ideal], axis=1),
+        Component.SLIPPER_LEAKAGE: leak(Gap.SLIPPER, 0.6 * (1.0 - 0.3 * e)),
+        Component.PLATE_LEAKAGE: leak(Gap.VALVE_PLATE, np.ones(POINTS)),
+        Component.CROSS_FLOW: np.stack([-cross, zero, zero], axis=1),
+        Component.DRAIN_FLOW: np.stack([-control, control, zero], axis=1),
+        Component.PISTON_FRICTION: np.stack([zero, zero, coulomb + mixed], axis=1),
+        Component.CASE_DRAG: np.stack([zero, zero, drag + 0.3], axis=1),
+    }
+
+
+@dataclass(frozen=True)
+class ToyPump:
+    """The toy as a simulator; `scale`: of mixed friction's grid; `widest`: film above which it fails."""
+
+    parameters: tuple[Parameter, ...] = BASE
+    scale: float = 0.1
+    widest: float = np.inf
+
+    def predict(self, values: Array) -> Array:
+        known = {one.name: value for one, value in zip(self.parameters, values, strict=True)}
+        if known["film_thickness.slipper"] > self.widest:
+            raise NotConverged("the toy's film")
+        plain = sum(_readings(known, self.scale).values())
+        gain = 1.0 + known["torque.gain"] * np.eye(3)[2]
+        return plain * gain + np.array([0.0, known["Q_case.zero"], known["torque.zero"]])
+
+    def slopes(self, values: Array, names: tuple[str, ...]) -> Array:
+        columns = []
+        for at in [place for place, one in enumerate(self.parameters) if one.name in names]:
+            step = np.zeros_like(values)
+            step[at] = 1e-5
+            columns.append((self.predict(values + step) - self.predict(values - step)) / 2e-5)
+        return np.stack(columns, axis=-1)
+
+    def input_slopes(self, values: Array) -> Array:
+        return np.zeros((POINTS, len(CHANNELS), 0))
+
+    def with_parameters(self, parameters: tuple[Parameter, ...]) -> ToyPump:
+        given = {one.name: one for one in parameters}
+        return replace(self, parameters=tuple(given.get(one.name, one) for one in self.parameters))
+
+    def with_extensions(self, extensions: tuple[Extension, ...]) -> ToyPump:
+        scales = [each.grid[0]["scale"] for each in extensions if "scale" in each.grid[0]]
+        added = tuple(one for each in extensions for one in each.parameters)
+        return replace(self, parameters=self.parameters + added, scale=(*scales, self.scale)[0])
+
+    def difference(self, values: Array, other: Array) -> Array:
+        return self.predict(other) - self.predict(values)
+
+    def traces(self, values: Array, points: tuple[int, ...], angles: Array) -> Array:
+        raise NotImplementedError
+
+    def components(self, values: Array) -> Mapping[Component, Array]:
+        known = {one.name: value for one, value in zip(self.parameters, values, strict=True)}
+        plain = self.predict(values)
+        sensors = (Component.Q_OUT_SENSOR, Component.Q_CASE_SENSOR, Component.TORQUE_SENSOR)
+        return _readings(known) | {one: plain * np.eye(3)[at] for at, one in enumerate(sensors)}
+
+
+def _study(
+    seed: int = 0,
+    added: Array | float = 0.0,
+    laws: tuple[tuple[Extension, float], ...] = (),
+    pump: ToyPump | None = None,
+    **wrong: float,
+) -> Study:
+    """Readings of a pump within tolerance, but for laws of some size and parameters at a wrong value."""
+    rng = np.random.default_rng([61, seed])
+    truth = ToyPump().with_extensions(tuple(law for law, _ in laws))
+    drawn = [one.value(xi) for one, xi in zip(BASE, rng.normal(size=len(BASE)), strict=True)]
+    values = np.array([*drawn, *(size for _, size in laws)])
+    for name, value in wrong.items():
+        values[[one.name for one in BASE].index(name.replace("__", "."))] = value
+    readings = truth.predict(values) + added + SIGMA * rng.normal(size=(POINTS, 3))
+    observations = Observations(
+        channels=tuple(Channel(channel.value, channel.dimension) for channel in CHANNELS),
+        values=readings,
+        sigma=np.tile(SIGMA, (POINTS, 1)),
+        inputs=(),
+        input_sigma=np.zeros((POINTS, 0)),
+        quantum=np.zeros(3),
+        blocks=np.arange(POINTS) // 8,
+    )
+    return study_of(_recording(), pump or ToyPump(), observations, scaled_axes(_recording()), CATALOGUE, LIMITS)
+
+
+def _diagnosis(study: Study) -> Diagnosis:
+    return diagnose_study(study, 0.025 * _axes()[3], LIMITS)
+
+
+def _told(found: Diagnosis) -> tuple[Kind, Status, tuple[EffectId, ...]]:
+    return found.kind, found.status, tuple(claim.effect for claim in found.effects)
+
+
+LAWS = (
+    (OPENING[Gap.SLIPPER], 0.3),
+    (OPENING[Gap.VALVE_PLATE], 0.2),
+    (MIXED.members[2], 0.2),
+    (CHURNING, 0.2),
+    (SHORT, 0.3),
+    (CONTROL, 0.1),
+)
+
+
+@pytest.mark.parametrize(("law", "size"), LAWS, ids=[f"{law.id.value}-{law.pair}" for law, _ in LAWS])
+def test_a_law_left_out_is_named_with_its_place_and_size(law: Extension, size: float) -> None:
+    """Effects of 8 to 50 sigma: named, at the right gap, the size within 4 sigma of the truth."""
+    found = _diagnosis(_study(1, laws=((law, size),)))
+    assert _told(found) == (Kind.MISSING_PHYSICS, Status.NAMED, (law.id,))
+    claim = found.effects[0]
+    assert claim.pair is law.pair
+    assert claim.probability > 0.9
+    assert claim.equivalent == ()
+    assert abs(claim.parameters[0].value - size) < 4.0 * claim.parameters[0].sigma
+    assert min(found.fit.gains.values()) > 0.0
+    assert found.hypotheses[0].hypothesis.effects == (law.id,)
+    for channel, noise in found.fit.noise.items():
+        assert found.fit.after[channel] < 1.2 * noise  # 4 sigma of the mean square of 96 readings
+
+
+def test_nothing_is_named_where_nothing_is_left_out() -> None:
+    """10 nulls: no name, no suspicion but for one; probabilities sum to 1."""
+    found = [_diagnosis(_study(seed)) for seed in range(10)]
+    assert all(each.kind is Kind.NO_MISMATCH and not each.effects for each in found)
+    assert sum(each.status is Status.SUSPICION for each in found) <= 1
+    assert sum(one.probability for one in found[0].hypotheses) == pytest.approx(1.0)
+    assert found[0].scaling is None
+
+
+def test_small_effects_are_named_right_or_not_at_all() -> None:
+    """Churning of 3 sigma, 8 seeds: what is claimed is churning, and mostly nothing is."""
+    study = _study()
+    column = next(each.column for each in study.candidates if each.extension == CHURNING)
+    size = 3.0 * score(study.base, column).sigma * CHURNING.parameters[0].spread
+    found = [_diagnosis(_study(seed, laws=((CHURNING, size),))) for seed in range(100, 108)]
+    claimed = [{claim.effect, *claim.equivalent} for each in found for claim in each.effects]
+    assert all(EffectId.CHURNING in ids for ids in claimed)
+    assert len(claimed) <= len(found) / 2
+
+
+def test_constant_torque_is_a_class() -> None:
+    """A seal's drag and the torque meter's zero are one column: told as a class, whichever leads."""
+    found = _diagnosis(_study(1, laws=((SEAL, 0.4),)))
+    assert found.status is Status.CLASS
+    assert {found.effects[0].effect, *found.effects[0].equivalent} == {EffectId.SEAL_DRAG, EffectId.TORQUE_OFFSET}
+    assert any("seal_drag" in text and "torque_offset" in text for text in found.not_identifiable)
+
+
+def test_a_film_twice_as_thick_is_a_wrong_parameter() -> None:
+    """The linear model puts another film first; the refit finds the right one and its thickness."""
+    found = _diagnosis(_study(1, film_thickness__slipper=2.0))
+    assert _told(found) == (Kind.WRONG_PARAMETER, Status.NAMED, (EffectId.FILM_THICKNESS,))
+    claim = found.effects[0]
+    assert claim.pair is Gap.SLIPPER
+    assert claim.parameters[0].name == "film_thickness.slipper"
+    assert abs(claim.parameters[0].value - 2.0) < 4.0 * claim.parameters[0].sigma
+
+
+def test_a_meter_that_is_off_is_no_physics() -> None:
+    """A zero is named; a gain of torque and a friction that is half of torque are a class, told as one."""
+    found = _diagnosis(_study(1, Q_case__zero=0.1))
+    assert _told(found) == (Kind.SENSOR_FAULT, Status.NAMED, (EffectId.Q_CASE_OFFSET,))
+    found = _diagnosis(_study(1, torque__gain=0.02))
+    claimed = {found.effects[0].effect, *found.effects[0].equivalent}
+    assert found.status is Status.CLASS
+    assert claimed == {EffectId.TORQUE_GAIN, EffectId.FRICTION_COEFFICIENT}
+
+
+@pytest.mark.parametrize("count", [2, 3])
+def test_several_effects_are_found_together(count: int) -> None:
+    laws = ((CHURNING, 0.2), (SHORT, 0.3), (OPENING[Gap.VALVE_PLATE], 0.2))[:count]
+    found = _diagnosis(_study(1, laws=laws))
+    assert found.status is Status.NAMED
+    assert {claim.effect for claim in found.effects} == {law.id for law, _ in laws}
+    sizes = {claim.effect: claim.parameters[0] for claim in found.effects}
+    for law, size in laws:
+        assert abs(sizes[law.id].value - size) < 4.0 * sizes[law.id].sigma
+
+
+def test_what_stands_in_no_catalogue_is_unknown() -> None:
+    """Drain flow that grows with sqrt(p) mu n: unknown, with its exponents to a third (the films take up a part)."""
+    n, p, _, mu = _axes()
+    zero = np.zeros(POINTS)
+    found = _diagnosis(_study(1, added=np.stack([zero, 0.5 * np.sqrt(p) * mu * n, zero], axis=1)))
+    assert _told(found) == (Kind.UNKNOWN_PHYSICS, Status.NAMED, ())
+    assert found.scaling is not None
+    assert found.scaling.channel is ChannelName.Q_CASE
+    expected = {"speed": 1.0, "pressure": 0.5, "displacement": 0.0, "viscosity": 1.0}
+    for name, exponent in expected.items():
+        assert found.scaling.exponents[name] == pytest.approx(exponent, abs=0.34)
+
+
+def test_what_cannot_be_refitted_is_told() -> None:
+    """A film that the simulator cannot do as wide as it is: the diagnosis goes on, and does not name another."""
+    found = _diagnosis(_study(1, film_thickness__slipper=2.0, pump=ToyPump(widest=1.3)))
+    assert EffectId.FILM_THICKNESS not in {claim.effect for claim in found.effects}
+    with pytest.raises(NotConverged):
+        _diagnosis(_study(1, pump=ToyPump(widest=0.9)))
+
+
+def test_prior_probabilities_sum_to_one() -> None:
+    """Kinds share as thresholds say, a kind's ids evenly, an id's places evenly; nothing stands first."""
+    study = _study()
+    found = hypotheses(study, LIMITS)
+    assert found[0].kind is Kind.NO_MISMATCH
+    mass = {kind: sum(np.exp(each.log_prior) for each in found if each.kind is kind) for kind in Kind}
+    assert sum(mass.values()) == pytest.approx(1.0)
+    assert mass[Kind.MISSING_PHYSICS] / mass[Kind.NO_MISMATCH] == pytest.approx(0.3 / 0.5)
+    opening = [each for each in found if each.effects == (EffectId.ELASTIC_OPENING,)]
+    churning = next(each for each in found if each.effects == (EffectId.CHURNING,))
+    assert {each.pair for each in opening} == {Gap.SLIPPER, Gap.VALVE_PLATE}
+    assert sum(np.exp(each.log_prior) for each in opening) == pytest.approx(np.exp(churning.log_prior))
+    mixed = next(each for each in found if each.effects == (EffectId.MIXED_FRICTION,))
+    assert len(mixed.members) == 3
+
+
+def test_joint_evidence_of_one_column_is_that_of_its_score() -> None:
+    study = _study(2)
+    for each in study.candidates:
+        own = Candidate(each.entry, each.extension, each.grid, each.parameter, each.column, 1.0, each.sign)
+        widths = LIMITS.name.mixture_widths
+        expected = mixture_evidence(score(study.base, each.column), widths, each.sign)
+        assert joint_evidence(study.base, (own,), widths).evidence == pytest.approx(expected, abs=1e-9)
+
+
+def test_regions_held_out_veto_what_foretells_worse() -> None:
+    """The null in the place of the explanation, where an effect is there: every region speaks against it."""
+    found = _diagnosis(_study(1, laws=((CHURNING, 0.2),)))
+    swapped = held_out(_study(1, laws=((CHURNING, 0.2),)), found.after, found.before, LIMITS)
+    assert swapped.vetoed
+    assert not found.fit.vetoed
+    for name, gain in swapped.gains.items():
+        assert gain == pytest.approx(-found.fit.gains[name])
+
+
+def test_a_region_that_alone_tells_a_parameter_is_no_test() -> None:
+    """A parameter seen in hot points only: leaving them out would test its prior."""
+    study = _study()
+    hot = study.axes[:, 3] > 1.0 / 3.0
+    slopes = study.base.slopes.copy()
+    slopes[:, 0] = np.where(hot[study.base.whitening.rows[:, 0]], 10.0, 0.0)
+    own = replace(study.base, slopes=slopes, precision=slopes.T @ slopes + np.eye(slopes.shape[1]))
+    assert "hot" in regions(study, (study.base,))
+    assert "hot" not in regions(study, (study.base, own))
+
+
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_exponents_of_a_power_law(sign: float) -> None:
+    """Noise of a tenth of the signal: exponents within 4 sigma; a coordinate that stands still has none."""
+    rng = np.random.default_rng(62)
+    speed, pressure = rng.uniform(1.0, 5.0, (2, 200))
+    signal = sign * 3.0 * speed**-1.0 * pressure**2.5
+    noisy = signal + 0.3 * rng.normal(size=200)
+    coordinates = {"speed": speed, "pressure": pressure, "viscosity": np.ones(200)}
+    found = scaling(ChannelName.Q_CASE, noisy, np.full(200, 0.3), coordinates)
+    assert found is not None
+    assert set(found.exponents) == {"speed", "pressure"}
+    for name, exponent in (("speed", -1.0), ("pressure", 2.5)):
+        assert abs(found.exponents[name] - exponent) < 4.0 * found.sigma[name]
+        assert found.sigma[name] < 0.05
