@@ -34,6 +34,14 @@ class Contrasts:
     agreement: Array
     content: Array
 
+    @property
+    def scatter(self) -> float:
+        """How much more the channel scatters than it should: root of chi-square per freedom, 1 at least."""
+        level, axes = np.linalg.eigh(self.content)
+        kept = level > NOTHING_LEFT * level.max(initial=1.0)
+        along = (axes.T @ self.agreement)[kept] ** 2 / level[kept]
+        return max(1.0, float(np.sqrt(along.mean()))) if kept.any() else 1.0
+
     def z(self, patterns: Array) -> Array:
         """Contrasts (m,) of patterns (N, m), in sigma; 0 for a pattern that the parameters can take up."""
         content = np.einsum("nm,nm->m", patterns, self.content @ patterns)

@@ -22,6 +22,7 @@ from diagnosis.thresholds import Thresholds
 from diagnosis.time_scan import TimeMark, scan_time
 from system.channels import ChannelName
 from system.components import Component
+from system.estimation.observations import Array
 
 
 @dataclass(frozen=True)
@@ -46,10 +47,11 @@ def locate(study: Study, thresholds: Thresholds) -> Location:
     limits = thresholds.locate
     ranking = component_evidences(study, thresholds)
     tie = tied(ranking, thresholds.name.odds)
-    channels = _channels(study, tie[0], thresholds) if tie else ()
+    pattern = missing_pattern(study, tie[0], thresholds) if tie else np.zeros(study.observations.values.shape)
+    channels = _channels(study, pattern, limits.channel_share)
     return Location(
         channels=channels,
-        region=_region(study, channels[0], limits.region_share) if channels else None,
+        region=_region(study, channels[0], pattern, limits.region_share) if channels else None,
         components=ranking,
         groups=group_evidences(ranking),
         tie=tie,
@@ -58,14 +60,16 @@ def locate(study: Study, thresholds: Thresholds) -> Location:
     )
 
 
-def _channels(study: Study, component: Component, thresholds: Thresholds) -> tuple[ChannelName, ...]:
+def _channels(study: Study, pattern: Array, least_share: float) -> tuple[ChannelName, ...]:
     """Those in which the best component's missing part shows: raw excess would count every channel's noise."""
-    energy = (missing_pattern(study, component, thresholds) ** 2).sum(axis=0)
+    energy = (pattern**2).sum(axis=0)
     order = np.argsort(-energy)
-    least = thresholds.locate.channel_share * energy.sum()
-    return tuple(ChannelName.named(study.observations.channels[at].name) for at in order if energy[at] >= least)
+    least = least_share * energy.sum()
+    names = [ChannelName.named(channel.name) for channel in study.observations.channels]
+    return tuple(names[at] for at in order if energy[at] > 0 and energy[at] >= least)
 
 
-def _region(study: Study, channel: ChannelName, share: float) -> Region | None:
+def _region(study: Study, channel: ChannelName, pattern: Array, share: float) -> Region | None:
     at = [each.name for each in study.observations.channels].index(channel.value)
-    return densest_region(channel, contrasts(study.base, at), axis_values(study.recording), share)
+    axes = axis_values(study.recording)
+    return densest_region(channel, contrasts(study.base, at), pattern[:, at], axes, share)

@@ -53,18 +53,22 @@ def flagged(
 
 
 def densest_region(
-    channel: ChannelName, found: Contrasts, axes: Mapping[ChannelName, Array], share: float
+    channel: ChannelName, found: Contrasts, pattern: Array, axes: Mapping[ChannelName, Array], share: float
 ) -> Region | None:
     """The box of half lines in which the channel's mismatch lies; None where it fills the map.
 
     Of all boxes whose z^2 is at least `share` of the best, those of fewest bounds; of these the greatest z^2.
+    A zero that is free makes a box and its complement one contrast: only those count within which `pattern` (N,),
+    what is missing in sigma, is the greater.
     """
     if not axes:
         return None
     sides = [_half_lines(axis, values) for axis, values in axes.items()]
     chosen, marks = _all_boxes(sides, axes)
     z = found.z(marks.astype(float))
-    squares = np.where(marks.sum(axis=0) >= LEAST_POINTS, z**2, 0.0)
+    count = marks.sum(axis=0)
+    within = pattern**2 @ marks >= np.mean(pattern**2) * count
+    squares = np.where(within & (count >= LEAST_POINTS), z**2, 0.0)
     bounds = (chosen > 0).sum(axis=0)
     good = squares >= share * squares.max()
     best = int(np.argmax(np.where(good & (bounds == bounds[good].min()), squares, -1.0)))

@@ -42,7 +42,8 @@ def scan_time(study: Study, thresholds: Thresholds) -> TimeMark | None:
     """The drift or onset of least p among all channels and places, or None above the threshold.
 
     Contrasts of a straight line and of steps (Page 1954) along the rows. A smooth mismatch over the map is fitted
-    too, so that an effect of pressure is no drift because pressure rose with time. p: the greatest contrast
+    too, so that an effect of pressure is no drift because pressure rose with time, and contrasts are in units of
+    what the channel scatters then, so that what no smooth law explains is none either. p: the greatest contrast
     against that of drawn readings (Westfall and Young 1993), or Bonferroni's bound where it is less.
     """
     limits = thresholds.locate
@@ -51,7 +52,7 @@ def scan_time(study: Study, thresholds: Thresholds) -> TimeMark | None:
     found = []
     for at, reading in enumerate(study.observations.channels):
         own = contrasts(study.base, at, beside=_smooth_columns(study, at, shapes))
-        found.append((ChannelName.named(reading.name), own, own.z(patterns)))
+        found.append((ChannelName.named(reading.name), own, own.z(patterns) / own.scatter))
     best = max(found, key=lambda each: np.abs(each[2]).max())
     channel, own, z = best
     p_value = min(1.0, len(found) * _greatest_p(own, patterns, z, limits.draws, thresholds.seeds.locate))

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import numpy as np
-from system.sensors import encoder_parameter
 
 from diagnosis.recording import RecordedChannel, Recording, TraceBlock, reading_sigma
 from diagnosis.study import PortEvent, PumpSimulator, TraceMisfit
@@ -14,17 +13,24 @@ from system.description import PumpDescription
 from system.estimation.observations import Array
 from system.estimation.posterior import values_at
 from system.lumped import port_openings
+from system.physics.catalogue import entry_of
+from system.physics.effects import EffectId
 from system.ports import TURN, PortOpening
+from system.sensors import encoder_parameter
 
 MOVING = ("encoder_offset", "bulk_modulus", "dead_volume", "flow_coefficient", "stand_out_share", "p_out.zero")
 """Parameters that a chamber's pressure over the turn hangs on."""
+GROOVES = tuple(law.members[0] for law in entry_of(EffectId.NOTCH_EROSION).extensions)
+GROOVE_TOLERANCE = 0.3  # of the spread of eroded grooves: half a degree of their start, a tenth of their area
+SMOOTHED = np.radians(1.0)  # over which a transducer and its bore smooth a pressure, one sigma
 NO_ENCODER = 1e-6  # rad: one sigma of an encoder that is stated to be without offset
 
 
 def trace_misfits(recording: Recording, simulator: PumpSimulator) -> tuple[TraceMisfit, ...]:
     """The recorded traces less those simulated at the prior mean, with what may explain them away.
 
-    Beside the pump's own parameters: the offset of the encoder, gain and zero of the pressure sensor.
+    Beside the pump's own parameters: the offset of the encoder, gain, zero and smoothing of the pressure sensor,
+    and the tolerance of the relief grooves. An angle is known to its step, so where pressure is steep it is not.
     """
     channel = recording.channel(ChannelName.P_CHAMBER)
     if channel is None:
@@ -58,19 +64,25 @@ def _of(port: PortOpening[float]) -> Iterator[tuple[float, str]]:
 
 
 def _misfit(trace: TraceBlock, channel: RecordedChannel, simulator: PumpSimulator) -> TraceMisfit:
-    parameters = simulator.parameters
-    start = np.zeros(len(parameters))
+    eroded = simulator.with_extensions(GROOVES)
+    spreads = {parameter.name: GROOVE_TOLERANCE for law in GROOVES for parameter in law.parameters}
+    spreads |= dict.fromkeys(MOVING, 1.0)
+    start = np.zeros(len(eroded.parameters))
 
     def simulated(xi: Array) -> Array:
-        return simulator.traces(values_at(parameters, xi), (trace.point,), trace.angle)[0]
+        return eroded.traces(values_at(eroded.parameters, xi), (trace.point,), trace.angle)[0]
 
     plain = simulated(start)
     moved = []
-    for at, parameter in enumerate(parameters):
-        if parameter.name in MOVING:
+    for at, parameter in enumerate(eroded.parameters):
+        if parameter.name in spreads:
             xi = start.copy()
-            xi[at] = 1.0
+            xi[at] = spreads[parameter.name]
             moved.append(simulated(xi) - plain)
-    sensor = (channel.gain_sigma * plain, np.full_like(plain, channel.zero_sigma))
-    sigma = np.hypot(reading_sigma(channel, trace.mean), channel.quantum / np.sqrt(12.0)) / np.sqrt(trace.cycles)
+    step = TURN / len(plain)
+    steepness = (np.roll(plain, -1) - np.roll(plain, 1)) / (2.0 * step)
+    bend = (np.roll(plain, -1) - 2.0 * plain + np.roll(plain, 1)) / step**2
+    sensor = (channel.gain_sigma * plain, np.full_like(plain, channel.zero_sigma), 0.5 * SMOOTHED**2 * bend)
+    noise = np.hypot(reading_sigma(channel, trace.mean), channel.quantum / np.sqrt(12.0)) / np.sqrt(trace.cycles)
+    sigma = np.hypot(noise, steepness * step / np.sqrt(12.0))
     return TraceMisfit(trace, trace.mean - plain, np.stack([*moved, *sensor], axis=1), sigma)

@@ -1,0 +1,64 @@
+"""From a pump and a recording to the study of both."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from diagnosis.map_axes import scaled_axes
+from diagnosis.readings import bench_points, complete, measured, observations
+from diagnosis.recording import DataNote, NoteKind, Recording
+from diagnosis.study import Study, study_of
+from diagnosis.thresholds import Thresholds
+from diagnosis.trace_misfits import port_events, trace_misfits
+from reynolds.errors import FilmInputError
+from system.bench_map import LumpedBench
+from system.bench_parameters import base_parameters
+from system.bench_truth import SIMULATED
+from system.channels import INPUTS, OUTPUTS, ChannelName
+from system.description import PumpDescription
+from system.estimation.parameters import Parameter
+from system.physics.catalogue import CATALOGUE
+from system.sensors import drift_parameter, lag_parameter, sensor_parameters
+from system.tolerances import Tolerances
+
+LAG = 1.0  # s, one sigma of a flow meter's lag where none is stated
+
+
+def prepare(pump: PumpDescription, recording: Recording, tolerances: Tolerances, thresholds: Thresholds) -> Study:
+    """The study of a recording of a pump, by the lumped fidelity, with the whole catalogue as candidates.
+
+    What the recording leaves out is taken and told in the notes of the study's recording. Raises FilmInputError
+    for a recording without an output that the simulation knows, NotConverged where a point cannot be simulated.
+    """
+    usable = complete(recording)
+    channels, inputs = measured(usable, SIMULATED), measured(usable, INPUTS)
+    if not channels:
+        names = ", ".join(channel.value for channel in SIMULATED)
+        raise FilmInputError("recording", "none of the simulated outputs", f"at least one of {names}")
+    points, taken = bench_points(usable, pump)
+    unused = tuple(
+        DataNote(NoteKind.TOLD, name, (), f"{name.value} is recorded, but the simulation does not give it")
+        for name in measured(usable, OUTPUTS)
+        if name not in SIMULATED
+    )
+    usable = replace(usable, notes=(*usable.notes, *taken, *unused))
+    parameters = (*base_parameters(pump, tolerances), *_sensors(usable, channels))
+    simulator = LumpedBench(pump, points, channels, parameters, inputs=inputs)
+    found = observations(usable, channels, inputs)
+    study = study_of(usable, simulator, found, scaled_axes(usable), CATALOGUE, thresholds)
+    return replace(study, traces=trace_misfits(usable, simulator), events=port_events(pump))
+
+
+def _sensors(recording: Recording, channels: tuple[ChannelName, ...]) -> tuple[Parameter, ...]:
+    """Calibrations of what is simulated or set; the drain meter may drift by its zero's sigma, flow meters lag."""
+    known = [channel for channel in recording.channels if channel.name in (*channels, *INPUTS)]
+    found = list(sensor_parameters(known))
+    drain = recording.channel(ChannelName.Q_CASE)
+    if drain is not None and drain.name in channels and drain.zero_sigma > 0:
+        found.append(drift_parameter(drain.name, drain.zero_sigma))
+    delivery = recording.channel(ChannelName.Q_OUT)
+    if delivery is not None and delivery.name in channels and np.all(np.isfinite(recording.steady.hours)):
+        found.append(lag_parameter(delivery.name, delivery.lag or LAG))
+    return tuple(found)

@@ -1,0 +1,76 @@
+"""Detecting and locating on recordings of the bench."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from diagnosis.detect import detect
+from diagnosis.locate import locate
+from diagnosis.prepare import prepare
+from diagnosis.recording import Recording
+from diagnosis.recording_reader import read_recording
+from diagnosis.study import Study
+from diagnosis.thresholds import load_thresholds
+from diagnosis.trace_misfits import port_events
+from reynolds.errors import FilmInputError
+from system.channels import ChannelName
+from system.pump_file import load_pump
+from system.tolerances import tolerances
+
+LIMITS = load_thresholds()
+PUMP = load_pump("ref90")
+
+
+def _every(recording: Recording, step: int) -> Recording:
+    """Every step-th point, without traces."""
+    steady = replace(recording.steady, **{name: one[::step] for name, one in vars(recording.steady).items()})
+    return replace(recording, steady=steady, traces=())
+
+
+def _study(shared: Path, name: str, step: int = 1) -> Study:
+    recording = read_recording(shared / "recordings" / "bench" / name)
+    picked = recording if step == 1 else _every(recording, step)
+    return prepare(PUMP, picked, tolerances(PUMP)[0], LIMITS)
+
+
+@pytest.mark.slow
+def test_a_bench_without_mismatch_has_none(shared: Path) -> None:
+    """chi-square per reading 1 within 4 sigma of its scatter, no candidate, no flag, no place."""
+    study = _study(shared, "open-01")
+    found, place = detect(study, LIMITS), locate(study, LIMITS)
+    assert abs(found.chi2_per_dof - 1.0) < 4 * np.sqrt(2.0 / study.base.residual.size)
+    assert found.holm_p > 0.05
+    assert found.flags == ()
+    assert place.tie == ()
+    assert place.time is None
+    assert place.angle is None
+
+
+def test_a_short_circuit_lies_in_the_cross_flow(shared: Path) -> None:
+    """Every third point of a recorded map: the first candidate, its channels, its component."""
+    study = _study(shared, "open-06", step=3)
+    found, place = detect(study, LIMITS), locate(study, LIMITS)
+    assert found.holm_p < LIMITS.mismatch.holm
+    assert found.strongest[0][0].entry.id.value in ("port_short_circuit", "laminar_cross_leak")
+    assert set(place.channels) == {ChannelName.Q_OUT, ChannelName.Q_IN}
+    assert place.components[0][0].value == "cross_flow"
+
+
+def test_a_recording_without_simulated_outputs_is_refused(shared: Path) -> None:
+    recording = read_recording(shared / "recordings" / "bench" / "open-01")
+    bare = replace(recording, channels=tuple(one for one in recording.channels if one.name is ChannelName.SPEED))
+    with pytest.raises(FilmInputError, match="Q_case"):
+        prepare(PUMP, bare, tolerances(PUMP)[0], LIMITS)
+
+
+def test_ports_tell_their_events_in_order() -> None:
+    events = port_events(PUMP)
+    angles = [event.angle for event in events]
+    assert angles == sorted(angles)
+    assert {"outer dead centre", "delivery groove begins to open", "suction kidney is shut"} <= {
+        event.text for event in events
+    }
