@@ -16,9 +16,10 @@ def extended_pump(
 ) -> PumpDescription:
     """The pump with `base_parameters` and the extensions' parameters at values (SI) by name.
 
-    extensions: each with a grid of one; an effect that the pump has switched on already is stated anew. Names of
-    sensors do not matter. `system.pump_file.resolved_toml` writes it as a file that runs to the readings of a
-    `LumpedBench` at these values. Raises pydantic's ValidationError for values outside the effects' bounds.
+    extensions: each with a grid of one; an effect that the pump has switched on already is stated anew, Barus'
+    coefficient in [oil] too. Names of sensors do not matter. `system.pump_file.resolved_toml` writes it as a file
+    that runs to the readings of a `LumpedBench` at these values. Raises pydantic's ValidationError for values
+    outside the effects' bounds.
     """
     own = pump_with(pump, values)
     stated: dict[str, Any] = pump.physics.model_dump(exclude_none=True)
@@ -31,5 +32,9 @@ def extended_pump(
     displacement = pump.pump.displacement
     if displacement is not None:
         displacement *= values.get("displacement", 1.0)
+    physics = PhysicsSection.model_validate(stated)
     part = own.pump.model_copy(update={"displacement": displacement})
-    return own.model_copy(update={"pump": part, "physics": PhysicsSection.model_validate(stated)})
+    oil = own.oil
+    if physics.viscosity_pressure is not None and oil.pressure_viscosity is not None:
+        oil = oil.model_copy(update={"pressure_viscosity": physics.viscosity_pressure.coefficient})
+    return own.model_copy(update={"pump": part, "oil": oil, "physics": physics})

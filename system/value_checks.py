@@ -7,6 +7,7 @@ from collections.abc import Iterator
 
 from system.checks import CheckWarning, Finding, needs
 from system.description import FrictionSection, PumpDescription
+from system.faults import Fault
 from system.lumped import piston_area
 from system.units import Dimension, format_quantity
 
@@ -50,7 +51,20 @@ def friction_is_below_that_of_dry_steel(pump: PumpDescription) -> Iterator[Findi
             )
 
 
+@needs("oil.pressure_viscosity", "physics.viscosity_pressure.coefficient")
+def oil_thickens_by_one_coefficient(pump: PumpDescription) -> Iterator[Finding]:
+    """[oil] and [physics.viscosity_pressure] state the same coefficient of Barus."""
+    of_oil, thickening = pump.oil.pressure_viscosity, pump.physics.viscosity_pressure
+    if of_oil is not None and thickening is not None and not math.isclose(of_oil, thickening.coefficient):
+        yield Fault(
+            "physics.viscosity_pressure.coefficient",
+            format_quantity(thickening.coefficient, Dimension.PRESSURE_COEFFICIENT, digits=4),
+            f"oil.pressure_viscosity, {format_quantity(of_oil, Dimension.PRESSURE_COEFFICIENT, digits=4)}",
+        )
+
+
 VALUE_CHECKS = (
+    oil_thickens_by_one_coefficient,
     piston_is_no_heavier_than_steel,
     slipper_is_no_heavier_than_steel,
     friction_is_below_that_of_dry_steel,

@@ -19,10 +19,11 @@ from system.lumped import SAMPLES_PER_PITCH
 from system.lumped_point import lumped_point
 from system.operating import operating_point
 from system.physics.catalogue import EXTENSIONS
+from system.physics.effects import EffectId
 from system.physics.extension import Extension
 from system.physics.switched import switched_on
 from system.physics_description import PhysicsSection
-from system.pump_file import load_pump, resolved_toml
+from system.pump_file import check_pump, load_pump, resolved_toml
 from system.tolerances import tolerances
 
 REF90 = load_pump("ref90")
@@ -175,3 +176,14 @@ def test_films_refuse_a_pump_with_effects():
         films_point(pump, operating_point(pump))
     with pytest.raises(FilmInputError, match="the lumped fidelity"):
         floating_point(pump, operating_point(pump))
+
+
+def test_a_pump_has_one_coefficient_of_barus():
+    stated = {"oil.pressure_viscosity": "20 1/GPa"}
+    thick = next(one for one in EXTENSIONS if one.id is EffectId.VISCOSITY_PRESSURE)
+    found = extended_pump(load_pump("ref90", stated), {"viscosity_pressure.coefficient": 1.5e-8}, [thick])
+    assert found.oil.pressure_viscosity == 1.5e-8
+    assert not check_pump(found).faults
+    (fault,) = check_pump(found.model_copy(update={"oil": load_pump("ref90", stated).oil})).faults
+    assert fault.path == "physics.viscosity_pressure.coefficient"
+    assert "20 1/GPa" in fault.expected
