@@ -24,6 +24,8 @@ HIGHEST = 1e8  # Pa
 LOWEST_DELIVERY = 2e5  # Pa gauge
 FLOW_RATIO = (0.4, 1.15)  # Q_out over displacement x speed
 TORQUE_RATIO = (0.85, 2.5)  # torque over displacement x pressure difference
+BULK_MODULUS = 1.6e9  # Pa, good to a fifth for any mineral oil in use
+FLOW_SHARE = 0.005  # of a flow to which meters agree
 OTHER_UNITS: Mapping[Dimension, tuple[str, ...]] = {
     Dimension.PRESSURE: ("bar", "MPa", "kPa", "psi", "Pa"),
     Dimension.ANGULAR_SPEED: ("rpm", "rad/s"),
@@ -43,6 +45,7 @@ def implausible(recording: Recording, displacement: float | None) -> Iterator[Da
     yield from sizes
     yield from _references(recording)
     yield from _places(recording)
+    yield from _balance(recording)
     if displacement is not None and not sizes:
         yield from _ratios(recording, displacement)
 
@@ -173,6 +176,24 @@ def _places(recording: Recording) -> Iterator[DataNote]:
     if share is not None and share < -0.3:
         text = "Q_in is below Q_out at half of the points, while oil leaves by the case: have they changed places?"
         yield DataNote(NoteKind.TOLD, ChannelName.Q_IN, (), text)
+
+
+def _balance(recording: Recording) -> Iterator[DataNote]:
+    """Case flow that is a power of ten beyond what goes in and does not come out, compression counted."""
+    steady = recording.steady
+    flow, case = steady.column(ChannelName.Q_OUT), steady.column(ChannelName.Q_CASE)
+    squeezed = flow * (steady.column(ChannelName.P_OUT) - steady.column(ChannelName.P_IN)) / BULK_MODULUS
+    lost = steady.column(ChannelName.Q_IN) - flow - squeezed
+    doubt = 0.2 * np.abs(squeezed) + FLOW_SHARE * np.abs(flow)
+    off = _median(np.abs(case - lost) / doubt)
+    if off is None or off < 3.0:
+        return
+    for factor in (10.0, 100.0):
+        mended = _median(np.abs(case / factor - lost) / doubt)
+        if mended is not None and mended < 1.0:
+            text = f"Q_case is far beyond Q_in less Q_out at half of the points; a factor of {factor:g}?"
+            yield DataNote(NoteKind.FAULT, ChannelName.Q_CASE, (), text)
+            return
 
 
 def _median(values: Array) -> float | None:

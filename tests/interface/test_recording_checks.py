@@ -76,6 +76,7 @@ def test_sound_readings_tell_nothing(seed):
         ("torque", 0.1, "factor of 0.1"),
         ("torque", 1e-3, "'kN m'"),
         ("speed", 0.1, "factor of 10"),
+        ("Q_case", 10.0, "Q_case is far beyond"),
         ("displacement_ratio", 100.0, "unit = '%'"),
     ],
 )
