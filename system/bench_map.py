@@ -19,6 +19,7 @@ from system.bench_truth import SIMULATED, Affected, Solved, truth
 from system.channels import INPUTS, ChannelName
 from system.components import Component
 from system.description import PumpDescription
+from system.errors import NotConverged
 from system.estimation.parameters import Parameter, Scale
 from system.gap_courses import bench_state, gap_courses
 from system.kinematics import Array
@@ -59,7 +60,8 @@ class LumpedBench:
     observations. Parameters: of `base_parameters`, `sensor_parameters` and those of the extensions in `physics`,
     which join where they are not among them; what none of them names is as the pump states it, its own
     [physics] too. Ports are held at their mean pressures: lines behind them and their ripple are left out. Raises
-    FilmInputError for a channel it does not know, a parameter that is none of these, and chambers that differ.
+    FilmInputError for a channel it does not know, a parameter that is none of these, chambers that differ, and
+    points at which the oil's law is void.
     """
 
     def __init__(
@@ -86,6 +88,7 @@ class LumpedBench:
         self._parameters = (*parameters, *joining)
         _hold_known(self._parameters, physics)
         self._columns = [SIMULATED.index(channel) for channel in channels]
+        setting(pump, points, {}, samples_per_pitch)
         self._kept: dict[bytes, Courses] = {}
 
     @property
@@ -184,7 +187,11 @@ class LumpedBench:
         return len(self.points.speed), len(self.channels)
 
     def _setting(self, values: Array, points: BenchPoints) -> Setting:
-        return setting(self.pump, points, self._named(values), self.samples_per_pitch)
+        """The pump at the points; values of which no pump can be made are a step too far of a fit."""
+        try:
+            return setting(self.pump, points, self._named(values), self.samples_per_pitch)
+        except ValueError as void:
+            raise NotConverged(f"bench map: no pump has these values: {void}") from void
 
     def _solve(self, at: Setting) -> Courses:
         """The courses of a setting, remembered by all that they hang on."""

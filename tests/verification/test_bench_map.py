@@ -200,6 +200,10 @@ def test_what_no_map_can_be_made_of_is_told():
         LumpedBench(REF90, MAP, SIMULATED, (replace(parameters[0], name="swash_droop.rate"),))
     with pytest.raises(FilmInputError, match="alike"):
         _bench(load_pump("ref90", {"piston.3": {"radial_clearance": "20 um"}}))
+    with pytest.raises(FilmInputError, match="temperature"):
+        _bench(points=replace(MAP, T_case=MAP.T_case + 200.0))
+    with pytest.raises(NotConverged, match="no pump has these values"):
+        _bench().predict(_means(_bench(), viscosity=0.1))
     shut = REF90.ports.model_copy(update={"kidney_area": 1e-14, "groove_area": 1e-15})
     with pytest.raises(NotConverged, match="point 1"):
         _bench(REF90.model_copy(update={"ports": shut})).predict(_means(_bench()))
