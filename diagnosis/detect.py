@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from math import log
 
 import numpy as np
 from scipy.stats import chi2, norm
@@ -15,6 +16,7 @@ from diagnosis.study import Candidate, Study
 from diagnosis.thresholds import Thresholds
 from system.channels import ChannelName
 from system.estimation.evidence import Score, Sign, score
+from system.estimation.observations import Array
 
 
 @dataclass(frozen=True)
@@ -49,8 +51,8 @@ def detect(study: Study, thresholds: Thresholds) -> Detection:
     """
     base = study.base
     scored = [(candidate, score(base, candidate.column)) for candidate in study.candidates]
-    p_values = np.array([_p_value(found, candidate.sign) for candidate, found in scored])
-    order = np.argsort(p_values, kind="stable")
+    log_p = np.array([_log_p(found, candidate.sign) for candidate, found in scored])
+    order = np.argsort(log_p, kind="stable")
     by_channel = {
         ChannelName.named(channel.name): contrasts(base, at)
         for at, channel in enumerate(study.observations.channels)
@@ -60,13 +62,13 @@ def detect(study: Study, thresholds: Thresholds) -> Detection:
         p_value=float(chi2.sf(base.objective, readings)),
         chi2_per_dof=base.objective / readings,
         channels=channel_misfits(study),
-        holm_p=holm(p_values),
+        holm_p=holm(np.exp(log_p)),
         strongest=tuple(scored[at] for at in order),
         flags=flagged(by_channel, axis_values(study.recording), thresholds.mismatch.flag_rate),
     )
 
 
-def holm(p_values: np.ndarray) -> float:
+def holm(p_values: Array) -> float:
     """The smallest of several p-values after Holm (1979): the chance of one as small if nothing is there."""
     return min(1.0, float(p_values.min(initial=1.0)) * max(p_values.size, 1))
 
@@ -84,11 +86,12 @@ def channel_misfits(study: Study) -> dict[ChannelName, ChannelMisfit]:
     }
 
 
-def _p_value(found: Score, sign: Sign) -> float:
+def _log_p(found: Score, sign: Sign) -> float:
+    """ln of the chance of such a score if nothing is there; that of strong ones is below any float."""
     match sign:
         case Sign.POSITIVE:
-            return float(norm.sf(found.z))
+            return float(norm.logsf(found.z))
         case Sign.NEGATIVE:
-            return float(norm.cdf(found.z))
+            return float(norm.logcdf(found.z))
         case Sign.EITHER:
-            return float(2.0 * norm.sf(abs(found.z)))
+            return float(norm.logsf(abs(found.z))) + log(2.0)
