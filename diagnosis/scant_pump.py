@@ -196,8 +196,7 @@ def _tables(facts: _Facts) -> dict[str, dict[str, Any]]:
     put("valve_plate.kidney_width", NARROWER * plate.kidney_width * piston, Dimension.LENGTH)
     put("pump.displacement", facts.displacement, Dimension.DISPLACEMENT)
     tables["pump"]["pistons"] = facts.pistons
-    if facts.swash is not None:
-        put("pump.swash_angle_max", facts.swash, Dimension.ANGLE)
+    put("pump.swash_angle_max", swash, Dimension.ANGLE)
     return tables
 
 

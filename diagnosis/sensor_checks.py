@@ -46,15 +46,20 @@ def copies(recording: Recording) -> Iterator[DataNote]:
 
 
 def noiseless(recording: Recording) -> Iterator[DataNote]:
-    """Yield a fault for each output whose repeats of a set point agree beyond its stated repeatability.
+    """Yield a fault for each output that states no noise, or whose repeats agree beyond its stated repeatability.
 
-    That is at 5 or more degrees of freedom with a scatter below a hundredth of sigma: simulated, or entered twice.
+    The latter is at 5 or more degrees of freedom with a scatter below a hundredth of sigma: simulated, or entered twice.
     """
     numbers = recording.steady.repeats
     for name in OUTPUTS:
         channel, values = recording.channel(name), recording.steady.column(name)
         known = np.isfinite(values)
         if channel is None or not known.any():
+            continue
+        if not np.any(reading_sigma(channel, values[known]) > 0.0):
+            yield DataNote(
+                NoteKind.FAULT, name, (), f"{name.value} states a repeatability of 0, which no sensor has"
+            )
             continue
         _, place = np.unique(numbers[known], return_inverse=True)
         count = np.bincount(place)

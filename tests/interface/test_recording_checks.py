@@ -150,6 +150,13 @@ def test_copies_and_readings_without_noise_are_faults():
     assert found == {ChannelName.Q_OUT, ChannelName.Q_IN, ChannelName.Q_CASE}
 
 
+def test_an_output_without_noise_is_a_fault():
+    recording = _sound()
+    perfect = tuple(replace(c, sigma=0.0) if c.name is ChannelName.TORQUE else c for c in recording.channels)
+    told = _told(replace(recording, channels=perfect))
+    assert any(kind is NoteKind.FAULT and channel is ChannelName.TORQUE for kind, channel, _ in told)
+
+
 def test_gaps_and_too_few_readings_are_told():
     def gap(column):
         column = column.copy()
