@@ -48,7 +48,7 @@ def copies(recording: Recording) -> Iterator[DataNote]:
 def noiseless(recording: Recording) -> Iterator[DataNote]:
     """Yield a fault for each output that states no noise, or whose repeats agree beyond its stated repeatability.
 
-    The latter at 5 or more degrees of freedom with a scatter under a hundredth of sigma: simulated, or entered twice.
+    The latter at 5 or more degrees of freedom, with a scatter under a hundredth of sigma: simulated or copied.
     """
     numbers = recording.steady.repeats
     for name in OUTPUTS:
