@@ -49,9 +49,9 @@ def lumped_point(pump: PumpDescription, point: OperatingPoint, tolerance: float 
     if not pump.physics.on:
         return plain
     cycles = [plain.chambers[found.of_chamber.index(kind)] for kind in range(len(found.pumps))]
-    effects = [_effects(own, point, cycle) for own, cycle in zip(found.pumps, cycles, strict=True)]
+    effects = [_effects(own, plain.point, cycle) for own, cycle in zip(found.pumps, cycles, strict=True)]
     inside = _solved(found, pump, point, effects, tolerance)
-    return _with_outside(inside, pump, point, found.by_chamber(effects))
+    return _with_outside(inside, pump, found.by_chamber(effects))
 
 
 def _column(point: OperatingPoint) -> OperatingPoint[Array]:
@@ -125,11 +125,12 @@ def _rubbed(losses: FrictionPairs, effects: Effects | None) -> FrictionPairs:
     )
 
 
-def _with_outside(
-    found: PumpPoint, pump: PumpDescription, point: OperatingPoint, effects: Sequence[Effects]
-) -> PumpPoint:
-    """The point with flows past the chambers and drag on the shaft, mean of the chambers' effects."""
-    at = bench_state(pump, _column(point), np.zeros(1))
+def _with_outside(found: PumpPoint, pump: PumpDescription, effects: Sequence[Effects]) -> PumpPoint:
+    """The point with flows past the chambers and drag on the shaft, mean of the chambers' effects.
+
+    They do not load the lines on the ports.
+    """
+    at = bench_state(pump, _column(found.point), np.zeros(1))
     added: Outside = mean_of([outside(one, at) for one in effects])
     mean: Effects = mean_of(effects)
     delivery, inlet, drain, torque = (float(value[0]) for value in vars(added).values())
@@ -154,7 +155,7 @@ def _with_outside(
         extended=float(mean.carried_off[0]),
     )
     shaft = found.shaft_torque + torque
-    forces = point.shaft_speed * float(np.mean(shaft))
+    forces = found.point.shaft_speed * float(np.mean(shaft))
     checks = replace(
         found.checks,
         energy_balance_error=abs(forces - power.accounted) / abs(power.shaft),

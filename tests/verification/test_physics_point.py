@@ -187,3 +187,20 @@ def test_a_pump_has_one_coefficient_of_barus():
     (fault,) = check_pump(found.model_copy(update={"oil": load_pump("ref90", stated).oil})).faults
     assert fault.path == "physics.viscosity_pressure.coefficient"
     assert "20 1/GPa" in fault.expected
+
+
+@pytest.mark.parametrize(
+    "stated",
+    [
+        {"delivery_line.kind": "orifice", "delivery_line.volume": "1 L", "delivery_line.orifice_area": "20 mm2"},
+        {"piston.3.radial_clearance": "25 um"},
+    ],
+)
+def test_effects_beside_lines_and_single_parts(stated):
+    """The power balance closes where a line sets the pressure and where chambers differ."""
+    effects = {"elastic_opening": {"slipper": {"opening": 2e-8}}, "control_flow": {"area": 1e-7, "laminar": 0}}
+    pump = load_pump("ref90", stated).model_copy(update={"physics": PhysicsSection.model_validate(effects)})
+    plain = pump.model_copy(update={"physics": PhysicsSection()})
+    found, before = (lumped_point(one, operating_point(one)) for one in (pump, plain))
+    assert found.checks.energy_balance_error < CLOSED
+    assert found.bench.drain_flow > before.bench.drain_flow
