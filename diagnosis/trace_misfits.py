@@ -18,7 +18,10 @@ from system.physics.effects import EffectId
 from system.ports import TURN, PortOpening
 from system.sensors import encoder_parameter
 
-MOVING = ("encoder_offset", "bulk_modulus", "dead_volume", "flow_coefficient", "stand_out_share", "p_out.zero")
+MOVING = (
+    "encoder_offset", "bulk_modulus", "dead_volume", "flow_coefficient", "stand_out_share", "p_out.zero",
+    "film_thickness.piston", "film_thickness.slipper", "film_thickness.valve_plate", "viscosity",
+)  # fmt: skip
 """Parameters that a chamber's pressure over the turn hangs on."""
 GROOVES = tuple(law.members[0] for law in entry_of(EffectId.NOTCH_EROSION).extensions)
 GROOVE_TOLERANCE = 0.3  # of the spread of eroded grooves: half a degree of their start, a tenth of their area
