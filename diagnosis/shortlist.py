@@ -10,7 +10,7 @@ from diagnosis.detect import Detection
 from diagnosis.refit import first_look
 from diagnosis.study import Study
 from diagnosis.thresholds import Thresholds
-from diagnosis.weighed import Weighed
+from diagnosis.weighed import Weighed, with_probabilities
 from system.errors import NotConverged
 from system.physics.effects import Kind
 
@@ -31,14 +31,16 @@ def shortlist(
 ) -> tuple[Weighed, ...]:
     """The explanations of the catalogue to refit: those within the gap of the best in the linear model.
 
-    Where the null holds, only those that gain on it. Where it does not, wrong parameters besides: large changes of
+    Where the null holds, only those that gain on it, and none while the null is not improbable: a verdict needs
+    both. Where it does not hold, wrong parameters besides: large changes of
     a film move the slopes of all others, so that the linear model puts them anywhere; those that leave least at a
     first look are refitted.
     """
     limits = thresholds.name
     known = [each for each in screened if each.hypothesis.open_names]
     ranked = sorted(known, key=lambda each: -each.log_weight)
-    if not ranked:
+    null = next(each for each in with_probabilities(screened, limits.temperature) if _is_null(each))
+    if not ranked or (settled and null.probability >= thresholds.mismatch.null_probability):
         return ()
     least = max(
         ranked[0].log_evidence - limits.shortlist_gap,
@@ -51,6 +53,10 @@ def shortlist(
     looks = {id(each): _look(study, each, thresholds) for each in wrong}
     promising = sorted(wrong, key=lambda each: looks[id(each)])[:PARAMETERS]
     return (*chosen, *(each for each in promising if each not in chosen))
+
+
+def _is_null(each: Weighed) -> bool:
+    return each.hypothesis.kind is Kind.NO_MISMATCH
 
 
 def _look(study: Study, wrong: Weighed, thresholds: Thresholds) -> float:
