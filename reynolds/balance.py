@@ -20,14 +20,15 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import csr_array
 
-from reynolds import kernels, opening_kernels
+from reynolds import kernels, opening_kernels, twist_kernels
 from reynolds.array_kernels import all_equal
 from reynolds.film import Cavitation, FilmProblem, Held, contents
 from reynolds.fluid import CONSTANT
 from reynolds.mesh import Array
 from reynolds.opening_pattern import Openings
 from reynolds.space import FilmSpace
-from reynolds.transport import Tensor, Transport, along, at_points, transport
+from reynolds.transport import Tensor, Transport, along, at_points, times, transport
+from reynolds.twist import as_one, relieved, signs, twisting_slope
 
 NOTHING = 1e-12  # of the largest flow
 NO_FLOW = 1e-9  # of the flow along an edge: less across it is round-off
@@ -146,19 +147,17 @@ def sends_nothing(problem: FilmProblem, flux: tuple[Array, Array]) -> NDArray[np
 
 
 def stiffness(space: FilmSpace, conductance: Tensor) -> Array:
-    """Entries of int k grad p . grad f, upper triangle in the space's pattern (m3/(s Pa)).
+    """Entries of int k grad p . grad f, upper triangle in the space's pattern (m3/(s Pa)); see `twist`.
 
     `conductance` is h^3/(12 mu), its xx, yy and xy part, (cells | 1, points | 1) each, m3/(Pa s).
     """
     tensors, pattern = space.tensors, space.pattern
     data = np.zeros(len(pattern.indices))
-    xx, yy, xy = conductance
-    parts = [(tensors.pairs, xx)]
-    if xx is not yy:
-        parts = [(tensors.pairs_xx, xx), (tensors.pairs_yy, yy), (tensors.pairs_xy, xy)]
-    for pairs, along_pair in parts:
-        field = space.everywhere(along_pair)
-        kernels.stiffness(pattern.slots, tensors.shape, pairs, field, *space.reference.loops, data)
+    field, pairs, points = as_one(space, conductance)
+    if relieved(space):
+        twist_kernels.stiffness(pattern.slots, tensors.shape, pairs, tensors.parallel, field, points, data)
+    else:
+        kernels.stiffness(pattern.slots, tensors.shape, pairs, field, space.reference.loops[0], points, data)
     kernels.close_rows(pattern.indptr, pattern.indices, data)
     return data
 
@@ -262,6 +261,11 @@ def slopes(problem: FilmProblem, parts: Operators, state: State) -> Slopes:
     driven_x, driven_y = along(terms.conductance, steep_gradient(space, state.pressure))
     less = -terms.by_pressure
     changed = convection(space, (less * driven_x, less * driven_y), steep=True)
+    if relieved(space):
+        grows_by = times(terms.conductance, terms.by_pressure)
+        grown = twisting_slope(space, terms.conductance, grows_by, state.pressure)
+        points = space.reference.loops[1]
+        twist_kernels.convected(space.dofs, space.pattern.slots, space.reference.value, grown, points, *changed)
     filled = state.film_fraction * ratio_slope
     p_upper = parts.stiffness + changed[0] + c_upper * filled[column]
     p_lower = parts.stiffness + changed[1] + c_lower * filled[row]
@@ -287,14 +291,15 @@ def by_opening(problem: FilmProblem, parts: Operators, state: State, rows: Array
     space, terms, reference = problem.space, parts.transport, problem.space.reference
     filling = state.film_fraction * density(problem, state.pressure)[0]
     driven = along(terms.conductance_slope, steep_gradient(space, state.pressure))
+    twisted = twisting_slope(space, terms.conductance, terms.conductance_slope, state.pressure)
     full = at_points(space, filling)
     carried = (full * terms.flux_slope[0], full * terms.flux_slope[1])
     stored = 0.0 if problem.storage is None else terms.content_slope / problem.storage.step
     data, tensors = np.empty(at.entries), space.tensors
     opening_kernels.opened(
         space.dofs, at.slots, tensors.shape, reference.value, tensors.steep_gradient, tensors.gradient,
-        reference.geometry_value, space.area,
-        *(space.everywhere(part) for part in (*driven, *carried, np.atleast_2d(stored))),
+        reference.geometry_value, signs(space), space.area,
+        *(space.everywhere(part) for part in (*driven, twisted, *carried, np.atleast_2d(stored))),
         filling, rows, *reference.loops, data,
     )  # fmt: skip
     return at.matrix(data)

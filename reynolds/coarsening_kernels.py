@@ -19,7 +19,7 @@ def take_in(data, places, entries, fine, top, coarse, coarsest):
     """Set up with the entries of an upper triangle, each at its place in the finest stencils (flat: `entries`)."""
     corners, before = False, fine.corners[0]
     for k in range(places.shape[0]):
-        over = places[k] >= 3 * fine.centre.shape[0]  # the corner of a cell: of rectangles nothing couples so
+        over = places[k] >= 3 * fine.centre.shape[0]  # across a cell: nothing beside a side without flow
         if before or not over or data[k] != 0.0:
             entries[places[k]] = data[k]
             corners |= over and data[k] != 0.0

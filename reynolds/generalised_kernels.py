@@ -25,13 +25,14 @@ def weigh(dofs, value, area, modes, basis, points, out):
 
 @njit(**_FAST)
 def thicken(
-    dofs, shape, value, steep, gradient, area, driven_x, driven_y, carried_x, carried_y, stored, filling, modes,
-    basis, points, out,
+    dofs, shape, value, steep, gradient, signs, area, driven_x, driven_y, twisted, carried_x, carried_y, stored,
+    filling, modes, basis, points, out,
 ):  # fmt: skip
     """out[i, j] = int phi_j (driven . grad f_i - carried . grad f_i + stored filling_i f_i).
 
     driven goes with the gradients of the conductance (steep), carried with the others, both area element times
-    gradient as `ElementTensors` has them; stored is a rate per thickness (1/s) in a lumped term.
+    gradient as `ElementTensors` has them; stored is a rate per thickness (1/s) in a lumped term. With what
+    `twist_kernels.changed` tells (twisted) times each corner's sign.
     """
     out[:] = 0.0
     for e in range(dofs.shape[0]):
@@ -40,6 +41,7 @@ def thicken(
             row = dofs[e, i]
             for q in range(len(points)):
                 flow = driven_x[e, q] * steep[s, q, i, 0] + driven_y[e, q] * steep[s, q, i, 1]
+                flow += twisted[e, q] * signs[i]
                 flow -= carried_x[e, q] * gradient[s, q, i, 0] + carried_y[e, q] * gradient[s, q, i, 1]
                 flow += stored[e, q] * filling[row] * area[e, q] * value[q, i]
                 for j in range(modes.shape[2]):

@@ -14,7 +14,8 @@ from reynolds.film import Cavitation, FilmSolution, Pocket
 from reynolds.mesh import Array
 from reynolds.overlap import vertex_thickness
 from reynolds.roughness import Directional, pressure_factors, shear_factors, sliding_factor
-from reynolds.transport import at_points
+from reynolds.transport import along, at_points, isotropic
+from reynolds.twist import spared
 
 
 @dataclass(frozen=True)
@@ -270,17 +271,30 @@ def dissipated(solution: FilmSolution, filled: Array | None = None) -> tuple[Arr
     """
     film, space, surface = solution.film, solution.problem.space, solution.problem.surface
     slip = tuple(a - b for a, b in zip(film.velocity_moving, film.velocity_fixed, strict=True))
-    flow = gradient = steep_gradient(space, solution.pressure)
-    if surface is not None:
-        flow = _turned(pressure_factors(surface, film.thickness), gradient)
     if filled is None:
         filled = at_points(space, solution.film_fraction)
         if surface is not None:
             filled = filled * sliding_factor(surface, film.thickness).value
-    driven = film.thickness**3 / (12.0 * film.viscosity) * (flow[0] * gradient[0] + flow[1] * gradient[1])
     sliding = filled * film.sliding_viscosity * (slip[0] ** 2 + slip[1] ** 2) / film.thickness
     rubbing = sum(a * b for a, b in zip(_contact(solution, slip)[1], slip, strict=True))
-    return driven * space.steep_area, (sliding + rubbing) * space.area
+    return _driven(solution), (sliding + rubbing) * space.area
+
+
+def _driven(solution: FilmSolution) -> Array:
+    """Heat of the flow that pressure drives, (cells, points) W; in each cell what its conductance spends."""
+    film, space, surface = solution.film, solution.problem.space, solution.problem.surface
+    smooth = film.thickness**3 / (12.0 * film.viscosity)
+    tensor = isotropic(smooth)
+    if surface is not None:
+        factor = pressure_factors(surface, film.thickness)
+        x, xy, y = (smooth * part.value for part in factor)
+        tensor = isotropic(x) if factor.x is factor.y else (x, y, xy)
+    gradient = steep_gradient(space, solution.pressure)
+    flow = along(tensor, gradient)
+    heat = (flow[0] * gradient[0] + flow[1] * gradient[1]) * space.steep_area
+    whole, less = heat.sum(axis=1), spared(space, tensor, solution.pressure)
+    left = 1.0 - np.divide(less, whole, out=np.zeros_like(less), where=whole > 0.0)
+    return np.asarray(heat * left[:, None])
 
 
 def _dissipation(solution: FilmSolution, fields: PointFields, weight: Array | None = None) -> float:

@@ -10,16 +10,20 @@ _FAST = {"cache": True, "fastmath": {"contract"}, "error_model": "numpy"}
 
 @njit(**_FAST)
 def opened(
-    dofs, slots, shape, value, steep, gradient, corner, area, driven_x, driven_y, carried_x, carried_y, stored,
-    filling, rows, basis, points, data,
+    dofs, slots, shape, value, steep, gradient, corner, signs, area, driven_x, driven_y, twisted, carried_x,
+    carried_y, stored, filling, rows, basis, points, data,
 ):  # fmt: skip
-    """data[slots[e, i, v]] += rows_i int f_v (driven . grad f_i - carried . grad f_i + stored f_i), m2/s."""
+    """data[slots[e, i, v]] += rows_i int f_v (driven . grad f_i - carried . grad f_i + stored f_i), m2/s.
+
+    With what `twist_kernels.changed` tells (twisted) times each corner's sign.
+    """
     data[:] = 0.0
     for e in range(dofs.shape[0]):
         for i in range(len(basis)):
             row, content = rows[dofs[e, i]], filling[dofs[e, i]]
             for q in range(len(points)):
                 driven = driven_x[e, q] * steep[shape[e], q, i, 0] + driven_y[e, q] * steep[shape[e], q, i, 1]
+                driven += twisted[e, q] * signs[i]
                 carried = (
                     carried_x[e, q] * gradient[shape[e], q, i, 0] + carried_y[e, q] * gradient[shape[e], q, i, 1]
                 )

@@ -27,7 +27,8 @@ class Reference:
 
     `steep` tables belong to the conductance: for a bilinear quadrilateral they stand at the corner next to the
     point, which integrates as exactly (trapezium rule) and leaves no positive coupling between unknowns, however
-    stretched a rectangle is: pressure and film fraction then know no overshoot. Else they are the others.
+    stretched a rectangle is: pressure and film fraction then know no overshoot. What is too stiff of it is taken
+    off again in `twist`. Else they are the others.
     """
 
     value: Array  # (points, basis)

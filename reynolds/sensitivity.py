@@ -26,6 +26,7 @@ from reynolds.mesh import Array
 from reynolds.opening import opening_slope
 from reynolds.solve import FilmSolver
 from reynolds.transport import along, at_points
+from reynolds.twist import signs, twisting_slope
 
 
 @dataclass(frozen=True)
@@ -52,13 +53,14 @@ def thickness_load(solution: FilmSolution, thicker: Array, parts: Operators) -> 
     space, terms, tensors = problem.space, parts.transport, problem.space.tensors
     filling = state.film_fraction * density(problem, state.pressure)[0]
     driven = along(terms.conductance_slope, steep_gradient(space, state.pressure))
+    twisted = twisting_slope(space, terms.conductance, terms.conductance_slope, state.pressure)
     full = at_points(space, filling)
     carried = (full * part for part in terms.flux_slope)
     per_second = 0.0 if problem.storage is None else terms.content_slope / problem.storage.step
     out = np.empty((space.size, thicker.shape[2]))
     generalised_kernels.thicken(
-        space.dofs, tensors.shape, space.reference.value, tensors.steep_gradient, tensors.gradient, space.area,
-        *(space.everywhere(part) for part in (*driven, *carried, np.atleast_2d(per_second))),
+        space.dofs, tensors.shape, space.reference.value, tensors.steep_gradient, tensors.gradient, signs(space),
+        space.area, *(space.everywhere(part) for part in (*driven, twisted, *carried, np.atleast_2d(per_second))),
         filling, thicker, *space.reference.loops, out,
     )  # fmt: skip
     if problem.cavitation is Cavitation.JFO and bool(np.any(state.film_fraction != 1.0)):

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from reynolds import tensor_kernels as kernels
 from reynolds.mesh import Array
 
+PARALLEL = 1e-6  # of a cell's size, by which opposite sides may differ
 SAME = 1e-10  # of a cell's size: corners nearer than this are at the same place of its shape
 
 
@@ -23,7 +24,8 @@ class ElementTensors:
 
     pairs (shapes, pairs, points): g_i g_j times the area element for i < j in the order of np.triu_indices, and
     its xx, yy and (doubled) xy part, with the steep gradients g of the conductance; gradient and steep_gradient
-    (shapes, points, basis, 2) m: the area element times each gradient.
+    (shapes, points, basis, 2) m: the area element times each gradient; parallel (shapes,): 1 for parallelograms,
+    0 for other shapes.
     """
 
     shape: NDArray[np.int32]
@@ -33,6 +35,7 @@ class ElementTensors:
     pairs: Array
     gradient: Array
     steep_gradient: Array
+    parallel: Array
 
 
 def element_tensors(
@@ -52,7 +55,7 @@ def element_tensors(
     kernels.weighted_gradients(vertices, cells, steep, steep_geometry, weights, steeply)
     xx, yy, xy, both = (np.empty((len(first), basis * (basis - 1) // 2, points)) for _ in range(4))
     kernels.products(vertices, cells, steep_geometry, weights, steeply, xx, yy, xy, both)
-    return ElementTensors(shape, xx, yy, xy, both, weighted, steeply)
+    return ElementTensors(shape, xx, yy, xy, both, weighted, steeply, _parallel(vertices[cells]))
 
 
 def stretched(tensors: ElementTensors, scale: Array, steep_scale: Array) -> ElementTensors:
@@ -70,7 +73,16 @@ def stretched(tensors: ElementTensors, scale: Array, steep_scale: Array) -> Elem
         pairs=tensors.pairs[of],
         gradient=tensors.gradient[of] * scale[:, :, None, None],
         steep_gradient=tensors.steep_gradient[of] * steep_scale[:, :, None, None],
+        parallel=tensors.parallel[of],
     )
+
+
+def _parallel(corners: Array) -> Array:
+    """1 where the corners (cells, corners, 2) are those of a parallelogram, else 0."""
+    if corners.shape[1] != 4:
+        return np.zeros(len(corners))
+    twisted = np.abs(corners[:, 0] - corners[:, 1] + corners[:, 2] - corners[:, 3]).max(axis=1)
+    return (twisted <= PARALLEL * np.ptp(corners, axis=1).max(axis=1)).astype(float)
 
 
 def _shapes(corners: Array) -> tuple[NDArray[np.int32], NDArray[np.int64]]:

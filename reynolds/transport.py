@@ -167,6 +167,14 @@ def along(tensor: Tensor, gradient: tuple[Array, Array]) -> tuple[Array, Array]:
     return xx * gradient[0] + xy * gradient[1], xy * gradient[0] + yy * gradient[1]
 
 
+def times(tensor: Tensor, field: Array) -> Tensor:
+    """A tensor times a field."""
+    xx, yy, xy = tensor
+    if xx is yy:
+        return isotropic(xx * field)
+    return xx * field, yy * field, xy * field
+
+
 def at_points(space: FilmSpace, nodal: Array) -> Array:
     """A nodal field (size,) at the quadrature points, (cells, points)."""
     return np.ascontiguousarray(nodal[space.dofs] @ space.reference.value.T)

@@ -103,7 +103,7 @@ def _motion(journal: Journal, start: float, end: float, step: float) -> Iterator
 
 UPWIND = (
     "the listed values carry first-order upwinding of the full film: with the thickness half a cell upstream in "
-    "its flux this solver gives e_max .9354, pmax 1.882 on 100 x 10 cells (listed .9338, 1.811), else .952, 2.00"
+    "its flux this solver gives e_max .9344, pmax 1.869 on 100 x 10 cells (listed .9338, 1.811), else .951, 1.95"
 )
 PLACES = (  # time, X, Y; and whether the listed digits are met within 1 % of the clearance
     (0.25, 0.85181, 0.06108, True), (0.4, 0.81881, 0.39644, True), (0.5, 0.79033, 0.48744, True),
@@ -112,9 +112,13 @@ PLACES = (  # time, X, Y; and whether the listed digits are met within 1 % of th
 
 
 def test_dynamically_loaded_journal(validation):
-    """From t = .2 on, by .6 the start is forgotten: the period up to 1.6."""
+    """From t = .2 on, by .6 the start is forgotten: the period up to 1.6.
+
+    The least eccentricity ratio converges slowly: .3446, .3492, .3529, .3558 on 48 x 6 to 384 x 48 cells; listed
+    are .3426 on 100 x 10 and .3507 on 200 x 20. Near the listed mesh, 192 x 24, it is 0.6 % above.
+    """
     start, step, places, peaks = 0.2, 2e-3, {}, []
-    for state in _motion(_journal(48, 6), start, 1.6, step):
+    for state in _motion(_journal(96, 12), start, 1.6, step):
         solution = state.film
         assert solution is not None
         assert loads(solution).mass_balance_error < 1e-10
@@ -137,7 +141,7 @@ def test_dynamically_loaded_journal(validation):
             )
     eccentricity = [float(np.hypot(*place)) for place in places.values()]
     when = list(places)
-    flat = "from .54 to .1 of the next period the eccentricity ratio creeps, here from .944 to .956; " + UPWIND
+    flat = "from .54 to .1 of the next period the eccentricity ratio creeps, here from .941 to .951; " + UPWIND
     for quantity, expected, obtained, missed in (
         ("time of the largest eccentricity ratio", 0.558, when[int(np.argmax(eccentricity))], flat),
         ("time of the largest pressure", 0.502, when[int(np.argmax(peaks))], ""),
