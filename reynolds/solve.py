@@ -46,7 +46,6 @@ ROUND_OFF = 1e-12
 SOFT_STEP = 1e-5  # residual of a first step between walls that give way over its load
 KEPT = 1e-3  # imbalance from which on a linearisation between walls that give way, which is dear, is kept
 KEPT_GAIN = 0.03  # of the imbalance is left, at most, by a step of a kept one that another one may follow
-KEPT_TOLERANCE = 1e-11  # after such a step, which gains less than Newton's
 LOOSEST = 1e-2  # residual of a linear solve over its load
 LESS = 0.3  # of a pocket's flow before, from where its supply's law leads up to more without a mirrored step
 LEAST_GAP = 0.1  # of the largest film, where walls overlap that a first pressure parts
@@ -106,7 +105,7 @@ class FilmSolver:
             settled, at = bool(np.array_equal(new.cavity, at.cavity)), new
             _check_degree(problem, at.cavity)
             before, imbalance = imbalance, imbalance_of(problem, setting, at)
-            enough = KEPT_TOLERANCE if keeps else TOLERANCE
+            enough = ROUND_OFF if keeps else TOLERANCE  # a kept one's step gains less than Newton's
             keeps = soft_series and (not keeps or imbalance < KEPT_GAIN * before)
             path.append(imbalance)
             if (settled and imbalance < ROUND_OFF) or (imbalance < enough and near):

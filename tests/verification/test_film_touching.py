@@ -14,6 +14,7 @@ import pytest
 from scipy.integrate import quad
 from scipy.optimize import brentq
 
+from reynolds import solve
 from reynolds.bodies.elasticity import Elastic
 from reynolds.bodies.foundation import Compliance, half_space, winkler
 from reynolds.contact import Asperities
@@ -54,8 +55,9 @@ PHYSICS: dict[str, Callable[[FilmProblem], FilmProblem]] = {
 
 @pytest.mark.parametrize("name", list(PHYSICS))
 @pytest.mark.parametrize("cavitation", [Cavitation.NONE, Cavitation.JFO])
-def test_newton_converges_quadratically(name, cavitation):
+def test_newton_converges_quadratically(name, cavitation, monkeypatch):
     """Every slope is in the matrix: near the solution digits double. A slope left out makes the gain linear."""
+    monkeypatch.setattr(solve, "KEPT", 0.0)  # each step by a linearisation of its own
     space = film_space(rectangle((LENGTH, LENGTH), (10, 10), cell=Cell.QUADRILATERAL))
     thickness = space.sample(lambda x, y: 1e-6 * (2.0 - x / LENGTH))
     ends = dict.fromkeys(("left", "right", "top", "bottom"), Held(0.0))
