@@ -12,6 +12,7 @@ body's finer dents have the size of its face's cells. `own` puts a user's mesh i
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -19,6 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gaps.own_body import CHAMBER, FILM, HELD, POCKET, OwnMesh, own_body, with_faces
+from gaps.rows import closer_at_end, closer_at_start
 from gaps.slipper_lands import Land
 from reynolds.bodies.body_mesh import BodyMesh, disc, ring
 from reynolds.bodies.chart import Cylinder, OnSphere, Plane, Side
@@ -28,6 +30,7 @@ from reynolds.bodies.supports import Supports
 from reynolds.bodies.wall import Body, body_wall, face_wall
 from reynolds.errors import FilmInputError
 from reynolds.laws import require_positive
+from reynolds.mesh import Array
 from reynolds.space import FilmSpace
 from reynolds.sphere import PLANE, Sphere
 from reynolds.walls import Walls
@@ -121,7 +124,7 @@ class PlatePart:
             raise FilmInputError("plate body", found, "0 to the outer radius")
 
 
-def piston_body(part: PistonPart, cells: Cells = (2, 24, 8)) -> Body:
+def piston_body(part: PistonPart, cells: Cells = (3, 16, 18)) -> Body:
     """The piston about z, its chamber end at z = 0; faces outer (film), bottom, top and, hollow, inner.
 
     `chamber` is its end and its inside: where the chamber's pressure is.
@@ -138,12 +141,13 @@ def piston_body(part: PistonPart, cells: Cells = (2, 24, 8)) -> Body:
         mesh = ring((0.5 * part.inner_diameter, radius), part.length, cells)
     else:
         mesh = disc(radius, part.length, (max(cells[1] // 4, 1), cells[0], cells[2]))
+    mesh = _drawn(mesh, part.length, cells[2], closer_at_start)
     wet = [mesh.mesh.boundaries[name] for name in ("bottom", "inner") if name in mesh.face_names]
     mesh = with_faces(mesh, {CHAMBER: np.concatenate(wet)})
     return Body(mesh, part.elastic, Supports(), "outer", chart)
 
 
-def bushing_body(part: BushingPart, cells: Cells = (2, 24, 8)) -> Body:
+def bushing_body(part: BushingPart, cells: Cells = (3, 16, 18)) -> Body:
     """The bore's wall about z from the guide's inner end, z = 0, to its case edge; faces inner (film), outer.
 
     Its outer face slides: between two bores alike the middle of the web moves to neither. Stiffer than a bore
@@ -153,7 +157,7 @@ def bushing_body(part: BushingPart, cells: Cells = (2, 24, 8)) -> Body:
     chart = Cylinder(radius, Side.BORE)
     if part.own:
         return own_body(part.own, part.elastic, chart)
-    mesh = ring((radius, radius + part.wall), part.length, cells)
+    mesh = _drawn(ring((radius, radius + part.wall), part.length, cells), part.length, cells[2], closer_at_end)
     return Body(mesh, part.elastic, Supports(symmetry=("outer",)), "inner", chart)
 
 
@@ -236,6 +240,14 @@ def _rings(start: float, edges: tuple[float, ...], end: float, thickness: float,
     places = body.mesh.doflocs.copy()
     radius = np.hypot(*places[:2])
     places[:2] *= np.interp(radius, np.linspace(start, end, len(lines)), lines) / radius
+    return replace(body, mesh=replace(body.mesh, doflocs=places))
+
+
+def _drawn(body: BodyMesh, length: float, cells: int, draw: Callable[[Array], Array]) -> BodyMesh:
+    """A body from z = 0 to a length (m) with its even layers of cells drawn along z."""
+    layers = np.linspace(0.0, 1.0, cells + 1)
+    places = body.mesh.doflocs.copy()
+    places[2] = np.interp(places[2], length * layers, length * draw(layers))
     return replace(body, mesh=replace(body.mesh, doflocs=places))
 
 

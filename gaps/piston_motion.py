@@ -23,6 +23,7 @@ import numpy as np
 from gaps.course import OverTurn
 from gaps.physics import FilmLaws, Physics, laws_left
 from gaps.profiles import PLAIN, Profile, Relief
+from gaps.rows import closer_at_both
 from gaps.rubbing import Rubbed, rubbed
 from gaps.stand import Stand
 from reynolds.contact import Asperities
@@ -35,8 +36,6 @@ from reynolds.loads import evaluate
 from reynolds.mesh import Array, Cell, rectangle, rename
 from reynolds.overlap import vertex_thickness
 from reynolds.space import FilmSpace, film_space
-
-EDGES = 0.8  # of a row's length between soft walls is taken off at the edges, and put on in the middle
 
 
 @dataclass(frozen=True)
@@ -139,7 +138,8 @@ class PistonFilm:
         # Of length one; what is engaged stretches its places and keeps their angles.
         self._unit = film_space(rename(mesh, {"bottom": "chamber", "top": "case"}))
         if self._laws.walls is not None:
-            self._unit = self._unit.moved(_towards_edges(self._unit.vertices))
+            around, along = self._unit.vertices.T
+            self._unit = self._unit.moved(np.column_stack([around, closer_at_both(along)]))
         self._space = self._unit
         self._points, self._vertices = self._unit.points, self._unit.vertices.T
         angle = 2.0 * self._vertices[0] / shape.diameter
@@ -319,12 +319,6 @@ class PistonFilm:
         """What is taken off the bore at places of the unit mesh; it turns with the block."""
         angle, depth = 2.0 * around / self.shape.diameter, self._engaged(time) * (1.0 - along)
         return self.shape.bore(depth, angle - self.drive.bore_spin * time)
-
-
-def _towards_edges(vertices: Array) -> Array:
-    """Places of the unit mesh (vertices, 2), its rows drawn to both edges: there a run-in edge's wedge carries."""
-    around, along = vertices.T
-    return np.column_stack([around, along - EDGES / (2.0 * np.pi) * np.sin(2.0 * np.pi * along)])
 
 
 def widened(space: FilmSpace, film: Film, opened: Array) -> Film:

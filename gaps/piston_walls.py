@@ -53,12 +53,14 @@ class FaceGrid:
         return int(self.influence.shape[1])
 
 
-def face_grid(
-    body: Body, radius: float, length: float, cells: tuple[int, int] = (48, 24), folder: Path | None = None
-) -> FaceGrid:
-    """The face of a part of such radius and length (m) on cells (around, along); kept as `body_wall` keeps it."""
-    space = film_space(rectangle((2.0 * np.pi * radius, length), cells, cell=Cell.QUADRILATERAL, periodic_x=True))
-    vertices, unknowns = _numbers(space)
+def face_grid(body: Body, radius: float, rows: Array, around: int = 48, folder: Path | None = None) -> FaceGrid:
+    """The face of a part of such radius (m) on rows (n,) m along it and cells around; kept as by `body_wall`."""
+    cells = (around, len(rows) - 1)
+    even = film_space(rectangle((2.0 * np.pi * radius, 1.0), cells, cell=Cell.QUADRILATERAL, periodic_x=True))
+    vertices, unknowns = _numbers(even)
+    places = even.vertices.copy()
+    places[vertices, 1] = rows[:, None]
+    space = even.moved(places)
     matrix = body_wall(body, space, folder=folder).matrix
     influence = matrix[np.ix_(vertices.ravel(), unknowns.T.ravel())].reshape(*vertices.shape, *unknowns.T.shape)
     opened = np.zeros(len(space.vertices))

@@ -176,9 +176,13 @@ class Turns(Generic[Seen]):
             raise FilmNotConverged(f"after {angle:.5g} deg: {reason.what}", reason.remedy) from None
 
     def _begin(self, start: Array, last: GapTurn[Seen] | None) -> State[Stage]:
-        if last is not None and last.last.stage is not None:
-            return restarted(self._floating, 0.0, last.last, start)
-        begin = started(self._floating, 0.0, start)
+        """The start of a turn; what begins or had another drive before (the `opening`) gives way to this load."""
+        if last is None or last.last.stage is None:
+            begin = started(self._floating, 0.0, start)
+        else:
+            begin = restarted(self._floating, 0.0, last.last, start)
+            if last is not self._opening:
+                return begin
         if self._floating.shape_at(0.0).walls is None:
             return begin
         return pressed(self._solver, self._floating, begin, SHORT * self._times[0])

@@ -21,6 +21,7 @@ from gaps.bodies import (
     slipper_body,
 )
 from gaps.piston_walls import PistonWalls, face_grid
+from gaps.rows import closer_at_end, closer_at_start
 from gaps.stand import Stand
 from reynolds.bodies.foundation import Compliance, both
 from reynolds.bodies.wall import Body
@@ -29,6 +30,7 @@ from reynolds.space import FilmSpace
 from reynolds.walls import Walls, full
 
 KEPT = 2.5e8  # bytes of walls that are kept as parts turn
+ROWS = 36  # along a part's face, as many as its body's quadratic cells have nodes
 
 
 class GapWalls(Protocol):
@@ -131,9 +133,9 @@ class BoreWalls:
 @lru_cache(maxsize=4)
 def _bore_walls(piston: PistonPart, bushing: BushingPart, around: int) -> PistonWalls:
     """The faces of both parts, as many cells around as the film has."""
-    radius, cells = 0.5 * piston.diameter, (around, 24)
+    radius, shares = 0.5 * piston.diameter, np.linspace(0.0, 1.0, ROWS + 1)
     return PistonWalls(
         bushing.length,
-        face_grid(bushing_body(bushing), radius, bushing.length, cells),
-        face_grid(piston_body(piston), radius, piston.length, cells),
+        face_grid(bushing_body(bushing), radius, bushing.length * closer_at_end(shares), around),
+        face_grid(piston_body(piston), radius, piston.length * closer_at_start(shares), around),
     )

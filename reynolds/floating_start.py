@@ -44,7 +44,7 @@ def pressed(solver: FilmSolver, floating: Floating, start: State[Stage], step: f
 
     Elastic walls follow a load at once, by a way that no shorter step makes shorter. Raises as `solve_stage`.
     """
-    stage = solve_stage(solver, floating, start.time, start.held, step, start.q, None)
+    stage = solve_stage(solver, floating, start.time, start.held, step, start.q, start.stage)
     assert start.tangent is not None
     return replace(
         start, q=stage.q, held=stage.holds, tangent=Tangent(*stage.carried(start.tangent.held)), stage=stage

@@ -17,8 +17,7 @@ if TYPE_CHECKING:
 COMMAND_LINE = "command line"
 EXIT_NOT_CONVERGED = 3
 SOFT_PRICE = (
-    "elastic walls: a revolution takes some ten times as long as between rigid ones; --rigid or a smaller 'finer' "
-    "costs less"
+    "elastic walls: a revolution takes some ten times as long as between rigid ones; a smaller 'finer' costs less"
 )
 
 

@@ -19,10 +19,12 @@ from system.unlike import kinds
 
 ALIKE = "chambers that are alike; where they differ: swashfilm run with --fidelity lumped or floating"
 FEWEST_STEPS, MOST_STEPS = 24, 7200
-_INCLUDED = {"--heat": Effect.HEAT}
+_INCLUDED = {
+    "--elastic": Effect.ELASTIC_WALLS,
+    "--roelands": Effect.PRESSURE_VISCOSITY,
+    "--heat": Effect.HEAT,
+}
 _LEFT_OUT = {
-    "--rigid": Effect.ELASTIC_WALLS,
-    "--isoviscous": Effect.PRESSURE_VISCOSITY,
     "--smooth": Effect.ROUGHNESS,
     "--no-cavitation": Effect.CAVITATION,
 }

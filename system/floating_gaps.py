@@ -24,7 +24,7 @@ from reynolds.space import FilmSpace
 from system.floating_heat import block_heat, piston_heat, slipper_heat
 from system.floating_parts import FloatingParts
 from system.gap_cycle import Report, silent
-from system.gap_films import block_film, piston_film, slipper_film
+from system.gap_films import RIGID, block_film, piston_film, slipper_film
 from system.instants import Rotor
 from system.unlike import kinds
 
@@ -34,18 +34,18 @@ LEAST_CELLS = 2
 LEAST_PISTON_CELLS = 8
 """Along a bore: on fewer, a tilted piston with much clearance leaves the ends of its film between their points."""
 SLIPPER_START = BLOCK_START = 1e-5  # m: a film that every pump starts with
-SOFTLY = "a coarser mesh to find where, or rigid walls for comparison"
+SOFTLY = "a coarser mesh to find where, or rigid walls"
 
 
 @dataclass(frozen=True)
 class FloatingOptions:
     """How the gaps float: what physics, in how many steps a turn, how exactly, meshes how many times `finer`.
 
-    Physics is all but heat, which costs as much again. A mesh less than one time finer is coarser. Every `keep`th
-    film is kept.
+    Physics is `RIGID` where nothing else is asked for: what settles in minutes. A mesh less than one time finer is
+    coarser. Every `keep`th film is kept.
     """
 
-    physics: Physics = field(default=Physics())
+    physics: Physics = RIGID
     steps: int = 360
     accuracy: Accuracy = field(default=MARCHED)
     finer: float = 1.0

@@ -12,6 +12,7 @@ import pytest
 
 from gaps.bodies import BushingPart, PistonPart, bushing_body, piston_body
 from gaps.piston_walls import PistonWalls, face_grid
+from gaps.stand import Stand
 from reynolds.bodies.elasticity import Elastic
 from reynolds.bodies.foundation import Compliance
 from reynolds.film import Cavitation, FilmProblem, Held, film
@@ -35,11 +36,11 @@ def space() -> FilmSpace:
 @pytest.fixture(scope="module")
 def walls(space, tmp_path_factory) -> Compliance:
     """4 mm of brass around the bore (half the web between two bores), a hollow steel piston."""
-    cells, folder = (AROUND, 12), tmp_path_factory.mktemp("bodies")
+    rows, folder = np.linspace(0.0, LENGTH, 13), tmp_path_factory.mktemp("bodies")
     bushing = bushing_body(BushingPart(2.0 * RADIUS, 4e-3, LENGTH, BRASS), BODY)
     piston = piston_body(PistonPart(2.0 * RADIUS, 12e-3, LENGTH, STEEL), BODY)
-    faces = (face_grid(body, RADIUS, LENGTH, cells, folder) for body in (bushing, piston))
-    return PistonWalls(LENGTH, *faces).at(space, LENGTH)
+    faces = (face_grid(body, RADIUS, rows, AROUND, folder) for body in (bushing, piston))
+    return PistonWalls(LENGTH, *faces).at(space, Stand(LENGTH))
 
 
 def leak(

@@ -74,7 +74,7 @@ def test_walls_give_way_to_the_pressure(slippers):
 def test_elastic_block_closes():
     """With contact and oil that stiffens, at rated pressure; begun between rigid walls, it says what both took."""
     at, parts, driven = driven_at("35 MPa")
-    options = FloatingOptions(steps=27, accuracy=Accuracy(step=0.1, closed=3e-3), finer=0.25, keep=3)
+    options = FloatingOptions(Physics(), steps=27, accuracy=Accuracy(step=0.1, closed=3e-3), finer=0.25, keep=3)
     found = block_revolution(at, parts, driven.block, options)
     turn = found.turn
     assert turn.repeats

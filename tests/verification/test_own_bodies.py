@@ -210,9 +210,8 @@ def test_a_bushing_that_turns_is_the_turned_bushing(columns, tolerance, tmp_path
     pressure = 30e6 * np.random.default_rng(4).uniform(0.5, 1.0, film.size)
     found = []
     for built, stands in ((0.0, angle), (angle, 0.0)):
-        grid = face_grid(
-            bushing_body(replace(BUSHING, own=oblong(tmp_path, built))), BORE, GUIDE, (24, 4), tmp_path
-        )
+        body = bushing_body(replace(BUSHING, own=oblong(tmp_path, built)))
+        grid = face_grid(body, BORE, np.linspace(0.0, GUIDE, 5), 24, tmp_path)
         stiff = FaceGrid(grid.rows, 0.0 * grid.influence, 0.0 * grid.by_chamber)
         walls = PistonWalls(GUIDE, grid, stiff)
         stand = Stand(GUIDE, fixed=stands)

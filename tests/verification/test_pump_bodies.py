@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from scipy.special import ive
 
 from gaps.bodies import (
     BushingPart,
@@ -23,6 +24,7 @@ from gaps.bodies import (
 )
 from gaps.own_body import CHAMBER, FILM
 from gaps.piston_walls import FaceGrid, PistonWalls, face_grid
+from gaps.rows import closer_at_end, closer_at_start
 from gaps.stand import Stand
 from reynolds.bodies.body_space import body_space
 from reynolds.bodies.cache import Origin
@@ -47,6 +49,11 @@ def unrolled(rows: Array, around: int = 12) -> FilmSpace:
     return space.moved(np.column_stack([space.vertices[:, 0], rows[row]]))
 
 
+def even(length: float, cells: int) -> Array:
+    """Rows of a face at even steps."""
+    return np.linspace(0.0, length, cells + 1)
+
+
 def opened(grid: FaceGrid) -> Array:
     """Opening of a whole face under one pressure, (rows, columns + 1) m."""
     return PRESSURE * grid.influence.sum(axis=(2, 3))[:, np.arange(grid.columns + 1) % grid.period]
@@ -61,7 +68,9 @@ def test_bushing_in_its_web(poisson, validation, refine):
     exact = PRESSURE / 110e9 * shape * (1.0 / a - a / b**2)
 
     def solve(n: int) -> float:
-        return MICRON * float(opened(face_grid(bushing_body(part, (n, 6 * n, 1)), a, GUIDE, (12 * n, 2))).mean())
+        return MICRON * float(
+            opened(face_grid(bushing_body(part, (n, 6 * n, 1)), a, even(GUIDE, 2), 12 * n)).mean()
+        )
 
     found = refine(solve, (1, 2, 4), 3.0)
     validation(
@@ -84,7 +93,7 @@ def test_piston_pressed_from_outside(inner, validation, refine):
 
     def solve(n: int) -> float:
         part = PistonPart(2.0 * b, inner, PISTON.length, STEEL)
-        found = opened(face_grid(piston_body(part, (n, 8 * n, 1)), b, part.length, (16 * n, 2)))
+        found = opened(face_grid(piston_body(part, (n, 8 * n, 1)), b, even(part.length, 2), 16 * n))
         return MICRON * float(found.mean())
 
     found = refine(solve, (1, 2, 4), 3.0)
@@ -97,6 +106,36 @@ def test_piston_pressed_from_outside(inner, validation, refine):
         obtained=found.finest,
         tolerance=found.tolerance(),
         order=found.order,
+    )
+
+
+def dent(wave: float, radius: float) -> float:
+    """Deepest opening (m/Pa) of a long solid cylinder under cos(2 pi z/wave): its own under a line of dents."""
+    x = 2.0 * np.pi / wave * radius
+    zero, one = ive(0, x), ive(1, x)
+    return 0.7 * radius * 2.6 / 210e9 * one**2 / (x**2 * zero**2 - (x**2 + 1.4) * one**2)
+
+
+@pytest.mark.slow
+def test_dents_along_a_piston(validation, tmp_path):
+    """Bands of pressure half a radius wide dent a piston as a long cylinder, next to a half-space."""
+    wave, part = 12e-3, PistonPart(2.0 * BORE, 0.0, 36e-3, STEEL)
+    rows = part.length * closer_at_start(np.linspace(0.0, 1.0, 25))
+    grid = face_grid(piston_body(part, (3, 8, 12)), BORE, rows, 8, tmp_path)
+    middle = int(np.argmin(np.abs(rows - 0.5 * part.length)))
+    pressed = np.cos(2.0 * np.pi * (rows - rows[middle]) / wave)
+    apart = 2.0 * np.pi / wave * (rows[middle + 1] - rows[middle])
+    exact = dent(wave, BORE)
+    assert exact == pytest.approx(2.0 * 0.91 / 210e9 * wave / (2.0 * np.pi), rel=0.1)
+    validation(
+        case="Dents along a piston",
+        source="Filon 1902, solid cylinder under a cosine of pressure",
+        quantity="opening in the middle of a band of 6 mm at 100 MPa",
+        unit="um",
+        expected=1e8 * MICRON * exact,
+        obtained=1e8 * MICRON * float(grid.influence[middle, 0].sum(axis=0) @ pressed),
+        relative_tolerance=1.5 * apart**2 / 12.0,
+        note="tolerance: half as much again as rows this far apart lose of the cosine",
     )
 
 
@@ -222,8 +261,11 @@ def test_plate_on_its_back(validation):
 
 def grids(cells: tuple[int, int] = (12, 8)) -> PistonWalls:
     """Bushing and piston, coarse."""
-    bush = face_grid(bushing_body(BUSHING, (1, 12, 2)), BORE, GUIDE, cells)
-    return PistonWalls(GUIDE, bush, face_grid(piston_body(PISTON, (1, 6, 2)), BORE, PISTON.length, cells))
+    around, along = cells
+    drawn = GUIDE * closer_at_end(np.linspace(0.0, 1.0, along + 1))
+    bush = face_grid(bushing_body(BUSHING, (1, 12, 2)), BORE, drawn, around)
+    piston = face_grid(piston_body(PISTON, (1, 6, 2)), BORE, even(PISTON.length, along), around)
+    return PistonWalls(GUIDE, bush, piston)
 
 
 def test_film_that_covers_a_part_meets_all_of_it():
@@ -262,7 +304,7 @@ def test_bore_under_one_pressure_opens_alike_wherever_the_piston_stands(reach):
     film = unrolled(np.linspace(GUIDE - reach, GUIDE, 9))
     found = alone.at(film, Stand(reach)).matrix @ np.ones(film.size) + alone.by_chamber(film, Stand(reach))
     whole = walls.bushing.influence.sum(axis=(2, 3))
-    assert found == pytest.approx(whole.mean(), rel=2e-3, abs=0.0)
+    assert found == pytest.approx(whole.mean(), rel=3e-3, abs=0.0)
 
 
 def test_faces_a_piston_cannot_meet():
