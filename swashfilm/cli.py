@@ -11,6 +11,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn
 
+from swashfilm.cli_diagnose import add_diagnose_options, run_diagnose_command
 from swashfilm.cli_report import run_report
 from swashfilm.cli_table import TABLE_OPTIONS, add_table_options, run_table_command
 from swashfilm.fidelity import Fidelity
@@ -127,6 +128,13 @@ def build_parser() -> argparse.ArgumentParser:
     )
     add_table_options(table)
     _output(table)
+    diagnose = _command(
+        commands,
+        "diagnose",
+        "where a recording and the simulation of its pump part: by what, how sure",
+    )
+    add_diagnose_options(diagnose)
+    _output(diagnose)
     report = _command(commands, "report", "make the report of a run folder anew")
     report.add_argument("folder", type=Path, metavar="DIR", help="the run folder")
     check = _command(commands, "check", "validate a pump file or film case without running it")
@@ -158,7 +166,7 @@ def _check_command(parser: argparse.ArgumentParser, words: Sequence[str]) -> Non
 def _unknown(command: str | None, word: str) -> Fault:
     """The fault of a word that no option or argument takes."""
     run_options = [*_OVERRIDES, "--fidelity", "--table", "--steps", "--finer", *SWITCHES]
-    own = {"run": run_options, "film": _FILM_OPTIONS, "table": TABLE_OPTIONS}
+    own = {"run": run_options, "film": _FILM_OPTIONS, "table": TABLE_OPTIONS, "diagnose": []}
     if command in own:
         options = [*own[command], "-o", "--output", "--help"]
     else:
@@ -351,6 +359,7 @@ _COMMANDS = {
     "run": _run,
     "film": _film,
     "table": run_table_command,
+    "diagnose": run_diagnose_command,
     "report": run_report,
     "check": _check,
     "doctor": _doctor,

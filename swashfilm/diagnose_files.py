@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import csv
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -18,20 +18,27 @@ from swashfilm.run_folder import write_json
 KIND = "diagnosis"
 
 
-def write_diagnosis_files(folder: Path, study: Study, diagnosis: Diagnosis, thresholds: Thresholds) -> None:
-    """Write diagnosis.json, summary.json, four tables and report.html into a run folder."""
+def write_diagnosis_files(
+    folder: Path, study: Study, diagnosis: Diagnosis, thresholds: Thresholds, assumptions: Sequence[str] = ()
+) -> None:
+    """Write diagnosis.json, summary.json, four tables and report.html into a run folder.
+
+    assumptions: what was taken of the pump.
+    """
     write_rows(folder / "steady.csv", steady_rows(study.recording))
     write_rows(folder / "residuals.csv", residual_rows(study, diagnosis))
     write_rows(folder / "hypotheses.csv", hypothesis_rows(diagnosis))
     write_rows(folder / "parameters.csv", parameter_rows(diagnosis))
     write_diagnosis(folder / "diagnosis.json", diagnosis)
-    write_json(folder / "summary.json", diagnosis_summary(study, diagnosis, thresholds))
+    write_json(folder / "summary.json", diagnosis_summary(study, diagnosis, thresholds, assumptions))
     from swashfilm.diagnose_page import write_diagnose_page
 
     write_diagnose_page(folder)
 
 
-def diagnosis_summary(study: Study, diagnosis: Diagnosis, thresholds: Thresholds) -> dict[str, Any]:
+def diagnosis_summary(
+    study: Study, diagnosis: Diagnosis, thresholds: Thresholds, assumptions: Sequence[str]
+) -> dict[str, Any]:
     """What the page needs beside diagnosis.json: the recording, its data notes, what was taken, what decides."""
     before, after = pull_sums(diagnosis.before, diagnosis.after)
     recording = study.recording
@@ -45,9 +52,12 @@ def diagnosis_summary(study: Study, diagnosis: Diagnosis, thresholds: Thresholds
         "channels": [channel.name.value for channel in recording.channels],
         "data_notes": [note_text(note) for note in recording.notes],
         "assumptions": [
-            f"{channel.name.value}: {', '.join(channel.assumed)} not stated by the recording"
-            for channel in recording.channels
-            if channel.assumed
+            *assumptions,
+            *(
+                f"{channel.name.value}: {', '.join(channel.assumed)} not stated by the recording"
+                for channel in recording.channels
+                if channel.assumed
+            ),
         ],
         "squared_pulls": {"before": before, "after": after},
         "thresholds_sha256": thresholds.digest,

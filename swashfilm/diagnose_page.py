@@ -34,6 +34,7 @@ def write_diagnose_page(folder: Path) -> Path:
         summary=json.loads((folder / "summary.json").read_text("utf-8")),
         found=found,
         channels=list(channel_rows(found)),
+        channel_head=CHANNEL_HEAD,
         place=list(place_rows(found)),
         claims=list(claim_rows(found)),
         parameters=list(parameter_rows(tables["parameters"])),
@@ -53,6 +54,7 @@ def channel_rows(found: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:
 
 
 _HELD_OUT = ("before", "after", "noise")
+CHANNEL_HEAD = ("channel", "chi2 per reading", "share", "held out, before", "after", "noise")
 
 
 def place_rows(found: Mapping[str, Any]) -> Iterator[tuple[str, str]]:

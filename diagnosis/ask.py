@@ -1,0 +1,48 @@
+"""Which two explanations the next point is to separate."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from diagnosis.hypotheses import simulator_of
+from diagnosis.next_point import Contender, next_point
+from diagnosis.study import Study
+from diagnosis.thresholds import Thresholds
+from diagnosis.verdict import Diagnosis
+from diagnosis.weighed import Weighed
+from system.description import PumpDescription
+
+STANDS = 0.001  # probability of a rival worth a reading
+
+
+def with_next_point(study: Study, pump: PumpDescription, found: Diagnosis, thresholds: Thresholds) -> Diagnosis:
+    """The diagnosis with the point that separates its first explanation from the likeliest other.
+
+    Unchanged where no refitted rival stands, or where no point of the rig tells it from the first. Raises
+    NotConverged where a point of the rig's box cannot be simulated.
+    """
+    fitted = [each for each in found.hypotheses if each.posterior is not None]
+    rival = _rival(fitted)
+    if rival is None:
+        return found
+    contenders = [_contender(study, each, thresholds) for each in (fitted[0], rival)]
+    return replace(found, next_point=next_point(study, pump, contenders[0], contenders[1]))
+
+
+def _rival(fitted: Sequence[Weighed]) -> Weighed | None:
+    """The likeliest of the explanations that are not the first at the same places."""
+    others = [
+        each
+        for each in fitted[1:]
+        if each.probability >= STANDS and each.hypothesis.open_names != fitted[0].hypothesis.open_names
+    ]
+    return max(others, key=lambda each: each.probability, default=None)
+
+
+def _contender(study: Study, weighed: Weighed, thresholds: Thresholds) -> Contender:
+    """A refitted explanation with the simulator of its fit."""
+    if weighed.posterior is None:
+        raise ValueError(f"{weighed.hypothesis.text}: not refitted")
+    simulator = simulator_of(study.simulator, weighed.hypothesis, thresholds.name.fault_factor)
+    return Contender(weighed.hypothesis.effects, simulator, weighed.posterior)
