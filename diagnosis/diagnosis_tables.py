@@ -71,6 +71,7 @@ def hypothesis_rows(diagnosis: Diagnosis) -> Iterator[Row]:
     for one in diagnosis.hypotheses:
         heldout = one.heldout
         yield {
+            "hypothesis": one.hypothesis.text,
             "effects": " + ".join(effect.value for effect in one.hypothesis.effects),
             "pair": one.hypothesis.pair.value if one.hypothesis.pair else "",
             "kind": one.hypothesis.kind.value,

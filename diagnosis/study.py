@@ -10,6 +10,7 @@ import numpy as np
 
 from diagnosis.recording import Recording, TraceBlock
 from diagnosis.thresholds import Thresholds
+from system.bench_points import BenchPoints
 from system.components import Component
 from system.estimation.evidence import Sign
 from system.estimation.observations import Array, Observations
@@ -54,6 +55,10 @@ class PumpSimulator(Simulator, Protocol):
 
     def difference(self, values: Array, other: Array) -> Array:
         """Readings (N, C) at `other` values less those at `values`; may be approximate, as slopes are."""
+        ...
+
+    def elsewhere(self, points: BenchPoints) -> Self:
+        """The same pump with the same parameters and laws at other points."""
         ...
 
     def traces(self, values: Array, points: tuple[int, ...], angles: Array) -> Array:

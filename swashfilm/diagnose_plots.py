@@ -70,7 +70,7 @@ def hypothesis_bars(rows: Sequence[Row]) -> bytes:
     for place, row in enumerate(ranked):
         text = f"{float(row['behind [nats]']):.3g} nats behind, z {float(row['z'] or 0):.3g}"
         axes.text(float(row["probability"]) + 0.01, place, text, va="center", fontsize=8)
-    axes.set_yticks(places, [_name(row) for row in ranked], fontsize=8)
+    axes.set_yticks(places, [row["hypothesis"].replace("_", " ") for row in ranked], fontsize=8)
     axes.set(xlim=(0.0, 1.35), xlabel="probability", xticks=np.linspace(0, 1, 6))
     axes.invert_yaxis()
     return png_of(figure)
@@ -160,11 +160,6 @@ def _title(level: tuple[float, float], key: str) -> str:
     lower, upper = level
     one = f"{(lower + upper) / 2:.2g}" if upper - lower < RATIO_STEP / 2 else f"{lower:.2g} to {upper:.2g}"
     return f"displacement {one}, {when}"
-
-
-def _name(row: Row) -> str:
-    words = row["effects"].replace("_", " ") or row["kind"].replace("_", " ")
-    return f"{words}, {row['pair'].replace('_', ' ')}" if row["pair"] else words
 
 
 def _column(rows: Sequence[Row], key: str) -> Array:

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from diagnosis.diagnose import diagnose_study
-from diagnosis.prepare import prepare
-
 from diagnosis.ask import with_next_point
 from diagnosis.data_checks import check_recording, too_few
+from diagnosis.diagnose import diagnose_study
+from diagnosis.prepare import prepare
 from diagnosis.readings import bench_points
 from diagnosis.recording import NoteKind, Recording
 from diagnosis.recording_reader import read_recording

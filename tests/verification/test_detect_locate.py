@@ -18,6 +18,7 @@ from diagnosis.recording import Circuit, Recording, SteadyTable
 from diagnosis.study import Study, concerned, study_of
 from diagnosis.thresholds import load_thresholds
 from diagnosis.time_scan import TimeKind
+from system.bench_points import BenchPoints
 from system.channels import ChannelName
 from system.components import Component
 from system.estimation.evidence import Sign
@@ -100,6 +101,9 @@ class ToyPump:
     def with_extensions(self, extensions: tuple[Extension, ...]) -> ToyPump:
         added = tuple(parameter for one in extensions for parameter in one.parameters)
         return ToyPump(self.parameters + added, (*self.columns, *(_effect(one.id) for one in extensions)))
+
+    def elsewhere(self, points: BenchPoints) -> ToyPump:
+        raise NotImplementedError
 
     def difference(self, values: Array, other: Array) -> Array:
         return self.predict(other) - self.predict(values)

@@ -19,6 +19,7 @@ from diagnosis.study import Candidate, Study, study_of
 from diagnosis.thresholds import load_thresholds
 from diagnosis.unknown import scaling
 from diagnosis.verdict import Diagnosis, Status
+from system.bench_points import BenchPoints
 from system.channels import ChannelName
 from system.components import Component
 from system.errors import NotConverged
@@ -169,6 +170,9 @@ class ToyPump:
         scales = [each.grid[0]["scale"] for each in extensions if "scale" in each.grid[0]]
         added = tuple(one for each in extensions for one in each.parameters)
         return replace(self, parameters=self.parameters + added, scale=(*scales, self.scale)[0])
+
+    def elsewhere(self, points: BenchPoints) -> ToyPump:
+        raise NotImplementedError
 
     def difference(self, values: Array, other: Array) -> Array:
         return self.predict(other) - self.predict(values)
