@@ -15,7 +15,7 @@ from diagnosis.study import Study
 from diagnosis.thresholds import Thresholds
 from diagnosis.weighed import Weighed
 from system.errors import NotConverged
-from system.estimation.fit import maximum_posterior
+from system.estimation.fit import FitLimits, maximum_posterior
 from system.estimation.observations import Array
 from system.estimation.parameters import Parameter
 from system.estimation.posterior import Posterior, values_at
@@ -25,6 +25,7 @@ from system.estimation.trust import Bounds
 SIZES = (0.1, 0.3, 1.0, 2.0)  # spreads that a start is looked for at
 ROUGHLY = (0.3, 1.0)  # the same for a first look
 REACH = 3.0  # xi of a nuisance where a fit may start: the linear model knows no bounds
+LIMITS = FitLimits(change=0.1)  # of the objective: a twentieth of a nat decides nothing, and costs sixfold less
 GRID_MEMBERS = 2  # of a grid that are refitted: those best in the linear model
 
 
@@ -41,7 +42,7 @@ def refit(study: Study, hypothesis: Hypothesis, thresholds: Thresholds) -> Weigh
         simulator = simulator_of(study.simulator, member, thresholds.name.fault_factor)
         try:
             start = _start(study, simulator, member.open_names, SIZES)[1]
-            found.append((member, maximum_posterior(simulator, study.observations, start)))
+            found.append((member, maximum_posterior(simulator, study.observations, start, LIMITS)))
         except NotConverged as reason:
             failed.append(reason)
     if not found:
