@@ -308,7 +308,7 @@ def test_several_effects_are_found_together(count: int) -> None:
 
 
 def test_what_stands_in_no_catalogue_is_unknown() -> None:
-    """Drain flow that grows with sqrt(p) mu n: unknown, with its exponents to a third (the films take up a part)."""
+    """Drain flow with sqrt(p) mu n: unknown, with its exponents to a third (the films take up a part)."""
     n, p, _, mu = _axes()
     zero = np.zeros(POINTS)
     found = _diagnosis(_study(1, added=np.stack([zero, 0.5 * np.sqrt(p) * mu * n, zero], axis=1)))
