@@ -25,6 +25,7 @@ from reynolds.space import FilmSpace
 
 MET = 0.1  # of the distance at which a turn counts as closed: near enough to join the turn before
 SHORT = 1e-2  # of the first way to a node: a step in which elastic walls give way to their first load
+FARTHEST = 2e-2  # of the film's length, by which a wall may go: beyond it nothing is thin, no tilt small
 
 Seen = TypeVar("Seen")
 
@@ -32,6 +33,8 @@ Seen = TypeVar("Seen")
 @dataclass(frozen=True)
 class GapInstant(Generic[Seen]):
     """A gap at one shaft angle (rad): position (k,) m, rate (k,) m/s, forces (k,) N along the position, film.
+
+    Forces of film, contact, what is outside and of inertia, -M q'', add up to nothing.
 
     least_gap m is the least distance of the mean planes, negative where rough walls overlap; film_thickness_min
     and mean_film m the least and the area mean of the film's thickness; pressure_max Pa; cavitated_area_fraction;
@@ -46,6 +49,7 @@ class GapInstant(Generic[Seen]):
     film_force: Array
     contact_force: Array
     outer_force: Array
+    inertia_force: Array
     least_gap: float
     film_thickness_min: float
     mean_film: float
@@ -169,6 +173,7 @@ class Turns(Generic[Seen]):
         try:
             for taken in steps:
                 reached = taken.state.time
+                _check_near(taken.stage)
                 self._report(self._turn, reached / self._times[-1])
                 yield taken
         except FilmNotConverged as reason:
@@ -199,6 +204,19 @@ class Turns(Generic[Seen]):
         stage = taken.stage
         allowed = self._accuracy.step * stage.yardstick + self._accuracy.floor
         return float(np.max(np.abs(stage.moved(taken.error)) / allowed))
+
+
+def _check_near(stage: Stage) -> None:
+    """Raise FilmNotConverged where a wall has gone so far that there is no film any more: it tips or flies off."""
+    modes = stage.instant.modes
+    away, length = float(np.abs(modes.at_vertices @ stage.q).max()), float(np.ptp(modes.space.vertices, axis=0).max())
+    if away > FARTHEST * length:
+        name, least = stage.instant.floating.name, stage.least_gap
+        raise FilmNotConverged(
+            f"{name} leaves its film: {away:.3g} m open, a share {away / length:.2g} of its length, least gap "
+            f"{least:.3g} m: no film balances what acts on it",
+            "what presses it on nearer to the middle of the film, a stronger spring, or a stop",
+        )
 
 
 class _Course(Generic[Seen]):
@@ -262,6 +280,7 @@ def _instant(angle: float, stage: Stage, rate: Array, seen: Seen, since: Passed[
         film_force=stage.film_force,
         contact_force=stage.contact_force,
         outer_force=stage.outer.force,
+        inertia_force=stage.inertia_force,
         least_gap=stage.least_gap,
         film_thickness_min=float(min(vertex_thickness(stage.solution).min(), film.thickness.min())),
         mean_film=float(np.sum(film.thickness * area) / np.sum(area)),

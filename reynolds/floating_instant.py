@@ -130,12 +130,17 @@ class Instant:
         missing, size = force + outer.force, size + np.abs(outer.force)
         if contact is not None:
             missing, size = missing + contact.force, size + contact.size
-        if self.floating.inertia is not None:
-            pushed = self.floating.inertia @ (rate - self.before.rate) / self.step
-            missing, size = missing - pushed, size + np.abs(pushed)
+        pushed = self.inertia_force(rate)
+        missing, size = missing + pushed, size + np.abs(pushed)
         return Trial(
             q, rate, at.gap, at.corner_gap, at.least, at.thicker, solution, force, contact, outer, missing, size
         )
+
+    def inertia_force(self, rate: Array) -> Array:
+        """-M q'' (k,) N of a rate (k,) m/s over the step."""
+        if self.floating.inertia is None:
+            return np.zeros_like(rate)
+        return np.asarray(-self.floating.inertia @ (rate - self.before.rate) / self.step)
 
     def _contact(self, at: Posed, solution: FilmSolution) -> ContactForce | None:
         if self.shape.asperities is None:

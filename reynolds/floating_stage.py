@@ -137,6 +137,11 @@ class Stage:
         """dq/dt over the step, (k,) m/s."""
         return self.trial.rate + self.shift / self.instant.step
 
+    @property
+    def inertia_force(self) -> Array:
+        """-M q'' over the step, (k,) N."""
+        return self.instant.inertia_force(self.rate)
+
     def _along(self, slopes: Callable[[], Array]) -> Array | float:
         """What the shift adds to forces of such slopes."""
         return slopes() @ self.shift if self.shift.any() else 0.0

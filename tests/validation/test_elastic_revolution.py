@@ -50,7 +50,7 @@ def test_elastic_slipper_closes(slippers):
     assert soft.closing.largest_multiplier < 1.0
     for instant in turn.instants:
         outer = instant.outer_force
-        rest = instant.film_force + instant.contact_force + outer
+        rest = instant.film_force + instant.contact_force + outer + instant.inertia_force
         assert np.abs(rest).max() < 1e-3 * np.abs(outer).max()
 
 
