@@ -5,12 +5,13 @@ VENV := .venv/bin
 PYTHON = $(shell for python in python3.11 python3.12 python3.13 python3.14 python3; do \
 	$$python -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null && echo $$python && break; done)
 
-.PHONY: help install run test check lock clean
+.PHONY: help install run test test-long check lock clean
 
 help:
 	@echo "make install   set up .venv in this folder (once; later calls only check)"
 	@echo "make run       set up, then solve the reference pump at 2100 r/min, 35 MPa, full displacement"
-	@echo "make test      set up, then run all tests"
+	@echo "make test      set up, then run all tests but those of minutes"
+	@echo "make test-long set up, then run the tests of minutes"
 	@echo "make check     set up, then style (ruff), types (mypy) and direction of imports (import-linter)"
 	@echo "make lock      resolve pyproject.toml anew into requirements.lock, keeping versions that still fit"
 	@echo "make clean     remove .venv and every cache; keeps runs/"
@@ -24,6 +25,9 @@ run: install
 
 test: install
 	$(VENV)/python -m pytest -n 2
+
+test-long: install
+	$(VENV)/python -m pytest -m long
 
 check: install
 	$(VENV)/ruff check
