@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from system.faults import nearest_choice
+from system.faults import nearest_path
 from system.kinematics import Array
 
 
@@ -54,10 +54,7 @@ def read_columns(source: TableSource) -> Columns:
     """
     path = source.path
     if not path.is_file():
-        beside = sorted(item.name for item in path.parent.glob("*.*"))
-        near = nearest_choice(path.name, beside)
-        found = f"'{path}', which is no file"
-        raise TableFault(found, "the path of a table", str(path.parent / near) if near else "")
+        raise TableFault(f"'{path}', which is no file", "the path of a table", nearest_path(path))
     reader = _readers().get(path.suffix.lower())
     if reader is None:
         raise TableFault(f"'{path.name}'", f"a file that ends in one of {', '.join(_readers())}")

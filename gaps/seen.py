@@ -101,7 +101,7 @@ def slipper_seen(film: SlipperFilm) -> Callable[[Stage], SlipperSeen]:
             leakage=sum(flows[edge] for edge in film.shape.lands.open),
             heat=by.heat(),
             contact_load=by.load(),
-            active=active(stage, film.asperities, held=bool(np.any(stage.outer.by_position))),
+            active=active(stage, film.asperities, held=film.is_held(stage.q)),
             friction=film.friction(stage, by),
             pocket_pressure=pocket,
             throttled=fed * (film.chamber_pressure(stage.time) - pocket),

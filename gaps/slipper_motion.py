@@ -65,11 +65,14 @@ class SlipperShape:
 class Retainer:
     """A plate over the slippers: reached where the film at the rim exceeds `clearance` (m).
 
-    stiffness N/m, of the whole rim together.
+    stiffness N/m, of the whole rim together, up to a force of `limit` (N); beyond it the plate gives way as a
+    spring of `rate` (N/m).
     """
 
     clearance: float
     stiffness: float
+    limit: float = np.inf
+    rate: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -159,14 +162,17 @@ def retainer_force(retainer: Retainer, position: Array) -> Outer:
     """What a retainer around the rim does: springs k/N at N places there, where the film exceeds the clearance.
 
     P = -k mean <rise - clearance> (1, cos, sin) over the rim, rise = q0 + q1 cos + q2 sin: pushed and never
-    pulled, with a potential, so that it spends no work over a turn.
+    pulled, with a potential, so that it spends no work over a turn. A place that has reached its part of the
+    limit goes on by the rate.
     """
     angle = 2.0 * np.pi * np.arange(RIM_PLACES) / RIM_PLACES
     places = np.column_stack([np.ones(RIM_PLACES), np.cos(angle), np.sin(angle)])
     over = np.maximum(places @ position - retainer.clearance, 0.0)
-    reached = places[over > 0.0]
-    stiffness = retainer.stiffness / RIM_PLACES
-    return Outer(-stiffness * over @ places, -stiffness * reached.T @ reached, np.zeros((3, 3)))
+    firm = np.minimum(over, retainer.limit / retainer.stiffness)
+    pressed = retainer.stiffness * firm + retainer.rate * (over - firm)
+    stiffness = np.where(over > firm, retainer.rate, np.where(over > 0.0, retainer.stiffness, 0.0))
+    slopes = places.T @ (stiffness[:, None] * places)
+    return Outer(-pressed @ places / RIM_PLACES, -slopes / RIM_PLACES, np.zeros((3, 3)))
 
 
 @dataclass(frozen=True)
@@ -260,6 +266,11 @@ class SlipperFilm:
             return Outer(given, np.zeros((3, 3)), np.zeros((3, 3)))
         held = retainer_force(self.drive.retainer, position)
         return replace(held, force=given + held.force)
+
+    def is_held(self, position: Array) -> bool:
+        """Whether the retainer presses at a position."""
+        retainer = self.drive.retainer
+        return retainer is not None and bool(retainer_force(retainer, position).force.any())
 
     def rubbed(self, stage: Stage) -> Rubbed:
         """What film and contact do to slipper (moving) and plate."""

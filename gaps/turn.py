@@ -209,7 +209,8 @@ class Turns(Generic[Seen]):
 def _check_near(stage: Stage) -> None:
     """Raise FilmNotConverged where a wall has gone so far that there is no film any more: it tips or flies off."""
     modes = stage.instant.modes
-    away, length = float(np.abs(modes.at_vertices @ stage.q).max()), float(np.ptp(modes.space.vertices, axis=0).max())
+    away = float(np.abs(modes.at_vertices @ stage.q).max())
+    length = float(np.ptp(modes.space.vertices, axis=0).max())
     if away > FARTHEST * length:
         name, least = stage.instant.floating.name, stage.least_gap
         raise FilmNotConverged(

@@ -28,9 +28,12 @@ def check_pressures(problem: FilmProblem) -> None:
 
     That is where a boundary is not of the mesh, where a piece of the film has no pressure level, where a boundary
     lies below cavitation pressure, or where one filled in part lies above it; and where a pocket touches another
-    one or a held boundary, so that its pressure is not its own.
+    one or a held boundary, so that its pressure is not its own. Last, where the mesh is so coarse that every
+    unknown lies on a held boundary.
     """
-    spread(problem)
+    if spread(problem).held.all():
+        found = f"{problem.space.size} unknowns, each on an edge of given pressure: none is left to solve for"
+        raise FilmInputError("mesh", found, "at least 2 cells from one such edge to the next")
 
 
 def spread(problem: FilmProblem) -> Setting:

@@ -15,7 +15,7 @@ from reynolds.bodies.elasticity import Elastic
 from reynolds.bodies.supports import Supports
 from reynolds.bodies.wall import Body
 from reynolds.errors import FilmInputError
-from swashfilm.mesh_case import CaseMesh
+from swashfilm.mesh_case import MESH_FILE, CaseMesh
 from system.case_table import Table
 from system.parts_description import MeshUnit
 from system.units import Dimension
@@ -106,14 +106,15 @@ def _round(entry: Table, kind: BodyKind, elastic: Elastic | None, points: np.nda
 
 def file_body(entry: Table, elastic: Elastic | None, folder: Path) -> Body | None:
     """A body from a mesh file, its named face in the plane z = 0 or on a cylinder about z; None, faults told."""
-    raw, face, clamped = entry.get("mesh"), entry.get("face"), entry.get("clamped") or []
+    face, clamped = entry.get("face"), entry.get("clamped") or []
     radius = entry.positive("radius", Dimension.LENGTH) if entry.get("radius") is not None else None
     around = entry.choice("side", Around, Around.BORE)
     unit = entry.choice("unit", MeshUnit, MeshUnit.METRE)
-    if unit is None:
+    path = entry.file("mesh", folder, MESH_FILE)
+    if unit is None or path is None:
         return None
     try:
-        mesh = body_from_file(folder / str(raw), unit.metres)
+        mesh = body_from_file(path, unit.metres)
     except FilmInputError as reason:
         entry.fault("mesh", reason.found, reason.expected)
         return None

@@ -18,6 +18,7 @@ from swashfilm.fidelity import Fidelity
 from swashfilm.physics_switches import SWITCHES, add_switches
 from swashfilm.terminal import show, show_table
 from system.faults import Fault, InputFaults, nearest_choice
+from system.units import with_point
 
 if TYPE_CHECKING:
     from system.description import PumpDescription
@@ -283,7 +284,8 @@ def _overrides(options: argparse.Namespace) -> tuple[dict[str, object], list[Fau
             try:
                 stated[path] = float(text)
             except ValueError:
-                faults.append(Fault(option, repr(text), f"{what}, a bare number such as {example}"))
+                wanted = f"{what}, a bare number such as {example}"
+                faults.append(Fault(option, repr(text), wanted, with_point(text)))
                 del stated[path]
     return stated, faults
 

@@ -9,7 +9,7 @@ from importlib import import_module
 from pathlib import Path
 
 from swashfilm.terminal import show
-from system.faults import Fault, InputFaults
+from system.faults import Fault, InputFaults, nearest_path
 
 COMMAND_LINE = "command line"
 PAGES = {
@@ -42,7 +42,7 @@ def _page_of(folder: Path) -> Callable[[Path], Path]:
     try:
         kind = json.loads(summary.read_text("utf-8"))["kind"]
     except FileNotFoundError:
-        fault = Fault("DIR", f"no {summary}", "the folder of a finished run")
+        fault = Fault("DIR", f"no {summary}", "the folder of a finished run", nearest_path(folder))
         raise InputFaults(COMMAND_LINE, [fault]) from None
     except (OSError, ValueError, KeyError, TypeError) as reason:
         fault = Fault("summary.json", f"cannot be read: {reason!r}", "the summary that a run wrote")

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 from swashfilm.physics_switches import SWITCHES, add_switches, switched_keys
 from swashfilm.terminal import show, show_table
 from system.faults import Fault, InputFaults, nearest_choice
+from system.units import with_point
 
 if TYPE_CHECKING:
     from swashfilm.gap_table_case import GapTableCase
@@ -102,7 +103,7 @@ def _built(
     """Run in a folder of its own and tell what came of it."""
     from swashfilm.progress import progress
     from swashfilm.run_folder import Interrupted, final_folder, run_folder
-    from swashfilm.table_page import error_rows, held_rows
+    from swashfilm.table_page import error_rows, held_rows, number_rows
 
     with (
         run_folder(f"table-{of}", options.output) as folder,
@@ -113,6 +114,10 @@ def _built(
         except KeyboardInterrupt:
             raise Interrupted(None, "points solved are kept; the same command goes on with them") from None
     show_table(f"Table of {of}", held_rows(summary))
+    if numbers := [*number_rows(summary)]:
+        show_table(
+            "What runs by the table miss at held-out points", [("number", "rms", "largest", "at"), *numbers]
+        )
     show_table("Error of held-out points", [("output", "rms", "largest", "at"), *error_rows(summary)])
     for warning in summary["warnings"]:
         show(f"warning: {warning}")
@@ -187,7 +192,8 @@ def _pump(options: argparse.Namespace, faults: list[Fault], single: Collection[s
         try:
             stated["operating.displacement_ratio"] = float(options.displacement)
         except ValueError:
-            faults.append(Fault("--displacement", repr(options.displacement), "a bare number such as 0.8"))
+            text = options.displacement
+            faults.append(Fault("--displacement", repr(text), "a bare number such as 0.8", with_point(text)))
             del stated["operating.displacement_ratio"]
     try:
         pump = load_pump(options.pump, stated)

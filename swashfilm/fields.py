@@ -22,7 +22,7 @@ from swashfilm.expressions import (
     parse_expression,
 )
 from system.faults import nearest_choice
-from system.units import Dimension, QuantityError, format_quantity, parse_quantity
+from system.units import Dimension, QuantityError, format_quantity, parse_quantity, with_point
 
 _WITH_UNIT = re.compile(r"[+-]?(?>(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*[A-Za-zµμ°].*")
 _NAME = re.compile(r"[^\W\d]\w*")
@@ -197,7 +197,7 @@ def read_field(
     try:
         return Formula(parse_expression(text, variables, constants))
     except ExpressionError as reason:
-        raise QuantityError(reason.found, reason.expected, reason.nearest) from None
+        raise QuantityError(reason.found, reason.expected, reason.nearest or with_point(text)) from None
 
 
 def may_be_data(raw: object) -> bool:

@@ -20,7 +20,7 @@ from swashfilm.revolution_case import RevolutionCase
 from swashfilm.revolution_study import revolution_course, revolution_summary, solve_revolution
 from swashfilm.study_case import Point, StudyCase
 from system.errors import NotConverged
-from system.faults import Fault, InputFaults
+from system.faults import Fault, InputFaults, nearest_path
 from system.side_by_side import side_by_side
 
 POINTS = "points"
@@ -112,9 +112,10 @@ def _keep(folder: Path, name: str, outcome: Outcome) -> None:
 def _kept(study: StudyCase, folder: Path, resumed: Path) -> dict[Point, Outcome]:
     """Outcomes that lie in another run folder, copied to this one."""
     if not (resumed / POINTS).is_dir():
-        fault = Fault("--resume", f"{resumed}, which holds no {POINTS}", "the folder of a study that was begun")
+        found, near = f"{resumed}, which holds no {POINTS}", nearest_path(resumed)
+        fault = Fault("--resume", found, "the folder of a study that was begun", near)
         raise InputFaults("command line", [fault])
-    found = {}
+    taken = {}
     for point in study.points:
         try:
             name = digest(study.case(point))
@@ -125,8 +126,8 @@ def _kept(study: StudyCase, folder: Path, resumed: Path) -> dict[Point, Outcome]
             values = json.loads(record.read_text("utf-8"))
             outcome = Outcome(point, Status(values["status"]), values["reason"], values["summary"])
             _keep(folder, name, outcome)
-            found[point] = outcome
-    return found
+            taken[point] = outcome
+    return taken
 
 
 def _line(reason: InputFaults | FilmInputError) -> str:

@@ -18,6 +18,8 @@ if TYPE_CHECKING:
 
 LARGEST_CAVITY_FLOW = 0.01  # of the throughput; Reynolds' condition makes or swallows oil in a cavity
 LARGEST_THICKNESS_RATIO = 0.05  # of the film's extent; beyond, flow across the film counts
+FEW_UNKNOWNS = 8
+LARGEST_FALL = 2.0  # times, of the film within a cell
 MOST_BYTES = 200e6  # of the fields of a transient in results.nc
 MOST_FIELDS = 11  # at vertices and in cells
 LARGEST_RISE = 10.0  # K; an oil is a quarter to a third thinner there
@@ -65,12 +67,27 @@ def film_warnings(study: FilmStudy) -> list[dict[str, str]]:
         )
     return (
         found
+        + _mesh_warnings(study.solution)
         + _rough_warnings(study)
         + _pressure_warnings(study)
         + _supply_warnings(study)
         + _heat_warnings(study)
         + _size_warnings(study)
     )
+
+
+def _mesh_warnings(solution: FilmSolution) -> list[dict[str, str]]:
+    """A mesh on which hardly any pressure is solved for, or that does not see how the film runs."""
+    few, thickness = int(np.count_nonzero(~solution.held)), solution.film.thickness
+    fall = float(np.max(thickness.max(axis=1) / thickness.min(axis=1)))
+    told = []
+    if few < FEW_UNKNOWNS:
+        told.append(f"pressure is solved for at {few} points alone (fewer than {FEW_UNKNOWNS})")
+    if fall > LARGEST_FALL:
+        told.append(f"the film changes {fall:.3g} times within a cell (limit {LARGEST_FALL:g})")
+    if not told:
+        return []
+    return [{"name": "coarse_mesh", "text": f"{', '.join(told)}: --refine 3 tells how far off that is"}]
 
 
 def _heat_warnings(study: FilmStudy) -> list[dict[str, str]]:

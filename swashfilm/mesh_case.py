@@ -14,6 +14,7 @@ from swashfilm.fields import MeshData, mesh_data
 from system.case_table import Table, quoted
 from system.units import Dimension, format_quantity
 
+MESH_FILE = "the path of a mesh file in a format that meshio reads"
 MOST_CELLS = 10_000_000  # some 10 GB of memory
 Cells = tuple[int, int]
 
@@ -47,7 +48,7 @@ def read_mesh(film: Table, folder: Path) -> CaseMesh | None:
     """The mesh of a [film] table; None with its faults told. A file's path is relative to `folder`."""
     raw = film.get("mesh")
     if isinstance(raw, str):
-        return _from_file(film, raw, folder)
+        return _from_file(film, folder)
     if isinstance(raw, dict):
         table = Table(film.name("mesh"), raw, film.faults)
         shape = table.choice("kind", Shape)
@@ -60,8 +61,10 @@ def read_mesh(film: Table, folder: Path) -> CaseMesh | None:
     return None
 
 
-def _from_file(film: Table, raw: str, folder: Path) -> CaseMesh | None:
-    path = folder / raw
+def _from_file(film: Table, folder: Path) -> CaseMesh | None:
+    path = film.file("mesh", folder, MESH_FILE)
+    if path is None:
+        return None
     try:
         film_mesh = mesh_from_file(path)
         data = mesh_data(path, film_mesh)

@@ -5,12 +5,16 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
+import numpy as np
+
 from gaps.physics import Effect
 from gaps.revolution import GapRevolution
+from gaps.slipper_motion import retainer_force
 from swashfilm.pump_warnings import LARGEST_RIGID_PRESSURE
 from swashfilm.revolution_case import GapCase
 from system.checks import run_checks
 from system.floating_checks import block_tips, slipper_has_a_wedge
+from system.floating_drives import slipper_retainer
 from system.floating_parts import FloatingParts
 from system.pump_gap import Gap
 
@@ -30,6 +34,8 @@ def revolution_warnings(
         for warning in run_checks((check,), case.rotor.pump).warnings
     ]
     told += [*_contact(case, parts, found), *_pressures(case, found), *_motion(case, found, balance)]
+    if case.gap is Gap.SLIPPER:
+        told += _pulled(case, parts, found)
     return [{"name": name, "text": text} for name, text in told]
 
 
@@ -48,6 +54,21 @@ def _contact(case: GapCase, parts: FloatingParts, found: GapRevolution[Any]) -> 
             f"the mean planes of the walls overlap by {-least * 1e6:.2g} um (limit {limit * 1e6:.2g} um, "
             f"{LARGEST_OVERLAP:g} times the composite roughness): such contact wears or bends the parts; "
             "elastic walls, or a shape that is run in",
+        )
+
+
+def _pulled(case: GapCase, parts: FloatingParts, found: GapRevolution[Any]) -> Iterator[tuple[str, str]]:
+    """Slippers that together pull at a plate that the spring presses with more than tips it."""
+    retainer, z = slipper_retainer(case.rotor, parts), case.rotor.pump.pump.pistons
+    angles, span = found.angles, float(found.angles[-1])
+    pulls = [-float(retainer_force(retainer, instant.position).force[0]) for instant in found.turn.instants]
+    together = sum(np.interp(angles + k * span / z, angles, pulls, period=span) for k in range(z))
+    if (most := float(np.max(together))) > retainer.limit:
+        yield (
+            "retainer_gives_way",
+            f"slippers that leave their plate pull at the retainer with {most:.4g} N beyond their shares (limit "
+            f"{retainer.limit:.4g} N: one that pulls so tips it): the spring holds less than it was counted for; "
+            "a stiffer spring, or retainer.kind = 'clearance'",
         )
 
 

@@ -15,6 +15,8 @@ from swashfilm.table_run import input_text, place_text
 from system.faults import Fault, InputFaults
 from system.table_store import read_response
 
+KINDS = NUMBERS, OUTPUTS = "numbers", "outputs"
+"""Of the rows of a summary: what a run of a pump's table tells, and what its response is learnt of."""
 FILES = ("summary.json", "resolved.toml", "table.json", "table.npz")
 
 
@@ -32,8 +34,9 @@ def write_table_page(folder: Path) -> Path:
     page = template.render(
         summary=summary,
         held=list(held_rows(summary)),
+        numbers=list(number_rows(summary)),
         errors=list(error_rows(summary)),
-        meanings=[(named(row["name"])[0], row["meaning"]) for row in summary["outputs"]],
+        meanings=[(named(row["name"])[0], row["meaning"]) for kind in KINDS for row in summary.get(kind, [])],
         failed=[(place_text(summary["axes"], one["at"]), one["reason"]) for one in summary["failed"]],
         pictures={text: base64.b64encode(png).decode("ascii") for text, png in pictures.items()},
         resolved=(folder / "resolved.toml").read_text("utf-8"),
@@ -59,7 +62,16 @@ def held_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
 
 def error_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:
     """(output, rms, largest error of held-out points, where the largest is)."""
-    for row in summary["outputs"]:
+    yield from _rows_of(summary, OUTPUTS)
+
+
+def number_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:
+    """The same of the pump's numbers by runs of the table; none of a gap's table."""
+    yield from _rows_of(summary, NUMBERS)
+
+
+def _rows_of(summary: Mapping[str, Any], kind: str) -> Iterator[tuple[str, ...]]:
+    for row in summary.get(kind, []):
         errors = (_error_text(row["measure"], row[key]) for key in ("held_out_rms", "held_out_largest"))
         yield named(row["name"])[0], *errors, place_text(summary["axes"], row["held_out_worst_at"])
 

@@ -16,6 +16,7 @@ from system.pump_file import resolved_toml
 from system.response_tables import LARGE_ERROR, ResponseTable, axis_value
 from system.table_build import TableCase, build_table
 from system.table_means import MEANINGS
+from system.table_numbers import NUMBERS
 from system.table_store import keep_table, table_record
 from system.units import Dimension, format_quantity
 
@@ -61,7 +62,8 @@ def table_summary(table: ResponseTable) -> dict[str, Any]:
             **{name.replace("_", " "): axis_value(name, value) for name, value in held.items()},
         },
         "outputs": rows,
-        "warnings": table_warnings(table.response, record),
+        "numbers": [row | {"meaning": NUMBERS[row["name"]]} for row in record["numbers"]],
+        "warnings": [*table_warnings(table.response, record), *_far_off(record)],
     }
 
 
@@ -82,6 +84,17 @@ def _large_errors(response: Response, axes: Sequence[Mapping[str, Any]]) -> Iter
             f"{region.count} of {len(response.held_out.points)}, {region_text(response, region, axes)}; a smaller "
             "box or more points"
         )
+
+
+def _far_off(record: Mapping[str, Any]) -> Iterator[str]:
+    for row in record["numbers"]:
+        if row["held_out_largest"] > LARGE_ERROR:
+            yield (
+                f"large_error: runs by this table miss {row['name']} of held-out points by "
+                f"{row['held_out_largest']:.3g} at most, {row['held_out_rms']:.3g} rms ({row['measure']}, limit "
+                f"{LARGE_ERROR:g}), the most at {place_text(record['axes'], row['held_out_worst_at'])}; a smaller "
+                "box or more points"
+            )
 
 
 def region_text(response: Response, region: Region, axes: Sequence[Mapping[str, Any]]) -> str:

@@ -11,8 +11,8 @@ from enum import Enum
 from pathlib import Path
 from typing import Any, TypeVar
 
-from system.faults import Fault, InputFaults, key_lines, nearest_choice
-from system.units import Dimension, QuantityError, parse_quantity
+from system.faults import Fault, InputFaults, key_lines, nearest_choice, nearest_path
+from system.units import Dimension, QuantityError, parse_quantity, with_point
 
 Choice = TypeVar("Choice", bound=Enum)
 
@@ -22,18 +22,24 @@ def read_toml(path: Path) -> tuple[str, dict[str, Any]]:
     try:
         text = path.read_text("utf-8-sig")  # some editors put a byte order mark first
     except FileNotFoundError:
-        beside = [item.name for item in path.parent.glob("*.toml")] if path.parent.is_dir() else []
-        near = nearest_choice(path.name, beside)
-        fault = Fault("file", "no such file", "an existing TOML file", str(path.parent / near) if near else "")
+        fault = Fault("file", "no such file", "an existing TOML file", nearest_path(path))
         raise InputFaults(str(path), [fault]) from None
     except (OSError, UnicodeDecodeError) as reason:
         raise InputFaults(str(path), [Fault("file", f"cannot be read: {reason}", "TOML in UTF-8")]) from None
+    return text, toml_tables(str(path), text)
+
+
+def toml_tables(source: str, text: str) -> dict[str, Any]:
+    """The tables of a TOML text; raises InputFaults, naming the `source`, for a text that is none."""
     try:
-        return text, tomllib.loads(text)
+        return tomllib.loads(text)
     except tomllib.TOMLDecodeError as reason:
         at = re.search(r"at line (\d+)", str(reason))
-        lines = {"file": int(at[1]) if at else len(text.splitlines())}
-        raise InputFaults(str(path), [Fault("file", f"no TOML: {reason}", "TOML 1.0")], lines) from None
+        lines = text.splitlines()
+        number = int(at[1]) if at else len(lines)
+        value = lines[number - 1].partition("=")[2].partition("#")[0].strip() if lines else ""
+        fault = Fault("file", f"no TOML: {reason}", "TOML 1.0", with_point(value))
+        raise InputFaults(source, [fault], {"file": number}) from None
 
 
 def fault_lines(text: str, faults: Iterable[Fault]) -> dict[str, int]:
@@ -135,6 +141,18 @@ class Table:
             self.fault(key, "no such key" if raw is None else repr(raw), "a bare number (it has no unit)")
             return None
         return float(raw)
+
+    def file(self, key: str, folder: Path, expected: str) -> Path | None:
+        """The path of a file that is there, from a folder; None with its fault told."""
+        raw = self.get(key)
+        if not isinstance(raw, str):
+            self.fault(key, "no such key" if raw is None else repr(raw), expected)
+            return None
+        path = folder / raw
+        if not path.is_file():
+            self.fault(key, f"'{path}', which is no file", expected, nearest_path(path))
+            return None
+        return path
 
     def choice(self, key: str, kind: type[Choice], default: Choice | None = None) -> Choice | None:
         """One of an Enum's values; None with its fault told."""

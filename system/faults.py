@@ -8,6 +8,7 @@ from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from difflib import get_close_matches
+from pathlib import Path
 
 
 @dataclass(frozen=True)
@@ -65,6 +66,25 @@ def nearest_choice(found: str, choices: Iterable[str]) -> str:
     by_lower = {choice.lower(): choice for choice in choices}
     matches = get_close_matches(found.lower(), by_lower, n=1, cutoff=0.6)
     return by_lower[matches[0]] if matches else ""
+
+
+def nearest_path(path: Path) -> str:
+    """Return the path of a file or folder that is spelt most like one that is not there, or an empty string.
+
+    Each part of it that is missing is the nearest name in the folder before it; where none comes near, the path
+    ends there.
+    """
+    found, mended = Path(path.anchor), False
+    for part in path.parts[1:] if path.anchor else path.parts:
+        there = found / part
+        if not there.exists():
+            beside = (item.name for item in found.iterdir()) if found.is_dir() else ()
+            near = nearest_choice(part, beside)
+            if not near:
+                break
+            there, mended = found / near, True
+        found = there
+    return str(found) if mended else ""
 
 
 _HEADER = re.compile(r"^\s*\[\s*([\w.\-]+)\s*\]")

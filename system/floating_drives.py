@@ -31,6 +31,7 @@ from system.kinematics import (
 from system.lumped import block_spring, piston_area
 from system.parts_description import RetainerKind
 from system.places import ball_centre
+from system.retainer import tipping_share
 
 
 @dataclass(frozen=True)
@@ -123,6 +124,20 @@ def _spring_share(rotor: Rotor, parts: FloatingParts) -> float:
     return float(block_spring(rotor.pump) / (rotor.pump.pump.pistons * np.cos(rotor.drive.swash_angle)))
 
 
+def slipper_retainer(rotor: Rotor, parts: FloatingParts) -> Retainer:
+    """The plate that a slipper finds over itself: one that stands, or one that the spring presses on the others.
+
+    Of the latter a slipper already bears its share; up to what tips the plate about the slippers across it is as
+    firm as one that stands, and then gives way as the spring does, by as much less as its middle rises less.
+    """
+    of, tilt = parts.slipper.retainer, rotor.drive.swash_angle
+    if of.kind is not RetainerKind.SPRING:
+        return Retainer(of.clearance, of.stiffness)
+    arm = tipping_share(rotor.pump.pump.pistons) / float(np.cos(tilt))
+    more = arm * block_spring(rotor.pump) - _spring_share(rotor, parts)
+    return Retainer(of.clearance, of.stiffness, more, arm**2 * rotor.pump.ball_guide.spring_stiffness)
+
+
 @dataclass(frozen=True)
 class Drives:
     """The drives of the three gaps at one chamber pressure, and the balances (N,) that they come from."""
@@ -184,7 +199,6 @@ def _slipper_drive(
 ) -> SlipperDrive:
     pump, point, outer_radius = rotor.pump, rotor.point, slipper_shape(rotor, parts).outer_radius
     outer = np.array([face_force(outer_radius, at.forces.lift + at.held, at.pressed) for at in group])
-    clearance = parts.slipper.retainer.kind is RetainerKind.CLEARANCE
     return SlipperDrive(
         shaft_speed=point.shaft_speed,
         viscosity=point.viscosity,
@@ -195,9 +209,7 @@ def _slipper_drive(
         chamber_pressure=chamber,
         sliding=lambda angle: slipper_sliding_velocity(rotor.drive, angle, point.shaft_speed),
         outer=Course(angles, outer),
-        retainer=Retainer(parts.slipper.retainer.clearance, parts.slipper.retainer.stiffness)
-        if clearance
-        else None,
+        retainer=slipper_retainer(rotor, parts),
         inertia=face_inertia(
             outer_radius,
             pump.piston.mass + pump.slipper.mass,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 
@@ -123,13 +124,17 @@ def slipper_revolution(
 
 
 def _pulled_off(drive: SlipperDrive, steps: int, stopped: FilmNotConverged) -> FilmNotConverged:
-    """Why a slipper's turn has ended: pulled off its plate where its spring holds it with too little."""
+    """Why a slipper's turn has ended: pulled off its plate with more than the spring behind its retainer bears."""
     degrees = np.linspace(0.0, 360.0, steps, endpoint=False)
     lift = np.array([-float(np.asarray(drive.outer(np.radians(at)))[0]) for at in degrees])
     worst = int(np.argmin(lift))
-    if lift[worst] > 0.0 or drive.retainer is not None:
+    holds = math.inf if drive.retainer is None else drive.retainer.limit
+    if -lift[worst] < holds:
         return stopped
-    pulled = f"at {degrees[worst]:.0f} deg the slipper is pulled off its plate with {-lift[worst]:.4g} N"
+    pulled = (
+        f"at {degrees[worst]:.0f} deg the slipper is pulled off its plate with {-lift[worst]:.4g} N beyond the "
+        f"spring's share, and the retainer gives way from {holds:.4g} N on"
+    )
     remedy = "a stiffer spring (ball_guide.spring_preload), or retainer.kind = 'clearance'"
     return FilmNotConverged(f"{stopped.what}; {pulled}", f"{remedy}; {stopped.remedy}")
 

@@ -76,7 +76,7 @@ class PistonParts:
 
 @dataclass(frozen=True)
 class RetainerParts:
-    """How slippers are held: by a share of the spring, or beyond a clearance (m) by a stiffness (N/m each)."""
+    """How slippers are held: beyond a clearance (m) by a stiffness (N/m each), by a spring also at all times."""
 
     kind: RetainerKind
     clearance: float
@@ -201,11 +201,11 @@ def _retainer(pump: PumpDescription, taken: Taken) -> RetainerParts:
         kind = RetainerKind.SPRING if spring else RetainerKind.CLEARANCE
         reason = "the ball guide has a spring" if spring else "no spring presses, or a clearance is stated"
         taken.note("retainer.kind", kind.value, reason)
-    if kind is RetainerKind.SPRING:
-        return RetainerParts(kind, math.inf, 0.0)
-    clearance = taken.value(
-        "retainer.clearance", part.clearance, 30e-6, "usual play of a retainer", Dimension.LENGTH
-    )
+    rises = {
+        RetainerKind.CLEARANCE: "usual play of a retainer",
+        RetainerKind.SPRING: "some films more than the other slippers have, which hold the plate",
+    }
+    clearance = taken.value("retainer.clearance", part.clearance, 30e-6, rises[kind], Dimension.LENGTH)
     stiffness = taken.value(
         "retainer.stiffness",
         part.stiffness,

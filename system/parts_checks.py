@@ -13,6 +13,7 @@ from system.checks import Check, CheckReport, CheckWarning, Finding, angle, leng
 from system.description import SINGLE_PARTS, PumpDescription
 from system.faults import Fault
 from system.line_description import LineKind, line_faults
+from system.lumped import block_spring
 from system.parts_description import ReliefSection, RetainerKind
 
 _Found = TypeVar("_Found", Fault, CheckWarning)
@@ -223,15 +224,15 @@ def _steep(path: str, depth: float | None, width: float) -> Iterator[Finding]:
         yield CheckWarning(path, length(depth), limit, "check the unit: um, not mm?")
 
 
-@needs("retainer.kind")
-def retainer_keys_belong_to_its_kind(pump: PumpDescription) -> Iterator[Finding]:
-    """A retainer pressed by the spring has no clearance to reach."""
+@needs(
+    "retainer.kind", "ball_guide.spring_preload", "ball_guide.spring_stiffness", "ball_guide.spring_compression"
+)
+def a_spring_presses_the_retainer(pump: PumpDescription) -> Iterator[Finding]:
+    """A retainer that a spring is to press has one."""
     part = pump.retainer
-    if part.kind is not RetainerKind.SPRING:
-        return
-    for key in ("clearance", "stiffness"):
-        if getattr(part, key) is not None:
-            yield Fault(f"retainer.{key}", "beside kind = 'spring'", f"no {key}, or kind = 'clearance'")
+    if part.kind is RetainerKind.SPRING and not block_spring(pump) > 0.0:
+        found = "'spring' with a ball guide whose spring does not press"
+        yield Fault("retainer.kind", found, "a spring_preload above zero, or kind = 'clearance'")
 
 
 @needs()
@@ -273,7 +274,7 @@ PARTS_CHECKS = (
     crown_is_shallow,
     waves_are_shallow,
     sphere_reaches_over_the_face,
-    retainer_keys_belong_to_its_kind,
+    a_spring_presses_the_retainer,
     lines_have_the_keys_of_their_kinds,
     spins_left_free_are_told,
 )

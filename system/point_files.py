@@ -6,7 +6,7 @@ import csv
 import re
 from pathlib import Path
 
-from system.faults import nearest_choice
+from system.faults import nearest_choice, nearest_path
 from system.fields import Points
 from system.units import QuantityError, parse_quantity
 
@@ -22,9 +22,7 @@ def read_rows(path: Path, layouts: tuple[Points, ...]) -> tuple[tuple[float, ...
     try:
         text = path.read_text("utf-8-sig")
     except FileNotFoundError:
-        beside = [item.name for item in path.parent.glob("*.csv")] if path.parent.is_dir() else []
-        nearest = nearest_choice(path.name, beside)
-        raise QuantityError(f"'{path}', which is no file", wanted_file(layouts), nearest) from None
+        raise QuantityError(f"'{path}', which is no file", wanted_file(layouts), nearest_path(path)) from None
     except (OSError, UnicodeDecodeError) as reason:
         raise QuantityError(f"'{path}', which cannot be read: {reason}", wanted_file(layouts)) from None
     lines = [

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import json
-import re
-import tomllib
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, field
 from importlib.resources import files
@@ -15,9 +13,10 @@ from pydantic import ValidationError
 
 from reynolds.oil import ISO_GRADES
 from system.body_checks import BODY_CHECKS
+from system.case_table import toml_tables
 from system.checks import CheckReport, run_checks
 from system.description import FORMAT, SINGLE_PARTS, PumpDescription
-from system.faults import Fault, InputFaults, key_lines, nearest_choice
+from system.faults import Fault, InputFaults, key_lines, nearest_choice, nearest_path
 from system.fields import Section, dimension_of, table_of, tables_of
 from system.film_checks import FILM_CHECKS
 from system.geometry_checks import GEOMETRY_CHECKS
@@ -120,7 +119,7 @@ def _read(source: str | Path) -> tuple[str, str]:
         return f"built-in pump {name}", files("system").joinpath("pumps", f"{name}.toml").read_text("utf-8")
     path = Path(source)
     try:
-        return name, path.read_text("utf-8")
+        return name, path.read_text("utf-8-sig")  # some editors put a byte order mark first
     except FileNotFoundError:
         raise InputFaults(name, [_not_there(path)]) from None
     except (OSError, UnicodeDecodeError) as reason:
@@ -130,10 +129,7 @@ def _read(source: str | Path) -> tuple[str, str]:
 def _not_there(path: Path) -> Fault:
     """Return the fault of a name that is neither a built-in pump nor a file, with what comes nearest."""
     builtin = builtin_pumps()
-    beside = [item.name for item in path.parent.glob("*.toml")] if path.parent.is_dir() else []
-    nearest = nearest_choice(str(path), builtin)
-    if not nearest and (like := nearest_choice(path.name, beside)):
-        nearest = str(path.parent / like)
+    nearest = nearest_choice(str(path), builtin) or nearest_path(path)
     return Fault(
         "pump",
         f"'{path}', which is no built-in pump and no file",
@@ -144,12 +140,7 @@ def _not_there(path: Path) -> Fault:
 
 def _parse(label: str, text: str) -> dict[str, Any]:
     """Return the tables of a TOML text of the known format."""
-    try:
-        tables = tomllib.loads(text)
-    except tomllib.TOMLDecodeError as reason:
-        at = re.search(r"at line (\d+)", str(reason))
-        line = int(at[1]) if at else len(text.splitlines())
-        raise InputFaults(label, [Fault("file", f"no TOML: {reason}", "TOML 1.0")], {"file": line}) from None
+    tables = toml_tables(label, text)
     stated = tables.get("format")
     if isinstance(stated, bool) or stated != FORMAT:
         found = "no such key" if stated is None else repr(stated)

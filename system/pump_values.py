@@ -10,7 +10,7 @@ from typing import Any
 
 from pydantic.fields import FieldInfo
 
-from system.faults import nearest_choice
+from system.faults import nearest_choice, nearest_path
 from system.fields import Points, Section, Text, choice_of, dimension_of, layouts_of, tables_of, text_of, whole
 from system.point_files import read_rows, wanted_file
 from system.units import Dimension, QuantityError, format_quantity, parse_quantity
@@ -143,8 +143,7 @@ def _text(raw: object, text: Text, folder: Path) -> Path | str | tuple[str, ...]
         return str(raw)
     path = (folder / str(raw)).resolve()
     if not path.is_file():
-        beside = [item.name for item in path.parent.iterdir()] if path.parent.is_dir() else []
-        raise QuantityError(f"'{path}', which is no file", text.value, nearest_choice(path.name, beside))
+        raise QuantityError(f"'{path}', which is no file", text.value, nearest_path(path))
     return path
 
 

@@ -14,6 +14,7 @@ import numpy as np
 from gaps.response import Response, unit_places
 from reynolds.errors import FilmInputError
 from system.operating import OperatingPoint
+from system.table_numbers import NumbersError
 from system.table_sources import Source
 from system.units import Dimension, format_quantity
 
@@ -64,10 +65,14 @@ class Origin:
 
 @dataclass(frozen=True)
 class ResponseTable:
-    """A pump's response with its origin: axes of INPUTS but for those held, outputs of `table_means.MEANINGS`."""
+    """A pump's response with its origin: axes of INPUTS but for those held, outputs of `table_means.MEANINGS`.
+
+    numbers: how far runs by the table are off at the held-out points; None before they were run.
+    """
 
     origin: Origin
     response: Response
+    numbers: NumbersError | None = None
 
     def at(self, point: OperatingPoint) -> dict[str, float]:
         """The outputs by name at an operating point; shares of contact are held to 0 .. 1, which a share is.

@@ -100,6 +100,16 @@ def spring_force(preload: float, stiffness: float, compression: float) -> float:
     return preload + stiffness * compression
 
 
+def tipping_share(pistons: int) -> float:
+    """Share of the retainer's normal force with which one slipper tips it about those across.
+
+    The plate, free to tilt on its ball, then stands on that slipper and on those nearest to its opposite, c times
+    the pitch radius beyond the ball: c/(1 + c), c = cos(pi/z) of two of them for an odd number z, else 1.
+    """
+    across = np.cos(np.pi / pistons) if pistons % 2 else 1.0
+    return float(across / (1.0 + across))
+
+
 def uniform_normal_force(spring: float, guide: BallGuide, swash_angle: float) -> float:
     """Sum of the contact's normal forces in N, spread evenly; paper Eq. (23) without its friction term.
 

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from gaps.response import Axis, Response, Spacing
+from gaps.response import Axis, Response, Samples, Spacing
 from reynolds.bodies.cache import content_key
 from reynolds.errors import FilmInputError
 from reynolds.mesh import Array
@@ -27,7 +27,9 @@ from system.response_tables import (
     Origin,
     ResponseTable,
 )
-from system.table_means import TABLE_FORMAT, mean_ratios, measured_outputs
+from system.table_means import MEANINGS, TABLE_FORMAT, mean_ratios, measured_outputs
+from system.table_numbers import numbers_error, pump_numbers
+from system.table_point import table_point
 from system.table_points import Solved, points_of, samples_of, solved_points, tables_folder
 from system.table_sources import PointSolver, with_held_ports
 from system.table_store import KEY_LENGTH, keep_table, pump_key
@@ -72,9 +74,10 @@ class TableCase:
         )
 
     def solve(self, x: Array) -> Array:
-        """The gaps' means over the turn, by their ratios to the lumped law."""
+        """The gaps' means over the turn, by their ratios to the lumped law; after them the pump's numbers."""
         pump = with_held_ports(self.pump)
-        return mean_ratios(pump, self.solver.solve(pump, point_at(self, x)))
+        solved = self.solver.solve(pump, point_at(self, x))
+        return np.concatenate([mean_ratios(pump, solved), pump_numbers(solved.pump_point)])
 
 
 def table_axes(
@@ -120,14 +123,24 @@ def build_table(
 ) -> ResponseTable:
     """The table of a case, kept in the cache; its points as `solved_points`.
 
-    Raises NotConverged where too few points have a result.
+    Held-out points are run by the table, too, for what it misses of the pump's numbers. Raises NotConverged where
+    too few points have a result, and as `table_point`.
     """
     found = solved_points(case, workers=workers, report=report, folder=folder)
-    learnt, held_out = samples_of(case, found)
+    (learnt, _), (held_out, numbers) = (_parted(samples) for samples in samples_of(case, found))
     outputs = measured_outputs(np.concatenate([learnt.values, held_out.values]))
     table = ResponseTable(_origin(case, found), Response(case.axes, outputs, learnt, held_out))
+    pump = with_held_ports(case.pump)
+    told = [pump_numbers(table_point(pump, point_at(case, x), table).pump_point) for x in held_out.points]
+    table = replace(table, numbers=numbers_error(np.array(told), numbers))
     keep_table(table, tables_folder(folder) / f"{table.origin.pump_key}-{case_key(case)}")
     return table
+
+
+def _parted(samples: Samples) -> tuple[Samples, Array]:
+    """Samples of the outputs alone, and the pump's numbers (n, r) there."""
+    count = len(MEANINGS)
+    return Samples(samples.points, samples.values[:, :count]), samples.values[:, count:]
 
 
 def point_at(case: TableCase, x: Array) -> OperatingPoint:

@@ -21,8 +21,8 @@ from system.operating import OperatingPoint
 from system.pairs import Pair
 from system.power import Gaps
 
-TABLE_FORMAT = 2
-"""Raised when the same solved points give other numbers in a table: by what is held, or by the laws behind it."""
+TABLE_FORMAT = 3
+"""Raised when solved points give other numbers in a table: by what is kept of them, or by the laws behind it."""
 GAP_PAIRS = {
     "piston": Pair.PISTON_CYLINDER,
     "slipper": Pair.SLIPPER_SWASH_PLATE,

@@ -3,22 +3,23 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any, TypeVar
 
 import numpy as np
 
-from gaps.response import Axis, Measure, Output, Response, Samples, Spacing
+from gaps.response import Axis, HeldOutError, Measure, Output, Response, Samples, Spacing
 from reynolds.bodies.cache import content_key
 from reynolds.mesh import Array
 from system.description import PumpDescription
-from system.faults import Fault, InputFaults
+from system.faults import Fault, InputFaults, nearest_path
 from system.operating import OperatingPoint
 from system.pump_file import resolved_toml
 from system.response_tables import DIMENSIONS, Failed, Origin, ResponseTable, box_text, point_text
 from system.table_means import MEANINGS, TABLE_FORMAT
+from system.table_numbers import NUMBERS, NumbersError
 from system.table_points import tables_folder
 from system.table_sources import Source, with_held_ports
 from system.units import Dimension
@@ -73,7 +74,8 @@ def read_response(path: Path, table_format: int, made: Callable[[Mapping[str, An
         return made(record, Response(_axes(record), _outputs(record), learnt, held_out))
     except (OSError, ValueError, KeyError, TypeError) as reason:
         expected = "the .json and .npz that `swashfilm table` wrote, side by side"
-        raise InputFaults("response table", [Fault(str(path), repr(reason), expected)]) from None
+        near = nearest_path(path.with_suffix(".json"))
+        raise InputFaults("response table", [Fault(str(path), repr(reason), expected, near)]) from None
 
 
 def read_table(path: Path) -> ResponseTable:
@@ -84,7 +86,16 @@ def read_table(path: Path) -> ResponseTable:
 def _pump_table(record: Mapping[str, Any], response: Response) -> ResponseTable:
     if [output.name for output in response.outputs] != list(MEANINGS):
         raise ValueError(f"outputs {', '.join(output.name for output in response.outputs)}")
-    return ResponseTable(_origin(record), response)
+    return ResponseTable(_origin(record), response, _numbers(record["numbers"], response))
+
+
+def _numbers(rows: Sequence[Mapping[str, Any]], response: Response) -> NumbersError:
+    if [row["name"] for row in rows] != list(NUMBERS):
+        raise ValueError(f"numbers {', '.join(row['name'] for row in rows)}")
+    rms, largest = (np.array([row[key] for row in rows]) for key in ("held_out_rms", "held_out_largest"))
+    points = response.held_out.points.tolist()
+    worst = np.array([points.index(row["held_out_worst_at"]) for row in rows])
+    return NumbersError(tuple(Measure(row["measure"]) for row in rows), HeldOutError(rms, largest, worst))
 
 
 def tables_of(pump: PumpDescription, folder: Path | None = None) -> Iterator[ResponseTable]:
@@ -138,7 +149,27 @@ def table_record(table: ResponseTable) -> dict[str, Any]:
         "source": origin.source.value,
         "units": "SI: rad/s, Pa gauge, 1, Pa s; outputs 1",
         **response_record(table.response, DIMENSIONS),
+        "numbers": _numbers_record(table),
         "failed": [{"at": list(one.at), "reason": one.reason} for one in origin.failed],
+    }
+
+
+def _numbers_record(table: ResponseTable) -> list[dict[str, Any]]:
+    """The rows of what runs by the table miss, none before they were run."""
+    if table.numbers is None:
+        return []
+    return [
+        {"name": name, "measure": measure.value} | _errors(table.response, table.numbers.error, k)
+        for k, (name, measure) in enumerate(zip(NUMBERS, table.numbers.measures, strict=True))
+    ]
+
+
+def _errors(response: Response, error: HeldOutError, k: int) -> dict[str, Any]:
+    """The error of one column, and where it is largest."""
+    return {
+        "held_out_rms": float(error.rms[k]),
+        "held_out_largest": float(error.largest[k]),
+        "held_out_worst_at": _row(response.held_out.points[error.worst[k]]),
     }
 
 
@@ -159,10 +190,8 @@ def response_record(response: Response, dimensions: Mapping[str, Dimension]) -> 
                 "name": output.name,
                 "measure": output.measure.value,
                 "least": output.least,
-                "held_out_rms": float(error.rms[k]),
-                "held_out_largest": float(error.largest[k]),
-                "held_out_worst_at": _row(response.held_out.points[error.worst[k]]),
             }
+            | _errors(response, error, k)
             for k, output in enumerate(response.outputs)
         ],
         "points": {"learnt": len(response.learnt.points), "held_out": len(response.held_out.points)},

@@ -88,6 +88,7 @@ class QuantityError(ValueError):
 
 
 _QUANTITY = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d{1,3})?)\s*(.*?)\s*")
+_COMMA = re.compile(r"\s*([+-]?\d+),(\d+)(\s*[^\s,.\d].*|)")
 _ANGLE_WORDS = ("radian", "turn", "revolution", "arcminute", "arcsecond", "grade")
 _POWER = re.compile(r"(?<=[A-Za-zµμ])(?:\^|\*\*)?(-?\d)")
 _FACTOR = r"[A-Za-zµμ°]+[A-Za-z]*(?:(?:\^|\*\*)?-?\d|[²³])?"
@@ -114,7 +115,7 @@ def parse_quantity(text: object, dimension: Dimension) -> float:
         raise QuantityError(_shown(text), expected, f"'{number} {_example_unit(dimension)}'")
     unit = _unit(unit_text)
     if unit is None:
-        raise QuantityError(f"{_shown(text)}, a unit that is not known", expected)
+        raise QuantityError(f"{_shown(text)}, a unit that is not known", expected, with_point(str(text)))
     if not _measures(unit, dimension):
         raise QuantityError(f"{_shown(text)}, which is not {dimension.noun}", expected)
     value = _in_si(number, unit, dimension)
@@ -141,6 +142,19 @@ def format_quantity(value: float, dimension: Dimension, digits: int | None = Non
         if float(_in_si(number, _unit_of(name), dimension)) == value:
             return f"{number} {name}"
     return f"{value!r} {dimension.si_unit}"
+
+
+def with_point(text: str) -> str:
+    """Return what a number with a comma in it may mean, unit and all, or an empty string where there is none.
+
+    A decimal comma is a point here; before three digits it may part thousands as well.
+    """
+    match = _COMMA.fullmatch(text)
+    if match is None:
+        return ""
+    whole, decimals, unit = match.groups()
+    point = f"{whole}.{decimals}{unit}"
+    return f"{point} or {whole}{decimals}{unit}" if len(decimals) == 3 else point
 
 
 def to_gauge(absolute_pressure: float) -> float:

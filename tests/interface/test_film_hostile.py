@@ -56,6 +56,43 @@ def told(tmp_path, capsys):
     return refused
 
 
+@pytest.mark.parametrize("cells", ["[1, 1]", "[1, 64]"])
+def test_a_mesh_without_a_point_inside_is_refused(told, cells):
+    faults = told(CASE.replace("[16, 2]", cells))
+    assert "none is left to solve for" in faults
+    assert "at least 2 cells" in faults
+
+
+@pytest.mark.parametrize("cells", ["[2, 1]", "[4, 1]"])
+def test_a_mesh_that_hardly_sees_the_film_is_told(tmp_path, cells):
+    (tmp_path / "case.toml").write_text(CASE.replace("[16, 2]", cells), encoding="utf-8")
+    warned = film_summary(solve_case(load_case(tmp_path / "case.toml")))["warnings"]
+    assert any(warning.startswith("coarse_mesh: pressure is solved for at") for warning in map(told_of, warned))
+
+
+def told_of(warning) -> str:
+    return warning if isinstance(warning, str) else f"{warning['name']}: {warning['text']}"
+
+
+def test_a_missing_file_is_told_the_nearest(told, tmp_path):
+    mesh = CASE.split("mesh = ")[1].splitlines()[0]
+    faults = told(CASE.replace(mesh, '"caes.toml"'))
+    assert "which is no file" in faults
+    assert str(tmp_path / "case.toml") in faults
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "hint"),
+    [
+        ('"30 mPa s"', '"30,5 mPa s"', "30.5 mPa s"),
+        ('["1 m/s"', '["1,250 m/s"', "1.250 m/s or 1250 m/s"),
+        ("format = 1", "format = 1,5", "1.5"),
+    ],
+)
+def test_a_decimal_comma_is_told(told, old, new, hint):
+    assert f"try:      {hint}\n" in told(CASE.replace(old, new))
+
+
 @pytest.mark.parametrize(
     ("text", "place", "words"),
     [

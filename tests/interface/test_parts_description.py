@@ -235,7 +235,7 @@ def test_bad_value(key, raw, found, expected):
             "valve_plate.waviness.waves",
             "whole number",
         ),
-        ({"retainer.kind": "spring", "retainer.clearance": "30 um"}, "retainer.clearance", "kind = 'clearance'"),
+        ({"retainer.kind": "spring", "ball_guide.spring_preload": "0 N"}, "retainer.kind", "kind = 'clearance'"),
         ({"delivery_line.kind": "orifice"}, "delivery_line.volume", "such as '1 L'"),
         ({"delivery_line.volume": "1 L"}, "delivery_line.volume", "kind = 'orifice' or 'impedance'"),
         ({"suction_line": {"kind": "orifice", "volume": "1 L"}}, "suction_line.orifice_area", "such as '200 mm2'"),

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from scipy.optimize import linprog
 
 from system.retainer import (
     BallGuide,
@@ -12,6 +13,7 @@ from system.retainer import (
     relative_locus,
     relative_velocity,
     spring_force,
+    tipping_share,
     uniform_normal_force,
 )
 
@@ -97,3 +99,13 @@ def test_uniform_normal_force_balances_the_spring():
     inward = -contact_point(GUIDE, SWASH, psi) / GUIDE.radius
     each = uniform_normal_force(spring, GUIDE, SWASH) / count
     assert -(each * inward[0]).sum() == pytest.approx(spring, rel=1e-12)
+
+
+@pytest.mark.parametrize("pistons", [3, 7, 9, 8, 10])
+def test_what_tips_a_retainer(pistons):
+    """A plate free to tilt, pressed at its middle: the most that one of z supports around it can bear, no other
+    pulling, by linear programming."""
+    around = 2.0 * np.pi * np.arange(pistons) / pistons
+    balance = np.stack([np.ones(pistons), np.cos(around), np.sin(around)])
+    most = linprog(-np.eye(pistons)[0], A_eq=balance, b_eq=[1.0, 0.0, 0.0], bounds=(0.0, None))
+    assert tipping_share(pistons) == pytest.approx(most.x[0], rel=1e-9)

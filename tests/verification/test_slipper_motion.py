@@ -217,14 +217,17 @@ def test_orifice_law(drop):
         supply(Orifice(0.0, 5e-3), VISCOSITY, 870.0)
 
 
-def test_retainer_has_a_potential():
-    """Force and slopes against differences of k/2 mean <rise - clearance>^2; nothing below the clearance."""
-    retainer = Retainer(30e-6, 1e8)
+@pytest.mark.parametrize(("limit", "rate"), [(np.inf, 0.0), (250.0, 2e7), (250.0, 0.0)])
+def test_retainer_has_a_potential(limit, rate):
+    """Force and slopes against differences of the mean over the rim of k/2 <rise - clearance>^2, beyond the limit
+    going on by the rate; nothing below the clearance."""
+    retainer = Retainer(30e-6, 1e8, limit, rate)
     angle = 2.0 * np.pi * np.arange(48) / 48
 
     def energy(q: np.ndarray) -> float:
-        rise = q[0] + q[1] * np.cos(angle) + q[2] * np.sin(angle)
-        return 0.5e8 * float(np.mean(np.maximum(rise - 30e-6, 0.0) ** 2))
+        over = np.maximum(q[0] + q[1] * np.cos(angle) + q[2] * np.sin(angle) - 30e-6, 0.0)
+        firm = np.minimum(over, limit / 1e8)
+        return float(np.mean(0.5e8 * firm**2 + 1e8 * firm * (over - firm) + 0.5 * rate * (over - firm) ** 2))
 
     at, step = np.array([25e-6, 8e-6, -6e-6]), 1e-9
     found = retainer_force(retainer, at)
@@ -236,6 +239,13 @@ def test_retainer_has_a_potential():
     level = retainer_force(retainer, np.array([31e-6, 0.0, 0.0]))
     assert level.force == pytest.approx([-100.0, 0.0, 0.0], abs=1e-12)
     assert np.array_equal(retainer_force(retainer, np.array([20e-6, 6e-6, 0.0])).force, np.zeros(3))
+
+
+def test_a_retainer_that_a_spring_presses_gives_way():
+    """Level, by 40 um beyond the clearance: 250 N at 2.5 um, from there on 20 N/um."""
+    found = retainer_force(Retainer(30e-6, 1e8, 250.0, 2e7), np.array([70e-6, 0.0, 0.0]))
+    assert found.force[0] == pytest.approx(-(250.0 + 37.5e-6 * 2e7))
+    assert found.by_position[0, 0] == pytest.approx(-2e7)
 
 
 def test_retainer_holds_a_slipper_that_is_pulled():
