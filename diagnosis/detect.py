@@ -4,19 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from math import log
 
 import numpy as np
-from scipy.stats import chi2, norm
+from scipy.stats import chi2
 
 from diagnosis.contrasts import contrasts, misfit
 from diagnosis.map_axes import axis_values
+from diagnosis.multiplicity import family_chance, log_chances
 from diagnosis.regions import Region, flagged
 from diagnosis.study import Candidate, Study
 from diagnosis.thresholds import Thresholds
 from system.channels import ChannelName
-from system.estimation.evidence import Score, Sign, score
-from system.estimation.observations import Array
+from system.estimation.evidence import Score, score
 
 
 @dataclass(frozen=True)
@@ -29,15 +28,16 @@ class ChannelMisfit:
 
 @dataclass(frozen=True)
 class Detection:
-    """Goodness of fit, the smallest p of all candidates after Holm, the candidates by strength, and flags.
+    """Goodness of fit, the candidates by strength, how surprising the strongest is, and flags.
 
-    p_value, chi2_per_dof: of the objective of the linear posterior with n degrees of freedom, n readings.
+    p_value, chi2_per_dof: of the objective of the linear posterior with n degrees of freedom, n readings; chance:
+    of any candidate as striking as the strongest where nothing is there.
     """
 
     p_value: float
     chi2_per_dof: float
     channels: Mapping[ChannelName, ChannelMisfit]
-    holm_p: float
+    chance: float
     strongest: tuple[tuple[Candidate, Score], ...]
     flags: tuple[Region, ...]
 
@@ -51,7 +51,7 @@ def detect(study: Study, thresholds: Thresholds) -> Detection:
     """
     base = study.base
     scored = [(candidate, score(base, candidate.column)) for candidate in study.candidates]
-    log_p = np.array([_log_p(found, candidate.sign) for candidate, found in scored])
+    log_p = log_chances(np.array([found.z for _, found in scored]), study.candidates)
     order = np.argsort(log_p, kind="stable")
     by_channel = {
         ChannelName.named(channel.name): contrasts(base, at)
@@ -62,15 +62,10 @@ def detect(study: Study, thresholds: Thresholds) -> Detection:
         p_value=float(chi2.sf(base.objective, readings)),
         chi2_per_dof=base.objective / readings,
         channels=channel_misfits(study),
-        holm_p=holm(np.exp(log_p)),
+        chance=family_chance(base, study.candidates, log_p, thresholds.mismatch.draws, thresholds.seeds.detect),
         strongest=tuple(scored[at] for at in order),
         flags=flagged(by_channel, axis_values(study.recording), thresholds.mismatch.flag_rate),
     )
-
-
-def holm(p_values: Array) -> float:
-    """The smallest of several p-values after Holm (1979): the chance of one as small if nothing is there."""
-    return min(1.0, float(p_values.min(initial=1.0)) * max(p_values.size, 1))
 
 
 def channel_misfits(study: Study) -> dict[ChannelName, ChannelMisfit]:
@@ -84,14 +79,3 @@ def channel_misfits(study: Study) -> dict[ChannelName, ChannelMisfit]:
         for at, channel in enumerate(study.observations.channels)
         if free[at] > 0
     }
-
-
-def _log_p(found: Score, sign: Sign) -> float:
-    """ln of the chance of such a score if nothing is there; that of strong ones is below any float."""
-    match sign:
-        case Sign.POSITIVE:
-            return float(norm.logsf(found.z))
-        case Sign.NEGATIVE:
-            return float(norm.logcdf(found.z))
-        case Sign.EITHER:
-            return float(norm.logsf(abs(found.z))) + log(2.0)

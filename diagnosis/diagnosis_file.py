@@ -97,6 +97,7 @@ def _claim(claim: Claim) -> dict[str, Any]:
         "pair": claim.pair.value if claim.pair else None,
         "probability": claim.probability,
         "equivalent": [one.value for one in claim.equivalent],
+        "other_pairs": {gap.value: part for gap, part in claim.elsewhere},
         "parameters": [_estimate(one) for one in claim.parameters],
     }
 

@@ -41,19 +41,18 @@ class Verdict:
 def judge(study: Study, detection: Detection, weighed: Sequence[Weighed], thresholds: Thresholds) -> Verdict:
     """The verdict on explanations with their probabilities, the likeliest first, the null among them.
 
-    A mismatch needs both a candidate's score after Holm and an improbable null; one of the two is a suspicion, of
-    the likeliest kind, and claims nothing. A name needs probability, odds to all that claim something else, sizes
-    that are sure, no veto of held-out regions; it is incomplete while something is left over.
+    A mismatch needs both a candidate as striking as chance hardly makes one and an improbable null; one of the
+    two, or a candidate that is striking enough, is a suspicion, of the likeliest kind, and claims nothing. A name
+    needs probability, odds to all that claim something else, sizes that are sure, no veto of held-out regions; it
+    is incomplete while something is left over.
     """
+    limits = thresholds.mismatch
     null = next(each for each in weighed if each.hypothesis.kind is Kind.NO_MISMATCH)
-    signs = (
-        detection.holm_p < thresholds.mismatch.holm,
-        null.probability < thresholds.mismatch.null_probability,
-    )
-    if not any(signs):
+    improbable = null.probability < limits.null_probability
+    if not improbable and detection.chance >= limits.suspicion:
         return Verdict(Kind.NO_MISMATCH, Status.NAMED, (), (), ())
-    if not all(signs):
-        return _suspicion(weighed, ("a mismatch by one of two tests only",))
+    if not improbable or detection.chance >= limits.chance:
+        return _suspicion(weighed, (_half_seen(detection, null),))
     best = max((each for each in weighed if each is not null), key=lambda each: each.log_weight)
     if best.hypothesis.kind is Kind.UNKNOWN_PHYSICS:
         return _unknown(weighed, thresholds)
@@ -62,13 +61,22 @@ def judge(study: Study, detection: Detection, weighed: Sequence[Weighed], thresh
     if against:
         return _suspicion(weighed, against)
     left = _left_over(study, null, best, thresholds)
-    ids = {frozenset(each.hypothesis.effects) for each in members}
-    status = Status.INCOMPLETE if left else Status.CLASS if len(ids) > 1 else Status.NAMED
-    return Verdict(best.hypothesis.kind, status, _claims(members, weighed, thresholds), members, left)
+    claims = _claims(members, weighed, thresholds)
+    alike = any(claim.equivalent or claim.elsewhere for claim in claims)
+    status = Status.INCOMPLETE if left else Status.CLASS if alike else Status.NAMED
+    return Verdict(best.hypothesis.kind, status, claims, members, left)
+
+
+def _half_seen(detection: Detection, null: Weighed) -> str:
+    return (
+        f"a candidate as striking as the strongest has a chance of {detection.chance:.2g} where nothing is there, "
+        f"and nothing a probability of {null.probability:.2g}: a mismatch needs both to be small"
+    )
 
 
 def _suspicion(weighed: Sequence[Weighed], reasons: tuple[str, ...]) -> Verdict:
-    kinds = {each.hypothesis.kind for each in weighed}
+    """Of the likeliest kind of mismatch."""
+    kinds = {each.hypothesis.kind for each in weighed} - {Kind.NO_MISMATCH}
     likeliest = max(kinds, key=lambda kind: _probability(weighed, kind))
     return Verdict(likeliest, Status.SUSPICION, (), (), reasons)
 
@@ -137,7 +145,7 @@ def _left_over(study: Study, null: Weighed, best: Weighed, thresholds: Threshold
         return ()
     found = []
     p_value = float(chi2.sf(after.objective, after.residual.size))
-    if p_value < thresholds.mismatch.holm:
+    if p_value < thresholds.mismatch.chance:
         found.append(f"chi-square per reading stays at {after.objective / after.residual.size:.2f}")
     by_channel = {
         ChannelName.named(channel.name): contrasts(after, at)
@@ -182,18 +190,31 @@ def _claims(members: Sequence[Weighed], weighed: Sequence[Weighed], thresholds: 
     for at, effect in enumerate(own.effects):
         probability = sum(each.probability for each in weighed if effect in each.hypothesis.effects)
         equivalent = () if effect in shared else tuple(sorted(rivals, key=lambda one: one.value))
-        pair = _pair(own, at, members, thresholds)
-        claims.append(Claim(effect, pair, probability, equivalent, _estimates(best, at)))
+        claims.append(
+            Claim(
+                effect,
+                own.places[at],
+                probability,
+                equivalent,
+                _estimates(best, at),
+                _elsewhere(at, members, thresholds),
+            )
+        )
     return tuple(claims)
 
 
-def _pair(own: Hypothesis, at: int, members: Sequence[Weighed], thresholds: Thresholds) -> Gap | None:
-    """The gap of one effect; None where it has none, or where another one is too likely for it to be told."""
-    place = own.places[at]
+def _elsewhere(at: int, members: Sequence[Weighed], thresholds: Thresholds) -> tuple[tuple[Gap, float], ...]:
+    """Other gaps where one effect of the first member may sit, each with its share, where its own is not sure."""
+    own = members[0].hypothesis
     same = [each for each in members if each.hypothesis.effects == own.effects]
-    here = [each.log_weight for each in same if each.hypothesis.places[at] is place]
-    share = np.exp(logsumexp(here) - logsumexp([each.log_weight for each in same]))
-    return place if share >= thresholds.name.probability else None
+    total = logsumexp([each.log_weight for each in same])
+    share: dict[Gap | None, float] = {}
+    for each in same:
+        place = each.hypothesis.places[at]
+        share[place] = share.get(place, 0.0) + float(np.exp(each.log_weight - total))
+    if share[own.places[at]] >= thresholds.name.probability:
+        return ()
+    return tuple((gap, part) for gap, part in share.items() if gap is not None and gap is not own.places[at])
 
 
 def _estimates(best: Weighed, at: int) -> tuple[Estimate, ...]:

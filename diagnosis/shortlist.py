@@ -23,7 +23,8 @@ def is_settled(detection: Detection, null: Weighed, thresholds: Thresholds) -> b
     if fit is None:
         return False
     p_value = float(chi2.sf(fit.objective, fit.residual.size))
-    return min(detection.holm_p, p_value) >= thresholds.mismatch.holm
+    limits = thresholds.mismatch
+    return detection.chance >= limits.suspicion and p_value >= limits.chance
 
 
 def shortlist(

@@ -19,8 +19,10 @@ FILE = Path(__file__).with_name("thresholds.toml")
 class MismatchLimits:
     """When a recording differs from its simulation: see thresholds.toml for each number's meaning."""
 
-    holm: float
+    chance: float
     null_probability: float
+    suspicion: float
+    draws: int
     flag_rate: float
     pull: float
 
@@ -84,6 +86,7 @@ class PriorMasses:
 class Seeds:
     """Seeds of what is drawn."""
 
+    detect: int
     locate: int
     proof: int
     development: int

@@ -37,13 +37,18 @@ class Estimate:
 
 @dataclass(frozen=True)
 class Claim:
-    """One effect that is claimed; `equivalent`: the ids that this recording cannot tell from it."""
+    """One effect that is claimed, at its likeliest gap.
+
+    equivalent: the ids that this recording cannot tell from it; elsewhere: other gaps that it cannot tell from
+    `pair`, each with its share of the probability.
+    """
 
     effect: EffectId
     pair: Gap | None
     probability: float
     equivalent: tuple[EffectId, ...]
     parameters: tuple[Estimate, ...]
+    elsewhere: tuple[tuple[Gap, float], ...] = ()
 
 
 @dataclass(frozen=True)

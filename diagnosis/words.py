@@ -112,7 +112,7 @@ def _places(location: Location) -> Iterator[str]:
 def _claim(claim: Claim) -> str:
     """What acts, where, how much, how sure."""
     sizes = listed(estimate_text(estimate) for estimate in claim.parameters)
-    place = f", at {PLACES[claim.pair]}" if claim.pair else ""
+    place = f", {'most likely ' if claim.elsewhere else ''}at {PLACES[claim.pair]}" if claim.pair else ""
     return (
         f"{entry_of(claim.effect).sentence} ({claim.effect.value}){place}"
         f"{': ' if sizes else ''}{sizes}, probability {chance(claim.probability)}"
@@ -120,18 +120,35 @@ def _claim(claim: Claim) -> str:
 
 
 def _class(diagnosis: Diagnosis) -> str:
+    """What the recording cannot tell: ids from each other, a gap from others."""
     alike = [
         f"{claim.effect.value} from {listed((one.value for one in claim.equivalent), 'or')}"
         for claim in diagnosis.effects
         if claim.equivalent
     ]
-    return f"This recording cannot tell {listed(alike)}." if alike else "Its pair cannot be told."
+    alike += [
+        f"{PLACES[claim.pair]} ({chance(1.0 - sum(part for _, part in claim.elsewhere))}) from "
+        f"{listed((f'{PLACES[gap]} ({chance(part)})' for gap, part in claim.elsewhere), 'or')}"
+        for claim in diagnosis.effects
+        if claim.pair and claim.elsewhere
+    ]
+    return f"This recording cannot tell {listed(alike)}."
 
 
 def _suspicion(diagnosis: Diagnosis) -> str:
     likely = _likeliest(diagnosis)
     thought = f"; likeliest are {listed(likely)}" if likely else ""
-    return f"a mismatch short of proof ({_misfit(diagnosis)}), nothing is claimed{thought}"
+    return f"a mismatch short of proof ({_misfit(diagnosis)}{_striking(diagnosis)}), nothing is claimed{thought}"
+
+
+def _striking(diagnosis: Diagnosis) -> str:
+    """The strongest candidate, and how often one is as strong where nothing is there."""
+    found = diagnosis.detection
+    return "".join(
+        f"; {effect_words([candidate.entry.id])} stands out by {abs(score.z):.1f} sigma, as some effect does in a "
+        f"recording of none with a chance of {chance(found.chance)}"
+        for candidate, score in found.strongest[:1]
+    )
 
 
 def _unknown(diagnosis: Diagnosis) -> str:

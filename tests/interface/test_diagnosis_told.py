@@ -205,6 +205,15 @@ def test_every_effect_can_be_said(named: Diagnosis, effect: EffectId) -> None:
     assert f"({effect.value})" in text
 
 
+def test_a_gap_that_cannot_be_told_is_told_with_its_rivals(named: Diagnosis) -> None:
+    claim = replace(named.effects[0], elsewhere=((Gap.SLIPPER, 0.22),))
+    found = replace(named, status=Status.CLASS, effects=(claim,))
+    text = statement(found)
+    assert "most likely at the valve plate" in text
+    assert "cannot tell the valve plate (0.78) from the slippers (0.22)" in text
+    assert diagnosis_record(found)["effects"][0]["other_pairs"] == {"slipper": 0.22}
+
+
 def test_unknown_physics_is_described_by_its_exponents(named: Diagnosis) -> None:
     text = statement(replace(named, kind=Kind.UNKNOWN_PHYSICS, effects=()))
     assert "pressure^(2.1 +- 0.1)" in text
@@ -246,7 +255,7 @@ def test_the_file_has_the_form_of_format_1(named: Diagnosis, tmp_path: Path) -> 
     assert record["effects"] == [
         {
             "id": "elastic_opening", "pair": "valve_plate", "probability": 0.93, "equivalent": [],
-            "parameters": [{"name": "opening", "value": 2.2e-8, "sigma": 2e-9, "unit": "1/Pa"}],
+            "other_pairs": {}, "parameters": [{"name": "opening", "value": 2.2e-8, "sigma": 2e-9, "unit": "1/Pa"}],
         }
     ]  # fmt: skip
     assert record["hypotheses"][0]["heldout_rmse"] == pytest.approx(0.0156)

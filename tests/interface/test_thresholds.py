@@ -17,7 +17,8 @@ def test_the_digest_is_that_of_the_file() -> None:
 
 def test_what_decides_is_consistent() -> None:
     limits = load_thresholds()
-    assert 0 < limits.mismatch.holm <= limits.mismatch.null_probability < 1 - limits.name.probability
+    assert 0 < limits.mismatch.chance <= limits.mismatch.suspicion <= limits.mismatch.null_probability
+    assert limits.mismatch.null_probability < 1 - limits.name.probability
     assert limits.locate.windows[0] < limits.locate.windows[1]
     assert list(limits.name.mixture_widths) == sorted(limits.name.mixture_widths)
     assert limits.heldout.veto_gain < 0
@@ -25,7 +26,7 @@ def test_what_decides_is_consistent() -> None:
 
 @pytest.mark.parametrize(
     ("before", "after"),
-    [("holm = 0.01", ""), ("holm = 0.01", "holm = 0.01\nhulm = 0.02"), ("[heldout]", "[held]")],
+    [("\nchance = 0.01", ""), ("\nchance = 0.01", "\nchance = 0.01\nchange = 0.02"), ("[heldout]", "[held]")],
 )
 def test_a_key_that_is_missing_or_not_known_is_refused(before: str, after: str, tmp_path: Path) -> None:
     file = tmp_path / "thresholds.toml"
