@@ -22,10 +22,12 @@ import numpy as np
 
 from gaps.course import OverTurn
 from gaps.physics import FilmLaws, Physics, laws_left
+from gaps.piston_yielding import Yielding, yielding
 from gaps.profiles import PLAIN, Profile, Relief
 from gaps.rows import closer_at_both
 from gaps.rubbing import Rubbed, rubbed
 from gaps.stand import Stand
+from gaps.walls import BoreWalls
 from reynolds.contact import Asperities
 from reynolds.errors import FilmInputError
 from reynolds.film import ZERO, Film, FilmProblem, Held
@@ -64,7 +66,7 @@ class PistonDrive:
     shaft_speed rad/s; viscosity Pa s and pressures Pa; spins rad/s of piston and bore about the bore's axis in the
     frame that does not turn. Over the shaft angle: chamber_pressure Pa; reach m, how far inside the case edge the
     piston's end stands; velocity m/s of the piston out of the block, -d reach/dt; outer (4,) N, the generalised
-    forces of all but the film (`lateral_force`, `lateral_moment`).
+    forces of all but the film (`gaps.lateral`).
     """
 
     shaft_speed: float
@@ -77,24 +79,6 @@ class PistonDrive:
     reach: OverTurn
     velocity: OverTurn
     outer: OverTurn
-
-
-def lateral_force(guide_length: float, depth: float, force: Array) -> Array:
-    """Generalised forces (4,) N of a force (2,) N across the bore on the piston, `depth` (m) inside the case edge.
-
-    P0 = G s/Lg, P1 = G (1 - s/Lg): a force outside the guide (s < 0) pulls its ends opposite ways.
-    """
-    share = depth / guide_length
-    return np.concatenate([share * np.asarray(force), (1.0 - share) * np.asarray(force)])
-
-
-def lateral_moment(guide_length: float, moment: Array) -> Array:
-    """Generalised forces (4,) N of a moment (2,) N m on the piston, about axes across the bore.
-
-    P0 = a x M/Lg = -P1, a the bore's axis out of the block.
-    """
-    couple = np.array([-moment[1], moment[0]]) / guide_length
-    return np.concatenate([couple, -couple])
 
 
 @dataclass(frozen=True)
@@ -134,10 +118,13 @@ class PistonFilm:
         self.shape, self.drive = shape, drive
         self._physics = Physics() if physics is None else physics
         self._laws = laws_left(FilmLaws() if laws is None else laws, self._physics)
+        walls = self._laws.walls
+        assert walls is None or isinstance(walls, BoreWalls)
+        self._walls: BoreWalls | None = walls
         mesh = rectangle((np.pi * shape.diameter, 1.0), cells, cell=Cell.QUADRILATERAL, periodic_x=True)
         # Of length one; what is engaged stretches its places and keeps their angles.
         self._unit = film_space(rename(mesh, {"bottom": "chamber", "top": "case"}))
-        if self._laws.walls is not None:
+        if self._walls is not None:
             around, along = self._unit.vertices.T
             self._unit = self._unit.moved(np.column_stack([around, closer_at_both(along)]))
         self._space = self._unit
@@ -181,11 +168,10 @@ class PistonFilm:
         )
         pressure = self._driven(time).chamber_pressure
         walls = None
-        if laws.walls is not None:
-            reach = self._driven(time).reach
-            stand = Stand(reach, drive.piston_spin * time, drive.bore_spin * time)
-            walls = laws.walls.at(space, stand)
-            film = widened(space, film, pressure * laws.walls.by_chamber(space, stand))
+        if self._walls is not None:
+            stand = self._stand(time)
+            walls = self._walls.at(space, stand)
+            film = widened(space, film, pressure * self._walls.by_chamber(space, stand).opened)
         return FilmProblem(
             space=space,
             film=film,
@@ -211,14 +197,24 @@ class PistonFilm:
         """What film and contact do to piston (moving) and bore."""
         return rubbed(stage.solution, self.asperities, stage.gap)
 
-    def friction(self, stage: Stage, by: Rubbed) -> PistonFriction:
-        """What film and contact do to the piston along and around the bore, told from what they do to its wall."""
+    def yielding(self, stage: Stage) -> Yielding | None:
+        """How the parts have given way; None between rigid walls."""
+        if self._walls is None:
+            return None
+        pressure = self._driven(stage.time).chamber_pressure
+        return yielding(self._walls, stage, self._stand(stage.time), pressure)
+
+    def friction(self, stage: Stage, by: Rubbed, given: Yielding | None = None) -> PistonFriction:
+        """What film and contact do to the piston along and around the bore, told from what they do to its wall.
+
+        `given`: the dents that it carries along.
+        """
         space = stage.solution.problem.space
         radius, angle = 0.5 * self.shape.diameter, 2.0 * space.points[0] / self.shape.diameter
         walls = self._velocities(stage.time)
         around, along = (part * space.area for part in by.on_moving)
         stresses, velocities = (*by.on_moving, *by.on_fixed), (*walls[0], *walls[1])
-        flank = self._flank_force(stage, by.contact)
+        flank = self._flank_force(stage, by.contact, given)
         sheared = sum(float(np.sum(t * u * space.area)) for t, u in zip(stresses, velocities, strict=True))
         return PistonFriction(
             force=float(along.sum()) + flank,
@@ -227,8 +223,8 @@ class PistonFilm:
             power=-sheared - flank * float(walls[0][1].item()),
         )
 
-    def _flank_force(self, stage: Stage, contact: Array) -> float:
-        """Force (N) out of the block of pressure on the piston's profile, beside a plain piston's.
+    def _flank_force(self, stage: Stage, contact: Array, given: Yielding | None) -> float:
+        """Force (N) out of the block of pressure on the piston's profile and dents, beside a plain piston's.
 
         -int (p - p_case) d relief/dy dA of film and contact, and the chamber's pressure on what is taken off where
         the film begins: a groove filled with one pressure pushes nowhere.
@@ -237,9 +233,11 @@ class PistonFilm:
         space, (around, along) = solution.problem.space, self._points
         above = evaluate(solution, solution.pressure)[0] - drive.case_pressure + contact
         chamber = self._driven(stage.time).chamber_pressure - drive.case_pressure
-        taken_off = float(self._on_chamber_edge(self._relief(stage.time, *self._vertices).depth))
+        taken_off = self._relief(stage.time, *self._vertices).depth
         slope = self._relief(stage.time, around, along).along
-        return -float(np.sum(above * slope * space.area)) - chamber * taken_off
+        if given is not None:
+            taken_off, slope = taken_off + given.dented, slope + given.slope(solution)
+        return -float(np.sum(above * slope * space.area)) - chamber * self._on_chamber_edge(taken_off)
 
     def _relief(self, time: float, around: Array, along: Array) -> Relief:
         """What is taken off the piston at places of the unit mesh; it moves and turns with the piston."""
@@ -253,17 +251,17 @@ class PistonFilm:
         nodal[self._unit.vertex_dofs] = at_vertices
         return float(nodal[self._unit.edge_dofs["chamber"]] @ self._unit.edge_share["chamber"])
 
-    def chamber_flow(self, stage: Stage, flows: Mapping[str, float]) -> float:
-        """Flow (m3/s) out of the chamber, whose volume grows with the piston's nominal section alone.
+    def chamber_flow(self, stage: Stage, flows: Mapping[str, float], given: Yielding | None) -> float:
+        """Flow (m3/s) out of the chamber, which grows by the piston's nominal section and by what `given` swells.
 
-        `flows` out of the film as `reynolds.loads.boundary_flows` has them.
-
-        The film's edge moves with the piston's end and sweeps the clearance there, which flows out besides; what
-        is taken off the piston never was part of the section.
+        `flows` out of the film as `reynolds.loads.boundary_flows` has them. The film's edge moves with the
+        piston's end and sweeps the clearance there, which flows out besides; what is taken off the piston never
+        was part of the section.
         """
         swept = 0.0
         if self._driven(stage.time).reach < self.shape.guide_length:
-            swept = self._on_chamber_edge(vertex_thickness(stage.solution))
+            clearance = vertex_thickness(stage.solution) - (0.0 if given is None else given.opened)
+            swept = self._on_chamber_edge(clearance)
         return self.standing_flow(stage, flows) + self._driven(stage.time).velocity * swept
 
     def standing_flow(self, stage: Stage, flows: Mapping[str, float]) -> float:
@@ -285,6 +283,11 @@ class PistonFilm:
         return _Driven(
             float(drive.reach(angle)), float(drive.velocity(angle)), float(drive.chamber_pressure(angle))
         )
+
+    def _stand(self, time: float) -> Stand:
+        """How piston and bore stand beside the film."""
+        drive = self.drive
+        return Stand(self._driven(time).reach, drive.piston_spin * time, drive.bore_spin * time)
 
     def _engaged(self, time: float) -> float:
         """Length of the film (m): up to the piston's end, or to the guide's where the piston passes it."""

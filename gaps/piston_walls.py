@@ -6,12 +6,14 @@ face, and met there by the film's rows along the bore: with hats psi of the face
     M_psi P = G p,   M_phi w = G^T W,   G = int psi phi dy,
 
 so that force and work are the same on both (`reynolds.bodies.transfer` in one dimension). What no film covers is
-loaded too: bore and piston beyond the film, and the piston's own chamber faces, by the chamber's pressure.
+loaded too: bore and piston beyond the film, and the piston's own chamber faces, by the chamber's pressure, whose
+volume grows in turn.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 
 import numpy as np
@@ -51,6 +53,11 @@ class FaceGrid:
     def period(self) -> int:
         """Columns after which the part is the same."""
         return int(self.influence.shape[1])
+
+    @cached_property
+    def mass(self) -> Array:
+        """Integrals of the products of the rows' hats, (n, n) m."""
+        return _products(self.rows, self.rows, self.rows[0], self.rows[-1])
 
 
 def face_grid(body: Body, radius: float, rows: Array, around: int = 48, folder: Path | None = None) -> FaceGrid:
@@ -111,6 +118,19 @@ def _all_around(influence: Array) -> Array:
 
 
 @dataclass(frozen=True)
+class ByChamber:
+    """What unit pressure (Pa) in the chamber does by what the film leaves bare.
+
+    opened (vertices,) m/Pa: opening of the film, piston that of the piston alone; swollen m3/Pa: growth of the
+    chamber. What the piston's chamber faces do to each other is left out: it is the same wherever the piston is.
+    """
+
+    opened: Array
+    piston: Array
+    swollen: float
+
+
+@dataclass(frozen=True)
 class PistonWalls:
     """Both parts by their faces: rows of the bushing from the guide's inner end, of the piston from its own."""
 
@@ -124,32 +144,42 @@ class PistonWalls:
         The film plane is that of `gaps.piston_motion`. Raises FilmInputError for a film with other columns than
         the faces have, and for one that reaches beyond a part.
         """
-        vertices, unknowns = _numbers(film)
-        matrix = np.empty((len(film.vertices), film.size))
         one, two = (_turned(_met(grid, film, start), angle) for grid, start, angle in self._parts(stand))
         total = _all_around(one + two) if one.shape == two.shape else _all_around(one) + _all_around(two)
-        matrix[np.ix_(vertices.ravel(), unknowns.T.ravel())] = total.reshape(matrix.shape)
-        return Compliance(matrix)
+        return _placed(total, film)
 
-    def by_chamber(self, film: FilmSpace, stand: Stand) -> Array:
-        """Opening (vertices,) m by unit pressure (Pa) in the chamber, on what the film leaves bare."""
+    def piston_at(self, film: FilmSpace, stand: Stand) -> Compliance:
+        """The piston alone; raises as `at`."""
+        grid, start, angle = self._parts(stand)[1]
+        return _placed(_all_around(_turned(_met(grid, film, start), angle)), film)
+
+    def by_chamber(self, film: FilmSpace, stand: Stand) -> ByChamber:
+        """What the chamber's pressure does on what the film leaves bare."""
         vertices, _ = _numbers(film)
-        opened = np.empty(len(film.vertices))
-        total = np.zeros(vertices.shape)
-        for grid, start, angle in self._parts(stand):
+        opened, swollen = np.empty((2, len(film.vertices))), 0.0
+        width = float(np.ptp(film.vertices[:, 0]))
+        for part, (grid, start, angle) in zip(opened, self._parts(stand), strict=True):
             rows = film.vertices[vertices[:, 0], 1] - start
-            _, back = _between(grid.rows, rows)
-            bare = _bare(grid.rows, float(rows[0]))
-            loaded = (grid.influence @ bare).sum(axis=2)
-            whole = grid.by_chamber + loaded[:, np.arange(grid.columns + 1) % grid.period]
-            total += back @ _around(whole, angle)
-        opened[vertices.ravel()] = total.ravel()
-        return opened
+            _, back = _between(grid, rows)
+            bare = _bare(grid, float(rows[0]))
+            loaded = (grid.influence @ bare).sum(axis=2)[:, np.arange(grid.columns + 1) % grid.period]
+            part[vertices] = back @ _around(grid.by_chamber + loaded, angle)
+            both = (loaded + 2.0 * grid.by_chamber)[:, :-1].mean(axis=1)  # faces and bare rows open each other
+            swollen += width * float(bare @ grid.mass @ both)
+        return ByChamber(opened.sum(axis=0), opened[1], swollen)
 
     def _parts(self, stand: Stand) -> tuple[tuple[FaceGrid, float, float], tuple[FaceGrid, float, float]]:
         """Each part with the place (m) in the film plane from which its rows count, and how far it is turned."""
         start = self.guide_length - stand.reach
         return (self.bushing, 0.0, stand.fixed), (self.piston, start, stand.moving)
+
+
+def _placed(influence: Array, film: FilmSpace) -> Compliance:
+    """An influence on every column (rows, columns + 1, columns, rows) by the film's own numbers."""
+    vertices, unknowns = _numbers(film)
+    matrix = np.empty((len(film.vertices), film.size))
+    matrix[np.ix_(vertices.ravel(), unknowns.T.ravel())] = influence.reshape(matrix.shape)
+    return Compliance(matrix)
 
 
 def _met(grid: FaceGrid, film: FilmSpace, start: float) -> Array:
@@ -158,7 +188,7 @@ def _met(grid: FaceGrid, film: FilmSpace, start: float) -> Array:
     if unknowns.shape[1] != grid.columns:
         found = f"{unknowns.shape[1]} cells around a film"
         raise FilmInputError("piston walls", found, f"{grid.columns}, as around the parts' faces")
-    there, back = _between(grid.rows, film.vertices[vertices[:, 0], 1] - start)
+    there, back = _between(grid, film.vertices[vertices[:, 0], 1] - start)
     opened = back @ grid.influence.reshape(len(grid.rows), -1)
     shape = (len(vertices), grid.period, grid.columns, len(vertices))
     return np.asarray(opened.reshape(-1, len(grid.rows)) @ there).reshape(shape)
@@ -172,26 +202,26 @@ def _numbers(space: FilmSpace) -> tuple[NDArray[np.signedinteger], NDArray[np.si
     return vertices, space.vertex_dofs[vertices[:, :-1]]
 
 
-def _between(face: Array, film: Array) -> tuple[Array, Array]:
+def _between(grid: FaceGrid, film: Array) -> tuple[Array, Array]:
     """Rows of a face (n,) and of a film on it (m,): pressures there (n, m) and openings back (m, n)."""
+    face = grid.rows
     slack = 1e-9 * float(face[-1] - face[0])
     if not (film[0] >= face[0] - slack and film[-1] <= face[-1] + slack):
         found = f"a film from {film[0]:.6g} to {film[-1]:.6g} m"
         raise FilmInputError("piston walls", found, f"within the part, {face[0]:.6g} to {face[-1]:.6g} m")
     shared = _products(face, film, film[0], film[-1])
-    there = np.linalg.solve(_products(face, face, face[0], face[-1]), shared)
+    there = np.linalg.solve(grid.mass, shared)
     back = np.linalg.solve(_products(film, film, film[0], film[-1]), shared.T)
     return np.asarray(there), np.asarray(back)
 
 
-def _bare(face: Array, end: float) -> Array:
+def _bare(grid: FaceGrid, end: float) -> Array:
     """Unit pressure from a face's start to `end` (m) as nodal pressures on its rows, (n,), in mean square."""
+    face = grid.rows
     if end <= face[0]:
         return np.zeros(len(face))
     one = np.array([face[0], end])
-    return np.asarray(
-        np.linalg.solve(_products(face, face, face[0], face[-1]), _products(face, one, face[0], end).sum(axis=1))
-    )
+    return np.asarray(np.linalg.solve(grid.mass, _products(face, one, face[0], end).sum(axis=1)))
 
 
 def _products(first: Array, second: Array, start: float, end: float) -> Array:
@@ -205,5 +235,9 @@ def _products(first: Array, second: Array, start: float, end: float) -> Array:
 
 
 def _hats(rows: Array, at: Array) -> Array:
-    """Hat functions of rows at places, (rows, places)."""
-    return np.array([np.interp(at, rows, unit) for unit in np.eye(len(rows))])
+    """Hat functions of rows at places, (rows, places); beyond the rows as at their ends."""
+    found, place = np.zeros((len(rows), len(at))), np.arange(len(at))
+    after = np.clip(np.searchsorted(rows, at), 1, len(rows) - 1)
+    share = np.clip((at - rows[after - 1]) / (rows[after] - rows[after - 1]), 0.0, 1.0)
+    found[after - 1, place], found[after, place] = 1.0 - share, share
+    return found

@@ -50,9 +50,10 @@ class GapSeen:
 
 @dataclass(frozen=True)
 class PistonSeen(GapSeen):
-    """A piston's film with what it does to the piston."""
+    """A piston's film with what it does to the piston; swollen m3, see `gaps.piston_yielding`."""
 
     friction: PistonFriction
+    swollen: float
 
 
 @dataclass(frozen=True)
@@ -77,14 +78,15 @@ def piston_seen(film: PistonFilm) -> Callable[[Stage], PistonSeen]:
     """What `run_revolution` looks at on a piston."""
 
     def look(stage: Stage) -> PistonSeen:
-        flows, by = boundary_flows(stage.solution), film.rubbed(stage)
+        flows, by, given = boundary_flows(stage.solution), film.rubbed(stage), film.yielding(stage)
         return PistonSeen(
-            flow=np.array([film.chamber_flow(stage, flows)]),
+            flow=np.array([film.chamber_flow(stage, flows, given)]),
             leakage=flows["case"],
             heat=by.heat(),
             contact_load=by.load(),
             active=active(stage, film.asperities),
-            friction=film.friction(stage, by),
+            friction=film.friction(stage, by, given),
+            swollen=0.0 if given is None else given.swollen,
         )
 
     return look

@@ -20,12 +20,11 @@ from gaps.bodies import (
     plate_body,
     slipper_body,
 )
-from gaps.piston_walls import PistonWalls, face_grid
+from gaps.piston_walls import ByChamber, PistonWalls, face_grid
 from gaps.rows import closer_at_end, closer_at_start
 from gaps.stand import Stand
 from reynolds.bodies.foundation import Compliance, both
 from reynolds.bodies.wall import Body
-from reynolds.mesh import Array
 from reynolds.space import FilmSpace
 from reynolds.walls import Walls, full
 
@@ -42,9 +41,6 @@ class GapWalls(Protocol):
 
     def at(self, film: FilmSpace, stand: Stand) -> Walls:
         """Those of a film on that mesh, its parts standing so."""
-
-    def by_chamber(self, film: FilmSpace, stand: Stand) -> Array:
-        """Opening (vertices,) m by unit pressure (Pa) in the chamber beside the film."""
 
 
 @dataclass(frozen=True)
@@ -78,10 +74,6 @@ class PlateWalls:
         self._built.append((film, stand, found))
         del self._built[: -max(2, int(KEPT / (8.0 * np.prod(found.matrix.shape))))]
         return found
-
-    def by_chamber(self, film: FilmSpace, stand: Stand) -> Array:
-        """Nothing: the chamber presses on these walls through the film and its pockets alone."""
-        return np.zeros(len(film.vertices))
 
 
 def seen_from(film: FilmSpace, angle: float) -> FilmSpace:
@@ -122,7 +114,11 @@ class BoreWalls:
         """See `PistonWalls.at`."""
         return self._walls(film).at(film, stand)
 
-    def by_chamber(self, film: FilmSpace, stand: Stand) -> Array:
+    def piston_at(self, film: FilmSpace, stand: Stand) -> Walls:
+        """See `PistonWalls.piston_at`."""
+        return self._walls(film).piston_at(film, stand)
+
+    def by_chamber(self, film: FilmSpace, stand: Stand) -> ByChamber:
         """See `PistonWalls.by_chamber`."""
         return self._walls(film).by_chamber(film, stand)
 

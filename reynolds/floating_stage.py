@@ -23,7 +23,7 @@ from reynolds.floating_instant import (
     solved,
 )
 from reynolds.floating_posed import lowest_gap, posed
-from reynolds.generalised import modes_on
+from reynolds.generalised import SoftContact, modes_on
 from reynolds.iterate import is_linear
 from reynolds.mesh import Array
 from reynolds.overlap import as_shaped
@@ -124,6 +124,16 @@ class Stage:
         if contact is None:
             return np.zeros(len(self.q))
         return contact.force + self._along(lambda: contact.slopes + contact.by_pressure(self.by_position.pressure))
+
+    @property
+    def borne(self) -> Array:
+        """Pressure (size,) Pa of the film on its walls and, where these give way, of the asperities with it."""
+        contact = self.trial.contact
+        if not isinstance(contact, SoftContact):
+            return self.solution.pressure
+        touch = contact.touch
+        bears = touch.bears.value + self._along(lambda: touch.bears.slope[:, None] * self._grown)
+        return self.solution.pressure + touch.meeting.on_unknowns(bears)
 
     @property
     def outer(self) -> Outer:

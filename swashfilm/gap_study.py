@@ -11,7 +11,8 @@ import numpy as np
 
 from gaps.block_motion import BlockDrive, standing_block
 from gaps.course import constant
-from gaps.piston_motion import PistonDrive, lateral_force, standing_piston
+from gaps.lateral import lateral_force
+from gaps.piston_motion import PistonDrive, standing_piston
 from gaps.result import GapFilm
 from gaps.slipper_motion import SlipperDrive, face_force, floating_slipper
 from gaps.standing import block_told, piston_told, rest_from, slipper_told

@@ -15,7 +15,8 @@ import numpy as np
 from gaps.ball_joint import BallForces, DrivenBody, ball_forces, ball_friction, relative_spin, swept_acceleration
 from gaps.block_motion import BlockDrive, wrench_about
 from gaps.course import Course, OverTurn
-from gaps.piston_motion import PistonDrive, PistonShape, lateral_force, lateral_moment
+from gaps.lateral import lateral_force, lateral_moment
+from gaps.piston_motion import PistonDrive, PistonShape
 from gaps.slipper_motion import Orifice, Retainer, SlipperDrive, SlipperShape, face_force, face_inertia, pressed_by
 from system.chamber_kernel import CAVITY_PRESSURE
 from system.directions import bore_axis, bore_sides, plate_axes

@@ -126,7 +126,8 @@ def bore_axes(rotor: Rotor, count: int) -> Array:
 
 
 def growth(gaps: FloatingGaps, rotor: Rotor, parts: FloatingParts) -> Array:
-    """Growth (n,) m3 of the chamber by the parts' small motion: the ball along its bore, and the block's lift.
+    """Growth (n,) m3 of the chamber by the parts' small motion: the ball along its bore, the block's lift, and how
+    piston and bore give way.
 
     Ap (d . a) - Ap z + A_kidney z_kidney, z the block's way off the plate at the bore's and at the kidney's place.
     """
@@ -140,7 +141,8 @@ def growth(gaps: FloatingGaps, rotor: Rotor, parts: FloatingParts) -> Array:
     rise = (block[:, 1] * np.cos(angle) + block[:, 2] * np.sin(angle)) / rim
     lifted, area = block[:, 0] + pump.pump.pitch_radius * rise, piston_area(pump)
     kidney = plate.kidney_area * block[:, 0] + plate.kidney_lever * rise
-    return np.asarray(area * (along - lifted) + kidney)
+    swollen = of_each(gaps.piston, lambda seen: seen.swollen)
+    return np.asarray(area * (along - lifted) + kidney + swollen)
 
 
 def rubbing(gaps: FloatingGaps, samples: int) -> Rubbing:

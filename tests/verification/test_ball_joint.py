@@ -19,7 +19,7 @@ from gaps.ball_joint import (
     relative_spin,
     swept_acceleration,
 )
-from gaps.piston_motion import lateral_force, lateral_moment
+from gaps.lateral import lateral_force, lateral_moment
 from gaps.slipper_motion import face_force, pressed_by
 from reynolds.errors import FilmInputError
 from system.directions import bore_axis, bore_sides, plate_axes

@@ -11,7 +11,8 @@ import numpy as np
 import pytest
 
 from gaps.course import constant
-from gaps.piston_motion import PistonDrive, PistonFilm, PistonShape, lateral_force, standing_piston
+from gaps.lateral import lateral_force
+from gaps.piston_motion import PistonDrive, PistonFilm, PistonShape, standing_piston
 from gaps.pressure_flow import piston_conductance
 from gaps.profiles import Barrel, Profile
 from gaps.result import GapFilm

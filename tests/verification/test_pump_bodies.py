@@ -33,6 +33,7 @@ from reynolds.bodies.wall import BodyWall, FacePressure, FaceWall, load_opening
 from reynolds.errors import FilmInputError
 from reynolds.mesh import Array, Cell, annulus, rectangle
 from reynolds.space import FilmSpace, film_space
+from reynolds.transport import at_points
 
 STEEL, BRONZE = Elastic(210e9, 0.3), Elastic(110e9, 0.34)
 PRESSURE, MICRON = 30e6, 1e6
@@ -302,9 +303,38 @@ def test_bore_under_one_pressure_opens_alike_wherever_the_piston_stands(reach):
     stiff = FaceGrid(walls.piston.rows, 0.0 * walls.piston.influence, 0.0 * walls.piston.by_chamber)
     alone = PistonWalls(GUIDE, walls.bushing, stiff)
     film = unrolled(np.linspace(GUIDE - reach, GUIDE, 9))
-    found = alone.at(film, Stand(reach)).matrix @ np.ones(film.size) + alone.by_chamber(film, Stand(reach))
+    found = alone.at(film, Stand(reach)).matrix @ np.ones(film.size) + alone.by_chamber(film, Stand(reach)).opened
     whole = walls.bushing.influence.sum(axis=(2, 3))
     assert found == pytest.approx(whole.mean(), rel=3e-3, abs=0.0)
+
+
+@pytest.mark.parametrize("row", [2, 5])
+def test_work_of_film_and_chamber_is_that_of_the_face(row):
+    """int p w dA over the film + p V of the chamber's growth: what all of the bore's face takes at that pressure."""
+    walls = grids()
+    alone = PistonWalls(
+        GUIDE,
+        walls.bushing,
+        FaceGrid(walls.piston.rows, 0.0 * walls.piston.influence, 0.0 * walls.piston.by_chamber),
+    )
+    whole, edge = unrolled(walls.bushing.rows), walls.bushing.rows[row]
+    film = unrolled(walls.bushing.rows[row:])
+
+    def falling(space: FilmSpace) -> Array:
+        pressure = np.empty(space.size)
+        pressure[space.vertex_dofs] = np.minimum(1.0, (GUIDE - space.vertices[:, 1]) / (GUIDE - edge))
+        return pressure
+
+    def work(space: FilmSpace, pressure: Array, opened: Array) -> float:
+        return float(np.sum(at_points(space, pressure) * space.sample_vertices(opened) * space.area))
+
+    on_film, bare = falling(film), alone.by_chamber(film, Stand(GUIDE - edge))
+    opened = alone.at(film, Stand(GUIDE - edge)).matrix @ on_film + bare.opened
+    grown = work(film, on_film, bare.opened) + bare.swollen
+    on_face = falling(whole)
+    expected = work(whole, on_face, alone.at(whole, Stand(GUIDE)).matrix @ on_face)
+    assert bare.swollen > 0.1 * grown
+    assert work(film, on_film, opened) + grown == pytest.approx(expected, rel=1e-9)
 
 
 def test_faces_a_piston_cannot_meet():
