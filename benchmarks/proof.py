@@ -1,0 +1,92 @@
+"""The proof of the diagnosis: recordings of a plant of another make, each diagnosed, and the page that tells.
+
+    python benchmarks/proof.py                            runs what is not there yet, then writes docs/proof.md
+    python benchmarks/proof.py --part null --cases 40     only the first 40 cases of a part
+    python benchmarks/proof.py --cases 0                  runs nothing, writes the page from what is there
+    python benchmarks/proof.py --write graded 3 FOLDER    writes the recording of a case, for `swashfilm diagnose`
+
+Each case's result is a file of its own in --results: Ctrl-C loses only the case in hand, the next call goes on.
+A null takes some 8 s of process time, a case with something concealed up to 70 s.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from pathlib import Path
+from time import time
+
+ROOT = Path(__file__).resolve().parents[1]
+
+
+def main() -> int:
+    """Run the missing cases and write the page."""
+    options = _options()
+    sys.path.insert(0, str(ROOT))
+    from proof.cases import Part, cases
+
+    from diagnosis.thresholds import load_thresholds
+
+    seed = load_thresholds().seeds.proof
+    if options.write:
+        part, number, folder = options.write
+        return _write(cases(Part(part), seed)[int(number)], Path(folder))
+    parts = [Part(options.part)] if options.part else list(Part)
+    listed = [case for part in parts for case in cases(part, seed)[: options.cases]]
+    try:
+        _run(listed, options.results)
+    except KeyboardInterrupt:
+        print("interrupted; what was finished is kept")
+    _page(options.results, options.page, seed)
+    return 0
+
+
+def _options() -> argparse.Namespace:
+    reader = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parts = ("null", "graded", "pair", "parameter", "sensor", "unknown")
+    reader.add_argument("--part", choices=parts, help="only one part")
+    reader.add_argument("--cases", type=int, metavar="N", help="only the first N cases of each part")
+    reader.add_argument("--results", type=Path, default=ROOT / "build" / "proof", metavar="DIR")
+    reader.add_argument("--page", type=Path, default=ROOT / "docs" / "proof.md", metavar="FILE")
+    reader.add_argument("--write", nargs=3, metavar=("PART", "NUMBER", "FOLDER"), help="write one recording")
+    return reader.parse_args()
+
+
+def _run(listed: list, folder: Path) -> None:
+    """Diagnose the cases that have no outcome yet, a line each."""
+    from proof.store import keep, load
+    from proof.trial import try_case
+
+    for number, case in enumerate(listed, start=1):
+        if load(folder, case) is not None:
+            continue
+        begun = time()
+        outcome = try_case(case)
+        keep(folder, case, outcome)
+        told = ", ".join(f"{one.effect} ({one.pair})" if one.pair else one.effect for one in outcome.claims)
+        told = f"{outcome.verdict}, {outcome.status}{', ' if told else ''}{told}{outcome.failed}"
+        spent = f"{outcome.seconds:.0f} s process time, {time() - begun:.0f} s"
+        print(f"{number}/{len(listed)} {case.name} (z {outcome.score:.1f}): {told}; {spent}", flush=True)
+
+
+def _write(case, folder: Path) -> int:
+    """The recording of one case as a folder that any diagnosis can read."""
+    from proof.recordings import make
+    from proof.writing import write_recording
+
+    folder.mkdir(parents=True, exist_ok=True)
+    made = make(case)
+    write_recording(folder, case.name, made.readings)
+    print(f"{case.name}: score {made.score:.1f}, sizes {made.sizes}, in {folder}")
+    return 0
+
+
+def _page(results: Path, page: Path, seed: int) -> None:
+    from proof.page import write_page
+
+    write_page(results, page, seed)
+    print(f"page in {page}")
+
+
+if __name__ == "__main__":
+    sys.exit(main())

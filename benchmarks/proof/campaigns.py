@@ -1,0 +1,92 @@
+"""What is run on the bench: set points of five campaigns, how steadily they are held, and what is measured."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from functools import cache
+from itertools import product
+
+import numpy as np
+
+from .plant.machine import CELSIUS, Array
+from .plant.settings import RATED_SPEED, RPM, Settings
+
+BAR = 1e5
+ALL = ("Q_out", "Q_in", "Q_case", "torque")
+INPUTS = ("speed", "ratio", "p_out", "p_in", "p_case", "T_in", "T_case")
+
+
+@dataclass(frozen=True)
+class Campaign:
+    """Set points in the order in which they are taken; outputs and inputs with a sensor; points with traces."""
+
+    name: str
+    points: Settings
+    outputs: tuple[str, ...] = ALL
+    inputs: tuple[str, ...] = INPUTS
+    traces: tuple[int, ...] = ()
+
+
+@cache
+def campaigns() -> dict[str, Campaign]:
+    """All of them by name."""
+    found = (
+        Campaign("map", _map(), traces=(6, 27, 90, 111)),
+        Campaign("ovens", _ovens()),
+        Campaign("scattered", _scattered(90, 7)),
+        Campaign("short", _charged(_scattered(60, 8)), inputs=tuple(one for one in INPUTS if one != "p_in")),
+        Campaign("no inlet meter", _scattered(140, 9), outputs=("Q_out", "Q_case", "torque")),
+    )
+    return {one.name: one for one in found}
+
+
+def held(campaign: Campaign, rng: np.random.Generator) -> Settings:
+    """The points as they were in truth: near the set points, as near as a bench holds them."""
+    points, count = campaign.points, campaign.points.speed.size
+    spread = {"speed": 1.0 * RPM, "p_out": 0.7 * BAR, "p_in": 0.1 * BAR, "p_case": 0.015 * BAR, "T_in": 0.7}
+    moved = {name: getattr(points, name) + sigma * rng.normal(size=count) for name, sigma in spread.items()}
+    warmer = points.T_case - points.T_in
+    return replace(points, **moved, T_case=moved["T_in"] + warmer + 0.4 * rng.normal(size=count))
+
+
+def _map() -> Settings:
+    """112 points: 4 strokes, 4 speeds, 7 pressures, one temperature, closed circuit."""
+    speeds = (1000.0, 1367.0, 1733.0, 2100.0)
+    return _settings(product((0.28, 0.51, 0.77, 1.0), speeds, range(75, 376, 50), (50.0,)))
+
+
+def _ovens() -> Settings:
+    """168 points: 3 inlet temperatures, 2 strokes, 4 speeds, 7 pressures."""
+    warm = product((35.0, 50.0, 70.0), (0.5, 1.0), (400.0, 900.0, 1500.0, 2100.0), range(75, 376, 50))
+    return _settings((stroke, speed, pressure, oven) for oven, stroke, speed, pressure in warm)
+
+
+def _scattered(count: int, seed: int) -> Settings:
+    """A Latin hypercube over stroke, speed, pressure, inlet temperature, charge and case pressure."""
+    rng = np.random.default_rng(seed)
+    share = np.stack([(rng.permutation(count) + rng.uniform(size=count)) / count for _ in range(6)], axis=1)
+    low = np.array([0.2, 300.0, 50.0, 35.0, 15.0, 0.0])
+    high = np.array([1.0, 2400.0, 380.0, 75.0, 30.0, 2.0])
+    rows = low + share * (high - low)
+    rows = rows[np.argsort(rows[:, 3], kind="stable")]
+    rows[:, 0] = np.round(rows[:, 0], 2)
+    found = _settings(tuple(row[:4]) for row in rows)
+    return replace(found, p_in=rows[:, 4] * BAR, p_case=found.p_case + rows[:, 5] * BAR)
+
+
+def _charged(points: Settings) -> Settings:
+    """The same at one charge pressure."""
+    return replace(points, p_in=np.full(points.speed.size, 25.0 * BAR))
+
+
+def _settings(rows: Iterator[tuple[float, float, float, float]]) -> Settings:
+    """Settings of rows of stroke, rpm, bar, degC; the case is the warmer, the more is lost."""
+    stroke, rpm, bar, celsius = np.array(list(rows), dtype=float).T
+    speed, p_out = rpm * RPM, bar * BAR
+    load = speed / RATED_SPEED * (1.0 + p_out / 20.0e6)
+    ones: Array = np.ones_like(stroke)
+    inlet = celsius + CELSIUS
+    return Settings(
+        speed, stroke, p_out, 25.0 * BAR * ones, (1.30 + 0.04 * load) * BAR, inlet, inlet + 2.0 + 1.5 * load
+    )

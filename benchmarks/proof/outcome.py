@@ -1,0 +1,91 @@
+"""What came out of a case: the truth beside what was told of it, as plain values that a file keeps."""
+
+from __future__ import annotations
+
+from dataclasses import asdict, dataclass, field
+from typing import Any
+
+
+@dataclass(frozen=True)
+class Ranked:
+    """One explanation that was weighed."""
+
+    effects: tuple[str, ...]
+    pairs: tuple[str | None, ...]
+    kind: str
+    probability: float
+
+
+@dataclass(frozen=True)
+class Claimed:
+    """One effect that was claimed, and ids that the recording cannot tell from it."""
+
+    effect: str
+    pair: str | None
+    probability: float
+    equivalent: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class Rival:
+    """What another way of looking makes of the same recording: whether it sees a mismatch, and its name."""
+
+    alarm: bool
+    named: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """The truth and what was told of it.
+
+    score: reached; effects, pairs: of the truth; shares: of the channels in the square of the truth's shift.
+    heldout: channel -> (before, after, noise), SI; covered: parameter -> whether its 90 % interval holds the
+    truth; program: digest of what diagnosed; failed: why there is no verdict.
+    """
+
+    name: str
+    part: str
+    campaign: str
+    seed: int
+    asked: float
+    score: float
+    sizes: dict[str, float]
+    truth: str
+    effects: tuple[str, ...]
+    pairs: tuple[str | None, ...]
+    shares: dict[str, float]
+    verdict: str
+    status: str
+    claims: tuple[Claimed, ...]
+    ranked: tuple[Ranked, ...]
+    nothing: float
+    channels: tuple[str, ...]
+    heldout: dict[str, tuple[float, float, float]]
+    covered: dict[str, bool]
+    chi2: tuple[float, float]
+    holm: float
+    reasons: tuple[str, ...]
+    rivals: dict[str, Rival]
+    seconds: float
+    program: str
+    failed: str = field(default="")
+
+
+def as_plain(outcome: Outcome) -> dict[str, Any]:
+    """For a JSON file."""
+    return asdict(outcome)
+
+
+def from_plain(data: dict[str, Any]) -> Outcome:
+    """The inverse of `as_plain` after JSON."""
+    kept = dict(data)
+    kept["claims"] = tuple(Claimed(**{**one, "equivalent": tuple(one["equivalent"])}) for one in data["claims"])
+    kept["ranked"] = tuple(
+        Ranked(tuple(one["effects"]), tuple(one["pairs"]), one["kind"], one["probability"])
+        for one in data["ranked"]
+    )
+    kept["rivals"] = {name: Rival(one["alarm"], tuple(one["named"])) for name, one in data["rivals"].items()}
+    kept["heldout"] = {name: tuple(one) for name, one in data["heldout"].items()}
+    for name in ("effects", "pairs", "channels", "chi2", "reasons"):
+        kept[name] = tuple(data[name])
+    return Outcome(**kept)

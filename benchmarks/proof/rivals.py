@@ -1,0 +1,133 @@
+"""What other ways make of the same study: usual practice, and this diagnosis with one of its parts taken out.
+
+All are linear, at the prior mean, so that they are judged alike; "screen" is this diagnosis as linear as they.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from scipy.linalg import cho_factor, cho_solve
+from scipy.special import log_softmax
+from scipy.stats import chi2
+
+from diagnosis.detect import detect
+from diagnosis.hypotheses import Hypothesis, hypotheses
+from diagnosis.screen import screen
+from diagnosis.study import Study
+from diagnosis.thresholds import Thresholds
+from system.estimation.evidence import Sign, project
+from system.estimation.laplace import laplace
+from system.estimation.observations import Array
+from system.estimation.parameters import Role
+from system.estimation.posterior import Posterior
+from system.estimation.whitening import Whitening, whitener
+from system.physics.effects import Kind
+
+from .baselines import gaussian_process, sparse_regression
+from .outcome import Rival
+
+USUAL_NAME = {
+    "Q_case": "film_thickness", "torque": "friction_coefficient", "Q_out": "displacement", "Q_in": "Q_in_gain",
+}  # fmt: skip
+"""What one blames first where a channel is off."""
+SURE = 0.01  # p below which the usual ways see a mismatch
+STEPS = 3  # effects that are added one after the other at most
+
+
+def rivals(study: Study, thresholds: Thresholds) -> dict[str, Rival]:
+    """Each way's finding, by its name."""
+    residual = study.base.whitening.unwhiten(study.base.residual) / study.base.whitening.sigma
+    known = [each for each in hypotheses(study, thresholds) if each.component is None]
+    return {
+        "screen": _screened(study, thresholds),
+        "no input noise": _screened(_anew(study, _without_inputs(study), ()), thresholds),
+        "fluid law held": _screened(_anew(study, study.base.whitening, _fluid(study)), thresholds),
+        "no unknown physics": _screened(study, thresholds, known),
+        "no signs": _screened(_unsigned(study), thresholds),
+        "largest residual": _largest(study, residual),
+        "stepwise BIC": _stepwise(study),
+        "sparse regression": sparse_regression(study, residual),
+        "Gaussian process": gaussian_process(study, residual),
+    }
+
+
+def _screened(study: Study, thresholds: Thresholds, single: list[Hypothesis] | None = None) -> Rival:
+    """The verdict of the linear screen: a mismatch by both tests, and its likeliest explanation."""
+    found = screen(study, single or hypotheses(study, thresholds), thresholds)
+    logs = log_softmax(np.array([each.log_weight for each in found]))
+    null = next(k for k, each in enumerate(found) if each.hypothesis.kind is Kind.NO_MISMATCH)
+    sure = detect(study, thresholds).holm_p < thresholds.mismatch.holm
+    alarm = bool(sure and np.exp(logs[null]) < thresholds.mismatch.null_probability)
+    best = max((each for each in found if each is not found[null]), key=lambda each: each.log_weight)
+    return Rival(alarm, tuple(effect.value for effect in best.hypothesis.effects) if alarm else ())
+
+
+def _without_inputs(study: Study) -> Whitening:
+    """The whitening of readings whose inputs were known for certain."""
+    exact = replace(study.observations, input_sigma=np.zeros_like(study.observations.input_sigma))
+    count, channels = study.observations.values.shape
+    return whitener(exact, np.zeros((count, channels, exact.input_sigma.shape[1])))
+
+
+def _fluid(study: Study) -> tuple[str, ...]:
+    return tuple(each.name for each in study.base.parameters if each.role is Role.FLUID)
+
+
+def _unsigned(study: Study) -> Study:
+    return replace(study, candidates=tuple(replace(each, sign=Sign.EITHER) for each in study.candidates))
+
+
+def _anew(study: Study, whitening: Whitening, held: tuple[str, ...]) -> Study:
+    """The study with another noise, and with parameters held at their prior mean."""
+    old = study.base
+
+    def whitened(columns: Array) -> Array:
+        return whitening.whiten(old.whitening.unwhiten(columns))
+
+    offset = whitened(old.residual + old.slopes @ old.xi)
+    slopes = whitened(old.slopes) * np.array([each.name not in held for each in old.parameters])
+    base = _posterior(old, offset, slopes, whitening)
+    kept = tuple(
+        replace(each, column=whitened(each.column)) for each in study.candidates if each.parameter not in held
+    )
+    return replace(study, base=base, candidates=kept)
+
+
+def _posterior(old: Posterior, offset: Array, slopes: Array, whitening: Whitening) -> Posterior:
+    precision = slopes.T @ slopes + np.eye(old.xi.size)
+    xi = cho_solve(cho_factor(precision), slopes.T @ offset)
+    residual = offset - slopes @ xi
+    objective = float(residual @ residual + xi @ xi)
+    evidence = laplace(objective, precision) + whitening.log_determinant
+    return replace(old, xi=xi, residual=residual, slopes=slopes, precision=precision, objective=objective,
+                   log_evidence=evidence, whitening=whitening)  # fmt: skip
+
+
+def _largest(study: Study, residual: Array) -> Rival:
+    """The channel that is farthest off after a fit, and what is usually blamed for it."""
+    squares = np.where(study.observations.measured, residual**2, 0.0)
+    alarm = bool(chi2.sf(squares.sum(), int(study.observations.measured.sum())) < SURE)
+    worst = study.observations.channels[int(np.argmax(squares.mean(axis=0)))].name
+    return Rival(alarm, (USUAL_NAME[worst],) if alarm else ())
+
+
+def _stepwise(study: Study) -> Rival:
+    """Columns of the catalogue added while Schwarz' criterion (1978) falls, of either sign, without priors."""
+    base, named = study.base, []
+    residual, taken = base.residual.copy(), np.zeros((base.residual.size, 0))
+    columns = project(base, np.stack([each.column for each in study.candidates], axis=1))
+    for _ in range(STEPS):
+        left = columns - taken @ (taken.T @ columns)
+        norm = np.linalg.norm(left, axis=0)
+        usable = norm > 1e-6 * np.linalg.norm(columns, axis=0)
+        score = np.where(usable, (left.T @ residual) / np.where(usable, norm, 1.0), 0.0)
+        best = int(np.argmax(np.abs(score)))
+        if score[best] ** 2 < np.log(residual.size):
+            break
+        unit = left[:, best] / norm[best]
+        residual -= score[best] * unit
+        taken = np.column_stack([taken, unit])
+        named.append(study.candidates[best].entry.id.value)
+    return Rival(bool(named), tuple(dict.fromkeys(named)))

@@ -1,0 +1,142 @@
+"""One case put to the diagnosis as a user would: a folder with a recording, the pump's name, and what is told."""
+
+from __future__ import annotations
+
+import tempfile
+from dataclasses import dataclass
+from math import isfinite
+from pathlib import Path
+from time import process_time
+
+from diagnosis.ask import with_next_point
+from diagnosis.diagnose import diagnose_study
+from diagnosis.prepare import prepare
+from diagnosis.readings import bench_points
+from diagnosis.scant_pump import load_known_pump
+from diagnosis.study import Study
+from diagnosis.thresholds import load_thresholds
+from diagnosis.verdict import Diagnosis
+from diagnosis.weighed import Weighed
+from reynolds.errors import FilmInputError
+from reynolds.oil import walther
+from swashfilm.diagnose_run import checked_recording
+from system.errors import NotConverged
+from system.faults import InputFaults
+from system.physics.effects import Kind
+from system.tolerances import tolerances
+
+from .cases import VERDICTS, Case, Part
+from .outcome import Claimed, Outcome, Ranked, Rival
+from .plant.machine import Machine, ref90
+from .recordings import Made, make
+from .rivals import rivals
+from .store import program
+from .writing import write_recording
+
+KEPT = 15  # explanations of the ranking
+NINETY = 1.645  # sigma either side of a 90 % interval
+SAME = {
+    "film_thickness.slipper": "slipper_film", "film_thickness.valve_plate": "plate_film",
+    "bulk_modulus": "bulk_modulus", "friction.piston_cylinder": "friction_piston",
+    "friction.slipper_swash_plate": "friction_slipper", "friction.piston_slipper_socket": "friction_socket",
+    "friction.valve_plate_cylinder": "friction_plate", "friction.ball_guide_retainer": "friction_guide",
+    "friction.front_bearing": "friction_front", "friction.rear_bearing": "friction_rear",
+    "dead_volume": "dead_volume", "displacement": "stroke", "viscosity": "viscosity",
+}  # fmt: skip
+"""Parameters that mean the same to the simulation and to the plant."""
+
+
+@dataclass(frozen=True)
+class Diagnosed:
+    """A study and what was found in it."""
+
+    study: Study
+    found: Diagnosis
+    rivals: dict[str, Rival]
+
+
+def try_case(case: Case) -> Outcome:
+    """Make a case's recording, diagnose it, and put the finding beside the truth."""
+    made = make(case)
+    begun = process_time()
+    try:
+        diagnosed = diagnose_recording(case, made)
+    except (InputFaults, NotConverged, FilmInputError) as reason:
+        return _failed(case, made, str(reason), process_time() - begun)
+    return _outcome(case, made, diagnosed, process_time() - begun)
+
+
+def diagnose_recording(case: Case, made: Made) -> Diagnosed:
+    """What `swashfilm diagnose ref90 FOLDER` finds, and what others make of the same study."""
+    known, thresholds = load_known_pump("ref90"), load_thresholds()
+    pump = known.pump
+    with tempfile.TemporaryDirectory() as folder:
+        write_recording(Path(folder), case.name, made.readings)
+        recording = checked_recording(Path(folder), known)
+    study = prepare(pump, recording, tolerances(pump)[0], thresholds)
+    points, _ = bench_points(study.recording, pump)
+    viscosity = walther(points.T_case, pump.oil.fluid) * pump.oil.density
+    found = diagnose_study(study, viscosity, thresholds)
+    return Diagnosed(study, with_next_point(study, pump, found, thresholds), rivals(study, thresholds))
+
+
+def _outcome(case: Case, made: Made, diagnosed: Diagnosed, seconds: float) -> Outcome:
+    found = diagnosed.found
+    ranked = sorted(found.hypotheses, key=lambda each: -each.probability)
+    channels = found.fit.before
+    return Outcome(
+        name=case.name, part=case.part.value, campaign=case.campaign, seed=case.seed, asked=case.score,
+        score=made.score, sizes=made.sizes, truth=VERDICTS[case.part],
+        effects=tuple(one.id for one in case.concealed if one.id),
+        pairs=tuple(one.pair for one in case.concealed if one.id), shares=made.shares,
+        verdict=found.kind.value, status=found.status.value,
+        claims=tuple(
+            Claimed(one.effect.value, one.pair.value if one.pair else None, one.probability,
+                    tuple(each.value for each in one.equivalent))
+            for one in found.effects
+        ),
+        ranked=tuple(_ranked(each) for each in ranked[:KEPT]),
+        nothing=sum(each.probability for each in ranked if each.hypothesis.kind is Kind.NO_MISMATCH),
+        channels=tuple(channel.value for channel in found.location.channels),
+        heldout={name.value: (channels[name], found.fit.after[name], found.fit.noise[name]) for name in channels},
+        covered=_covered(case, found, made.machine),
+        chi2=tuple(float(fit.objective / fit.residual.size) for fit in (found.before, found.after)),
+        holm=found.detection.holm_p, reasons=found.notes, rivals=diagnosed.rivals, seconds=seconds,
+        program=program(),
+    )  # fmt: skip
+
+
+def _failed(case: Case, made: Made, reason: str, seconds: float) -> Outcome:
+    """A case of which no diagnosis comes about: it counts as wrong, with its reason."""
+    return Outcome(
+        name=case.name, part=case.part.value, campaign=case.campaign, seed=case.seed, asked=case.score,
+        score=made.score, sizes=made.sizes, truth=VERDICTS[case.part],
+        effects=tuple(one.id for one in case.concealed if one.id),
+        pairs=tuple(one.pair for one in case.concealed if one.id), shares=made.shares,
+        verdict="none", status="failed", claims=(), ranked=(), nothing=0.0, channels=(), heldout={}, covered={},
+        chi2=(0.0, 0.0), holm=1.0, reasons=(), rivals={}, seconds=seconds, program=program(), failed=reason,
+    )  # fmt: skip
+
+
+def _ranked(each: Weighed) -> Ranked:
+    own = each.hypothesis
+    effects = tuple(effect.value for effect in own.effects)
+    places = tuple(place.value if place else None for place in own.places)
+    return Ranked(effects, places, own.kind.value, each.probability)
+
+
+def _covered(case: Case, found: Diagnosis, machine: Machine) -> dict[str, bool]:
+    """Whether 90 % intervals of what both know alike hold the truth; only where the explanation is right."""
+    told = {one.effect.value for one in found.effects}
+    if told != {one.id for one in case.concealed} or case.part in (Part.UNKNOWN, Part.PAIR, Part.GRADED):
+        return {}
+    fit, drawing, inside = found.after, ref90(), {}
+    for name, part in SAME.items():
+        at = fit.index(name)
+        sigma = float(fit.covariance[at, at]) ** 0.5
+        relative = name in ("displacement", "viscosity")
+        value = getattr(machine, part) / (getattr(drawing, part) if relative else 1.0)
+        true = fit.parameters[at].standard(value)
+        if isfinite(true):
+            inside[name] = bool(abs(true - fit.xi[at]) <= NINETY * sigma)
+    return inside
