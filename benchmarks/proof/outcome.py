@@ -63,7 +63,7 @@ class Outcome:
     heldout: dict[str, tuple[float, float, float]]
     covered: dict[str, bool]
     chi2: tuple[float, float]
-    holm: float
+    chance: float
     reasons: tuple[str, ...]
     rivals: dict[str, Rival]
     seconds: float

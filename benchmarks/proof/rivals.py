@@ -12,12 +12,12 @@ from scipy.linalg import cho_factor, cho_solve
 from scipy.special import log_softmax
 from scipy.stats import chi2
 
-from diagnosis.detect import detect
 from diagnosis.hypotheses import Hypothesis, hypotheses
+from diagnosis.multiplicity import family_chance, log_chances
 from diagnosis.screen import screen
 from diagnosis.study import Study
 from diagnosis.thresholds import Thresholds
-from system.estimation.evidence import Sign, project
+from system.estimation.evidence import Sign, project, score
 from system.estimation.laplace import laplace
 from system.estimation.observations import Array
 from system.estimation.parameters import Role
@@ -33,6 +33,7 @@ USUAL_NAME = {
 }  # fmt: skip
 """What one blames first where a channel is off."""
 SURE = 0.01  # p below which the usual ways see a mismatch
+DRAWS = 1999
 STEPS = 3  # effects that are added one after the other at most
 
 
@@ -58,10 +59,19 @@ def _screened(study: Study, thresholds: Thresholds, single: list[Hypothesis] | N
     found = screen(study, single or hypotheses(study, thresholds), thresholds)
     logs = log_softmax(np.array([each.log_weight for each in found]))
     null = next(k for k, each in enumerate(found) if each.hypothesis.kind is Kind.NO_MISMATCH)
-    sure = detect(study, thresholds).holm_p < thresholds.mismatch.holm
-    alarm = bool(sure and np.exp(logs[null]) < thresholds.mismatch.null_probability)
+    alarm = bool(
+        _chance(study, thresholds) < thresholds.mismatch.chance
+        and np.exp(logs[null]) < thresholds.mismatch.null_probability
+    )
     best = max((each for each in found if each is not found[null]), key=lambda each: each.log_weight)
     return Rival(alarm, tuple(effect.value for effect in best.hypothesis.effects) if alarm else ())
+
+
+def _chance(study: Study, thresholds: Thresholds) -> float:
+    """As `diagnosis.detect` has it, with fewer draws."""
+    found = np.array([score(study.base, each.column).z for each in study.candidates])
+    strongest = log_chances(found, study.candidates)
+    return family_chance(study.base, study.candidates, strongest, DRAWS, thresholds.seeds.detect)
 
 
 def _without_inputs(study: Study) -> Whitening:
@@ -122,12 +132,12 @@ def _stepwise(study: Study) -> Rival:
         left = columns - taken @ (taken.T @ columns)
         norm = np.linalg.norm(left, axis=0)
         usable = norm > 1e-6 * np.linalg.norm(columns, axis=0)
-        score = np.where(usable, (left.T @ residual) / np.where(usable, norm, 1.0), 0.0)
-        best = int(np.argmax(np.abs(score)))
-        if score[best] ** 2 < np.log(residual.size):
+        strength = np.where(usable, (left.T @ residual) / np.where(usable, norm, 1.0), 0.0)
+        best = int(np.argmax(np.abs(strength)))
+        if strength[best] ** 2 < np.log(residual.size):
             break
         unit = left[:, best] / norm[best]
-        residual -= score[best] * unit
+        residual -= strength[best] * unit
         taken = np.column_stack([taken, unit])
         named.append(study.candidates[best].entry.id.value)
     return Rival(bool(named), tuple(dict.fromkeys(named)))

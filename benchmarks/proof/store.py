@@ -11,7 +11,7 @@ from .cases import Case
 from .outcome import Outcome, as_plain, from_plain
 
 HERE = Path(__file__).resolve().parent
-PACKAGES = ("reynolds", "gaps", "system", "diagnosis")
+PACKAGES = ("system", "diagnosis")
 MAKERS = ("plant", "campaigns.py", "sensors.py", "sizing.py", "recordings.py", "writing.py")
 
 

@@ -101,7 +101,7 @@ def _outcome(case: Case, made: Made, diagnosed: Diagnosed, seconds: float) -> Ou
         heldout={name.value: (channels[name], found.fit.after[name], found.fit.noise[name]) for name in channels},
         covered=_covered(case, found, made.machine),
         chi2=tuple(float(fit.objective / fit.residual.size) for fit in (found.before, found.after)),
-        holm=found.detection.holm_p, reasons=found.notes, rivals=diagnosed.rivals, seconds=seconds,
+        chance=found.detection.chance, reasons=found.notes, rivals=diagnosed.rivals, seconds=seconds,
         program=program(),
     )  # fmt: skip
 
@@ -114,7 +114,7 @@ def _failed(case: Case, made: Made, reason: str, seconds: float) -> Outcome:
         effects=tuple(one.id for one in case.concealed if one.id),
         pairs=tuple(one.pair for one in case.concealed if one.id), shares=made.shares,
         verdict="none", status="failed", claims=(), ranked=(), nothing=0.0, channels=(), heldout={}, covered={},
-        chi2=(0.0, 0.0), holm=1.0, reasons=(), rivals={}, seconds=seconds, program=program(), failed=reason,
+        chi2=(0.0, 0.0), chance=1.0, reasons=(), rivals={}, seconds=seconds, program=program(), failed=reason,
     )  # fmt: skip
 
 

@@ -1,0 +1,166 @@
+"""The gates of design/diagnosis.md 4.3, column `outstanding`: what is asked, what was found, on how many cases."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from .calibration import brier, calibration_error
+from .judged import in_set, is_grave, is_named, is_right, is_wrong_name, rank
+from .outcome import Outcome
+
+PHYSICS, SENSOR, UNKNOWN, NULL = "missing_physics", "sensor_fault", "unknown_physics", "no_mismatch"
+CLEAR = 7.5  # score from which a case counts as z >= 8: sizes are found to 2 %
+Outcomes = Sequence[Outcome]
+
+
+@dataclass(frozen=True)
+class Gate:
+    """One line: what is asked in words, what was found, how many cases it rests on; None: no case yet."""
+
+    name: str
+    asked: str
+    found: str
+    cases: int
+    passed: bool | None
+
+
+def gates(outcomes: Outcomes) -> tuple[Gate, ...]:
+    """All gates, the missed ones first, those without a case last."""
+    nulls = [one for one in outcomes if one.truth == NULL]
+    graded = [one for one in outcomes if one.part == "graded"]
+    known = [one for one in outcomes if one.part in ("graded", "pair", "parameter", "sensor")]
+    clear = [one for one in known if one.score >= CLEAR and one.part != "pair"]
+    medium = [one for one in graded if 4.5 <= one.score < CLEAR]
+    small = [one for one in graded if one.score < 3.5]
+    unknown = [one for one in outcomes if one.truth == UNKNOWN and one.score >= CLEAR]
+    found = [one for one in clear if is_right(one)]
+    listed = (
+        _share("false alarm on nulls: something is claimed", nulls, is_named, at_most=0.03),
+        _wilson("false alarm on nulls, upper end of Wilson's interval", nulls, is_named, 0.065),
+        _share("top-1 at z >= 8", clear, lambda one: rank(one) == 1, at_least=0.95),
+        _share("truth among the first two at z >= 8", clear, lambda one: (rank(one) or 99) <= 2, at_least=0.99),
+        _share("top-1 at z = 5", medium, lambda one: rank(one) == 1, at_least=0.80),
+        _share("truth in the 95 % set at z = 5", medium, in_set, at_least=0.95),
+        _share("wrong, P >= 0.9 and unflagged, all cases", outcomes, is_grave, at_most=0.01),
+        _share("no claim, or a class, at z = 3", small, _abstains, at_least=0.60),
+        _share("wrong names at z = 3", small, is_wrong_name, at_most=0.02),
+        _share("channel at z >= 8, of those that see a mismatch", _seen(clear), _channel, at_least=0.99),
+        _share(
+            "gap at z >= 8, of right names that have one", [o for o in found if any(o.pairs)], _gap, at_least=0.90
+        ),
+        _median("held-out residual over noise, right names at z >= 8", found, _left, at_most=1.1),
+        _median("removed share of what noise does not explain", found, _removed, at_least=0.90),
+        _coverage(outcomes),
+        _number("Brier score of the likeliest, on the declared mix", outcomes, brier, 0.06),
+        _number("calibration error (ECE) on the declared mix", outcomes, calibration_error, 0.05),
+        _share(
+            "sensor called physics", _seen([o for o in known if o.truth == SENSOR]), _is(PHYSICS), at_most=0.03
+        ),
+        _share(
+            "physics called sensor", _seen([o for o in known if o.truth == PHYSICS]), _is(SENSOR), at_most=0.03
+        ),
+        _share("unknown physics recognised at z >= 8", unknown, is_right, at_least=0.85),
+        _share("unknown physics given a name at z >= 8", unknown, _sure_name, at_most=0.05),
+        _share(
+            "both of two effects, z = 10 each", [o for o in outcomes if o.part == "pair"], is_right, at_least=0.95
+        ),
+    )
+    order = {False: 0, True: 1, None: 2}
+    return tuple(sorted(listed, key=lambda one: order[one.passed]))
+
+
+def wilson(hits: int, cases: int, z: float = 1.96) -> tuple[float, float]:
+    """Wilson's (1927) interval of a share."""
+    if cases == 0:
+        return 0.0, 1.0
+    share, weight = hits / cases, z * z / cases
+    middle, half = share + weight / 2.0, z * np.sqrt(share * (1.0 - share) / cases + weight / (4.0 * cases))
+    return float((middle - half) / (1.0 + weight)), float((middle + half) / (1.0 + weight))
+
+
+def _share(
+    name: str, cases: Outcomes, test: Callable[[Outcome], bool], at_most: float = 1.0, at_least: float = 0.0
+) -> Gate:
+    hits, count = sum(map(bool, map(test, cases))), len(cases)
+    asked = f"<= {at_most:.0%}" if at_most < 1.0 else f">= {at_least:.0%}"
+    if not count:
+        return Gate(name, asked, "-", 0, None)
+    low, high = wilson(hits, count)
+    found = f"{hits / count:.1%} ({hits} of {count}; {low:.0%} to {high:.0%})"
+    return Gate(name, asked, found, count, at_least <= hits / count <= at_most)
+
+
+def _wilson(name: str, cases: Outcomes, test: Callable[[Outcome], bool], limit: float) -> Gate:
+    high = wilson(sum(map(test, cases)), len(cases))[1]
+    return Gate(name, f"<= {limit:.1%}", f"{high:.1%}", len(cases), high <= limit if cases else None)
+
+
+def _median(
+    name: str,
+    cases: Outcomes,
+    value: Callable[[Outcome], float],
+    at_most: float = np.inf,
+    at_least: float = -np.inf,
+) -> Gate:
+    values = [value(one) for one in cases if one.heldout]
+    values = [one for one in values if np.isfinite(one)]
+    asked = f"<= {at_most:g}" if np.isfinite(at_most) else f">= {at_least:g}"
+    if not values:
+        return Gate(name, asked, "-", 0, None)
+    middle = float(np.median(values))
+    found = f"{middle:.2f} median, {min(values):.2f} to {max(values):.2f}"
+    return Gate(name, asked, found, len(values), at_least <= middle <= at_most)
+
+
+def _number(name: str, cases: Outcomes, value: Callable[[Outcomes], float], limit: float) -> Gate:
+    if not cases:
+        return Gate(name, f"<= {limit:g}", "-", 0, None)
+    found = value(cases)
+    return Gate(name, f"<= {limit:g}", f"{found:.3f}", len(cases), found <= limit)
+
+
+def _coverage(outcomes: Outcomes) -> Gate:
+    inside = [held for one in outcomes for held in one.covered.values()]
+    name, asked = "90 % intervals of parameters that hold the truth", "86 % to 94 %"
+    if not inside:
+        return Gate(name, asked, "-", 0, None)
+    share = float(np.mean(inside))
+    return Gate(name, asked, f"{share:.1%} of {len(inside)}", len(inside), 0.86 <= share <= 0.94)
+
+
+def _seen(cases: Outcomes) -> list[Outcome]:
+    return [one for one in cases if one.verdict != NULL]
+
+
+def _is(verdict: str) -> Callable[[Outcome], bool]:
+    return lambda one: one.verdict == verdict and is_named(one)
+
+
+def _abstains(one: Outcome) -> bool:
+    return not is_named(one) or one.status == "class"
+
+
+def _sure_name(one: Outcome) -> bool:
+    return bool(one.claims) and one.status in ("named", "class")
+
+
+def _channel(one: Outcome) -> bool:
+    """The first located channel is one that carries a fifth of the shift at least."""
+    return bool(one.channels) and one.shares.get(one.channels[0], 0.0) >= 0.2
+
+
+def _gap(one: Outcome) -> bool:
+    return {claim.pair for claim in one.claims} == set(one.pairs)
+
+
+def _left(one: Outcome) -> float:
+    return float(np.sqrt(np.mean([(after / noise) ** 2 for _, after, noise in one.heldout.values()])))
+
+
+def _removed(one: Outcome) -> float:
+    """1 - (after^2 - noise^2)/(before^2 - noise^2) over all channels in their noise; nan where none was there."""
+    before, after = (sum((each[k] / each[2]) ** 2 - 1.0 for each in one.heldout.values()) for k in (0, 1))
+    return 1.0 - max(after, 0.0) / before if before > 0.2 else float("nan")

@@ -1,0 +1,95 @@
+"""An outcome judged: right or wrong, sure or not, which explanations stood where."""
+
+from __future__ import annotations
+
+from .outcome import Outcome
+
+SURE = 0.9  # probability from which a wrong name is held against it
+FLAGGED = ("suspicion", "incomplete", "failed")
+SET = 0.95
+
+
+def truth_of(outcome: Outcome) -> frozenset[str]:
+    """The ids of the truth as an explanation has them."""
+    return frozenset(outcome.effects) if outcome.truth != "unknown_physics" else frozenset({"unknown_physics"})
+
+
+def is_right(outcome: Outcome) -> bool:
+    """Whether the verdict is the truth, by its effects or the classes they are in; no gap told is not wrong."""
+    if not outcome.effects:
+        return outcome.verdict == outcome.truth and outcome.status != "suspicion"
+    if outcome.status == "suspicion" or len(outcome.claims) != len(outcome.effects):
+        return False
+    left = list(outcome.claims)
+    for effect, pair in zip(outcome.effects, outcome.pairs, strict=True):
+        fits = [
+            one
+            for one in left
+            if (one.effect == effect and one.pair in (None, pair))
+            or (one.effect != effect and effect in one.equivalent)
+        ]
+        if not fits:
+            return False
+        left.remove(fits[0])
+    return True
+
+
+def is_named(outcome: Outcome) -> bool:
+    """Whether anything is claimed: an effect, or that it is something unknown."""
+    unknown = outcome.verdict == "unknown_physics" and outcome.status == "named"
+    return bool(outcome.claims) or unknown
+
+
+def is_wrong_name(outcome: Outcome) -> bool:
+    """Whether something is claimed that is not the truth; part of the truth alone is not wrong."""
+    if not outcome.claims:
+        return is_named(outcome) and outcome.truth != "unknown_physics"
+    known = set(outcome.effects)
+    wrong_gap = [
+        one
+        for one in outcome.claims
+        for effect, pair in zip(outcome.effects, outcome.pairs, strict=True)
+        if one.effect == effect and one.pair not in (None, pair) and len(outcome.effects) == 1
+    ]
+    return bool(wrong_gap) or any(not known & {one.effect, *one.equivalent} for one in outcome.claims)
+
+
+def is_grave(outcome: Outcome) -> bool:
+    """Wrong, sure and unflagged: the error that must not happen."""
+    if not is_wrong_name(outcome) or outcome.status in FLAGGED:
+        return False
+    return min((one.probability for one in outcome.claims), default=1.0) >= SURE
+
+
+def groups(outcome: Outcome) -> list[tuple[frozenset[str], float]]:
+    """Explanations by their ids, the places of one id together, the likeliest first."""
+    found: dict[frozenset[str], float] = {}
+    for one in outcome.ranked:
+        found[frozenset(one.effects)] = found.get(frozenset(one.effects), 0.0) + one.probability
+    return sorted(found.items(), key=lambda each: -each[1])
+
+
+def rank(outcome: Outcome) -> int | None:
+    """The place of the truth among the explanations, from 1; 1 too where it is in the class that is claimed."""
+    if is_right(outcome):
+        return 1
+    listed = [ids for ids, _ in groups(outcome)]
+    return listed.index(truth_of(outcome)) + 1 if truth_of(outcome) in listed else None
+
+
+def in_set(outcome: Outcome) -> bool:
+    """Whether the truth is among the likeliest explanations that hold 95 % together."""
+    held = 0.0
+    for ids, probability in groups(outcome):
+        if ids == truth_of(outcome):
+            return True
+        held += probability
+        if held >= SET:
+            return False
+    return False
+
+
+def confidence(outcome: Outcome) -> tuple[float, bool]:
+    """Probability of the likeliest explanation, and whether it is the truth."""
+    listed = groups(outcome)
+    return (listed[0][1], listed[0][0] == truth_of(outcome)) if listed else (1.0, False)
