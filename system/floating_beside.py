@@ -66,8 +66,11 @@ class PistonBeside:
         while True:
             try:
                 told = self._connection.recv()
-            except EOFError:
-                raise NotConverged("the piston's process has died; try one process alone") from None
+            except (EOFError, ConnectionResetError):
+                raise NotConverged(
+                    "the piston's process has died; try one process alone, or in a script of your own stand what "
+                    "it runs under `if __name__ == '__main__':`"
+                ) from None
             if isinstance(told, _Progress):
                 report(told.done, told.total, told.what)
             elif isinstance(told, Exception):
