@@ -36,7 +36,7 @@ def write_table_page(folder: Path) -> Path:
         held=list(held_rows(summary)),
         numbers=list(number_rows(summary)),
         errors=list(error_rows(summary)),
-        meanings=[(named(row["name"])[0], row["meaning"]) for kind in KINDS for row in summary.get(kind, [])],
+        meanings=[(_words(row), row["meaning"]) for kind in KINDS for row in summary.get(kind, [])],
         failed=[(place_text(summary["axes"], one["at"]), one["reason"]) for one in summary["failed"]],
         pictures={text: base64.b64encode(png).decode("ascii") for text, png in pictures.items()},
         resolved=(folder / "resolved.toml").read_text("utf-8"),
@@ -73,7 +73,11 @@ def number_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:
 def _rows_of(summary: Mapping[str, Any], kind: str) -> Iterator[tuple[str, ...]]:
     for row in summary.get(kind, []):
         errors = (_error_text(row["measure"], row[key]) for key in ("held_out_rms", "held_out_largest"))
-        yield named(row["name"])[0], *errors, place_text(summary["axes"], row["held_out_worst_at"])
+        yield _words(row), *errors, place_text(summary["axes"], row["held_out_worst_at"])
+
+
+def _words(row: Mapping[str, Any]) -> str:
+    return named(row["name"])[0].replace("_", " ")
 
 
 def _error_text(measure: str, error: float) -> str:

@@ -22,6 +22,9 @@ from reynolds.floating_stage import Stage
 from reynolds.mesh import Array
 from reynolds.solve import FilmSolver
 from reynolds.space import FilmSpace
+from system.checks import run_checks
+from system.description import PumpDescription
+from system.floating_checks import block_tips
 from system.floating_heat import block_heat, piston_heat, slipper_heat
 from system.floating_parts import FloatingParts
 from system.gap_cycle import Report, silent
@@ -151,7 +154,7 @@ def block_revolution(
 
     From a film of BLOCK_START without tilt or on from a revolution `before`; between elastic walls from where it
     is between rigid ones. Raises ValueError where the steps do not divide among the pitches, else as
-    `run_revolution`.
+    `run_revolution`; where its lands cannot hold it, that is told as the reason.
     """
     pistons, pump = rotor.pump.pump.pistons, rotor.pump
     if options.steps % pistons:
@@ -166,7 +169,19 @@ def block_revolution(
     schedule = evenly(drive.shaft_speed, steps, span, options.keep)
     start, told = np.array([BLOCK_START, 0.0, 0.0]), _of_turn(report, steps, "block")
     heat = block_heat(rotor, parts) if options.physics.heat else None
-    return _run(film.space, floating_block(film), schedule, start, block_seen(film), options, heat, before, told)
+    try:
+        return _run(
+            film.space, floating_block(film), schedule, start, block_seen(film), options, heat, before, told
+        )
+    except FilmNotConverged as stopped:
+        raise _off_its_plate(pump, stopped) from stopped
+
+
+def _off_its_plate(pump: PumpDescription, stopped: FilmNotConverged) -> FilmNotConverged:
+    """Why a block's turn has ended, with what is doubtful about its lands, if anything is."""
+    doubts = run_checks((block_tips,), pump).warnings
+    what = "; ".join([stopped.what, *(f"{doubt.path}: {doubt.value}" for doubt in doubts)])
+    return FilmNotConverged(what, "; ".join([*(doubt.remedy for doubt in doubts), stopped.remedy]))
 
 
 def _between_rigid(

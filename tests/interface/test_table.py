@@ -17,6 +17,7 @@ from system.operating import operating_point
 from system.power import Gaps
 from system.pump_file import load_pump
 from system.table_means import GAP_PAIRS, MEANINGS, SolvedPoint, given_films
+from system.table_numbers import NUMBERS
 from system.table_sources import Source
 
 PUMP = load_pump("ref90")
@@ -60,6 +61,7 @@ def test_a_table_is_built_told_and_run(stand_in, tmp_path, capsys):
     out = capsys.readouterr()
     assert "condensed from" in out.out
     assert "32 learnt, 6 held out" in out.out
+    assert "What runs by the table miss at held-out points" in out.out
     assert "warning: large_error: slipper.film_least" in out.out
     assert "38/38" in out.err
     assert {path.name for path in folder.iterdir()} == {
@@ -70,6 +72,9 @@ def test_a_table_is_built_told_and_run(stand_in, tmp_path, capsys):
     assert record["stated"]["physics"] == "the lumped law"
     assert record["table_format"] >= 1
     assert [row["name"] for row in record["outputs"]] == list(MEANINGS)
+    assert [row["name"] for row in record["numbers"]] == list(NUMBERS)
+    assert max(row["held_out_largest"] for row in record["numbers"]) < 0.03
+    assert "What runs by the table miss" in (folder / "report.html").read_text("utf-8")
     head, *rows = (folder / "points.csv").read_text().splitlines()
     assert head.startswith(
         "set,shaft_speed [rad/s],delivery_pressure [Pa],displacement_ratio [1],viscosity [Pa s]"
@@ -82,6 +87,7 @@ def test_a_table_is_built_told_and_run(stand_in, tmp_path, capsys):
     found = json.loads((run / "summary.json").read_text())
     assert found["fidelity"] == "table"
     assert found["table"]["points"] == {"learnt": 32, "held_out": 6}
+    assert set(found["table"]["numbers_largest_error"]) == set(NUMBERS)
     assert set(found["table"]["film_thickness_min_m"]) == set(GAP_PAIRS)
     assert "by a response table" in (run / "report.html").read_text()
 

@@ -14,6 +14,7 @@ from dataclasses import asdict, dataclass
 import numpy as np
 import pytest
 
+from gaps.response import Measure
 from reynolds.errors import FilmInputError, FilmNotConverged
 from system.assembly import PumpPoint
 from system.errors import NotConverged
@@ -26,6 +27,7 @@ from system.pump_file import load_pump
 from system.side_by_side import side_by_side
 from system.table_build import TableCase, build_table, point_at, table_axes
 from system.table_means import GAP_PAIRS, MEANINGS, SolvedPoint, mean_ratios
+from system.table_numbers import numbers_error, pump_numbers
 from system.table_point import TablePoint, table_point
 from system.table_points import points_of
 from system.table_sources import FilmsSolver, Source
@@ -127,6 +129,28 @@ def test_an_unseen_point_is_within_the_stated_error(table):
             )
             for (got, true), name in ((flow, "leakage"), (friction, "friction")):
                 assert abs(got / true - 1.0) <= largest[f"{gap}.{name}"] + 1e-3, (gap, name)
+
+
+def test_a_table_states_what_its_runs_miss(table):
+    """The pump's numbers by the table at every held-out point, against the direct runs: nothing is left out."""
+    direct, told = [], []
+    for x in table.response.held_out.points:
+        point = point_at(case(), x)
+        direct.append(pump_numbers(Thinning().solve(PUMP, point).pump_point))
+        told.append(pump_numbers(table_point(PUMP, point, table).pump_point))
+    off = np.abs(np.array(told) / np.array(direct) - 1.0).max(axis=0)
+    assert list(table.numbers.largest().values()) == pytest.approx(list(off), rel=1e-6)
+    assert set(table.numbers.measures) == {Measure.RELATIVE}
+    assert table.numbers.largest()["slipper.leakage_flow"] < 0.01
+
+
+def test_numbers_that_pass_through_nothing_err_by_their_largest():
+    """A leakage of -1 told as 1 is off by half of 4."""
+    solved, told = np.array([[-1.0, 2.0], [4.0, 2.0]]), np.array([[1.0, 2.2], [4.0, 2.0]])
+    found = numbers_error(told, solved)
+    assert found.measures == (Measure.OF_LARGEST, Measure.RELATIVE)
+    assert found.error.largest == pytest.approx([0.5, 0.1])
+    assert list(found.error.worst) == [0, 0]
 
 
 def test_the_stand_in_is_learnt(table):
