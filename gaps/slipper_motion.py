@@ -33,6 +33,7 @@ from reynolds.space import FilmSpace, film_space
 from reynolds.walls import Walls
 
 RIM_PLACES = 48  # around a slipper, at which its retainer presses
+ROUND_OFF = 1e-13  # of a retainer's force
 
 
 @dataclass(frozen=True)
@@ -65,7 +66,7 @@ class SlipperShape:
 class Retainer:
     """A plate over the slippers: reached where the film at the rim exceeds `clearance` (m).
 
-    stiffness N/m, of the whole rim together, up to a force of `limit` (N); beyond it the plate gives way as a
+    stiffness N/m, of the whole rim together. From a force of `limit` (N) on the plate itself gives way, as a
     spring of `rate` (N/m).
     """
 
@@ -161,18 +162,36 @@ def supply(shape: Orifice, viscosity: float, density: float) -> Callable[[float]
 def retainer_force(retainer: Retainer, position: Array) -> Outer:
     """What a retainer around the rim does: springs k/N at N places there, where the film exceeds the clearance.
 
-    P = -k mean <rise - clearance> (1, cos, sin) over the rim, rise = q0 + q1 cos + q2 sin: pushed and never
-    pulled, with a potential, so that it spends no work over a turn. A place that has reached its part of the
-    limit goes on by the rate.
+    P = -k mean <rise - clearance - u> (1, cos, sin) over the rim, rise = q0 + q1 cos + q2 sin, of a plate that has
+    given way by u: pushed and never pulled, with a potential, so that it spends no work over a turn.
     """
     angle = 2.0 * np.pi * np.arange(RIM_PLACES) / RIM_PLACES
     places = np.column_stack([np.ones(RIM_PLACES), np.cos(angle), np.sin(angle)])
-    over = np.maximum(places @ position - retainer.clearance, 0.0)
-    firm = np.minimum(over, retainer.limit / retainer.stiffness)
-    pressed = retainer.stiffness * firm + retainer.rate * (over - firm)
-    stiffness = np.where(over > firm, retainer.rate, np.where(over > 0.0, retainer.stiffness, 0.0))
-    slopes = places.T @ (stiffness[:, None] * places)
-    return Outer(-pressed @ places / RIM_PLACES, -slopes / RIM_PLACES, np.zeros((3, 3)))
+    over = places @ position - retainer.clearance
+    lifted = _given_way(retainer, over)
+    pressed = np.maximum(over - lifted, 0.0)
+    reached = places[pressed > 0.0]
+    stiffness = retainer.stiffness / RIM_PLACES
+    slopes = stiffness * reached.T @ reached
+    if lifted > 0.0 and len(reached):
+        along = stiffness * reached.sum(axis=0)
+        slopes -= np.outer(along, along) / (stiffness * len(reached) + retainer.rate)
+    return Outer(-stiffness * pressed @ places, -slopes, np.zeros((3, 3)))
+
+
+def _given_way(retainer: Retainer, over: Array) -> float:
+    """Rise u (m) of the plate at which k mean <over - u> is limit + rate u; 0 where it is less than the limit.
+
+    By Newton's method, which passes from kink to kink of a convex broken line and ends on it.
+    """
+    lifted, smallest = 0.0, ROUND_OFF * retainer.stiffness * float(np.abs(over).max())
+    for _ in range(RIM_PLACES):
+        pressed = np.maximum(over - lifted, 0.0)
+        rest = retainer.stiffness * float(pressed.mean()) - retainer.limit - retainer.rate * lifted
+        if rest <= smallest:
+            break
+        lifted += rest / (retainer.stiffness * float(np.mean(pressed > 0.0)) + retainer.rate)
+    return lifted
 
 
 @dataclass(frozen=True)
