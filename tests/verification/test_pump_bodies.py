@@ -323,7 +323,7 @@ def test_bore_under_one_pressure_opens_alike_wherever_the_piston_stands(refine):
 
 @pytest.mark.parametrize("row", [2, 5])
 def test_work_of_film_and_chamber_is_that_of_the_face(row):
-    """int p w dA over the film + p V of the chamber's growth: what all of the bore's face takes at that pressure."""
+    """int p w dA over the film + p V of chamber growth: what the bore's whole face takes at that pressure."""
     walls = grids()
     alone = PistonWalls(
         GUIDE,
