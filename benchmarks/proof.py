@@ -43,7 +43,7 @@ def main() -> int:
 
 def _options() -> argparse.Namespace:
     reader = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parts = ("null", "graded", "pair", "parameter", "sensor", "unknown")
+    parts = ("null", "graded", "pair", "parameter", "sensor", "unknown", "trace")
     reader.add_argument("--part", choices=parts, help="only one part")
     reader.add_argument("--cases", type=int, metavar="N", help="only the first N cases of each part")
     reader.add_argument("--results", type=Path, default=ROOT / "build" / "proof", metavar="DIR")
@@ -71,12 +71,13 @@ def _run(listed: list, folder: Path) -> None:
 
 def _write(case, folder: Path) -> int:
     """The recording of one case as a folder that any diagnosis can read."""
+    from proof.campaigns import campaigns
     from proof.recordings import make
     from proof.writing import write_recording
 
     folder.mkdir(parents=True, exist_ok=True)
     made = make(case)
-    write_recording(folder, case.name, made.readings)
+    write_recording(folder, case.name, made.readings, campaigns()[case.campaign].circuit)
     print(f"{case.name}: score {made.score:.1f}, sizes {made.sizes}, in {folder}")
     return 0
 

@@ -26,6 +26,7 @@ class Campaign:
     outputs: tuple[str, ...] = ALL
     inputs: tuple[str, ...] = INPUTS
     traces: tuple[int, ...] = ()
+    circuit: str = "closed"
 
 
 @cache
@@ -36,6 +37,7 @@ def campaigns() -> dict[str, Campaign]:
         Campaign("ovens", _ovens()),
         Campaign("scattered", _scattered(90, 7)),
         Campaign("short", _charged(_scattered(60, 8)), inputs=tuple(one for one in INPUTS if one != "p_in")),
+        Campaign("open circuit", _drawing(_scattered(100, 10)), circuit="open"),
         Campaign("no inlet meter", _scattered(140, 9), outputs=("Q_out", "Q_case", "torque")),
     )
     return {one.name: one for one in found}
@@ -44,7 +46,13 @@ def campaigns() -> dict[str, Campaign]:
 def held(campaign: Campaign, rng: np.random.Generator) -> Settings:
     """The points as they were in truth: near the set points, as near as a bench holds them."""
     points, count = campaign.points, campaign.points.speed.size
-    spread = {"speed": 1.0 * RPM, "p_out": 0.7 * BAR, "p_in": 0.1 * BAR, "p_case": 0.015 * BAR, "T_in": 0.7}
+    spread = {
+        "speed": 1.0 * RPM,
+        "p_out": 0.7 * BAR,
+        "p_in": 0.004 * points.p_in,
+        "p_case": 0.015 * BAR,
+        "T_in": 0.7,
+    }
     moved = {name: getattr(points, name) + sigma * rng.normal(size=count) for name, sigma in spread.items()}
     warmer = points.T_case - points.T_in
     return replace(points, **moved, T_case=moved["T_in"] + warmer + 0.4 * rng.normal(size=count))
@@ -78,6 +86,15 @@ def _scattered(count: int, seed: int) -> Settings:
 def _charged(points: Settings) -> Settings:
     """The same at one charge pressure."""
     return replace(points, p_in=np.full(points.speed.size, 25.0 * BAR))
+
+
+def _drawing(points: Settings) -> Settings:
+    """The same out of a tank: inlet 0.8 to 1.5 bar absolute, case near the tank, up to 2300 rpm."""
+    share = (points.p_in / BAR - 15.0) / 15.0
+    speed = np.minimum(points.speed, 2300.0 * RPM)
+    return replace(
+        points, speed=speed, p_in=(0.8 + 0.7 * share) * BAR, p_case=(1.0 + 0.1 * points.p_case / BAR) * BAR
+    )
 
 
 def _settings(rows: Iterator[tuple[float, float, float, float]]) -> Settings:

@@ -26,11 +26,13 @@ class Part(Enum):
     PARAMETER = "parameter"
     SENSOR = "sensor"
     UNKNOWN = "unknown"
+    TRACE = "trace"
 
 
 VERDICTS = {
     Part.NULL: "no_mismatch", Part.GRADED: "missing_physics", Part.PAIR: "missing_physics",
     Part.PARAMETER: "wrong_parameter", Part.SENSOR: "sensor_fault", Part.UNKNOWN: "unknown_physics",
+    Part.TRACE: "missing_physics",
 }  # fmt: skip
 
 
@@ -94,6 +96,7 @@ PHYSICS = (
     _physics("charge_pump", "charge_pump_drag", 2e-6),
     _physics("air", "entrained_air", 2e-3, most=0.05),
     _physics("resonance", "line_resonance", 1e-3),
+    _physics("suction", "incomplete_filling", 2e4, most=1.2e5),
 )
 UNLISTED = tuple(
     _physics(label, "", size, most=most)
@@ -127,7 +130,8 @@ SENSORS = tuple(
 )  # fmt: skip
 NEEDS = {
     "thermal_slipper": ("ovens", "scattered"), "charge_pump": ("scattered",), "air": ("scattered",),
-    "resonance": ("scattered",), "whirl": ("scattered",), "cold_seal": ("ovens", "scattered"),
+    "resonance": ("scattered",), "suction": ("open circuit",), "whirl": ("scattered",),
+    "cold_seal": ("ovens", "scattered"),
     "mixed_friction": ("ovens", "scattered", "map"),
 }  # fmt: skip
 """Campaigns that can show what the others cannot."""
@@ -140,7 +144,7 @@ def cases(part: Part, seed: int) -> tuple[Case, ...]:
 
 
 def _nulls(seed: int) -> Iterator[Case]:
-    names = ("map", "scattered", "ovens", "short", "map", "no inlet meter")
+    names = ("map", "scattered", "ovens", "short", "open circuit", "no inlet meter")
     for k in range(NULLS):
         yield Case(Part.NULL, names[k % len(names)], seed * 1000 + k)
 
@@ -175,6 +179,13 @@ def _unknowns(seed: int) -> Iterator[Case]:
         yield _case(Part.UNKNOWN, one, grade, k, seed * 1000 + 300 + k)
 
 
+def _traces(seed: int) -> Iterator[Case]:
+    """What shows in chamber traces only, at sizes of its own: a groove that wears away before its beginning."""
+    for k, size in enumerate((0.04, 0.08, 0.12, 0.16)):
+        worn = Concealed(f"notch_erosion {size:g} rad", "notch_erosion", hidden=Hidden(erosion=size))
+        yield Case(Part.TRACE, "map", seed * 1000 + 400 + k, (worn,))
+
+
 def _case(part: Part, one: Concealed, score: float, at: int, seed: int) -> Case:
     able = NEEDS.get(one.label, USUAL)
     return Case(part, able[at % len(able)], seed, (one,), score)
@@ -182,5 +193,5 @@ def _case(part: Part, one: Concealed, score: float, at: int, seed: int) -> Case:
 
 _MAKERS = {
     Part.NULL: _nulls, Part.GRADED: _graded, Part.PAIR: _pairs, Part.PARAMETER: _parameters,
-    Part.SENSOR: _sensors, Part.UNKNOWN: _unknowns,
+    Part.SENSOR: _sensors, Part.UNKNOWN: _unknowns, Part.TRACE: _traces,
 }  # fmt: skip

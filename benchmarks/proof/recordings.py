@@ -46,12 +46,14 @@ def make(case: Case) -> Made:
 
 
 def sized(case: Case) -> tuple[list[float], list[float]]:
-    """Factors by which each concealed thing has the score asked for, and the scores reached."""
+    """Factors by which each concealed thing has the score asked for (0: its own size), and scores reached."""
 
     def score(one: Concealed, factor: float) -> float:
         hidden, faults = _together((one,), [factor])
         return z_of(case.campaign, shift(case.campaign, hidden, faults, _worn(typical(), (one,), [factor])))
 
+    if case.score == 0.0:
+        return [1.0 for _ in case.concealed], [score(one, 1.0) for one in case.concealed]
     found = [
         size_for(case.score, lambda f, one=one: score(one, f), _start(one), one.most) for one in case.concealed
     ]

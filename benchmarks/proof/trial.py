@@ -25,6 +25,7 @@ from system.faults import InputFaults
 from system.physics.effects import Kind
 from system.tolerances import tolerances
 
+from .campaigns import campaigns
 from .cases import VERDICTS, Case, Part
 from .outcome import Claimed, Outcome, Ranked, Rival
 from .plant.machine import Machine, ref90
@@ -71,7 +72,7 @@ def diagnose_recording(case: Case, made: Made) -> Diagnosed:
     known, thresholds = load_known_pump("ref90"), load_thresholds()
     pump = known.pump
     with tempfile.TemporaryDirectory() as folder:
-        write_recording(Path(folder), case.name, made.readings)
+        write_recording(Path(folder), case.name, made.readings, campaigns()[case.campaign].circuit)
         recording = checked_recording(Path(folder), known)
     study = prepare(pump, recording, tolerances(pump)[0], thresholds)
     points, _ = bench_points(study.recording, pump)

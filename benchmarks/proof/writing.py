@@ -11,7 +11,7 @@ from .sensors import METERS, TRACE_NOISE, Meter, Readings
 HEAD = """format = 1
 title = "{title}"
 pump = "ref90"
-circuit = "closed"
+circuit = "{circuit}"
 pressure_reference = "absolute"
 oil = "ISO VG 46"
 order = "points stand in the order in which they were recorded"
@@ -31,9 +31,11 @@ p_chamber = {{ column = "p_chamber_bar", unit = "bar", sigma = {sigma} }}
 DOCUMENTED = {"ratio": "displacement_ratio"}  # names of the recording's form that differ from the plant's
 
 
-def write_recording(folder: Path, title: str, readings: Readings) -> None:
+def write_recording(folder: Path, title: str, readings: Readings, circuit: str) -> None:
     """Write the recording into a folder, which must exist."""
-    text = HEAD.format(title=title) + "".join(_channel(name, METERS[name]) for name in readings.columns)
+    text = HEAD.format(title=title, circuit=circuit) + "".join(
+        _channel(name, METERS[name]) for name in readings.columns
+    )
     if readings.traces:
         text += TRACES.format(sigma=TRACE_NOISE / 1e5)
     (folder / "recording.toml").write_text(text, encoding="utf-8")

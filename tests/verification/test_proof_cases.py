@@ -92,7 +92,7 @@ def test_a_recording_is_read_as_it_was_written(proof: SimpleNamespace, small: st
     assert all(
         np.array_equal(made.readings.columns[name], again.readings.columns[name]) for name in made.readings.columns
     )
-    proof.writing.write_recording(tmp_path, "few", made.readings)
+    proof.writing.write_recording(tmp_path, "few", made.readings, "closed")
     found = read_recording(tmp_path)
     assert found.steady.column(ChannelName.TORQUE) == pytest.approx(made.readings.columns["torque"])
     flow = found.channel(ChannelName.Q_OUT)

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from .byways import byways, meter
-from .chamber_kernels import DELIVERY, GAMMA, PISTON, PLATE, SUCTION, density, turns
+from .chamber_kernels import DELIVERY, GAMMA, PISTON, PLATE, SUCTION, VAPOUR, density, turns
 from .gaps import Films, films, sealing_length
 from .hidden import NOTHING, Hidden
 from .losses import Losses, losses
@@ -70,13 +70,19 @@ def _chambers(
     """Chamber pressure (N, M), mean of the pistons, and what leaves a chamber in a turn (N, 5): kg by way, J."""
     kinds, points = len(machine.clearance), len(moves)
     courses = np.stack([_courses(machine, move, gaps.film[0][k]) for k, move in enumerate(moves)])
-    states = np.stack([at.p_case, at.p_in, at.p_out, gaps.viscosity[1], gaps.top], axis=1)
+    states = np.stack([at.p_case, _at_port(machine, hidden, at), at.p_out, gaps.viscosity[1], gaps.top], axis=1)
     reach = (machine.port_angles[0] - hidden.erosion, *machine.port_angles[1:])
     wider = machine.groove * (1.0 + 4.0 * hidden.erosion)
     ports = np.array([*reach, wider, machine.kidney, machine.flow_coefficient, machine.critical_reynolds])
     pressure, out = np.zeros((points, kinds, angle.size - 1)), np.zeros((points, kinds, 5))
     turns(angle, courses, at.speed, states, ports, gaps.flow, _oil(machine, hidden), pressure, out)
     return pressure.mean(axis=1), out.mean(axis=1)
+
+
+def _at_port(machine: Machine, hidden: Hidden, at: Settings) -> Array:
+    """What the inlet line leaves of the pressure at the suction port, Pa: never less than the oil's own vapour."""
+    share = at.speed / RATED_SPEED * at.ratio
+    return np.maximum(at.p_in - hidden.suction * share**2, 1.1 * VAPOUR)
 
 
 def _oil(machine: Machine, hidden: Hidden) -> tuple[float, float, float, float, float]:

@@ -13,7 +13,8 @@ class Hidden:
     that stiffen; film_heating: share of a film's loss that leaves with its oil; shear_thinning: share of viscosity
     lost at high rates; mixed_friction: coefficient of dry contact; thermal_*: 1/K; squeeze: m of stroke of the
     slippers; churning: factor; seal: N m; charge_pump: m3 a turn; short_circuit, control_flow: m2; cross_leak: m3;
-    droop: 1/Pa of the stroke; throttling: factor; erosion: rad; air: share at 1 atm; resonance: share of Q_out.
+    droop: 1/Pa of the stroke; throttling: factor; suction: Pa lost in the inlet line at 188.7 L/min; erosion: rad;
+    air: share at 1 atm; resonance: share of Q_out.
     In no catalogue: stiffening: rise of the modulus with pressure; root_drag, foam, whirl, cold_seal: N m at the
     reference point; seepage: m3/s/Pa above 28 MPa; windage: m3/s into the case; spin_leak: factor at full speed.
     """
@@ -37,6 +38,7 @@ class Hidden:
     control_flow: float = 0.0
     droop: float = 0.0
     throttling: float = 0.0
+    suction: float = 0.0
     erosion: float = 0.0
     air: float = 0.0
     resonance: float = 0.0
