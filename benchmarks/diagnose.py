@@ -1,34 +1,50 @@
-"""What a diagnosis costs: process time and refits of the recordings of a folder, one after the other.
+"""What a diagnosis costs: time and fits of recordings of REF90, one after the other.
 
-python benchmarks/diagnose.py ../shared/recordings/bench/open-01 ../shared/recordings/bench/open-02
+python benchmarks/diagnose.py [--workers N] ../shared/recordings/bench/open-01 ../shared/recordings/bench/open-02
 """
 
 from __future__ import annotations
 
+import argparse
+import os
 import sys
 import tempfile
 from pathlib import Path
-from time import process_time
+from time import perf_counter
 
 from diagnosis.scant_pump import load_known_pump
 from swashfilm.diagnose_run import checked_recording, run_diagnosis
 
 
 def main() -> None:
-    """Print a row for each recording named on the command line."""
+    """Print a row for each recording named on the command line; process time counts the other processes too."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("recordings", nargs="+", type=Path)
+    parser.add_argument("--workers", type=int, default=1)
+    options = parser.parse_args()
     known = load_known_pump("ref90")
-    sys.stdout.write("recording, points, verdict, status, process time / s, of it fits / s, predictions, slopes\n")
-    for name in sys.argv[1:]:
-        recording = checked_recording(Path(name), known)
+    sys.stdout.write(f"load {os.getloadavg()[0]:.1f}, {options.workers} workers\n")
+    sys.stdout.write(
+        "recording, points, verdict, status, wall / s, process / s, of it fits / s, predictions, slopes\n"
+    )
+    for path in options.recordings:
+        recording = checked_recording(path, known)
         with tempfile.TemporaryDirectory() as folder:
-            begun = process_time()
-            found = run_diagnosis(known, recording, Path(folder), lambda *_: None)
-            spent = process_time() - begun
+            begun, used = perf_counter(), _used()
+            found = run_diagnosis(known, recording, Path(folder), lambda *_: None, options.workers)
+            wall, spent = perf_counter() - begun, _used() - used
         row = (
-            Path(name).name, len(recording.steady.values), found.kind.value, found.status.value, f"{spent:.1f}",
-            f"{found.effort.seconds:.1f}", found.effort.predictions, found.effort.slopes,
+            path.name, len(recording.steady.values), found.kind.value, found.status.value, f"{wall:.1f}",
+            f"{spent:.1f}", f"{found.effort.seconds:.1f}", found.effort.predictions, found.effort.slopes,
         )  # fmt: skip
         sys.stdout.write(", ".join(str(cell) for cell in row) + "\n")
+        sys.stdout.flush()
+
+
+def _used() -> float:
+    """Process time of this process and of those that have ended, in s."""
+    times = os.times()
+    return times.user + times.system + times.children_user + times.children_system
 
 
 if __name__ == "__main__":

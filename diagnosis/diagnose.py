@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -14,10 +14,10 @@ from diagnosis.judge import Verdict, judge
 from diagnosis.locate import Location, locate
 from diagnosis.map_axes import AXES
 from diagnosis.pairs import combine
-from diagnosis.refit import try_refit
+from diagnosis.refit import refit_all, try_refit
 from diagnosis.repair import repair
 from diagnosis.screen import screen, unknown_gain
-from diagnosis.shortlist import is_settled, shortlist
+from diagnosis.shortlist import is_settled, shortlist, wrong_parameters
 from diagnosis.study import Study
 from diagnosis.thresholds import Thresholds
 from diagnosis.unknown import Scaling, scaling
@@ -28,54 +28,72 @@ from system.estimation.observations import Array
 from system.estimation.posterior import Effort, Posterior
 from system.gap_cycle import Report, silent
 from system.physics.effects import Kind
+from system.side_by_side import Crew, crew
 
 FORETOLD = 6  # explanations, the likeliest, whose held-out points are looked at
+HOPELESS = 100.0  # nats behind the best where a wrong parameter is no longer looked into
 ALIKE = 0.9  # correlation beyond which two parameters are told as not identifiable
 
 
-def diagnose_study(study: Study, viscosity: Array, thresholds: Thresholds, report: Report = silent) -> Diagnosis:
+def diagnose_study(
+    study: Study, viscosity: Array, thresholds: Thresholds, report: Report = silent, workers: int = 1
+) -> Diagnosis:
     """The whole finding on a study but for the next point; `viscosity` (N,) Pa s, of the oil at the case.
 
-    What could not be refitted is told in the notes, and stands as the linear model has it.
+    Fits run in `workers` processes side by side. What could not be refitted is told in the notes, and stands as
+    the linear model has it.
     """
     detection, location = detect(study, thresholds), locate(study, thresholds)
     screened = screen(study, hypotheses(study, thresholds), thresholds)
     report(0, 1, "fitting the model as it is")
     null, not_null = _null(study, screened[0], thresholds)
+    with crew(workers) as hands:
+        fits = _fits(study, detection, screened, null, thresholds, hands, report)
+    ranked = _foretold(study, null, with_probabilities(fits.weighed, thresholds.name.temperature), thresholds)
+    verdict = judge(study, detection, ranked, thresholds)
+    notes = (*(note.text for note in study.recording.notes), *verdict.reasons, *not_null, *fits.failed)
+    return _finding(study, detection, location, ranked, verdict, viscosity, notes, thresholds)
+
+
+@dataclass(frozen=True)
+class _Fits:
+    """All explanations weighed on one scale, and what could not be refitted, in words."""
+
+    weighed: tuple[Weighed, ...]
+    failed: tuple[str, ...]
+
+
+def _fits(
+    study: Study,
+    detection: Detection,
+    screened: Sequence[Weighed],
+    null: Weighed,
+    thresholds: Thresholds,
+    hands: Crew,
+    report: Report,
+) -> _Fits:
+    """The likeliest refitted; where there is a mismatch wrong parameters too, and several effects together."""
     settled = is_settled(detection, null, thresholds)
     listed = shortlist(study, screened, settled, thresholds)
-    refitted, failed = _refit_all(study, listed, thresholds, report)
+    refitted, failed = refit_all(study, listed, thresholds, hands, report)
     combined: tuple[Weighed, ...] = ()
     if not settled:
-        report(len(listed), len(listed) + 1, "two and three effects together")
-        combined, not_combined = combine(study, null, _placed(study, screened, null, refitted), thresholds)
-        failed = (*failed, *not_combined)
-    weighed = _unknown_anew(study, _placed(study, screened, null, refitted), null, thresholds)
-    ranked = with_probabilities((*weighed, *combined), thresholds.name.temperature)
-    ranked = _foretold(study, null, ranked, thresholds)
-    verdict = judge(study, detection, ranked, thresholds)
-    notes = (*(note.text for note in study.recording.notes), *verdict.reasons, *not_null, *failed)
-    return _finding(study, detection, location, ranked, verdict, viscosity, notes, thresholds)
+        wrong = wrong_parameters(study, screened, listed, thresholds)
+        known = [each.posterior.objective for each in (null, *refitted) if each.posterior is not None]
+        more, not_wrong = refit_all(study, wrong, thresholds, hands, report, min(known) + 2.0 * HOPELESS)
+        refitted = (*refitted, *more)
+        combined, not_combined = combine(
+            study, _placed(study, screened, null, refitted), thresholds, hands, report
+        )
+        failed = (*failed, *not_wrong, *not_combined)
+    single = _unknown_anew(study, _placed(study, screened, null, refitted), null, thresholds)
+    return _Fits((*single, *combined), failed)
 
 
 def _null(study: Study, linear: Weighed, thresholds: Thresholds) -> tuple[Weighed, tuple[str, ...]]:
     """The null refitted; where that fails, in the linear model about the prior mean, with what failed in words."""
     null, reason = try_refit(study, linear, thresholds)
     return (null, ()) if reason is None else (replace(null, posterior=study.base), (reason,))
-
-
-def _refit_all(
-    study: Study, listed: Sequence[Weighed], thresholds: Thresholds, report: Report
-) -> tuple[tuple[Weighed, ...], tuple[str, ...]]:
-    """The refits of a shortlist, and what could not be refitted."""
-    done: list[Weighed] = []
-    failed: list[str] = []
-    for number, each in enumerate(listed):
-        report(number, len(listed) + 1, f"fitting {each.hypothesis.text}")
-        weighed, reason = try_refit(study, each, thresholds)
-        done.append(weighed)
-        failed += [reason] if reason else []
-    return tuple(done), tuple(failed)
 
 
 def _placed(

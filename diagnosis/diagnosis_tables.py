@@ -9,6 +9,7 @@ from collections.abc import Iterator, Mapping
 
 import numpy as np
 
+from diagnosis.next_point import NextPoint
 from diagnosis.recording import Recording
 from diagnosis.shown import channel_unit, difference, reading
 from diagnosis.study import Study
@@ -102,6 +103,20 @@ def parameter_rows(diagnosis: Diagnosis) -> Iterator[Row]:
             "pull_before": _text(float(before.pulls[had])) if had is not None else "",
             "pull_after": _text(float(after.pulls[at])),
             "source": parameter.source,
+        }
+
+
+def next_point_rows(found: NextPoint | None) -> Iterator[Row]:
+    """Points of the rig's box by what one reading there would tell, in nats, the best first."""
+    for one in () if found is None else found.ranked:
+        point = one.point
+        yield {
+            "speed [rpm]": _reading(ChannelName.SPEED, point.shaft_speed),
+            "p_out [bar]": _reading(ChannelName.P_OUT, point.delivery_pressure),
+            "displacement_ratio [1]": _text(point.displacement_ratio),
+            "T_in [degC]": _reading(ChannelName.T_IN, one.inlet_temperature),
+            "T_case [degC]": _reading(ChannelName.T_CASE, point.temperature),
+            "gain [nats]": _text(one.gain),
         }
 
 

@@ -22,6 +22,7 @@ from diagnosis.verdict import Claim, Estimate, Status
 from diagnosis.weighed import Weighed
 from system.channels import ChannelName
 from system.estimation.evidence import multiplier_evidence
+from system.estimation.parameters import Role
 from system.estimation.posterior import Posterior
 from system.physics.effects import Kind
 from system.pump_gap import Gap
@@ -161,8 +162,10 @@ def _left_over(study: Study, null: Weighed, best: Weighed, thresholds: Threshold
 
 
 def _pulls(posterior: Posterior, hypothesis: Hypothesis) -> float:
-    """Sum of xi^2 over what the hypothesis does not set free."""
-    kept = np.array([each.name not in hypothesis.open_names for each in posterior.parameters])
+    """Sum of xi^2 over what the null has too and the hypothesis does not set free."""
+    kept = np.array(
+        [each.role is not Role.EXTENSION and each.name not in hypothesis.widened for each in posterior.parameters]
+    )
     return float((posterior.xi[kept] ** 2).sum())
 
 
@@ -225,7 +228,7 @@ def _estimates(best: Weighed, at: int) -> tuple[Estimate, ...]:
     laws = {law.id: law for law in own.laws}
     effect = own.effects[at]
     if effect in laws:
-        names = [one.name for one in laws[effect].parameters]
+        names = [one.name for one in laws[effect].free]
     else:
         without = [each for each in own.effects if each not in laws]
         names = [own.widened[without.index(effect)]]

@@ -33,10 +33,20 @@ LEAST_GAIN = 0.05  # nats, below which a point separates nothing
 
 
 @dataclass(frozen=True)
+class Gained:
+    """A point and the gain of one reading there in nats; temperatures as of a `NextPoint`."""
+
+    point: OperatingPoint
+    inlet_temperature: float
+    gain: float
+
+
+@dataclass(frozen=True)
 class NextPoint:
     """A point, the ids it separates, the gain of one reading in nats, repeats to be sure, and why in words.
 
-    point.temperature is that of the case; inlet_temperature, in K, what it goes with in the recording.
+    point.temperature is that of the case; inlet_temperature, in K, what it goes with in the recording. ranked: all
+    points whose gain was asked for, this one first.
     """
 
     point: OperatingPoint
@@ -45,6 +55,7 @@ class NextPoint:
     gain: float
     repeats: int
     why: str
+    ranked: tuple[Gained, ...] = ()
 
 
 class MovableSimulator(Simulator, Protocol):
@@ -92,13 +103,17 @@ def next_point(study: Study, pump: PumpDescription, first: Contender, second: Co
     some = rows(points, best)
     forecasts = list(_forecasts(study, first, second, some))
     gains = [forecast.gain() for forecast in forecasts]
-    at = int(np.argmax(gains))
+    at = int(np.argsort(gains)[-1])
     if gains[at] < LEAST_GAIN:
         return None
     repeats = next((n for n in range(1, MOST_REPEATS) if forecasts[at].gain(n) >= ENOUGH), MOST_REPEATS)
     separates = tuple(dict.fromkeys((*first.effects, *second.effects)))
     why = _why(study, first, second, rows(some, np.array([at])))
-    return NextPoint(_operating(pump, some, at), float(some.T_in[at]), separates, gains[at], repeats, why)
+    ranked = tuple(
+        Gained(_operating(pump, some, place), float(some.T_in[place]), gains[place])
+        for place in np.argsort(gains)[::-1]
+    )
+    return NextPoint(ranked[0].point, ranked[0].inlet_temperature, separates, gains[at], repeats, why, ranked)
 
 
 def gains_at(study: Study, first: Contender, second: Contender, points: BenchPoints) -> Array:

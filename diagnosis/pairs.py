@@ -6,19 +6,21 @@ from collections.abc import Sequence
 from itertools import combinations
 
 from diagnosis.hypotheses import Hypothesis, candidates_of, together
-from diagnosis.refit import try_refit
+from diagnosis.refit import refit_all
 from diagnosis.screen import joint_evidence, linear_gain
 from diagnosis.study import Study
 from diagnosis.thresholds import Thresholds
 from diagnosis.weighed import Weighed
 from system.estimation.posterior import Posterior
+from system.gap_cycle import Report
+from system.side_by_side import Crew
 
 REFITTED = 2  # of the additions to the best, and of the pairs at the prior mean
 MOST_EFFECTS = 3
 
 
 def combine(
-    study: Study, null: Weighed, weighed: Sequence[Weighed], thresholds: Thresholds
+    study: Study, weighed: Sequence[Weighed], thresholds: Thresholds, hands: Crew, report: Report
 ) -> tuple[tuple[Weighed, ...], tuple[str, ...]]:
     """Explanations of several effects that were worth a refit, and what could not be refitted.
 
@@ -35,9 +37,9 @@ def combine(
         tried = _additions(study, best, known, thresholds)
         if len(best.hypothesis.effects) == 1:
             tried += [each for each in _pairs(study, known, thresholds) if not _holds(tried, each)]
-        done = [try_refit(study, each, thresholds) for each in tried]
-        failed += [reason for _, reason in done if reason is not None]
-        refitted = [each for each, _ in done if each.posterior is not None]
+        done, reasons = refit_all(study, tried, thresholds, hands, report)
+        failed += reasons
+        refitted = [each for each in done if each.posterior is not None]
         found += refitted
         ahead = max(refitted, key=_weight, default=None)
         gained = ahead is not None and ahead.log_weight - best.log_weight > thresholds.name.odds

@@ -20,7 +20,7 @@ from diagnosis.tables import Columns, TableFault
 from diagnosis.trace_reader import ReadTraces, read_traces
 from system.case_table import Table, fault_lines, read_toml
 from system.channels import INPUTS, ChannelName
-from system.faults import InputFaults
+from system.faults import Fault, InputFaults, nearest_path
 from system.kinematics import Array
 from system.units import unit_scale
 
@@ -34,6 +34,9 @@ def read_recording(path: Path) -> Recording:
     Raises InputFaults with everything that is wrong with the file, its tables and their columns. What the readings
     themselves tell is for `data_checks.check_recording`.
     """
+    if not path.exists():
+        expected = f"a recording's folder, its {FILE}, or a table beside one"
+        raise InputFaults(str(path), [Fault("file", "no such file", expected, nearest_path(path))])
     stated, data = _places(path)
     text, tables = read_toml(stated)
     top = Table("", tables, [])

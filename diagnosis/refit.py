@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
-from math import log
+from functools import partial
+from math import inf, log
 
 import numpy as np
 from scipy.linalg import cho_factor, cho_solve
@@ -21,6 +23,8 @@ from system.estimation.parameters import Parameter
 from system.estimation.posterior import Posterior, values_at
 from system.estimation.simulator import Simulator
 from system.estimation.trust import Bounds
+from system.gap_cycle import Report
+from system.side_by_side import Crew
 
 SIZES = (0.1, 0.3, 1.0, 2.0)  # spreads that a start is looked for at
 ROUGHLY = (0.3, 1.0)  # the same for a first look
@@ -29,12 +33,13 @@ LIMITS = FitLimits(change=0.1)  # of the objective: a twentieth of a nat decides
 GRID_MEMBERS = 2  # of a grid that are refitted: those best in the linear model
 
 
-def refit(study: Study, hypothesis: Hypothesis, thresholds: Thresholds) -> Weighed:
+def refit(study: Study, hypothesis: Hypothesis, thresholds: Thresholds, hopeless: float = inf) -> Weighed:
     """The hypothesis at the peak of its posterior; of a grid the best member, its evidence averaged over all.
 
-    Members that are not refitted count as nothing, so that the average is never too high. Raises NotConverged
-    where no member comes to a peak.
+    Members that are not refitted count as nothing, so that the average is never too high. hopeless: an objective
+    above which a fit is left where it stands. Raises NotConverged where no member comes to a peak.
     """
+    limits = replace(LIMITS, hopeless=hopeless)
     members = _likeliest(study, hypothesis, thresholds)
     found: list[tuple[Hypothesis, Posterior]] = []
     failed: list[NotConverged] = []
@@ -42,7 +47,7 @@ def refit(study: Study, hypothesis: Hypothesis, thresholds: Thresholds) -> Weigh
         simulator = simulator_of(study.simulator, member, thresholds.name.fault_factor)
         try:
             start = _start(study, simulator, member.open_names, SIZES)[1]
-            found.append((member, maximum_posterior(simulator, study.observations, start, LIMITS)))
+            found.append((member, maximum_posterior(simulator, study.observations, start, limits)))
         except NotConverged as reason:
             failed.append(reason)
     if not found:
@@ -52,12 +57,43 @@ def refit(study: Study, hypothesis: Hypothesis, thresholds: Thresholds) -> Weigh
     return Weighed(best, evidence, False, posterior, _size_over_sigma(posterior, best), 0.0, None)
 
 
-def try_refit(study: Study, linear: Weighed, thresholds: Thresholds) -> tuple[Weighed, str | None]:
+def try_refit(
+    study: Study, linear: Weighed, thresholds: Thresholds, hopeless: float = inf
+) -> tuple[Weighed, str | None]:
     """The hypothesis refitted; where that fails as it stands in the linear model, with what failed in words."""
     try:
-        return replace(refit(study, linear.hypothesis, thresholds), heldout=linear.heldout), None
+        return replace(refit(study, linear.hypothesis, thresholds, hopeless), heldout=linear.heldout), None
     except NotConverged as reason:
         return linear, f"{linear.hypothesis.text} could not be refitted: {reason}"
+
+
+def refit_all(
+    study: Study,
+    listed: Sequence[Weighed],
+    thresholds: Thresholds,
+    hands: Crew,
+    report: Report,
+    hopeless: float = inf,
+) -> tuple[tuple[Weighed, ...], tuple[str, ...]]:
+    """The refits of some hypotheses in their order, by a crew, and what could not be refitted."""
+    if not listed:
+        return (), ()
+    task = partial(_numbered, study, thresholds, hopeless)
+    found: dict[int, tuple[Weighed, str | None]] = {}
+    report(0, len(listed), f"fitting {', '.join(each.hypothesis.text for each in listed[: hands.workers])}")
+    for number, done in hands.do(task, list(enumerate(listed))):
+        found[number] = done
+        report(len(found), len(listed), f"fitted {done[0].hypothesis.text}")
+    ordered = [found[number] for number in range(len(listed))]
+    return tuple(each for each, _ in ordered), tuple(reason for _, reason in ordered if reason is not None)
+
+
+def _numbered(
+    study: Study, thresholds: Thresholds, hopeless: float, part: tuple[int, Weighed]
+) -> tuple[int, tuple[Weighed, str | None]]:
+    """One refit with its place in the list."""
+    number, linear = part
+    return number, try_refit(study, linear, thresholds, hopeless)
 
 
 def _likeliest(study: Study, hypothesis: Hypothesis, thresholds: Thresholds) -> list[Hypothesis]:
@@ -111,12 +147,13 @@ def _signed(sizes: tuple[float, ...], parameter: Parameter) -> list[float]:
 
 
 class _Nuisances:
-    """All that a hypothesis does not set free, with its slopes at the prior mean."""
+    """What the null has and a hypothesis does not set free, with its slopes at the prior mean."""
 
     def __init__(self, study: Study, simulator: Simulator, names: tuple[str, ...]) -> None:
         self.study, self.simulator = study, simulator
-        self.free = np.array([parameter.name not in names for parameter in simulator.parameters])
-        kept = [p.name for p in simulator.parameters if p.name not in names]
+        known = {parameter.name for parameter in study.base.parameters} - set(names)
+        self.free = np.array([parameter.name in known for parameter in simulator.parameters])
+        kept = [parameter.name for parameter in simulator.parameters if parameter.name in known]
         self.slopes = study.base.slopes[:, [study.base.index(name) for name in kept]]
         self.factor = cho_factor(self.slopes.T @ self.slopes + np.eye(len(kept)))
         self.bounds = Bounds.of(simulator.parameters)

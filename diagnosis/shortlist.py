@@ -33,13 +33,10 @@ def shortlist(
     """The explanations of the catalogue to refit: those within the gap of the best in the linear model.
 
     Where the null holds, only those that gain on it, and none while the null is not improbable: a verdict needs
-    both. Where it does not hold, wrong parameters besides: large changes of
-    a film move the slopes of all others, so that the linear model puts them anywhere; those that leave least at a
-    first look are refitted.
+    both.
     """
     limits = thresholds.name
-    known = [each for each in screened if each.hypothesis.open_names]
-    ranked = sorted(known, key=lambda each: -each.log_weight)
+    ranked = _ranked(screened)
     null = next(each for each in with_probabilities(screened, limits.temperature) if _is_null(each))
     if not ranked or (settled and null.probability >= thresholds.mismatch.null_probability):
         return ()
@@ -47,13 +44,26 @@ def shortlist(
         ranked[0].log_evidence - limits.shortlist_gap,
         study.base.log_evidence if settled else -float("inf"),
     )
-    chosen = [each for each in ranked[: limits.shortlist] if each.log_evidence > least]
-    if settled:
-        return tuple(chosen)
-    wrong = [each for each in ranked if each.hypothesis.kind is Kind.WRONG_PARAMETER]
+    return tuple(each for each in ranked[: limits.shortlist] if each.log_evidence > least)
+
+
+def wrong_parameters(
+    study: Study, screened: Sequence[Weighed], listed: Sequence[Weighed], thresholds: Thresholds
+) -> tuple[Weighed, ...]:
+    """Wrong parameters to refit besides those listed, where there is a mismatch.
+
+    Large changes of a film move the slopes of all others, so that the linear model puts them anywhere; those that
+    leave least at a first look are refitted.
+    """
+    wrong = [each for each in _ranked(screened) if each.hypothesis.kind is Kind.WRONG_PARAMETER]
     looks = {id(each): _look(study, each, thresholds) for each in wrong}
     promising = sorted(wrong, key=lambda each: looks[id(each)])[:PARAMETERS]
-    return (*chosen, *(each for each in promising if each not in chosen))
+    return tuple(each for each in promising if each not in listed)
+
+
+def _ranked(screened: Sequence[Weighed]) -> list[Weighed]:
+    """Those of the catalogue, the likeliest in the linear model first."""
+    return sorted((each for each in screened if each.hypothesis.open_names), key=lambda each: -each.log_weight)
 
 
 def _is_null(each: Weighed) -> bool:

@@ -11,7 +11,12 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn
 
-from swashfilm.cli_diagnose import add_diagnose_options, run_diagnose_command
+from swashfilm.cli_diagnose import (
+    add_diagnose_options,
+    check_recording_command,
+    is_recording,
+    run_diagnose_command,
+)
 from swashfilm.cli_report import run_report
 from swashfilm.cli_table import TABLE_OPTIONS, add_table_options, run_table_command
 from swashfilm.fidelity import Fidelity
@@ -138,8 +143,8 @@ def build_parser() -> argparse.ArgumentParser:
     _output(diagnose)
     report = _command(commands, "report", "make the report of a run folder anew")
     report.add_argument("folder", type=Path, metavar="DIR", help="the run folder")
-    check = _command(commands, "check", "validate a pump file or film case without running it")
-    check.add_argument("file", metavar="FILE", help="pump file, film case or built-in pump")
+    check = _command(commands, "check", "validate a pump file, film case or recording without running it")
+    check.add_argument("file", metavar="FILE", help="pump file, built-in pump, film case, or recording")
     _command(commands, "doctor", "what this machine offers: packages, caches, graphics")
     return parser
 
@@ -311,12 +316,19 @@ def _check(options: argparse.Namespace) -> int:
 
     is_pump = options.file in builtin_pumps()
     if not is_pump:
-        _, tables = read_toml(Path(options.file))
+        path = Path(options.file)
+        tables = {} if is_recording(path, ()) else read_toml(path)[1]
+        if is_recording(path, list(tables)):
+            check_recording_command(path)
+            show(f"{path}: ok")
+            return 0
         is_film = bool({"film", "gap"} & set(tables))
         is_pump = isinstance(tables.get("pump"), dict) and not is_film
         if not is_pump and not is_film:
             fault = Fault(
-                "file", f"tables {', '.join(tables) or 'none'}", "a pump file ([pump]) or a film case ([film])"
+                "file",
+                f"tables {', '.join(tables) or 'none'}",
+                "a pump file ([pump]), a film case ([film]) or a recording ([channel])",
             )
             raise InputFaults(options.file, [fault])
     if is_pump:

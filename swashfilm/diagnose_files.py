@@ -8,7 +8,15 @@ from pathlib import Path
 from typing import Any
 
 from diagnosis.diagnosis_file import write_diagnosis
-from diagnosis.diagnosis_tables import hypothesis_rows, parameter_rows, pull_sums, residual_rows, steady_rows
+from diagnosis.diagnosis_tables import (
+    Row,
+    hypothesis_rows,
+    next_point_rows,
+    parameter_rows,
+    pull_sums,
+    residual_rows,
+    steady_rows,
+)
 from diagnosis.recording import DataNote
 from diagnosis.study import Study
 from diagnosis.thresholds import Thresholds
@@ -19,16 +27,23 @@ KIND = "diagnosis"
 
 
 def write_diagnosis_files(
-    folder: Path, study: Study, diagnosis: Diagnosis, thresholds: Thresholds, assumptions: Sequence[str] = ()
+    folder: Path,
+    study: Study,
+    diagnosis: Diagnosis,
+    thresholds: Thresholds,
+    assumptions: Sequence[str] = (),
+    losses: Iterable[Row] = (),
 ) -> None:
-    """Write diagnosis.json, summary.json, four tables and report.html into a run folder.
+    """Write diagnosis.json, summary.json, six tables and report.html into a run folder.
 
-    assumptions: what was taken of the pump.
+    assumptions: what was taken of the pump; losses: rows of `diagnose_losses.loss_rows`.
     """
     write_rows(folder / "steady.csv", steady_rows(study.recording))
     write_rows(folder / "residuals.csv", residual_rows(study, diagnosis))
     write_rows(folder / "hypotheses.csv", hypothesis_rows(diagnosis))
     write_rows(folder / "parameters.csv", parameter_rows(diagnosis))
+    write_rows(folder / "next_points.csv", next_point_rows(diagnosis.next_point))
+    write_rows(folder / "losses.csv", losses)
     write_diagnosis(folder / "diagnosis.json", diagnosis)
     write_json(folder / "summary.json", diagnosis_summary(study, diagnosis, thresholds, assumptions))
     from swashfilm.diagnose_page import write_diagnose_page

@@ -13,7 +13,12 @@ from swashfilm import diagnose_plots
 from swashfilm.diagnose_files import read_rows
 from system.faults import Fault, InputFaults
 
-FILES = ("summary.json", "diagnosis.json", "residuals.csv", "hypotheses.csv", "parameters.csv")
+FILES = (
+    "summary.json", "diagnosis.json", "residuals.csv", "hypotheses.csv", "parameters.csv", "next_points.csv",
+    "losses.csv",
+)  # fmt: skip
+TABLES = ("residuals", "hypotheses", "parameters", "next_points", "losses")
+MOST_POINTS = 8
 AXES = {"speed": "speed [rpm]", "pressure": "p_out [bar]", "displacement": "displacement_ratio [1]",
         "viscosity": "T_case [degC]"}  # fmt: skip
 """The column that an exponent of a scaling goes over."""
@@ -28,7 +33,7 @@ def write_diagnose_page(folder: Path) -> Path:
         faults = [Fault(name, "no such file", "a diagnosis's run folder") for name in missing]
         raise InputFaults(str(folder), faults)
     found = read_diagnosis(folder / "diagnosis.json")
-    tables = {name: read_rows(folder / f"{name}.csv") for name in ("residuals", "hypotheses", "parameters")}
+    tables = {name: read_rows(folder / f"{name}.csv") for name in TABLES}
     template = Environment(loader=PackageLoader("swashfilm"), autoescape=True).get_template("diagnose.html.jinja")
     page = template.render(
         summary=json.loads((folder / "summary.json").read_text("utf-8")),
@@ -38,6 +43,10 @@ def write_diagnose_page(folder: Path) -> Path:
         place=list(place_rows(found)),
         claims=list(claim_rows(found)),
         parameters=list(parameter_rows(tables["parameters"])),
+        next_points=[tuple(row.values()) for row in tables["next_points"][:MOST_POINTS]],
+        next_head=tuple(next(iter(tables["next_points"]), {})),
+        losses=list(loss_rows(tables["losses"])),
+        loss_point=next((row["point"] for row in tables["losses"]), ""),
         pictures={name: base64.b64encode(png).decode("ascii") for name, png in _pictures(found, tables).items()},
     )
     path = folder / "report.html"
@@ -100,6 +109,14 @@ def parameter_rows(rows: Sequence[Mapping[str, str]]) -> Iterator[tuple[str, ...
             f"{row['after']} +- {row['sigma']}{unit}",
             f"{row['pull_before'] or '-'} -> {row['pull_after']}",
         )
+
+
+def loss_rows(rows: Sequence[Mapping[str, str]]) -> Iterator[tuple[str, ...]]:
+    """(sink, before, after, change, share of the shaft power before and after) of where the power goes."""
+    shaft = {key: float(rows[0][key]) for key in ("before [W]", "after [W]")} if rows else {}
+    for row in rows:
+        shares = (f"{100 * float(row[key]) / whole:.2f} %" for key, whole in shaft.items())
+        yield row["sink"], *(f"{row[key]} W" for key in (*shaft, "change [W]")), *shares
 
 
 def _pictures(found: Mapping[str, Any], tables: Mapping[str, Sequence[Mapping[str, str]]]) -> dict[str, bytes]:

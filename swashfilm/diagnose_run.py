@@ -11,22 +11,30 @@ from diagnosis.prepare import prepare
 from diagnosis.readings import bench_points
 from diagnosis.recording import NoteKind, Recording
 from diagnosis.recording_reader import read_recording
-from diagnosis.scant_pump import KnownPump
-from diagnosis.study import Study
+from diagnosis.scant_pump import KnownPump, load_known_pump
 from diagnosis.thresholds import load_thresholds
 from diagnosis.verdict import Diagnosis
 from reynolds.oil import walther
 from swashfilm.diagnose_files import note_text, write_diagnosis_files
+from swashfilm.diagnose_losses import claimed_pump, loss_rows
 from swashfilm.progress import Report
-from system.extended_pump import extended_pump
 from system.faults import Fault, InputFaults
-from system.pump_file import resolved_toml
+from system.pump_file import builtin_pumps, resolved_toml
 from system.tolerances import tolerances
 
+EXTENDED = "pump_extended.toml"
+"""In the run folder, where something is claimed: the pump with it."""
 
-def checked_recording(path: Path, known: KnownPump) -> Recording:
-    """The recording of a path, checked against the pump; raises InputFaults where nothing can be made of it."""
-    recording = check_recording(read_recording(path), known.pump.pump.displacement)
+
+def checked_recording(path: Path, known: KnownPump | None = None) -> Recording:
+    """The recording of a path, checked against its pump: the one given, or the built-in one that it names.
+
+    Raises InputFaults, every fault at once, where nothing can be made of it.
+    """
+    recording = read_recording(path)
+    if known is None and recording.pump in builtin_pumps():
+        known = load_known_pump(recording.pump)
+    recording = check_recording(recording, None if known is None else known.pump.pump.displacement)
     faults = [note for note in recording.notes if note.kind is NoteKind.FAULT]
     if faults:
         told = [
@@ -36,8 +44,13 @@ def checked_recording(path: Path, known: KnownPump) -> Recording:
     return recording
 
 
-def run_diagnosis(known: KnownPump, recording: Recording, folder: Path, report: Report) -> Diagnosis:
-    """Diagnose a checked recording and fill a run folder. Raises NotConverged where no fit comes about."""
+def run_diagnosis(
+    known: KnownPump, recording: Recording, folder: Path, report: Report, workers: int = 1
+) -> Diagnosis:
+    """Diagnose a checked recording and fill a run folder, fits in `workers` processes side by side.
+
+    Raises NotConverged where no fit comes about.
+    """
     pump, thresholds = known.pump, load_thresholds()
     allowed, taken = tolerances(pump)
     study = prepare(pump, recording, allowed, thresholds)
@@ -46,20 +59,11 @@ def run_diagnosis(known: KnownPump, recording: Recording, folder: Path, report: 
         raise InputFaults(recording.title, [Fault("recording", few.text, "more readings than parameters")])
     points, _ = bench_points(study.recording, pump)
     viscosity = walther(points.T_case, pump.oil.fluid) * pump.oil.density
-    found = diagnose_study(study, viscosity, thresholds, report)
+    found = diagnose_study(study, viscosity, thresholds, report, workers)
     found = with_next_point(study, pump, found, thresholds)
     (folder / "resolved.toml").write_text(resolved_toml(pump), encoding="utf-8")
-    _write_extended(folder, study, found, known)
+    if found.effects:
+        (folder / EXTENDED).write_text(resolved_toml(claimed_pump(pump, found)), encoding="utf-8")
     assumptions = [str(one) for one in (*known.assumptions, *taken)]
-    write_diagnosis_files(folder, study, found, thresholds, assumptions)
+    write_diagnosis_files(folder, study, found, thresholds, assumptions, loss_rows(pump, study, found))
     return found
-
-
-def _write_extended(folder: Path, study: Study, found: Diagnosis, known: KnownPump) -> None:
-    """Write pump_extended.toml, the pump as the claimed explanation has it; nothing where nothing is claimed."""
-    if not found.effects:
-        return
-    names = (parameter.name for parameter in found.after.parameters)
-    values = dict(zip(names, (float(value) for value in found.after.values), strict=True))
-    pump = extended_pump(known.pump, values, found.hypotheses[0].hypothesis.laws)
-    (folder / "pump_extended.toml").write_text(resolved_toml(pump), encoding="utf-8")

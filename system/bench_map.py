@@ -84,12 +84,16 @@ class LumpedBench:
         self.pump, self.points, self.channels, self.inputs = pump, points, channels, inputs
         self.physics, self.samples_per_pitch, self.tolerance = physics, samples_per_pitch, tolerance
         own = {parameter.name for parameter in parameters}
-        joining = [one for law in physics for one in law.parameters if one.name not in own]
+        joining = [one for law in physics for one in law.free if one.name not in own]
         self._parameters = (*parameters, *joining)
         _hold_known(self._parameters, physics)
         self._columns = [SIMULATED.index(channel) for channel in channels]
         setting(pump, points, {}, samples_per_pitch)
         self._kept: dict[bytes, Courses] = {}
+
+    def __getstate__(self) -> dict[str, object]:
+        """What another process needs: all but the courses that are remembered."""
+        return {**vars(self), "_kept": {}}
 
     @property
     def parameters(self) -> tuple[Parameter, ...]:
@@ -138,7 +142,7 @@ class LumpedBench:
 
     def with_extensions(self, extensions: tuple[Extension, ...]) -> LumpedBench:
         """The same bench with these laws, each of its own parameters, beside those it has."""
-        joining = tuple(parameter for extension in extensions for parameter in extension.parameters)
+        joining = tuple(parameter for extension in extensions for parameter in extension.free)
         return self._with(joining, (*self.physics, *extensions))
 
     def elsewhere(self, points: BenchPoints) -> LumpedBench:
@@ -255,7 +259,7 @@ class LumpedBench:
 
 def _hold_known(parameters: tuple[Parameter, ...], physics: tuple[Extension, ...]) -> None:
     """Raise FilmInputError for a parameter that nothing listens to."""
-    laws = {parameter.name for law in physics for parameter in law.parameters}
+    laws = {parameter.name for law in physics for parameter in law.free}
     for parameter in parameters:
         if parameter.name not in BASE_NAMES | laws | SENSOR_NAMES:
             raise FilmInputError(

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from math import inf
 from time import process_time
 
 import numpy as np
@@ -27,6 +28,7 @@ LEAST_DAMPING, FIRST_DAMPING, MOST_DAMPING = 1e-6, 1e-2, 1e6
 LOCAL = 1e2  # damping from which a trial that fails tells of the slopes here, not of the curve on the way
 GOOD = 0.5  # share of the promised fall: below it the slopes are asked for anew
 NEAR = 0.02  # in xi: slopes taken no farther away tell of a peak and of its covariance
+PATIENCE = 4  # trials that a fit is given before it may be hopeless
 SAME_NOISE = 1e-2  # relative change of the whitening below which it is not renewed
 
 
@@ -34,9 +36,10 @@ SAME_NOISE = 1e-2  # relative change of the whitening below which it is not rene
 class FitLimits:
     """When a fit ends: steps at most, change of the objective, largest step in xi, rounds of whitening.
 
-    stall: fall of the objective still promised with which a place that no step betters is a peak all the same, in
-    units of the objective per reading where that is above one. Half a nat serves smooth models; models with kinks
-    promise more than they hold.
+    stall: fall of the objective still promised with which a place that no step betters is a peak all the same;
+    like the change in units of the objective per reading where that is above one. Half a nat serves smooth models;
+    models with kinks promise more than they hold. hopeless: an objective that a fit is of no use above; one that
+    after PATIENCE trials promises no less ends where it stands, its evidence that of the peak promised.
     """
 
     steps: int = 50
@@ -44,6 +47,7 @@ class FitLimits:
     largest_step: float = 2.0
     whitening_rounds: int = 2
     stall: float = 1.0
+    hopeless: float = inf
 
 
 LIMITS = FitLimits()
@@ -123,7 +127,11 @@ class _Fit:
 
     def stall(self, place: _Place) -> float:
         """The fall promised with which a place that no step betters is a peak."""
-        return self.limits.stall * max(1.0, place.objective / place.residual.size)
+        return self.limits.stall * self.excess(place)
+
+    def excess(self, place: _Place) -> float:
+        """The objective per reading where that is above one: what fits badly is not worth a fine fit."""
+        return max(1.0, place.objective / place.residual.size)
 
     def promised(self, walk: _Walk) -> float:
         """By how much the objective would fall to the peak that the slopes promise."""
@@ -148,7 +156,7 @@ def maximum_posterior(
     place, slopes = _descend(fit, fit.place(xi, whitening), whitening)
     for _ in range(limits.whitening_rounds - 1):
         renewed = fit.whitening(place.xi)
-        if renewed.change(whitening) < SAME_NOISE:
+        if place.objective > limits.hopeless or renewed.change(whitening) < SAME_NOISE:
             break
         whitening = renewed
         place, slopes = _descend(fit, fit.seen(place.xi, place.predictions, whitening), whitening)
@@ -187,8 +195,11 @@ def best_posterior(
 def _descend(fit: _Fit, place: _Place, whitening: Whitening) -> tuple[_Place, Array]:
     """Go down to a peak. Return it with slopes taken no farther than NEAR from it."""
     walk = fit.walk(place, whitening)
-    for _ in range(fit.limits.steps):
-        if fit.promised(walk) < fit.limits.change or walk.damping > MOST_DAMPING:
+    for step in range(fit.limits.steps):
+        promised = fit.promised(walk)
+        if step >= PATIENCE and walk.place.objective - promised > fit.limits.hopeless:
+            return walk.place, walk.slopes
+        if promised < fit.limits.change * fit.excess(walk.place) or walk.damping > MOST_DAMPING:
             if walk.moved <= NEAR:
                 break
             walk = fit.walk(walk.place, whitening)

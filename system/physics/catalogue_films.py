@@ -8,14 +8,14 @@ from system.physics.contact_laws import mixed_friction
 from system.physics.effects import EffectId, Kind
 from system.physics.extension import Entry, Extension, Law
 from system.physics.film_laws import (
-    elastic_opening,
+    ElasticOpening,
+    ThermalClearance,
     film_heating,
     shear_thinning,
-    thermal_clearance,
     viscosity_pressure,
 )
 from system.physics.flow_laws import squeeze_pumping
-from system.physics.priors import half, path_of, signed
+from system.physics.priors import half, path_of, scale_of, signed
 from system.physics.tipping_laws import block_tipping, slipper_lift
 from system.pump_gap import Gap
 from system.units import Dimension
@@ -32,14 +32,14 @@ def _opening(gap: Gap) -> Extension:
     name = path_of(EffectId.ELASTIC_OPENING, "opening", gap)
     source = "1 to 5 um at 35 MPa of 8 to 15 um films; Pelosi, Ivantysynova 2012; Lame's thick ring"
     parameter = half(name, 2e-8, 1e-7, Dimension.PRESSURE_COEFFICIENT, source)
-    return Extension(EffectId.ELASTIC_OPENING, gap, elastic_opening(gap), (parameter,))
+    return Extension(EffectId.ELASTIC_OPENING, gap, ElasticOpening(gap), (parameter,))
 
 
 def _clearance(gap: Gap) -> Extension:
     name = path_of(EffectId.THERMAL_CLEARANCE, "rate", gap)
     source = "7e-6 1/K between bronze and steel on an 11 mm radius, of a 15 um film: .005 1/K"
     parameter = signed(name, 5e-3, 0.02, Dimension.TEMPERATURE_COEFFICIENT, source)
-    return Extension(EffectId.THERMAL_CLEARANCE, gap, thermal_clearance(gap), (parameter,))
+    return Extension(EffectId.THERMAL_CLEARANCE, gap, ThermalClearance(gap), (parameter,))
 
 
 def _one(effect: EffectId, law: Law, *parameters: tuple[str, float, float, Dimension | None, str]) -> Extension:
@@ -97,6 +97,7 @@ FILM_ENTRIES = (
                     ),
                 ),
                 tuple({"rate": rate} for rate in SHEAR_RATES),
+                scale_of(EffectId.SHEAR_THINNING, "rate", SHEAR_RATES, Dimension.SHEAR_RATE),
             ),
         ),
         components=FRICTION,
@@ -121,6 +122,7 @@ FILM_ENTRIES = (
                     for gap in Gap
                 ),
                 tuple({"hersey_scale": scale} for scale in HERSEY_SCALES),
+                scale_of(EffectId.MIXED_FRICTION, "hersey_scale", HERSEY_SCALES, None),
             ),
         ),
         components=FRICTION,

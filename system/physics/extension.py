@@ -21,7 +21,9 @@ class Extension:
 
     Parameters are named as in a pump file, `elastic_opening.slipper.opening`; the law knows the last part. `grid`
     lists the values of parameters that set a scale rather than a size and are tried one after the other: one empty
-    mapping where there is none. Values are those of the grid's first member beside the parameters'.
+    mapping where there is none. `scale`, of a grid that samples a continuous scale, is that parameter: a fit of a
+    member sets it free about the member's value, half way to the next. Values are those of the grid's first member
+    beside the parameters'.
     """
 
     id: EffectId
@@ -29,11 +31,17 @@ class Extension:
     law: Law
     parameters: tuple[Parameter, ...]
     grid: tuple[Values, ...] = ({},)
+    scale: Parameter | None = None
 
     @property
     def members(self) -> tuple[Extension, ...]:
         """One extension for each member of the grid."""
-        return tuple(replace(self, grid=(member,)) for member in self.grid)
+        return tuple(replace(self, grid=(member,), scale=self._scale_about(member)) for member in self.grid)
+
+    @property
+    def free(self) -> tuple[Parameter, ...]:
+        """All that a fit of one member sets free: the sizes and the scale."""
+        return self.parameters if self.scale is None else (*self.parameters, self.scale)
 
     @property
     def neutral(self) -> dict[str, float]:
@@ -46,7 +54,15 @@ class Extension:
 
     def stated(self, values: Mapping[str, float]) -> dict[str, float]:
         """The law's values by its own keys, as a pump file's table states them, of parameters by name."""
-        return {**self.grid[0], **{one.name.rpartition(".")[2]: values[one.name] for one in self.parameters}}
+        return {**self.grid[0], **{_key(one): values[one.name] for one in self.free if one.name in values}}
+
+    def _scale_about(self, member: Values) -> Parameter | None:
+        return None if self.scale is None else replace(self.scale, centre=member[_key(self.scale)])
+
+
+def _key(parameter: Parameter) -> str:
+    """The law's own name of a parameter."""
+    return parameter.name.rpartition(".")[2]
 
 
 @dataclass(frozen=True)

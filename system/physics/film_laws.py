@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from system.kinematics import Array
 from system.physics.effects import BenchState, Effects, GapCourse
-from system.physics.extension import Law, Values
+from system.physics.extension import Values
 from system.physics.state import GAPS, unchanged, warmed
 from system.pump_gap import Gap
 
@@ -60,25 +60,29 @@ def viscosity_pressure(values: Values, courses: Courses, state: BenchState) -> E
     )
 
 
-def elastic_opening(gap: Gap) -> Law:
+@dataclass(frozen=True)
+class ElasticOpening:
     """The law of one gap that opens under its pressure: `opening` 1/Pa, of the film's thickness."""
 
-    def law(values: Values, courses: Courses, state: BenchState) -> Effects:
-        share = values["opening"] * np.maximum(courses[gap].pressure, 0.0)
-        return _in_one_film(gap, courses, state, opening_flow(share), 1.0 / (1.0 + 0.5 * share))
+    gap: Gap
 
-    return law
+    def __call__(self, values: Values, courses: Courses, state: BenchState) -> Effects:
+        """The effects with these values."""
+        share = values["opening"] * np.maximum(courses[self.gap].pressure, 0.0)
+        return _in_one_film(self.gap, courses, state, opening_flow(share), 1.0 / (1.0 + 0.5 * share))
 
 
-def thermal_clearance(gap: Gap) -> Law:
+@dataclass(frozen=True)
+class ThermalClearance:
     """The law of one gap whose walls expand unlike: `rate` 1/K of the film, from the pump's own temperature on."""
 
-    def law(values: Values, courses: Courses, state: BenchState) -> Effects:
-        warmer = state.temperature - state.geometry.operating.temperature
-        film = (1.0 + values["rate"] * warmer)[:, None] * np.ones_like(courses[gap].film)
-        return _in_one_film(gap, courses, state, film**3, 1.0 / film)
+    gap: Gap
 
-    return law
+    def __call__(self, values: Values, courses: Courses, state: BenchState) -> Effects:
+        """The effects with these values."""
+        warmer = state.temperature - state.geometry.operating.temperature
+        film = (1.0 + values["rate"] * warmer)[:, None] * np.ones_like(courses[self.gap].film)
+        return _in_one_film(self.gap, courses, state, film**3, 1.0 / film)
 
 
 def shear_thinning(values: Values, courses: Courses, state: BenchState) -> Effects:

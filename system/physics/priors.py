@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from math import log
+
 from system.estimation.parameters import Parameter, Role, Scale
 from system.physics.effects import EffectId
 from system.pump_gap import Gap
@@ -21,3 +23,15 @@ def signed(path: str, spread: float, bound: float, dimension: Dimension | None, 
 def path_of(effect: EffectId, key: str, pair: Gap | None = None) -> str:
     """The name of a parameter: its key's path in a pump file below [physics]."""
     return ".".join([effect.value, *([pair.value] if pair else []), key])
+
+
+def scale_of(effect: EffectId, key: str, grid: tuple[float, ...], dimension: Dimension | None) -> Parameter:
+    """The scale that a grid of even ratios samples: log-normal about each member, one sigma half way to the next.
+
+    Bounds lie one ratio beyond the ends.
+    """
+    ratio = grid[1] / grid[0]
+    return Parameter(
+        path_of(effect, key), Role.EXTENSION, Scale.LOG, grid[0], 0.5 * log(ratio), grid[0] / ratio,
+        grid[-1] * ratio, dimension, "between the members of its grid",
+    )  # fmt: skip

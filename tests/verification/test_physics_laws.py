@@ -58,7 +58,7 @@ def test_barus_factors_are_means_along_a_falling_pressure():
 
 @pytest.mark.parametrize(("opening", "mean"), [(0.1, 1.16), (0.2, 1.34)])
 def test_opening_of_sheet_b2(opening, mean):
-    found = film_laws.elastic_opening(Gap.PISTON)({"opening": opening / 35e6}, courses(), state(2100))
+    found = film_laws.ElasticOpening(Gap.PISTON)({"opening": opening / 35e6}, courses(), state(2100))
     assert found.conductance[0] == pytest.approx(mean, abs=0.005)
     np.testing.assert_array_equal(found.conductance[1:], 1.0)
     np.testing.assert_array_equal(found.viscous[1:], 1.0)

@@ -133,9 +133,9 @@ def test_effects_are_read_from_a_file_and_written_back(tmp_path):
 @pytest.mark.parametrize("extension", BY_NAME)
 def test_a_bench_map_reads_the_same_with_an_effect_stated_as_with_its_law(extension):
     """The map's law at its values, the map of a pump that states them, and the point of that pump."""
-    values = np.array([one.value(1.0) for one in extension.parameters])
     member = extension.members[-1]
-    law = LumpedBench(REF90, POINTS, SIMULATED, member.parameters, (member,), samples_per_pitch=SAMPLES_PER_PITCH)
+    values = np.array([one.value(0.0 if one is member.scale else 1.0) for one in member.free])
+    law = LumpedBench(REF90, POINTS, SIMULATED, member.free, (member,), samples_per_pitch=SAMPLES_PER_PITCH)
     stated = LumpedBench(with_effect(extension), POINTS, SIMULATED, (), samples_per_pitch=SAMPLES_PER_PITCH)
     read = law.predict(values)
     np.testing.assert_allclose(stated.predict(np.array([])), read, rtol=1e-12)
