@@ -141,12 +141,14 @@ def free_spins(
     piston_drag: float,
     slipper_drag: float,
     stated: tuple[float | None, float | None] = (None, None),
+    driven: tuple[float, float] = (0.0, 0.0),
 ) -> Spins:
     """The spins at which the joint's friction and both films' drag balance about bore and plate normal.
 
-    `stated`: spins (rad/s) of piston and slipper that something else sets; None: free.
-    friction: mu |B| r of the joint, N m; drags: N m s, above zero. They are the least of
-    friction |W| + (piston_drag s_p^2 + slipper_drag s^2)/2, a convex function of both, found by Newton's method.
+    `stated`: spins (rad/s) of piston and slipper that something else sets; None: free. `driven`: torques T (N m)
+    by which films turn piston and slipper that do not spin.
+    friction: mu |B| r of the joint, N m; drags: N m s, above zero. They are the least of friction |W| +
+    (piston_drag s_p^2 + slipper_drag s^2)/2 - T . s, a convex function of both, found by Newton's method.
     A joint that rubs harder than the films drags the piston back against the block until neither turns in space
     (s = 0, s_p = -w on a cylindrical block); without friction neither is turned (s = s_p = 0). Quasi-steady: at
     a piston's inertia spins follow within some 1e-2 s, so that means over a turn belong here.
@@ -157,23 +159,24 @@ def free_spins(
     found = np.array([spin or 0.0 for spin in stated])
     turns = np.column_stack([-bore_axis, plate_normal])[:, free]
     still = relative_spin(bore_axis, plate_normal, shaft_speed, found[0], found[1])
-    drag = np.diag(np.array([piston_drag, slipper_drag])[free])
+    drag, torque = np.diag(np.array([piston_drag, slipper_drag])[free]), np.array(driven)[free]
 
     def spent(spins: Array) -> float:
-        return float(friction * _width(still + turns @ spins, shaft_speed) + 0.5 * spins @ drag @ spins)
+        by_films = 0.5 * spins @ drag @ spins - torque @ spins
+        return float(friction * _width(still + turns @ spins, shaft_speed) + by_films)
 
     spins = np.zeros(int(free.sum()))
     for _ in range(MOST_STEPS):
         relative = still + turns @ spins
         width = _width(relative, shaft_speed)
         pull = turns.T @ relative / width
-        slope = friction * pull + drag @ spins
+        slope = friction * pull + drag @ spins - torque
         bend = friction / width * (turns.T @ turns - np.outer(pull, pull)) + drag
         step = np.linalg.solve(bend, -slope)
         if np.max(np.abs(step), initial=0.0) < SETTLED * shaft_speed:
             found[free] = spins
             return Spins(float(found[0]), float(found[1]))
-        while spent(spins + step) > spent(spins) + 1e-4 * float(slope @ step) + 1e-15 * spent(spins):
+        while spent(spins + step) > spent(spins) + 1e-4 * float(slope @ step) + 1e-15 * abs(spent(spins)):
             step = 0.5 * step
         spins = spins + step
     raise FilmNotConverged(

@@ -30,6 +30,7 @@ from system.floating_exchange import (
     port_draws,
     rubbing,
     shaft_moment,
+    spin_torques,
     with_floating_gaps,
 )
 from system.floating_gaps import FloatingOptions
@@ -50,6 +51,8 @@ PRESSURE_TOLERANCE = 1e-4
 """Largest change of the chamber pressure between two rounds, of delivery minus inlet pressure."""
 FRICTION_TOLERANCE = 2e-3
 """Largest change of a film's friction between two rounds, of the largest force on a slipper."""
+SPIN_TOLERANCE = 2e-3
+"""Largest change of a spin between two rounds, of the shaft's."""
 FIRST_CLOSED = 0.05
 """Distance from the periodic motion at which the first round lets its turns be, share of the mean film."""
 FEW_STEPS = 8
@@ -69,6 +72,7 @@ class Round:
 
     pressure_change: float
     friction_change: float
+    spin_change: float
     steps: int
     closed: float
     films_solved: int
@@ -126,7 +130,8 @@ def floating_point(
     at = rotor(pump, lumped.point)
     group, angle = group_of(at), lumped.cycle.shaft_angle
     still = (no_rubbing(angle.size),) * len(group.parts)
-    asked = Asked(at, angle, tuple(one.pressure for one in lumped.chambers), still, options)
+    pressures = tuple(one.pressure for one in lumped.chambers)
+    asked = Asked(at, angle, pressures, still, (None,) * len(group.parts), options)
     gaps: tuple[FloatingGaps, ...] | None = None
     rounds: list[Round] = []
     with piston_beside(group.parts) if side_by_side else nullcontext() as beside:
@@ -170,17 +175,22 @@ def _round(
     drawn = samples // pistons if group.kinds.alike else samples
     draws = port_draws(gaps[0].block, pressures, pump.oil.bulk_modulus, drawn)
     ported = ported_cycle(problems, port_lines(pump, point), pistons, samples, draws=draws)
+    turning = group.rotors(asked)
     following = replace(
         asked,
         rotor=rotor(pump, met_point(point, ported)),
         pressure=tuple(cycle.pressure for cycle in ported.cycles),
         rubbing=tuple(rubbing(own, samples) for own in gaps),
+        spin_torques=tuple(
+            spin_torques(own, at, of.group) for own, at, of in zip(gaps, turning, driven, strict=True)
+        ),
     )
     turned = [*(gap for own in gaps for gap in (own.piston, own.slipper)), gaps[0].block]
     taken = Round(
         float(np.max(np.abs(np.array(following.pressure) - asked.pressure))) / problems[0].pressure_span,
         max(map(_rubbing_change, asked.rubbing, following.rubbing))
         / max(at.forces.lift for one in driven for at in one.group),
+        max(map(_spin_change, turning, group.rotors(following))),
         asked.options.steps,
         asked.options.accuracy.closed,
         sum(gap.films_solved for gap in turned),
@@ -195,6 +205,13 @@ def _rubbing_change(one: Rubbing, other: Rubbing) -> float:
     return float(max(np.abs(one.piston - other.piston).max(), np.abs(one.slipper - other.slipper).max()))
 
 
+def _spin_change(one: Rotor, other: Rotor) -> float:
+    """Largest change of a spin, of the shaft's."""
+    before, after = one.spins, other.spins
+    change = max(abs(after.piston - before.piston), abs(after.slipper - before.slipper))
+    return change / one.point.shaft_speed
+
+
 def _of_round(report: Report, number: int) -> Report:
     return lambda done, total, what: report(done, total, f"round {number}, {what}")
 
@@ -203,7 +220,8 @@ def _loosened(options: FloatingOptions, rounds: list[Round], pistons: int) -> Fl
     """How a round turns its gaps: before they nearly agree with the chambers, no better than it is worth."""
     if rounds and (_agree(rounds[-1], NEARLY) or _exact(rounds[-1], options)):
         return options
-    unknown = max(rounds[-1].pressure_change, rounds[-1].friction_change) if rounds else FIRST_CLOSED
+    last = rounds[-1] if rounds else None
+    unknown = max(last.pressure_change, last.friction_change, last.spin_change) if last else FIRST_CLOSED
     closed = max(options.accuracy.closed, min(FIRST_CLOSED, CLOSING * unknown))
     steps = min(options.steps, FEW_STEPS * pistons)
     return replace(options, steps=steps, accuracy=replace(options.accuracy, closed=closed))
@@ -211,8 +229,12 @@ def _loosened(options: FloatingOptions, rounds: list[Round], pistons: int) -> Fl
 
 def _agree(taken: Round, times: float = 1.0) -> bool:
     """Whether a round changed no more than the tolerances, or so many times them."""
-    small = times * PRESSURE_TOLERANCE, times * FRICTION_TOLERANCE
-    return taken.pressure_change <= small[0] and taken.friction_change <= small[1]
+    changes = (
+        (taken.pressure_change, PRESSURE_TOLERANCE),
+        (taken.friction_change, FRICTION_TOLERANCE),
+        (taken.spin_change, SPIN_TOLERANCE),
+    )
+    return all(change <= times * tolerance for change, tolerance in changes)
 
 
 def _exact(taken: Round, options: FloatingOptions) -> bool:
@@ -227,7 +249,8 @@ def _not_settled(taken: Round) -> NotConverged:
     return NotConverged(
         f"floating gaps and chamber pressure: after {ROUND_LIMIT} rounds the pressure still changes by "
         f"{taken.pressure_change:.2g} of the ports' difference (expected at most {PRESSURE_TOLERANCE:g}), "
-        f"friction by {taken.friction_change:.2g} of the largest force (at most {FRICTION_TOLERANCE:g}); "
+        f"friction by {taken.friction_change:.2g} of the largest force (at most {FRICTION_TOLERANCE:g}), a spin "
+        f"by {taken.spin_change:.2g} of the shaft's (at most {SPIN_TOLERANCE:g}); "
         "try more steps, a lower pressure, or the films fidelity"
     )
 
@@ -236,7 +259,7 @@ def _told(point: OperatingPoint, group: Group, found: _Found, rounds: tuple[Roun
     """The pump with gaps and chambers that agree."""
     asked, ported, block = found.asked, found.ported, found.gaps[0].block
     pistons, speed, samples = asked.rotor.pump.pump.pistons, point.shaft_speed, asked.shaft_angle.size
-    rotors = group.rotors(asked.rotor)
+    rotors = group.rotors(asked)
     of_kinds = [
         FloatingKind(group.kinds.chambers(kind), *each)
         for kind, each in enumerate(zip(rotors, group.parts, drives_of(asked, group), found.gaps, strict=True))

@@ -24,6 +24,7 @@ from system.lumped import piston_area
 from system.pairs import FrictionPairs, PairLoss
 from system.ports import TURN
 from system.power import GapExchange, Gaps
+from system.spins import SpinTorques, torques_of_films
 
 
 @dataclass(frozen=True)
@@ -152,6 +153,18 @@ def rubbing(gaps: FloatingGaps, samples: int) -> Rubbing:
         resampled(of_each(gaps.piston, lambda seen: seen.friction.moment), samples),
         resampled(of_each(gaps.slipper, lambda seen: seen.friction.force), samples),
     )
+
+
+def spin_torques(gaps: FloatingGaps, rotor: Rotor, group: tuple[GroupInstant, ...]) -> SpinTorques:
+    """What sets the spins of piston and slipper by their films and the joint's forces, means over the turn."""
+    pump = rotor.pump
+    force = float(np.mean([np.linalg.norm(at.forces.ball) for at in group]))
+    friction = pump.friction.piston_slipper_socket * force * pump.slipper.ball_joint_radius
+    torques = (
+        _mean(gaps.piston, lambda seen: seen.friction.torque),
+        _mean(gaps.slipper, lambda seen: seen.friction.torque),
+    )
+    return torques_of_films(rotor.estimated_torques, friction, rotor.spins, torques)
 
 
 def shaft_moment(gaps: FloatingGaps, rotor: Rotor, parts: FloatingParts, group: tuple[GroupInstant, ...]) -> Array:

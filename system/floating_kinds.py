@@ -25,6 +25,7 @@ from system.instants import Rotor
 from system.kinematics import Array
 from system.lumped import PistonMotion, chamber_problem
 from system.operating import OperatingPoint
+from system.spins import SpinTorques
 from system.unlike import Kinds, kinds
 
 BLOCK_SHARE = 0.1
@@ -38,9 +39,10 @@ class Group:
     kinds: Kinds
     parts: tuple[FloatingParts, ...]
 
-    def rotors(self, rotor: Rotor) -> tuple[Rotor, ...]:
-        """The rotating group at the rotor's point, with the parts of each kind."""
-        return tuple(replace(rotor, pump=pump) for pump in self.kinds.pumps)
+    def rotors(self, asked: Asked) -> tuple[Rotor, ...]:
+        """The rotating group at the point asked for, with the parts of each kind."""
+        each = zip(self.kinds.pumps, asked.spin_torques, strict=True)
+        return tuple(replace(asked.rotor, pump=pump, spin_torques=torques) for pump, torques in each)
 
 
 def work_of(pump: PumpDescription) -> float:
@@ -59,12 +61,16 @@ def group_of(rotor: Rotor) -> Group:
 
 @dataclass(frozen=True)
 class Asked:
-    """What drives a round: pressures (N,) Pa of the chambers over their own angles (N,) rad, friction by kind."""
+    """What drives a round: pressures (N,) Pa of the chambers over their own angles (N,) rad, friction by kind.
+
+    spin_torques by kind, None before films are solved.
+    """
 
     rotor: Rotor
     shaft_angle: Array
     pressure: tuple[Array, ...]
     rubbing: tuple[Rubbing, ...]
+    spin_torques: tuple[SpinTorques | None, ...]
     options: FloatingOptions
 
 
@@ -79,7 +85,7 @@ def driven_by(asked: Asked, group: Group) -> tuple[Driven, ...]:
             rubbing,
             asked.options,
         )
-        for kind, (rotor, rubbing) in enumerate(zip(group.rotors(asked.rotor), asked.rubbing, strict=True))
+        for kind, (rotor, rubbing) in enumerate(zip(group.rotors(asked), asked.rubbing, strict=True))
     )
 
 
@@ -107,7 +113,7 @@ def gap_revolutions(
     """The gaps of each kind over the revolution, on from those before; pistons by the process beside, if any."""
     options, block_before = asked.options, None if before is None else before[0].block
     last_of: Sequence[FloatingGaps | None] = [None] * len(driven) if before is None else before
-    each = list(zip(group.rotors(asked.rotor), group.parts, driven, last_of, strict=True))
+    each = list(zip(group.rotors(asked), group.parts, driven, last_of, strict=True))
     pistons: Sequence[GapRevolution[PistonSeen]] = ()
     if beside is not None:
         beside.start(driven_by(asked, group))
@@ -138,7 +144,7 @@ def chamber_problems(
     asked: Asked, group: Group, point: OperatingPoint, motion: PistonMotion, gaps: Sequence[FloatingGaps]
 ) -> tuple[ChamberProblem, ...]:
     """Each chamber between its gaps: what they leak, and what the parts' small motion adds to its volume."""
-    rotors = group.kinds.by_chamber(group.rotors(asked.rotor))
+    rotors = group.kinds.by_chamber(group.rotors(asked))
     return tuple(
         replace(chamber_problem(at.pump, point, motion, leak_table(own)), growth=growth(own, at, parts))
         for at, parts, own in zip(

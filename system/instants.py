@@ -13,22 +13,31 @@ from system.description import PumpDescription
 from system.kinematics import SwashDrive, drive_at_ratio, piston_displacement
 from system.lumped import full_drive, piston_stand_out
 from system.operating import OperatingPoint
-from system.spins import spins
+from system.spins import SpinTorques, estimated_torques, spins
 
 
 @dataclass(frozen=True)
 class Rotor:
-    """A pump at an operating point, its drive set to the displacement ratio."""
+    """A pump at an operating point, its drive set to the displacement ratio.
+
+    spin_torques: what sets free spins by solved films, None before any is.
+    """
 
     pump: PumpDescription
     point: OperatingPoint
     full: SwashDrive
     drive: SwashDrive
+    spin_torques: SpinTorques | None = None
 
     @cached_property
     def spins(self) -> Spins:
         """Spins of piston and slipper (`system.spins`)."""
-        return spins(self.pump, self.point, self.drive)
+        return spins(self.pump, self.point, self.drive, self.spin_torques or self.estimated_torques)
+
+    @property
+    def estimated_torques(self) -> SpinTorques:
+        """What sets free spins before any film is solved."""
+        return estimated_torques(self.pump, self.point, self.drive)
 
 
 def rotor(pump: PumpDescription, point: OperatingPoint) -> Rotor:

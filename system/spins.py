@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -14,30 +15,72 @@ from system.lumped import piston_area, piston_stand_out
 from system.operating import OperatingPoint
 
 
-def spins(pump: PumpDescription, point: OperatingPoint, drive: SwashDrive) -> Spins:
+@dataclass(frozen=True)
+class SpinTorques:
+    """What sets spins: friction mu |B| r of the joint (N m); drags (N m s) of the films of piston and slipper, and
+    torques (N m) by which these turn what does not spin."""
+
+    friction: float
+    drags: tuple[float, float]
+    driven: tuple[float, float] = (0.0, 0.0)
+
+
+def spins(pump: PumpDescription, point: OperatingPoint, drive: SwashDrive, torques: SpinTorques) -> Spins:
     """Spins (rad/s) of the piston relative to the block and of the slipper in space, constant over the turn.
 
     spin_ratio times shaft speed where stated; where left out, that at which the joint's friction and the films'
-    drags balance (`gaps.ball_joint.free_spins`). The friction is that of the turn's mean force, Ap (mean of both
-    ports' pressures - p_case)/cos(g); drags are Petroff's of a centred piston at mid stroke and of the slipper's
-    parallel lands at `film_thickness`; the bore stands along the shaft, as the cone's mean over the turn does.
+    drags balance (`gaps.ball_joint.free_spins`); the bore stands along the shaft, as the cone's mean over the turn
+    does.
     """
-    speed, part, slipper = point.shaft_speed, pump.piston, pump.slipper
-    stated = [None if ratio is None else ratio * speed for ratio in (part.spin_ratio, slipper.spin_ratio)]
-    piston_spin, slipper_spin = stated
-    if piston_spin is not None and slipper_spin is not None:
-        return Spins(piston_spin, slipper_spin)
+    speed, ratios = point.shaft_speed, (pump.piston.spin_ratio, pump.slipper.spin_ratio)
+    piston, slipper = (None if ratio is None else ratio * speed for ratio in ratios)
+    if piston is not None and slipper is not None:
+        return Spins(piston, slipper)
+    return free_spins(
+        bore_axis=np.array([0.0, 0.0, 1.0]),
+        plate_normal=plate_axes(drive)[2],
+        shaft_speed=speed,
+        friction=torques.friction,
+        piston_drag=torques.drags[0],
+        slipper_drag=torques.drags[1],
+        stated=(piston, slipper),
+        driven=torques.driven,
+    )
+
+
+def estimated_torques(pump: PumpDescription, point: OperatingPoint, drive: SwashDrive) -> SpinTorques:
+    """What sets spins before any film is solved.
+
+    The friction is that of the turn's mean force, Ap (mean of both ports' pressures - p_case)/cos(g); drags are
+    Petroff's of a centred piston at mid stroke and of the slipper's parallel lands at `film_thickness`.
+    """
+    part, slipper = pump.piston, pump.slipper
     above = 0.5 * (point.delivery_pressure + point.inlet_pressure) - point.case_pressure
     force = piston_area(pump) * abs(above) / math.cos(drive.swash_angle)
     engaged = part.engaged_length - piston_stand_out(pump, drive) - 0.5 * stroke(drive)
     length = min(engaged, part.guide_length or engaged)
     lands = (land_drag(point.viscosity, *land, slipper.film_thickness) for land in slipper.lands.radii)
-    return free_spins(
-        bore_axis=np.array([0.0, 0.0, 1.0]),
-        plate_normal=plate_axes(drive)[2],
-        shaft_speed=speed,
-        friction=pump.friction.piston_slipper_socket * force * slipper.ball_joint_radius,
-        piston_drag=bore_drag(point.viscosity, pump.pump.piston_diameter, length, part.radial_clearance),
-        slipper_drag=math.fsum(lands),
-        stated=(piston_spin, slipper_spin),
+    return SpinTorques(
+        pump.friction.piston_slipper_socket * force * slipper.ball_joint_radius,
+        (
+            bore_drag(point.viscosity, pump.pump.piston_diameter, length, part.radial_clearance),
+            math.fsum(lands),
+        ),
     )
+
+
+def torques_of_films(
+    estimated: SpinTorques, friction: float, turned: Spins, torques: tuple[float, float]
+) -> SpinTorques:
+    """What sets spins by films solved at spins (rad/s): mean torques (N m) on piston and slipper there.
+
+    A torque against its spin is drag, as far as it exceeds the estimated one; what is left of it the film drives.
+    friction as `SpinTorques` has it.
+    """
+    spun = turned.piston, turned.slipper
+    drags = tuple(
+        max(least, -torque / spin) if spin else least
+        for least, torque, spin in zip(estimated.drags, torques, spun, strict=True)
+    )
+    driven = tuple(torque + drag * spin for torque, drag, spin in zip(torques, drags, spun, strict=True))
+    return SpinTorques(friction, (drags[0], drags[1]), (driven[0], driven[1]))

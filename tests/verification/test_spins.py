@@ -5,11 +5,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from gaps.ball_joint import Spins
 from system.floating_drives import drives, no_rubbing
 from system.floating_parts import floating_parts
 from system.instants import rotor
 from system.operating import operating_point
 from system.pump_file import load_pump, resolved_toml
+from system.spins import SpinTorques, spins, torques_of_films
 
 
 @pytest.fixture
@@ -33,15 +35,37 @@ def test_free_parts_turn_with_what_rubs_more(free):
     assert (rest.piston, rest.slipper) == pytest.approx((0.0, 0.0), abs=1e-9)
 
 
+def test_torques_of_films_are_parted_into_drag_and_drive():
+    """The very torques come back at the spins at which they were: -(drag) spin + drive."""
+    estimated, turned = SpinTorques(0.1, (1e-3, 1e-4)), Spins(-150.0, 20.0)
+    for torques in ((0.3, -4e-3), (0.1, 2e-3), (-0.2, 0.0)):
+        found = torques_of_films(estimated, 0.2, turned, torques)
+        back = [t - d * s for t, d, s in zip(found.driven, found.drags, (-150.0, 20.0), strict=True)]
+        assert back == pytest.approx(torques)
+        assert all(drag >= least for drag, least in zip(found.drags, estimated.drags, strict=True))
+    held = torques_of_films(estimated, 0.2, Spins(-150.0, 20.0), (0.3, -4e-3))
+    assert held.driven == pytest.approx((0.0, 0.0), abs=1e-15)
+    still = torques_of_films(estimated, 0.2, Spins(0.0, 0.0), (0.3, -4e-3))
+    assert (still.drags, still.driven) == (estimated.drags, (0.3, -4e-3))
+
+
+def test_a_film_that_drives_turns_what_no_joint_holds(free):
+    """Without friction in the joint: spin = torque/drag."""
+    point = operating_point(free)
+    group = rotor(free, point)
+    found = spins(free, point, group.drive, SpinTorques(0.0, (1e-3, 1e-4), (0.02, -0.003)))
+    assert (found.piston, found.slipper) == pytest.approx((20.0, -30.0))
+
+
 def test_free_spins_reach_every_gap_and_are_told(free):
     group, parts = rotor(free, operating_point(free)), floating_parts(free)
     told = {taken.path for taken in parts.taken}
     assert {"piston.spin_ratio", "slipper.spin_ratio"} <= told
-    speed, spins = group.point.shaft_speed, group.spins
+    speed, free_to = group.point.shaft_speed, group.spins
     angles = 2.0 * np.pi * np.arange(18) / 18
     found = drives(group, parts, angles, np.full(18, 20e6), no_rubbing(18))
-    assert found.piston.piston_spin == speed + spins.piston
-    assert found.slipper.spin == spins.slipper
+    assert found.piston.piston_spin == speed + free_to.piston
+    assert found.slipper.spin == free_to.slipper
     still = drives(rotor(load_pump("ref90"), group.point), parts, angles, np.full(18, 20e6), no_rubbing(18))
     # A slipper that the piston follows is hardly turned by its joint: free, the moment falls.
     assert np.linalg.norm(found.group[0].ball_moment) < np.linalg.norm(still.group[0].ball_moment)

@@ -1,0 +1,54 @@
+"""Free spins of floating gaps: films and ball joint agree on them, or power would come from nowhere.
+
+A piston that touches its bore is held there by more than the shear of its oil. Coarse films, pressure and friction
+of the chambers let be.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from gaps.schedule import Accuracy
+from system.floating import SPIN_TOLERANCE, FloatingPoint, floating_point
+from system.floating_exchange import spin_torques
+from system.floating_gaps import FloatingOptions
+from system.gap_films import RIGID
+from system.operating import operating_point
+from system.pump_file import load_pump, resolved_toml
+
+ROUGHLY = FloatingOptions(
+    RIGID, steps=36, finer=0.25, accuracy=Accuracy(step=0.05, floor=1e-8, closed=0.1, reach=1.0), keep=6
+)
+pytestmark = pytest.mark.slow
+
+
+@pytest.fixture(scope="module")
+def found(tmp_path_factory) -> FloatingPoint:
+    """ref90_floating at 5 MPa without its spin ratios, once its spins have settled."""
+    rows = resolved_toml(load_pump("ref90_floating", {"operating.pressure": "5 MPa"})).splitlines()
+    path = tmp_path_factory.mktemp("free") / "pump.toml"
+    path.write_text("\n".join(row for row in rows if not row.startswith("spin_ratio")), "utf-8")
+    pump = load_pump(path)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("system.floating.PRESSURE_TOLERANCE", 1.0)
+        patch.setattr("system.floating.FRICTION_TOLERANCE", 1.0)
+        return floating_point(pump, operating_point(pump), ROUGHLY)
+
+
+def test_films_and_joint_hold_the_spins(found):
+    """What the films resist at these spins is what the joint gives: they are their own answer."""
+    kind = found.kinds[0]
+    speed, spins = kind.rotor.point.shaft_speed, kind.rotor.spins
+    assert found.rounds[-1].spin_change <= SPIN_TOLERANCE
+    assert abs(spins.piston) > 0.01 * speed
+    torque = np.mean([instant.passed.friction.torque for instant in kind.gaps.piston.turn.instants])
+    held = spin_torques(kind.gaps, kind.rotor, kind.drives.group)
+    assert torque * spins.piston < 0.0
+    assert abs(torque) < held.friction
+    assert held.drags[0] > 2.0 * kind.rotor.estimated_torques.drags[0]
+
+
+def test_power_is_accounted_for(found):
+    """Spins of centred pistons' drag would leave a tenth of the shaft power without a source."""
+    assert found.pump_point.checks.energy_balance_error < 1e-3
