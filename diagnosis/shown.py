@@ -74,4 +74,6 @@ def chance(probability: float) -> str:
     """A probability that never claims to be certain."""
     if probability > 0.999:
         return "above 0.999"
+    if probability > 0.99:
+        return f"{probability:.3f}"
     return "below 0.001" if probability < 0.001 else f"{probability:.2g}"

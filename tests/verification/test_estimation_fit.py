@@ -267,3 +267,16 @@ def test_readings_that_do_not_fit() -> None:
     with pytest.raises(FilmInputError, match="positive sigma"):
         replace(whole, sigma=np.zeros((3, 1)))
     assert not whole.without(np.array([True, False, False])).measured[0, 0]
+
+
+def test_a_fit_that_cannot_come_low_enough_ends_early() -> None:
+    """Rosenbrock's valley beside a reading that nothing explains: left on its way where that is no use."""
+    free = (_parameter("a", 0.0, 100.0, OPEN, Scale.NORMAL), _parameter("b", 0.0, 100.0, OPEN, Scale.NORMAL))
+    valley = Law(free, lambda values: np.array([30.0 * (values[1] - values[0] ** 2), 1.0 - values[0], 0.0]))
+    readings = _readings(np.array([0.0, 0.0, 100.0]), 1.0)
+    start = np.array([-0.06, 0.03])
+    whole = maximum_posterior(valley, readings, start)
+    left = maximum_posterior(valley, readings, start, FitLimits(hopeless=9e3))
+    assert whole.objective == pytest.approx(1e4, rel=0.01)  # a change of .01 per unit of chi-square
+    assert left.effort.predictions < whole.effort.predictions
+    assert left.objective > whole.objective

@@ -257,6 +257,7 @@ def test_nothing_is_named_where_nothing_is_left_out() -> None:
     assert found[0].scaling is None
 
 
+@pytest.mark.slow
 def test_small_effects_are_named_right_or_not_at_all() -> None:
     """Churning of 3 sigma, 8 seeds: what is claimed is churning, and mostly nothing is."""
     study = _study()

@@ -1,11 +1,14 @@
 """Laws of the physics left out against their authors' numbers (sheets of left_out_physics.md) and their limits."""
 
+import pickle
+
 import numpy as np
 import pytest
 from scipy.integrate import quad
 
 from reynolds.oil import dynamic_viscosity
 from system.physics import contact_laws, drag_laws, film_laws, flow_laws, port_laws, tipping_laws
+from system.physics.catalogue import CATALOGUE
 from system.physics.effects import BenchState, GapCourse, neutral
 from system.physics.outside import outside
 from system.physics.state import warmed
@@ -269,3 +272,7 @@ def test_resonance_is_half_as_high_a_width_off():
     reading = port_laws.line_resonance({"height": 0.02, "speed": 2000 * RPM}, courses(3), at).delivery_reading
     assert reading[0] == pytest.approx(1.02)
     assert reading[2] == pytest.approx(1.01)
+
+
+def test_laws_can_be_sent_to_another_process() -> None:
+    assert pickle.loads(pickle.dumps(CATALOGUE)) == CATALOGUE

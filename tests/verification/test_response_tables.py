@@ -24,7 +24,7 @@ from system.operating import operating_point
 from system.pairs import Pair
 from system.power import Gaps
 from system.pump_file import load_pump
-from system.side_by_side import side_by_side
+from system.side_by_side import crew, side_by_side
 from system.table_build import TableCase, build_table, point_at, table_axes
 from system.table_means import GAP_PAIRS, MEANINGS, SolvedPoint, mean_ratios
 from system.table_numbers import numbers_error, pump_numbers
@@ -227,6 +227,9 @@ def test_a_case_can_be_sent_to_another_process():
     assert there == here
     assert there.key(points_of(there)[0]) == here.key(points_of(here)[0])
     assert sorted(side_by_side(math.sqrt, [1.0, 4.0, 9.0], 2)) == [1.0, 2.0, 3.0]
+    with crew(2) as hands:
+        assert sorted(hands.do(math.sqrt, [1.0, 4.0])) == [1.0, 2.0]
+        assert sorted(hands.do(math.exp, [0.0, 0.0])) == [1.0, 1.0]
 
 
 def test_a_table_is_found_by_its_pump(table, folder, tmp_path):
