@@ -20,7 +20,7 @@ class Reference(Enum):
 
 
 class AccuracyClass(Enum):
-    """Classes of measurement of ISO 4409:2007, Table 2."""
+    """Classes of measurement after ISO 4409; `channel_noise` says how far its limits are known here."""
 
     A = "A"
     B = "B"

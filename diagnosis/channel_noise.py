@@ -16,11 +16,14 @@ LEAST_GAIN = 1e-3
 SETTING_SHARE = 5e-4  # of full displacement: how well a swash angle is set where nothing is stated
 ENCODER = math.radians(0.3)
 FEWEST_READINGS = 20  # different ones from which a step is read off
+
+# Limits of the classes A, B, C of ISO 4409 as they are commonly quoted. The standard's own table was not at hand
+# to hold them against: a calibration that matters is better stated by the recording than by a class.
 _SHARES = {AccuracyClass.A: 0.005, AccuracyClass.B: 0.01, AccuracyClass.C: 0.02}
 _FLOW_SHARES = {AccuracyClass.A: 0.005, AccuracyClass.B: 0.015, AccuracyClass.C: 0.025}
 _KELVIN = {AccuracyClass.A: 0.5, AccuracyClass.B: 1.0, AccuracyClass.C: 2.0}
 _LOW_PRESSURE = {AccuracyClass.A: 1e3, AccuracyClass.B: 3e3, AccuracyClass.C: 5e3}
-LOW_PRESSURE = 2e5  # Pa gauge, below which ISO 4409 gives a pressure and no share
+LOW_PRESSURE = 2e5  # Pa gauge, below which a class gives a pressure and no share
 
 
 def recorded_channel(form: ChannelForm, readings: Array, found: float | None) -> RecordedChannel | None:
@@ -85,7 +88,7 @@ def reading_step(readings: Array, form: ChannelForm) -> float:
 def _calibration(form: ChannelForm, sigma: float, relative: float, readings: Array) -> tuple[float, float]:
     """One sigma of gain and zero where none is stated.
 
-    ISO 4409:2007, Table 2 gives limits; a limit L of even likelihood within has one sigma of L/sqrt 3 (GUM 4.3.7).
+    A class gives limits (see above); a limit L of even likelihood within has one sigma of L/sqrt 3 (GUM 4.3.7).
     """
     name, dimension = form.name, form.name.dimension
     if name is ChannelName.ANGLE:
