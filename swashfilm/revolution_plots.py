@@ -15,6 +15,7 @@ from system.pump_gap import Gap
 if TYPE_CHECKING:
     import xarray
 
+EDGES = (0.15, 0.85)  # of the span, beyond which a label stands beside its place
 THINNEST = 0.01  # um: a film below it is not told in figures
 MAPS = 4  # kept films shown as maps
 TEMPERATURE = "film_temperature"
@@ -63,7 +64,8 @@ def _film(data: xarray.Dataset) -> bytes:
     axes.plot(angle, least, color=INK, label="least film")
     at = int(np.argmin(least))
     axes.plot(angle[at], least[at], "v", color=INK)
-    axes.annotate(f"{film_text(least[at])} at {angle[at]:.0f} deg", (angle[at], least[at]), (0, 8), ha="center",
+    side = ("left", "center", "right")[np.searchsorted(EDGES, angle[at] / span(data))]
+    axes.annotate(f"{film_text(least[at])} at {angle[at]:.0f} deg", (angle[at], least[at]), (0, 8), ha=side,
                   fontsize=8, textcoords="offset points")  # fmt: skip
     axes.set(ylabel="film / um", ylim=(0.0, None))
     beside = axes.twinx()

@@ -28,6 +28,7 @@ class PointWarning(Enum):
 
     CHAMBER_CAVITATES = "chamber_cavitates"
     CHAMBER_OVERPRESSURE = "chamber_overpressure"
+    ENERGY_NOT_BALANCED = "energy_not_balanced"
     NO_DELIVERY = "no_delivery"
     PORT_PRESSURE_FOLLOWS_LINE = "port_pressure_follows_line"
 
@@ -46,6 +47,8 @@ class Remark:
 
 PORT_PRESSURE_MET = 1e-3
 """Part of the ports' pressure difference by which a port's mean pressure may miss the operating point untold."""
+ENERGY_BALANCED = 5e-3
+"""Energy balance error from which it is told: five times what is asked of every fidelity."""
 OVERPRESSURE = 1.1
 """Chamber peak over the higher port pressure (both absolute) from which trapped oil is told."""
 
@@ -156,6 +159,7 @@ def put_together(
     work = shaft_work(cycle, rate, pairs.power, exchange)
     reading = _reading(point, problem, cycle.outflow, rate, work, exchange)
     power = power_balance(ported, reading, rate, pairs.power, leakage)
+    energy = abs(point.shaft_speed * float(np.mean(torque)) - power.accounted) / abs(power.shaft)
     quadrature = sum(pairs.loss(pair).quadrature_error for pair in Pair)
     return PumpPoint(
         point=point,
@@ -179,12 +183,11 @@ def put_together(
         derived_displacement=derived_displacement,
         checks=PointChecks(
             mass_balance_error=cycle.checks.mass_balance_error,
-            energy_balance_error=abs(point.shaft_speed * float(np.mean(torque)) - power.accounted)
-            / abs(power.shaft),
+            energy_balance_error=energy,
             work_balance_error=abs(power.shaft - power.accounted) / abs(power.shaft),
             quadrature_error=quadrature / pairs.power,
         ),
-        warnings=tuple(_remarks(asked, ported, reading)),
+        warnings=(*_remarks(asked, ported, reading), *_unbalanced(energy)),
     )
 
 
@@ -228,6 +231,17 @@ def _remarks(asked: OperatingPoint, ported: PortedCycle, reading: BenchReading) 
             f"{name} peaks at {cycle.pressure[peak] * 1e-6:.1f} MPa at {degrees[peak]:.0f} deg (limit "
             f"{limit * 1e-6:.1f} MPa, {OVERPRESSURE - 1.0:.0%} over the port): both ports shut while the piston "
             "moves in; let the port shut later, or the relief groove of the next begin earlier",
+        )
+
+
+def _unbalanced(energy: float) -> Iterator[Remark]:
+    """A remark where the power of the forces on the shaft is not what all sinks take."""
+    if energy > ENERGY_BALANCED:
+        yield Remark(
+            PointWarning.ENERGY_NOT_BALANCED,
+            f"the torque of the forces on the rotating group and all that the shaft power goes into differ by "
+            f"{energy:.2%} of it (limit {ENERGY_BALANCED:.1%}): more steps of floating gaps, and spins left free, "
+            "since what drives one that is stated gives power that is not the shaft's",
         )
 
 
