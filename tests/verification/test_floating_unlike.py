@@ -87,8 +87,8 @@ def test_power_is_accounted_for(found):
 def test_a_worn_pump_comes_to_its_end():
     """Gaps and chambers agree at rated pressure, the worn piston's wear as measured points beside more clearance.
 
-    Its chambers cavitate about 180 deg, where their slippers leave the plate: what holds them there decides whether
-    the chambers' pressure settles.
+    Its chambers cavitate about 180 deg, where their slippers leave the plate: what holds them there decides
+    whether the chambers' pressure settles.
     """
     wear = [["0 mm", "6 um"], ["4 mm", "2 um"], ["12 mm", "0 um"], ["45 mm", "0 um"]]
     worn = load_pump("ref90_floating", {"piston.3": {"radial_clearance": "18 um", "profile": wear}})
