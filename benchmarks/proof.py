@@ -13,6 +13,7 @@ from __future__ import annotations
 
 import argparse
 import sys
+from functools import partial
 from pathlib import Path
 from time import time
 
@@ -24,6 +25,7 @@ def main() -> int:
     options = _options()
     sys.path.insert(0, str(ROOT))
     from proof.cases import Part, cases
+    from proof.expected import GIVEN, given
 
     from diagnosis.thresholds import load_thresholds
 
@@ -31,10 +33,11 @@ def main() -> int:
     if options.write:
         part, number, folder = options.write
         return _write(cases(Part(part), seed)[int(number)], Path(folder))
-    parts = [Part(options.part)] if options.part else list(Part)
+    parts = [part for part in Part if options.part in (None, part.value)]
     listed = [case for part in parts for case in cases(part, seed)[: options.cases]]
+    folders = [] if options.part not in (None, GIVEN) else given()[: options.cases]
     try:
-        _run(listed, options.results)
+        _run(listed, folders, options.results)
     except KeyboardInterrupt:
         print("interrupted; what was finished is kept")
     _page(options.results, options.page, seed)
@@ -43,7 +46,7 @@ def main() -> int:
 
 def _options() -> argparse.Namespace:
     reader = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parts = ("null", "graded", "pair", "parameter", "sensor", "unknown", "trace")
+    parts = ("null", "graded", "pair", "parameter", "sensor", "unknown", "trace", "bench")
     reader.add_argument("--part", choices=parts, help="only one part")
     reader.add_argument("--cases", type=int, metavar="N", help="only the first N cases of each part")
     reader.add_argument("--results", type=Path, default=ROOT / "build" / "proof", metavar="DIR")
@@ -52,21 +55,23 @@ def _options() -> argparse.Namespace:
     return reader.parse_args()
 
 
-def _run(listed: list, folder: Path) -> None:
-    """Diagnose the cases that have no outcome yet, a line each."""
-    from proof.store import keep, load
-    from proof.trial import try_case
+def _run(listed: list, folders: list[Path], results: Path) -> None:
+    """Diagnose the cases and the given recordings that have no outcome yet, a line each."""
+    from proof.store import keep, load, name_of, name_of_folder
+    from proof.trial import try_case, try_folder
 
-    for number, case in enumerate(listed, start=1):
-        if load(folder, case) is not None:
+    wanted = [(name_of(case), partial(try_case, case)) for case in listed]
+    wanted += [(name_of_folder(folder), partial(try_folder, folder)) for folder in folders]
+    for number, (name, attempt) in enumerate(wanted, start=1):
+        if load(results, name) is not None:
             continue
         begun = time()
-        outcome = try_case(case)
-        keep(folder, case, outcome)
+        outcome = attempt()
+        keep(results, name, outcome)
         told = ", ".join(f"{one.effect} ({one.pair})" if one.pair else one.effect for one in outcome.claims)
         told = f"{outcome.verdict}, {outcome.status}{', ' if told else ''}{told}{outcome.failed}"
         spent = f"{outcome.seconds:.0f} s process time, {time() - begun:.0f} s"
-        print(f"{number}/{len(listed)} {case.name} (z {outcome.score:.1f}): {told}; {spent}", flush=True)
+        print(f"{number}/{len(wanted)} {outcome.name} (z {outcome.score:.1f}): {told}; {spent}", flush=True)
 
 
 def _write(case, folder: Path) -> int:

@@ -54,21 +54,21 @@ class Outcome:
     effects: tuple[str, ...]
     pairs: tuple[str | None, ...]
     shares: dict[str, float]
-    verdict: str
-    status: str
-    claims: tuple[Claimed, ...]
-    ranked: tuple[Ranked, ...]
-    nothing: float
-    channels: tuple[str, ...]
-    heldout: dict[str, tuple[float, float, float]]
-    covered: dict[str, bool]
-    chi2: tuple[float, float]
-    chance: float
-    reasons: tuple[str, ...]
-    rivals: dict[str, Rival]
-    seconds: float
-    program: str
-    failed: str = field(default="")
+    verdict: str = "none"
+    status: str = "none"
+    claims: tuple[Claimed, ...] = ()
+    ranked: tuple[Ranked, ...] = ()
+    nothing: float = 0.0
+    channels: tuple[str, ...] = ()
+    heldout: dict[str, tuple[float, float, float]] = field(default_factory=dict)
+    covered: dict[str, bool] = field(default_factory=dict)
+    chi2: tuple[float, float] = (0.0, 0.0)
+    chance: float = 1.0
+    reasons: tuple[str, ...] = ()
+    rivals: dict[str, Rival] = field(default_factory=dict)
+    seconds: float = 0.0
+    program: str = ""
+    failed: str = ""
 
 
 def as_plain(outcome: Outcome) -> dict[str, Any]:

@@ -10,10 +10,11 @@ from diagnosis.thresholds import load_thresholds
 
 from .calibration import draw
 from .cases import Part, cases
+from .expected import GIVEN, given
 from .gates import CLEAR, gates
 from .judged import is_grave, is_named, is_right, is_wrong_name
 from .outcome import Outcome
-from .store import load, program
+from .store import load, name_of, name_of_folder, program
 
 PICTURE = "proof_calibration.png"
 HEAD = """# Proof of the diagnosis
@@ -39,7 +40,9 @@ length are told apart by no recording of this kind and are not counted among the
 def write_page(results: Path, page: Path, seed: int) -> None:
     """Write the page and its picture from the outcomes in a folder."""
     planned = [case for part in Part for case in cases(part, seed)]
-    outcomes = [one for one in (load(results, case) for case in planned) if one is not None]
+    names = [*(name_of(case) for case in planned), *(name_of_folder(folder) for folder in given())]
+    kept = [one for one in (load(results, name) for name in names) if one is not None]
+    outcomes = [one for one in kept if one.part != GIVEN]
     pieces = [HEAD, _made_of(planned, outcomes, seed)]
     if outcomes:
         draw(outcomes, page.with_name(PICTURE))
@@ -51,6 +54,9 @@ def write_page(results: Path, page: Path, seed: int) -> None:
             _rivals(outcomes),
             _cases(outcomes),
         ]
+    bench = [one for one in kept if one.part == GIVEN]
+    if bench:
+        pieces.append("\n## Recordings that are given with their answers\n\n" + _listed_cases(bench))
     page.write_text("".join(pieces), encoding="utf-8")
 
 
@@ -141,6 +147,10 @@ def _of(hits: int, among: Sequence[object]) -> str:
 
 def _cases(outcomes: Sequence[Outcome]) -> str:
     """Every case, the gravest first."""
+    return "\n## Every case\n\n" + _listed_cases(outcomes)
+
+
+def _listed_cases(outcomes: Sequence[Outcome]) -> str:
     order = sorted(
         outcomes, key=lambda one: (-is_grave(one), -is_wrong_name(one), is_right(one), one.part, one.seed)
     )
@@ -150,7 +160,7 @@ def _cases(outcomes: Sequence[Outcome]) -> str:
         mark = mark or ("right" if is_right(one) else "not named")
         rows.append((one.name, f"{one.score:.1f}", mark, _told(one), f"{one.nothing:.2f}", f"{one.seconds:.0f}"))
     head = ("case", "z reached", "", "verdict", "P(nothing)", "s")
-    return "\n## Every case\n\n" + _table(head, rows)
+    return _table(head, rows)
 
 
 def _told(one: Outcome) -> str:

@@ -15,9 +15,16 @@ PACKAGES = ("system", "diagnosis")
 MAKERS = ("plant", "campaigns.py", "sensors.py", "sizing.py", "recordings.py", "writing.py")
 
 
-def key(case: Case) -> str:
-    """Of a case and the plant that makes it: another size, seed, sensor or law is another file."""
-    return sha256(f"{case!r} {_digest([HERE / name for name in MAKERS])}".encode()).hexdigest()[:16]
+def name_of(case: Case) -> str:
+    """The file of a case, by all that it is and the plant that makes it: another sensor or law is another file."""
+    made = sha256(f"{case!r} {_digest([HERE / name for name in MAKERS])}".encode()).hexdigest()[:16]
+    return f"{case.part.value}-{case.seed}-{made}.json"
+
+
+def name_of_folder(folder: Path) -> str:
+    """The file of a recording that is given, by its content."""
+    found = sha256(b"".join(path.read_bytes() for path in sorted(folder.iterdir())))
+    return f"bench-{folder.name}-{found.hexdigest()[:16]}.json"
 
 
 @cache
@@ -27,23 +34,19 @@ def program() -> str:
     return _digest([root / name for name in PACKAGES])[:12]
 
 
-def load(folder: Path, case: Case) -> Outcome | None:
-    """The outcome of a case, None where there is none yet."""
-    path = _path(folder, case)
+def load(folder: Path, name: str) -> Outcome | None:
+    """The outcome kept under a name, None where there is none yet."""
+    path = folder / name
     return from_plain(json.loads(path.read_text("utf-8"))) if path.exists() else None
 
 
-def keep(folder: Path, case: Case, outcome: Outcome) -> None:
+def keep(folder: Path, name: str, outcome: Outcome) -> None:
     """Write an outcome whole or not at all."""
     folder.mkdir(parents=True, exist_ok=True)
-    path = _path(folder, case)
+    path = folder / name
     fresh = path.with_suffix(".tmp")
     fresh.write_text(json.dumps(as_plain(outcome), indent=1), encoding="utf-8")
     fresh.replace(path)
-
-
-def _path(folder: Path, case: Case) -> Path:
-    return folder / f"{case.part.value}-{case.seed}-{key(case)}.json"
 
 
 def _digest(places: list[Path]) -> str:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import tempfile
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import isfinite
 from pathlib import Path
 from time import process_time
@@ -13,9 +13,8 @@ from diagnosis.diagnose import diagnose_study
 from diagnosis.prepare import prepare
 from diagnosis.readings import bench_points
 from diagnosis.scant_pump import load_known_pump
-from diagnosis.study import Study
 from diagnosis.thresholds import load_thresholds
-from diagnosis.verdict import Diagnosis
+from diagnosis.verdict import Claim, Diagnosis
 from diagnosis.weighed import Weighed
 from reynolds.errors import FilmInputError
 from reynolds.oil import walther
@@ -26,10 +25,11 @@ from system.physics.effects import Kind
 from system.tolerances import tolerances
 
 from .campaigns import campaigns
-from .cases import VERDICTS, Case, Part
+from .cases import Case, Part
+from .expected import of_case, of_folder
 from .outcome import Claimed, Outcome, Ranked, Rival
 from .plant.machine import Machine, ref90
-from .recordings import Made, make
+from .recordings import make
 from .rivals import rivals
 from .store import program
 from .writing import write_recording
@@ -49,9 +49,8 @@ SAME = {
 
 @dataclass(frozen=True)
 class Diagnosed:
-    """A study and what was found in it."""
+    """What was found, by this diagnosis and by other ways."""
 
-    study: Study
     found: Diagnosis
     rivals: dict[str, Rival]
 
@@ -59,64 +58,64 @@ class Diagnosed:
 def try_case(case: Case) -> Outcome:
     """Make a case's recording, diagnose it, and put the finding beside the truth."""
     made = make(case)
-    begun = process_time()
-    try:
-        diagnosed = diagnose_recording(case, made)
-    except (InputFaults, NotConverged, FilmInputError) as reason:
-        return _failed(case, made, str(reason), process_time() - begun)
-    return _outcome(case, made, diagnosed, process_time() - begun)
-
-
-def diagnose_recording(case: Case, made: Made) -> Diagnosed:
-    """What `swashfilm diagnose ref90 FOLDER` finds, and what others make of the same study."""
-    known, thresholds = load_known_pump("ref90"), load_thresholds()
-    pump = known.pump
     with tempfile.TemporaryDirectory() as folder:
         write_recording(Path(folder), case.name, made.readings, campaigns()[case.campaign].circuit)
-        recording = checked_recording(Path(folder), known)
+        found, told = _tried(Path(folder), of_case(case, made))
+    return replace(found, covered=_covered(case, told, made.machine)) if told else found
+
+
+def try_folder(folder: Path) -> Outcome:
+    """The same of a recording that is given with its answer."""
+    return _tried(folder, of_folder(folder))[0]
+
+
+def _tried(folder: Path, expected: Outcome) -> tuple[Outcome, Diagnosis | None]:
+    """What is told beside what is expected; a recording of which no diagnosis comes about tells why."""
+    begun = process_time()
+    try:
+        diagnosed = diagnose_folder(folder)
+    except (InputFaults, NotConverged, FilmInputError) as reason:
+        spent = process_time() - begun
+        return replace(expected, failed=str(reason), status="failed", seconds=spent, program=program()), None
+    return _outcome(expected, diagnosed, process_time() - begun), diagnosed.found
+
+
+def diagnose_folder(folder: Path) -> Diagnosed:
+    """What `swashfilm diagnose ref90 FOLDER` finds, and what others make of the same study."""
+    known, thresholds = load_known_pump("ref90"), load_thresholds()
+    pump, recording = known.pump, checked_recording(folder, known)
     study = prepare(pump, recording, tolerances(pump)[0], thresholds)
     points, _ = bench_points(study.recording, pump)
     viscosity = walther(points.T_case, pump.oil.fluid) * pump.oil.density
     found = diagnose_study(study, viscosity, thresholds)
-    return Diagnosed(study, with_next_point(study, pump, found, thresholds), rivals(study, thresholds))
+    return Diagnosed(with_next_point(study, pump, found, thresholds), rivals(study, thresholds))
 
 
-def _outcome(case: Case, made: Made, diagnosed: Diagnosed, seconds: float) -> Outcome:
+def _outcome(expected: Outcome, diagnosed: Diagnosed, seconds: float) -> Outcome:
     found = diagnosed.found
     ranked = sorted(found.hypotheses, key=lambda each: -each.probability)
-    channels = found.fit.before
-    return Outcome(
-        name=case.name, part=case.part.value, campaign=case.campaign, seed=case.seed, asked=case.score,
-        score=made.score, sizes=made.sizes, truth=VERDICTS[case.part],
-        effects=tuple(one.id for one in case.concealed if one.id),
-        pairs=tuple(one.pair for one in case.concealed if one.id), shares=made.shares,
-        verdict=found.kind.value, status=found.status.value,
-        claims=tuple(
-            Claimed(one.effect.value, one.pair.value if one.pair else None, one.probability,
-                    tuple(each.value for each in one.equivalent))
-            for one in found.effects
-        ),
+    before, after, noise = found.fit.before, found.fit.after, found.fit.noise
+    return replace(
+        expected,
+        verdict=found.kind.value,
+        status=found.status.value,
+        claims=tuple(_claimed(one) for one in found.effects),
         ranked=tuple(_ranked(each) for each in ranked[:KEPT]),
         nothing=sum(each.probability for each in ranked if each.hypothesis.kind is Kind.NO_MISMATCH),
         channels=tuple(channel.value for channel in found.location.channels),
-        heldout={name.value: (channels[name], found.fit.after[name], found.fit.noise[name]) for name in channels},
-        covered=_covered(case, found, made.machine),
+        heldout={name.value: (before[name], after[name], noise[name]) for name in before},
         chi2=tuple(float(fit.objective / fit.residual.size) for fit in (found.before, found.after)),
-        chance=found.detection.chance, reasons=found.notes, rivals=diagnosed.rivals, seconds=seconds,
+        chance=found.detection.chance,
+        reasons=found.notes,
+        rivals=diagnosed.rivals,
+        seconds=seconds,
         program=program(),
-    )  # fmt: skip
+    )
 
 
-def _failed(case: Case, made: Made, reason: str, seconds: float) -> Outcome:
-    """A case of which no diagnosis comes about: it counts as wrong, with its reason."""
-    return Outcome(
-        name=case.name, part=case.part.value, campaign=case.campaign, seed=case.seed, asked=case.score,
-        score=made.score, sizes=made.sizes, truth=VERDICTS[case.part],
-        effects=tuple(one.id for one in case.concealed if one.id),
-        pairs=tuple(one.pair for one in case.concealed if one.id), shares=made.shares,
-        verdict="none", status="failed", claims=(), ranked=(), nothing=0.0, channels=(), heldout={}, covered={},
-        chi2=(0.0, 0.0), chance=1.0, reasons=(), rivals={}, seconds=seconds, program=program(), failed=reason,
-    )  # fmt: skip
+def _claimed(one: Claim) -> Claimed:
+    place = one.pair.value if one.pair else None
+    return Claimed(one.effect.value, place, one.probability, tuple(each.value for each in one.equivalent))
 
 
 def _ranked(each: Weighed) -> Ranked:

@@ -115,9 +115,9 @@ def test_calibration_of_one_case(proof: SimpleNamespace, right: object) -> None:
 def test_outcomes_outlast_a_break(proof: SimpleNamespace, right: object, tmp_path: Path) -> None:
     """What was kept is what is loaded, under the case's own key; another seed has none."""
     case = proof.cases.cases(proof.cases.Part.NULL, 52)[0]
-    proof.store.keep(tmp_path, case, right)
-    assert proof.store.load(tmp_path, case) == right
-    assert proof.store.load(tmp_path, replace(case, seed=1)) is None
+    proof.store.keep(tmp_path, proof.store.name_of(case), right)
+    assert proof.store.load(tmp_path, proof.store.name_of(case)) == right
+    assert proof.store.load(tmp_path, proof.store.name_of(replace(case, seed=1))) is None
     assert not list(tmp_path.glob("*.tmp"))
 
 
