@@ -13,6 +13,9 @@ from diagnosis.sensor_checks import copies, noiseless, stuck
 from diagnosis.unit_checks import implausible
 from system.channels import OUTPUTS, ChannelName
 
+LEAST_CHI2 = 0.2
+"""Of chi-square per reading: chance makes less of 20 readings once in twenty thousand recordings."""
+
 
 def check_recording(recording: Recording, displacement: float | None) -> Recording:
     """Return the recording with what its readings tell: notes added, readings that are put aside made nan.
@@ -34,6 +37,22 @@ def too_few(recording: Recording, parameters: int) -> DataNote | None:
         return None
     return DataNote(
         NoteKind.FAULT, None, (), f"{readings} readings for {parameters} parameters: record more points than these"
+    )
+
+
+def too_smooth(chi2: float, readings: int) -> DataNote | None:
+    """Return the fault of readings that scatter about a fit by far less than their noise; None where they scatter.
+
+    chi2: of all readings; below `LEAST_CHI2` of their number they are simulated, smoothed, or better than said.
+    """
+    if chi2 >= LEAST_CHI2 * readings:
+        return None
+    return DataNote(
+        NoteKind.FAULT,
+        None,
+        (),
+        f"chi2 {chi2 / readings:.2g} per reading: they scatter by far less than their repeatability. Simulated or "
+        "smoothed readings tell nothing of noise; of measured ones, state the sigma that repeats show",
     )
 
 

@@ -29,7 +29,11 @@ WORTH_TELLING = 0.01  # probability of a rival
 
 
 def statement(diagnosis: Diagnosis) -> str:
-    """One to three sentences: where, what, how much, how sure."""
+    """One to three sentences: where, what, how much, how sure; and at which shaft angles traces stand out."""
+    return f"{_verdict(diagnosis)}{_angles(diagnosis.location)}"
+
+
+def _verdict(diagnosis: Diagnosis) -> str:
     if diagnosis.status is Status.SUSPICION:
         return f"{_where(diagnosis.location)}: {_suspicion(diagnosis)}."
     if diagnosis.kind is Kind.NO_MISMATCH:
@@ -92,7 +96,7 @@ def next_point_text(found: NextPoint) -> str:
 
 
 def _where(location: Location) -> str:
-    """Channels, part of the map, shaft angles, time."""
+    """Channels, part of the map, time."""
     channels = listed(channel.value for channel in location.channels) or "No single channel"
     return ", ".join([channels, *_places(location)])
 
@@ -100,13 +104,18 @@ def _where(location: Location) -> str:
 def _places(location: Location) -> Iterator[str]:
     if location.region is not None:
         yield location.region.text
-    if location.angle is not None:
-        start, end = (reading(ChannelName.ANGLE, angle) for angle in (location.angle.start, location.angle.end))
-        events = f" ({listed(location.angle.events)})" if location.angle.events else ""
-        yield f"shaft angle {start:.3g} to {end:.3g} deg{events}"
     if location.time is not None:
         since = "in the course of the recording" if location.time.kind is TimeKind.DRIFT else "from one point on"
         yield f"{since} (point {location.time.at + 1})"
+
+
+def _angles(location: Location) -> str:
+    """A sentence of its own: what stands out in a trace need not be what is claimed."""
+    if location.angle is None:
+        return ""
+    start, end = (reading(ChannelName.ANGLE, angle) for angle in (location.angle.start, location.angle.end))
+    events = f" ({listed(location.angle.events)})" if location.angle.events else ""
+    return f" The chamber's pressure stands out at shaft angle {start:.3g} to {end:.3g} deg{events}."
 
 
 def _claim(claim: Claim) -> str:

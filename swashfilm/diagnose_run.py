@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from diagnosis.ask import with_next_point
-from diagnosis.data_checks import check_recording, too_few
+from diagnosis.data_checks import check_recording, too_few, too_smooth
 from diagnosis.diagnose import diagnose_study
 from diagnosis.prepare import prepare
 from diagnosis.readings import bench_points
@@ -57,6 +57,9 @@ def run_diagnosis(
     few = too_few(study.recording, len(study.simulator.parameters))
     if few is not None:
         raise InputFaults(recording.title, [Fault("recording", few.text, "more readings than parameters")])
+    smooth = too_smooth(study.base.objective, study.base.residual.size)
+    if smooth is not None:
+        raise InputFaults(recording.title, [Fault("recording", smooth.text, "readings with the noise stated")])
     points, _ = bench_points(study.recording, pump)
     viscosity = walther(points.T_case, pump.oil.fluid) * pump.oil.density
     found = diagnose_study(study, viscosity, thresholds, report, workers)

@@ -66,12 +66,12 @@ def _points() -> BenchPoints:
     )  # fmt: skip
 
 
-def _record(folder: Path, churning: float) -> Path:
-    """A recording of REF90 as described, with so many times Wendt's churning."""
+def _record(folder: Path, churning: float, noise: float = 1.0) -> Path:
+    """A recording of REF90 as described, with so many times Wendt's churning and the noise stated."""
     points = _points()
     bench = LumpedBench(PUMP, points, READ, (), (CHURNING,))
     truth: Array = bench.predict(np.array([churning])) * np.array([6e4, 6e4, 1.0])
-    readings = truth + NOISE * np.random.default_rng(4).normal(size=truth.shape)
+    readings = truth + noise * NOISE * np.random.default_rng(4).normal(size=truth.shape)
     columns = {
         "n": points.speed * 30.0 / np.pi, "e": points.displacement_ratio, "p": points.p_out * 1e-5,
         "s": points.p_in * 1e-5, "c": points.p_case * 1e-5, "t": points.T_in - 273.15, "T": points.T_case - 273.15,
@@ -171,6 +171,13 @@ def test_a_recording_is_checked_without_being_diagnosed(
     error = capsys.readouterr().err
     assert "unit = 'bar'" in error
     assert "torque" in error
+
+
+def test_readings_without_noise_are_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """What a simulator wrote is no recording: exit code 2, with what to do."""
+    folder = _record(tmp_path, 0.0, noise=0.01)
+    assert main(["diagnose", "ref90", str(folder), "-o", str(tmp_path / "out")]) == 2
+    assert "far less than their repeatability" in capsys.readouterr().err
 
 
 def test_the_nearest_recording_is_told(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
