@@ -61,7 +61,8 @@ def _columns(path: Path, head: list[str], layouts: tuple[Points, ...]) -> tuple[
     found = f"the head '{', '.join(cell.strip() for cell in head)}' of {path.name}"
     known = sorted({name for layout in layouts for name in layout.heads})
     unknown = [near for name in names if name not in known and (near := nearest_choice(name, known))]
-    raise QuantityError(found, wanted_file(layouts), f"'{unknown[0]}'" if unknown else "")
+    parted = "cells parted by commas, numbers with a point" if any(";" in cell for cell in head) else ""
+    raise QuantityError(found, wanted_file(layouts), f"'{unknown[0]}'" if unknown else parted)
 
 
 def _row(

@@ -13,7 +13,7 @@ from pydantic.fields import FieldInfo
 from system.faults import nearest_choice, nearest_path
 from system.fields import Points, Section, Text, choice_of, dimension_of, layouts_of, tables_of, text_of, whole
 from system.point_files import read_rows, wanted_file
-from system.units import Dimension, QuantityError, format_quantity, parse_quantity
+from system.units import Dimension, QuantityError, format_quantity, parse_quantity, with_point
 
 HERE = Path()
 """Where files are looked for that a built-in pump's own values name: the working directory."""
@@ -36,7 +36,7 @@ def read_value(info: FieldInfo, raw: object, folder: Path = HERE) -> object:
     if (text := text_of(info)) is not None:
         return _text(raw, text, folder)
     if isinstance(raw, bool) or not isinstance(raw, (int, float)):
-        raise QuantityError(repr(raw), wanted(info))
+        raise QuantityError(repr(raw), wanted(info), with_point(raw) if isinstance(raw, str) else "")
     return raw
 
 

@@ -108,6 +108,8 @@ def parse_quantity(text: object, dimension: Dimension) -> float:
     if isinstance(text, bool) or not isinstance(text, (str, int, float)):
         raise QuantityError(_shown(text), expected)
     match = _QUANTITY.fullmatch(str(text))
+    if comma := with_point(str(text)):
+        raise QuantityError(f"{_shown(text)}, with a decimal comma", expected, comma)
     if match is None:
         raise QuantityError(_shown(text), expected)
     number, unit_text = match[1], match[2]
@@ -115,7 +117,7 @@ def parse_quantity(text: object, dimension: Dimension) -> float:
         raise QuantityError(_shown(text), expected, f"'{number} {_example_unit(dimension)}'")
     unit = _unit(unit_text)
     if unit is None:
-        raise QuantityError(f"{_shown(text)}, a unit that is not known", expected, with_point(str(text)))
+        raise QuantityError(f"{_shown(text)}, a unit that is not known", expected)
     if not _measures(unit, dimension):
         raise QuantityError(f"{_shown(text)}, which is not {dimension.noun}", expected)
     value = _in_si(number, unit, dimension)
