@@ -29,8 +29,10 @@ from reynolds.film import HALF, FilmProblem, FilmSolution
 from reynolds.floating import Floating
 from reynolds.floating_stage import Stage
 from reynolds.floating_start import seats_of
+from reynolds.fluid import Fluid, isoviscous
 from reynolds.mesh import Array
 from reynolds.solve import FilmSolver
+from reynolds.transport import at_points
 from reynolds.wall_heat import GivenTemperature
 
 WARMED, FEWEST = 24, 4  # angles of a turn with their own temperatures, and of a pitch at least
@@ -209,10 +211,16 @@ class _Warming(Generic[Seen]):
         return np.asarray(self._walls + missing / (1.0 + resistance * conductance))
 
     def _warmed(self, time: float) -> Found:
-        """The film of a time, of the viscosity that its own temperature makes, its shape as it is."""
-        cold, film, heat = self._floating.shape_at(time), self._gathered[time].problem, self._heat
-        resting = replace(film.film, viscosity=cold.film.viscosity, couette_viscosity=None, moving_share=HALF)
-        problem = replace(film, film=resting, fluid=cold.fluid)
+        """The film of a time, of the viscosity that its own temperature makes, its shape as it is.
+
+        Oil is as stiff as the motion's pressure makes it, to which that of a film of given shape comes back as
+        both agree: under its own a thin one between walls that give way no more would stiffen without bound.
+        """
+        cold, film, heat = self._floating.shape_at(time), self._gathered[time], self._heat
+        under = at_points(film.problem.space, film.pressure)
+        stiff = np.asarray(cold.fluid.viscosity(under, cold.film.viscosity)[0])
+        resting = replace(film.problem.film, viscosity=stiff, couette_viscosity=None, moving_share=HALF)
+        problem = replace(film.problem, film=resting, fluid=Fluid(isoviscous, cold.fluid.density))
         posed = Posed(problem, _law(problem, heat), heat.of(problem, self._walls), at_once=True)
         try:
             return _with_heat(agree(posed, levels(), AGREED, self._solver, self._warm.get(time)))

@@ -231,11 +231,13 @@ class PistonFilm:
         """
         solution, drive = stage.solution, self.drive
         space, (around, along) = solution.problem.space, self._points
-        above = evaluate(solution, solution.pressure)[0] - drive.case_pressure + contact
+        above = evaluate(solution, stage.borne)[0] - drive.case_pressure
         chamber = self._driven(stage.time).chamber_pressure - drive.case_pressure
         taken_off = self._relief(stage.time, *self._vertices).depth
         slope = self._relief(stage.time, around, along).along
-        if given is not None:
+        if given is None:
+            above = above + contact
+        else:
             taken_off, slope = taken_off + given.dented, slope + given.slope(solution)
         return -float(np.sum(above * slope * space.area)) - chamber * self._on_chamber_edge(taken_off)
 

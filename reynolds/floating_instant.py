@@ -22,7 +22,7 @@ from reynolds.generalised import (
 )
 from reynolds.linear import ITERATIVE_TOLERANCE
 from reynolds.mesh import Array
-from reynolds.opening import opening_slope, touch_at
+from reynolds.opening import touch_at
 from reynolds.sensitivity import Response, oil_slopes, response, thickness_load
 from reynolds.solve import FilmSolver, as_given
 
@@ -176,8 +176,9 @@ class Instant:
         """Growth of the gap by each coordinate at the vertices, (vertices, k), walls that give way following."""
         if self.shape.walls is None:
             return self.modes.at_vertices
-        opened = opening_slope(at.solution.problem, at.solution.opening) @ film.pressure
-        return opened + (at.contact.grown if isinstance(at.contact, SoftContact) else self.modes.at_vertices)
+        if isinstance(at.contact, SoftContact):
+            return at.contact.opened(film.pressure) + at.contact.grown
+        return self.shape.walls.matrix @ film.pressure + self.modes.at_vertices
 
     def ahead(self, at: Trial, step: Array, film: Response) -> FilmSolution:
         """The film a step (k,) m on as its slopes have it: where to start from for the film there.

@@ -107,7 +107,7 @@ class Stage:
         least = float(self.gap.min())
         return least if corners is None else min(least, float((corners + self._grown @ self.shift).min()))
 
-    @property
+    @cached_property
     def _grown(self) -> Array:
         """Growth of the gap by each coordinate at the vertices, (vertices, k)."""
         return self.instant.grown(self.trial, self.by_position)
@@ -184,8 +184,7 @@ class Stage:
 
     def moved(self, change: Array) -> Array:
         """Change of the gap (cells, points) m by one of the position (k,) m, walls that give way following."""
-        grows = self.instant.grown(self.trial, self.by_position)
-        return self.instant.shape.space.sample_vertices(grows @ change)
+        return self.instant.shape.space.sample_vertices(self._grown @ change)
 
     @property
     def yardstick(self) -> Array:

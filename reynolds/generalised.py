@@ -129,7 +129,11 @@ class SoftContact(ContactForce):
 
     def by_pressure(self, changed: Array) -> Array:
         """Change of the force by changes (size, m) Pa of the film's pressure, which opens the walls, (k, m) N."""
-        return np.asarray(self.lever.T @ self.touch.settled(self.touch.compliance @ changed))
+        return np.asarray(self.lever.T @ self.opened(changed))
+
+    def opened(self, changed: Array) -> Array:
+        """Opening (vertices, m) m by changes (size, m) Pa of the film's pressure, which contact resists."""
+        return self.touch.settled(np.asarray(self.touch.compliance @ changed))
 
 
 def soft_contact(touch: Touch, modes: Modes) -> SoftContact:

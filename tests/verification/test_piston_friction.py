@@ -8,10 +8,11 @@ import pytest
 from gaps.course import constant
 from gaps.physics import Effect, FilmLaws, Physics
 from gaps.piston_motion import PistonDrive, PistonFilm, PistonFriction, PistonShape, floating_piston
+from gaps.piston_yielding import Yielding
 from reynolds.contact import Asperities, contact_pressure
 from reynolds.floating_stage import Stage, solve_stage
 from reynolds.floating_start import started
-from reynolds.loads import loads
+from reynolds.loads import boundary_flows, loads
 from reynolds.solve import FilmSolver
 
 DIAMETER, CLEARANCE, LENGTH, VISCOSITY = 22e-3, 15e-6, 40e-3, 0.0258
@@ -19,10 +20,8 @@ PRESSURE, CASE, OUTWARDS, PISTON, BORE = 20e6, 1e6, 2.89, 300.0, 220.0
 RADIUS, AREA = 0.5 * DIAMETER, np.pi * DIAMETER * LENGTH
 
 
-def _at(
-    eccentricity: float, cells: tuple[int, int], rough: Asperities | None = None
-) -> tuple[Stage, PistonFriction]:
-    """A parallel piston that moves out of a bore longer than it is engaged, a moment after it was let go."""
+def _piston(cells: tuple[int, int], rough: Asperities | None = None) -> PistonFilm:
+    """A piston that moves out of a bore longer than it is engaged."""
     drive = PistonDrive(
         shaft_speed=1.0,
         viscosity=VISCOSITY,
@@ -36,12 +35,24 @@ def _at(
         outer=constant(0.0, 0.0, 0.0, 0.0),
     )
     shape = PistonShape(DIAMETER, CLEARANCE, 45e-3)
-    film = PistonFilm(shape, drive, FilmLaws(asperities=rough), Physics().without(Effect.CAVITATION), cells)
+    return PistonFilm(shape, drive, FilmLaws(asperities=rough), Physics().without(Effect.CAVITATION), cells)
+
+
+def _let_go(film: PistonFilm, eccentricity: float) -> Stage:
+    """It stood parallel to its bore a moment ago."""
     start = started(floating_piston(film), 0.0, eccentricity * CLEARANCE * np.array([1.0, 0.0, 1.0, 0.0]))
     step = 1e-10
-    stage = solve_stage(
+    return solve_stage(
         FilmSolver(film.space_at(0.0)), floating_piston(film), step, start.held, step, start.q, None
     )
+
+
+def _at(
+    eccentricity: float, cells: tuple[int, int], rough: Asperities | None = None
+) -> tuple[Stage, PistonFriction]:
+    """The parallel piston and its friction."""
+    film = _piston(cells, rough)
+    stage = _let_go(film, eccentricity)
     return stage, film.friction(stage, film.rubbed(stage))
 
 
@@ -86,6 +97,23 @@ def test_torque_and_power_of_a_centred_piston():
     turned = -found.torque * (PISTON - BORE)
     assert found.power == pytest.approx(turned - found.force * OUTWARDS, rel=1e-6)
     assert stage.solution.problem.space.vertices[:, 1].min() == pytest.approx(5e-3, abs=1e-8)
+
+
+def test_pressure_pushes_a_piston_by_its_dents():
+    """Dents that grow evenly towards the chamber, where pressure does: -int (p - p_case) dg/dy dA of the flank and
+    -(P - p_case) pi d g of the end leave half of the latter; what they take is missing in the swept clearance."""
+    film = _piston((8, 4))
+    stage, deepest = _let_go(film, 0.0), 2e-6
+    along = stage.instant.shape.space.vertices[:, 1]
+    dents = deepest * (along.max() - along) / np.ptp(along)
+    by = film.rubbed(stage)
+    plain, dented = (film.friction(stage, by, given) for given in (None, Yielding(dents, dents, 0.0)))
+    rim = np.pi * DIAMETER * deepest
+    assert dented.force - plain.force == pytest.approx(-0.5 * rim * (PRESSURE - CASE), rel=1e-6)
+    assert dented.power - plain.power == pytest.approx(0.5 * rim * (PRESSURE - CASE) * OUTWARDS, rel=1e-6)
+    flows = boundary_flows(stage.solution)
+    rigid, soft = (film.chamber_flow(stage, flows, given) for given in (None, Yielding(dents, dents, 0.0)))
+    assert soft - rigid == pytest.approx(-OUTWARDS * rim, rel=1e-9)
 
 
 def test_contact_rubs_against_the_sliding(validation):
