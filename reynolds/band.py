@@ -55,6 +55,8 @@ class BandedFactor:
         kernels.fill(self._place, self._border, both.column, both.indices, self._entries, self._order, self._band)
         if not kernels.eliminate(self._band):
             return False
+        if not len(self._inverse):
+            return True
         try:
             self._inverse = np.asarray(np.linalg.inv(self._band.corner))
         except np.linalg.LinAlgError:

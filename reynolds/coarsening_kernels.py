@@ -17,13 +17,8 @@ _FAST = {"cache": True, "error_model": "numpy", "fastmath": {"contract"}}
 @njit(**_FAST)
 def take_in(data, places, entries, fine, top, coarse, coarsest):
     """Set up with the entries of an upper triangle, each at its place in the finest stencils (flat: `entries`)."""
-    corners, before = False, fine.corners[0]
     for k in range(places.shape[0]):
-        over = places[k] >= 3 * fine.centre.shape[0]  # across a cell: nothing beside a side without flow
-        if before or not over or data[k] != 0.0:
-            entries[places[k]] = data[k]
-            corners |= over and data[k] != 0.0
-    fine.corners[0] = corners
+        entries[places[k]] = data[k]
     return set_up(fine, top, coarse, coarsest)
 
 
@@ -34,7 +29,6 @@ def set_up(fine, top, coarse, coarsest):
     `top` is `fine`, or rounded from it.
     """
     levels = coarse.lines.shape[0]
-    top.corners[0] = fine.corners[0]
     if fine.around:
         _repeat_stencils(fine, plain(0))
     if top.centre.itemsize < fine.centre.itemsize:

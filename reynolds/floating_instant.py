@@ -242,7 +242,9 @@ class Instant:
 
     def _oil_by(self, at: Trial, both: Response, moved: Array) -> Array:
         """Change of what the unknowns hold, pockets' oil in it, with film and position (k, m) m."""
-        oil = oil_slopes(at.solution, at.thicker @ moved, both, self.solver.operators(at.solution))
+        k, m = moved.shape
+        thicker = (at.thicker.reshape(-1, k) @ moved).reshape(*at.thicker.shape[:2], m)
+        oil = oil_slopes(at.solution, thicker, both, self.solver.operators(at.solution))
         return np.asarray(oil + pockets_grown(at.solution, self.modes) @ moved)
 
     def by_before(self, at: Trial, changed: Kept) -> tuple[Response, Array]:

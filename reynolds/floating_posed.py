@@ -33,7 +33,7 @@ def posed(shape: FilmProblem, modes: Modes, q: Array) -> Posed:
 
     Between rigid walls contact is left out of its problem: the gap counts there. Walls that give way feel it.
     """
-    gap, corners = shape.film.thickness + modes.at_points @ q, shape.film.thickness_at_vertices
+    gap, corners = shape.film.thickness + modes.rise(q), shape.film.thickness_at_vertices
     if shape.walls is not None:
         corners = None if corners is None else corners + modes.at_vertices @ q
         film = replace(shape.film, thickness=gap, thickness_at_vertices=corners)

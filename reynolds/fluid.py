@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
@@ -23,7 +24,15 @@ def isoviscous(pressure: Array, viscosity: Array) -> tuple[Array, Array]:
 
 def incompressible(pressure: Array) -> tuple[Array, Array]:
     """A density that pressure does not change: ratio one."""
-    return np.ones_like(pressure), np.zeros_like(pressure)
+    return _constant(pressure.shape)
+
+
+@lru_cache(maxsize=64)
+def _constant(shape: tuple[int, ...]) -> tuple[Array, Array]:
+    """Ones and zeros, made once a shape; not to be written to."""
+    ratio, slope = np.ones(shape), np.zeros(shape)
+    ratio.flags.writeable = slope.flags.writeable = False
+    return ratio, slope
 
 
 @dataclass(frozen=True)

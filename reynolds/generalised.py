@@ -40,6 +40,11 @@ class Modes:
         """The modes at the quadrature points, (cells, points, k)."""
         return np.ascontiguousarray(self.space.reference.geometry_value @ self.at_vertices[self.space.cells])
 
+    def rise(self, position: Array) -> Array:
+        """What a position (k,) m adds to the film at the quadrature points, (cells, points) m."""
+        points = self.at_points  # one product, where numpy would take a thousand of a few numbers
+        return np.asarray(points.reshape(-1, len(position)) @ position).reshape(points.shape[:2])
+
     @cached_property
     def weights(self) -> Array:
         """int f_i phi_j and the pockets' areas, (size, k) m2: Q by nodal pressure."""

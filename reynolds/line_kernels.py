@@ -25,7 +25,7 @@ class Levels(NamedTuple):
     """Operators and vectors of some levels, each one flat array: level by level, even block and odd block.
 
     The symmetric stencil of an unknown: centre, and its coupling east (along the line), north (to the next line),
-    north-east and north-west, both zero on levels without `corners`. `pivot` is the inverse diagonal of each
+    north-east and north-west. `pivot` is the inverse diagonal of each
     line's L D L^T. `start` (levels, 2) of the blocks, `slots` (levels,) of their rows, `lines` (levels,) of length
     `length`; `around`: last next to first.
     """
@@ -38,7 +38,6 @@ class Levels(NamedTuple):
     pivot: NDArray[np.floating[Any]]
     answer: NDArray[np.floating[Any]]
     load: NDArray[np.floating[Any]]
-    corners: NDArray[np.bool_]
     start: NDArray[np.int64]
     slots: NDArray[np.int64]
     lines: NDArray[np.int64]

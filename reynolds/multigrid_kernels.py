@@ -34,12 +34,6 @@ def _others(a, x, q, t, slots):
     return lanes(a.north, q) * lanes(x, t + 1) + lanes(a.north, t) * lanes(x, t) + corners + south
 
 
-@njit(inline="always")
-def _straight(a, x, q, t):
-    """The same without corners."""
-    return lanes(a.north, q) * lanes(x, t + 1) + lanes(a.north, t) * lanes(x, t)
-
-
 @njit(**_FAST)
 def _begin(a, level):
     """Solve the even lines for their load alone, from nothing."""
@@ -58,18 +52,11 @@ def _relax(a, level, odd):
         repeat_lines(a.answer, a, level, 1 - odd)
     slots, begin, wide = a.slots[level], a.start[level, odd] + odd, width(a, level, odd)
     over = a.start[level, 1 - odd] - begin
-    if a.corners[level]:
-        for i in range(1, a.length + 1):
-            for q in range(begin + i * slots, begin + i * slots + wide, WIDTH):
-                rest = lanes(a.load, q) - _others(a, a.answer, q, q + over, slots)
-                rest -= lanes(a.east, q - slots) * lanes(a.answer, q - slots)
-                put_lanes(a.answer, q, lanes(a.pivot, q) * rest)
-    else:
-        for i in range(1, a.length + 1):
-            for q in range(begin + i * slots, begin + i * slots + wide, WIDTH):
-                rest = lanes(a.load, q) - _straight(a, a.answer, q, q + over)
-                rest -= lanes(a.east, q - slots) * lanes(a.answer, q - slots)
-                put_lanes(a.answer, q, lanes(a.pivot, q) * rest)
+    for i in range(1, a.length + 1):
+        for q in range(begin + i * slots, begin + i * slots + wide, WIDTH):
+            rest = lanes(a.load, q) - _others(a, a.answer, q, q + over, slots)
+            rest -= lanes(a.east, q - slots) * lanes(a.answer, q - slots)
+            put_lanes(a.answer, q, lanes(a.pivot, q) * rest)
     substitute(a.answer, a.pivot, a.east, begin, slots, wide, a.length)
 
 
@@ -201,8 +188,7 @@ def apply(a, x, out):
         over = a.start[0, 1 - odd] - begin
         for i in range(1, a.length + 1):
             for q in range(begin + i * slots, begin + i * slots + wide, WIDTH):
-                image = _own(a, x, q, slots)
-                image += _others(a, x, q, q + over, slots) if a.corners[0] else _straight(a, x, q, q + over)
+                image = _own(a, x, q, slots) + _others(a, x, q, q + over, slots)
                 put_lanes(out, q, image)
                 total += lanes(x, q) * image
         if a.around:

@@ -62,6 +62,7 @@ class FilmSolver:
         self._near, self._patterns = NearFactor(), SoftPatterns(space)
         self._cascade: Cascade | None = None
         self._answers: _Answers | None = None
+        self._answered: FilmSolution | None = None  # the film that came of them
 
     def solve(self, problem: FilmProblem, start: FilmSolution | None = None) -> FilmSolution:
         """The film of `problem`; `start` warms pressures, film fractions and cavity.
@@ -110,7 +111,8 @@ class FilmSolver:
             path.append(imbalance)
             if (settled and imbalance < ROUND_OFF) or (imbalance < enough and near):
                 _check_filled(at)
-                return self._found(_solution(problem, setting, at, path))
+                self._answered = _solution(problem, setting, at, path)
+                return self._answered
             # Under JFO an unknown next to zero may change sides for ever: either side is the solution.
             near = imbalance < (NEAR if settled else TOLERANCE if problem.cavitation is Cavitation.JFO else 0.0)
             cycles |= iteration >= FULL_STEPS or (not settled and at.cavity.tobytes() in seen)
@@ -156,15 +158,18 @@ class FilmSolver:
         guess = self._cascade.cavity(obstacle)
         return active_set(matrix, self._factor, obstacle, guess) if problem.cavitation is Cavitation.JFO else guess
 
-    def _found(self, solution: FilmSolution) -> FilmSolution:
-        assert self._answers is not None
-        self._answers = replace(self._answers, solution=solution)
-        return solution
+    def _answer(self, solution: FilmSolution) -> _Answers | None:
+        """The last linearised balance, if it is of that film, its cavity the same but for what is full."""
+        kept = self._answers
+        if kept is None or self._answered is not solution:
+            return None
+        return kept if np.array_equal(kept.at.cavity, solution.cavity) else None
 
     def operators(self, solution: FilmSolution) -> Operators:
         """The operators of a solution's balance; those of the last film are known."""
-        if self._answers is not None and self._answers.belong_to(solution) and is_linear(solution.problem):
-            return self._answers.at.parts
+        kept = self._answer(solution)
+        if kept is not None and is_linear(solution.problem):
+            return kept.at.parts
         return operators(solution.problem, State(solution.pressure, solution.film_fraction, solution.opening))
 
     def response(
@@ -176,13 +181,12 @@ class FilmSolver:
         the cavity its film fraction. Where the last film solved is this one its last factor is used again, which
         for a balance that is not linear was made some 1e-6 before the solution, or `tolerance` before it.
         """
-        if self._answers is None or not self._answers.belong_to(solution) or self._answers.aged > tolerance:
+        kept = self._answer(solution)
+        if kept is None or kept.aged > tolerance:
             problem, state = solution.problem, State(solution.pressure, solution.film_fraction, solution.opening)
-            setting = spread(problem)
-            self._linear(problem, setting, iterate_of(problem, state, solution.cavity))
-            self._found(solution)
-        assert self._answers is not None
-        return self._answers.to(inflow, tolerance)
+            kept, _ = self._linear(problem, spread(problem), iterate_of(problem, state, solution.cavity))
+            self._answered = solution
+        return kept.to(inflow, tolerance)
 
     def _serves(self, fixed: NDArray[np.bool_], at: Iterate) -> bool:
         """Whether the linearisation made last has the same unknowns: held ones, pressures and cavity."""
@@ -195,10 +199,8 @@ class FilmSolver:
         self, problem: FilmProblem, setting: Setting, at: Iterate, tolerance: float, imbalance: float
     ) -> Array:
         """The signed unknowns after one Newton step of the free ones; held ones stay as they are."""
-        load = self._linear(problem, setting, at)
-        assert self._answers is not None
-        self._answers = replace(self._answers, made=imbalance)
-        return signed_after(problem, at, self._answers.solve(load, tolerance), self._answers.scale)
+        made, load = self._linear(problem, setting, at, imbalance)
+        return signed_after(problem, at, made.solve(load, tolerance), made.scale)
 
     def _step_kept(
         self, problem: FilmProblem, setting: Setting, at: Iterate, tolerance: float, imbalance: float
@@ -206,26 +208,33 @@ class FilmSolver:
         """The same by the linearisation made last, of the same unknowns: the simplified Newton method."""
         assert self._answers is not None
         self._answers = kept = self._answers.again_from(imbalance)
+        self._answered = None
         load = np.where(kept.fixed, 0.0, -with_pockets(setting, at)[0] / kept.unit)
         return signed_after(problem, at, kept.solve(load, tolerance), kept.scale)
 
-    def _linear(self, problem: FilmProblem, setting: Setting, at: Iterate) -> Array:
-        """Linearise the balance: afterwards `_answers` solves it. The load of a Newton step, scaled likewise."""
+    def _linear(
+        self, problem: FilmProblem, setting: Setting, at: Iterate, imbalance: float = 0.0
+    ) -> tuple[_Answers, Array]:
+        """The balance linearised at an iterate of such an imbalance, and the load of a Newton step.
+
+        Both are scaled alike. Afterwards this is the solver's last linearised balance, of no film yet.
+        """
         carried = problem.cavitation is Cavitation.JFO and bool(at.cavity.any())
-        fixed = fixed_in(problem, setting, at)
+        fixed, scale = fixed_in(problem, setting, at), 0.0
         if is_linear(problem) and not carried:
             matrix, load = symmetric_step(problem, setting, at, fixed)
             self._factor.update(matrix)
-            self._answers = _Answers(row_by_row(self._factor.solve), at, fixed, 0.0)
-            return load
-        upper, lower, load, scale = general_step(problem, setting, at)
-        if problem.walls is None:
-            self._general.update(problem.space.matrix(upper), lower, at.cavity)
-            self._answers = _Answers(self._general.solve, at, fixed, scale)
-            return load
-        answer = compliant(problem, setting, at, upper, lower, self._patterns, self._near)
-        self._answers = _Answers(row_by_row(answer), at, fixed, scale)
-        return load
+            solve = row_by_row(self._factor.solve)
+        else:
+            upper, lower, load, scale = general_step(problem, setting, at)
+            if problem.walls is None:
+                self._general.update(problem.space.matrix(upper), lower, at.cavity)
+                solve = self._general.solve
+            else:
+                solve = row_by_row(compliant(problem, setting, at, upper, lower, self._patterns, self._near))
+        made = _Answers(solve, at, fixed, scale, imbalance)
+        self._answers, self._answered = made, None
+        return made, load
 
 
 def as_given(problem: FilmProblem, given: FilmSolution) -> FilmSolution:
@@ -243,8 +252,8 @@ class _Answers:
     """The linearised balance of a film at an iterate, ready to be solved.
 
     `solve(load or rows of them, tolerance)`, both sides scaled; `scale` turns an unknown of the cavity into a film
-    fraction; `solution`: the film that came of it; `made`: imbalance of the iterate; `aged`: how far from balance
-    what they serve may be from where they were made.
+    fraction; `made`: imbalance of the iterate; `aged`: how far from balance what they serve may be from where they
+    were made.
     """
 
     solve: Solve
@@ -252,21 +261,16 @@ class _Answers:
     fixed: NDArray[np.bool_]
     scale: float
     made: float = 0.0
-    solution: FilmSolution | None = None
     aged: float = 0.0
 
     def again_from(self, imbalance: float) -> _Answers:
         """The same for an iterate of such an imbalance, maybe of another problem."""
-        return replace(self, solution=None, aged=max(self.made, self.aged, imbalance))
+        return replace(self, aged=max(self.made, self.aged, imbalance))
 
     @property
     def unit(self) -> float:
         """Over which `newton` scales the balance, m3/(s Pa)."""
         return float(self.at.parts.stiffness.max())
-
-    def belong_to(self, solution: FilmSolution) -> bool:
-        """Whether they are of that film, and of its cavity but for what is full all the same."""
-        return self.solution is solution and bool(np.array_equal(self.at.cavity, solution.cavity))
 
     def to(self, inflow: Array, tolerance: float) -> tuple[Array, Array]:
         """What inflows (size, m) m3/s change: pressures and film fractions, (size, m) each."""

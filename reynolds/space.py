@@ -161,8 +161,16 @@ class FilmSpace:
         return np.concatenate([np.zeros(0, dtype=np.int64), *(mesh.boundaries[name] for name in self.facet_dofs)])
 
     @cached_property
+    def _rim_cells(self) -> NDArray[np.int64]:
+        return np.asarray(self.film_mesh.mesh.f2t[0, self._rim])
+
+    @cached_property
     def _rim_normal(self) -> Array:
         return _outward(self, self._rim)
+
+    @cached_property
+    def _rim_length(self) -> Array:
+        return np.asarray(np.hypot(*self._rim_normal))
 
     def carried_out(self, flux: tuple[Array, Array]) -> tuple[Array, Array]:
         """Flow (m3/s) out over each facet of all named boundaries, and the magnitude that it could have at most.
@@ -170,9 +178,9 @@ class FilmSpace:
         (facets,) each, one boundary after another in the order of `facet_dofs`. `flux` (cells | 1, points | 1)
         m2/s; both zero for a line inside the film.
         """
-        normal, cell = self._rim_normal, self.film_mesh.mesh.f2t[0, self._rim]
-        x, y = (np.broadcast_to(part, self.area.shape)[cell].mean(axis=1) for part in flux)
-        return x * normal[0] + y * normal[1], np.hypot(x, y) * np.hypot(*normal)
+        normal, cells = self._rim_normal, self._rim_cells
+        x, y = (np.mean(part if len(part) == 1 else part[cells], axis=1) for part in flux)
+        return x * normal[0] + y * normal[1], np.hypot(x, y) * self._rim_length
 
     def _along(self, name: str, per_facet: Array) -> Array:
         """Trapezium rule for a linear basis, Simpson's for a quadratic one: exact integrals of the basis."""
