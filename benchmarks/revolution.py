@@ -1,10 +1,10 @@
 """Time floating gaps over a turn: `python benchmarks/revolution.py [--gap GAP] [--growth] [--save DIR]`.
 
 Prints for each gap of ref90_floating at 35 MPa (rigid, isothermal, JFO, rough) what the periodic turn costs (of
-the block the pitch after which all repeats) and where the time goes; with --growth how that grows with mesh and
-reported angles. --save keeps positions and loads of the periodic turn as DIR/<gap>.npz, against which a change
-of the program can be held. Nothing in it runs in parallel; times are those of the process, the first turn of a
-smaller mesh having compiled everything.
+the block the pitch after which all repeats) and where the time goes; with --growth how that grows with reported
+angles, and with the mesh at 72 of them. --save keeps positions and loads of the periodic turn as DIR/<gap>.npz,
+against which a change of the program can be held. Nothing in it runs in parallel; times are those of the process,
+the first turn of a smaller mesh having compiled everything.
 """
 
 import argparse
@@ -42,6 +42,7 @@ from system.pump_file import load_pump
 PUMP, PRESSURE = "ref90_floating", "35 MPa"
 CELLS = {"slipper": (12, 40), "piston": (48, 16), "block": (4, 16)}
 COARSE = {"slipper": (6, 20), "piston": (24, 8), "block": (2, 8)}
+FEW_ANGLES = 72  # a turn: for what is timed on several meshes
 REPEATS = {"slipper": 1, "piston": 1, "block": 9}  # a turn: with chambers alike the block's film does every pitch
 PARTS = {
     "linear solves": ("linear.py", "carried", "multigrid", "band", "qdldl", "superlu", "line_kernels", "coars"),
@@ -150,7 +151,7 @@ def main() -> None:
     parser.add_argument("--growth", action="store_true", help="also other meshes and angles")
     parser.add_argument("--save", type=Path, help="folder for the periodic turns")
     asked = parser.parse_args()
-    gaps = asked.gap or list(CELLS)
+    gaps, console = asked.gap or list(CELLS), Console()
     costs = Table(title=f"{PUMP} at {PRESSURE}: the periodic turn")
     for head in ("gap", "cells", "held", "angles", "turns", "steps", "films", "film / ms", "process / s"):
         costs.add_column(head, justify="right")
@@ -163,16 +164,16 @@ def main() -> None:
         series = [(CELLS[gap], asked.angles)]
         if asked.growth:
             a, b = CELLS[gap]
-            series += [(COARSE[gap], asked.angles), ((3 * a // 2, 3 * b // 2), asked.angles), (CELLS[gap], 72)]
+            series += [(cells, FEW_ANGLES) for cells in (COARSE[gap], CELLS[gap], (3 * a // 2, 3 * b // 2))]
         for cells, angles in series:
+            console.log(f"{gap}, {cells[0]} x {cells[1]} cells, {angles} angles")
             found, seconds = timed(turned(gap, cells, angles, asked.step))
             costs.add_row(*row_of(gap, cells, found, seconds))
             if asked.save and cells == CELLS[gap] and angles == asked.angles:
                 save(found, asked.save / f"{gap}.npz")
-        parts[gap] = shares(turned(gap, CELLS[gap], 72, asked.step))
+        parts[gap] = shares(turned(gap, CELLS[gap], FEW_ANGLES, asked.step))
     for part in [*PARTS, "other"]:
         where.add_row(part, *(f"{parts[gap].get(part, 0.0):.0%}" for gap in gaps))
-    console = Console()
     console.print(costs)
     console.print(where)
 

@@ -57,8 +57,11 @@ FIRST_CLOSED = 0.05
 """Distance from the periodic motion at which the first round lets its turns be, share of the mean film."""
 FEW_STEPS = 8
 """Steps a pitch of rounds before gaps and chambers nearly agree."""
-NEARLY = 10.0
-"""Times as large as their tolerances may the changes of a round be for gaps and chambers to nearly agree."""
+NEARLY = 20.0
+"""Times as large as their tolerances may the changes of a round be for gaps and chambers to nearly agree.
+
+No less than what turns of more steps change themselves: 5 to 15 times.
+"""
 CLOSING = 0.5
 """The same of later rounds, over what the round before changed."""
 ROUND_LIMIT = 12
@@ -223,8 +226,9 @@ def _loosened(options: FloatingOptions, rounds: list[Round], pistons: int) -> Fl
     last = rounds[-1] if rounds else None
     unknown = max(last.pressure_change, last.friction_change, last.spin_change) if last else FIRST_CLOSED
     closed = max(options.accuracy.closed, min(FIRST_CLOSED, CLOSING * unknown))
+    accuracy = replace(options.accuracy, closed=closed, step=max(options.accuracy.step, closed))
     steps = min(options.steps, FEW_STEPS * pistons)
-    return replace(options, steps=steps, accuracy=replace(options.accuracy, closed=closed))
+    return replace(options, steps=steps, accuracy=accuracy)
 
 
 def _agree(taken: Round, times: float = 1.0) -> bool:
