@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from math import inf
 
 import numpy as np
 
@@ -31,7 +32,7 @@ from system.physics.effects import Kind
 from system.side_by_side import Crew, crew
 
 FORETOLD = 6  # explanations, the likeliest, whose held-out points are looked at
-HOPELESS = 100.0  # nats behind the best where a wrong parameter is no longer looked into
+HOPELESS = 100.0  # nats behind what another explanation is seen to reach: there a fit is given up
 ALIKE = 0.9  # correlation beyond which two parameters are told as not identifiable
 
 
@@ -73,19 +74,20 @@ def _fits(
     report: Report,
 ) -> _Fits:
     """The likeliest refitted; where there is a mismatch wrong parameters too, and several effects together."""
-    settled = is_settled(detection, null, thresholds)
-    listed = shortlist(study, screened, settled, thresholds)
-    refitted, failed = refit_all(study, listed, thresholds, hands, report)
+    listed = shortlist(study, screened, is_settled(detection, null, thresholds), thresholds)
     combined: tuple[Weighed, ...] = ()
-    if not settled:
-        wrong = wrong_parameters(study, screened, listed, thresholds)
-        known = [each.posterior.objective for each in (null, *refitted) if each.posterior is not None]
-        more, not_wrong = refit_all(study, wrong, thresholds, hands, report, min(known) + 2.0 * HOPELESS)
-        refitted = (*refitted, *more)
-        combined, not_combined = combine(
-            study, _placed(study, screened, null, refitted), thresholds, hands, report
-        )
-        failed = (*failed, *not_wrong, *not_combined)
+    if is_settled(detection, null, thresholds):
+        refitted, failed = refit_all(study, listed, thresholds, hands, report)
+    else:
+        wrong = wrong_parameters(study, screened, thresholds)
+        more = tuple(each for each, _ in wrong if each not in listed)
+        reached = [look.reached for _, look in wrong]
+        reached += [] if null.linear else [_fit_of(null).objective]
+        hopeless = min(reached, default=inf) + 2.0 * HOPELESS
+        refitted, failed = refit_all(study, (*listed, *more), thresholds, hands, report, hopeless)
+        placed = _placed(study, screened, null, refitted)
+        combined, not_combined = combine(study, placed, thresholds, hands, report)
+        failed = (*failed, *not_combined)
     single = _unknown_anew(study, _placed(study, screened, null, refitted), null, thresholds)
     return _Fits((*single, *combined), failed)
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import partial
 from math import inf, log
 
@@ -47,7 +47,8 @@ def refit(study: Study, hypothesis: Hypothesis, thresholds: Thresholds, hopeless
         simulator = simulator_of(study.simulator, member, thresholds.name.fault_factor)
         try:
             start = _start(study, simulator, member.open_names, SIZES)[1]
-            found.append((member, maximum_posterior(simulator, study.observations, start, limits)))
+            lent = _lent_slopes(study, simulator, member.open_names, start)
+            found.append((member, maximum_posterior(simulator, study.observations, start, limits, lent)))
         except NotConverged as reason:
             failed.append(reason)
     if not found:
@@ -108,13 +109,43 @@ def _likeliest(study: Study, hypothesis: Hypothesis, thresholds: Thresholds) -> 
     return sorted(members, key=evidence, reverse=True)[:GRID_MEMBERS]
 
 
-def first_look(study: Study, hypothesis: Hypothesis, thresholds: Thresholds) -> float:
-    """The least objective at a few sizes of what a hypothesis sets free, the nuisances linear: no fit.
+@dataclass(frozen=True)
+class Look:
+    """A hypothesis glanced at: the least objective that the linear model promises, and one reached in full."""
+
+    promised: float
+    reached: float
+
+
+def first_look(study: Study, hypothesis: Hypothesis, thresholds: Thresholds) -> Look:
+    """What a few sizes of that which a hypothesis sets free leave, the nuisances linear: no fit.
 
     For parameters whose slope tells little of what a large change does.
     """
     simulator = simulator_of(study.simulator, hypothesis, thresholds.name.fault_factor)
-    return _start(study, simulator, hypothesis.open_names, ROUGHLY)[0]
+    promised, xi = _start(study, simulator, hypothesis.open_names, ROUGHLY)
+    predicted = simulator.predict(values_at(simulator.parameters, xi))
+    left = study.base.whitening.whiten(study.observations.values - predicted)
+    return Look(promised, float(left @ left + xi @ xi))
+
+
+def _lent_slopes(study: Study, simulator: Simulator, names: tuple[str, ...], start: Array) -> Array:
+    """Slopes (N, C, k) to set out with: of nuisances at the prior mean, of what is free at the start."""
+    base = study.base
+    at_base = base.whitening.unwhiten(base.slopes)
+    known = {parameter.name for parameter in base.parameters} - set(names)
+    values = values_at(simulator.parameters, start)
+    fresh = [parameter for parameter in simulator.parameters if parameter.name not in known]
+    columns = {one.name: simulator.slopes(values, (one.name,))[..., 0] for one in fresh}
+    return np.stack(
+        [
+            at_base[..., base.index(parameter.name)]
+            if parameter.name in known
+            else columns[parameter.name] * parameter.stretch(float(xi))
+            for parameter, xi in zip(simulator.parameters, start, strict=True)
+        ],
+        axis=-1,
+    )
 
 
 def _start(

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from scipy.stats import chi2
 
 from diagnosis.detect import Detection
-from diagnosis.refit import first_look
+from diagnosis.refit import Look, first_look
 from diagnosis.study import Study
 from diagnosis.thresholds import Thresholds
 from diagnosis.weighed import Weighed, with_probabilities
@@ -48,17 +48,16 @@ def shortlist(
 
 
 def wrong_parameters(
-    study: Study, screened: Sequence[Weighed], listed: Sequence[Weighed], thresholds: Thresholds
-) -> tuple[Weighed, ...]:
-    """Wrong parameters to refit besides those listed, where there is a mismatch.
+    study: Study, screened: Sequence[Weighed], thresholds: Thresholds
+) -> tuple[tuple[Weighed, Look], ...]:
+    """Wrong parameters to refit where there is a mismatch, each with its first look.
 
     Large changes of a film move the slopes of all others, so that the linear model puts them anywhere; those that
     leave least at a first look are refitted.
     """
     wrong = [each for each in _ranked(screened) if each.hypothesis.kind is Kind.WRONG_PARAMETER]
-    looks = {id(each): _look(study, each, thresholds) for each in wrong}
-    promising = sorted(wrong, key=lambda each: looks[id(each)])[:PARAMETERS]
-    return tuple(each for each in promising if each not in listed)
+    looks = [(each, _look(study, each, thresholds)) for each in wrong]
+    return tuple(sorted(looks, key=lambda look: look[1].promised)[:PARAMETERS])
 
 
 def _ranked(screened: Sequence[Weighed]) -> list[Weighed]:
@@ -70,8 +69,8 @@ def _is_null(each: Weighed) -> bool:
     return each.hypothesis.kind is Kind.NO_MISMATCH
 
 
-def _look(study: Study, wrong: Weighed, thresholds: Thresholds) -> float:
+def _look(study: Study, wrong: Weighed, thresholds: Thresholds) -> Look:
     try:
         return first_look(study, wrong.hypothesis, thresholds)
     except NotConverged:
-        return float("inf")
+        return Look(float("inf"), float("inf"))

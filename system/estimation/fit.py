@@ -110,6 +110,12 @@ class _Fit:
             self.slopes(place.xi)
         return _Walk(place, whitening.whiten(self.raw), self.taken, LEAST_DAMPING)
 
+    def first(self, place: _Place, whitening: Whitening, lent: Array | None) -> _Walk:
+        """The walk from the start, with slopes from elsewhere where they are lent."""
+        if lent is None:
+            return self.walk(place, whitening)
+        return _Walk(place, whitening.whiten(lent), np.full_like(place.xi, np.inf), LEAST_DAMPING)
+
     def renewed(self, walk: _Walk, whitening: Whitening) -> _Walk:
         """The same place with slopes taken there."""
         self.slopes(walk.place.xi)
@@ -140,9 +146,16 @@ class _Fit:
 
 
 def maximum_posterior(
-    simulator: Simulator, observations: Observations, start: Array | None = None, limits: FitLimits = LIMITS
+    simulator: Simulator,
+    observations: Observations,
+    start: Array | None = None,
+    limits: FitLimits = LIMITS,
+    lent: Array | None = None,
 ) -> Posterior:
     """The peak of the posterior within the parameters' bounds, from the standard numbers `start` (k,) or 0.
+
+    lent: d prediction / d xi (N, C, k) to set out with in place of the start's own, from a place not too unlike;
+    the peak's are its own.
 
     Objective J = r.r + xi.xi of the whitened residual r. The noise that inputs bring is renewed at the peak, and
     the peak found again, as often as `limits` say. Evidence by `laplace`, with the mass that bounds cut off told
@@ -153,13 +166,15 @@ def maximum_posterior(
     fit = _Fit(simulator, observations, limits)
     xi = fit.bounds.within(np.zeros(len(simulator.parameters)) if start is None else start)
     whitening = fit.whitening(xi)
-    place, slopes = _descend(fit, fit.place(xi, whitening), whitening)
+    place, slopes = _descend(fit, fit.first(fit.place(xi, whitening), whitening, lent), whitening)
     for _ in range(limits.whitening_rounds - 1):
         renewed = fit.whitening(place.xi)
         if place.objective > limits.hopeless or renewed.change(whitening) < SAME_NOISE:
             break
         whitening = renewed
-        place, slopes = _descend(fit, fit.seen(place.xi, place.predictions, whitening), whitening)
+        place, slopes = _descend(
+            fit, fit.walk(fit.seen(place.xi, place.predictions, whitening), whitening), whitening
+        )
     effort = Effort(fit.predictions, fit.slope_maps, process_time() - begun)
     return _posterior(fit, place, slopes, whitening, effort)
 
@@ -192,9 +207,8 @@ def best_posterior(
     )
 
 
-def _descend(fit: _Fit, place: _Place, whitening: Whitening) -> tuple[_Place, Array]:
+def _descend(fit: _Fit, walk: _Walk, whitening: Whitening) -> tuple[_Place, Array]:
     """Go down to a peak. Return it with slopes taken no farther than NEAR from it."""
-    walk = fit.walk(place, whitening)
     for step in range(fit.limits.steps):
         promised = fit.promised(walk)
         if step >= PATIENCE and walk.place.objective - promised > fit.limits.hopeless:
