@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
@@ -93,11 +93,13 @@ def floating_summary(found: FloatingPoint, warnings: list[str]) -> dict[str, Any
         "coupling_rounds": len(found.rounds),
         "coupling_pressure_change": last.pressure_change,
         "coupling_friction_change": last.friction_change,
+        "coupling_spin_change": last.spin_change,
         "films_solved": sum(taken.films_solved for taken in found.rounds),
     }
     return summary | {
         "fidelity": Fidelity.FLOATING.value,
         "gaps": here,
+        "spin_ratio": _spin_ratios(found.kinds[0].rotor),
         "unlike": {
             _place(kind): {"chambers": [k + 1 for k in kind.chambers], "gaps": gaps}
             for kind, gaps in zip(found.kinds[1:], others, strict=True)
@@ -117,6 +119,11 @@ def floating_summary(found: FloatingPoint, warnings: list[str]) -> dict[str, Any
             )
         ),
     }
+
+
+def _spin_ratios(rotor: Rotor) -> dict[str, float]:
+    """Spins of piston and slipper over the shaft's, as pump files state them."""
+    return {part: spin / rotor.point.shaft_speed for part, spin in asdict(rotor.spins).items()}
 
 
 def _spent(found: FloatingPoint) -> dict[Leg, float]:

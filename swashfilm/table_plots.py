@@ -47,7 +47,7 @@ def _groups(response: Response) -> Groups:
 
 
 def _words(name: str) -> str:
-    return named(name)[0]
+    return named(name)[0].replace("_", " ")
 
 
 def _errors(response: Response) -> bytes:
