@@ -10,7 +10,7 @@ from gaps.revolution import GapRevolution, Leg
 from gaps.schedule import Accuracy
 from gaps.seen import SlipperSeen
 from system.floating_drives import Drives, drives, no_rubbing
-from system.floating_gaps import FloatingOptions, block_revolution, slipper_revolution
+from system.floating_gaps import FloatingOptions, block_revolution, piston_revolution, slipper_revolution
 from system.floating_parts import FloatingParts, floating_parts
 from system.gap_films import RIGID
 from system.instants import Rotor, rotor
@@ -68,6 +68,26 @@ def test_walls_give_way_to_the_pressure(slippers):
     assert soft[0] > rigid[0]
     assert 0.0 < soft[1] < rigid[1]
     assert soft[2] < 1.01 * rigid[2]
+
+
+@pytest.mark.slow
+def test_elastic_piston_closes():
+    """At rated pressure, on its edges in contact; between rigid walls these bear three times as much."""
+    at, parts, driven = driven_at("35 MPa")
+    accuracy = Accuracy(step=0.1, closed=0.02)
+    soft, rigid = (
+        piston_revolution(at, parts, driven.piston, FloatingOptions(physics, 24, accuracy, finer=0.25, keep=8))
+        for physics in (Physics(), RIGID)
+    )
+    turn = soft.turn
+    assert turn.repeats
+    assert np.abs(turn.end - turn.start).max() <= turn.allowed
+    assert soft.closing.largest_multiplier < 1.0
+    for instant in turn.instants:
+        missing = instant.film_force + instant.contact_force + instant.outer_force
+        assert np.abs(missing).max() < 1e-3 * np.abs(instant.outer_force).max()
+    pressed, hard = (np.mean([each.passed.contact_load for each in one.turn.instants]) for one in (soft, rigid))
+    assert 0.0 < pressed < 0.5 * hard
 
 
 @pytest.mark.slow
