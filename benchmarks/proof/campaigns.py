@@ -78,7 +78,7 @@ def _scattered(count: int, seed: int) -> Settings:
     high = np.array([1.0, 2400.0, 380.0, 75.0, 30.0, 2.0])
     rows = low + share * (high - low)
     rows = rows[np.argsort(rows[:, 3], kind="stable")]
-    rows[:, 0] = np.round(rows[:, 0], 2)
+    rows[:, 0] = np.round(rows[:, 0], 4)
     found = _settings(tuple(row[:4]) for row in rows)
     return replace(found, p_in=rows[:, 4] * BAR, p_case=found.p_case + rows[:, 5] * BAR)
 

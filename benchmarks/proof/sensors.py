@@ -36,7 +36,7 @@ class Meter:
 
 METERS = {
     "speed": Meter("speed_rpm", "rpm", RPM, 0.5, 0.0, 0.0, 0.0, 1),
-    "ratio": Meter("displacement_ratio", "1", 1.0, 0.0, 0.0, 0.0, 0.0005, 2),
+    "ratio": Meter("displacement_ratio", "1", 1.0, 0.0, 0.0, 0.0, 0.0005, 4),
     "p_out": Meter("p_out_bar", "bar", 1e5, 0.15, 0.0, 0.0, 0.15, 2),
     "p_in": Meter("p_in_bar", "bar", 1e5, 0.02, 0.0, 0.0, 0.02, 3),
     "p_case": Meter("p_case_bar", "bar", 1e5, 0.01, 0.0, 0.0, 0.01, 3),
