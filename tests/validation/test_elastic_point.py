@@ -1,0 +1,31 @@
+"""A coupled point whose gaps float between walls that give way, in oil that stiffens with pressure."""
+
+import pytest
+
+from gaps.physics import Physics
+from system.floating import floating_point
+from system.floating_gaps import FloatingOptions
+from system.operating import operating_point
+from system.pump_file import load_pump
+
+
+@pytest.mark.long
+def test_energy_between_walls_that_give_way(validation):
+    """What the bodies store comes back over a turn: the shaft pays for oil and heat alone."""
+    pump = load_pump("ref90_floating", {"operating.pressure": "10 MPa"})
+    found = floating_point(pump, operating_point(pump), FloatingOptions(Physics(), steps=36, finer=0.5))
+    checks = found.pump_point.checks
+    for quantity, obtained in (
+        ("torque from forces", checks.energy_balance_error),
+        ("work on the chambers", checks.work_balance_error),
+    ):
+        validation(
+            case="REF90 floating between elastic walls, coarse films, 10 MPa, 2100 r/min: balances",
+            source="conservation; what the project asks for",
+            quantity=f"energy balance error, {quantity}",
+            unit="1",
+            expected=0.0,
+            obtained=obtained,
+            tolerance=1e-3,
+        )
+    assert checks.mass_balance_error < 1e-9
