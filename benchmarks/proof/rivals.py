@@ -34,6 +34,7 @@ USUAL_NAME = {
 """What one blames first where a channel is off."""
 SURE = 0.01  # p below which the usual ways see a mismatch
 DRAWS = 1999
+LEAST = 1e-6  # share of a column's square that must be its own to be judged
 STEPS = 3  # effects that are added one after the other at most
 
 
@@ -124,20 +125,21 @@ def _largest(study: Study, residual: Array) -> Rival:
 
 
 def _stepwise(study: Study) -> Rival:
-    """Columns of the catalogue added while Schwarz' criterion (1978) falls, of either sign, without priors."""
-    base, named = study.base, []
-    residual, taken = base.residual.copy(), np.zeros((base.residual.size, 0))
-    columns = project(base, np.stack([each.column for each in study.candidates], axis=1))
+    """Columns of the catalogue added while Schwarz' criterion (1978) falls, of either sign, without priors.
+
+    With g = V^T r and G = V^T P V of all columns (`diagnosis.screen`), a column's score beside those taken.
+    """
+    base = study.base
+    columns = np.stack([each.column for each in study.candidates], axis=1)
+    agreement, content = columns.T @ base.residual, columns.T @ project(base, columns)
+    taken: list[int] = []
     for _ in range(STEPS):
-        left = columns - taken @ (taken.T @ columns)
-        norm = np.linalg.norm(left, axis=0)
-        usable = norm > 1e-6 * np.linalg.norm(columns, axis=0)
-        strength = np.where(usable, (left.T @ residual) / np.where(usable, norm, 1.0), 0.0)
+        onto = np.linalg.solve(content[np.ix_(taken, taken)], content[taken]) if taken else content[taken]
+        left = np.diag(content) - (content[taken] * onto).sum(axis=0)
+        usable = left > LEAST * (columns**2).sum(axis=0)
+        strength = (agreement - onto.T @ agreement[taken]) / np.sqrt(np.where(usable, left, np.inf))
         best = int(np.argmax(np.abs(strength)))
-        if strength[best] ** 2 < np.log(residual.size):
+        if strength[best] ** 2 < np.log(base.residual.size):
             break
-        unit = left[:, best] / norm[best]
-        residual -= strength[best] * unit
-        taken = np.column_stack([taken, unit])
-        named.append(study.candidates[best].entry.id.value)
-    return Rival(bool(named), tuple(dict.fromkeys(named)))
+        taken.append(best)
+    return Rival(bool(taken), tuple(dict.fromkeys(study.candidates[one].entry.id.value for one in taken)))

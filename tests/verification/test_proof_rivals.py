@@ -1,0 +1,94 @@
+"""Baselines and ablations of the proof: they find what is planted, and rebuild the study they take apart."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterator
+from dataclasses import replace
+from pathlib import Path
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from diagnosis.data_checks import check_recording
+from diagnosis.prepare import prepare
+from diagnosis.recording_reader import read_recording
+from diagnosis.study import Study
+from diagnosis.thresholds import load_thresholds
+from system.pump_file import load_pump
+from system.tolerances import tolerances
+
+BENCHMARKS = Path(__file__).resolve().parents[2] / "benchmarks"
+
+
+@pytest.fixture(scope="module")
+def proof() -> Iterator[SimpleNamespace]:
+    """The proof's modules, benchmarks/ on the path while they are loaded."""
+    sys.path.insert(0, str(BENCHMARKS))
+    from proof import baselines, campaigns, cases, recordings, rivals, writing
+
+    yield SimpleNamespace(
+        baselines=baselines,
+        campaigns=campaigns,
+        cases=cases,
+        recordings=recordings,
+        rivals=rivals,
+        writing=writing,
+    )
+    sys.path.remove(str(BENCHMARKS))
+
+
+@pytest.fixture(scope="module")
+def study(proof: SimpleNamespace, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Study]:
+    """The study of 38 points at which nothing is concealed."""
+    whole = proof.campaigns.campaigns()["map"]
+    points = replace(whole.points, **{name: value[::3] for name, value in vars(whole.points).items()})
+    proof.campaigns.campaigns()["third"] = replace(whole, name="third", points=points, traces=())
+    made = proof.recordings.make(proof.cases.Case(proof.cases.Part.NULL, "third", 7))
+    folder = tmp_path_factory.mktemp("third")
+    proof.writing.write_recording(folder, "third", made.readings, "closed")
+    pump = load_pump("ref90")
+    recording = check_recording(read_recording(folder), pump.pump.displacement)
+    yield prepare(pump, recording, tolerances(pump)[0], load_thresholds())
+    del proof.campaigns.campaigns()["third"]
+
+
+def test_a_study_is_rebuilt(proof: SimpleNamespace, study: Study) -> None:
+    """With the same noise and nothing held the rebuilt posterior is the study's; without inputs sigma falls."""
+    same = proof.rivals._anew(study, study.base.whitening, ())
+    assert same.base.residual == pytest.approx(study.base.residual, abs=1e-9)
+    assert same.base.log_evidence == pytest.approx(study.base.log_evidence, abs=1e-6)
+    exact = proof.rivals._without_inputs(study)
+    assert np.all(exact.sigma <= study.base.whitening.sigma * (1.0 + 1e-12))
+    assert exact.sigma.mean() < 0.99 * study.base.whitening.sigma.mean()
+
+
+def test_a_planted_column_is_found_stepwise(proof: SimpleNamespace, study: Study) -> None:
+    """Churning's column at z = 20 on top of the residual is the first to be added."""
+    column = next(each.column for each in study.candidates if each.entry.id.value == "churning")
+    left = proof.rivals.project(study.base, column)
+    planted = replace(study.base, residual=study.base.residual + 20.0 / np.sqrt(column @ left) * left)
+    assert proof.rivals._stepwise(replace(study, base=planted)).named[0] == "churning"
+
+
+def test_baselines_see_what_is_large_and_nothing_in_noise(proof: SimpleNamespace, study: Study) -> None:
+    """Four sigma that grow with pressure squared in the drain: both see it; white noise: the process does not."""
+    shape = study.observations.values.shape
+    noise = np.random.default_rng(5).normal(size=shape)
+    drain = [channel.name for channel in study.observations.channels].index("Q_case")
+    large = noise.copy()
+    large[:, drain] += 4.0 * study.axes[:, 1] ** 2
+    assert not proof.baselines.gaussian_process(study, noise).alarm
+    assert proof.baselines.gaussian_process(study, large).alarm
+    assert proof.baselines.sparse_regression(study, large).alarm
+
+
+def test_lasso_keeps_what_carries(proof: SimpleNamespace) -> None:
+    """Of ten unit columns one carries 20 sigma: it is kept, by Schwarz' criterion hardly anything else."""
+    rng = np.random.default_rng(2)
+    matrix = rng.normal(size=(100, 10))
+    matrix /= np.linalg.norm(matrix, axis=0)
+    found = proof.baselines._lasso(matrix, 20.0 * matrix[:, 3] + rng.normal(size=100))
+    assert found[3] == pytest.approx(20.0, abs=5.0)
+    assert np.abs(np.delete(found, 3)).max() < 4.0
