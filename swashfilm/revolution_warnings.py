@@ -35,7 +35,7 @@ def revolution_warnings(
     ]
     told += [*_contact(case, parts, found), *_pressures(case, found), *_motion(case, found, balance)]
     if case.gap is Gap.SLIPPER:
-        told += _pulled(case, parts, found)
+        told += pulled_together(case, parts, found)
     return [{"name": name, "text": text} for name, text in told]
 
 
@@ -57,7 +57,7 @@ def _contact(case: GapCase, parts: FloatingParts, found: GapRevolution[Any]) -> 
         )
 
 
-def _pulled(case: GapCase, parts: FloatingParts, found: GapRevolution[Any]) -> Iterator[tuple[str, str]]:
+def pulled_together(case: GapCase, parts: FloatingParts, found: GapRevolution[Any]) -> Iterator[tuple[str, str]]:
     """Slippers that together pull at a plate that the spring presses with more than tips it."""
     retainer, z = slipper_retainer(case.rotor, parts), case.rotor.pump.pump.pistons
     angles, span = found.angles, float(found.angles[-1])

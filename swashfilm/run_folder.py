@@ -37,14 +37,12 @@ def run_folder(name: str, wanted: Path | None = None) -> Iterator[Path]:
     """A folder to write a run's files into; afterwards they lie in `wanted`, or in `runs/<name>-<n>`, n fresh.
 
     Left by an error or Interrupted, nothing stays; left by Ctrl-C, the `.partial` folder stays if it holds
-    results, and Interrupted tells where. Raises InputFaults for a `wanted` that holds files or cannot be made.
+    results, and Interrupted tells where. Raises InputFaults for a `wanted` that holds files or cannot be made, and where another
+    run has filled it meanwhile (the results then stay in the `.partial` folder).
     """
     final, partial = _claim(name, wanted)
     try:
         yield partial
-        if final.is_dir():
-            final.rmdir()  # empty: `_claim` refused any other
-        partial.rename(final)
     except Interrupted:
         shutil.rmtree(partial)
         raise
@@ -56,6 +54,19 @@ def run_folder(name: str, wanted: Path | None = None) -> Iterator[Path]:
     except BaseException:
         shutil.rmtree(partial)
         raise
+    _give_its_name(partial, final)
+
+
+def _give_its_name(partial: Path, final: Path) -> None:
+    """A complete run's folder under its true name; raises InputFaults where another run has taken it meanwhile."""
+    try:
+        if final.is_dir():
+            final.rmdir()  # empty: `_claim` refused any other
+        partial.rename(final)
+    except OSError:
+        found = f"{final}, which another run has filled meanwhile"
+        fault = Fault("-o", found, "a folder of its own for every run", f"the results are in {partial}")
+        raise InputFaults("command line", [fault]) from None
 
 
 def final_folder(partial: Path) -> Path:

@@ -5,6 +5,8 @@ Open circuit, beyond the rated speed: inertia and the case's pressure pull where
 
 from __future__ import annotations
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
@@ -12,6 +14,7 @@ from gaps.schedule import Accuracy
 from gaps.seen import Active
 from gaps.slipper_motion import retainer_force
 from reynolds.errors import FilmNotConverged
+from swashfilm.revolution_warnings import pulled_together
 from system.floating_drives import drives, no_rubbing, slipper_retainer
 from system.floating_gaps import FloatingOptions, slipper_revolution
 from system.floating_parts import floating_parts
@@ -23,7 +26,6 @@ from system.pump_file import load_pump
 
 COARSE = FloatingOptions(RIGID, steps=36, finer=0.25, accuracy=Accuracy(step=0.1, floor=1e-7, closed=0.1))
 FAST = {"operating.speed": "2800 rpm", "operating.pressure": "10 MPa", "operating.inlet_pressure": "0 bar"}
-pytestmark = pytest.mark.slow
 
 
 def turned(stated):
@@ -35,6 +37,7 @@ def turned(stated):
     return slipper_retainer(at, parts), drive, slipper_revolution(at, parts, drive, COARSE)
 
 
+@pytest.mark.slow
 def test_a_retainer_that_the_spring_presses_holds_a_slipper():
     """Where it rises most the retainer bears what pulls, and what case and cavity suck besides.
 
@@ -54,6 +57,26 @@ def test_a_retainer_that_the_spring_presses_holds_a_slipper():
     assert held < retainer.limit
 
 
+@pytest.mark.slow
 def test_a_spring_that_holds_no_retainer_is_told():
     with pytest.raises(FilmNotConverged, match=r"pulled off its plate with \d+.* N beyond the spring's share"):
         turned(FAST | {"ball_guide.spring_preload": "100 N"})
+
+
+def test_slippers_that_pull_together_are_told():
+    """150 N each over a third of the turn: of nine slippers four at a time, more than tips the plate."""
+    pump = load_pump("ref90_floating", FAST)
+    at, parts = rotor(pump, operating_point(pump)), floating_parts(pump)
+    clearance = parts.slipper.retainer.clearance
+
+    def told(share: float) -> list[tuple[str, str]]:
+        angles = 2.0 * np.pi * np.arange(1, 181) / 180
+        rises = np.where(angles < 2.0 * np.pi * share, clearance + 1.5e-6, 0.5 * clearance)
+        instants = [SimpleNamespace(position=np.array([rise, 0.0, 0.0])) for rise in rises]
+        found = SimpleNamespace(angles=angles, turn=SimpleNamespace(instants=instants))
+        return list(pulled_together(SimpleNamespace(rotor=at), parts, found))
+
+    assert told(0.2) == []
+    ((name, text),) = told(0.35)
+    assert name == "retainer_gives_way"
+    assert "600 N" in text
