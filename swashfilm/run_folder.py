@@ -37,8 +37,8 @@ def run_folder(name: str, wanted: Path | None = None) -> Iterator[Path]:
     """A folder to write a run's files into; afterwards they lie in `wanted`, or in `runs/<name>-<n>`, n fresh.
 
     Left by an error or Interrupted, nothing stays; left by Ctrl-C, the `.partial` folder stays if it holds
-    results, and Interrupted tells where. Raises InputFaults for a `wanted` that holds files or cannot be made, and where another
-    run has filled it meanwhile (the results then stay in the `.partial` folder).
+    results, and Interrupted tells where. Raises InputFaults for a `wanted` that holds files or cannot be made, and
+    where another run has filled it meanwhile (the results then stay in the `.partial` folder).
     """
     final, partial = _claim(name, wanted)
     try:

@@ -8,13 +8,20 @@ from system.faults import InputFaults
 
 def test_two_runs_into_one_folder_keep_both(tmp_path):
     wanted = tmp_path / "mine"
-    with pytest.raises(InputFaults, match="another run has filled") as told, run_folder("one", wanted) as first:
-        (first / "summary.json").write_text("first")
-        with run_folder("two", wanted) as second:
-            (second / "summary.json").write_text("second")
+    places = []
+
+    def two_runs() -> None:
+        with run_folder("one", wanted) as first:
+            places.append(first)
+            (first / "summary.json").write_text("first")
+            with run_folder("two", wanted) as second:
+                (second / "summary.json").write_text("second")
+
+    with pytest.raises(InputFaults, match="another run has filled") as told:
+        two_runs()
     assert (wanted / "summary.json").read_text() == "second"
-    assert (first / "summary.json").read_text() == "first"
-    assert str(first) in told.value.faults[0].nearest
+    assert (places[0] / "summary.json").read_text() == "first"
+    assert str(places[0]) in told.value.faults[0].nearest
 
 
 def test_an_empty_folder_is_taken(tmp_path):
