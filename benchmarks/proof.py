@@ -2,6 +2,7 @@
 
     python benchmarks/proof.py                            runs what is not there yet, then writes docs/proof.md
     python benchmarks/proof.py --part null --cases 40     only the first 40 cases of a part
+    python benchmarks/proof.py --workers 2                side by side
     python benchmarks/proof.py --cases 0                  runs nothing, writes the page from what is there
     python benchmarks/proof.py --write graded 3 FOLDER    writes the recording of a case, for `swashfilm diagnose`
 
@@ -13,9 +14,9 @@ from __future__ import annotations
 
 import argparse
 import sys
-from functools import partial
+from collections.abc import Iterator
+from concurrent.futures import ProcessPoolExecutor, as_completed
 from pathlib import Path
-from time import time
 
 ROOT = Path(__file__).resolve().parents[1]
 
@@ -37,7 +38,7 @@ def main() -> int:
     listed = [case for part in parts for case in cases(part, seed)[: options.cases]]
     folders = [] if options.part not in (None, GIVEN) else given()[: options.cases]
     try:
-        _run(listed, folders, options.results)
+        _run(listed, folders, options.results, options.workers)
     except KeyboardInterrupt:
         print("interrupted; what was finished is kept")
     _page(options.results, options.page, seed)
@@ -51,27 +52,39 @@ def _options() -> argparse.Namespace:
     reader.add_argument("--cases", type=int, metavar="N", help="only the first N cases of each part")
     reader.add_argument("--results", type=Path, default=ROOT / "build" / "proof", metavar="DIR")
     reader.add_argument("--page", type=Path, default=ROOT / "docs" / "proof.md", metavar="FILE")
+    reader.add_argument("--workers", type=int, default=1, metavar="N", help="processes side by side")
     reader.add_argument("--write", nargs=3, metavar=("PART", "NUMBER", "FOLDER"), help="write one recording")
     return reader.parse_args()
 
 
-def _run(listed: list, folders: list[Path], results: Path) -> None:
+def _run(listed: list, folders: list[Path], results: Path, workers: int) -> None:
     """Diagnose the cases and the given recordings that have no outcome yet, a line each."""
     from proof.store import keep, load, name_of, name_of_folder
     from proof.trial import try_case, try_folder
 
-    wanted = [(name_of(case), partial(try_case, case)) for case in listed]
-    wanted += [(name_of_folder(folder), partial(try_folder, folder)) for folder in folders]
-    for number, (name, attempt) in enumerate(wanted, start=1):
-        if load(results, name) is not None:
-            continue
-        begun = time()
-        outcome = attempt()
+    wanted = {name_of(case): (try_case, case) for case in listed}
+    wanted |= {name_of_folder(folder): (try_folder, folder) for folder in folders}
+    missing = {name: task for name, task in wanted.items() if load(results, name) is None}
+    for number, (name, outcome) in enumerate(_outcomes(missing, workers), start=1):
         keep(results, name, outcome)
         told = ", ".join(f"{one.effect} ({one.pair})" if one.pair else one.effect for one in outcome.claims)
         told = f"{outcome.verdict}, {outcome.status}{', ' if told else ''}{told}{outcome.failed}"
-        spent = f"{outcome.seconds:.0f} s process time, {time() - begun:.0f} s"
-        print(f"{number}/{len(wanted)} {outcome.name} (z {outcome.score:.1f}): {told}; {spent}", flush=True)
+        spent = f"{outcome.seconds:.0f} s process time"
+        print(f"{number}/{len(missing)} {outcome.name} (z {outcome.score:.1f}): {told}; {spent}", flush=True)
+
+
+def _outcomes(missing: dict, workers: int) -> Iterator[tuple]:
+    """The outcome of each task with its name, as soon as it is there."""
+    if workers == 1:
+        yield from ((name, attempt(task)) for name, (attempt, task) in missing.items())
+        return
+    pool = ProcessPoolExecutor(workers)
+    try:
+        begun = {pool.submit(attempt, task): name for name, (attempt, task) in missing.items()}
+        for done in as_completed(begun):
+            yield begun[done], done.result()
+    finally:
+        pool.shutdown(wait=False, cancel_futures=True)
 
 
 def _write(case, folder: Path) -> int:

@@ -12,6 +12,7 @@ from .judged import in_set, is_grave, is_named, is_right, is_wrong_name, rank
 from .outcome import Outcome
 
 PHYSICS, SENSOR, UNKNOWN, NULL = "missing_physics", "sensor_fault", "unknown_physics", "no_mismatch"
+PLACED = {"elastic_opening", "thermal_clearance", "film_thickness"}  # ids that act in one gap
 CLEAR = 7.5  # score from which a case counts as z >= 8: sizes are found to 2 %
 Outcomes = Sequence[Outcome]
 
@@ -49,7 +50,10 @@ def gates(outcomes: Outcomes) -> tuple[Gate, ...]:
         _share("wrong names at z = 3", small, is_wrong_name, at_most=0.02),
         _share("channel at z >= 8, of those that see a mismatch", _seen(clear), _channel, at_least=0.99),
         _share(
-            "gap at z >= 8, of right names that have one", [o for o in found if any(o.pairs)], _gap, at_least=0.90
+            "gap at z >= 8, of right names that have one",
+            [o for o in found if set(o.effects) & PLACED],
+            _gap,
+            at_least=0.90,
         ),
         _median("held-out residual over noise, right names at z >= 8", found, _left, at_most=1.1),
         _median("removed share of what noise does not explain", found, _removed, at_least=0.90),

@@ -17,8 +17,13 @@ MAKERS = ("plant", "campaigns.py", "sensors.py", "sizing.py", "recordings.py", "
 
 def name_of(case: Case) -> str:
     """The file of a case, by all that it is and the plant that makes it: another sensor or law is another file."""
-    made = sha256(f"{case!r} {_digest([HERE / name for name in MAKERS])}".encode()).hexdigest()[:16]
+    made = sha256(f"{case!r} {_plant()}".encode()).hexdigest()[:16]
     return f"{case.part.value}-{case.seed}-{made}.json"
+
+
+@cache
+def _plant() -> str:
+    return _digest([HERE / name for name in MAKERS])
 
 
 def name_of_folder(folder: Path) -> str:
