@@ -45,5 +45,6 @@ def agrees(each: Weighed, members: Sequence[Weighed]) -> bool:
 
 
 def _comparable(each: Weighed, best: Weighed) -> bool:
-    own = each.hypothesis
-    return own.kind not in NOT_NAMED and len(own.effects) == len(best.hypothesis.effects)
+    own, other = each.hypothesis, best.hypothesis
+    same = own.open_names == other.open_names
+    return own.kind not in NOT_NAMED and len(own.effects) == len(other.effects) and not same

@@ -8,6 +8,7 @@ from math import inf
 
 import numpy as np
 
+from diagnosis.bent import without_stand_ins
 from diagnosis.detect import Detection, detect
 from diagnosis.heldout import held_out
 from diagnosis.hypotheses import hypotheses
@@ -26,7 +27,7 @@ from diagnosis.verdict import Diagnosis, Status
 from diagnosis.weighed import Weighed, with_probabilities
 from system.channels import ChannelName
 from system.estimation.observations import Array
-from system.estimation.posterior import Effort, Posterior
+from system.estimation.posterior import Effort, Posterior, settled
 from system.gap_cycle import Report, silent
 from system.physics.effects import Kind
 from system.side_by_side import Crew, crew
@@ -89,7 +90,7 @@ def _fits(
         combined, not_combined = combine(study, placed, thresholds, hands, report)
         failed = (*failed, *not_combined)
     single = _unknown_anew(study, _placed(study, screened, null, refitted), null, thresholds)
-    return _Fits((*single, *combined), failed)
+    return _Fits(without_stand_ins(study, (*single, *combined), thresholds), failed)
 
 
 def _null(study: Study, linear: Weighed, thresholds: Thresholds) -> tuple[Weighed, tuple[str, ...]]:
@@ -125,7 +126,7 @@ def _unknown_anew(
     study: Study, weighed: Sequence[Weighed], null: Weighed, thresholds: Thresholds
 ) -> tuple[Weighed, ...]:
     """Unknown physics seen from the prior mean and from the null's refit, whichever is better for it."""
-    fit = null.posterior
+    fit = None if null.posterior is None else settled(null.posterior)
 
     def seen(each: Weighed) -> Weighed:
         component = each.hypothesis.component

@@ -22,7 +22,7 @@ class Hypothesis:
 
     extra: parameters added to the simulator; widened: names of those whose prior is widened; log_prior: natural
     logarithm of its prior probability; laws: what is switched on, each with the members of its grid that are open;
-    component: of unknown physics, whose law is bent freely over the map.
+    component: of unknown physics, whose law is bent freely over the map; bent: the laws' own form is not all.
     """
 
     effects: tuple[EffectId, ...]
@@ -33,6 +33,7 @@ class Hypothesis:
     log_prior: float
     laws: tuple[Extension, ...] = ()
     component: Component | None = None
+    bent: bool = False
 
     @property
     def members(self) -> tuple[Hypothesis, ...]:
@@ -60,7 +61,7 @@ class Hypothesis:
             f"{effect.value} ({place.value})" if place else effect.value
             for effect, place in zip(self.effects, self.places, strict=True)
         ]
-        return " + ".join(told) or "nothing"
+        return (" + ".join(told) or "nothing") + (", bent" if self.bent else "")
 
 
 def hypotheses(study: Study, thresholds: Thresholds) -> tuple[Hypothesis, ...]:

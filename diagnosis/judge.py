@@ -23,7 +23,7 @@ from diagnosis.weighed import Weighed
 from system.channels import ChannelName
 from system.estimation.evidence import multiplier_evidence
 from system.estimation.parameters import Role
-from system.estimation.posterior import Posterior
+from system.estimation.posterior import Posterior, settled
 from system.physics.effects import Kind
 from system.pump_gap import Gap
 
@@ -54,7 +54,7 @@ def judge(study: Study, detection: Detection, weighed: Sequence[Weighed], thresh
         return Verdict(Kind.NO_MISMATCH, Status.NAMED, (), (), ())
     if not improbable or detection.chance >= limits.chance:
         return _suspicion(weighed, (_half_seen(detection, null),))
-    best = max((each for each in weighed if each is not null), key=lambda each: each.log_weight)
+    best = _simplest(max((each for each in weighed if each is not null), key=_weight), weighed, thresholds)
     if best.hypothesis.kind is Kind.UNKNOWN_PHYSICS:
         return _unknown(weighed, thresholds)
     members = equivalents(best, weighed, thresholds)
@@ -66,6 +66,23 @@ def judge(study: Study, detection: Detection, weighed: Sequence[Weighed], thresh
     alike = any(claim.equivalent or claim.elsewhere for claim in claims)
     status = Status.INCOMPLETE if left else Status.CLASS if alike else Status.NAMED
     return Verdict(best.hypothesis.kind, status, claims, members, left)
+
+
+def _weight(each: Weighed) -> float:
+    return each.log_weight
+
+
+def _simplest(best: Weighed, weighed: Sequence[Weighed], thresholds: Thresholds) -> Weighed:
+    """Of the best and of what claims a part of the same within the odds of a name: that of fewest effects."""
+    names = set(best.hypothesis.open_names)
+    near = [
+        each
+        for each in weighed
+        if each.hypothesis.open_names
+        and set(each.hypothesis.open_names) <= names
+        and best.log_weight - each.log_weight < thresholds.name.odds
+    ]
+    return min((best, *near), key=lambda each: (len(each.hypothesis.effects), -each.log_weight))
 
 
 def _half_seen(detection: Detection, null: Weighed) -> str:
@@ -101,7 +118,7 @@ def _objections(
     limits = thresholds.name
     probability = sum(each.probability for each in weighed if agrees(each, members))
     others = [each for each in weighed if each not in members and not agrees(each, members)]
-    rival = max(others, key=lambda each: each.log_weight)
+    rival = max(others, key=_weight)
     ahead = best.log_weight - rival.log_weight
     found = []
     if probability < limits.probability:
@@ -178,7 +195,9 @@ def _allowed_gain(study: Study, before: Posterior, after: Posterior, thresholds:
         if not bent:
             return posterior.log_evidence
         columns = np.hstack([multiplier_columns(study, posterior, component) for component in bent])
-        return posterior.log_evidence + multiplier_evidence(posterior, columns, (thresholds.name.allowance,))
+        return posterior.log_evidence + multiplier_evidence(
+            settled(posterior), columns, (thresholds.name.allowance,)
+        )
 
     return evidence(after) - evidence(before)
 

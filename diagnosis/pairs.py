@@ -11,7 +11,7 @@ from diagnosis.screen import joint_evidence, linear_gain
 from diagnosis.study import Study
 from diagnosis.thresholds import Thresholds
 from diagnosis.weighed import Weighed
-from system.estimation.posterior import Posterior
+from system.estimation.posterior import Posterior, settled
 from system.gap_cycle import Report
 from system.side_by_side import Crew
 
@@ -53,9 +53,9 @@ def _weight(weighed: Weighed) -> float:
 
 def _additions(study: Study, best: Weighed, known: Sequence[Weighed], thresholds: Thresholds) -> list[Weighed]:
     """The likeliest additions to the best explanation, about its refit; those that gain nothing are left out."""
-    posterior = best.posterior
-    if posterior is None:
+    if best.posterior is None:
         return []
+    posterior = settled(best.posterior)
     found = []
     for each in known:
         if _apart(best.hypothesis, each.hypothesis):

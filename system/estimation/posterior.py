@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from time import process_time
 
@@ -14,6 +14,7 @@ from system.estimation.laplace import laplace
 from system.estimation.observations import Array, Observations
 from system.estimation.parameters import Parameter
 from system.estimation.simulator import Simulator
+from system.estimation.trust import Bounds
 from system.estimation.whitening import Whitening, whitener
 
 UNSEEN = 1e-9  # share of its prior variance by which a parameter must be known better to have a pull
@@ -94,6 +95,30 @@ def standard_slopes(simulator: Simulator, xi: Array) -> Array:
     slopes = simulator.slopes(values_at(parameters, xi), tuple(parameter.name for parameter in parameters))
     stretch = np.array([parameter.stretch(number) for parameter, number in zip(parameters, xi, strict=True)])
     return slopes * stretch
+
+
+def settled(posterior: Posterior) -> Posterior:
+    """A fit at the exact peak of its own linear form, of the parameters that lie on no bound.
+
+    A fit ends a little beside its peak. That is nothing to its objective, but to a column that the parameters can
+    nearly take up it is everything: g = v.r grows with what is left of A^T r - xi. Scores and evidences about a
+    fit are asked of this form.
+    """
+    bounds = Bounds.of(posterior.parameters)
+    free = (posterior.xi > bounds.lowest) & (posterior.xi < bounds.highest)
+    slopes, precision = posterior.slopes[:, free], posterior.precision[np.ix_(free, free)]
+    gradient = slopes.T @ posterior.residual - posterior.xi[free]
+    step = cho_solve(cho_factor(precision), gradient)
+    return replace(
+        posterior,
+        parameters=tuple(one for one, own in zip(posterior.parameters, free, strict=True) if own),
+        xi=posterior.xi[free] + step,
+        values=posterior.values[free],
+        residual=posterior.residual - slopes @ step,
+        slopes=slopes,
+        precision=precision,
+        objective=posterior.objective - float(gradient @ step),
+    )
 
 
 def linear_posterior(simulator: Simulator, observations: Observations) -> Posterior:

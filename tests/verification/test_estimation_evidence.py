@@ -16,7 +16,7 @@ from system.estimation.fit import maximum_posterior
 from system.estimation.laplace import log_mass
 from system.estimation.observations import Array, Channel, Observations
 from system.estimation.parameters import Parameter, Role, Scale
-from system.estimation.posterior import linear_posterior
+from system.estimation.posterior import linear_posterior, settled
 
 POINTS = 12
 FREE = (-np.inf, np.inf)
@@ -227,3 +227,18 @@ def test_odds_mean_what_they_say() -> None:
         expected, spread = foretold[leaning].sum(), np.sqrt((foretold * (1.0 - foretold))[leaning].sum())
         assert present[leaning].sum() == pytest.approx(expected, abs=3.0 * spread)
     assert np.ptp(foretold) > 0.5
+
+
+def test_a_fit_beside_its_peak_is_settled_before_columns_are_weighed() -> None:
+    """A large column that the parameters nearly take up: nonsense beside the peak, exact once settled."""
+    columns = 30.0 * _columns(11, 2)
+    readings = columns @ np.array([0.3, -0.2]) + np.random.default_rng(12).normal(size=POINTS)
+    simulator = Columns((_parameter("a"), _parameter("b")), columns)
+    peak = linear_posterior(simulator, _observed(readings))
+    beside = 0.02 * np.ones(2)
+    ended = replace(peak, xi=peak.xi - beside, residual=peak.residual + peak.slopes @ beside)
+    column = (50.0 * columns[:, 0] + _columns(13, 1)[:, 0])[:, None]
+    exact = multiplier_evidence(peak, column, [1.0])
+    assert abs(multiplier_evidence(ended, column, [1.0]) - exact) > 10.0
+    assert multiplier_evidence(settled(ended), column, [1.0]) == pytest.approx(exact, abs=1e-6)
+    assert settled(ended).xi == pytest.approx(peak.xi)

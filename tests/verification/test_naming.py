@@ -308,6 +308,15 @@ def test_several_effects_are_found_together(count: int) -> None:
         assert abs(sizes[law.id].value - size) < 4.0 * sizes[law.id].sigma
 
 
+def test_a_law_of_another_form_is_named_without_stand_ins() -> None:
+    """Churning that falls with viscosity too: named, incomplete, without a film that takes up what is left."""
+    n, _, _, mu = _axes()
+    zero = np.zeros(POINTS)
+    found = _diagnosis(_study(1, added=np.stack([zero, zero, 8.0 * n**2 * np.sqrt(mu)], axis=1)))
+    assert _told(found) == (Kind.MISSING_PHYSICS, Status.INCOMPLETE, (EffectId.CHURNING,))
+    assert found.hypotheses[0].hypothesis.text == "churning, bent"
+
+
 def test_what_stands_in_no_catalogue_is_unknown() -> None:
     """Drain flow with sqrt(p) mu n: unknown, with its exponents to a third (the films take up a part)."""
     n, p, _, mu = _axes()
