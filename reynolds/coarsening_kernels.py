@@ -9,7 +9,16 @@ from numba import njit
 
 from reynolds.coarsest_kernels import eliminate_blocks
 from reynolds.lanes import WIDTH, all_lanes, apart, lanes, put_lanes, where_positive
-from reynolds.line_kernels import coloured, eliminate, factorise, plain, repeat_last, substitute, width
+from reynolds.line_kernels import (
+    coloured,
+    eliminate,
+    factorise,
+    factorise_down,
+    plain,
+    repeat_last,
+    substitute,
+    width,
+)
 
 _FAST = {"cache": True, "error_model": "numpy", "fastmath": {"contract"}}
 
@@ -56,11 +65,14 @@ def _round_stencils(fine, top):
 
 @njit(**_FAST)
 def _factorise(a, level):
-    """L D L^T of every line of a level; False where a pivot is not positive."""
+    """L D L^T of every line of a level, of odd ones from the other end; False where a pivot is not positive."""
     slots, good = a.slots[level], True
     for odd in range(2):
         begin = a.start[level, odd] + odd
-        factorise(a.centre, a.east, a.pivot, begin, slots, width(a, level, odd), a.length)
+        if odd:
+            factorise_down(a.centre, a.east, a.pivot, begin, slots, width(a, level, 1), a.length)
+        else:
+            factorise(a.centre, a.east, a.pivot, begin, slots, width(a, level, 0), a.length)
         for row in range(begin + slots, begin + (a.length + 1) * slots, slots):
             for q in range(row, row + coloured(a, level, odd)):
                 good &= 0.0 < a.pivot[q] < np.inf

@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from reynolds import generalised_kernels
 from reynolds.errors import FilmNotConverged
 from reynolds.film import Cavitation, FilmProblem, FilmSolution, Storage, holds_oil
 from reynolds.floating import Floating, Outer
@@ -242,8 +243,7 @@ class Instant:
 
     def _oil_by(self, at: Trial, both: Response, moved: Array) -> Array:
         """Change of what the unknowns hold, pockets' oil in it, with film and position (k, m) m."""
-        k, m = moved.shape
-        thicker = (at.thicker.reshape(-1, k) @ moved).reshape(*at.thicker.shape[:2], m)
+        thicker = generalised_kernels.mixed(at.thicker, np.ascontiguousarray(moved))
         oil = oil_slopes(at.solution, thicker, both, self.solver.operators(at.solution))
         return np.asarray(oil + pockets_grown(at.solution, self.modes) @ moved)
 

@@ -24,6 +24,18 @@ def weigh(dofs, value, area, modes, basis, points, out):
 
 
 @njit(**_FAST)
+def mixed(modes, shares):
+    """sum_j modes_j shares[j, m], (cells, points, m)."""
+    out = np.zeros((modes.shape[0], modes.shape[1], shares.shape[1]))
+    for e in range(modes.shape[0]):
+        for q in range(modes.shape[1]):
+            for j in range(modes.shape[2]):
+                for m in range(shares.shape[1]):
+                    out[e, q, m] += modes[e, q, j] * shares[j, m]
+    return out
+
+
+@njit(**_FAST)
 def thicken(
     dofs, shape, value, steep, gradient, signs, area, driven_x, driven_y, twisted, carried_x, carried_y, stored,
     filling, modes, basis, points, out,

@@ -25,8 +25,8 @@ class Levels(NamedTuple):
     """Operators and vectors of some levels, each one flat array: level by level, even block and odd block.
 
     The symmetric stencil of an unknown: centre, and its coupling east (along the line), north (to the next line),
-    north-east and north-west. `pivot` is the inverse diagonal of each
-    line's L D L^T. `start` (levels, 2) of the blocks, `slots` (levels,) of their rows, `lines` (levels,) of length
+    north-east and north-west. `pivot` is the inverse diagonal of each line's L D L^T, of odd lines from their
+    other end on. `start` (levels, 2) of the blocks, `slots` (levels,) of their rows, `lines` (levels,) of length
     `length`; `around`: last next to first.
     """
 
@@ -63,18 +63,24 @@ def width(a, level, odd):
     return -(-coloured(a, level, odd) // WIDTH) * WIDTH
 
 
+@njit(inline="always")
+def repeat_row(x, a, level, odd, i):
+    """Fill the pads of row i of a block of a vector where the last line is next to the first."""
+    evens, odds = coloured(a, level, 0), coloured(a, level, 1)
+    even, other = a.start[level, 0] + i * a.slots[level], a.start[level, 1] + i * a.slots[level]
+    if odd and evens > odds:
+        x[other], x[other + odds + 1] = x[even + evens - 1], x[even]
+    elif odd:
+        x[other] = x[other + odds]
+    elif evens == odds:
+        x[even + evens] = x[even]
+
+
 @njit(**_FAST)
 def repeat_lines(x, a, level, odd):
-    """Fill the pads of a block of a vector where the last line is next to the first."""
-    evens, odds = coloured(a, level, 0), coloured(a, level, 1)
-    for row in range(0, (a.length + 2) * a.slots[level], a.slots[level]):
-        even, other = a.start[level, 0] + row, a.start[level, 1] + row
-        if odd and evens > odds:
-            x[other], x[other + odds + 1] = x[even + evens - 1], x[even]
-        elif odd:
-            x[other] = x[other + odds]
-        elif evens == odds:
-            x[even + evens] = x[even]
+    """The same of all its rows."""
+    for i in range(a.length + 2):
+        repeat_row(x, a, level, odd, i)
 
 
 @njit(**_FAST)
@@ -94,6 +100,16 @@ def factorise(centre, east, pivot, begin, slots, wide, n):
         for q in range(begin + i * slots, begin + i * slots + wide, WIDTH):
             e = lanes(east, q - slots)
             put_lanes(pivot, q, one / (lanes(centre, q) - e * e * lanes(pivot, q - slots)))
+
+
+@njit(**_FAST)
+def factorise_down(centre, east, pivot, begin, slots, wide, n):
+    """The same from the other end of the lines."""
+    one = all_lanes(pivot, 1.0)
+    for i in range(n, 0, -1):
+        for q in range(begin + i * slots, begin + i * slots + wide, WIDTH):
+            e = lanes(east, q)
+            put_lanes(pivot, q, one / (lanes(centre, q) - e * e * lanes(pivot, q + slots)))
 
 
 @njit(**_FAST)

@@ -11,111 +11,36 @@ import numpy as np
 from numba import njit
 
 from reynolds.coarsest_kernels import solve_blocks
-from reynolds.lanes import WIDTH, all_lanes, apart, lanes, lanes_like, put_lanes, together
-from reynolds.line_kernels import coloured, plain, repeat_lines, substitute, width
+from reynolds.lanes import WIDTH, all_lanes, lanes, lanes_like, put_lanes
+from reynolds.line_kernels import coloured, plain, repeat_lines, width
+from reynolds.sweep_kernels import (
+    finish_even,
+    finish_even_start_odd,
+    finish_odd_hand_down,
+    finish_odd_start_even,
+    lift_start_odd,
+    others,
+    own,
+    start_even,
+)
 
 _FAST = {"cache": True, "error_model": "numpy", "fastmath": {"contract"}}
-
-
-@njit(inline="always")
-def _own(a, x, q, slots):
-    """What unknowns q couple to themselves and along their line."""
-    along = lanes(a.east, q) * lanes(x, q + slots) + lanes(a.east, q - slots) * lanes(x, q - slots)
-    return lanes(a.centre, q) * lanes(x, q) + along
-
-
-@njit(inline="always")
-def _others(a, x, q, t, slots):
-    """What unknowns q couple to the next line on both sides; t is their slot in the other block."""
-    corners = lanes(a.north_east, q) * lanes(x, t + slots + 1) + lanes(a.north_west, q) * lanes(x, t - slots + 1)
-    south = lanes(a.north_east, t - slots) * lanes(x, t - slots) + lanes(a.north_west, t + slots) * lanes(
-        x, t + slots
-    )
-    return lanes(a.north, q) * lanes(x, t + 1) + lanes(a.north, t) * lanes(x, t) + corners + south
-
-
-@njit(**_FAST)
-def _begin(a, level):
-    """Solve the even lines for their load alone, from nothing."""
-    slots, begin, wide = a.slots[level], a.start[level, 0], width(a, level, 0)
-    for i in range(1, a.length + 1):
-        for q in range(begin + i * slots, begin + i * slots + wide, WIDTH):
-            rest = lanes(a.load, q) - lanes(a.east, q - slots) * lanes(a.answer, q - slots)
-            put_lanes(a.answer, q, lanes(a.pivot, q) * rest)
-    substitute(a.answer, a.pivot, a.east, begin, slots, wide, a.length)
-
-
-@njit(**_FAST)
-def _relax(a, level, odd):
-    """Solve the even or the odd lines of a level for their load and what they couple to."""
-    if a.around:
-        repeat_lines(a.answer, a, level, 1 - odd)
-    slots, begin, wide = a.slots[level], a.start[level, odd] + odd, width(a, level, odd)
-    over = a.start[level, 1 - odd] - begin
-    for i in range(1, a.length + 1):
-        for q in range(begin + i * slots, begin + i * slots + wide, WIDTH):
-            rest = lanes(a.load, q) - _others(a, a.answer, q, q + over, slots)
-            rest -= lanes(a.east, q - slots) * lanes(a.answer, q - slots)
-            put_lanes(a.answer, q, lanes(a.pivot, q) * rest)
-    substitute(a.answer, a.pivot, a.east, begin, slots, wide, a.length)
-
-
-@njit(inline="always")
-def _left(a, q, over, slots, whole):
-    """The residual of even lines that hold for themselves, or of any."""
-    rest = all_lanes(a.load, 0.0) - _others(a, a.answer, q, q + over, slots)
-    if whole:
-        rest += lanes(a.load, q) - _own(a, a.answer, q, slots)
-    return rest
-
-
-@njit(**_FAST)
-def _hand_down(a, level, b, below, whole):
-    """The residual of the even lines as the load of the next level.
-
-    They have just been solved, but for the odd lines; unless they are to be taken as a `whole`.
-    """
-    if a.around:
-        repeat_lines(a.answer, a, level, 1)
-    slots, begin = a.slots[level], a.start[level, 0]
-    over = a.start[level, 1] - begin
-    for i in range(1, a.length + 1):
-        row, out = begin + i * slots, i * b.slots[below]
-        for k in range(0, width(b, below, 0), WIDTH):
-            q = row + 2 * k
-            even, odd = apart(_left(a, q, over, slots, whole), _left(a, q + WIDTH, over, slots, whole))
-            put_lanes(b.load, b.start[below, 0] + out + k, even)
-            put_lanes(b.load, b.start[below, 1] + out + k + 1, odd)
-
-
-@njit(**_FAST)
-def _lift(a, level, b, below, old):
-    """The next level's answer on the even lines, added to `old` (0 or 1) times what stands there."""
-    for i in range(1, a.length + 1):
-        row, there = a.start[level, 0] + i * a.slots[level], i * b.slots[below]
-        for k in range(0, width(b, below, 0), WIDTH):
-            even = lanes(b.answer, b.start[below, 0] + there + k)
-            odd = lanes(b.answer, b.start[below, 1] + there + k + 1)
-            first, second = together(even, odd)
-            kept, q = all_lanes(a.answer, old), row + 2 * k
-            put_lanes(a.answer, q, kept * lanes(a.answer, q) + lanes_like(a.answer, first))
-            put_lanes(a.answer, q + WIDTH, kept * lanes(a.answer, q + WIDTH) + lanes_like(a.answer, second))
 
 
 @njit(**_FAST)
 def _descend(a, level, b, below):
     """From nothing: relax even lines, then odd ones, and hand what is left in the even ones to the next level."""
-    _begin(a, level)
-    _relax(a, level, 1)
-    _hand_down(a, level, b, below, False)
+    start_even(a, level)
+    finish_even_start_odd(a, level)
+    finish_odd_hand_down(a, level, b, below, False)
 
 
 @njit(**_FAST)
 def _ascend(a, level, b, below):
     """Add the next level's answer to the even lines, relax odd ones and even ones: the mirror of `_descend`."""
-    _lift(a, level, b, below, 1.0)
-    _relax(a, level, 1)
-    _relax(a, level, 0)
+    lift_start_odd(a, level, b, below, 1.0)
+    finish_odd_start_even(a, level)
+    finish_even(a, level)
 
 
 @njit(**_FAST)
@@ -164,16 +89,15 @@ def full_cycle(top, coarse, coarsest):
 def _first_load(a, level, b, below):
     """The load of the next level where the even lines are still nothing."""
     a.answer[a.start[level, 0] : a.start[level, 1]] = 0.0
-    _relax(a, level, 1)
-    _hand_down(a, level, b, below, True)
+    finish_even_start_odd(a, level)
+    finish_odd_hand_down(a, level, b, below, True)
 
 
 @njit(**_FAST)
 def _improve(a, level, b, below):
     """From the next level's answer: relax odd lines, and hand down what is left in the even ones."""
-    _lift(a, level, b, below, 0.0)
-    _relax(a, level, 1)
-    _hand_down(a, level, b, below, True)
+    lift_start_odd(a, level, b, below, 0.0)
+    finish_odd_hand_down(a, level, b, below, True)
 
 
 @njit(**_FAST)
@@ -188,7 +112,7 @@ def apply(a, x, out):
         over = a.start[0, 1 - odd] - begin
         for i in range(1, a.length + 1):
             for q in range(begin + i * slots, begin + i * slots + wide, WIDTH):
-                image = _own(a, x, q, slots) + _others(a, x, q, q + over, slots)
+                image = own(a, x, q, slots) + others(a, x, q, q + over, slots)
                 put_lanes(out, q, image)
                 total += lanes(x, q) * image
         if a.around:

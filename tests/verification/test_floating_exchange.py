@@ -35,7 +35,7 @@ class Told:
 
 
 def still(*position: float, steps: int = STEPS) -> Told:
-    return Told(np.tile(np.array(position), (steps, 1)))
+    return Told(np.tile(np.array(position), (steps, 1)), (SimpleNamespace(swollen=0.0),) * steps)
 
 
 def gaps(piston=(0.0, 0.0, 0.0, 0.0), slipper=(0.0, 0.0, 0.0), block=(0.0, 0.0, 0.0)) -> FloatingGaps:
