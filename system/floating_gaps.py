@@ -32,7 +32,7 @@ from system.gap_films import RIGID, block_film, piston_film, slipper_film
 from system.instants import Rotor
 from system.unlike import kinds
 
-MARCHED = Accuracy(step=1e-2, balance=0.3)
+MARCHED = Accuracy(step=1e-2, balance=0.1)
 PISTON_CELLS, SLIPPER_CELLS, BLOCK_CELLS = (48, 16), (12, 40), (4, 16)
 LEAST_CELLS = 2
 LEAST_PISTON_CELLS = 8
