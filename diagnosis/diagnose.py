@@ -13,7 +13,7 @@ from diagnosis.detect import Detection, detect
 from diagnosis.heldout import held_out
 from diagnosis.hypotheses import hypotheses
 from diagnosis.judge import Verdict, judge
-from diagnosis.locate import Location, locate
+from diagnosis.locate import Location, locate, of_explanation
 from diagnosis.map_axes import AXES
 from diagnosis.pairs import combine
 from diagnosis.refit import refit_all, try_refit
@@ -173,6 +173,8 @@ def _finding(
     first = claimed or ranked[0]
     told = verdict.status is not Status.SUSPICION and verdict.kind is not Kind.NO_MISMATCH
     described = first if told else None
+    if claimed is not None and claimed.posterior is not None:
+        location = of_explanation(study, location, repair(study, claimed, thresholds).added, thresholds)
     return Diagnosis(
         kind=verdict.kind,
         status=verdict.status,

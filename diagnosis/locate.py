@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -58,6 +58,21 @@ def locate(study: Study, thresholds: Thresholds) -> Location:
         angle=scan_angles(study.traces, study.events, limits, thresholds.seeds.locate),
         time=scan_time(study, thresholds),
     )
+
+
+def of_explanation(study: Study, location: Location, added: Array, thresholds: Thresholds) -> Location:
+    """The same with channels and region of what an explanation adds to the readings, (N, C) in SI.
+
+    A law's free multiplier knows its level only up to what films and zeros take up: whether too much leaks at low
+    pressure or too little at high, only the explanation tells.
+    """
+    limits = thresholds.locate
+    whitening = study.base.whitening
+    sigma = np.where(whitening.measured, whitening.sigma, np.inf)
+    pattern = added / sigma
+    channels = _channels(study, pattern, limits.channel_share)
+    region = _region(study, channels[0], pattern, limits.region_share) if channels else None
+    return replace(location, channels=channels, region=region)
 
 
 def _channels(study: Study, pattern: Array, least_share: float) -> tuple[ChannelName, ...]:
