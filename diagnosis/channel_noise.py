@@ -45,8 +45,9 @@ def recorded_channel(form: ChannelForm, readings: Array, found: float | None) ->
     if form.name.dimension is Dimension.PRESSURE:
         sigma -= relative * form.offset  # a share of the reading, which may be absolute
     quantum = form.quantum
+    commanded = form.name is ChannelName.DISPLACEMENT_RATIO and sigma == 0.0
     if quantum is None:
-        quantum = reading_step(readings, form)
+        quantum = 0.0 if commanded else reading_step(readings, form)  # round levels are no steps of a reading
         assumed += ["quantum"] if quantum else []
     gain, zero = form.gain, form.zero
     usual_gain, usual_zero = _calibration(form, sigma, relative, readings)

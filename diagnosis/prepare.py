@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from diagnosis.map_axes import scaled_axes
+from diagnosis.noise_memory import noise_memory
 from diagnosis.readings import bench_points, complete, measured, observations
 from diagnosis.recording import DataNote, NoteKind, Recording
 from diagnosis.study import Study, study_of
@@ -48,6 +49,13 @@ def prepare(pump: PumpDescription, recording: Recording, tolerances: Tolerances,
     simulator = LumpedBench(pump, points, channels, parameters, inputs=inputs)
     found = observations(usable, channels, inputs)
     study = study_of(usable, simulator, found, scaled_axes(usable), CATALOGUE, thresholds)
+    if memory := noise_memory(study, thresholds.mismatch.memory):
+        told = (
+            f"what is left goes on from point to point: noise taken as correlated by {memory[0]:.2f} in the order"
+        )
+        usable = replace(usable, notes=(*usable.notes, DataNote(NoteKind.TOLD, None, (), told)))
+        found = replace(found, memory=memory)
+        study = study_of(usable, simulator, found, study.axes, CATALOGUE, thresholds)
     return replace(study, traces=trace_misfits(usable, simulator), events=port_events(pump))
 
 

@@ -23,6 +23,7 @@ class MismatchLimits:
     null_probability: float
     suspicion: float
     draws: int
+    memory: float
     flag_rate: float
     pull: float
 

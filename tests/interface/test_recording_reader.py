@@ -117,6 +117,16 @@ def test_quantum_is_seen_in_the_readings(tmp_path):
     assert channel.quantum == pytest.approx(0.25 / 60e3)
 
 
+def test_round_levels_of_a_setting_are_no_steps_of_a_reading(tmp_path):
+    rows = [
+        f"{k},{1000 + 7.3 * k:.1f},{100 + 1.01 * k:.2f},50,{60 + 0.013 * k:.3f},{0.2 + 0.01 * k:.2f}"
+        for k in range(60)
+    ]
+    form = HEAD + STEADY + CHANNELS + 'displacement_ratio = { column = "e", unit = "1", sigma = 0.0 }\n'
+    recording = read_recording(_written(tmp_path, form, "k,n,p,T,Q,e\n" + "\n".join(rows)))
+    assert recording.channel(ChannelName.DISPLACEMENT_RATIO).quantum == 0.0
+
+
 def test_series_gives_its_plateaus(tmp_path):
     rng = np.random.default_rng(3)
     levels = np.repeat([1000.0, 1500.0, 1200.0], 600)

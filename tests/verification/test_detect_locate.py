@@ -15,6 +15,7 @@ from diagnosis.detect import Detection, detect
 from diagnosis.locate import locate
 from diagnosis.map_axes import AXES, axis_values, inside, scaled_axes
 from diagnosis.multiplicity import family_chance, holm, log_chances
+from diagnosis.noise_memory import noise_memory
 from diagnosis.recording import Circuit, Recording, SteadyTable
 from diagnosis.study import Study, concerned, study_of
 from diagnosis.thresholds import load_thresholds
@@ -197,6 +198,29 @@ def test_the_objective_is_chi_square_distributed(nulls: list[Detection]) -> None
     p_values = np.array([found.p_value for found in nulls])
     assert abs(np.mean(p_values < 0.1) - 0.1) < 0.07
     assert abs(np.median(p_values) - 0.5) < 4 * 0.5 / np.sqrt(300)
+
+
+def test_noise_that_remembers_is_told_from_white_noise() -> None:
+    """Noise of correlation .5 from point to point, thrice as strong as stated, over white noise: .45 is found."""
+
+    def remembering(seed: int) -> Array:
+        rng = np.random.default_rng([53, seed])
+        noise = rng.normal(size=(POINTS, 3))
+        for at in range(1, POINTS):
+            noise[at] = 0.5 * noise[at - 1] + np.sqrt(0.75) * noise[at]
+        return 3.0 * SIGMA * noise
+
+    white = [noise_memory(_study(seed=seed), 3.0) for seed in range(40)]
+    assert sum(bool(found) for found in white) <= 2  # one in 740 each
+    found = [noise_memory(_study(remembering(seed), seed), 3.0) for seed in range(10)]
+    sizes = [one[0] for one in found if one]
+    assert len(sizes) >= 9
+    assert abs(np.mean(sizes) - 0.45) < 0.1  # 190 pairs: .07 each
+
+
+def test_an_effect_is_no_memory() -> None:
+    """An effect of thirty sigma, and points in an order of no system: nothing goes on from one to the next."""
+    assert noise_memory(_study(_sized(EffectId.ELASTIC_OPENING, 30.0), seed=3), 3.0) == ()
 
 
 def test_pulls_have_the_variance_that_is_promised() -> None:
