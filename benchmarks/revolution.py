@@ -44,6 +44,7 @@ CELLS = {"slipper": (12, 40), "piston": (48, 16), "block": (4, 16)}
 COARSE = {"slipper": (6, 20), "piston": (24, 8), "block": (2, 8)}
 FEW_ANGLES = 72  # a turn: for what is timed on several meshes
 REPEATS = {"slipper": 1, "piston": 1, "block": 9}  # a turn: with chambers alike the block's film does every pitch
+HEADS = ("gap", "cells", "held", "angles", "turns", "steps", "films", "film / ms", "process / s")
 PARTS = {
     "linear solves": ("linear.py", "carried", "multigrid", "band", "qdldl", "superlu", "line_kernels", "coars"),
     "laws of oil, roughness and contact": ("roughness.py", "patir_cheng.py", "contact", "overlap", "transport"),
@@ -153,7 +154,7 @@ def main() -> None:
     asked = parser.parse_args()
     gaps, console = asked.gap or list(CELLS), Console()
     costs = Table(title=f"{PUMP} at {PRESSURE}: the periodic turn")
-    for head in ("gap", "cells", "held", "angles", "turns", "steps", "films", "film / ms", "process / s"):
+    for head in HEADS:
         costs.add_column(head, justify="right")
     where = Table(title="where the time goes")
     for head in ("part", *gaps):
@@ -166,9 +167,10 @@ def main() -> None:
             a, b = CELLS[gap]
             series += [(cells, FEW_ANGLES) for cells in (COARSE[gap], CELLS[gap], (3 * a // 2, 3 * b // 2))]
         for cells, angles in series:
-            console.log(f"{gap}, {cells[0]} x {cells[1]} cells, {angles} angles")
             found, seconds = timed(turned(gap, cells, angles, asked.step))
-            costs.add_row(*row_of(gap, cells, found, seconds))
+            row = row_of(gap, cells, found, seconds)
+            costs.add_row(*row)
+            console.log(", ".join(f"{head} {cell}" for head, cell in zip(HEADS, row, strict=True)))
             if asked.save and cells == CELLS[gap] and angles == asked.angles:
                 save(found, asked.save / f"{gap}.npz")
         parts[gap] = shares(turned(gap, CELLS[gap], FEW_ANGLES, asked.step))
