@@ -111,7 +111,7 @@ def build_parser() -> argparse.ArgumentParser:
         "--table", type=Path, metavar="FILE.json", help="response table in place of the kept one of this pump"
     )
     run.add_argument("--steps", metavar="N", help="floating gaps: angles of a turn that are reported (360)")
-    run.add_argument("--finer", metavar="X", help="floating gaps: times the usual cells each way (1)")
+    run.add_argument("--finer", metavar="X", help="floating gaps: times the usual cells each way (.5; --rigid: 1)")
     add_switches(run)
     _output(run)
     film = _command(commands, "film", "one film: a free one or a gap of a pump")

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 COMMAND_LINE = "command line"
 EXIT_NOT_CONVERGED = 3
 SOFT_PRICE = (
-    "elastic walls: a revolution takes some ten times as long as between rigid ones; a smaller 'finer' costs less"
+    "walls that give way take some ten times as long as with --rigid --isoviscous; a smaller 'finer' costs less"
 )
 
 

@@ -14,17 +14,15 @@ from swashfilm.revolution_case import FINER
 from swashfilm.terminal import show_table
 from system.description import SINGLE_PARTS, PumpDescription
 from system.faults import Fault
-from system.floating_gaps import FloatingOptions
+from system.floating_gaps import FloatingOptions, usual_finer
 from system.unlike import kinds
 
 ALIKE = "chambers that are alike; where they differ: swashfilm run with --fidelity lumped or floating"
 FEWEST_STEPS, MOST_STEPS = 24, 7200
-_INCLUDED = {
-    "--elastic": Effect.ELASTIC_WALLS,
-    "--roelands": Effect.PRESSURE_VISCOSITY,
-    "--heat": Effect.HEAT,
-}
+_INCLUDED = {"--heat": Effect.HEAT}
 _LEFT_OUT = {
+    "--rigid": Effect.ELASTIC_WALLS,
+    "--isoviscous": Effect.PRESSURE_VISCOSITY,
     "--smooth": Effect.ROUGHNESS,
     "--no-cavitation": Effect.CAVITATION,
 }
@@ -37,7 +35,7 @@ def floating_options(options: argparse.Namespace) -> FloatingOptions:
     switched = _switched(options)
     physics = usual.physics.without(*(_LEFT_OUT[switch] for switch in switched if switch in _LEFT_OUT))
     physics = physics.including(*(_INCLUDED[switch] for switch in switched if switch in _INCLUDED))
-    finer = usual.finer if options.finer is None else float(options.finer)
+    finer = usual_finer(physics) if options.finer is None else float(options.finer)
     return replace(
         usual, steps=steps, physics=physics, finer=finer, keep=max(1, usual.keep * steps // usual.steps)
     )

@@ -68,7 +68,7 @@ def add_table_options(command: argparse.ArgumentParser) -> None:
         "--source", metavar="{films,floating}", default=_SOURCE, help="fidelity to condense (films)"
     )
     command.add_argument("--steps", metavar="N", help="of floating gaps: steps a turn (360)")
-    command.add_argument("--finer", metavar="X", help="of floating gaps: times the usual cells each way (1)")
+    command.add_argument("--finer", metavar="X", help="of floating gaps: times the usual cells (.5; --rigid: 1)")
     add_switches(command)
     command.add_argument(
         "--points", metavar="N", help="points to learn from, corners of the box among them (120 of four inputs)"

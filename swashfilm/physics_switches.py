@@ -5,8 +5,8 @@ from __future__ import annotations
 import argparse
 
 SWITCHES = {
-    "--elastic": ("walls", "elastic", "walls that give way"),
-    "--roelands": ("oil", "pressure_viscosity", "oil that pressure stiffens"),
+    "--rigid": ("walls", "rigid", "walls that do not give way"),
+    "--isoviscous": ("oil", "isoviscous", "oil that pressure does not stiffen"),
     "--smooth": ("surfaces", "smooth", "smooth walls, which never touch"),
     "--no-cavitation": ("cavitation", "none", "films that do not cavitate"),
     "--heat": ("heat", "solved", "films and parts that warm"),
@@ -21,7 +21,7 @@ def add_switches(command: argparse.ArgumentParser) -> None:
 
 
 def switched_keys(options: argparse.Namespace) -> dict[str, str]:
-    """What the command line says of the keys that `physics_case.read_physics` reads: `walls` to "elastic"."""
+    """What the command line says of the keys that `physics_case.read_physics` reads: `walls` to "rigid"."""
     on = {switch for switch in SWITCHES if getattr(options, switch[2:].replace("-", "_"))}
     return {key: value for switch, (key, value, _) in SWITCHES.items() if switch in on}
 

@@ -11,8 +11,8 @@ PHYSICS_HEAD = ("physics", "is", "switch", "time of the gaps")
 _TOLD = {
     Effect.CAVITATION: ("cavities that keep their oil", "--no-cavitation", None),
     Effect.ROUGHNESS: ("rough walls, contact of asperities", "--smooth", Leg.RIGID),
-    Effect.PRESSURE_VISCOSITY: ("oil that stiffens with pressure", "--roelands", None),
-    Effect.ELASTIC_WALLS: ("walls that give way", "--elastic", Leg.ELASTIC),
+    Effect.PRESSURE_VISCOSITY: ("oil that stiffens with pressure", "--isoviscous", None),
+    Effect.ELASTIC_WALLS: ("walls that give way", "--rigid", Leg.ELASTIC),
     Effect.HEAT: ("films and parts that warm", "--heat", Leg.HEAT),
 }
 """Each effect in words, its switch, and the leg that ends with it: its time is of all before it."""

@@ -12,7 +12,7 @@ from swashfilm.gap_case import FORMAT
 from swashfilm.physics_case import physics_rows, read_physics
 from swashfilm.revolution_pressure import ChamberPressure, read_chamber_pressure
 from system.case_table import Table, quoted
-from system.floating_gaps import MARCHED, FloatingOptions
+from system.floating_gaps import MARCHED, USUAL, FloatingOptions, usual_finer
 from system.instants import Rotor
 from system.pump_gap import Gap
 
@@ -99,12 +99,12 @@ def _options(table: Table, gap: Gap | None, pump: CasePump | None) -> FloatingOp
     faults = len(table.faults)
     steps = _whole(table, "steps", STEPS, 24, _MOST)
     films = _whole(table, "films", RING_FILMS if gap is Gap.VALVE_PLATE else FILMS, 1, _MOST)
-    tolerance, finer = table.number("tolerance", MARCHED.step), table.number("finer", 1.0)
+    physics = read_physics(table, USUAL)
+    tolerance, finer = table.number("tolerance", MARCHED.step), table.number("finer", usual_finer(physics))
     if tolerance is not None and not 0.0 < tolerance <= _LARGEST_TOLERANCE:
         table.fault("tolerance", repr(tolerance), f"above 0, at most {_LARGEST_TOLERANCE:g} of the least film")
     if finer is not None and not FINER[0] <= finer <= FINER[1]:
         table.fault("finer", repr(finer), f"{FINER[0]:g} to {FINER[1]:g} times the usual cells each way")
-    physics = read_physics(table, FloatingOptions().physics)
     pistons = pump.rotor.pump.pump.pistons if pump else 1
     if steps and gap is Gap.VALVE_PLATE and steps % pistons:
         nearest = max(1, round(steps / pistons)) * pistons

@@ -28,7 +28,7 @@ from system.floating_checks import block_tips
 from system.floating_heat import block_heat, piston_heat, slipper_heat
 from system.floating_parts import FloatingParts
 from system.gap_cycle import Report, silent
-from system.gap_films import RIGID, block_film, piston_film, slipper_film
+from system.gap_films import block_film, piston_film, slipper_film
 from system.instants import Rotor
 from system.unlike import kinds
 
@@ -37,22 +37,30 @@ PISTON_CELLS, SLIPPER_CELLS, BLOCK_CELLS = (48, 16), (12, 40), (4, 16)
 LEAST_CELLS = 2
 LEAST_PISTON_CELLS = 8
 """Along a bore: on fewer, a tilted piston with much clearance leaves the ends of its film between their points."""
+RIGID_FINER, SOFT_FINER = 1.0, 0.5
 SLIPPER_START = BLOCK_START = 1e-5  # m: a film that every pump starts with
 SOFTLY = "a coarser mesh to find where, or rigid walls"
+USUAL = Physics()
+"""What the films of high pressure need: walls that give way, oil that stiffens, rough walls, cavities."""
+
+
+def usual_finer(physics: Physics) -> float:
+    """Times the usual cells each way where nothing is said: half of them between walls that give way (price)."""
+    return SOFT_FINER if physics.elastic_walls else RIGID_FINER
 
 
 @dataclass(frozen=True)
 class FloatingOptions:
     """How the gaps float: what physics, in how many steps a turn, how exactly, meshes how many times `finer`.
 
-    Physics is `RIGID` where nothing else is asked for: what settles in minutes. A mesh less than one time finer is
-    coarser. Every `keep`th film is kept.
+    A mesh less than one time finer is coarser; left out it is that of elastic walls (`usual_finer`). Every
+    `keep`th film is kept.
     """
 
-    physics: Physics = RIGID
+    physics: Physics = field(default=USUAL)
     steps: int = 360
     accuracy: Accuracy = field(default=MARCHED)
-    finer: float = 1.0
+    finer: float = SOFT_FINER
     keep: int = 10
 
     @property

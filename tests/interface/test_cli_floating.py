@@ -9,7 +9,6 @@ from swashfilm.cli_floating import floating_faults, floating_options
 from swashfilm.physics_switches import SWITCHES
 from swashfilm.physics_told import physics_told
 from system.floating_gaps import FloatingOptions
-from system.gap_films import RIGID
 from system.pump_file import load_pump
 
 FLOATING = ["run", "ref90_floating", "--fidelity", "floating"]
@@ -24,7 +23,7 @@ FLOATING = ["run", "ref90_floating", "--fidelity", "floating"]
         ([*FLOATING, "--finer", "0"], ["--finer", "'0'", "0.25 to 8"]),
         ([*FLOATING, "--finer", "fine"], ["--finer", "'fine'", "a number"]),
         (["run", "ref90", "--finer", "1"], ["--finer", "--fidelity floating"]),
-        ([*FLOATING, "--elstic"], ["--elstic", "unknown option", "--elastic"]),
+        ([*FLOATING, "--rgid"], ["--rgid", "unknown option", "--rigid"]),
         (
             ["run", "ref90", "--smooth", "--steps", "72"],
             ["2 faults", "--smooth", "--steps", "--fidelity floating"],
@@ -41,34 +40,36 @@ def test_bad_options_end_with_2_and_say_what_to_do(words, told, capsys, tmp_path
 
 
 def test_options_of_the_command_line():
-    """Elastic walls, stiff oil and heat come by a switch, the rest goes by one; fewer steps keep as many films."""
+    """Heat comes by a switch, the rest goes by one; fewer steps keep as many films; rigid walls mesh finer."""
     usual = FloatingOptions()
     words = [
         *FLOATING,
-        "--elastic",
-        "--roelands",
+        "--rigid",
+        "--isoviscous",
         "--smooth",
         "--no-cavitation",
         "--steps",
         "72",
         "--finer",
-        "0.5",
+        "2",
     ]
     given = build_parser().parse_args(words)
     assert floating_faults(given, load_pump("ref90_floating"), given.fidelity) == []
     found = floating_options(given)
-    assert found.physics.left_out == (Effect.CAVITATION, Effect.ROUGHNESS, Effect.HEAT)
+    assert found.physics.left_out == tuple(Effect)
+    rigid = floating_options(build_parser().parse_args([*FLOATING, "--rigid"]))
+    assert rigid.piston_cells == tuple(2 * cells for cells in usual.piston_cells)
     assert floating_options(build_parser().parse_args([*FLOATING, "--heat"])).physics.heat
     assert (found.steps, found.keep) == (72, usual.keep * 72 // usual.steps)
-    assert found.piston_cells == tuple(cells // 2 for cells in usual.piston_cells)
+    assert found.piston_cells == tuple(4 * cells for cells in usual.piston_cells)
     assert floating_options(build_parser().parse_args(FLOATING)) == usual
-    assert usual.physics == RIGID.without(Effect.HEAT)
+    assert usual.physics.left_out == (Effect.HEAT,)
 
 
 def test_physics_is_told_with_its_switches_and_what_it_took():
     """A row an effect; a time stands at the effect that ends its leg; every switch is one of the command line."""
     rows = {row[2]: row for row in physics_told(["heat", "roughness"], {"rigid": 3.0, "elastic": 40.0})}
     assert set(rows) == set(SWITCHES)
-    assert rows["--elastic"][1:] == ("on", "--elastic", "40.0 s")
+    assert rows["--rigid"][1:] == ("on", "--rigid", "40.0 s")
     assert rows["--smooth"][1:] == ("off", "--smooth", "3.0 s")
     assert rows["--heat"][1:] == ("off", "--heat", "")

@@ -129,7 +129,7 @@ def test_every_fault_is_told_at_once():
     [
         (["table", "case.toml", "--speed", "900rpm..2000rpm"], ["--speed", "a key of [table]"]),
         (["table", "case.toml", "--points", "7"], ["--points", "8 to"]),
-        (["table", "case.toml", "--elastic"], ["--elastic", "revolution = true"]),
+        (["table", "case.toml", "--rigid"], ["--rigid", "revolution = true"]),
         (["film", "case.toml"], ["swashfilm table case.toml"]),
     ],
 )

@@ -242,9 +242,9 @@ def test_the_command_line_leaves_physics_out(capsys):
     assert {Effect.ROUGHNESS, Effect.CAVITATION} <= set(case.options.physics.left_out)
     assert "# command line: revolution.surfaces = smooth" in case.text
     instant = SLIPPER.replace("revolution = true\n", "").partition("[revolution]")[0]
-    assert main(["film", str(written(instant)), "--elastic", "--smooth"]) == 2
+    assert main(["film", str(written(instant)), "--rigid", "--smooth"]) == 2
     told = capsys.readouterr().err
-    assert "--elastic" in told
+    assert "--rigid" in told
     assert "--smooth" in told
     assert "revolution = true" in told
     assert main(["film", str(written(instant)), "--animate"]) == 2

@@ -131,7 +131,7 @@ def test_ctrl_c_keeps_what_is_solved(stand_in, tmp_path, capsys):
         (["table", "ref90", "--displacement", "0.5..2"], ["displacement ratio", "at most 1"]),
         (["table", "ref90", "--points", "3", "--workers", "no"], ["--points", "--workers", "2 faults"]),
         (["table", "ref90", "--source", "film"], ["--source", "one of films, floating", "films"]),
-        (["table", "ref90", "--elastic"], ["--source", "floating"]),
+        (["table", "ref90", "--rigid"], ["--source", "floating"]),
         (["table", "ref90", "--source", "floating", "--steps", "100"], ["--steps", "multiple of the 9 pistons"]),
         (["table", "ref90", "--pressure", "1MPa..30MPa"], ["delivery pressure", "2.5 MPa"]),
         (["table", "ref90", "--temperature", "20degC..300degC"], ["degC"]),
