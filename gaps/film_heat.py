@@ -204,11 +204,8 @@ class _Warming(Generic[Seen]):
         passing = [
             float(np.sum(heat.conductivity / film.film.thickness * film.problem.space.area)) for film in films
         ]
-        conductance = self._mean(passing) / area
         taken = np.array([flows.to_fixed, flows.to_moving]) / area
-        resistance = np.array([heat.fixed.resistance, heat.moving.resistance])
-        missing = resistance * taken - (self._walls - heat.outside)
-        return np.asarray(self._walls + missing / (1.0 + resistance * conductance))
+        return wall_image(heat, self._walls, taken, self._mean(passing) / area)
 
     def _warmed(self, time: float) -> Found:
         """The film of a time, of the viscosity that its own temperature makes, its shape as it is.
@@ -221,7 +218,7 @@ class _Warming(Generic[Seen]):
         stiff = np.asarray(cold.fluid.viscosity(under, cold.film.viscosity)[0])
         resting = replace(film.problem.film, viscosity=stiff, couette_viscosity=None, moving_share=HALF)
         problem = replace(film.problem, film=resting, fluid=Fluid(isoviscous, cold.fluid.density))
-        posed = Posed(problem, _law(problem, heat), heat.of(problem, self._walls), at_once=True)
+        posed = Posed(problem, local_law(problem, heat), heat.of(problem, self._walls), at_once=True)
         try:
             return _with_heat(agree(posed, levels(), AGREED, self._solver, self._warm.get(time)))
         except (FilmInputError, FilmNotConverged) as reason:
@@ -254,6 +251,16 @@ class _Warming(Generic[Seen]):
         return float(np.average(values, weights=np.diff(self._angles, prepend=0.0)))
 
 
+def wall_image(heat: GapHeat, walls: Array, taken: Array, conductance: float) -> Array:
+    """Walls (2,) K nearer to those that pass on what they take, `taken` (2,) W/m2, by their resistance.
+
+    The film's own conductance (W/(m2 K)) damps: a warmer wall takes less.
+    """
+    resistance = np.array([heat.fixed.resistance, heat.moving.resistance])
+    missing = resistance * taken - (walls - heat.outside)
+    return np.asarray(walls + missing / (1.0 + resistance * conductance))
+
+
 def _warmed_angles(angles: Array) -> Array:
     """Those of the reported angles that have temperatures: WARMED a turn, the last among them."""
     reported = len(angles)
@@ -261,7 +268,7 @@ def _warmed_angles(angles: Array) -> Array:
     return np.asarray(angles[np.round(reported * np.arange(1, count + 1) / count).astype(int) - 1])
 
 
-def _law(problem: FilmProblem, heat: GapHeat) -> LocalLaw:
+def local_law(problem: FilmProblem, heat: GapHeat) -> LocalLaw:
     """The gap's oil (webs over ports as stiff as they are), thinned under any pressure as under none."""
 
     def law(temperature: Array, pressure: Array, rate: Array) -> Array:

@@ -17,7 +17,7 @@ from system.chamber_problem import ChamberProblem, LeakTable
 from system.description import PumpDescription
 from system.errors import NotConverged
 from system.floating_parts import FloatingParts, floating_parts
-from system.gap_cycle import GapCycle, Report, gap_cycle, silent
+from system.gap_cycle import PLAIN, GapCycle, GapPhysics, Report, gap_cycle, silent
 from system.instants import Rotor, rotor
 from system.kinematics import Array
 from system.lumped import (
@@ -67,14 +67,20 @@ def films_point(
     pump: PumpDescription,
     point: OperatingPoint,
     *,
+    physics: GapPhysics = PLAIN,
     positions_per_pitch: int = POSITIONS_PER_PITCH,
+    finer: float = 1.0,
+    tolerance: float = TOLERANCE,
     report: Report = silent,
 ) -> FilmsPoint:
-    """One periodic operating point with films solved over the revolution.
+    """One periodic operating point with films solved over the revolution, on meshes `finer` times the usual.
+
+    Chamber pressure repeats to `tolerance` of the ports' difference. With heat in the physics the lumped Coulomb
+    loss of the pairs warms their walls too.
 
     Raises NotConverged when chamber pressure and films do not settle within ROUND_LIMIT rounds, ValueError when
     `positions_per_pitch` is no even divisor of SAMPLES_PER_PITCH or chambers differ, FilmInputError where parts
-    touch at a given position. Films are rigid, smooth, isothermal, without history.
+    touch at a given position. Films have no history; smooth, rigid and isothermal where the physics is as given.
     """
     kinds(pump).hold_alike()
     hold_plain(pump)
@@ -86,10 +92,13 @@ def films_point(
     every = SAMPLES_PER_PITCH // positions_per_pitch
     lumped = lumped_point(pump, point)
     at, parts, rounds, cycle = rotor(pump, lumped.point), floating_parts(pump), 0, lumped.cycle
-    limit = TOLERANCE * (abs(point.delivery_pressure - point.inlet_pressure) + 1e5)
+    limit = tolerance * (abs(point.delivery_pressure - point.inlet_pressure) + 1e5)
     while rounds < ROUND_LIMIT:
         rounds += 1
-        gaps = gap_cycle(at, parts, cycle.shaft_angle[::every], cycle.pressure[::every], report)
+        gaps = gap_cycle(
+            at, parts, cycle.shaft_angle[::every], cycle.pressure[::every], report, physics=physics,
+            rubbing=_rubbing(lumped_pairs(pump, point, motion, cycle)), finer=finer,
+        )  # fmt: skip
         problem = chamber_problem(pump, point, motion, leak_table(gaps, point.case_pressure))
         draws = port_draws(gaps, at.point, pump.oil.bulk_modulus)
         ported = ported_cycle((problem,), lines, pump.pump.pistons, motion.shaft_angle.size, draws=draws)
@@ -108,6 +117,13 @@ def films_point(
     derived = swept_displacement(pump, motion.drive)
     pump_point = assemble(point, ported, (losses,), pump.pump.pistons, derived, exchange, (group_masses(pump),))
     return FilmsPoint(at, parts, pump_point, gaps, rounds, change, _sampling_error(ported.problem, cycle))
+
+
+def _rubbing(losses: FrictionPairs) -> tuple[float, float, float]:
+    """Mean Coulomb loss (W) of one piston, one slipper and the ring."""
+    pairs = losses.piston_cylinder, losses.slipper_swash_plate, losses.valve_plate_cylinder
+    piston, slipper, ring = (pair.mean_coulomb / pair.count for pair in pairs)
+    return piston, slipper, ring
 
 
 def leak_table(gaps: GapCycle, case_pressure: float) -> LeakTable:

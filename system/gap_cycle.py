@@ -2,22 +2,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from gaps.block_motion import BlockFilm, standing_block
-from gaps.physics import Effect
+from gaps.film_heat import GapHeat
+from gaps.physics import Effect, Physics
 from gaps.piston_motion import PistonFilm, standing_piston
 from gaps.pressure_flow import carried_power, kidney_conductances, piston_conductance, slipper_conductance
 from gaps.result import GapFilm, ValvePlateFilm
 from gaps.slipper_motion import SlipperFilm, floating_slipper
 from gaps.standing import block_told, piston_told, slipper_told
+from gaps.standing_heat import warm_turn
+from reynolds.floating import Floating
 from reynolds.floating_stage import Stage
+from reynolds.fluid import isoviscous
 from reynolds.rest import held_at
 from reynolds.solve import FilmSolver
 from system.floating_drives import drives, no_rubbing
+from system.floating_heat import block_heat, piston_heat, slipper_heat
 from system.floating_parts import FloatingParts
 from system.gap_films import RIGID, Cells, block_film, piston_film, slipper_film
 from system.given_positions import given_block, given_piston, given_slipper
@@ -29,6 +34,23 @@ PISTON_CELLS, SLIPPER_CELLS, RING_CELLS = (48, 16), (12, 48), (8, 32)
 SMOOTH = RIGID.without(Effect.ROUGHNESS)
 """At a given position nothing touches: what asperities would bear and rub stands in the pairs' coefficients."""
 Report = Callable[[int, int, str], None]
+
+
+@dataclass(frozen=True)
+class GapPhysics:
+    """The physics of each gap's film."""
+
+    piston: Physics = SMOOTH
+    slipper: Physics = SMOOTH
+    valve_plate: Physics = SMOOTH
+
+    @classmethod
+    def alike(cls, physics: Physics) -> GapPhysics:
+        """The same in all three."""
+        return cls(physics, physics, physics)
+
+
+PLAIN = GapPhysics()
 
 
 def silent(done: int, total: int, what: str) -> None:
@@ -62,12 +84,15 @@ def gap_cycle(
     chamber_pressure: Array,
     report: Report = silent,
     *,
-    finer: int = 1,
+    physics: GapPhysics = PLAIN,
+    rubbing: tuple[float, float, float] = (0.0, 0.0, 0.0),
+    finer: float = 1.0,
 ) -> GapCycle:
     """All films at equidistant `shaft_angle` (N,), N a multiple of the pistons, and pressures (N,) Pa.
 
-    Meshes have `finer` times the usual cells each way. Parts stand where the description gives them; raises
-    FilmInputError where they touch there.
+    Meshes have `finer` times the usual cells each way. Parts stand where the description gives them. With heat in
+    a gap's physics its walls are as warm as films and `rubbing` make them, the mean loss of contact of one piston,
+    one slipper and the ring (W). Raises FilmInputError where parts touch where they stand, FilmNotConverged.
     """
     count = len(shaft_angle)
     driven = drives(rotor, parts, shaft_angle, chamber_pressure, no_rubbing(count))
@@ -77,13 +102,22 @@ def gap_cycle(
     def told(done: int, what: str) -> None:
         report(done, steps, f"{what} films")
 
-    piston = piston_film(rotor, parts, driven.piston, SMOOTH, _finer(PISTON_CELLS, finer))
-    slipper = slipper_film(rotor, parts, driven.slipper, SMOOTH, _finer(SLIPPER_CELLS, finer))
-    block = block_film(rotor, parts, driven.block, SMOOTH, _finer(RING_CELLS, finer))
-    pistons, of_piston = _pistons(rotor, piston, shaft_angle, lambda k: told(k, "piston"))
-    slippers, of_slipper = _slippers(rotor, slipper, shaft_angle, lambda k: told(count + k, "slipper"))
+    piston = piston_film(rotor, parts, driven.piston, physics.piston, _finer(PISTON_CELLS, finer))
+    slipper = slipper_film(rotor, parts, driven.slipper, physics.slipper, _finer(SLIPPER_CELLS, finer))
+    block = block_film(rotor, parts, driven.block, physics.valve_plate, _finer(RING_CELLS, finer))
+    warm = [
+        _Warm(heat(rotor, parts), rubs) if of.heat else None
+        for of, heat, rubs in zip(
+            (physics.piston, physics.slipper, physics.valve_plate),
+            (piston_heat, slipper_heat, block_heat),
+            rubbing,
+            strict=True,
+        )
+    ]
+    pistons, of_piston = _pistons(rotor, piston, shaft_angle, warm[0], lambda k: told(k, "piston"))
+    slippers, of_slipper = _slippers(rotor, slipper, shaft_angle, warm[1], lambda k: told(count + k, "slipper"))
     ring, slopes, carried = _ring(
-        rotor, block, shaft_angle[:positions], lambda k: told(2 * count + k, "valve-plate")
+        rotor, block, shaft_angle[:positions], warm[2], lambda k: told(2 * count + k, "valve-plate")
     )
     # (position, chamber) -> the chamber's own angle.
     drawn, of_ring = (by_chamber.T.ravel() for by_chamber in (np.array([f.chamber_flows for f in ring]), slopes))
@@ -99,54 +133,65 @@ def gap_cycle(
     )
 
 
-def _finer(cells: Cells, times: int) -> Cells:
-    return cells[0] * times, cells[1] * times
+@dataclass(frozen=True)
+class _Warm:
+    """Heat of a gap, and the mean loss of contact in it, W."""
+
+    heat: GapHeat
+    rubbing: float
+
+
+def _finer(cells: Cells, times: float) -> Cells:
+    return round(cells[0] * times), round(cells[1] * times)
+
+
+def _held(
+    solver: FilmSolver,
+    floating: Floating,
+    speed: float,
+    places: Sequence[tuple[float, Array]],
+    warm: _Warm | None,
+    told: Callable[[int], None],
+) -> list[Stage]:
+    """Films at shaft angles (rad) and positions, each from that before; stiffening oil from a film of its own."""
+    stages: list[Stage] = []
+    for k, (angle, place) in enumerate(places):
+        stiffens = floating.shape_at(angle / speed).fluid.viscosity is not isoviscous
+        last = stages[-1].solution if stages and not stiffens else None
+        stages.append(held_at(solver, floating, angle / speed, place, last))
+        told(k + 1)
+    return stages if warm is None else warm_turn(solver, floating, stages, warm.heat, warm.rubbing)
 
 
 def _pistons(
-    rotor: Rotor, film: PistonFilm, angles: Array, told: Callable[[int], None]
+    rotor: Rotor, film: PistonFilm, angles: Array, warm: _Warm | None, told: Callable[[int], None]
 ) -> tuple[tuple[GapFilm, ...], list[float]]:
     """Films and conductances."""
     solver, floating = FilmSolver(film.space_at(0.0)), standing_piston(film)
-    found, slopes = [], []
-    last: Stage | None = None
-    for k, angle in enumerate(angles):
-        place = given_piston(rotor.pump, film.drive.outer(angle))
-        last = held_at(solver, floating, angle / film.drive.shaft_speed, place, last.solution if last else None)
-        found.append(piston_told(film, last))
-        slopes.append(piston_conductance(solver, last))
-        told(k + 1)
-    return tuple(found), slopes
+    places = [(angle, given_piston(rotor.pump, film.drive.outer(angle))) for angle in angles]
+    stages = _held(solver, floating, film.drive.shaft_speed, places, warm, told)
+    slopes = [piston_conductance(solver, stage) for stage in stages]
+    return tuple(piston_told(film, stage) for stage in stages), slopes
 
 
 def _slippers(
-    rotor: Rotor, film: SlipperFilm, angles: Array, told: Callable[[int], None]
+    rotor: Rotor, film: SlipperFilm, angles: Array, warm: _Warm | None, told: Callable[[int], None]
 ) -> tuple[tuple[GapFilm, ...], list[float]]:
     """Films and conductances."""
     solver, floating = FilmSolver(film.space), floating_slipper(film)
-    found, slopes = [], []
-    last: Stage | None = None
-    for k, angle in enumerate(angles):
-        place = given_slipper(rotor, angle)
-        last = held_at(solver, floating, angle / film.drive.shaft_speed, place, last.solution if last else None)
-        found.append(slipper_told(film, last))
-        slopes.append(slipper_conductance(solver, film, last))
-        told(k + 1)
-    return tuple(found), slopes
+    places = [(angle, given_slipper(rotor, angle)) for angle in angles]
+    stages = _held(solver, floating, film.drive.shaft_speed, places, warm, told)
+    slopes = [slipper_conductance(solver, film, stage) for stage in stages]
+    return tuple(slipper_told(film, stage) for stage in stages), slopes
 
 
 def _ring(
-    rotor: Rotor, film: BlockFilm, angles: Array, told: Callable[[int], None]
+    rotor: Rotor, film: BlockFilm, angles: Array, warm: _Warm | None, told: Callable[[int], None]
 ) -> tuple[tuple[ValvePlateFilm, ...], Array, Array]:
     """Films, conductances (N/z, z) and carried power."""
     solver, floating = FilmSolver(film.space), standing_block(film)
-    found, slopes, carried = [], [], []
-    last: Stage | None = None
-    for k, angle in enumerate(angles):
-        place = given_block(rotor.pump)
-        last = held_at(solver, floating, angle / film.drive.shaft_speed, place, last.solution if last else None)
-        found.append(block_told(film, last))
-        slopes.append(kidney_conductances(solver, film, last))
-        carried.append(carried_power(solver, film, last))
-        told(k + 1)
-    return tuple(found), np.array(slopes), np.array(carried)
+    places = [(angle, given_block(rotor.pump)) for angle in angles]
+    stages = _held(solver, floating, film.drive.shaft_speed, places, warm, told)
+    slopes = np.array([kidney_conductances(solver, film, stage) for stage in stages])
+    carried = np.array([carried_power(solver, film, stage) for stage in stages])
+    return tuple(block_told(film, stage) for stage in stages), slopes, carried

@@ -1,0 +1,147 @@
+"""Recordings whose plant is the film simulation: the fidelity proof.
+
+A point is the films fidelity (`system.films.films_point`): three gaps solved on meshes over the turn, parts at the
+places that the pump file gives, with one piece of film physics that the lumped simulation leaves out. A point
+takes half a second to five, so that the true readings are kept beside this file; sensors read them as those of the
+other plant.
+"""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from enum import Enum
+from itertools import product
+from pathlib import Path
+
+import numpy as np
+
+from gaps.physics import Effect
+from reynolds.errors import FilmInputError, FilmNotConverged
+from reynolds.oil import walther
+from system.films import films_point
+from system.gap_cycle import PLAIN, SMOOTH, GapPhysics
+from system.operating import operating_point
+from system.pump_file import load_pump
+
+from .campaigns import Campaign
+from .plant.bench import Truth
+from .plant.losses import Losses
+from .plant.machine import CELSIUS, Array
+from .plant.settings import RPM, Settings
+from .sensors import Readings, read
+
+KEPT = Path(__file__).resolve().parent / "film_truths"
+ATMOSPHERE = 101325.0
+POSITIONS, ONE_ROUND = 2, 0.5  # a piston pitch; films at the lumped chamber's pressure, which leakage hardly moves
+COLUMNS = (
+    "speed_rpm", "displacement_ratio", "p_out_MPa_gauge", "T_case_degC", "Q_out_lpm", "Q_in_lpm", "Q_case_lpm",
+    "torque_Nm",
+)  # fmt: skip
+SPEEDS, PRESSURES, WARMTHS = (600, 1000, 1500, 2100), (6, 12, 18, 24, 30, 35), (42, 60)
+INLET, CASE = 2.5e6, 0.15e6  # Pa gauge
+SEED = 7
+
+
+class FilmCase(Enum):
+    """What the films of a plant have beyond rigid walls, one temperature and a viscosity that pressure leaves."""
+
+    RIGID = "rigid"
+    VISCOSITY_PRESSURE = "viscosity_pressure"
+    ELASTIC_SLIPPER = "elastic_slipper"
+    FILM_HEATING = "film_heating"
+
+
+@dataclass(frozen=True)
+class FilmPlant:
+    """One of them: what a verdict is to say (id "" for nothing), at which gap; physics; mesh; points."""
+
+    case: FilmCase
+    id: str
+    pair: str | None
+    physics: GapPhysics
+    finer: float
+    points: int
+
+
+def cases() -> tuple[FilmPlant, ...]:
+    """All plants, the one with nothing beyond first."""
+    stiffening = SMOOTH.including(Effect.PRESSURE_VISCOSITY)
+    soft, warm = SMOOTH.including(Effect.ELASTIC_WALLS), SMOOTH.including(Effect.HEAT)
+    return (
+        FilmPlant(FilmCase.RIGID, "", None, PLAIN, 0.5, 48),
+        FilmPlant(FilmCase.VISCOSITY_PRESSURE, "viscosity_pressure", None, GapPhysics.alike(stiffening), 0.5, 48),
+        FilmPlant(FilmCase.ELASTIC_SLIPPER, "elastic_opening", "slipper", GapPhysics(slipper=soft), 0.5, 44),
+        FilmPlant(FilmCase.FILM_HEATING, "film_heating", None, GapPhysics.alike(warm), 0.34, 24),
+    )
+
+
+def set_points(count: int) -> Array:
+    """Rows (count, 4) of rpm, stroke, MPa, degC at full stroke: evenly out of a grid, as a bench holds it."""
+    rng = np.random.default_rng(SEED)
+    grid = list(product(WARMTHS, SPEEDS, PRESSURES))
+    rows = []
+    for k in np.linspace(0, len(grid) - 1, count).round().astype(int):
+        warmth, speed, pressure = grid[k]
+        warmer = 0.12 * pressure * rng.uniform(0.6, 1.4) + 2e-3 * speed
+        held = speed * (1.0 + 1e-3 * rng.standard_normal()), pressure + 0.3 * rng.standard_normal()
+        rows.append((held[0], 1.0, held[1], warmth + warmer))
+    return np.array(rows)
+
+
+def solved(plant: FilmPlant, row: Array) -> tuple[float, float, float, float]:
+    """True readings of a plant at a row of `set_points`: delivery, inlet, drain L/min, torque N m."""
+    pump = load_pump("ref90")
+    rpm, stroke, pressure, warmth = map(float, row)
+    kelvin = warmth + CELSIUS
+    point = replace(
+        operating_point(pump), shaft_speed=rpm * RPM, displacement_ratio=stroke, delivery_pressure=1e6 * pressure,
+        inlet_pressure=INLET, case_pressure=CASE, temperature=kelvin,
+        viscosity=walther(kelvin, pump.oil.fluid) * pump.oil.density,
+    )  # fmt: skip
+    bench = films_point(
+        pump, point, physics=plant.physics, positions_per_pitch=POSITIONS, finer=plant.finer, tolerance=ONE_ROUND
+    ).pump_point.bench
+    flows = (bench.delivery_flow, bench.inlet_flow, bench.drain_flow)
+    return *(6e4 * flow for flow in flows), bench.shaft_torque
+
+
+def made(plant: FilmPlant) -> Iterator[tuple[float, ...]]:
+    """The rows of a plant's file, point by point; one at which a film has no solution is left out, and said."""
+    for row in set_points(plant.points):
+        try:
+            yield *map(float, row), *solved(plant, row)
+        except (FilmInputError, FilmNotConverged) as reason:
+            print(f"{plant.case.value}: left out {row}: {reason}", flush=True)
+
+
+def make(plant: FilmPlant) -> None:
+    """Solve a plant and keep its file."""
+    KEPT.mkdir(exist_ok=True)
+    with (KEPT / f"{plant.case.value}.csv").open("w", newline="", encoding="utf-8") as file:
+        table = csv.writer(file)
+        table.writerow(COLUMNS)
+        for row in made(plant):
+            table.writerow([f"{value:.8g}" for value in row])
+            file.flush()
+
+
+def truths(plant: FilmPlant) -> Array:
+    """The kept rows (N, 8) of a plant, in the order of COLUMNS."""
+    return np.loadtxt(KEPT / f"{plant.case.value}.csv", delimiter=",", skiprows=1)
+
+
+def readings(plant: FilmPlant, seed: int) -> tuple[Campaign, Readings]:
+    """What the bench's sensors make of a plant, calibrations and noise drawn by the seed."""
+    rows = truths(plant)
+    rpm, stroke, pressure, warmth, out, drawn, drain, torque = rows.T
+    none = Losses(*np.zeros((4, len(rows))))
+    ones, kelvin = np.ones(len(rows)), warmth + CELSIUS
+    at = Settings(
+        rpm * RPM, stroke, 1e6 * pressure + ATMOSPHERE, (INLET + ATMOSPHERE) * ones, (CASE + ATMOSPHERE) * ones,
+        kelvin - 8.0, kelvin,
+    )  # fmt: skip
+    truth = Truth(out / 6e4, drawn / 6e4, drain / 6e4, torque, np.zeros(1), np.zeros((len(rows), 1)), none)
+    campaign = Campaign(plant.case.value, at)
+    return campaign, read(campaign, at, truth, (), np.random.default_rng(seed))

@@ -1,0 +1,96 @@
+"""A part that stands in its gap with a film as warm as it makes itself, between walls of given temperatures.
+
+Heat crosses a film in less than a millisecond, so that films of a turn are warmed one by one; walls take minutes,
+so that each has one temperature, that at which it passes on what all films of the turn give it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from gaps.film_heat import AGREED, MOST_WALL_ROUNDS, WALL_SETTLED, GapHeat, local_law, wall_image
+from reynolds.across import dowson, levels
+from reynolds.anderson import History
+from reynolds.coupling import Coupled, Posed, agree, bent
+from reynolds.energy import FilmTemperature
+from reynolds.errors import FilmNotConverged
+from reynolds.floating import Floating
+from reynolds.floating_stage import Stage
+from reynolds.mesh import Array
+from reynolds.rest import held_at
+from reynolds.solve import FilmSolver
+
+Warm = Coupled[FilmTemperature | None]
+
+
+@dataclass(frozen=True)
+class WarmStage:
+    """A standing part whose film has the viscosity that its temperature makes; to_walls (2,) W it gives them."""
+
+    stage: Stage
+    to_walls: Array
+
+
+def warmed(solver: FilmSolver, floating: Floating, cold: Stage, heat: GapHeat, walls: Array) -> WarmStage:
+    """A part held where it stands in a cold film (`held_at`), its film warmed between rigid walls (2,) K.
+
+    Raises FilmInputError where the oil's law ends, FilmNotConverged where film and temperature do not settle.
+    """
+    found = _agreed(solver, cold, heat, walls, None)
+    return WarmStage(_held_warm(solver, floating, cold, found), _to_walls(found))
+
+
+def warm_turn(
+    solver: FilmSolver, floating: Floating, cold: Sequence[Stage], heat: GapHeat, rubbing: float
+) -> list[Stage]:
+    """The films of a turn at evenly spaced angles, warmed, between walls that pass on what they take.
+
+    `rubbing` (W): mean loss of contact over the turn, of which each wall takes half. Raises as `warmed`.
+    """
+    area, conductance = _means(cold, heat)
+    walls, history = heat.outside, History()
+    found: list[Warm | None] = [None] * len(cold)
+    for _ in range(MOST_WALL_ROUNDS):
+        pairs = zip(cold, found, strict=True)
+        warm = [_agreed(solver, each, heat, walls, before) for each, before in pairs]
+        taken = np.mean([_to_walls(one) for one in warm], axis=0) + 0.5 * rubbing
+        image = wall_image(heat, walls, taken / area, conductance)
+        if np.abs(image - walls).max() < WALL_SETTLED:
+            return [_held_warm(solver, floating, one, of) for one, of in zip(cold, warm, strict=True)]
+        walls, found = history.extrapolate(walls, image), list(warm)
+    raise FilmNotConverged(
+        f"{floating.name}: temperature of the walls not settled after {MOST_WALL_ROUNDS} rounds",
+        "walls that take more heat",
+    )
+
+
+def _agreed(solver: FilmSolver, cold: Stage, heat: GapHeat, walls: Array, before: Warm | None) -> Warm:
+    """Film and temperature that agree, started from a film warmed before."""
+    problem = cold.solution.problem
+    posed = Posed(problem, local_law(problem, heat), heat.of(problem, walls), at_once=True)
+    return agree(posed, levels(), AGREED, solver, before)
+
+
+def _held_warm(solver: FilmSolver, floating: Floating, cold: Stage, found: Warm) -> Stage:
+    profile = dowson(levels(), found.share)
+    warm = replace(floating, shape_at=lambda time: bent(floating.shape_at(time), profile))
+    return held_at(solver, warm, cold.time, cold.q, found.film)
+
+
+def _to_walls(found: Warm) -> Array:
+    assert found.heat is not None  # one was posed
+    return np.array([found.heat.to_fixed, found.heat.to_moving])
+
+
+def _means(films: Sequence[Stage], heat: GapHeat) -> tuple[float, float]:
+    """Area (m2) of the films and their conductance to heat (W/(m2 K)), means over the turn."""
+    spaces = [stage.solution.problem.space for stage in films]
+    areas = [float(space.area.sum()) for space in spaces]
+    passing = [
+        float(np.sum(heat.conductivity / stage.solution.film.thickness * space.area))
+        for stage, space in zip(films, spaces, strict=True)
+    ]
+    return float(np.mean(areas)), float(np.mean(passing) / np.mean(areas))

@@ -1,0 +1,119 @@
+"""Films at given positions with elastic or warm walls, and the law that a table of them makes."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from gaps.film_heat import Sink
+from gaps.response import Axis, Response, Samples
+from gaps.slipper_motion import floating_slipper
+from gaps.standing_heat import warm_turn
+from reynolds.loads import boundary_flows
+from reynolds.oil import dynamic_viscosity
+from reynolds.rest import held_at
+from reynolds.solve import FilmSolver
+from system.faults import InputFaults
+from system.floating_heat import slipper_heat
+from system.floating_parts import floating_parts
+from system.gap_cycle import SMOOTH
+from system.gap_films import slipper_film
+from system.given_positions import given_slipper
+from system.instants import rotor
+from system.operating import operating_point
+from system.physics.effects import BenchState, GapCourse
+from system.physics.film_tables import COMPLIANCE, OUTPUTS, OpeningCase, OpeningTable, SolvedOpening
+from system.pump_file import load_pump, resolved_toml
+from system.pump_gap import Gap
+from system.standing_gaps import instant_drives
+
+REF90 = load_pump("ref90")
+STEEPEST = 1.5 * np.pi
+SLOPE = 3e-8  # 1/Pa, of the leakage in the tables made up here
+
+
+def made_up(gap: Gap, film: float = 10e-6) -> OpeningTable:
+    """A table in which leakage rises and shear falls in proportion to the pressure, up to 60 MPa."""
+
+    def samples(pressure):
+        return Samples(
+            pressure[:, None], np.column_stack([1.0 + SLOPE * pressure, 1.0 / (1.0 + SLOPE * pressure)])
+        )
+
+    axes = (Axis("pressure", 0.0, 60e6),)
+    learnt, held_out = samples(np.linspace(0.0, 60e6, 13)), samples(np.array([7e6, 33e6]))
+    return OpeningTable(gap, film, Response(axes, OUTPUTS, learnt, held_out))
+
+
+def courses(pressure, film=10e-6):
+    full = np.full((1, 4), 1.0)
+    course = GapCourse(pressure * full, 9.9 * full, film * full, full, full, full, np.ones(1))
+    return dict.fromkeys(Gap, course)
+
+
+def state(pressure):
+    one = np.ones(1)
+    return BenchState(
+        220 * one, one, (pressure + 1.5e5) * one, 2.5e6 * one, 1.5e5 * one, 0.02 * one, 323 * one, 0 * one, REF90
+    )
+
+
+@pytest.mark.parametrize("gap", list(Gap))
+def test_walls_without_compliance_change_nothing(gap):
+    found = SolvedOpening(made_up(gap))({COMPLIANCE: 0.0}, courses(20e6), state(20e6))
+    np.testing.assert_array_equal(found.conductance, 1.0)
+    np.testing.assert_array_equal(found.viscous, 1.0)
+
+
+@pytest.mark.parametrize(
+    ("compliance", "film", "factor"), [(1.0, 10e-6, 1.6), (0.5, 10e-6, 1.3), (1.0, 20e-6, 1.3), (1.5, 10e-6, 1.9)]
+)
+def test_softer_walls_and_thinner_films_stand_at_a_higher_pressure_of_the_table(compliance, film, factor):
+    """The law knows compliance times pressure over film alone; only its own gap is opened."""
+    found = SolvedOpening(made_up(Gap.PISTON))({COMPLIANCE: compliance}, courses(20e6, film), state(20e6))
+    assert found.conductance[0] == pytest.approx(factor, rel=1e-3)
+    assert found.viscous[0] == pytest.approx(1.0 / factor, rel=1e-3)
+    np.testing.assert_array_equal(found.conductance[1:], 1.0)
+
+
+def test_a_ring_shears_under_the_delivery_pressure_at_every_angle():
+    found = SolvedOpening(made_up(Gap.VALVE_PLATE))({COMPLIANCE: 1.0}, courses(0.0), state(20e6))
+    np.testing.assert_array_equal(found.conductance, 1.0)
+    assert found.viscous[2] == pytest.approx(1.0 / 1.6, rel=1e-3)
+
+
+def test_solved_films_open_by_compliance_times_pressure_over_film():
+    """Of a slipper that hardly slides: under half the pressure a film of half the thickness opens as far."""
+    crawling = REF90.model_copy(update={"pump": REF90.pump.model_copy(update={"rated_speed": 5.0})})
+    part = crawling.slipper
+    thinner = crawling.model_copy(update={"slipper": part.model_copy(update={"film_thickness": 5e-6})})
+    whole = OpeningCase(crawling, Gap.SLIPPER).solve(np.array([20e6]))
+    half = OpeningCase(thinner, Gap.SLIPPER).solve(np.array([10e6]))
+    assert whole[0] > 1.5
+    np.testing.assert_allclose(half, whole, rtol=5e-3)
+
+
+def test_a_film_between_warm_walls_leaks_by_the_viscosity_of_their_temperature():
+    """A slipper that hardly moves: oil takes its walls' temperature in a hundredth of the land's width."""
+    point = replace(operating_point(REF90), shaft_speed=5.0, delivery_pressure=2e6)
+    at, parts = rotor(REF90, point), floating_parts(REF90)
+    drive = instant_drives(at, parts, STEEPEST, np.array([2e6])).slipper
+    film = slipper_film(at, parts, drive, SMOOTH, (6, 24))
+    floating, time = floating_slipper(film), STEEPEST / drive.shaft_speed
+    solver = FilmSolver(film.space)
+    cold = held_at(solver, floating, time, given_slipper(at, STEEPEST))
+    kelvin = point.temperature + 10.0
+    heat = replace(slipper_heat(at, parts), fixed=Sink(kelvin), moving=Sink(kelvin))
+    (warm,) = warm_turn(solver, floating, [cold], heat, 0.0)
+    thinner = [dynamic_viscosity(REF90.oil.fluid, each) for each in (point.temperature, kelvin)]
+    leaks = [sum(boundary_flows(stage.solution)[edge] for edge in film.shape.lands.open) for stage in (cold, warm)]
+    assert leaks[1] / leaks[0] == pytest.approx(thinner[0] / thinner[1], rel=0.02)
+
+
+@pytest.mark.parametrize("keys", ["", 'opening = "20 1/GPa"\ncompliance = 1.0'])
+def test_a_gap_opens_by_one_key(tmp_path, keys):
+    file = tmp_path / "pump.toml"
+    own = resolved_toml(REF90)
+    file.write_text(f"{own}\n[physics.elastic_opening.slipper]\n{keys}\n", encoding="utf-8")
+    with pytest.raises(InputFaults, match="one of the two"):
+        load_pump(str(file))
