@@ -21,13 +21,20 @@ from system.channels import INPUTS, OUTPUTS, ChannelName
 from system.description import PumpDescription
 from system.estimation.parameters import Parameter
 from system.physics.catalogue import CATALOGUE
+from system.physics.extension import Entry
 from system.sensors import drift_parameter, lag_parameter, sensor_parameters
 from system.tolerances import Tolerances
 
 LAG = 1.0  # s, one sigma of a flow meter's lag where none is stated
 
 
-def prepare(pump: PumpDescription, recording: Recording, tolerances: Tolerances, thresholds: Thresholds) -> Study:
+def prepare(
+    pump: PumpDescription,
+    recording: Recording,
+    tolerances: Tolerances,
+    thresholds: Thresholds,
+    catalogue: tuple[Entry, ...] = CATALOGUE,
+) -> Study:
     """The study of a recording of a pump, by the lumped fidelity, with the whole catalogue as candidates.
 
     What the recording leaves out is taken and told in the notes of the study's recording. Raises FilmInputError
@@ -48,14 +55,14 @@ def prepare(pump: PumpDescription, recording: Recording, tolerances: Tolerances,
     parameters = (*base_parameters(pump, tolerances), *_sensors(usable, channels))
     simulator = LumpedBench(pump, points, channels, parameters, inputs=inputs)
     found = observations(usable, channels, inputs)
-    study = study_of(usable, simulator, found, scaled_axes(usable), CATALOGUE, thresholds)
+    study = study_of(usable, simulator, found, scaled_axes(usable), catalogue, thresholds)
     if memory := noise_memory(study, thresholds.mismatch.memory):
         told = (
             f"what is left goes on from point to point: noise taken as correlated by {memory[0]:.2f} in the order"
         )
         usable = replace(usable, notes=(*usable.notes, DataNote(NoteKind.TOLD, None, (), told)))
         found = replace(found, memory=memory)
-        study = study_of(usable, simulator, found, study.axes, CATALOGUE, thresholds)
+        study = study_of(usable, simulator, found, study.axes, catalogue, thresholds)
     return replace(study, traces=trace_misfits(usable, simulator), events=port_events(pump))
 
 

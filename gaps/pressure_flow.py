@@ -35,12 +35,17 @@ def piston_conductance(solver: FilmSolver, stage: Stage) -> float:
 
 def slipper_conductance(solver: FilmSolver, film: SlipperFilm, stage: Stage) -> float:
     """Flow per pressure difference through orifice and lands in series, m3/(s Pa), the orifice as it flows."""
+    land, orifice = slipper_land_conductance(solver, film, stage), film.throttling(stage)
+    return land * orifice / (land + orifice)
+
+
+def slipper_land_conductance(solver: FilmSolver, film: SlipperFilm, stage: Stage) -> float:
+    """Flow from pocket to case per pressure difference, m3/(s Pa)."""
     lands = film.shape.lands
     edges: dict[str, Boundary] = {name: Pocket(no_feed) for name in lands.closed}
     edges |= {"pocket": Held(1.0)} | dict.fromkeys(lands.open, Held(0.0))
     flows = boundary_flows(solver.solve(walls_at_rest(stage.solution.problem, edges)))
-    land, orifice = sum(flows[name] for name in lands.open), film.throttling(stage)
-    return land * orifice / (land + orifice)
+    return sum(flows[name] for name in lands.open)
 
 
 def kidney_conductances(solver: FilmSolver, film: BlockFilm, stage: Stage) -> Array:

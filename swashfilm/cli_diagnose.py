@@ -38,6 +38,11 @@ def add_diagnose_options(command: argparse.ArgumentParser) -> None:
         metavar="N",
         help=f"processes that fit hypotheses side by side (as many as cores, {USUAL_WORKERS} at most)",
     )
+    command.add_argument(
+        "--film-tables",
+        action="store_true",
+        help="elastic walls as the film solver has them; films are solved once a pump, in about a minute",
+    )
 
 
 def run_diagnose_command(options: argparse.Namespace) -> int:
@@ -53,12 +58,14 @@ def run_diagnose_command(options: argparse.Namespace) -> int:
     from swashfilm.diagnose_run import EXTENDED, checked_recording, run_diagnosis
     from swashfilm.progress import progress
     from swashfilm.run_folder import final_folder, run_folder
+    from system.physics.catalogue import CATALOGUE, with_films_solved
 
     known = load_known_pump(options.pump)
     recording = checked_recording(options.recording, known)
     name = f"diagnose-{recording.title or options.recording.stem}"
     with run_folder(name, options.output) as folder, progress(1, "diagnosis") as report:
-        found = run_diagnosis(known, recording, folder, report, workers)
+        catalogue = with_films_solved(known.pump, report) if options.film_tables else CATALOGUE
+        found = run_diagnosis(known, recording, folder, report, workers, catalogue)
         record = read_diagnosis(folder / "diagnosis.json")
     for text in paragraphs(found):
         show(text)

@@ -19,6 +19,8 @@ from swashfilm.diagnose_files import note_text, write_diagnosis_files
 from swashfilm.diagnose_losses import claimed_pump, loss_rows
 from swashfilm.progress import Report
 from system.faults import Fault, InputFaults
+from system.physics.catalogue import CATALOGUE
+from system.physics.extension import Entry
 from system.pump_file import builtin_pumps, resolved_toml
 from system.tolerances import tolerances
 
@@ -45,7 +47,12 @@ def checked_recording(path: Path, known: KnownPump | None = None) -> Recording:
 
 
 def run_diagnosis(
-    known: KnownPump, recording: Recording, folder: Path, report: Report, workers: int = 1
+    known: KnownPump,
+    recording: Recording,
+    folder: Path,
+    report: Report,
+    workers: int = 1,
+    catalogue: tuple[Entry, ...] = CATALOGUE,
 ) -> Diagnosis:
     """Diagnose a checked recording and fill a run folder, fits in `workers` processes side by side.
 
@@ -53,7 +60,7 @@ def run_diagnosis(
     """
     pump, thresholds = known.pump, load_thresholds()
     allowed, taken = tolerances(pump)
-    study = prepare(pump, recording, allowed, thresholds)
+    study = prepare(pump, recording, allowed, thresholds, catalogue)
     few = too_few(study.recording, len(study.simulator.parameters))
     if few is not None:
         raise InputFaults(recording.title, [Fault("recording", few.text, "more readings than parameters")])

@@ -26,7 +26,7 @@ from system.kinematics import Array
 from system.lumped import lumped_pairs
 from system.physics.effects import both
 from system.physics.extension import Extension
-from system.physics.switched import stated_effects
+from system.physics.switched import stated_effects, stated_laws
 from system.ports import TURN
 from system.sensors import ENCODER_OFFSET, SENSOR_NAMES, read
 from system.unlike import kinds
@@ -90,6 +90,7 @@ class LumpedBench:
         self._columns = [SIMULATED.index(channel) for channel in channels]
         setting(pump, points, {}, samples_per_pitch)
         self._kept: dict[bytes, Courses] = {}
+        self._stated = stated_laws(pump)
 
     def __getstate__(self) -> dict[str, object]:
         """What another process needs: all but the courses that are remembered."""
@@ -229,7 +230,7 @@ class LumpedBench:
         gaps = gap_courses(plain.pump, plain.point, plain.motion, courses, found)
         state = bench_state(plain.pump, plain.point, self.points.hours)
         named = self._named(values)
-        stated = stated_effects(plain.pump, gaps, state)
+        stated = stated_effects(self._stated, gaps, state)
         effects = reduce(both, (law.effects(named, gaps, state) for law in self.physics), stated)
         changed = affected(plain, effects)
         return Solved(plain, courses, changed, solve(changed), Affected(effects, state))

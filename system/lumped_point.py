@@ -29,7 +29,7 @@ from system.physics.effects import Effects
 from system.physics.outside import Outside, outside
 from system.physics.port_laws import eroded
 from system.physics.rubbing import rubbed
-from system.physics.switched import stated_effects
+from system.physics.switched import stated_effects, stated_laws
 from system.ports import TURN
 from system.ports_coupling import ported_cycle
 from system.power import chamber_exchange
@@ -71,7 +71,7 @@ def _effects(pump: PumpDescription, point: OperatingPoint, cycle: ChamberCycle) 
     at, pressed = _column(point), _Row(cycle.pressure[None])
     motion = piston_motion(pump, at)
     courses = gap_courses(pump, at, motion, pressed, lumped_pairs(pump, at, motion, pressed))
-    return stated_effects(pump, courses, bench_state(pump, at, np.zeros(1)))
+    return stated_effects(stated_laws(pump), courses, bench_state(pump, at, np.zeros(1)))
 
 
 def _solved(

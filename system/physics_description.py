@@ -6,9 +6,9 @@ same names and within the same bounds.
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import Annotated, Self
 
-from pydantic import Field
+from pydantic import Field, model_validator
 
 from system.fields import Fraction, NotNegative, Section
 from system.units import STANDARD_ATMOSPHERE, Dimension
@@ -59,9 +59,20 @@ class MixedFrictionSection(Section):
 
 
 class OpeningSection(Section):
-    """[physics.elastic_opening.GAP]: by how much of its thickness a film opens under pressure."""
+    """[physics.elastic_opening.GAP]: how far a film opens under pressure, by one of two keys.
 
-    opening: Annotated[float, Dimension.PRESSURE_COEFFICIENT, Field(ge=0.0, le=1e-7)]
+    opening: share of its thickness per pressure, in a closed form; compliance: of its walls over that of drawing
+    and material, films solved between them.
+    """
+
+    opening: Annotated[float, Dimension.PRESSURE_COEFFICIENT, Field(ge=0.0, le=1e-7)] | None = None
+    compliance: Annotated[float, Field(ge=0.0, le=1.5)] | None = None
+
+    @model_validator(mode="after")
+    def _one_of_both(self) -> Self:
+        if (self.opening is None) == (self.compliance is None):
+            raise ValueError("opening and compliance: expected one of the two")
+        return self
 
 
 class ElasticOpeningSection(Section):

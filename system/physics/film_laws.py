@@ -69,7 +69,7 @@ class ElasticOpening:
     def __call__(self, values: Values, courses: Courses, state: BenchState) -> Effects:
         """The effects with these values."""
         share = values["opening"] * np.maximum(courses[self.gap].pressure, 0.0)
-        return _in_one_film(self.gap, courses, state, opening_flow(share), 1.0 / (1.0 + 0.5 * share))
+        return in_one_film(self.gap, courses, state, opening_flow(share), 1.0 / (1.0 + 0.5 * share))
 
 
 @dataclass(frozen=True)
@@ -82,7 +82,7 @@ class ThermalClearance:
         """The effects with these values."""
         warmer = state.temperature - state.geometry.operating.temperature
         film = (1.0 + values["rate"] * warmer)[:, None] * np.ones_like(courses[self.gap].film)
-        return _in_one_film(self.gap, courses, state, film**3, 1.0 / film)
+        return in_one_film(self.gap, courses, state, film**3, 1.0 / film)
 
 
 def shear_thinning(values: Values, courses: Courses, state: BenchState) -> Effects:
@@ -115,7 +115,7 @@ def film_heating(values: Values, courses: Courses, state: BenchState) -> Effects
     return _in_films(courses, state, [1.0 / ratio for ratio in ratios], ratios)
 
 
-def _in_one_film(gap: Gap, courses: Courses, state: BenchState, flow: Array, shear: Array) -> Effects:
+def in_one_film(gap: Gap, courses: Courses, state: BenchState, flow: Array, shear: Array) -> Effects:
     """Effects of a factor on one gap's flow and one on its shear."""
     ones = np.ones_like(flow)
     return _in_films(

@@ -8,8 +8,9 @@ from functools import reduce
 from reynolds.errors import FilmInputError
 from system.description import PumpDescription
 from system.physics.catalogue import EXTENSIONS
-from system.physics.effects import BenchState, Effects, GapCourse, both
-from system.physics.extension import Extension, Values
+from system.physics.effects import BenchState, EffectId, Effects, GapCourse, both
+from system.physics.extension import Extension, Law, Values
+from system.physics.film_tables import COMPLIANCE, SolvedOpening, opening_table
 from system.physics.state import unchanged
 from system.pump_gap import Gap
 
@@ -21,7 +22,18 @@ def switched_on(pump: PumpDescription) -> Iterator[tuple[Extension, Values]]:
         if section is not None and extension.pair is not None:
             section = getattr(section, extension.pair.value)
         if section is not None:
-            yield extension, {key: float(value) for key, value in dict(section).items()}
+            yield extension, {key: float(value) for key, value in dict(section).items() if value is not None}
+
+
+def stated_laws(pump: PumpDescription) -> tuple[tuple[Law, Values], ...]:
+    """The laws of all of them with their values; films between elastic walls are kept, or solved where new."""
+    return tuple((_law(pump, extension, values), values) for extension, values in switched_on(pump))
+
+
+def _law(pump: PumpDescription, extension: Extension, values: Values) -> Law:
+    if extension.id is EffectId.ELASTIC_OPENING and COMPLIANCE in values and extension.pair is not None:
+        return SolvedOpening(opening_table(pump, extension.pair))
+    return extension.law
 
 
 def hold_plain(pump: PumpDescription) -> None:
@@ -31,7 +43,9 @@ def hold_plain(pump: PumpDescription) -> None:
         raise FilmInputError("physics", found, "no effects, or the lumped fidelity, which alone reads them")
 
 
-def stated_effects(pump: PumpDescription, courses: Mapping[Gap, GapCourse], state: BenchState) -> Effects:
-    """What all of them change together; nothing where none is on."""
-    found = (extension.law(values, courses, state) for extension, values in switched_on(pump))
+def stated_effects(
+    laws: tuple[tuple[Law, Values], ...], courses: Mapping[Gap, GapCourse], state: BenchState
+) -> Effects:
+    """What `stated_laws` change together; nothing where none is on."""
+    found = (law(values, courses, state) for law, values in laws)
     return reduce(both, found, unchanged(courses))
