@@ -1,4 +1,4 @@
-"""A part that stands in its gap with a film as warm as it makes itself, between walls of given temperatures.
+"""A part that stands in its gap at every angle of a turn, its films as warm as they make themselves.
 
 Heat crosses a film in less than a millisecond, so that films of a turn are warmed one by one; walls take minutes,
 so that each has one temperature, that at which it passes on what all films of the turn give it.
@@ -7,7 +7,7 @@ so that each has one temperature, that at which it passes on what all films of t
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
@@ -26,29 +26,14 @@ from reynolds.solve import FilmSolver
 Warm = Coupled[FilmTemperature | None]
 
 
-@dataclass(frozen=True)
-class WarmStage:
-    """A standing part whose film has the viscosity that its temperature makes; to_walls (2,) W it gives them."""
-
-    stage: Stage
-    to_walls: Array
-
-
-def warmed(solver: FilmSolver, floating: Floating, cold: Stage, heat: GapHeat, walls: Array) -> WarmStage:
-    """A part held where it stands in a cold film (`held_at`), its film warmed between rigid walls (2,) K.
-
-    Raises FilmInputError where the oil's law ends, FilmNotConverged where film and temperature do not settle.
-    """
-    found = _agreed(solver, cold, heat, walls, None)
-    return WarmStage(_held_warm(solver, floating, cold, found), _to_walls(found))
-
-
 def warm_turn(
     solver: FilmSolver, floating: Floating, cold: Sequence[Stage], heat: GapHeat, rubbing: float
 ) -> list[Stage]:
     """The films of a turn at evenly spaced angles, warmed, between walls that pass on what they take.
 
-    `rubbing` (W): mean loss of contact over the turn, of which each wall takes half. Raises as `warmed`.
+    cold: the part held where it stands (`held_at`) in isothermal films between rigid walls. `rubbing` (W): mean
+    loss of contact over the turn, of which each wall takes half. Raises FilmInputError where the oil's law ends,
+    FilmNotConverged where films, temperatures or walls do not settle.
     """
     area, conductance = _means(cold, heat)
     walls, history = heat.outside, History()

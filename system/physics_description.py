@@ -71,7 +71,7 @@ class OpeningSection(Section):
     @model_validator(mode="after")
     def _one_of_both(self) -> Self:
         if (self.opening is None) == (self.compliance is None):
-            raise ValueError("opening and compliance: expected one of the two")
+            raise ValueError("one of the two, opening or compliance")
         return self
 
 

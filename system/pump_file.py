@@ -237,6 +237,9 @@ def _section(
         section = model.model_validate(values)
     except ValidationError as invalid:
         for error in invalid.errors():
+            if not error["loc"]:  # of the table as a whole
+                reading.fault(name, ", ".join(stated) or "an empty table", str(error["ctx"]["error"]))
+                continue
             key = str(error["loc"][0])
             info, path = model.model_fields[key], f"{name}.{key}"
             if error["type"] != "missing":

@@ -13,6 +13,10 @@ from reynolds.loads import boundary_flows
 from reynolds.oil import dynamic_viscosity
 from reynolds.rest import held_at
 from reynolds.solve import FilmSolver
+from system.bench_map import LumpedBench
+from system.bench_points import BenchPoints
+from system.bench_truth import SIMULATED
+from system.extended_pump import extended_pump
 from system.faults import InputFaults
 from system.floating_heat import slipper_heat
 from system.floating_parts import floating_parts
@@ -20,8 +24,11 @@ from system.gap_cycle import SMOOTH
 from system.gap_films import slipper_film
 from system.given_positions import given_slipper
 from system.instants import rotor
+from system.lumped import SAMPLES_PER_PITCH
+from system.lumped_point import lumped_point
 from system.operating import operating_point
-from system.physics.effects import BenchState, GapCourse
+from system.physics import catalogue, switched
+from system.physics.effects import BenchState, EffectId, GapCourse
 from system.physics.film_tables import COMPLIANCE, OUTPUTS, OpeningCase, OpeningTable, SolvedOpening
 from system.pump_file import load_pump, resolved_toml
 from system.pump_gap import Gap
@@ -117,3 +124,24 @@ def test_a_gap_opens_by_one_key(tmp_path, keys):
     file.write_text(f"{own}\n[physics.elastic_opening.slipper]\n{keys}\n", encoding="utf-8")
     with pytest.raises(InputFaults, match="one of the two"):
         load_pump(str(file))
+
+
+def test_a_pump_that_states_its_compliance_runs_to_the_maps_readings(tmp_path, monkeypatch):
+    """The catalogue's law at a value, and the file of the pump that a fit makes of it."""
+    for module in (catalogue, switched):
+        monkeypatch.setattr(module, "opening_table", lambda pump, gap, *report: made_up(gap))
+    entry = next(one for one in catalogue.with_films_solved(REF90) if one.id is EffectId.ELASTIC_OPENING)
+    law = next(one for one in entry.extensions if one.pair is Gap.SLIPPER)
+    point = operating_point(REF90)
+    here = [np.array([value]) for value in (point.shaft_speed, 1.0, point.delivery_pressure)]
+    around = [np.array([value]) for value in (point.inlet_pressure, point.case_pressure, point.temperature)]
+    points = BenchPoints(*here, *around, around[2], np.zeros(1), np.zeros(1))
+    bench = LumpedBench(REF90, points, SIMULATED, (), (law,), samples_per_pitch=SAMPLES_PER_PITCH)
+    value = {"elastic_opening.slipper.compliance": 0.8}
+    read = bench.predict(np.array(list(value.values())))[0]
+    file = tmp_path / "extended.toml"
+    file.write_text(resolved_toml(extended_pump(REF90, value, [law])), "utf-8")
+    reading = lumped_point(load_pump(file), point).bench
+    one = [reading.delivery_flow, reading.inlet_flow, reading.drain_flow, reading.shaft_torque]
+    np.testing.assert_allclose(read, one, rtol=3e-5)
+    assert reading.drain_flow > 1.1 * lumped_point(REF90, point).bench.drain_flow
