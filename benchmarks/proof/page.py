@@ -32,8 +32,8 @@ the shift in the readings, in sigma, once all that is uncertain has had its part
 """
 NOT_YET = """
 Not judged here yet: region and shaft angle of what is located, held-out residual against an oracle, the next
-point's worth, the film simulation as plant, real recordings. Clearance of the piston, eccentricity and sealing
-length are told apart by no recording of this kind and are not counted among the intervals.
+point's worth. The film simulation as plant is `benchmarks/proof_films.py`. Clearance of the piston, eccentricity
+and sealing length are told apart by no recording of this kind and are not counted among the intervals.
 """
 
 
