@@ -25,7 +25,7 @@ from reynolds.space import FilmSpace
 
 MET = 0.1  # of the distance at which a turn counts as closed: near enough to join the turn before
 SHORT = 1e-2  # of the first way to a node: a step in which elastic walls give way to their first load
-FARTHEST = 2e-2  # of the film's length, by which a wall may go: beyond it nothing is thin, no tilt small
+FARTHEST = 2e-2  # of the film's length, by which a wall may leave its shape: then nothing is thin, no tilt small
 
 Seen = TypeVar("Seen")
 
@@ -211,7 +211,7 @@ def _check_near(stage: Stage) -> None:
     modes = stage.instant.modes
     away = float(np.abs(modes.at_vertices @ stage.q).max())
     length = float(np.ptp(modes.space.vertices, axis=0).max())
-    if away > FARTHEST * length:
+    if away > FARTHEST * length + float(np.abs(stage.instant.shape.film.thickness).max()):
         name, least = stage.instant.floating.name, stage.least_gap
         raise FilmNotConverged(
             f"{name} leaves its film: {away:.3g} m open, a share {away / length:.2g} of its length, least gap "
