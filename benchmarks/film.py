@@ -33,7 +33,7 @@ from reynolds.solve import FilmSolver
 from reynolds.space import FilmSpace, film_space
 from reynolds.transport import isotropic
 
-CELLS = (160, 500, 1600)  # round the bearing
+CELLS = (250, 790, 2530)  # round the bearing
 SPSOLVE_LIMIT = 300_000
 
 

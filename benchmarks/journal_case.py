@@ -20,8 +20,8 @@ THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_
 
 
 def rows(cells: int) -> int:
-    """Cells over the half-width for so many round the bearing."""
-    return int(0.4 * cells)
+    """Cells over the half-width for so many round the bearing: about as long as wide."""
+    return round(cells / ROUND)
 
 
 def least(action: Callable[[], object], repeats: int, clock: Callable[[], float] = time.perf_counter) -> float:

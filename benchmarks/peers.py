@@ -30,7 +30,7 @@ from rich.table import Table
 
 HERE = Path(__file__).resolve().parent
 ROSS = HERE.parent / "build" / "peers" / "ross"
-CELLS = {1: (16, 50, 160, 500), 2: (8, 26, 80, 250)}  # round the bearing: as many unknowns with either order
+CELLS = {1: (25, 80, 250, 790), 2: (13, 40, 125, 395)}  # round the bearing: as many unknowns with either order
 SIZES = ("1e2", "1e3", "1e4", "1e5")
 REPEATS = (60, 40, 15, 5)
 ERRORS = (1e-3, 1e-4)
