@@ -15,13 +15,13 @@ from scipy.linalg import cho_factor, cho_solve
 
 from diagnosis.bench_box import rig_box, rows
 from diagnosis.study import Study
-from system.bench_points import BenchPoints
+from system.bench_points import BenchPoints, operating_at
 from system.description import PumpDescription
 from system.estimation.observations import Array, Observations
 from system.estimation.posterior import Posterior, standard_slopes
 from system.estimation.simulator import Simulator
 from system.estimation.whitening import Whitening, whitener
-from system.operating import OperatingPoint, operating_point
+from system.operating import OperatingPoint
 from system.physics.effects import EffectId
 from system.units import Dimension, format_quantity
 
@@ -110,7 +110,7 @@ def next_point(study: Study, pump: PumpDescription, first: Contender, second: Co
     separates = tuple(dict.fromkeys((*first.effects, *second.effects)))
     why = _why(study, first, second, rows(some, np.array([at])))
     ranked = tuple(
-        Gained(_operating(pump, some, place), float(some.T_in[place]), gains[place])
+        Gained(operating_at(pump, some, place), float(some.T_in[place]), gains[place])
         for place in np.argsort(gains)[::-1]
     )
     return NextPoint(ranked[0].point, ranked[0].inlet_temperature, separates, gains[at], repeats, why, ranked)
@@ -187,18 +187,6 @@ def _spread(contender: Contender, points: BenchPoints, whitening: Whitening) -> 
     slopes = whitening.whiten(standard_slopes(contender.simulator.elsewhere(points), contender.posterior.xi))
     spread: Array = slopes @ np.linalg.cholesky(contender.posterior.covariance)
     return spread
-
-
-def _operating(pump: PumpDescription, points: BenchPoints, at: int) -> OperatingPoint:
-    return operating_point(
-        pump,
-        shaft_speed=float(points.speed[at]),
-        delivery_pressure=float(points.p_out[at]),
-        inlet_pressure=float(points.p_in[at]),
-        case_pressure=float(points.p_case[at]),
-        displacement_ratio=float(points.displacement_ratio[at]),
-        temperature=float(points.T_case[at]),
-    )
 
 
 def _why(study: Study, first: Contender, second: Contender, point: BenchPoints) -> str:

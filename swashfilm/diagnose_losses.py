@@ -12,11 +12,12 @@ from diagnosis.readings import bench_points
 from diagnosis.study import Study
 from diagnosis.verdict import Diagnosis
 from system.assembly import PumpPoint
+from system.bench_points import operating_at
 from system.description import PumpDescription
 from system.estimation.posterior import Posterior
 from system.extended_pump import extended_pump
 from system.lumped_point import lumped_point
-from system.operating import OperatingPoint, operating_point
+from system.operating import OperatingPoint
 from system.pairs import Pair
 
 
@@ -62,15 +63,7 @@ def _greatest(found: Diagnosis) -> int:
 
 def _point(pump: PumpDescription, study: Study, at: int) -> OperatingPoint:
     points, _ = bench_points(study.recording, pump)
-    return operating_point(
-        pump,
-        shaft_speed=float(points.speed[at]),
-        delivery_pressure=float(points.p_out[at]),
-        inlet_pressure=float(points.p_in[at]),
-        case_pressure=float(points.p_case[at]),
-        displacement_ratio=float(points.displacement_ratio[at]),
-        temperature=float(points.T_case[at]),
-    )
+    return operating_at(pump, points, at)
 
 
 def _sinks(point: PumpPoint) -> Mapping[str, float]:

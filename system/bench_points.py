@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from system.description import PumpDescription
 from system.kinematics import Array
+from system.operating import OperatingPoint, operating_point
 
 
 @dataclass(frozen=True)
@@ -23,3 +25,16 @@ class BenchPoints:
     T_in: Array
     hours: Array
     order: Array
+
+
+def operating_at(pump: PumpDescription, points: BenchPoints, at: int) -> OperatingPoint:
+    """Point number `at` as a pump's operating point, its oil as warm as the case; raises as `operating_point`."""
+    return operating_point(
+        pump,
+        shaft_speed=float(points.speed[at]),
+        delivery_pressure=float(points.p_out[at]),
+        inlet_pressure=float(points.p_in[at]),
+        case_pressure=float(points.p_case[at]),
+        displacement_ratio=float(points.displacement_ratio[at]),
+        temperature=float(points.T_case[at]),
+    )
