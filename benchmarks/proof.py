@@ -4,6 +4,7 @@
     python benchmarks/proof.py --part null --cases 40     only the first 40 cases of a part
     python benchmarks/proof.py --workers 2                side by side
     python benchmarks/proof.py --cases 0                  runs nothing, writes the page from what is there
+    python benchmarks/proof.py --development --page FILE  the development set: other draws, to look at before a mend
     python benchmarks/proof.py --write graded 3 FOLDER    writes the recording of a case, for `swashfilm diagnose`
 
 Each case's result is a file of its own in --results: Ctrl-C loses only the case in hand, the next call goes on.
@@ -30,7 +31,8 @@ def main() -> int:
 
     from diagnosis.thresholds import load_thresholds
 
-    seed = load_thresholds().seeds.proof
+    seeds = load_thresholds().seeds
+    seed = seeds.development if options.development else seeds.proof
     if options.write:
         part, number, folder = options.write
         return _write(cases(Part(part), seed)[int(number)], Path(folder))
@@ -52,6 +54,7 @@ def _options() -> argparse.Namespace:
     reader.add_argument("--cases", type=int, metavar="N", help="only the first N cases of each part")
     reader.add_argument("--results", type=Path, default=ROOT / "build" / "proof", metavar="DIR")
     reader.add_argument("--page", type=Path, default=ROOT / "docs" / "proof.md", metavar="FILE")
+    reader.add_argument("--development", action="store_true", help="the seeds of the development set")
     reader.add_argument("--workers", type=int, default=1, metavar="N", help="processes side by side")
     reader.add_argument("--write", nargs=3, metavar=("PART", "NUMBER", "FOLDER"), help="write one recording")
     return reader.parse_args()
