@@ -4,7 +4,7 @@
     python benchmarks/proof.py --part null --cases 40     only the first 40 cases of a part
     python benchmarks/proof.py --workers 2                side by side
     python benchmarks/proof.py --cases 0                  runs nothing, writes the page from what is there
-    python benchmarks/proof.py --development --page FILE  the development set: other draws, to look at before a mend
+    python benchmarks/proof.py --development --page FILE  other draws, to look at before a mend
     python benchmarks/proof.py --write graded 3 FOLDER    writes the recording of a case, for `swashfilm diagnose`
 
 Each case's result is a file of its own in --results: Ctrl-C loses only the case in hand, the next call goes on.

@@ -7,11 +7,15 @@ from functools import cache
 from hashlib import sha256
 from pathlib import Path
 
+import grimp
+
 from .cases import Case
 from .outcome import Outcome, as_plain, from_plain
 
 HERE = Path(__file__).resolve().parent
-PACKAGES = ("system", "diagnosis")
+PACKAGES = ("diagnosis", "system", "gaps", "reynolds")
+ASKED = ("diagnosis.ask", "diagnosis.diagnose", "diagnosis.recording_reader", "system.tolerances")
+"""Modules that a diagnosis is made of; all that they import counts, too."""
 MAKERS = ("plant", "campaigns.py", "sensors.py", "sizing.py", "recordings.py", "writing.py")
 
 
@@ -34,9 +38,12 @@ def name_of_folder(folder: Path) -> str:
 
 @cache
 def program() -> str:
-    """Of the program that diagnoses: an outcome made by another one is told as such."""
-    root = HERE.parents[1]
-    return _digest([root / name for name in PACKAGES])[:12]
+    """Of what a verdict hangs on, thresholds and pump with it: an outcome made by another one is told as such."""
+    root, graph = HERE.parents[1], grimp.build_graph(*PACKAGES)
+    used = set(ASKED).union(*(graph.find_upstream_modules(name) for name in ASKED))
+    modules = [root.joinpath(*name.split(".")).with_suffix(".py") for name in sorted(used - set(PACKAGES))]
+    data = [path for name in PACKAGES for path in sorted((root / name).rglob("*.toml"))]
+    return _digest([path for path in modules if path.exists()] + data)[:12]
 
 
 def load(folder: Path, name: str) -> Outcome | None:
