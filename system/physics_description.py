@@ -176,7 +176,7 @@ class CompressionLossSection(Section):
 class SwashDroopSection(Section):
     """[physics.swash_droop]: a swash plate that gives way."""
 
-    rate: Annotated[float, Dimension.PRESSURE_COEFFICIENT, Field(ge=0.0, le=1e-9)] = 0.0
+    rate: Annotated[float, Dimension.ANGLE_COMPLIANCE, Field(ge=0.0, le=3e-10)] = 0.0
     play: Annotated[float, Dimension.ANGLE, Field(ge=0.0, le=3e-3)] = 0.0
 
 

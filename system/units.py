@@ -60,6 +60,7 @@ class Dimension(Enum):
     VOLUME_FLOW = ("a volume flow", "m3/s", ("L/min", "mL/min"), "188 L/min")
     TIME = ("a time", "s", ("s", "ms"), "20 ms")
     PRESSURE_COEFFICIENT = ("a pressure coefficient", "1/Pa", ("1/GPa",), "20 1/GPa")
+    ANGLE_COMPLIANCE = ("an angle per pressure", "rad/Pa", ("deg/GPa",), "3 deg/GPa")
     TEMPERATURE_COEFFICIENT = ("a temperature coefficient", "1/K", ("1/K",), "0.03 1/K")
     CONDUCTIVITY = ("a thermal conductivity", "W/(m K)", ("W/(m K)",), "0.13 W/(m K)")
     HEAT_TRANSFER = ("a heat transfer coefficient", "W/(m2 K)", ("W/(m2 K)",), "80 W/(m2 K)")

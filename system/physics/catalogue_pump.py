@@ -155,11 +155,12 @@ PORT_ENTRIES = (
     _entry(
         _whole(
             E.SWASH_DROOP, port_laws.swash_droop,
-            _size(E.SWASH_DROOP, "rate", 2e-10, 1e-9, Dimension.PRESSURE_COEFFICIENT, ".2 to 1 % at 35 MPa"),
+            _size(E.SWASH_DROOP, "rate", 5e-11, 3e-10, Dimension.ANGLE_COMPLIANCE, ".05 to .15 deg at 35 MPa"),
             _size(E.SWASH_DROOP, "play", 1e-3, 3e-3, Dimension.ANGLE, ".05 to .15 deg"),
         ),
         (Component.DISPLACEMENT,), (*FLOWS, ChannelName.TORQUE), (E.DISPLACEMENT, E.TORQUE_GAIN),
-        "high pressure, every speed, flow and torque alike", "the swash plate gives way under load", "sheet D5",
+        "high pressure and small displacement, every speed, flow and torque alike",
+        "the swash plate gives way under load", "sheet D5",
     ),
     _entry(
         _whole(

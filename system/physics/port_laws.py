@@ -21,13 +21,15 @@ Courses = Mapping[Gap, GapCourse]
 
 
 def swash_droop(values: Values, courses: Courses, state: BenchState) -> Effects:
-    """A plate that gives way under load: `rate` (1/Pa) of its displacement and `play` rad of its angle.
+    """A plate that gives way under load by an angle, whatever its own: `rate` rad/Pa, and `play` rad at any load.
 
-    Ideal flow and torque fall alike.
+    The moment of the pistons under pressure bends stop, actuator and trunnions (sheet D5). Ideal flow and torque
+    fall alike, the more of them the less the plate is tilted; it gives way no further than upright.
     """
     angle = np.arctan(swash_tangent(state))
-    play = np.tan(np.maximum(angle - values["play"], 0.0)) / np.tan(angle)
-    return replace(unchanged(courses), ideal=(1.0 - values["rate"] * pressure_difference(state)) * play)
+    left = np.maximum(angle - values["rate"] * pressure_difference(state) - values["play"], 0.0)
+    ideal = np.divide(np.tan(left), np.tan(angle), out=np.ones_like(angle), where=angle > 0.0)
+    return replace(unchanged(courses), ideal=ideal)
 
 
 def notch_erosion(values: Values, courses: Courses, state: BenchState) -> Effects:

@@ -252,11 +252,29 @@ def test_block_tips_fast_and_without_pressure():
         assert seated.cross_flow[0] == 0.0
 
 
-def test_droop_of_play_is_the_angle_it_takes():
-    at = state(2100, ratio=0.13)
+@pytest.mark.parametrize(("degrees", "ratio", "lost"), [(0.05, 0.13, 2), (0.15, 0.13, 7), (0.15, 1.0, 1)])
+def test_droop_of_sheet_d5(validation, degrees, ratio, lost):
+    """A fixed angle is the larger a share, the less the plate is tilted; the sheet gives whole percent."""
+    at = state(2100, ratio=ratio, inlet=0.0)
+    found = port_laws.swash_droop({"rate": np.deg2rad(degrees) / 35e6, "play": 0.0}, courses(), at)
+    validation(
+        case="A swash plate that gives way",
+        source="left_out_physics D5",
+        quantity=f"displacement lost to {degrees} deg, displacement ratio {ratio}",
+        unit="%",
+        expected=lost,
+        obtained=100.0 * (1.0 - float(found.ideal[0])),
+        tolerance=0.5,
+    )
+
+
+def test_droop_is_an_angle_at_any_tilt():
     angle = np.arctan(0.13 * np.tan(REF90.pump.swash_angle_max))
-    found = port_laws.swash_droop({"rate": 1e-10, "play": 1e-3}, courses(), at).ideal[0]
-    assert found == pytest.approx((1 - 1e-10 * 32.5e6) * np.tan(angle - 1e-3) / np.tan(angle), rel=1e-9)
+    values = {"rate": 5e-11, "play": 1e-3}
+    found = port_laws.swash_droop(values, courses(), state(2100, ratio=0.13)).ideal[0]
+    assert found == pytest.approx(np.tan(angle - 5e-11 * 32.5e6 - 1e-3) / np.tan(angle), rel=1e-12)
+    assert port_laws.swash_droop(values, courses(), state(2100, ratio=0.001)).ideal[0] == 0.0
+    assert port_laws.swash_droop(values, courses(), state(2100, ratio=0.0)).ideal[0] == 1.0
 
 
 def test_erosion_moves_the_opening_alone():
