@@ -8,6 +8,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from math import inf
+
+from scipy.special import logsumexp
 
 from diagnosis.map_axes import smooth_shapes
 from diagnosis.repair import repair
@@ -17,6 +20,9 @@ from diagnosis.weighed import Weighed
 from system.errors import NotConverged
 from system.estimation.evidence import multiplier_evidence
 from system.estimation.posterior import settled
+from system.physics.effects import Kind
+
+OWN = 2.0  # a law of which a third of the mismatch's square is another form is another law
 
 
 def without_stand_ins(study: Study, weighed: Sequence[Weighed], thresholds: Thresholds) -> tuple[Weighed, ...]:
@@ -24,9 +30,28 @@ def without_stand_ins(study: Study, weighed: Sequence[Weighed], thresholds: Thre
 
     Of A + B, where A has a law and was refitted, B stands in if A bent does as well within the odds of a name.
     What is left is A with the evidence that the two have, or A bent, whichever is less: it claims A, and that its
-    form is not all.
+    form is not all. So it is with unknown physics, a component bent freely: it stands in where one law, bent, does
+    as well, and its own form explains OWN times what the bending adds.
     """
-    return tuple(_cut(study, each, weighed, thresholds) for each in weighed)
+    bent = _Bent(study, thresholds)
+    null = next((each for each in weighed if each.hypothesis.kind is Kind.NO_MISMATCH), None)
+    known = [each for each in weighed if each.hypothesis.component is None]
+    unknown = [each for each in weighed if each.hypothesis.component is not None]
+    cut = [_cut(each, known, bent, thresholds) for each in known]
+    return (*cut, *(unknown if null is None else _known_after_all(unknown, known, null, bent, thresholds)))
+
+
+class _Bent:
+    """Evidences of explanations with their laws bent, each found once."""
+
+    def __init__(self, study: Study, thresholds: Thresholds) -> None:
+        self.study, self.thresholds = study, thresholds
+        self.found: dict[int, float | None] = {}
+
+    def evidence(self, weighed: Weighed) -> float | None:
+        if id(weighed) not in self.found:
+            self.found[id(weighed)] = bent_evidence(self.study, weighed, self.thresholds)
+        return self.found[id(weighed)]
 
 
 def bent_evidence(study: Study, weighed: Weighed, thresholds: Thresholds) -> float | None:
@@ -47,20 +72,48 @@ def bent_evidence(study: Study, weighed: Weighed, thresholds: Thresholds) -> flo
     )
 
 
-def _cut(study: Study, whole: Weighed, weighed: Sequence[Weighed], thresholds: Thresholds) -> Weighed:
+def _cut(whole: Weighed, weighed: Sequence[Weighed], bent: _Bent, thresholds: Thresholds) -> Weighed:
     """An explanation, or the least part of it on which the rest stands."""
     odds = thresholds.name.odds
     parts = [each for each in weighed if _is_part(each, whole) and each.log_weight < whole.log_weight - odds]
     stands: list[tuple[Weighed, float]] = []
     for each in parts:
-        found = bent_evidence(study, each, thresholds)
+        found = bent.evidence(each)
         if found is not None and found >= whole.log_evidence - odds:
             stands.append((each, found))
     if not stands:
         return whole
     part, found = min(stands, key=lambda one: (len(one[0].hypothesis.effects), -one[1]))
-    own = replace(part.hypothesis, bent=True, log_prior=whole.hypothesis.log_prior)
-    return replace(part, hypothesis=own, log_evidence=min(found, whole.log_evidence))
+    return _as_bent(part, min(found, whole.log_evidence), whole.hypothesis.log_prior)
+
+
+def _known_after_all(
+    unknown: Sequence[Weighed], known: Sequence[Weighed], null: Weighed, bent: _Bent, thresholds: Thresholds
+) -> tuple[Weighed, ...]:
+    """Unknown physics, with what a law bent does as well as gathered into one explanation by that law."""
+    ahead = max((each.log_weight for each in known), default=-inf)
+    if max((each.log_weight for each in unknown), default=-inf) < ahead - thresholds.name.odds:
+        return tuple(unknown)
+    standing: list[tuple[Weighed, float]] = []
+    for each in known:
+        gained = each.log_evidence - null.log_evidence
+        single = len(each.hypothesis.effects) == 1 and gained > thresholds.name.odds
+        found = bent.evidence(each) if single else None
+        if found is not None and OWN * (found - each.log_evidence) < gained:
+            standing.append((each, found))
+    law, most = max(standing, key=lambda one: one[1] + one[0].hypothesis.log_prior, default=(null, -inf))
+    taken = [each for each in unknown if each.log_evidence <= most]
+    if not taken:
+        return tuple(unknown)
+    prior = float(logsumexp([each.hypothesis.log_prior for each in taken]))
+    evidence = float(logsumexp([each.log_weight for each in taken])) - prior
+    return (_as_bent(law, evidence, prior), *(each for each in unknown if each.log_evidence > most))
+
+
+def _as_bent(part: Weighed, log_evidence: float, log_prior: float) -> Weighed:
+    """A law's explanation, of which is said that its form is not all."""
+    own = replace(part.hypothesis, bent=True, log_prior=log_prior)
+    return replace(part, hypothesis=own, log_evidence=log_evidence)
 
 
 def _is_part(each: Weighed, whole: Weighed) -> bool:

@@ -14,18 +14,20 @@ NOT_NAMED = (Kind.NO_MISMATCH, Kind.UNKNOWN_PHYSICS)
 def equivalents(best: Weighed, weighed: Sequence[Weighed], thresholds: Thresholds) -> tuple[Weighed, ...]:
     """Explanations of as many effects as the best that stand as well after a refit, the best first.
 
-    As well: ln evidence within the class gap; or, within twice the gap, the same readings foretold (the
-    difference of the refitted predictions worth less than the gap, delta^2 / 2 nats): then only the widths of
-    priors part them. Likeness of slopes makes no class: laws of one slope part by their curvature.
+    As well: ln evidence within the class gap; or the same readings foretold (the difference of the refitted
+    predictions worth less than the gap, delta^2 / 2 nats) with all else as near its stated value: then only the
+    width of the prior of what they set free parts them, however far. Likeness of slopes makes no class: laws of
+    one slope part by their curvature.
     """
     rivals = [each for each in weighed if each is not best and _comparable(each, best)]
     gap = thresholds.name.class_gap
-    found = []
-    for each in rivals:
-        behind = best.log_evidence - each.log_evidence
-        if behind <= gap or (behind <= 2.0 * gap and parting(best, each) <= gap):
-            found.append(each)
-    return (best, *found)
+    alike = [
+        each
+        for each in rivals
+        if best.log_evidence - each.log_evidence <= gap
+        or (parting(best, each) <= gap and _strain(each) - _strain(best) <= gap)
+    ]
+    return (best, *alike)
 
 
 def parting(one: Weighed, other: Weighed) -> float:
@@ -34,6 +36,15 @@ def parting(one: Weighed, other: Weighed) -> float:
         return float("inf")
     apart = one.posterior.whitening.whiten(one.posterior.predictions - other.posterior.predictions)
     return 0.5 * float(apart @ apart)
+
+
+def _strain(weighed: Weighed) -> float:
+    """Nats of a refit's objective without what the size of that which it sets free costs: (r^2 + xi^2) / 2."""
+    posterior = weighed.posterior
+    if posterior is None:
+        return float("inf")
+    own = [posterior.index(name) for name in weighed.hypothesis.open_names]
+    return 0.5 * (posterior.objective - float((posterior.xi[own] ** 2).sum()))
 
 
 def agrees(each: Weighed, members: Sequence[Weighed]) -> bool:

@@ -10,11 +10,11 @@ import numpy as np
 
 from diagnosis.bent import without_stand_ins
 from diagnosis.detect import Detection, detect
+from diagnosis.growth import coordinates
 from diagnosis.heldout import held_out
 from diagnosis.hypotheses import hypotheses
 from diagnosis.judge import Verdict, judge
 from diagnosis.locate import Location, locate, of_explanation
-from diagnosis.map_axes import AXES
 from diagnosis.pairs import combine
 from diagnosis.refit import refit_all, try_refit
 from diagnosis.repair import repair
@@ -52,7 +52,7 @@ def diagnose_study(
     with crew(workers) as hands:
         fits = _fits(study, detection, screened, null, thresholds, hands, report)
     ranked = _foretold(study, null, with_probabilities(fits.weighed, thresholds.name.temperature), thresholds)
-    verdict = judge(study, detection, ranked, thresholds)
+    verdict = judge(study, detection, ranked, coordinates(study, viscosity), thresholds)
     notes = (*(note.text for note in study.recording.notes), *verdict.reasons, *not_null, *fits.failed)
     return _finding(study, detection, location, ranked, verdict, viscosity, notes, thresholds)
 
@@ -199,13 +199,8 @@ def scaling_of(study: Study, weighed: Weighed, viscosity: Array, thresholds: Thr
     sigma = study.base.whitening.sigma
     strength = np.where(study.observations.measured, (found.added / sigma) ** 2, 0.0).sum(axis=0)
     at = int(np.argmax(strength))
-    values = study.recording.steady.values
-    order = list(ChannelName)
-    speed, pressure, stroke = (values[:, order.index(axis)] for axis in AXES[:3])
-    coordinates = {"speed": speed, "pressure": pressure, "displacement": stroke, "viscosity": viscosity}
-    known = {name: x for name, x in coordinates.items() if np.all(np.isfinite(x))}
     channel = ChannelName.named(study.observations.channels[at].name)
-    return scaling(channel, found.mismatch[:, at], sigma[:, at], known)
+    return scaling(channel, found.mismatch[:, at], sigma[:, at], coordinates(study, viscosity))
 
 
 def _fit_of(weighed: Weighed) -> Posterior:

@@ -22,7 +22,8 @@ class Hypothesis:
 
     extra: parameters added to the simulator; widened: names of those whose prior is widened; log_prior: natural
     logarithm of its prior probability; laws: what is switched on, each with the members of its grid that are open;
-    component: of unknown physics, whose law is bent freely over the map; bent: the laws' own form is not all.
+    component: of unknown physics, whose law is bent freely over the map; bent: the laws' own form is not all;
+    reach: what the prior of the widened is wider by than the fault factor.
     """
 
     effects: tuple[EffectId, ...]
@@ -34,6 +35,7 @@ class Hypothesis:
     laws: tuple[Extension, ...] = ()
     component: Component | None = None
     bent: bool = False
+    reach: float = 1.0
 
     @property
     def members(self) -> tuple[Hypothesis, ...]:
@@ -89,6 +91,7 @@ def together(first: Hypothesis, second: Hypothesis, penalty: float) -> Hypothesi
         widened=first.widened + second.widened,
         log_prior=first.log_prior + second.log_prior + log(penalty),
         laws=first.laws + second.laws,
+        reach=max(first.reach, second.reach),
     )
 
 
@@ -102,6 +105,7 @@ def simulator_of(simulator: PumpSimulator, hypothesis: Hypothesis, factor: float
     """The simulator with a hypothesis's laws on (first member of each grid) and its parameters widened."""
     if hypothesis.laws:
         simulator = simulator.with_extensions(tuple(law.members[0] for law in hypothesis.laws))
+    factor *= hypothesis.reach
     wider = tuple(each.widened(factor) for each in simulator.parameters if each.name in hypothesis.widened)
     return simulator.with_parameters(wider) if wider else simulator
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -13,6 +13,7 @@ from diagnosis.classes import agrees, equivalents
 from diagnosis.component_evidence import MEMBERS, ComponentGroup, multiplier_columns
 from diagnosis.contrasts import contrasts
 from diagnosis.detect import Detection
+from diagnosis.growth import misgrown
 from diagnosis.hypotheses import Hypothesis
 from diagnosis.map_axes import axis_values
 from diagnosis.regions import flagged
@@ -22,6 +23,7 @@ from diagnosis.verdict import Claim, Estimate, Status
 from diagnosis.weighed import Weighed
 from system.channels import ChannelName
 from system.estimation.evidence import multiplier_evidence
+from system.estimation.observations import Array
 from system.estimation.parameters import Role
 from system.estimation.posterior import Posterior, settled
 from system.physics.effects import Kind
@@ -39,8 +41,16 @@ class Verdict:
     reasons: tuple[str, ...]
 
 
-def judge(study: Study, detection: Detection, weighed: Sequence[Weighed], thresholds: Thresholds) -> Verdict:
+def judge(
+    study: Study,
+    detection: Detection,
+    weighed: Sequence[Weighed],
+    along: Mapping[str, Array],
+    thresholds: Thresholds,
+) -> Verdict:
     """The verdict on explanations with their probabilities, the likeliest first, the null among them.
+
+    along: coordinates (N,) with which an effect may grow, by name (`diagnosis.growth`).
 
     A mismatch needs both a candidate as striking as chance hardly makes one and an improbable null; one of the
     two, or a candidate that is striking enough, is a suspicion, of the likeliest kind, and claims nothing. A name
@@ -61,7 +71,10 @@ def judge(study: Study, detection: Detection, weighed: Sequence[Weighed], thresh
     against = _objections(best, members, weighed, thresholds)
     if against:
         return _suspicion(weighed, against)
-    left = _left_over(study, null, best, thresholds)
+    left = (
+        *_left_over(study, null, best, thresholds),
+        *(found.text for found in misgrown(study, best, along, thresholds)[:1]),
+    )
     claims = _claims(members, weighed, thresholds)
     alike = any(claim.equivalent or claim.elsewhere for claim in claims)
     status = Status.INCOMPLETE if left else Status.CLASS if alike else Status.NAMED
@@ -145,7 +158,7 @@ def _sure(posterior: Posterior, hypothesis: Hypothesis, thresholds: Thresholds) 
         if not any(_sigmas(posterior, one.name) > thresholds.name.sure for one in law.parameters):
             return False
     for name in hypothesis.widened:
-        beyond = abs(posterior.xi[posterior.index(name)]) * thresholds.name.fault_factor
+        beyond = abs(posterior.xi[posterior.index(name)]) * thresholds.name.fault_factor * hypothesis.reach
         if beyond <= thresholds.mismatch.pull or _sigmas(posterior, name) <= thresholds.name.sure:
             return False
     return True
@@ -161,7 +174,7 @@ def _left_over(study: Study, null: Weighed, best: Weighed, thresholds: Threshold
     after, before = best.posterior, null.posterior
     if after is None or before is None:
         return ()
-    found = []
+    found = ["its law explains more if it is bent over the map"] if best.hypothesis.bent else []
     p_value = float(chi2.sf(after.objective, after.residual.size))
     if p_value < thresholds.mismatch.chance:
         found.append(f"chi-square per reading stays at {after.objective / after.residual.size:.2f}")

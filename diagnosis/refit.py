@@ -29,6 +29,7 @@ from system.side_by_side import Crew
 SIZES = (0.1, 0.3, 1.0, 2.0)  # spreads that a start is looked for at
 ROUGHLY = (0.3, 1.0)  # the same for a first look
 REACH = 3.0  # xi of a nuisance where a fit may start: the linear model knows no bounds
+FARTHER = 10.0  # times the fault factor: the wider prior of what is out of order
 LIMITS = FitLimits(change=0.1)  # of the objective: a twentieth of a nat decides nothing, and costs sixfold less
 GRID_MEMBERS = 2  # of a grid that are refitted: those best in the linear model
 
@@ -36,8 +37,34 @@ GRID_MEMBERS = 2  # of a grid that are refitted: those best in the linear model
 def refit(study: Study, hypothesis: Hypothesis, thresholds: Thresholds, hopeless: float = inf) -> Weighed:
     """The hypothesis at the peak of its posterior; of a grid the best member, its evidence averaged over all.
 
-    Members that are not refitted count as nothing, so that the average is never too high. hopeless: an objective
-    above which a fit is left where it stands. Raises NotConverged where no member comes to a peak.
+    What is out of order is so by no multiple of its tolerance: of a widened parameter that would go farther than
+    REACH the prior is a mixture, with a tenth of its mass ten times as wide (a size as likely in each decade).
+    hopeless: an objective above which a fit is left where it stands. Raises NotConverged where no member comes to
+    a peak.
+    """
+    near = _refitted(study, hypothesis, thresholds, hopeless)
+    if not _strained(near):
+        return near
+    try:
+        far = _refitted(study, replace(hypothesis, reach=FARTHER), thresholds, hopeless)
+    except NotConverged:
+        return near
+    shares = near.log_evidence + log(1.0 - 1.0 / FARTHER), far.log_evidence - log(FARTHER)
+    return replace(max((near, far), key=lambda each: each.log_evidence), log_evidence=float(np.logaddexp(*shares)))
+
+
+def _strained(weighed: Weighed) -> bool:
+    """Whether a widened parameter lies where even its wide prior hardly lets it."""
+    posterior = weighed.posterior
+    return posterior is not None and any(
+        abs(posterior.xi[posterior.index(name)]) > REACH for name in weighed.hypothesis.widened
+    )
+
+
+def _refitted(study: Study, hypothesis: Hypothesis, thresholds: Thresholds, hopeless: float) -> Weighed:
+    """The same with one width of prior.
+
+    Members of a grid that are not refitted count as nothing, so that their average is never too high.
     """
     limits = replace(LIMITS, hopeless=hopeless)
     members = _likeliest(study, hypothesis, thresholds)
