@@ -22,12 +22,18 @@ def with_next_point(study: Study, pump: PumpDescription, found: Diagnosis, thres
     Unchanged where no refitted rival stands, or where no point of the rig tells it from the first. Raises
     NotConverged where a point of the rig's box cannot be simulated.
     """
+    asked = rivals(found)
+    if asked is None:
+        return found
+    contenders = [contender(study, each, thresholds) for each in asked]
+    return replace(found, next_point=next_point(study, pump, contenders[0], contenders[1]))
+
+
+def rivals(found: Diagnosis) -> tuple[Weighed, Weighed] | None:
+    """The first explanation and the likeliest other that stands, both refitted; None where none stands."""
     fitted = [each for each in found.hypotheses if each.posterior is not None]
     rival = _rival(fitted)
-    if rival is None:
-        return found
-    contenders = [_contender(study, each, thresholds) for each in (fitted[0], rival)]
-    return replace(found, next_point=next_point(study, pump, contenders[0], contenders[1]))
+    return None if rival is None else (fitted[0], rival)
 
 
 def _rival(fitted: Sequence[Weighed]) -> Weighed | None:
@@ -40,7 +46,7 @@ def _rival(fitted: Sequence[Weighed]) -> Weighed | None:
     return max(others, key=lambda each: each.probability, default=None)
 
 
-def _contender(study: Study, weighed: Weighed, thresholds: Thresholds) -> Contender:
+def contender(study: Study, weighed: Weighed, thresholds: Thresholds) -> Contender:
     """A refitted explanation with the simulator of its fit."""
     if weighed.posterior is None:
         raise ValueError(f"{weighed.hypothesis.text}: not refitted")

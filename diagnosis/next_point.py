@@ -121,6 +121,20 @@ def gains_at(study: Study, first: Contender, second: Contender, points: BenchPoi
     return np.array([forecast.gain() for forecast in _forecasts(study, first, second, points)])
 
 
+def log_density(study: Study, contender: Contender, points: BenchPoints, values: Array) -> float:
+    """ln of the joint density of readings (N, C), SI, at new points as an explanation foretells them.
+
+    nan: not read. But for a constant that all explanations share.
+    """
+    there = contender.simulator.elsewhere(points)
+    whitening = whitener(_readings(study, values), there.input_slopes(contender.posterior.values))
+    residual = whitening.whiten(values - there.predict(contender.posterior.values))
+    spread = _spread(contender, points, whitening)
+    covariance = np.eye(residual.size) + spread @ spread.T
+    squares = float(residual @ cho_solve(cho_factor(covariance), residual))
+    return whitening.log_determinant - 0.5 * (squares + float(np.linalg.slogdet(covariance)[1]))
+
+
 def divergence(difference: Array, true: Array, other: Array) -> float:
     """Nats by which readings of N(0, true) speak for it against N(difference, other), on average.
 

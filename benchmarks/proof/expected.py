@@ -19,7 +19,8 @@ def of_case(case: Case, made: Made) -> Outcome:
     return Outcome(
         name=case.name, part=case.part.value, campaign=case.campaign, seed=case.seed, asked=case.score,
         score=made.score, sizes=made.sizes, truth=VERDICTS[case.part], effects=tuple(one.id for one in known),
-        pairs=tuple(one.pair for one in known), shares=made.shares,
+        pairs=tuple(one.pair for one in known), shares=made.shares, true_turn=made.turn,
+        shift={name: tuple(round(float(one), 3) for one in moved) for name, moved in made.shift.items()},
     )  # fmt: skip
 
 

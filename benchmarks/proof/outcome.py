@@ -35,10 +35,27 @@ class Rival:
 
 
 @dataclass(frozen=True)
+class Worth:
+    """What readings recorded after the diagnosis tell of two explanations, one of them the truth, in nats for it.
+
+    before: by the recording; asked: three more readings at the point that was asked for; other: at a point drawn
+    from the rig's box; promised: for one reading at the point asked for.
+    """
+
+    before: float
+    asked: float
+    other: float
+    promised: float
+
+
+@dataclass(frozen=True)
 class Outcome:
     """The truth and what was told of it.
 
-    score: reached; effects, pairs: of the truth; shares: of the channels in the square of the truth's shift.
+    score: reached; effects, pairs: of the truth; shares: of the channels in the square of the truth's shift, which
+    is in sigma of a reading. true_turn, turn: shaft angles in rad between which pressure differs, in truth and as
+    told; region: points told, all of them where it is everywhere, None where no channel is; oracle: channel -> rms
+    held out by the fit of the truth's own law.
     heldout: channel -> (before, after, noise), SI; covered: parameter -> whether its 90 % interval holds the
     truth; program: digest of what diagnosed; failed: why there is no verdict.
     """
@@ -54,13 +71,19 @@ class Outcome:
     effects: tuple[str, ...]
     pairs: tuple[str | None, ...]
     shares: dict[str, float]
+    shift: dict[str, tuple[float, ...]] = field(default_factory=dict)
+    true_turn: tuple[float, float] | None = None
     verdict: str = "none"
     status: str = "none"
     claims: tuple[Claimed, ...] = ()
     ranked: tuple[Ranked, ...] = ()
     nothing: float = 0.0
     channels: tuple[str, ...] = ()
+    region: tuple[int, ...] | None = None
+    turn: tuple[float, float] | None = None
     heldout: dict[str, tuple[float, float, float]] = field(default_factory=dict)
+    oracle: dict[str, float] = field(default_factory=dict)
+    worth: Worth | None = None
     covered: dict[str, bool] = field(default_factory=dict)
     chi2: tuple[float, float] = (0.0, 0.0)
     chance: float = 1.0
@@ -86,6 +109,8 @@ def from_plain(data: dict[str, Any]) -> Outcome:
     )
     kept["rivals"] = {name: Rival(one["alarm"], tuple(one["named"])) for name, one in data["rivals"].items()}
     kept["heldout"] = {name: tuple(one) for name, one in data["heldout"].items()}
-    for name in ("effects", "pairs", "channels", "chi2", "reasons"):
-        kept[name] = tuple(data[name])
+    kept["shift"] = {name: tuple(one) for name, one in data["shift"].items()}
+    kept["worth"] = Worth(**data["worth"]) if data["worth"] else None
+    for name in ("effects", "pairs", "channels", "chi2", "reasons", "true_turn", "region", "turn"):
+        kept[name] = None if data[name] is None else tuple(data[name])
     return Outcome(**kept)

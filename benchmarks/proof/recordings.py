@@ -8,26 +8,42 @@ import numpy as np
 
 from .campaigns import campaigns, held
 from .cases import Case, Concealed
-from .plant.bench import run
+from .plant.bench import Truth, run
 from .plant.hidden import NOTHING, Hidden
 from .plant.machine import Array, Machine, drawn, ref90
-from .sensors import Fault, Readings, read, set_in_truth
+from .sensors import TRACE_NOISE, Fault, Readings, read, set_in_truth
 from .sizing import repeatability, shift, size_for, typical, z_of
 
 STEPS = 360  # of a turn: .004 L/min, .02 N m from 720, a tenth of the noise
+TURN = 2.0 * np.pi
+BULK = 0.8  # of a square, by which a window is told
 
 
 @dataclass(frozen=True)
 class Made:
-    """A recording with the truth behind it: the score reached, sizes of what is concealed, shares of the channels
-    in the square of the shift (in sigma), and the machine as it was.
+    """A recording with the truth behind it.
+
+    score: reached; sizes: of what is concealed; shift: of each channel's readings at the set points, in sigma of a
+    reading; turn: shaft angles in rad between which the chamber's pressure is moved, None where no trace is.
+    machine, hidden, faults, setting (share by which strokes are off): the rig, for further points.
     """
 
     readings: Readings
     score: float
     sizes: dict[str, float]
-    shares: dict[str, float]
+    shift: dict[str, Array]
+    turn: tuple[float, float] | None
     machine: Machine
+    hidden: Hidden
+    faults: tuple[Fault, ...]
+    setting: float
+
+    @property
+    def shares(self) -> dict[str, float]:
+        """Of the channels in the square of the shift."""
+        strength = {name: float(np.sum(moved**2)) for name, moved in self.shift.items()}
+        total = sum(strength.values()) or 1.0
+        return {name: one / total for name, one in strength.items()}
 
 
 def make(case: Case) -> Made:
@@ -35,14 +51,39 @@ def make(case: Case) -> Made:
     rng = np.random.default_rng(case.seed)
     factors, scores = sized(case)
     hidden, faults = _together(case.concealed, factors)
-    machine = _worn(drawn(ref90(), rng), case.concealed, factors)
+    sound = drawn(ref90(), rng)
+    machine = _worn(sound, case.concealed, factors)
     campaign = campaigns()[case.campaign]
     at = held(campaign, rng)
-    truth = run(machine, set_in_truth(at, rng), hidden, STEPS)
-    readings = read(campaign, at, truth, faults, rng)
-    sizes = {one.label: factor * _size(one) for one, factor in zip(case.concealed, factors, strict=True)}
-    moved = shift(case.campaign, hidden, faults, _worn(typical(), case.concealed, factors))
-    return Made(readings, float(np.sqrt(np.sum(np.square(scores)))), sizes, _shares(case, moved), machine)
+    there = set_in_truth(at, rng)
+    truth = run(machine, there, hidden, STEPS)
+    return Made(
+        readings=read(campaign, at, truth, faults, rng),
+        score=float(np.sqrt(np.sum(np.square(scores)))),
+        sizes={one.label: factor * _size(one) for one, factor in zip(case.concealed, factors, strict=True)},
+        shift=_shift(case, hidden, faults, _worn(typical(), case.concealed, factors)),
+        turn=moved_turn(truth, run(sound, there, NOTHING, STEPS), campaign.traces) if campaign.traces else None,
+        machine=machine,
+        hidden=hidden,
+        faults=faults,
+        setting=float(there.ratio[0] - at.ratio[0]),
+    )
+
+
+def moved_turn(truth: Truth, sound: Truth, points: tuple[int, ...]) -> tuple[float, float] | None:
+    """The narrowest window of shaft angle, rad, that holds BULK of the square by which pressures differ.
+
+    Of the trace that is moved the most; None where none is moved by a sensor's noise.
+    """
+    apart = (truth.pressure - sound.pressure)[list(points)]
+    most = apart[int(np.argmax(np.abs(apart).max(axis=1)))]
+    if np.abs(most).max() < TRACE_NOISE:
+        return None
+    held_by = np.concatenate([[0.0], np.cumsum(np.tile(most**2, 2))])
+    ends = np.searchsorted(held_by, held_by[: most.size] + BULK * np.sum(most**2))
+    first = int(np.argmin(ends - np.arange(most.size)))
+    last = (int(ends[first]) - 1) % most.size
+    return float(truth.angle[first] % TURN), float(truth.angle[last] % TURN)
 
 
 def sized(case: Case) -> tuple[list[float], list[float]]:
@@ -92,9 +133,6 @@ def _size(one: Concealed) -> float:
     return max(vars(one.hidden).values(), key=abs)
 
 
-def _shares(case: Case, moved: Array) -> dict[str, float]:
-    campaign = campaigns()[case.campaign]
-    strength = ((moved / repeatability(case.campaign)) ** 2).sum(axis=0)
-    total = strength.sum()
-    shares = strength / total if total > 0.0 else strength
-    return dict(zip(campaign.outputs, (float(one) for one in shares), strict=True))
+def _shift(case: Case, hidden: Hidden, faults: tuple[Fault, ...], machine: Machine) -> dict[str, Array]:
+    moved = shift(case.campaign, hidden, faults, machine) / repeatability(case.campaign)
+    return dict(zip(campaigns()[case.campaign].outputs, moved.T, strict=True))

@@ -64,24 +64,53 @@ class Fault:
 
 
 @dataclass(frozen=True)
+class Calibration:
+    """How far one meter is off: gain relative, zero and drift over the campaign in the unit of its column."""
+
+    gain: float
+    zero: float
+    drift: float
+
+
+@dataclass(frozen=True)
 class Readings:
     """Columns in the units of METERS; traces by point: shaft angle in deg and chamber pressure in bar."""
 
     columns: dict[str, Array]
     traces: dict[int, tuple[Array, Array]]
+    calibrations: dict[str, Calibration]
 
 
 def read(
     campaign: Campaign, at: Settings, truth: Truth, faults: tuple[Fault, ...], rng: np.random.Generator
 ) -> Readings:
     """What the campaign's sensors say of the truth."""
-    actual = {name: getattr(at, name) for name in campaign.inputs}
-    actual |= {name: getattr(truth, name) for name in campaign.outputs}
-    columns = {name: _channel(METERS[name], value, _of(faults, name), rng) for name, value in actual.items()}
+    along = np.linspace(0.0, 1.0, at.speed.size)
+    columns, calibrations = {}, {}
+    for name, value in _actual(campaign, at, truth).items():
+        calibrations[name] = _calibrated(METERS[name], rng)
+        columns[name] = _channel(METERS[name], value, _of(faults, name), calibrations[name], along, rng)
     columns["ratio"] = np.round(campaign.points.ratio, METERS["ratio"].digits)
     shift, order = ENCODER * rng.normal(), np.argsort(truth.angle % (2.0 * np.pi))
     traces = {point: _trace(truth, point, order, shift, rng) for point in campaign.traces}
-    return Readings(columns, traces)
+    return Readings(columns, traces, calibrations)
+
+
+def read_after(
+    campaign: Campaign,
+    at: Settings,
+    truth: Truth,
+    faults: tuple[Fault, ...],
+    known: dict[str, Calibration],
+    rng: np.random.Generator,
+) -> dict[str, Array]:
+    """Columns of points recorded after a campaign, by the same sensors as they were at its end."""
+    ended = np.ones(at.speed.size)
+    columns = {
+        name: _channel(METERS[name], value, _of(faults, name), known[name], ended, rng)
+        for name, value in _actual(campaign, at, truth).items()
+    }
+    return columns | {"ratio": np.round(campaign.points.ratio, METERS["ratio"].digits)}
 
 
 def stated_sigma(meter: Meter, value: Array) -> Array:
@@ -101,15 +130,24 @@ def _of(faults: tuple[Fault, ...], channel: str) -> Fault:
     return next((one for one in faults if one.channel == channel), Fault(channel))
 
 
-def _channel(meter: Meter, value: Array, fault: Fault, rng: np.random.Generator) -> Array:
-    """One channel's column: calibration drawn within its tolerance, fault, noise, rounding."""
-    gain, zero, drift = meter.gain * rng.normal(), meter.zero * rng.normal(), DRIFT * meter.zero * rng.normal()
-    along = np.linspace(0.0, 1.0, value.size)
+def _actual(campaign: Campaign, at: Settings, truth: Truth) -> dict[str, Array]:
+    """True values, SI, of all that has a sensor."""
+    inputs = {name: getattr(at, name) for name in campaign.inputs}
+    return inputs | {name: getattr(truth, name) for name in campaign.outputs}
+
+
+def _calibrated(meter: Meter, rng: np.random.Generator) -> Calibration:
+    return Calibration(meter.gain * rng.normal(), meter.zero * rng.normal(), DRIFT * meter.zero * rng.normal())
+
+
+def _channel(
+    meter: Meter, value: Array, fault: Fault, own: Calibration, along: Array, rng: np.random.Generator
+) -> Array:
+    """One channel's column, `along` the campaign from 0 to 1: calibration, fault, noise, rounding."""
     true = (value * (1.0 + fault.gain) + fault.zero + fault.drift * along - meter.origin) / meter.scale
     sigma = meter.sigma + meter.relative * np.abs(true)
-    return np.round(
-        true * (1.0 + gain) + zero + drift * (along - 0.5) + sigma * _noise(value.size, rng), meter.digits
-    )
+    off = own.zero + own.drift * (along - 0.5)
+    return np.round(true * (1.0 + own.gain) + off + sigma * _noise(value.size, rng), meter.digits)
 
 
 def _noise(count: int, rng: np.random.Generator) -> Array:

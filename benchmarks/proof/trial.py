@@ -8,17 +8,23 @@ from math import isfinite
 from pathlib import Path
 from time import process_time
 
+import numpy as np
+
 from diagnosis.ask import with_next_point
 from diagnosis.diagnose import diagnose_study
+from diagnosis.locate import Location
+from diagnosis.map_axes import axis_values, inside
 from diagnosis.prepare import prepare
 from diagnosis.readings import bench_points
 from diagnosis.scant_pump import load_known_pump
+from diagnosis.study import Study
 from diagnosis.thresholds import load_thresholds
 from diagnosis.verdict import Claim, Diagnosis
 from diagnosis.weighed import Weighed
 from reynolds.errors import FilmInputError
 from reynolds.oil import walther
 from swashfilm.diagnose_run import checked_recording
+from system.description import PumpDescription
 from system.errors import NotConverged
 from system.faults import InputFaults
 from system.physics.effects import Kind
@@ -27,11 +33,13 @@ from system.tolerances import tolerances
 from .campaigns import campaigns
 from .cases import Case, Part
 from .expected import of_case, of_folder
+from .oracle import oracle
 from .outcome import Claimed, Outcome, Ranked, Rival
 from .plant.machine import Machine, ref90
 from .recordings import make
 from .rivals import rivals
 from .store import program
+from .worth import worth
 from .writing import write_recording
 
 KEPT = 15  # explanations of the ranking
@@ -49,27 +57,43 @@ SAME = {
 
 @dataclass(frozen=True)
 class Diagnosed:
-    """What was found, by this diagnosis and by other ways."""
+    """What was found, by this diagnosis and by other ways, and the study that it was found in."""
 
     found: Diagnosis
     rivals: dict[str, Rival]
+    study: Study
+    pump: PumpDescription
 
 
 def try_case(case: Case) -> Outcome:
     """Make a case's recording, diagnose it, and put the finding beside the truth."""
-    made = make(case)
+    made, thresholds = make(case), load_thresholds()
+    expected = of_case(case, made)
     with tempfile.TemporaryDirectory() as folder:
         write_recording(Path(folder), case.name, made.readings, campaigns()[case.campaign].circuit)
-        found, told = _tried(Path(folder), of_case(case, made))
-    return replace(found, covered=_covered(case, told, made.machine)) if told else found
+        told, diagnosed = _tried(Path(folder), expected)
+    if diagnosed is None:
+        return told
+    found, study = diagnosed.found, diagnosed.study
+    truth = (case, made, expected)
+    return replace(
+        told,
+        covered=_covered(case, found, made.machine),
+        oracle=oracle(study, found, expected, thresholds),
+        worth=worth(study, diagnosed.pump, found, truth, thresholds),
+    )
 
 
 def try_folder(folder: Path) -> Outcome:
     """The same of a recording that is given with its answer."""
-    return _tried(folder, of_folder(folder))[0]
+    expected = of_folder(folder)
+    told, diagnosed = _tried(folder, expected)
+    if diagnosed is None:
+        return told
+    return replace(told, oracle=oracle(diagnosed.study, diagnosed.found, expected, load_thresholds()))
 
 
-def _tried(folder: Path, expected: Outcome) -> tuple[Outcome, Diagnosis | None]:
+def _tried(folder: Path, expected: Outcome) -> tuple[Outcome, Diagnosed | None]:
     """What is told beside what is expected; a recording of which no diagnosis comes about tells why."""
     begun = process_time()
     try:
@@ -77,7 +101,7 @@ def _tried(folder: Path, expected: Outcome) -> tuple[Outcome, Diagnosis | None]:
     except (InputFaults, NotConverged, FilmInputError) as reason:
         spent = process_time() - begun
         return replace(expected, failed=str(reason), status="failed", seconds=spent, program=program()), None
-    return _outcome(expected, diagnosed, process_time() - begun), diagnosed.found
+    return _outcome(expected, diagnosed, process_time() - begun), diagnosed
 
 
 def diagnose_folder(folder: Path) -> Diagnosed:
@@ -88,7 +112,8 @@ def diagnose_folder(folder: Path) -> Diagnosed:
     points, _ = bench_points(study.recording, pump)
     viscosity = walther(points.T_case, pump.oil.fluid) * pump.oil.density
     found = diagnose_study(study, viscosity, thresholds)
-    return Diagnosed(with_next_point(study, pump, found, thresholds), rivals(study, thresholds))
+    asked = with_next_point(study, pump, found, thresholds)
+    return Diagnosed(asked, rivals(study, thresholds), study, pump)
 
 
 def _outcome(expected: Outcome, diagnosed: Diagnosed, seconds: float) -> Outcome:
@@ -103,6 +128,8 @@ def _outcome(expected: Outcome, diagnosed: Diagnosed, seconds: float) -> Outcome
         ranked=tuple(_ranked(each) for each in ranked[:KEPT]),
         nothing=sum(each.probability for each in ranked if each.hypothesis.kind is Kind.NO_MISMATCH),
         channels=tuple(channel.value for channel in found.location.channels),
+        region=_region(diagnosed.study, found.location),
+        turn=(found.location.angle.start, found.location.angle.end) if found.location.angle else None,
         heldout={name.value: (before[name], after[name], noise[name]) for name in before},
         chi2=tuple(float(fit.objective / fit.residual.size) for fit in (found.before, found.after)),
         chance=found.detection.chance,
@@ -111,6 +138,14 @@ def _outcome(expected: Outcome, diagnosed: Diagnosed, seconds: float) -> Outcome
         seconds=seconds,
         program=program(),
     )
+
+
+def _region(study: Study, location: Location) -> tuple[int, ...] | None:
+    """The points of the region that is told, all of them where the mismatch is told to be everywhere."""
+    if not location.channels:
+        return None
+    lower, upper = (location.region.lower, location.region.upper) if location.region else ({}, {})
+    return tuple(int(point) for point in np.flatnonzero(inside(axis_values(study.recording), lower, upper)))
 
 
 def _claimed(one: Claim) -> Claimed:

@@ -8,9 +8,10 @@ from typing import Any
 
 import numpy as np
 import pytest
+from scipy.stats import norm
 
 from diagnosis.bench_box import rig_box
-from diagnosis.next_point import Contender, NextPoint, divergence, gains_at, next_point
+from diagnosis.next_point import Contender, NextPoint, divergence, gains_at, log_density, next_point
 from diagnosis.recording import Circuit, RecordedChannel, Recording, SteadyTable
 from diagnosis.study import Study
 from system.bench_map import LumpedBench
@@ -20,6 +21,7 @@ from system.channels import ChannelName
 from system.estimation.fit import maximum_posterior
 from system.estimation.observations import Array, Channel, Observations
 from system.estimation.parameters import Parameter, Role, Scale
+from system.estimation.posterior import standard_slopes
 from system.physics.catalogue import entry_of
 from system.physics.effects import EffectId
 from system.pump_file import load_pump
@@ -166,6 +168,22 @@ def test_gain_is_the_mean_log_odds_that_readings_bring() -> None:
     error = odds.std() / np.sqrt(odds.size)
     assert divergence(apart, one, other) == pytest.approx(odds.mean(), abs=4 * error)
     assert divergence(np.zeros(3), one, one) == pytest.approx(0.0, abs=1e-12)
+
+
+def test_readings_speak_by_the_forecast_of_each_law() -> None:
+    """Odds of a reading are those of two normal densities, each as wide as noise and parameters make it."""
+    study, first, second = _rivals(_square, seed=5)
+    found = next_point(study, load_pump("ref90"), first, second)
+    assert found is not None
+    point, reading = _asked(found), np.array([[0.9 * LPM]])
+    told, expected = [], []
+    for one in (first, second):
+        there = one.simulator.elsewhere(point)
+        slopes = standard_slopes(there, one.posterior.xi)[0, 0]
+        spread = np.sqrt(SIGMA**2 + slopes @ one.posterior.covariance @ slopes)
+        told.append(log_density(study, one, point, reading))
+        expected.append(norm.logpdf(reading[0, 0], there.predict(one.posterior.values)[0, 0], spread))
+    assert told[0] - told[1] == pytest.approx(expected[0] - expected[1], rel=1e-9)
 
 
 def test_two_names_for_one_law_have_no_next_point() -> None:

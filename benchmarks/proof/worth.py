@@ -1,0 +1,98 @@
+"""What the next point is worth: the rig run there and at a point drawn at random, and what the readings say of the
+two explanations that the point was to separate."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from diagnosis.ask import contender, rivals
+from diagnosis.bench_box import BenchBox, rig_box
+from diagnosis.next_point import log_density
+from diagnosis.study import Study
+from diagnosis.thresholds import Thresholds
+from diagnosis.verdict import Diagnosis
+from system.bench_points import BenchPoints
+from system.description import PumpDescription
+from system.units import STANDARD_ATMOSPHERE
+
+from .campaigns import Campaign, campaigns, held
+from .cases import Case
+from .oracle import is_of_truth
+from .outcome import Outcome, Worth
+from .plant.bench import run
+from .plant.machine import Array
+from .plant.settings import Settings
+from .recordings import STEPS, Made
+from .sensors import METERS, read_after
+
+REPEATS = 3
+SEEDS = 900_000  # added to a case's: draws of its own
+GAUGE = ("p_out", "p_in", "p_case")
+NAMES = {"ratio": "displacement_ratio"}  # of the plant's settings, where the simulation's differ
+
+
+def worth(
+    study: Study,
+    pump: PumpDescription,
+    found: Diagnosis,
+    truth: tuple[Case, Made, Outcome],
+    thresholds: Thresholds,
+) -> Worth | None:
+    """Nats for the truth by the recording, by the point asked for, by a random one; None where nothing is asked.
+
+    None too where neither of the two explanations is the truth.
+    """
+    case, made, expected = truth
+    asked, two = found.next_point, rivals(found)
+    if asked is None or two is None or not any(is_of_truth(each, expected) for each in two):
+        return None
+    true, false = two if is_of_truth(two[0], expected) else two[::-1]
+    box, rng = rig_box(study.recording, pump), np.random.default_rng(SEEDS + case.seed)
+    explained = [contender(study, each, thresholds) for each in (true, false)]
+
+    def told(place: tuple[float, ...]) -> float:
+        points, values = _recorded(study, box, place, case, made, rng)
+        one, other = (log_density(study, each, points, values) for each in explained)
+        return one - other
+
+    point = asked.point
+    there = point.shaft_speed, point.delivery_pressure, point.displacement_ratio, point.temperature
+    anywhere = tuple(float(rng.uniform(*ends)) for ends in box.ends)
+    return Worth(true.log_weight - false.log_weight, told(there), told(anywhere), asked.gain)
+
+
+def _recorded(
+    study: Study, box: BenchBox, place: tuple[float, ...], case: Case, made: Made, rng: np.random.Generator
+) -> tuple[BenchPoints, Array]:
+    """REPEATS readings at a place of the box as the bench takes them: inputs as read, and outputs (n, C) in SI."""
+    wanted = box.points(tuple(np.array([value]) for value in place))
+    wanted = replace(wanted, **{name: np.repeat(value, REPEATS) for name, value in vars(wanted).items()})
+    campaign = replace(campaigns()[case.campaign], points=_settings(wanted), traces=())
+    at = held(campaign, rng)
+    truth = run(made.machine, at.moved("ratio", made.setting), made.hidden, STEPS)
+    columns = read_after(campaign, at, truth, made.faults, made.readings.calibrations, rng)
+    values = [_si(channel.name, columns[channel.name]) for channel in study.observations.channels]
+    return _as_read(wanted, campaign, columns), np.stack(values, axis=1)
+
+
+def _settings(points: BenchPoints) -> Settings:
+    """The points as the plant has them: pressures absolute."""
+    return Settings(
+        points.speed, points.displacement_ratio, points.p_out + STANDARD_ATMOSPHERE,
+        points.p_in + STANDARD_ATMOSPHERE, points.p_case + STANDARD_ATMOSPHERE, points.T_in, points.T_case,
+    )  # fmt: skip
+
+
+def _as_read(points: BenchPoints, campaign: Campaign, columns: dict[str, Array]) -> BenchPoints:
+    """The points with what is measured of them in the place of what was wanted."""
+    read = {NAMES.get(name, name): _si(name, columns[name]) for name in campaign.inputs}
+    return replace(points, **read)
+
+
+def _si(name: str, column: Array) -> Array:
+    """A column of the bench's file in SI, pressures gauge."""
+    meter = METERS[name]
+    absolute = column * meter.scale + meter.origin
+    return absolute - STANDARD_ATMOSPHERE if name in GAUGE else absolute
