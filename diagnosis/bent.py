@@ -22,7 +22,7 @@ from system.estimation.evidence import multiplier_evidence
 from system.estimation.posterior import settled
 from system.physics.effects import Kind
 
-OWN = 2.0  # a law of which a third of the mismatch's square is another form is another law
+OWN = 4.0  # a law that is off by half of itself, a fifth of the mismatch in square, is another law
 
 
 def without_stand_ins(study: Study, weighed: Sequence[Weighed], thresholds: Thresholds) -> tuple[Weighed, ...]:
