@@ -7,10 +7,11 @@ import numpy as np
 from system import pairs
 from system.description import PumpDescription
 from system.kinematics import Array
-from system.lumped import PistonMotion, Pressed, block_clamping, piston_forces
+from system.lumped import PistonMotion, Pressed, block_clamping, lumped_leaks, piston_forces
 from system.operating import OperatingPoint
 from system.pairs import FrictionPairs
 from system.physics.effects import BenchState, GapCourse
+from system.physics.state import GAPS
 from system.pump_gap import Gap
 
 
@@ -32,12 +33,15 @@ def gap_courses(
     inner, outer = plate.land_radius_1, plate.land_radius_4
     lands = np.pi * (plate.land_radius_2**2 - inner**2 + outer**2 - plate.land_radius_3**2)
     above = cycle.pressure - point.case_pressure
+    leakage = lumped_leaks(pump, point, motion).conductance * above[:, None, :]
+    leakage[:, GAPS.index(Gap.VALVE_PLATE)] *= pump.pump.pistons
     found = {
         Gap.PISTON: (
             np.abs(motion.velocity),
             pump.piston.radial_clearance,
             pairs.piston_cylinder_coulomb(1.0, side, lengths, motion.overhang, ones),
             losses.piston_cylinder,
+            np.pi * pump.pump.piston_diameter * np.ones(len(axial)),
             np.pi * pump.pump.piston_diameter * lengths.mean(axis=1),
         ),
         Gap.SLIPPER: (
@@ -45,6 +49,7 @@ def gap_courses(
             pump.slipper.film_thickness,
             pairs.slipper_swash_plate_coulomb(1.0, axial, motion.drive.swash_angle, ones),
             losses.slipper_swash_plate,
+            np.full(len(axial), 2.0 * pump.slipper.land_outer_radius),
             np.full(len(axial), pump.slipper.lands.land_area),
         ),
         Gap.VALVE_PLATE: (
@@ -52,6 +57,7 @@ def gap_courses(
             plate.film_thickness,
             np.abs(block_clamping(pump, point, cycle)),
             losses.valve_plate_cylinder,
+            np.full(len(axial), plate.land_radius_4 - inner),
             np.full(len(axial), lands + sum(pads.area for pads in plate.bearing_pads)),
         ),
     }
@@ -63,9 +69,11 @@ def gap_courses(
             normal_force=force,
             coulomb=loss.coulomb * ones,
             viscous=loss.viscous * ones,
+            leakage=leakage[:, GAPS.index(gap)],
+            width=width,
             land_area=area,
         )
-        for gap, (speed, film, force, loss, area) in found.items()
+        for gap, (speed, film, force, loss, width, area) in found.items()
     }
 
 

@@ -19,8 +19,8 @@ _Boundary = Annotated[float, Field(ge=0.0, le=0.12)]
 class FilmHeatingSection(Section):
     """[physics.film_heating]: films warmer than the case."""
 
-    resistance: Annotated[float, Dimension.THERMAL_RESISTANCE, Field(ge=0.0, le=2e-4)] = 0.0
-    throttling_share: Fraction = 0.0
+    resistance: Annotated[float, Dimension.THERMAL_RESISTANCE, Field(ge=0.0, le=2e-3)] = 0.0
+    carried_share: Fraction = 0.0
 
 
 class ViscosityPressureSection(Section):

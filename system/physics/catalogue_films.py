@@ -55,8 +55,8 @@ FILM_ENTRIES = (
             _one(
                 EffectId.FILM_HEATING,
                 film_heating,
-                ("resistance", 2e-5, 2e-4, Dimension.THERMAL_RESISTANCE, "h/(3 k) of 10 um: 2.6e-5 m2 K/W"),
-                ("throttling_share", 0.3, 1.0, None, "all of it in a film whose walls take no heat"),
+                ("resistance", 5e-5, 2e-3, Dimension.THERMAL_RESISTANCE, "6.6e-5 of ref90's films, solved"),
+                ("carried_share", 0.1, 1.0, None, "1: walls that take no heat"),
             ),
         ),
         components=(*LEAKAGE, *FRICTION, Component.THERMAL_STATE),

@@ -72,7 +72,8 @@ class GapCourse:
 
     pressure: chamber over case pressure in Pa; sliding_speed: of the two walls in m/s, never negative;
     film: thickness in m; normal_force: what Coulomb friction multiplies, N; coulomb, viscous: loss in W without
-    any effect; land_area (N,): of the sealing lands in m2.
+    any effect; leakage: through the lands, m3/s, without any; width (N,): of the film across its sliding, m;
+    land_area (N,): of the sealing lands in m2.
     """
 
     pressure: Array
@@ -81,6 +82,8 @@ class GapCourse:
     normal_force: Array
     coulomb: Array
     viscous: Array
+    leakage: Array
+    width: Array
     land_area: Array
 
 

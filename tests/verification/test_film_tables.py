@@ -54,7 +54,7 @@ def made_up(gap: Gap, film: float = 10e-6) -> OpeningTable:
 
 def courses(pressure, film=10e-6):
     full = np.full((1, 4), 1.0)
-    course = GapCourse(pressure * full, 9.9 * full, film * full, full, full, full, np.ones(1))
+    course = GapCourse(pressure * full, 9.9 * full, film * full, full, full, full, full, np.ones(1), np.ones(1))
     return dict.fromkeys(Gap, course)
 
 

@@ -25,8 +25,8 @@ def state():
 @pytest.fixture(scope="module")
 def courses():
     pressure = np.outer([1.0, 0.6, 0.05], [35e6, 30e6, 20e6, 1e6, 0.0, 0.0])
-    rest = [np.full((POINTS, ANGLES), value) for value in (3.0, 10e-6, 5e3, 100.0, 60.0)]
-    return {gap: GapCourse(pressure, *rest, np.full(POINTS, 4e-4)) for gap in Gap}
+    rest = [np.full((POINTS, ANGLES), value) for value in (3.0, 10e-6, 5e3, 100.0, 60.0, 2e-6)]
+    return {gap: GapCourse(pressure, *rest, np.full(POINTS, 0.03), np.full(POINTS, 4e-4)) for gap in Gap}
 
 
 def _differs(one, other):

@@ -30,9 +30,12 @@ def state(rpm, pressure=35e6, ratio=1.0, kelvin=323.15, inlet=2.5e6, case=0.15e6
     )  # fmt: skip
 
 
-def courses(points=1, pressure=35e6, speed=9.9, film=10e-6, force=1e4, coulomb=0.0, viscous=0.0, area=405e-6):
-    full = [np.full((points, 8), value) for value in (pressure, speed, film, force, coulomb, viscous)]
-    return {gap: GapCourse(*full, np.full(points, area)) for gap in Gap}
+def courses(
+    points=1, pressure=35e6, speed=9.9, film=10e-6, force=1e4, coulomb=0.0, viscous=0.0, leakage=5e-6, width=0.028,
+    area=405e-6,
+):  # fmt: skip
+    full = [np.full((points, 8), value) for value in (pressure, speed, film, force, coulomb, viscous, leakage)]
+    return {gap: GapCourse(*full, np.full(points, width), np.full(points, area)) for gap in Gap}
 
 
 # Films
@@ -72,17 +75,38 @@ def test_heating_meets_nahme_while_it_is_small(walls, factor):
     """Resistance h/(12 k): two walls at case temperature; h/(3 k): one insulated; slipper of REF90, sheet A2."""
     film, conductivity, at = 10e-6, 0.13, state(2100)
     shear = float(at.viscosity[0]) * 9.9**2 / film
-    heated = courses(pressure=0.0, film=film, viscous=shear, area=1.0)
-    values = {"resistance": film / (walls * conductivity), "throttling_share": 0.0}
+    heated = courses(pressure=0.0, film=film, viscous=shear, leakage=0.0, width=1e-6, area=1.0)
+    values = {"resistance": film / (walls * conductivity), "carried_share": 0.0}
     assert film_laws.film_heating(values, heated, at).viscous[1] == pytest.approx(factor, abs=0.012)
 
 
-def test_heating_solves_its_balance():
+@pytest.mark.parametrize(("resistance", "share"), [(5e-5, 0.0), (0.0, 0.1), (2e-3, 0.0), (5e-5, 0.3)])
+def test_heating_solves_its_balance(resistance, share):
+    """Heat of loss and throttling is what the walls take and the oil takes away; it thins by 2.5 %/K: to 1e-3."""
     at, given = state(2100), courses(coulomb=120.0, viscous=90.0)
-    values = {"resistance": 5e-5, "throttling_share": 0.3}
-    ratio = film_laws.film_heating(values, given, at).viscous[0, 0, 0]
-    rise = 5e-5 * (120.0 + ratio * 90.0) / 405e-6 + 0.3 * 0.45e-6 * 35e6
-    assert ratio == pytest.approx(float(warmed(at, np.array([rise]))[0]), rel=1e-4)
+    values = {"resistance": resistance, "carried_share": share}
+    (rise,) = film_laws.film_rise(values, given[Gap.PISTON], at)
+    ratio = float(warmed(at, np.array([rise]))[0])
+    heat = REF90.oil.density * REF90.oil.specific_heat
+    carried = heat * (5e-6 / ratio + 0.5 * 0.028 * 10e-6 * 9.9) * rise
+    gained = 120.0 + ratio * 90.0 + 0.45e-6 * 35e6 * heat * 5e-6 / ratio
+    if resistance > 0.0:
+        walls = 405e-6 / resistance
+        assert rise * (walls + carried / rise) == pytest.approx(
+            gained * (1 + share * walls * rise / carried), rel=1e-3
+        )
+    else:
+        assert carried == pytest.approx(share * gained, rel=1e-3)
+    assert film_laws.film_heating(values, given, at).viscous[0, 0, 0] == pytest.approx(ratio, rel=1e-12)
+
+
+def test_heat_that_no_wall_takes_leaves_with_the_oil():
+    """Both limits of one film: walls that take nothing, and a share of one."""
+    at, given = state(2100), courses(coulomb=120.0, viscous=90.0)[Gap.PISTON]
+    insulated = film_laws.film_rise({"resistance": 1e6, "carried_share": 0.0}, given, at)
+    outright = film_laws.film_rise({"resistance": 0.0, "carried_share": 1.0}, given, at)
+    assert insulated == pytest.approx(outright, rel=1e-5)
+    assert insulated[0] == pytest.approx(20.0, abs=10.0)
 
 
 def test_warmer_oil_is_the_oils_own_law():
