@@ -52,17 +52,17 @@ def judge(
 
     along: coordinates (N,) with which an effect may grow, by name (`diagnosis.growth`).
 
-    A mismatch needs both a candidate as striking as chance hardly makes one and an improbable null; one of the
-    two, or a candidate that is striking enough, is a suspicion, of the likeliest kind, and claims nothing. A name
-    needs probability, odds to all that claim something else, sizes that are sure, no veto of held-out regions; it
-    is incomplete while something is left over.
+    A mismatch needs both a candidate (or a free bend) as striking as chance hardly makes one and an improbable
+    null; one of the two, or a candidate that is striking enough, is a suspicion, of the likeliest kind, and claims
+    nothing. A name needs probability, odds to all that claim something else, sizes that are sure, no veto of
+    held-out regions; it is incomplete while something is left over.
     """
     limits = thresholds.mismatch
     null = next(each for each in weighed if each.hypothesis.kind is Kind.NO_MISMATCH)
     improbable = null.probability < limits.null_probability
     if not improbable and detection.chance >= limits.suspicion:
         return Verdict(Kind.NO_MISMATCH, Status.NAMED, (), (), ())
-    if not improbable or detection.chance >= limits.chance:
+    if not improbable or min(detection.chance, _chance_of_bend(weighed, null)) >= limits.chance:
         return _suspicion(weighed, (_half_seen(detection, null),))
     best = _simplest(max((each for each in weighed if each is not null), key=_weight), weighed, thresholds)
     if best.hypothesis.kind is Kind.UNKNOWN_PHYSICS:
@@ -79,6 +79,20 @@ def judge(
     alike = any(claim.equivalent or claim.elsewhere for claim in claims)
     status = Status.INCOMPLETE if left else Status.CLASS if alike else Status.NAMED
     return Verdict(best.hypothesis.kind, status, claims, members, left)
+
+
+def _chance_of_bend(weighed: Sequence[Weighed], null: Weighed) -> float:
+    """The chance, at most, that unknown physics would stand so far ahead of nothing if nothing were there.
+
+    An evidence over the null's has a mean of 1 under the null: K or more has a chance of 1/K at most (Markov).
+    What no candidate resembles shows here alone.
+    """
+    unknown = [each for each in weighed if each.hypothesis.component is not None]
+    if not unknown:
+        return 1.0
+    prior = logsumexp([each.hypothesis.log_prior for each in unknown])
+    ahead = float(logsumexp([each.log_weight for each in unknown]) - prior) - null.log_evidence
+    return float(np.exp(-max(ahead, 0.0)))
 
 
 def _weight(each: Weighed) -> float:

@@ -9,10 +9,12 @@ from functools import cache
 import numpy as np
 import pytest
 
+from diagnosis.detect import detect
 from diagnosis.diagnose import diagnose_study
 from diagnosis.growth import misgrown
 from diagnosis.heldout import held_out, regions
 from diagnosis.hypotheses import hypotheses
+from diagnosis.judge import judge
 from diagnosis.map_axes import AXES, scaled_axes
 from diagnosis.recording import Circuit, Recording, SteadyTable
 from diagnosis.refit import refit
@@ -21,6 +23,7 @@ from diagnosis.study import Candidate, Study, study_of
 from diagnosis.thresholds import load_thresholds
 from diagnosis.unknown import scaling
 from diagnosis.verdict import Diagnosis, Status
+from diagnosis.weighed import Weighed
 from system.bench_points import BenchPoints
 from system.channels import ChannelName
 from system.components import Component
@@ -376,7 +379,7 @@ def test_a_law_of_the_right_power_is_seldom_told_otherwise() -> None:
 
 
 def test_unknown_physics_claims_no_more_than_a_law_bent() -> None:
-    """Churning that grows with the root of pressure, 150 sigma: free components beat it, and so does its own law bent.
+    """Churning that grows with the root of pressure, 150 sigma: free components beat it, its own law bent too.
 
     Torque with n p is no law of the toy: unknown, though laws bent take up most of it.
     """
@@ -389,6 +392,18 @@ def test_unknown_physics_claims_no_more_than_a_law_bent() -> None:
     assert not any(each.hypothesis.component and each.probability > 0.01 for each in found.hypotheses)
     found = _diagnosis(_study(1, added=np.stack([zero, zero, 6.0 * n * p], axis=1)))
     assert _told(found) == (Kind.UNKNOWN_PHYSICS, Status.NAMED, ())
+
+
+def test_what_no_candidate_resembles_is_a_mismatch_all_the_same() -> None:
+    """No score of a candidate is rare, evidence of a free bend is: e^5 and more has a chance of .007 at most."""
+    study = _study(1)
+    blind = replace(detect(study, LIMITS), chance=0.5)
+    nothing = Weighed(hypotheses(study, LIMITS)[0], 0.0, True, None, 0.0, 0.01, None)
+    free = next(each for each in hypotheses(study, LIMITS) if each.component is Component.DRAIN_FLOW)
+    for evidence, status in ((6.0, Status.NAMED), (4.0, Status.SUSPICION)):
+        bend = Weighed(free, evidence, True, None, 0.0, 0.99, None)
+        found = judge(study, blind, (bend, nothing), _coordinates(), LIMITS)
+        assert (found.kind, found.status) == (Kind.UNKNOWN_PHYSICS, status)
 
 
 def test_what_stands_in_no_catalogue_is_unknown() -> None:
