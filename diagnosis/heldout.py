@@ -11,9 +11,10 @@ from diagnosis.study import Study
 from diagnosis.thresholds import Thresholds
 from diagnosis.weighed import HeldOut
 from system.channels import ChannelName
+from system.estimation.folds import left_out
 from system.estimation.observations import Array
 from system.estimation.posterior import Posterior
-from system.estimation.predictive import log_predictive, predictive
+from system.estimation.predictive import log_predictive
 
 Marks = NDArray[np.bool_]
 
@@ -47,8 +48,8 @@ def held_out(study: Study, null: Posterior, own: Posterior, thresholds: Threshol
         }
 
     how = f"gains: left out one by one: {', '.join(folds) or 'no region'}; residuals: random fifths of the points"
-    after = _left_out(own, fifths)
-    return HeldOut(gains, rms(_left_out(null, fifths)), rms(after), rms(own.whitening.sigma), vetoed, how)
+    after = left_out(own, fifths)
+    return HeldOut(gains, rms(left_out(null, fifths)), rms(after), rms(own.whitening.sigma), vetoed, how)
 
 
 def regions(study: Study, fits: tuple[Posterior, ...]) -> Mapping[str, Marks]:
@@ -88,16 +89,6 @@ def _density(posterior: Posterior, points: Marks) -> float:
     """ln of the joint density of the points' readings in SI, but for a constant that all fits share."""
     white = np.log(np.einsum("nii->ni", posterior.whitening.factors))[points]
     return log_predictive(posterior, _rows(posterior, points)) + float(white.sum())
-
-
-def _left_out(posterior: Posterior, fifths: NDArray[np.int64]) -> Array:
-    """Residuals (N, C) in SI of each point, foretold by the fit without its part."""
-    white = np.zeros_like(posterior.residual)
-    for part in range(PARTS):
-        rows = _rows(posterior, fifths == part)
-        if rows.any():
-            white[rows] = predictive(posterior, rows)[0]
-    return posterior.whitening.unwhiten(white)
 
 
 def _fifths(points: int, seed: int) -> NDArray[np.int64]:

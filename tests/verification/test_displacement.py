@@ -1,0 +1,61 @@
+"""Derived displacement by ISO 8426 on readings whose displacement is known."""
+
+from __future__ import annotations
+
+from itertools import product
+
+import numpy as np
+import pytest
+
+from reynolds.errors import FilmInputError
+from system.displacement import intercept_displacement, toet_displacement
+
+V = 89.86e-6
+SPEEDS = np.array([1000.0, 1300.0, 1700.0, 2100.0, 2500.0]) * np.pi / 30
+DIFFERENCES = np.array([5.0, 10.0, 20.0, 27.5, 32.5]) * 1e6
+MAP = np.array(list(product(SPEEDS, DIFFERENCES)))
+
+
+def _flow(speed, difference, lost_displacement=0.0):
+    """n (V - share of dp) less a leakage of any form of dp, the same at every speed."""
+    return speed / (2 * np.pi) * (V - lost_displacement * difference) - 1e-12 * difference - 1e-20 * difference**2
+
+
+def test_toet_is_exact_where_leakage_does_not_hang_on_speed():
+    found = toet_displacement(*MAP.T, _flow(*MAP.T))
+    assert found.value == pytest.approx(V, rel=1e-12)
+    assert found.sigma == pytest.approx(0.0, abs=1e-12 * V)
+    assert (found.speeds, found.differences, found.notes) == (5, 5, ())
+
+
+def test_toet_leaves_compression_in_proportion_to_speed_out():
+    """V(dp) falls along a line, and is read at no pressure."""
+    assert toet_displacement(*MAP.T, _flow(*MAP.T, 3e-14)).value == pytest.approx(V, rel=1e-12)
+
+
+def test_set_points_may_scatter():
+    rng = np.random.default_rng(6)
+    speed, difference = (MAP * (1 + 1e-3 * rng.standard_normal(MAP.shape))).T
+    flow = _flow(speed, difference, 3e-14) * (1 + 1e-3 * rng.standard_normal(len(MAP)))
+    found = toet_displacement(speed, difference, flow)
+    assert found.differences == 5
+    assert 0 < found.sigma < 5e-3 * V
+    assert abs(found.value - V) < 4 * found.sigma
+
+
+def test_the_intercept_takes_a_loss_without_pressure_for_displacement():
+    one = MAP[MAP[:, 0] == SPEEDS[3]].T
+    lost = 1e-5
+    flow = one[0] / (2 * np.pi) * V - 1e-12 * one[1] - lost
+    found = intercept_displacement(*one, flow)
+    assert found.value == pytest.approx(V - lost * 2 * np.pi / SPEEDS[3], rel=1e-12)
+
+
+def test_too_few_levels_are_refused_or_told():
+    few = MAP[MAP[:, 0] <= SPEEDS[1]]
+    assert any("2 speeds" in note for note in toet_displacement(*few.T, _flow(*few.T)).notes)
+    one_pressure = MAP[MAP[:, 1] == DIFFERENCES[0]].T
+    with pytest.raises(FilmInputError, match="two pressure differences"):
+        toet_displacement(*one_pressure, _flow(*one_pressure))
+    with pytest.raises(FilmInputError, match="several shaft speeds"):
+        intercept_displacement(*MAP.T, _flow(*MAP.T))
