@@ -147,6 +147,7 @@ def _scaling(diagnosis: Diagnosis) -> dict[str, Any] | None:
         return None
     return {
         "channel": scaling.channel.value,
+        "above": scaling.above,
         "exponents": dict(scaling.exponents),
         "sigma": dict(scaling.sigma),
     }

@@ -13,7 +13,24 @@ from system.units import Dimension, in_unit, reading_unit
 BENCH_UNITS = {Dimension.PRESSURE: "bar", Dimension.TEMPERATURE: "degC", Dimension.VOLUME_FLOW: "L/min"}
 """What a bench reads in, where it is not the usual reading unit."""
 
+MOST_ODDS = 1000000
+"""Odds beyond which a number means nothing: models are not that true."""
+
 PLACES = {Gap.PISTON: "the pistons", Gap.SLIPPER: "the slippers", Gap.VALVE_PLATE: "the valve plate"}
+
+
+CHANNELS = {
+    ChannelName.Q_OUT: "delivery flow", ChannelName.Q_IN: "inlet flow", ChannelName.Q_CASE: "case drain",
+    ChannelName.TORQUE: "shaft torque", ChannelName.T_OUT: "outlet temperature",
+    ChannelName.ELECTRIC_POWER: "motor power",
+}  # fmt: skip
+"""What an output is to who reads it."""
+
+
+def channel_words(channel: ChannelName) -> str:
+    """A channel in words with its name: "case drain (Q_case)"."""
+    words = CHANNELS.get(channel)
+    return f"{words} ({channel.value})" if words else channel.value
 
 
 def channel_unit(channel: ChannelName) -> str:
@@ -68,6 +85,14 @@ def listed(words: Iterable[str], last: str = "and") -> str:
     """Words in a row: "a", "a and b", "a, b and c"."""
     *before, final = list(words) or [""]
     return f"{', '.join(before)} {last} {final}" if before else final
+
+
+def odds_text(first: float, other: float) -> str:
+    """How one probability stands to another: "1:12", "below 1:1000000"."""
+    if other * MOST_ODDS < first:
+        return f"below 1:{MOST_ODDS}"
+    against = first / other
+    return f"1:{against:.2g}" if against < 100.0 else f"1:{round(against, 1 - len(str(int(against)))):.0f}"
 
 
 def chance(probability: float) -> str:

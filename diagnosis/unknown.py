@@ -17,9 +17,13 @@ LARGEST_STEP = 1.0  # of an exponent
 
 @dataclass(frozen=True)
 class Scaling:
-    """Residual of a channel ~ powers of speed, pressure, displacement, viscosity: exponents and their sigma."""
+    """Residual of a channel ~ powers of speed, pressure, displacement, viscosity: exponents and their sigma.
+
+    above: whether the channel reads more than is simulated.
+    """
 
     channel: ChannelName
+    above: bool
     exponents: Mapping[str, float]
     sigma: Mapping[str, float]
 
@@ -45,6 +49,7 @@ def scaling(channel: ChannelName, signal: Array, sigma: Array, coordinates: Mapp
     names = list(moving)
     return Scaling(
         channel,
+        bool(np.sum(signal[used] / sigma[used] ** 2) > 0.0),
         dict(zip(names, exponents[1:].tolist(), strict=True)),
         dict(zip(names, spread[1:].tolist(), strict=True)),
     )

@@ -7,25 +7,30 @@ from collections.abc import Iterator
 from diagnosis.locate import Location
 from diagnosis.next_point import NextPoint
 from diagnosis.shown import (
+    CHANNELS,
     PLACES,
     chance,
     channel_unit,
+    channel_words,
     difference,
     difference_unit,
     effect_words,
     estimate_text,
     listed,
+    odds_text,
     reading,
 )
 from diagnosis.time_scan import TimeKind
 from diagnosis.unknown import Scaling
 from diagnosis.verdict import Claim, Diagnosis, Status
+from diagnosis.weighed import Weighed
 from system.channels import ChannelName
 from system.physics.catalogue import entry_of
-from system.physics.effects import EffectId, Kind
+from system.physics.effects import Kind
 
 RIVALS = 3  # told by name at most
 WORTH_TELLING = 0.01  # probability of a rival
+FLAT = 0.25  # of an exponent: below it a thing does not grow
 
 
 def statement(diagnosis: Diagnosis) -> str:
@@ -35,18 +40,18 @@ def statement(diagnosis: Diagnosis) -> str:
 
 def _verdict(diagnosis: Diagnosis) -> str:
     if diagnosis.status is Status.SUSPICION:
-        return f"{_where(diagnosis.location)}: {_suspicion(diagnosis)}."
+        return f"{_where(diagnosis)}: {_suspicion(diagnosis)}."
     if diagnosis.kind is Kind.NO_MISMATCH:
         return f"Simulation and recording agree within noise and tolerance ({_misfit(diagnosis)})."
     if diagnosis.kind is Kind.UNKNOWN_PHYSICS:
-        return f"{_where(diagnosis.location)}: {_unknown(diagnosis)}."
+        return f"{_where(diagnosis)}: {_unknown(diagnosis)}."
     said = "; besides, ".join(_claim(claim) for claim in diagnosis.effects)
     ends = {
         Status.INCOMPLETE: "The name is sure, but a part of the mismatch remains that it does not explain.",
         Status.CLASS: _class(diagnosis),
         Status.NAMED: "",
     }
-    return f"{_where(diagnosis.location)}: {said}. {ends[diagnosis.status]}".rstrip()
+    return f"{_where(diagnosis)}: {said}. {ends[diagnosis.status]}".rstrip()
 
 
 def paragraphs(diagnosis: Diagnosis) -> tuple[str, ...]:
@@ -67,11 +72,12 @@ def held_out_text(diagnosis: Diagnosis) -> str:
     if not diagnosis.effects or not channels:
         return ""
     parts = [
-        f"{channel.value} {_number(channel, fit.before[channel])} -> {_number(channel, fit.after[channel])} "
-        f"(noise {_number(channel, fit.noise[channel])}) {difference_unit(channel)}"
+        f"{CHANNELS.get(channel, channel.value)} {_number(channel, fit.before[channel])} -> "
+        f"{_number(channel, fit.after[channel])} (noise {_number(channel, fit.noise[channel])}) "
+        f"{difference_unit(channel)}"
         for channel in channels
     ]
-    return f"On points held out ({fit.how}) the rms residual falls: {'; '.join(parts)}."
+    return f"Error on points held out, rms: {'; '.join(parts)}."
 
 
 def next_point_text(found: NextPoint) -> str:
@@ -95,10 +101,14 @@ def next_point_text(found: NextPoint) -> str:
     )
 
 
-def _where(location: Location) -> str:
-    """Channels, part of the map, time."""
-    channels = listed(channel.value for channel in location.channels) or "No single channel"
-    return ", ".join([channels, *_places(location)])
+def _where(diagnosis: Diagnosis) -> str:
+    """Channels, whether they read more or less, part of the map, time; what the difference grows with."""
+    location, scaling = diagnosis.location, diagnosis.scaling
+    channels = listed(map(channel_words, location.channels)) or "no single channel"
+    if scaling is not None and location.channels == (scaling.channel,):
+        channels += f" reads {'higher' if scaling.above else 'lower'} than simulated"
+    place = ", ".join([channels[0].upper() + channels[1:], *_places(location)])
+    return place if scaling is None else f"{place}; the difference in {scaling.channel.value} {_course(scaling)}"
 
 
 def _places(location: Location) -> Iterator[str]:
@@ -161,20 +171,28 @@ def _striking(diagnosis: Diagnosis) -> str:
 
 
 def _unknown(diagnosis: Diagnosis) -> str:
-    law = _power_law(diagnosis.scaling) if diagnosis.scaling else ""
     parts = listed((one.value.replace("_", " ") for one in diagnosis.location.tie), "or")
     place = f", most like a change of the {parts}" if parts else ""
-    return f"no effect of the catalogue explains the mismatch ({_misfit(diagnosis)}){law}{place}"
+    return f"no effect of the catalogue explains the mismatch ({_misfit(diagnosis)}){place}"
 
 
-def _power_law(scaling: Scaling) -> str:
+def _course(scaling: Scaling) -> str:
+    """What the difference grows with, and along what it stays, where exponents are known well enough to say."""
     powers = [
         f"{name}^({exponent:.2g} +- {scaling.sigma[name]:.1g})"
         for name, exponent in scaling.exponents.items()
-        if abs(exponent) > scaling.sigma[name]
+        if abs(exponent) > max(2.0 * scaling.sigma[name], FLAT)
     ]
-    grows = f"grows as {' '.join(powers)}" if powers else "is the same all over the map"
-    return f"; what is left of {scaling.channel.value} {grows}"
+    same = [
+        name
+        for name, exponent in scaling.exponents.items()
+        if abs(exponent) <= FLAT and scaling.sigma[name] <= FLAT
+    ]
+    grows = [f"grows as {' '.join(powers)}"] if powers else []
+    alike = (
+        [f"{'' if powers else 'is the same '}at every {listed(same)}{' alike' if powers else ''}"] if same else []
+    )
+    return ", ".join([*grows, *alike]) or "follows no power law that can be told"
 
 
 def _misfit(diagnosis: Diagnosis) -> str:
@@ -183,23 +201,38 @@ def _misfit(diagnosis: Diagnosis) -> str:
 
 
 def _likeliest(diagnosis: Diagnosis) -> list[str]:
-    """The likeliest hypotheses that are not what is claimed, with their probabilities."""
-    claimed = {claim.effect for claim in diagnosis.effects}
-    others = [one for one in diagnosis.hypotheses if one.hypothesis.effects and one.probability >= WORTH_TELLING]
-    rivals = [one for one in others if not claimed & set(one.hypothesis.effects)]
-    ranked = sorted(rivals, key=lambda one: -one.probability)[:RIVALS]
-    return [_rival(one.hypothesis.effects, one.probability) for one in ranked]
-
-
-def _rival(effects: tuple[EffectId, ...], probability: float) -> str:
-    return f"{effect_words(effects)} ({chance(probability)})"
+    """The likeliest hypotheses with an effect, with their probabilities."""
+    listed_so = [one for one in _explained(diagnosis) if one.probability >= WORTH_TELLING][:RIVALS]
+    return [f"{_of(one)} ({chance(one.probability)})" for one in listed_so]
 
 
 def _rivals(diagnosis: Diagnosis) -> str:
+    """Which rivals still stand and which are excluded, each with its odds against the first explanation."""
     if diagnosis.status is Status.SUSPICION or not diagnosis.effects:
         return ""
-    standing = _likeliest(diagnosis)
-    return f"Still possible: {listed(standing)}." if standing else "No rival has a probability above 0.01."
+    first, *others = _explained(diagnosis)
+    told = [(_of(one), one.probability) for one in others if not one.hypothesis.bent][: 2 * RIVALS]
+    odds = [(words, odds_text(first.probability, each), each >= WORTH_TELLING) for words, each in told]
+    standing = [f"{words} ({against})" for words, against, stands in odds if stands]
+    excluded = [f"{words} ({against})" for words, against, stands in odds if not stands][:RIVALS]
+    parts = [f"Still possible, odds to the first: {listed(standing)}." if standing else ""]
+    parts += [f"Excluded: {listed(excluded)}." if excluded else ""]
+    return " ".join(part for part in parts if part)
+
+
+def _explained(diagnosis: Diagnosis) -> list[Weighed]:
+    """Hypotheses of an effect, the claimed first, then by probability; of one effect at one place the best."""
+    first = diagnosis.hypotheses[:1]
+    others = sorted(diagnosis.hypotheses[1:], key=lambda one: -one.probability)
+    found: dict[str, Weighed] = {}
+    for one in (*first, *others):
+        if one.hypothesis.effects:
+            found.setdefault(_of(one), one)
+    return list(found.values())
+
+
+def _of(one: Weighed) -> str:
+    return effect_words(one.hypothesis.effects, one.hypothesis.pair)
 
 
 def _number(channel: ChannelName, value: float) -> str:

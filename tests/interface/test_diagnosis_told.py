@@ -137,6 +137,7 @@ def named() -> Diagnosis:
         fit=fit,
         scaling=Scaling(
             Q,
+            True,
             {"speed": 0.02, "pressure": 2.1, "displacement": 0.0, "viscosity": -1.0},
             dict.fromkeys(("speed", "pressure", "displacement", "viscosity"), 0.1),
         ),
@@ -180,7 +181,14 @@ def test_a_named_effect_is_told_with_place_size_and_odds(named: Diagnosis) -> No
                  "22 +- 2 1/GPa", "0.93"):  # fmt: skip
         assert part in text
     told = " ".join(paragraphs(named))
-    for part in ("0.06 -> 0.0156 (noise 0.015) L/min", "film heating (0.06)", "999.8 rpm", "370 bar", "3 times"):
+    for part in (
+        "0.06 -> 0.0156 (noise 0.015) L/min",
+        "film heating (1:16)",
+        "Error on points held out",
+        "999.8 rpm",
+        "370 bar",
+        "3 times",
+    ):
         assert part in told, told
 
 
