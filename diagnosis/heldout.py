@@ -6,9 +6,10 @@ from collections.abc import Mapping
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.special import logsumexp
 
 from diagnosis.study import Study
-from diagnosis.thresholds import Thresholds
+from diagnosis.thresholds import HeldOutLimits, Thresholds
 from diagnosis.weighed import HeldOut
 from system.channels import ChannelName
 from system.estimation.folds import left_out
@@ -33,9 +34,7 @@ def held_out(study: Study, null: Posterior, own: Posterior, thresholds: Threshol
     """
     folds = regions(study, (null, own))
     gains = {name: _density(own, points) - _density(null, points) for name, points in folds.items()}
-    limits = thresholds.heldout
-    negative = sum(gain < limits.negative_gain for gain in gains.values())
-    vetoed = negative >= limits.veto_regions or any(gain < limits.veto_gain for gain in gains.values())
+    vetoed = speak_against(np.array(list(gains.values())), thresholds.heldout)
     fifths = _fifths(len(study.axes), thresholds.seeds.locate)
     names = [ChannelName.named(channel.name) for channel in study.observations.channels]
     measured = study.observations.measured
@@ -72,6 +71,19 @@ def regions(study: Study, fits: tuple[Posterior, ...]) -> Mapping[str, Marks]:
         if LEAST_POINTS <= points.sum() <= len(points) / 2
         and not any(_tests_a_prior(fit, _rows(fit, points)) for fit in fits)
     }
+
+
+def speak_against(gains: Array, limits: HeldOutLimits) -> bool:
+    """Whether regions veto: more than one of so many would by chance, or several that the others do not outweigh.
+
+    Under a true explanation exp(-gain) has a mean of at most 1 in each region, and so has its mean over all
+    regions: it exceeds K with a chance of 1/K at most (Markov), however many regions there are.
+    """
+    if not gains.size:
+        return False
+    negative = np.count_nonzero(gains < limits.negative_gain)
+    outweighed = negative >= limits.veto_regions and gains.sum() < 0.0
+    return bool(outweighed or logsumexp(-gains) - np.log(gains.size) > -limits.veto_gain)
 
 
 def _rows(posterior: Posterior, points: Marks) -> Marks:

@@ -12,7 +12,7 @@ import pytest
 from diagnosis.detect import detect
 from diagnosis.diagnose import diagnose_study
 from diagnosis.growth import misgrown
-from diagnosis.heldout import held_out, regions
+from diagnosis.heldout import held_out, regions, speak_against
 from diagnosis.hypotheses import hypotheses
 from diagnosis.judge import judge
 from diagnosis.map_axes import AXES, scaled_axes
@@ -460,6 +460,23 @@ def test_regions_held_out_veto_what_foretells_worse() -> None:
     assert not found.fit.vetoed
     for name, gain in swapped.gains.items():
         assert gain == pytest.approx(-found.fit.gains[name])
+
+
+@pytest.mark.parametrize(
+    ("gains", "vetoed"),
+    [
+        ([-2.1], True),
+        ([-3.1, -1.0, 9.0, 4.0, 7.0, 5.0], False),
+        ([-4.0, 9.0, 9.0, 9.0, 9.0, 9.0], True),
+        ([-0.6, -0.7, 0.5, 0.4], True),
+        ([-0.6, -0.7, 0.5, 1.5], False),
+        ([-0.6, 0.1], False),
+        ([], False),
+    ],
+)
+def test_regions_veto_as_many_as_they_are(gains: list[float], vetoed: bool) -> None:
+    """e^-gain averaged over the regions, against e^2; two negative ones where the others do not outweigh them."""
+    assert speak_against(np.array(gains), LIMITS.heldout) is vetoed
 
 
 def test_a_region_that_alone_tells_a_parameter_is_no_test() -> None:
