@@ -56,6 +56,7 @@ class MixedFrictionSection(Section):
     slipper: _Boundary = 0.0
     valve_plate: _Boundary = 0.0
     hersey_scale: Annotated[float, Field(gt=0.0)]
+    exponent: Annotated[float, Field(ge=0.3, le=2.5)] = 1.0
 
 
 class OpeningSection(Section):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from system.channels import ChannelName
 from system.components import Component
+from system.estimation.parameters import Parameter, Role, Scale
 from system.physics.contact_laws import mixed_friction
 from system.physics.effects import EffectId, Kind
 from system.physics.extension import Entry, Extension, Law
@@ -23,7 +24,7 @@ from system.units import Dimension
 LEAKAGE = (Component.PISTON_LEAKAGE, Component.SLIPPER_LEAKAGE, Component.PLATE_LEAKAGE)
 FRICTION = (Component.PISTON_FRICTION, Component.SLIPPER_FRICTION, Component.PLATE_FRICTION)
 FILM_CHANNELS = (ChannelName.Q_OUT, ChannelName.Q_CASE, ChannelName.TORQUE)
-HERSEY_SCALES = (1e-8, 3e-8, 1e-7, 3e-7, 1e-6, 3e-6)
+HERSEY_SCALES = (3e-8, 1e-7, 3e-7, 1e-6, 3e-6, 1e-5)
 SHEAR_RATES = (1e5, 3e5, 1e6, 3e6)
 RETAINER_FORCES = (0.0, 100.0, 300.0, 1000.0)
 
@@ -45,6 +46,11 @@ def _clearance(gap: Gap) -> Extension:
 def _one(effect: EffectId, law: Law, *parameters: tuple[str, float, float, Dimension | None, str]) -> Extension:
     own = tuple(half(path_of(effect, key), *prior) for key, *prior in parameters)  # type: ignore[arg-type]
     return Extension(effect, None, law, own)
+
+
+def _falling_off() -> Parameter:
+    name, source = path_of(EffectId.MIXED_FRICTION, "exponent"), ".5 to 1.4 of rough pads; Greenwood, Tripp 1970"
+    return Parameter(name, Role.EXTENSION, Scale.LOG, 1.0, 0.3, 0.3, 2.5, None, source)
 
 
 FILM_ENTRIES = (
@@ -97,7 +103,7 @@ FILM_ENTRIES = (
                     ),
                 ),
                 tuple({"rate": rate} for rate in SHEAR_RATES),
-                scale_of(EffectId.SHEAR_THINNING, "rate", SHEAR_RATES, Dimension.SHEAR_RATE),
+                (scale_of(EffectId.SHEAR_THINNING, "rate", SHEAR_RATES, Dimension.SHEAR_RATE),),
             ),
         ),
         components=FRICTION,
@@ -121,8 +127,8 @@ FILM_ENTRIES = (
                     )
                     for gap in Gap
                 ),
-                tuple({"hersey_scale": scale} for scale in HERSEY_SCALES),
-                scale_of(EffectId.MIXED_FRICTION, "hersey_scale", HERSEY_SCALES, None),
+                tuple({"hersey_scale": scale, "exponent": 1.0} for scale in HERSEY_SCALES),
+                (scale_of(EffectId.MIXED_FRICTION, "hersey_scale", HERSEY_SCALES, None), _falling_off()),
             ),
         ),
         components=FRICTION,

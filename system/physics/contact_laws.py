@@ -13,33 +13,35 @@ from system.physics.extension import Values
 from system.physics.state import GAPS, unchanged
 from system.pump_gap import Gap
 
-LENGTH = 0.02
-"""Of a film along its sliding, m: makes the Hersey number of a pressure dimensionless."""
-LEAST_PRESSURE = 1e5
-"""Pa over case pressure that a film is taken to bear at least: parts weigh and springs press without pressure."""
+UNLOADED = 1e-9
+"""N that a film is taken to bear at least: of none the number is without bound."""
 
 
 def hersey(viscosity: Array, course: GapCourse) -> Array:
-    """Hersey number mu v/(L p) (N, M) of a film that bears the chamber's pressure."""
-    pressure = np.maximum(course.pressure, LEAST_PRESSURE)
-    return np.asarray(viscosity[:, None] * course.sliding_speed / (LENGTH * pressure))
+    """Hersey number mu v w/N (N, M): viscosity, sliding speed and width of a film over the load that it bears."""
+    load = np.maximum(course.normal_force, UNLOADED)
+    return np.asarray(viscosity[:, None] * course.sliding_speed * course.width[:, None] / load)
 
 
-def stribeck_share(number: Array, scale: float) -> Array:
-    """Share of the load that boundary layers bear at a Hersey number: exp(-H/H0), after Stribeck 1902."""
-    return np.asarray(np.exp(-number / scale))
+def stribeck_share(number: Array, scale: float, exponent: float) -> Array:
+    """Share of the load that boundary layers bear at a Hersey number: exp(-(H/H0)^d), after Stribeck 1902.
+
+    Of a rough pad that hydrodynamics and Greenwood and Tripp's summits bear together, film with the root of H (one
+    that pivots) or with H itself (a fixed wedge), d is .5 to 1.4, the stiffer its summits, to .02 of the load.
+    """
+    return np.asarray(np.exp(-((number / scale) ** exponent)))
 
 
 def mixed_friction(values: Values, courses: Mapping[Gap, GapCourse], state: BenchState) -> Effects:
-    """Friction f_b exp(-H/H0) N v beside the Coulomb loss, in each pair at every angle.
+    """Friction f_b exp(-(H/H0)^d) N v beside the Coulomb loss, in each pair at every angle.
 
-    `piston`, `slipper`, `valve_plate`: f_b of the pair's boundary layer; `hersey_scale`: H0. Most where parts
-    slide slowly under pressure, and in hot oil.
+    `piston`, `slipper`, `valve_plate`: f_b of the pair's boundary layer; `hersey_scale`: H0; `exponent`: d. Most
+    where parts slide slowly under load, and in hot oil.
     """
     effects = unchanged(courses)
     extra = effects.extra_coulomb.copy()
     for row, gap in enumerate(GAPS):
         own = courses[gap]
-        share = stribeck_share(hersey(state.viscosity, own), values["hersey_scale"])
+        share = stribeck_share(hersey(state.viscosity, own), values["hersey_scale"], values["exponent"])
         extra[row] = values[gap.value] * share * own.normal_force * own.sliding_speed
     return replace(effects, extra_coulomb=extra)

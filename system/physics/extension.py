@@ -21,9 +21,8 @@ class Extension:
 
     Parameters are named as in a pump file, `elastic_opening.slipper.opening`; the law knows the last part. `grid`
     lists the values of parameters that set a scale rather than a size and are tried one after the other: one empty
-    mapping where there is none. `scale`, of a grid that samples a continuous scale, is that parameter: a fit of a
-    member sets it free about the member's value, half way to the next. Values are those of the grid's first member
-    beside the parameters'.
+    mapping where there is none. `scales` are those of them that are continuous: a fit of a member sets them free
+    about the member's values. Values are those of the grid's first member beside the parameters'.
     """
 
     id: EffectId
@@ -31,17 +30,17 @@ class Extension:
     law: Law
     parameters: tuple[Parameter, ...]
     grid: tuple[Values, ...] = ({},)
-    scale: Parameter | None = None
+    scales: tuple[Parameter, ...] = ()
 
     @property
     def members(self) -> tuple[Extension, ...]:
         """One extension for each member of the grid."""
-        return tuple(replace(self, grid=(member,), scale=self._scale_about(member)) for member in self.grid)
+        return tuple(replace(self, grid=(member,), scales=self._scales_about(member)) for member in self.grid)
 
     @property
     def free(self) -> tuple[Parameter, ...]:
-        """All that a fit of one member sets free: the sizes and the scale."""
-        return self.parameters if self.scale is None else (*self.parameters, self.scale)
+        """All that a fit of one member sets free: the sizes and the scales."""
+        return (*self.parameters, *self.scales)
 
     @property
     def neutral(self) -> dict[str, float]:
@@ -56,8 +55,8 @@ class Extension:
         """The law's values by its own keys, as a pump file's table states them, of parameters by name."""
         return {**self.grid[0], **{_key(one): values[one.name] for one in self.free if one.name in values}}
 
-    def _scale_about(self, member: Values) -> Parameter | None:
-        return None if self.scale is None else replace(self.scale, centre=member[_key(self.scale)])
+    def _scales_about(self, member: Values) -> tuple[Parameter, ...]:
+        return tuple(replace(one, centre=member[_key(one)]) for one in self.scales)
 
 
 def _key(parameter: Parameter) -> str:

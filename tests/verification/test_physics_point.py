@@ -134,7 +134,7 @@ def test_effects_are_read_from_a_file_and_written_back(tmp_path):
 def test_a_bench_map_reads_the_same_with_an_effect_stated_as_with_its_law(extension):
     """The map's law at its values, the map of a pump that states them, and the point of that pump."""
     member = extension.members[-1]
-    values = np.array([one.value(0.0 if one is member.scale else 1.0) for one in member.free])
+    values = np.array([one.value(0.0 if one in member.scales else 1.0) for one in member.free])
     law = LumpedBench(REF90, POINTS, SIMULATED, member.free, (member,), samples_per_pitch=SAMPLES_PER_PITCH)
     stated = LumpedBench(with_effect(extension), POINTS, SIMULATED, (), samples_per_pitch=SAMPLES_PER_PITCH)
     read = law.predict(values)
