@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.stats import chi2
@@ -16,6 +16,7 @@ from diagnosis.study import Candidate, Study
 from diagnosis.thresholds import Thresholds
 from system.channels import ChannelName
 from system.estimation.evidence import Score, score
+from system.estimation.posterior import Posterior, settled
 
 
 @dataclass(frozen=True)
@@ -50,9 +51,7 @@ def detect(study: Study, thresholds: Thresholds) -> Detection:
     the noise raise it; the directed scores of the candidates are averages over many readings and stand them.
     """
     base = study.base
-    scored = [(candidate, score(base, candidate.column)) for candidate in study.candidates]
-    log_p = log_chances(np.array([found.z for _, found in scored]), study.candidates)
-    order = np.argsort(log_p, kind="stable")
+    chance, strongest = most_striking(base, study.candidates, thresholds)
     by_channel = {
         ChannelName.named(channel.name): contrasts(base, at)
         for at, channel in enumerate(study.observations.channels)
@@ -62,10 +61,35 @@ def detect(study: Study, thresholds: Thresholds) -> Detection:
         p_value=float(chi2.sf(base.objective, readings)),
         chi2_per_dof=base.objective / readings,
         channels=channel_misfits(study),
-        chance=family_chance(base, study.candidates, log_p, thresholds.mismatch.draws, thresholds.seeds.detect),
-        strongest=tuple(scored[at] for at in order),
+        chance=chance,
+        strongest=strongest,
         flags=flagged(by_channel, axis_values(study.recording), thresholds.mismatch.flag_rate),
     )
+
+
+def confirmed(study: Study, found: Detection, null: Posterior, thresholds: Thresholds) -> Detection:
+    """The same, its chance that about the null's own fit where that holds and the chance is the larger.
+
+    About the prior mean the curvature of what lies within tolerance (leakage goes with the cube of a film) looks
+    like a mismatch. A fit holds whose goodness and pulls chance makes: one that does not has been dragged to where
+    slopes of the prior mean tell nothing.
+    """
+    limits = thresholds.mismatch
+    fits = chi2.sf(null.objective, null.residual.size) >= limits.chance
+    if not fits or np.abs(null.pulls).max(initial=0.0) > limits.pull:
+        return found
+    chance = most_striking(settled(null), study.candidates, thresholds)[0]
+    return replace(found, chance=max(found.chance, chance))
+
+
+def most_striking(
+    posterior: Posterior, candidates: Sequence[Candidate], thresholds: Thresholds
+) -> tuple[float, tuple[tuple[Candidate, Score], ...]]:
+    """Candidates by the rareness of their scores about a fit; the chance of one as rare where nothing is left."""
+    scored = [(candidate, score(posterior, candidate.column)) for candidate in candidates]
+    log_p = log_chances(np.array([found.z for _, found in scored]), candidates)
+    chance = family_chance(posterior, candidates, log_p, thresholds.mismatch.draws, thresholds.seeds.detect)
+    return chance, tuple(scored[at] for at in np.argsort(log_p, kind="stable"))
 
 
 def channel_misfits(study: Study) -> dict[ChannelName, ChannelMisfit]:

@@ -9,7 +9,7 @@ from math import inf
 import numpy as np
 
 from diagnosis.bent import without_stand_ins
-from diagnosis.detect import Detection, detect
+from diagnosis.detect import Detection, confirmed, detect
 from diagnosis.growth import coordinates
 from diagnosis.heldout import held_out
 from diagnosis.hypotheses import hypotheses
@@ -49,6 +49,7 @@ def diagnose_study(
     screened = screen(study, hypotheses(study, thresholds), thresholds)
     report(0, 1, "fitting the model as it is")
     null, not_null = _null(study, screened[0], thresholds)
+    detection = confirmed(study, detection, _fit_of(null), thresholds)
     with crew(workers) as hands:
         fits = _fits(study, detection, screened, null, thresholds, hands, report)
     ranked = _foretold(study, null, with_probabilities(fits.weighed, thresholds.name.temperature), thresholds)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -12,7 +12,7 @@ from scipy.stats import chi2
 from diagnosis.classes import agrees, equivalents
 from diagnosis.component_evidence import MEMBERS, ComponentGroup, multiplier_columns
 from diagnosis.contrasts import contrasts
-from diagnosis.detect import Detection
+from diagnosis.detect import Detection, most_striking
 from diagnosis.growth import misgrown
 from diagnosis.hypotheses import Hypothesis
 from diagnosis.map_axes import axis_values
@@ -198,11 +198,21 @@ def _left_over(study: Study, null: Weighed, best: Weighed, thresholds: Threshold
     }
     flags = flagged(by_channel, axis_values(study.recording), thresholds.mismatch.flag_rate)
     found += [f"{flag.channel.value} stays {flag.contrast:+.1f} sigma off at {flag.text}" for flag in flags[:2]]
+    found += _striking(study, after, best.hypothesis, thresholds)
     if _pulls(after, best.hypothesis) - _pulls(before, best.hypothesis) > 2.0 * thresholds.name.odds:
         found.append("parameters move farther from their stated values than without it")
     if _allowed_gain(study, before, after, thresholds) < thresholds.name.odds:
         found.append(f"errors of form of {thresholds.name.allowance:.1%} would explain as much")
     return tuple(found)
+
+
+def _striking(study: Study, after: Posterior, hypothesis: Hypothesis, thresholds: Thresholds) -> Iterator[str]:
+    """A candidate that stands out of what is left as chance hardly makes one."""
+    others = [each for each in study.candidates if each.entry.id not in hypothesis.effects]
+    chance, strongest = most_striking(settled(after), others, thresholds)
+    if chance < thresholds.mismatch.chance:
+        candidate, found = strongest[0]
+        yield f"{candidate.entry.id.value} stands out of what is left by {abs(found.z):.1f} sigma"
 
 
 def _pulls(posterior: Posterior, hypothesis: Hypothesis) -> float:

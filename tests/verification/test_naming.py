@@ -9,7 +9,7 @@ from functools import cache
 import numpy as np
 import pytest
 
-from diagnosis.detect import detect
+from diagnosis.detect import confirmed, detect
 from diagnosis.diagnose import diagnose_study
 from diagnosis.growth import misgrown
 from diagnosis.heldout import held_out, regions, speak_against
@@ -404,6 +404,28 @@ def test_what_no_candidate_resembles_is_a_mismatch_all_the_same() -> None:
         bend = Weighed(free, evidence, True, None, 0.0, 0.99, None)
         found = judge(study, blind, (bend, nothing), _coordinates(), LIMITS)
         assert (found.kind, found.status) == (Kind.UNKNOWN_PHYSICS, status)
+
+
+def test_what_stands_out_of_what_is_left_is_told() -> None:
+    """Churning refitted where a short circuit is too: incomplete, with what a single second effect would be."""
+    study = _study(1, laws=((CHURNING, 0.2), (SHORT, 0.3)))
+    own = next(each for each in hypotheses(study, LIMITS) if each.effects == (EffectId.CHURNING,))
+    nothing = hypotheses(study, LIMITS)[0]
+    null, best = refit(study, nothing, LIMITS), refit(study, own, LIMITS)
+    sure = (replace(best, probability=1.0), replace(null, probability=0.0))
+    found = judge(study, detect(study, LIMITS), sure, _coordinates(), LIMITS)
+    assert (found.kind, found.status) == (Kind.MISSING_PHYSICS, Status.INCOMPLETE)
+    assert any(text.startswith("port_short_circuit stands out of what is left") for text in found.reasons)
+
+
+def test_a_chance_is_that_about_the_null_where_it_holds() -> None:
+    """Nothing concealed: the larger chance counts; a film twice as thick drags the null: that of the mean stays."""
+    for wrong, larger in (({}, True), ({"film_thickness__slipper": 2.0}, False)):
+        study = _study(1, **wrong)
+        null = refit(study, hypotheses(study, LIMITS)[0], LIMITS).posterior
+        assert null is not None
+        striking = replace(detect(study, LIMITS), chance=1e-4)
+        assert (confirmed(study, striking, null, LIMITS).chance > 0.01) is larger
 
 
 def test_what_stands_in_no_catalogue_is_unknown() -> None:
