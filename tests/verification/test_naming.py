@@ -419,7 +419,7 @@ def test_what_stands_out_of_what_is_left_is_told() -> None:
 
 
 def test_a_chance_is_that_about_the_null_where_it_holds() -> None:
-    """Nothing concealed: the larger chance counts; a film twice as thick drags the null: that of the mean stays."""
+    """Nothing concealed: the larger chance counts. A film twice as thick drags the null: the mean's stays."""
     for wrong, larger in (({}, True), ({"film_thickness__slipper": 2.0}, False)):
         study = _study(1, **wrong)
         null = refit(study, hypotheses(study, LIMITS)[0], LIMITS).posterior
