@@ -13,6 +13,7 @@ import numpy as np
 from swashfilm import pump_plots
 from swashfilm.fidelity import Fidelity
 from swashfilm.floating_page import floating_view
+from swashfilm.forces_page import forces_view
 from swashfilm.pump_data import GAPS
 from swashfilm.pump_plots import LPM, TITLES
 from swashfilm.pump_summary import ABBREVIATION
@@ -53,6 +54,7 @@ def write_pump_page(folder: Path) -> Path:
         told_head=TOLD_HEAD,
         ripple=ripple_rows(summary),
         checks=check_rows(summary),
+        forces=forces_view(folder, summary),
         pictures=_pictures(data, summary),
         gap_maps={map_caption(data, gap): _inline(png) for gap, png in pump_plots.gap_maps(data).items()},
         solid=[(name.replace("_", " "), _inline(path.read_bytes())) for name, path in _drawn(folder)],

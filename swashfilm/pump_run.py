@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, assert_never
 
 from swashfilm.fidelity import Fidelity
 from swashfilm.floating_run import floating_summary, write_floating
+from swashfilm.forces_data import forces_summary, write_forces
 from swashfilm.picture3d import draw
 from swashfilm.progress import Report
 from swashfilm.pump_data import GAPS, PICTURED_TURN, films_dataset, point_dataset, write_tables
@@ -21,6 +22,8 @@ from system.films import FilmsPoint, films_point
 from system.floating import floating_point
 from system.floating_gaps import FloatingOptions
 from system.lumped_point import lumped_point
+from system.multibody.floating_group import floating_joint_forces
+from system.multibody.rotating_group import JointForces, joint_forces
 from system.operating import operating_point
 from system.pump_file import check_pump, resolved_toml
 
@@ -69,6 +72,7 @@ def _run_lumped(pump: PumpDescription, folder: Path) -> dict[str, Any]:
     point = lumped_point(pump, operating_point(pump))
     summary = pump_summary(pump, point, None, _warnings(pump, point))
     _write_point(folder, point_dataset(point, pump.name), point, summary)
+    _tell_forces(folder, joint_forces(pump, point), point, summary)
     return summary
 
 
@@ -79,6 +83,7 @@ def _run_films(pump: PumpDescription, folder: Path, report: Report) -> dict[str,
     warnings = _warnings(pump, point) + films_warnings(films) + draw_gaps(folder, films)
     summary = pump_summary(pump, point, films, warnings)
     _write_point(folder, point_dataset(point, pump.name).merge(films_dataset(films)), point, summary)
+    _tell_forces(folder, joint_forces(pump, point), point, summary)
     return summary
 
 
@@ -89,6 +94,7 @@ def _run_floating(
     point = found.pump_point
     summary = floating_summary(found, _warnings(pump, point))
     _write_point(folder, point_dataset(point, pump.name), point, summary)
+    _tell_forces(folder, floating_joint_forces(found), point, summary)
     reason = draw(write_floating(folder, found)).reason
     summary["warnings"] += [reason] if reason else []
     return summary
@@ -100,6 +106,7 @@ def _run_table(pump: PumpDescription, folder: Path, table: Path | None) -> dict[
     warnings = [*_warnings(pump, point), *told_warnings(told)]
     summary = pump_summary(pump, point, None, warnings) | told_summary(pump, told)
     _write_point(folder, point_dataset(point, pump.name), point, summary)
+    _tell_forces(folder, joint_forces(pump, point), point, summary)
     return summary
 
 
@@ -113,6 +120,14 @@ def _write_point(folder: Path, data: xarray.Dataset, point: PumpPoint, summary: 
     data.to_netcdf(folder / "results.nc", engine="h5netcdf")
     write_tables(folder, data)
     write_pair_table(folder / "pairs.csv", point, summary)
+
+
+def _tell_forces(folder: Path, joints: JointForces, point: PumpPoint, summary: dict[str, Any]) -> None:
+    """Write forces.csv and tell the summary of it, with what was taken of places."""
+    write_forces(folder, joints)
+    summary["forces"] = forces_summary(joints, point)
+    places = [str(taken) for taken in joints.group.places.taken]
+    summary["assumptions"] += [taken for taken in places if taken not in summary["assumptions"]]
 
 
 def draw_gaps(folder: Path, films: FilmsPoint) -> list[str]:

@@ -267,6 +267,8 @@ class BearingsSection(Section):
     rear_diameter: Length
     front_share: Fraction
     rear_share: Fraction
+    front_position: AnyLength | None = None  # above the valve plate, of the bearings' middles
+    rear_position: AnyLength | None = None
 
 
 class FrictionSection(Section):

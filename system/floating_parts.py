@@ -193,14 +193,20 @@ def _slipper(pump: PumpDescription, laws: FilmLaws, taken: Taken) -> SlipperPart
     return SlipperParts(height, flow, Profile(tuple(shapes)), _retainer(pump, taken), laws)
 
 
+def retainer_kind(pump: PumpDescription, taken: Taken) -> RetainerKind:
+    """How the pump keeps its slippers on the plate, stated or taken."""
+    part = pump.retainer
+    if part.kind is not None:
+        return part.kind
+    spring = pump.ball_guide.spring_preload > 0.0 and part.clearance is None and part.stiffness is None
+    kind = RetainerKind.SPRING if spring else RetainerKind.CLEARANCE
+    reason = "the ball guide has a spring" if spring else "no spring presses, or a clearance is stated"
+    taken.note("retainer.kind", kind.value, reason)
+    return kind
+
+
 def _retainer(pump: PumpDescription, taken: Taken) -> RetainerParts:
-    part, spring = pump.retainer, pump.ball_guide.spring_preload > 0.0
-    kind = part.kind
-    if kind is None:
-        spring = spring and part.clearance is None and part.stiffness is None
-        kind = RetainerKind.SPRING if spring else RetainerKind.CLEARANCE
-        reason = "the ball guide has a spring" if spring else "no spring presses, or a clearance is stated"
-        taken.note("retainer.kind", kind.value, reason)
+    part, kind = pump.retainer, retainer_kind(pump, taken)
     rises = {
         RetainerKind.CLEARANCE: "usual play of a retainer",
         RetainerKind.SPRING: "some films more than the other slippers have, which hold the plate",
@@ -216,11 +222,16 @@ def _retainer(pump: PumpDescription, taken: Taken) -> RetainerParts:
     return RetainerParts(kind, clearance, stiffness)
 
 
-def _block(pump: PumpDescription, laws: FilmLaws, taken: Taken) -> BlockParts:
-    height = taken.value(
+def spline_height(pump: PumpDescription, taken: Taken) -> float:
+    """Height (m) over the valve plate at which the shaft holds the block sideways, stated or taken."""
+    return taken.value(
         "block.spline_position", pump.block.spline_position, ball_plane_height(pump),
         "where the plane of the ball centres cuts the shaft", Dimension.LENGTH,
     )  # fmt: skip
+
+
+def _block(pump: PumpDescription, laws: FilmLaws, taken: Taken) -> BlockParts:
+    height = spline_height(pump, taken)
     waves, rows = pump.valve_plate.waviness, pump.valve_plate.profile
     shapes: list[Shape] = [] if rows is None else [measured(rows)]
     if waves is not None:

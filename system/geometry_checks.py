@@ -303,6 +303,15 @@ def bearings_share_the_side_force(pump: PumpDescription) -> Iterator[Finding]:
         )
 
 
+@needs("bearings.front_position", "bearings.rear_position")
+def front_bearing_is_before_the_rear(pump: PumpDescription) -> Iterator[Finding]:
+    """Heights over the valve plate grow towards the swash plate, where the front bearing is."""
+    front, rear = pump.bearings.front_position, pump.bearings.rear_position
+    if front is not None and rear is not None and front <= rear:
+        found = f"{length(front)} with a rear bearing at {length(rear)}"
+        yield Fault("bearings.front_position", found, "above rear_position: heights over the valve plate")
+
+
 GEOMETRY_CHECKS = (
     swash_plate_cuts_every_bore,
     displacement_is_that_of_the_geometry,
@@ -319,4 +328,5 @@ GEOMETRY_CHECKS = (
     bores_clear_each_other,
     piston_stays_in_its_bore,
     bearings_share_the_side_force,
+    front_bearing_is_before_the_rear,
 )

@@ -41,7 +41,8 @@ def summary(folder):
 def test_the_folder_holds_what_the_files_page_says(folder):
     names = {path.name for path in folder.iterdir()}
     assert names >= {
-        "input.toml", "resolved.toml", "summary.json", "results.nc", "revolution.csv", "pairs.csv", "report.html",
+        "input.toml", "resolved.toml", "summary.json", "results.nc", "revolution.csv", "pairs.csv", "forces.csv",
+        "report.html",
         "fields", "pump.pvd",
     }  # fmt: skip
     assert names >= {f"{gap}{end}" for gap in GAPS for end in (".csv", "_convergence.csv", ".pvd")}

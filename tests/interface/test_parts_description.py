@@ -48,6 +48,8 @@ EVERY = {
     "valve_plate.profile": [["26 mm", "0 um"], ["46 mm", "1 um"]],
     "ports.webs": [["60 deg", "4 deg"], ["100 deg", "5 deg"]],
     "block.spline_position": "80 mm",
+    "bearings.front_position": "150 mm",
+    "bearings.rear_position": "-10 mm",
     "oil.pressure_viscosity": "18 1/GPa",
     "oil.thermal_conductivity": "0.13 W/(m K)",
     "oil.thermal_expansion": "7e-4 1/K",

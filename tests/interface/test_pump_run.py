@@ -36,7 +36,8 @@ def summary(folder):
 def test_lumped_folder_holds_what_the_contract_says(lumped):
     names = {path.name for path in lumped.iterdir()}
     assert names >= {
-        "input.toml", "resolved.toml", "summary.json", "results.nc", "revolution.csv", "pairs.csv", "report.html",
+        "input.toml", "resolved.toml", "summary.json", "results.nc", "revolution.csv", "pairs.csv", "forces.csv",
+        "report.html",
     }  # fmt: skip
     found = summary(lumped)
     assert found["kind"] == "pump"
@@ -47,7 +48,7 @@ def test_lumped_folder_holds_what_the_contract_says(lumped):
 
 
 def test_every_headline_number_carries_its_unit(lumped):
-    units = re.compile(r"_(Pa|Pa_s|W|K|Nm|rad|m|m2|m3_per_s|m3_per_rev|rad_per_s)$")
+    units = re.compile(r"_(Pa|Pa_s|W|K|N|Nm|rad|m|m2|m3_per_s|m3_per_rev|rad_per_s)$")
     bare = re.compile(
         r"(^format$|ratio$|share$|error$|error_max$|overall|volumetric|hydromechanical|revolutions|steps|rounds"
         r"|fraction|angles|unknowns)"
@@ -204,3 +205,18 @@ def test_films_report_shows_the_gaps(films):
     assert "The three gaps" in page
     assert page.count("data:image/png") >= 7
     assert "load_not_carried" in page
+
+
+def test_forces_between_the_parts_are_told(lumped):
+    """A table over the turn with units in its head, and a section of the page whose sums close."""
+    forces = pandas.read_csv(lumped / "forces.csv")
+    assert len(forces) == 360
+    assert all(re.search(r" \[(N|N m|deg)\]$", name) for name in forces.columns)
+    found = summary(lumped)["forces"]
+    assert max(found["closure"].values()) < 1e-12
+    assert forces["drive_torque_on_shaft [N m]"].mean() == pytest.approx(
+        found["sizes"]["drive_torque_on_shaft"]["mean_Nm"], rel=1e-9
+    )
+    page = (lumped / "report.html").read_text("utf-8")
+    assert "Forces between the parts" in page
+    assert "bearings.front_position" in page

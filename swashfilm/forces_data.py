@@ -1,0 +1,150 @@
+"""Forces between the parts as a table over the turn (forces.csv), and as the summary tells them."""
+
+from __future__ import annotations
+
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from system import pairs
+from system.assembly import PumpPoint
+from system.kinematics import Array
+from system.lumped import piston_forces, piston_motion
+from system.multibody.closure import closure
+from system.multibody.group_kinematics import SHAFT
+from system.multibody.retainer_body import guide_loss
+from system.multibody.rotating_group import JointForces
+from system.retainer import BallGuide
+
+TABLE = "forces.csv"
+Columns = dict[str, tuple[str, Array]]
+
+
+def force_columns(joints: JointForces) -> Columns:
+    """Every joint over the shaft angle, by name: unit and values (N,); what belongs to a chamber is chamber 1's.
+
+    A name says which part acts on which; x, y, z of the pump's frame, moments of the valve plate about the
+    middle of its face, of the trunnion about the pivot.
+    """
+    one, held, axes = joints.sets[0], joints.hold, joints.group.plate_axes
+    rubbing = axes[:2] @ one.plate
+    pivot = joints.group.places.pivot * SHAFT
+    trunnion, valve, spline = joints.plate.trunnion, joints.block.valve_plate, joints.block.spline
+    about_pivot = trunnion[3:] - np.cross(pivot, trunnion[:3], axis=0)
+    guide = np.broadcast_to(joints.guide.force[:, None], one.ball.shape)
+    return {
+        **_vector("piston_on_slipper", one.ball),
+        "plate_on_slipper_normal": ("N", one.lift),
+        "plate_on_slipper_steepest": ("N", rubbing[0]),
+        "plate_on_slipper_across": ("N", rubbing[1]),
+        **_vector("bore_edge_on_piston", one.edge),
+        **_vector("bore_inner_on_piston", one.inner),
+        "pressure_and_friction_on_piston": ("N", joints.loads[0].known.along_bore),
+        "retainer_on_slipper_normal": ("N", held.pressing),
+        **_vector("retainer_on_slipper_in_plate", held.pushing),
+        **_vector("guide_on_retainer", guide),
+        **_vector("shaft_on_guide", joints.guide_spline, "xy"),
+        **_vector("shaft_on_block", spline, "xy"),
+        "shaft_on_block_torque": ("N m", spline[5]),
+        "valve_plate_on_block_z": ("N", valve[2]),
+        **_vector("valve_plate_on_block_moment", valve[3:], unit="N m"),
+        **_vector("front_bearing_on_shaft", joints.shaft.front),
+        **_vector("rear_bearing_on_shaft", joints.shaft.rear, "xy"),
+        **_vector("trunnion_on_plate", trunnion),
+        **_vector("trunnion_on_plate_moment", about_pivot, unit="N m"),
+        "control_moment_on_plate": ("N m", joints.plate.control),
+        "drive_torque_on_shaft": ("N m", joints.shaft.torque),
+    }
+
+
+def _vector(name: str, values: Array, axes: str = "xyz", unit: str = "N") -> Columns:
+    return {f"{name}_{axis}": (unit, row) for axis, row in zip(axes, values[: len(axes)], strict=True)}
+
+
+def write_forces(folder: Path, joints: JointForces) -> None:
+    """Write forces.csv, units in the head."""
+    columns = {"shaft_angle": ("deg", np.degrees(joints.group.shaft_angle)), **force_columns(joints)}
+    head = ",".join(f"{name} [{unit}]" for name, (unit, _) in columns.items())
+    rows = np.stack([values for _, values in columns.values()], axis=-1)
+    np.savetxt(folder / TABLE, rows, fmt="%.10g", delimiter=",", header=head, comments="")
+
+
+def read_forces(folder: Path) -> dict[str, Array]:
+    """The columns of a folder's forces.csv by name, without their units."""
+    path = folder / TABLE
+    names = path.read_text("utf-8").splitlines()[0].split(",")
+    values = np.loadtxt(path, delimiter=",", skiprows=1, ndmin=2)
+    return {name.partition(" [")[0]: values[:, k] for k, name in enumerate(names)}
+
+
+def forces_summary(joints: JointForces, found: PumpPoint) -> dict[str, Any]:
+    """What the summary tells of the joints: closing errors, sizes over the turn, and what losses are taken by
+    instead.
+
+    sizes: mean, least and largest of each joint's force or moment. nominal_law: by joints, by the law of the
+    losses.
+    """
+    torque = found.shaft_torque
+    return {
+        "closure": {f"{name}_error": value for name, value in asdict(closure(joints)).items()}
+        | {"torque_error": float(np.max(np.abs(joints.shaft.torque - torque)) / np.mean(np.abs(torque)))},
+        "sizes": {name: _spread(unit, values) for name, (unit, values) in _sizes(joints).items()},
+        "nominal_law": _laws(joints, found),
+    }
+
+
+def _spread(unit: str, values: Array) -> dict[str, float]:
+    found = {"mean": np.mean(values), "min": np.min(values), "max": np.max(values)}
+    return {f"{part}_{unit}": float(value) for part, value in found.items()}
+
+
+def _sizes(joints: JointForces) -> dict[str, tuple[str, Array]]:
+    """Unit and course over the turn of each joint: a force's size, or with its sign where it has one direction."""
+    one = joints.sets[0]
+    forces = {
+        "piston_on_slipper": one.ball,
+        "bore_edge_on_piston": one.edge,
+        "bore_inner_on_piston": one.inner,
+        "retainer_on_slipper_in_plate": joints.hold.pushing,
+        "guide_on_retainer": np.broadcast_to(joints.guide.force[:, None], one.ball.shape),
+        "shaft_on_guide": joints.guide_spline[:3],
+        "shaft_on_block": joints.block.spline[:3],
+        "valve_plate_on_block": joints.block.valve_plate[:3],
+        "front_bearing_on_shaft": joints.shaft.front[:3],
+        "rear_bearing_on_shaft": joints.shaft.rear[:3],
+        "trunnion_on_plate": joints.plate.trunnion[:3],
+    }
+    return {
+        **{name: ("N", np.linalg.norm(force, axis=0)) for name, force in forces.items()},
+        "plate_on_slipper_normal": ("N", one.lift),
+        "retainer_on_slipper_normal": ("N", joints.hold.pressing),
+        "valve_plate_on_block_tipping": ("Nm", np.hypot(*joints.block.valve_plate[3:5])),
+        "control_moment_on_plate": ("Nm", joints.plate.control),
+        "drive_torque_on_shaft": ("Nm", joints.shaft.torque),
+    }
+
+
+def _laws(joints: JointForces, found: PumpPoint) -> dict[str, dict[str, float]]:
+    """Where REF90's nominal losses take a simpler force: mean over the turn by joints, and by the law."""
+    pump, point = joints.group.pump, found.point
+    motion, guide = piston_motion(pump, point), pump.ball_guide
+    _, side = piston_forces(pump, point, motion, found.cycle)
+    lever = (motion.engaged_length + 2.0 * motion.overhang) / motion.engaged_length
+    sides, one = float(np.mean(pairs.over_chambers([side], found.pistons))), joints.sets[0]
+    ends = np.linalg.norm(one.edge, axis=0) + np.linalg.norm(one.inner, axis=0)
+    circle = BallGuide(guide.radius, guide.contact_latitude)
+    friction, speed = pump.friction.ball_guide_retainer, point.shaft_speed
+    rubbing = guide_loss(friction, joints.group.spring, circle, joints.group.plate_axes, speed)
+    radial = [float(np.mean(np.hypot(force[0], force[1]))) for force in (joints.shaft.front, joints.shaft.rear)]
+    bore = float(np.mean(ends)), float(np.mean(side * lever))
+    return {
+        "bore_reactions_of_a_piston": {"joints_N": bore[0], "law_N": bore[1]},
+        "front_bearing": {"joints_N": radial[0], "law_N": pump.bearings.front_share * sides},
+        "rear_bearing": {"joints_N": radial[1], "law_N": pump.bearings.rear_share * sides},
+        "ball_guide_retainer_loss": {
+            "joints_W": rubbing,
+            "law_W": rubbing * float(joints.group.plate_axes[2, 2]),
+        },
+    }

@@ -1,0 +1,31 @@
+"""Forces between all parts where the gaps float: friction and pressure are those of the solved films."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from system.floating import FloatingKind, FloatingPoint
+from system.kinematics import Array
+from system.multibody.joints import SetLoads
+from system.multibody.rotating_group import ChamberLoads, JointForces, joined, levers, turning_group
+from system.shaft_torque import GroupMasses
+from system.unlike import kinds
+
+
+def floating_joint_forces(found: FloatingPoint) -> JointForces:
+    """The forces between all parts of a pump with floating gaps; spins of piston and slipper included."""
+    pump = found.rotor.pump
+    group = turning_group(pump, found.pump_point.point)
+    each = [_loads(kind, group.ball.axis, group.plate_axes) for kind in found.kinds]
+    return joined(group, kinds(pump).by_chamber(each), found.pump_point)
+
+
+def _loads(kind: FloatingKind, axis: Array, plate_axes: Array) -> ChamberLoads:
+    """What `floating_drives.group_instant` found: the piston's balance along its bore, friction in the plate."""
+    pump = kind.rotor.pump
+    masses = GroupMasses(pump.piston.mass, pump.slipper.mass, kind.parts.piston.centre_of_mass)
+    at = kind.drives.group
+    along = [float(one.forces.ball @ a - one.inertia[0] @ a) for one, a in zip(at, axis.T, strict=True)]
+    in_plate = np.array([one.plate - (one.plate @ plate_axes[2]) * plate_axes[2] for one in at]).T
+    known = SetLoads(np.array(along), in_plate, np.array([one.ball_moment for one in at]).T)
+    return ChamberLoads(masses, levers(pump, kind.rotor.point), known)
