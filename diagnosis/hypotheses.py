@@ -91,7 +91,6 @@ def together(first: Hypothesis, second: Hypothesis, penalty: float) -> Hypothesi
         widened=first.widened + second.widened,
         log_prior=first.log_prior + second.log_prior + log(penalty),
         laws=first.laws + second.laws,
-        reach=max(first.reach, second.reach),
     )
 
 

@@ -42,7 +42,7 @@ def refit(study: Study, hypothesis: Hypothesis, thresholds: Thresholds, hopeless
     hopeless: an objective above which a fit is left where it stands. Raises NotConverged where no member comes to
     a peak.
     """
-    near = _refitted(study, hypothesis, thresholds, hopeless)
+    near = _refitted(study, replace(hypothesis, reach=1.0), thresholds, hopeless)
     if not _strained(near):
         return near
     try:
