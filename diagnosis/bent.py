@@ -6,8 +6,9 @@ That effect is believed only if it does better than the first one's own pattern,
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
+from functools import cache
 from math import inf
 
 from scipy.special import logsumexp
@@ -22,6 +23,8 @@ from system.estimation.evidence import multiplier_evidence
 from system.estimation.posterior import settled
 from system.physics.effects import Kind
 
+Evidence = Callable[[Weighed], float | None]
+
 OWN = 4.0  # a law that is off by half of itself, a fifth of the mismatch in square, is another law
 
 
@@ -33,25 +36,12 @@ def without_stand_ins(study: Study, weighed: Sequence[Weighed], thresholds: Thre
     form is not all. So it is with unknown physics, a component bent freely: it stands in where one law, bent, does
     as well, and its own form explains OWN times what the bending adds.
     """
-    bent = _Bent(study, thresholds)
+    bent: Evidence = cache(lambda each: bent_evidence(study, each, thresholds))
     null = next((each for each in weighed if each.hypothesis.kind is Kind.NO_MISMATCH), None)
     known = [each for each in weighed if each.hypothesis.component is None]
     unknown = [each for each in weighed if each.hypothesis.component is not None]
     cut = [_cut(each, known, bent, thresholds) for each in known]
     return (*cut, *(unknown if null is None else _known_after_all(unknown, known, null, bent, thresholds)))
-
-
-class _Bent:
-    """Evidences of explanations with their laws bent, each found once."""
-
-    def __init__(self, study: Study, thresholds: Thresholds) -> None:
-        self.study, self.thresholds = study, thresholds
-        self.found: dict[int, float | None] = {}
-
-    def evidence(self, weighed: Weighed) -> float | None:
-        if id(weighed) not in self.found:
-            self.found[id(weighed)] = bent_evidence(self.study, weighed, self.thresholds)
-        return self.found[id(weighed)]
 
 
 def bent_evidence(study: Study, weighed: Weighed, thresholds: Thresholds) -> float | None:
@@ -72,13 +62,13 @@ def bent_evidence(study: Study, weighed: Weighed, thresholds: Thresholds) -> flo
     )
 
 
-def _cut(whole: Weighed, weighed: Sequence[Weighed], bent: _Bent, thresholds: Thresholds) -> Weighed:
+def _cut(whole: Weighed, weighed: Sequence[Weighed], bent: Evidence, thresholds: Thresholds) -> Weighed:
     """An explanation, or the least part of it on which the rest stands."""
     odds = thresholds.name.odds
     parts = [each for each in weighed if _is_part(each, whole) and each.log_weight < whole.log_weight - odds]
     stands: list[tuple[Weighed, float]] = []
     for each in parts:
-        found = bent.evidence(each)
+        found = bent(each)
         if found is not None and found >= whole.log_evidence - odds:
             stands.append((each, found))
     if not stands:
@@ -88,7 +78,7 @@ def _cut(whole: Weighed, weighed: Sequence[Weighed], bent: _Bent, thresholds: Th
 
 
 def _known_after_all(
-    unknown: Sequence[Weighed], known: Sequence[Weighed], null: Weighed, bent: _Bent, thresholds: Thresholds
+    unknown: Sequence[Weighed], known: Sequence[Weighed], null: Weighed, bent: Evidence, thresholds: Thresholds
 ) -> tuple[Weighed, ...]:
     """Unknown physics, with what a law bent does as well as gathered into one explanation by that law."""
     ahead = max((each.log_weight for each in known), default=-inf)
@@ -98,7 +88,7 @@ def _known_after_all(
     for each in known:
         gained = each.log_evidence - null.log_evidence
         single = len(each.hypothesis.effects) == 1 and gained > thresholds.name.odds
-        found = bent.evidence(each) if single else None
+        found = bent(each) if single else None
         if found is not None and OWN * (found - each.log_evidence) < gained:
             standing.append((each, found))
     law, most = max(standing, key=lambda one: one[1] + one[0].hypothesis.log_prior, default=(null, -inf))
