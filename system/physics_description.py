@@ -13,13 +13,16 @@ from pydantic import Field, model_validator
 from system.fields import Fraction, NotNegative, Section
 from system.units import STANDARD_ATMOSPHERE, Dimension
 
+_WallResistance = Annotated[float, Dimension.THERMAL_RESISTANCE, Field(ge=0.0, le=2e-3)]
 _Boundary = Annotated[float, Field(ge=0.0, le=0.12)]
 
 
 class FilmHeatingSection(Section):
-    """[physics.film_heating]: films warmer than the case."""
+    """[physics.film_heating]: films warmer than the case; resistances of their walls by gap."""
 
-    resistance: Annotated[float, Dimension.THERMAL_RESISTANCE, Field(ge=0.0, le=2e-3)] = 0.0
+    piston: _WallResistance = 0.0
+    slipper: _WallResistance = 0.0
+    valve_plate: _WallResistance = 0.0
     carried_share: Fraction = 0.0
 
 

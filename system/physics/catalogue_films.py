@@ -61,7 +61,10 @@ FILM_ENTRIES = (
             _one(
                 EffectId.FILM_HEATING,
                 film_heating,
-                ("resistance", 5e-5, 2e-3, Dimension.THERMAL_RESISTANCE, "6.6e-5 of ref90's films, solved"),
+                *(
+                    (gap.value, 5e-5, 2e-3, Dimension.THERMAL_RESISTANCE, "6.6e-5 of ref90's films, solved")
+                    for gap in Gap
+                ),
                 ("carried_share", 0.1, 1.0, None, "1: walls that take no heat"),
             ),
         ),

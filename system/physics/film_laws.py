@@ -101,18 +101,18 @@ def shear_thinning(values: Values, courses: Courses, state: BenchState) -> Effec
 def film_heating(values: Values, courses: Courses, state: BenchState) -> Effects:
     """Films warmer than the case: what they lose and throttle, less what walls and oil take off.
 
-    `resistance` R (m2 K/W): of the walls' way to the case; `carried_share` s: of the heat, that leaves with the
-    oil before it comes to a wall. Mean rise of a film over the turn by `film_rise`; viscosity at that temperature
-    serves leakage and shear, both in balance with it.
+    `piston`, `slipper`, `valve_plate` R (m2 K/W): of the way through the gap's walls to the case; `carried_share`
+    s: of the heat, that leaves with the oil before it comes to a wall. Mean rise of a film over the turn by
+    `film_rise`; viscosity at that temperature serves leakage and shear, both in balance with it.
     """
     ratios = []
     for gap in GAPS:
-        ratio = warmed(state, film_rise(values, courses[gap], state))
+        ratio = warmed(state, film_rise(values[gap.value], values["carried_share"], courses[gap], state))
         ratios.append(ratio[:, None] * np.ones_like(courses[gap].film))
     return _in_films(courses, state, [1.0 / ratio for ratio in ratios], ratios)
 
 
-def film_rise(values: Values, own: GapCourse, state: BenchState) -> Array:
+def film_rise(resistance: float, share: float, own: GapCourse, state: BenchState) -> Array:
     """Kelvin (N,) by which a film is warmer than the case: heat P over G = A/R to the walls and C with the oil.
 
     P: the pair's loss, Coulomb and shear, and 0.45 K/MPa of throttling; C = rho c (leakage + h U w/2, the cool oil
@@ -129,9 +129,7 @@ def film_rise(values: Values, own: GapCourse, state: BenchState) -> Array:
     for _ in range(WARM_PASSES):
         ratio = warmed(state, rise)
         carried = drawn + leaked / ratio
-        kept = (values["resistance"] + values["carried_share"] * area / carried) / (
-            area + values["resistance"] * carried
-        )
+        kept = (resistance + share * area / carried) / (area + resistance * carried)
         image = (rubbed + ratio * sheared + throttled / ratio) * kept
         rise = rise + (image - rise) / (1.0 + THINNING * image)
     return rise

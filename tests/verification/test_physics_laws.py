@@ -77,7 +77,7 @@ def test_heating_meets_nahme_while_it_is_small(walls, factor):
     film, conductivity, at = 10e-6, 0.13, state(2100)
     shear = float(at.viscosity[0]) * 9.9**2 / film
     heated = courses(pressure=0.0, film=film, viscous=shear, leakage=0.0, width=1e-6, area=1.0)
-    values = {"resistance": film / (walls * conductivity), "carried_share": 0.0}
+    values = {gap.value: film / (walls * conductivity) for gap in Gap} | {"carried_share": 0.0}
     assert film_laws.film_heating(values, heated, at).viscous[1] == pytest.approx(factor, abs=0.012)
 
 
@@ -85,8 +85,7 @@ def test_heating_meets_nahme_while_it_is_small(walls, factor):
 def test_heating_solves_its_balance(resistance, share):
     """Heat of loss and throttling is what the walls take and the oil takes away; it thins by 2.5 %/K: to 1e-3."""
     at, given = state(2100), courses(coulomb=120.0, viscous=90.0)
-    values = {"resistance": resistance, "carried_share": share}
-    (rise,) = film_laws.film_rise(values, given[Gap.PISTON], at)
+    (rise,) = film_laws.film_rise(resistance, share, given[Gap.PISTON], at)
     ratio = float(warmed(at, np.array([rise]))[0])
     heat = REF90.oil.density * REF90.oil.specific_heat
     carried = heat * (5e-6 / ratio + 0.5 * 0.028 * 10e-6 * 9.9) * rise
@@ -98,14 +97,15 @@ def test_heating_solves_its_balance(resistance, share):
         )
     else:
         assert carried == pytest.approx(share * gained, rel=1e-3)
+    values = {"piston": resistance, "slipper": 0.0, "valve_plate": 0.0, "carried_share": share}
     assert film_laws.film_heating(values, given, at).viscous[0, 0, 0] == pytest.approx(ratio, rel=1e-12)
 
 
 def test_heat_that_no_wall_takes_leaves_with_the_oil():
     """Both limits of one film: walls that take nothing, and a share of one."""
     at, given = state(2100), courses(coulomb=120.0, viscous=90.0)[Gap.PISTON]
-    insulated = film_laws.film_rise({"resistance": 1e6, "carried_share": 0.0}, given, at)
-    outright = film_laws.film_rise({"resistance": 0.0, "carried_share": 1.0}, given, at)
+    insulated = film_laws.film_rise(1e6, 0.0, given, at)
+    outright = film_laws.film_rise(0.0, 1.0, given, at)
     assert insulated == pytest.approx(outright, rel=1e-5)
     assert insulated[0] == pytest.approx(20.0, abs=10.0)
 
