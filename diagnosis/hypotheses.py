@@ -48,11 +48,25 @@ class Hypothesis:
         return (*(parameter.name for parameter in self.extra), *self.widened)
 
     @property
+    def subjects(self) -> tuple[Extension | str, ...]:
+        """What each effect is about: its law, or the parameter that it widens ("" of the unknown). An effect may
+        act at several gaps, a law each.
+        """
+        laws, widened = list(self.laws), iter(self.widened)
+        found: list[Extension | str] = []
+        for effect in self.effects:
+            law = next((one for one in laws if one.id is effect), None)
+            if law is None:
+                found.append(next(widened, ""))
+            else:
+                laws.remove(law)
+                found.append(law)
+        return tuple(found)
+
+    @property
     def places(self) -> tuple[Gap | None, ...]:
         """The gap of each effect: of its law, or of the parameter that it is about."""
-        gaps = {law.id: law.pair for law in self.laws}
-        widened = iter(self.widened)
-        return tuple(gaps[effect] if effect in gaps else gap_of(next(widened, "")) for effect in self.effects)
+        return tuple(gap_of(one) if isinstance(one, str) else one.pair for one in self.subjects)
 
     @property
     def text(self) -> str:

@@ -281,14 +281,10 @@ def _estimates(best: Weighed, at: int) -> tuple[Estimate, ...]:
     posterior, own = best.posterior, best.hypothesis
     if posterior is None:
         return ()
-    laws = {law.id: law for law in own.laws}
-    effect = own.effects[at]
-    if effect in laws:
-        names = [one.name for one in laws[effect].free]
-    else:
-        without = [each for each in own.effects if each not in laws]
-        names = [own.widened[without.index(effect)]]
-    return tuple(_estimate(posterior, name, effect in laws) for name in names)
+    subject = own.subjects[at]
+    if isinstance(subject, str):
+        return (_estimate(posterior, subject, False),)
+    return tuple(_estimate(posterior, one.name, True) for one in subject.free)
 
 
 def _estimate(posterior: Posterior, name: str, short: bool) -> Estimate:

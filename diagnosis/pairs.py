@@ -13,6 +13,8 @@ from diagnosis.thresholds import Thresholds
 from diagnosis.weighed import Weighed
 from system.estimation.posterior import Posterior, settled
 from system.gap_cycle import Report
+from system.physics.effects import EffectId
+from system.pump_gap import Gap
 from system.side_by_side import Crew
 
 REFITTED = 2  # of the additions to the best, and of the pairs at the prior mean
@@ -89,8 +91,13 @@ def _best_member(study: Study, posterior: Posterior, both: Hypothesis, threshold
 
 
 def _apart(one: Hypothesis, other: Hypothesis) -> bool:
-    """Whether two explanations set different things free."""
-    return not set(one.open_names) & set(other.open_names) and not set(one.effects) & set(other.effects)
+    """Whether two explanations set different things free: other effects, or one law at other gaps."""
+    return not set(one.open_names) & set(other.open_names) and not _acting(one) & _acting(other)
+
+
+def _acting(one: Hypothesis) -> set[tuple[EffectId, Gap | None]]:
+    places = (None if isinstance(subject, str) else subject.pair for subject in one.subjects)
+    return set(zip(one.effects, places, strict=True))
 
 
 def _holds(tried: Sequence[Weighed], other: Weighed) -> bool:
