@@ -11,10 +11,13 @@ import numpy as np
 
 from diagnosis.next_point import NextPoint
 from diagnosis.recording import Recording
+from diagnosis.repair import repair
 from diagnosis.shown import channel_unit, difference, reading
 from diagnosis.study import Study
+from diagnosis.thresholds import Thresholds
 from diagnosis.verdict import Diagnosis
 from system.channels import ChannelName
+from system.estimation.observations import Array
 from system.estimation.parameters import Parameter
 from system.estimation.posterior import Posterior
 from system.units import Dimension
@@ -35,12 +38,20 @@ def steady_rows(recording: Recording) -> Iterator[Row]:
         yield row
 
 
-def residual_rows(study: Study, diagnosis: Diagnosis) -> Iterator[Row]:
+def added_by_claim(study: Study, diagnosis: Diagnosis, thresholds: Thresholds) -> Array:
+    """(N, C) in SI, what the claimed effects add to the simulated readings, all else as fitted; 0 for no claim."""
+    if not diagnosis.effects:
+        return np.zeros_like(study.observations.values)
+    return repair(study, diagnosis.hypotheses[0], thresholds).added
+
+
+def residual_rows(study: Study, diagnosis: Diagnosis, thresholds: Thresholds) -> Iterator[Row]:
     """Each reading: where it was taken, measured and simulated by the null and by what is claimed, pulls.
 
-    sigma is that of a reading, the noise of the point's inputs included; pull = (measured - simulated) / sigma.
+    sigma is that of a reading, the noise of the point's inputs included; pull = (measured - simulated) / sigma;
+    added: what the claimed effects have in the reading simulated after.
     """
-    order = list(ChannelName)
+    order, added = list(ChannelName), added_by_claim(study, diagnosis, thresholds)
     sigma = diagnosis.before.whitening.sigma
     before, after = diagnosis.before.predictions, diagnosis.after.predictions
     for point, at in np.argwhere(study.observations.measured):
@@ -60,6 +71,7 @@ def residual_rows(study: Study, diagnosis: Diagnosis) -> Iterator[Row]:
             "measured": _text(reading(channel, measured)),
             "before": _text(reading(channel, before[point, at])),
             "after": _text(reading(channel, after[point, at])),
+            "added": _text(difference(channel, added[point, at])),
             "sigma": _text(difference(channel, one)),
             "pull_before": _text((measured - before[point, at]) / one),
             "pull_after": _text((measured - after[point, at]) / one),

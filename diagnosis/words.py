@@ -44,14 +44,15 @@ def _verdict(diagnosis: Diagnosis) -> str:
     if diagnosis.kind is Kind.NO_MISMATCH:
         return f"Simulation and recording agree within noise and tolerance ({_misfit(diagnosis)})."
     if diagnosis.kind is Kind.UNKNOWN_PHYSICS:
-        return f"{_where(diagnosis)}: {_unknown(diagnosis)}."
+        unknown = _unknown(diagnosis)
+        return f"{_where(diagnosis)}. {unknown[0].upper()}{unknown[1:]}."
     said = "; besides, ".join(_claim(claim) for claim in diagnosis.effects)
     ends = {
         Status.INCOMPLETE: "The name is sure, but a part of the mismatch remains that it does not explain.",
         Status.CLASS: _class(diagnosis),
         Status.NAMED: "",
     }
-    return f"{_where(diagnosis)}: {said}. {ends[diagnosis.status]}".rstrip()
+    return f"{_where(diagnosis)}. {said[0].upper()}{said[1:]}. {ends[diagnosis.status]}".rstrip()
 
 
 def paragraphs(diagnosis: Diagnosis) -> tuple[str, ...]:
@@ -105,10 +106,11 @@ def _where(diagnosis: Diagnosis) -> str:
     """Channels, whether they read more or less, part of the map, time; what the difference grows with."""
     location, scaling = diagnosis.location, diagnosis.scaling
     channels = listed(map(channel_words, location.channels)) or "no single channel"
-    if scaling is not None and location.channels == (scaling.channel,):
-        channels += f" reads {'higher' if scaling.above else 'lower'} than simulated"
     place = ", ".join([channels[0].upper() + channels[1:], *_places(location)])
-    return place if scaling is None else f"{place}; the difference in {scaling.channel.value} {_course(scaling)}"
+    if scaling is None:
+        return place
+    side = "higher" if scaling.above else "lower"
+    return f"{place}: {scaling.channel.value} reads {side} than simulated, by what {_course(scaling)}"
 
 
 def _places(location: Location) -> Iterator[str]:

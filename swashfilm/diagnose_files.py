@@ -9,7 +9,6 @@ from typing import Any
 
 from diagnosis.diagnosis_file import write_diagnosis
 from diagnosis.diagnosis_tables import (
-    Row,
     hypothesis_rows,
     next_point_rows,
     parameter_rows,
@@ -21,6 +20,7 @@ from diagnosis.recording import DataNote
 from diagnosis.study import Study
 from diagnosis.thresholds import Thresholds
 from diagnosis.verdict import Diagnosis
+from swashfilm.diagnose_runs import NOTHING, Told
 from swashfilm.run_folder import write_json
 
 KIND = "diagnosis"
@@ -32,20 +32,21 @@ def write_diagnosis_files(
     diagnosis: Diagnosis,
     thresholds: Thresholds,
     assumptions: Sequence[str] = (),
-    losses: Iterable[Row] = (),
+    told: Told = NOTHING,
 ) -> None:
     """Write diagnosis.json, summary.json, six tables and report.html into a run folder.
 
-    assumptions: what was taken of the pump; losses: rows of `diagnose_losses.loss_rows`.
+    assumptions: what was taken of the pump; told: of the pump run without and with the finding.
     """
     write_rows(folder / "steady.csv", steady_rows(study.recording))
-    write_rows(folder / "residuals.csv", residual_rows(study, diagnosis))
+    write_rows(folder / "residuals.csv", residual_rows(study, diagnosis, thresholds))
     write_rows(folder / "hypotheses.csv", hypothesis_rows(diagnosis))
     write_rows(folder / "parameters.csv", parameter_rows(diagnosis))
     write_rows(folder / "next_points.csv", next_point_rows(diagnosis.next_point))
-    write_rows(folder / "losses.csv", losses)
+    write_rows(folder / "changes.csv", told.rows)
     write_diagnosis(folder / "diagnosis.json", diagnosis)
-    write_json(folder / "summary.json", diagnosis_summary(study, diagnosis, thresholds, assumptions))
+    summary = diagnosis_summary(study, diagnosis, thresholds, assumptions)
+    write_json(folder / "summary.json", summary | {"runs": told.text})
     from swashfilm.diagnose_page import write_diagnose_page
 
     write_diagnose_page(folder)

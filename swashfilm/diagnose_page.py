@@ -11,13 +11,15 @@ from typing import Any
 from diagnosis.diagnosis_file import read_diagnosis
 from swashfilm import diagnose_plots
 from swashfilm.diagnose_files import read_rows
+from swashfilm.diagnose_runs import WITH, WITHOUT
 from system.faults import Fault, InputFaults
+from system.units import Dimension, in_unit, reading_unit
 
 FILES = (
     "summary.json", "diagnosis.json", "residuals.csv", "hypotheses.csv", "parameters.csv", "next_points.csv",
-    "losses.csv",
+    "changes.csv",
 )  # fmt: skip
-TABLES = ("residuals", "hypotheses", "parameters", "next_points", "losses")
+TABLES = ("residuals", "hypotheses", "parameters", "next_points", "changes")
 MOST_POINTS = 8
 AXES = {"speed": "speed [rpm]", "pressure": "p_out [bar]", "displacement": "displacement_ratio [1]",
         "viscosity": "T_case [degC]"}  # fmt: skip
@@ -35,8 +37,9 @@ def write_diagnose_page(folder: Path) -> Path:
     found = read_diagnosis(folder / "diagnosis.json")
     tables = {name: read_rows(folder / f"{name}.csv") for name in TABLES}
     template = Environment(loader=PackageLoader("swashfilm"), autoescape=True).get_template("diagnose.html.jinja")
+    summary = json.loads((folder / "summary.json").read_text("utf-8"))
     page = template.render(
-        summary=json.loads((folder / "summary.json").read_text("utf-8")),
+        summary=summary,
         found=found,
         channels=list(channel_rows(found)),
         channel_head=CHANNEL_HEAD,
@@ -45,8 +48,8 @@ def write_diagnose_page(folder: Path) -> Path:
         parameters=list(parameter_rows(tables["parameters"])),
         next_points=[tuple(row.values()) for row in tables["next_points"][:MOST_POINTS]],
         next_head=tuple(next(iter(tables["next_points"]), {})),
-        losses=list(loss_rows(tables["losses"])),
-        loss_point=next((row["point"] for row in tables["losses"]), ""),
+        changes=list(change_rows(tables["changes"])),
+        remarks=remarks(found, summary),
         pictures={name: base64.b64encode(png).decode("ascii") for name, png in _pictures(found, tables).items()},
     )
     path = folder / "report.html"
@@ -85,7 +88,8 @@ def claim_rows(found: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:
     """(effect, pair, probability, what it cannot be told from, parameters with their sigma)."""
     for claim in found["effects"]:
         sizes = (
-            f"{one['name']} {one['value']:.3g} +- {one['sigma']:.2g} {one['unit']}" for one in claim["parameters"]
+            f"{one['name'].replace('_', ' ')} {_told(one['unit'], one['value'], one['sigma'])}"
+            for one in claim["parameters"]
         )
         yield (
             claim["id"],
@@ -100,23 +104,35 @@ def parameter_rows(rows: Sequence[Mapping[str, str]]) -> Iterator[tuple[str, ...
     """(parameter, stated, before, after, pulls), the most pulled first."""
     ranked = sorted(rows, key=lambda row: -abs(float(row["pull_after"])))
     for row in ranked:
-        unit = "" if row["unit"] == "1" else f" {row['unit']}"
-        before = f"{row['before']}{unit}" if row["before"] else "not there"
+        unit, pull = row["unit"], f"{float(row['pull_after']):.2f}"
         yield (
-            row["name"],
-            f"{row['prior']} +- {row['prior_sigma']}{unit}",
-            before,
-            f"{row['after']} +- {row['sigma']}{unit}",
-            f"{row['pull_before'] or '-'} -> {row['pull_after']}",
+            row["name"].replace("_", " "),
+            _told(unit, float(row["prior"]), float(row["prior_sigma"])),
+            _told(unit, float(row["before"])) if row["before"] else "not there",
+            _told(unit, float(row["after"]), float(row["sigma"])),
+            f"{float(row['pull_before']):.2f} -> {pull}" if row["pull_before"] else f"- -> {pull}",
         )
 
 
-def loss_rows(rows: Sequence[Mapping[str, str]]) -> Iterator[tuple[str, ...]]:
-    """(sink, before, after, change, share of the shaft power before and after) of where the power goes."""
-    shaft = {key: float(rows[0][key]) for key in ("before [W]", "after [W]")} if rows else {}
+def change_rows(rows: Sequence[Mapping[str, str]]) -> Iterator[tuple[str, ...]]:
+    """(quantity, without, with, change) of a point run without and with the finding."""
     for row in rows:
-        shares = (f"{100 * float(row[key]) / whole:.2f} %" for key, whole in shaft.items())
-        yield row["sink"], *(f"{row[key]} W" for key in (*shaft, "change [W]")), *shares
+        yield row["quantity"], *(f"{row[key]} {row['unit']}" for key in (WITHOUT, WITH, "change"))
+
+
+def remarks(found: Mapping[str, Any], summary: Mapping[str, Any]) -> list[str]:
+    """What else a reader of the verdict must know: the notes that are not about the data."""
+    return [note for note in found["notes"] if not any(told.endswith(note) for told in summary["data_notes"])]
+
+
+def _told(unit: str, value: float, sigma: float | None = None) -> str:
+    """A value in SI, with its sigma, in the unit that people read it in; of temperatures it is a difference."""
+    dimension = next((one for one in Dimension if one.si_unit == unit), None)
+    if dimension is not None and dimension is not Dimension.TEMPERATURE:
+        unit = reading_unit(value or sigma or 0.0, dimension)
+        value, sigma = in_unit(value, unit, dimension), sigma and in_unit(sigma, unit, dimension)
+    shown = f"{value:.4g}" if sigma is None else f"{value:.4g} +- {sigma:.2g}"
+    return shown if unit == "1" else f"{shown} {unit}"
 
 
 def _pictures(found: Mapping[str, Any], tables: Mapping[str, Sequence[Mapping[str, str]]]) -> dict[str, bytes]:

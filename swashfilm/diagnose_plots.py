@@ -16,6 +16,7 @@ if TYPE_CHECKING:
 Row = Mapping[str, str]
 BEFORE, AFTER, NOISE = "#b55a00", "#3c7a8c", "#9aa4ab"
 MOST_BARS = 12
+MOST_LEVELS = 4
 RATIO_STEP = 0.1
 """Points whose displacement ratios differ by less are drawn together."""
 
@@ -24,7 +25,7 @@ def residual_maps(rows: Sequence[Row]) -> bytes:
     """Pulls over speed and pressure, a row for each channel, before and after side by side, on one scale."""
     channels = list(dict.fromkeys(row["channel"] for row in rows))
     levels = _levels(_column(rows, "displacement_ratio [1]"))
-    figure = figure_of(1.5 + 2.1 * 2 * len(levels), 0.6 + 2.1 * len(channels))
+    figure = figure_of(1.5 + (2.1 if len(levels) < 3 else 1.5) * 2 * len(levels), 0.6 + 2.1 * len(channels))
     grid = figure.subplots(len(channels), 2 * len(levels), squeeze=False, sharex=True, sharey=True)
     most = max(3.0, float(np.nanpercentile(np.abs(_column(rows, "pull_before")), 98)))
     drawn: Any = None
@@ -96,22 +97,23 @@ def pull_changes(rows: Sequence[Row]) -> bytes:
 
 
 def effect_course(rows: Sequence[Row], channel: str, axis: str) -> bytes:
-    """What the effect adds to a channel over one axis, beside what the null leaves of the readings."""
+    """What the effect adds to a channel over one axis, beside what the simulation without it leaves."""
     own = [row for row in rows if row["channel"] == channel and row[axis]]
-    place, before = _column(own, axis), _column(own, "before")
+    place, added = _column(own, axis), _column(own, "added")
+    without = _column(own, "after") - added
     figure = figure_of(8.0, 4.0)
     axes = figure.subplots()
     axes.errorbar(
-        place, _column(own, "measured") - before, _column(own, "sigma"), fmt="o", markersize=4, color=BEFORE,
-        markerfacecolor="none", ecolor=NOISE, label="measured less simulated before", alpha=0.8,
+        place, _column(own, "measured") - without, _column(own, "sigma"), fmt="o", markersize=4, color=BEFORE,
+        markerfacecolor="none", ecolor=NOISE, label="measured less simulated without it", alpha=0.8,
     )  # fmt: skip
     axes.plot(
         place,
-        _column(own, "after") - before,
+        added,
         "x",
         color=AFTER,
         markeredgewidth=1.8,
-        label="simulated after less before",
+        label="what it adds",
         zorder=3,
     )
     axes.axhline(0.0, color="#1c2328", linewidth=0.8)
@@ -144,7 +146,7 @@ def _levels(ratios: Array) -> list[tuple[float, float]]:
         return [(-np.inf, np.inf)]
     groups = np.split(known, np.flatnonzero(np.diff(known) > RATIO_STEP) + 1)
     ends = [(float(group[0]), float(group[-1])) for group in groups]
-    return ends if len(ends) <= 3 else [(float(known[0]), float(known[-1]))]
+    return ends if len(ends) <= MOST_LEVELS else [(float(known[0]), float(known[-1]))]
 
 
 def _of_level(row: Row, level: tuple[float, float]) -> bool:

@@ -16,7 +16,7 @@ from diagnosis.thresholds import load_thresholds
 from diagnosis.verdict import Diagnosis
 from reynolds.oil import walther
 from swashfilm.diagnose_files import note_text, write_diagnosis_files
-from swashfilm.diagnose_losses import claimed_pump, loss_rows
+from swashfilm.diagnose_runs import claimed_pump, run_both
 from swashfilm.progress import Report
 from system.faults import Fault, InputFaults
 from system.physics.catalogue import CATALOGUE
@@ -75,5 +75,6 @@ def run_diagnosis(
     if found.effects:
         (folder / EXTENDED).write_text(resolved_toml(claimed_pump(pump, found)), encoding="utf-8")
     assumptions = [str(one) for one in (*known.assumptions, *taken)]
-    write_diagnosis_files(folder, study, found, thresholds, assumptions, loss_rows(pump, study, found))
+    told = run_both(folder, pump, study, found, thresholds, report)
+    write_diagnosis_files(folder, study, found, thresholds, assumptions, told)
     return found

@@ -15,6 +15,7 @@ import numpy as np
 import pytest
 
 from swashfilm.__main__ import main
+from swashfilm.diagnose_files import read_rows
 from system.bench_map import LumpedBench
 from system.bench_points import BenchPoints
 from system.channels import ChannelName
@@ -115,8 +116,13 @@ def test_an_effect_left_out_is_named_and_applied(tmp_path: Path) -> None:
         (size,) = claim["parameters"]
         assert abs(size["value"] - 1.0) < 4.0 * size["sigma"]
     _reads_as_recorded(pump)
-    tables = ("losses.csv", "next_points.csv", "residuals.csv", "hypotheses.csv", "parameters.csv", "report.html")
+    tables = ("changes.csv", "next_points.csv", "residuals.csv", "hypotheses.csv", "parameters.csv", "report.html")
     assert all((out / name).is_file() for name in tables)
+    rows = {row["quantity"]: row for row in read_rows(out / "changes.csv")}
+    torque = rows["shaft torque"]
+    assert float(torque["with"]) > float(torque["without"]) + 5.0 * NOISE[2]
+    assert float(rows["delivery flow"]["change"]) == 0.0
+    assert all((out / name / "report.html").is_file() for name in ("without", "with"))
 
 
 def _reads_as_recorded(path: Path) -> None:

@@ -177,7 +177,7 @@ def _agreeing(diagnosis: Diagnosis) -> Diagnosis:
 
 def test_a_named_effect_is_told_with_place_size_and_odds(named: Diagnosis) -> None:
     text = statement(named)
-    for part in ("Q_case", "p_out above 250 bar", "a film opens under pressure", "the valve plate",
+    for part in ("Q_case", "p_out above 250 bar", "film opens under pressure", "the valve plate",
                  "22 +- 2 1/GPa", "0.93"):  # fmt: skip
         assert part in text
     told = " ".join(paragraphs(named))
@@ -326,7 +326,7 @@ def test_the_folder_holds_tables_and_a_page(study: Study, named: Diagnosis, tmp_
     page = (tmp_path / "report.html").read_text("utf-8")
     for part in (
         "Bench &lt;4&gt;",
-        "a film opens under pressure",
+        "film opens under pressure",
         "point 3: far from its neighbours",
         "gain_sigma",
     ):

@@ -1,0 +1,137 @@
+"""What a finding means for the pump: one point run without it and with it, two run folders and what changes."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from diagnosis.diagnosis_tables import Row, added_by_claim
+from diagnosis.readings import bench_points
+from diagnosis.study import Study
+from diagnosis.thresholds import Thresholds
+from diagnosis.verdict import Diagnosis
+from swashfilm.fidelity import Fidelity
+from swashfilm.progress import Report
+from swashfilm.pump_run import run_pump
+from system.bench_points import operating_at
+from system.description import PumpDescription
+from system.errors import NotConverged
+from system.estimation.observations import Array
+from system.estimation.posterior import values_at
+from system.extended_pump import extended_pump
+from system.operating import OperatingPoint
+from system.physics.catalogue import entry_of
+from system.physics.effects import Kind
+from system.pump_file import resolved_toml
+from system.units import Dimension, format_quantity
+
+WITHOUT, WITH = "without", "with"
+"""Run folders within the diagnosis's own."""
+LPM = 60000.0  # L/min in a m3/s
+PERCENT = 100.0
+
+
+@dataclass(frozen=True)
+class Told:
+    """What the two runs came to: rows of changes.csv, and in words where they stand or why there are none."""
+
+    rows: tuple[Row, ...]
+    text: str
+
+
+NOTHING = Told((), "")
+
+
+def claimed_pump(pump: PumpDescription, found: Diagnosis) -> PumpDescription:
+    """The pump as the claimed explanation has it: its fit's parameters, its effects switched on."""
+    return extended_pump(pump, _by_name(found, found.after.values), found.hypotheses[0].hypothesis.laws)
+
+
+def run_both(
+    folder: Path, pump: PumpDescription, study: Study, found: Diagnosis, thresholds: Thresholds, report: Report
+) -> Told:
+    """Fill `without/` and `with/`: the pump of the claimed fit at the recorded point where the finding adds most.
+
+    Without: its effects off, its wrong values as stated, all else as fitted. Nothing is run where nothing is
+    claimed, or a sensor's fault only.
+    """
+    if not found.effects:
+        return NOTHING
+    if all(entry_of(claim.effect).verdict is Kind.SENSOR_FAULT for claim in found.effects):
+        return replace(NOTHING, text="A sensor's fault changes nothing in the pump.")
+    own, added = found.hypotheses[0].hypothesis, added_by_claim(study, found, thresholds)
+    at = int(np.argmax(np.nansum((added / found.after.whitening.sigma) ** 2, axis=1)))
+    point = operating_at(pump, bench_points(study.recording, pump)[0], at)
+    closed = np.array([parameter.name in own.open_names for parameter in found.after.parameters])
+    stated = values_at(found.after.parameters, np.where(closed, 0.0, found.after.xi))
+    pumps = {
+        WITHOUT: extended_pump(pump, _by_name(found, stated), ()),
+        WITH: claimed_pump(pump, found),
+    }
+    try:
+        summaries = [_run(_at(each, point), folder / name, report) for name, each in pumps.items()]
+    except NotConverged as reason:
+        return Told((), f"Point {at + 1}, where the finding adds most, could not be run: {reason}")
+    return Told(tuple(_changes(*summaries)), f"Point {at + 1}, where the finding adds most: {_setting(point)}.")
+
+
+def _run(pump: PumpDescription, folder: Path, report: Report) -> dict[str, Any]:
+    folder.mkdir()
+    return run_pump(pump, resolved_toml(pump), Fidelity.LUMPED, folder, report)
+
+
+def _at(pump: PumpDescription, point: OperatingPoint) -> PumpDescription:
+    """The pump with the point as its own."""
+    stated = {
+        "speed": point.shaft_speed, "pressure": point.delivery_pressure, "temperature": point.temperature,
+        "displacement_ratio": point.displacement_ratio, "inlet_pressure": point.inlet_pressure,
+        "case_pressure": point.case_pressure,
+    }  # fmt: skip
+    return pump.model_copy(update={"operating": pump.operating.model_copy(update=stated)})
+
+
+def _by_name(found: Diagnosis, values: Array) -> dict[str, float]:
+    names = (parameter.name for parameter in found.after.parameters)
+    return dict(zip(names, map(float, values), strict=True))
+
+
+def _setting(point: OperatingPoint) -> str:
+    return (
+        f"{format_quantity(point.shaft_speed, Dimension.ANGULAR_SPEED, 4)}, "
+        f"{format_quantity(point.delivery_pressure, Dimension.PRESSURE, 3)}, displacement ratio "
+        f"{point.displacement_ratio:.3g}, case at {format_quantity(point.temperature, Dimension.TEMPERATURE, 3)}"
+    )
+
+
+def _changes(without: Mapping[str, Any], found: Mapping[str, Any]) -> Iterator[Row]:
+    """Rows of quantity, unit, without, with, change."""
+    other = {name: value for name, _, value in _numbers(found)}
+    for name, unit, value in _numbers(without):
+        yield {
+            "quantity": name, "unit": unit, WITHOUT: f"{value:.5g}", WITH: f"{other[name]:.5g}",
+            "change": f"{other[name] - value:+.3g}",
+        }  # fmt: skip
+
+
+def _numbers(summary: Mapping[str, Any]) -> Iterator[tuple[str, str, float]]:
+    """(quantity, unit, value) of a run: flows, torque, efficiencies, and where the shaft power goes."""
+    for name, words in (("delivery", "delivery flow"), ("inlet", "inlet flow"), ("case", "case drain")):
+        yield words, "L/min", LPM * summary["flow"][f"{name}_m3_per_s"]
+    yield "shaft torque", "N m", summary["torque"]["shaft_Nm"]
+    for name, share in summary["efficiency"]["iso_4409"].items():
+        if share is not None:
+            yield f"efficiency, {name} (ISO 4409)", "%", PERCENT * share
+    power = summary["power_balance"]
+    yield "shaft power", "W", power["shaft_W"]
+    yield "hydraulic power", "W", power["hydraulic_W"]
+    yield "compression of the oil", "W", power["elastic_W"]
+    for name in ("piston", "slipper", "valve_plate"):
+        yield f"leakage, {name.replace('_', ' ')}", "W", power[f"leakage_{name}_W"]
+    yield "throttling in the ports", "W", power["throttling_delivery_W"] + power["throttling_suction_W"]
+    for name, loss in summary["pair_loss"].items():
+        yield f"friction, {name.replace('_', ' ')}", "W", loss["total_W"]
+    yield "effects beside gaps and pairs", "W", power["extended_W"]
