@@ -155,7 +155,7 @@ class ControlFlowSection(Section):
     """[physics.control_flow]: what the control draws into the case."""
 
     area: Annotated[float, Dimension.AREA, Field(ge=0.0, le=2e-6)]
-    laminar: Annotated[int, Field(ge=0, le=1)]
+    laminar: Fraction
 
 
 class NotchErosionSection(Section):

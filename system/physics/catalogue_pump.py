@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from system.channels import ChannelName
 from system.components import Component
-from system.estimation.parameters import Parameter
+from system.estimation.parameters import Parameter, Role, Scale
 from system.physics import drag_laws, flow_laws, port_laws
 from system.physics.effects import EffectId, Kind
 from system.physics.extension import Entry, Extension, Law, Values
@@ -32,8 +32,19 @@ def _entry(
     )
 
 
-def _whole(effect: EffectId, law: Law, *sizes: Parameter, grid: tuple[Values, ...] = ({},)) -> Extension:
-    return Extension(effect, None, law, sizes, grid)
+def _whole(
+    effect: EffectId,
+    law: Law,
+    *sizes: Parameter,
+    grid: tuple[Values, ...] = ({},),
+    scales: tuple[Parameter, ...] = (),
+) -> Extension:
+    return Extension(effect, None, law, sizes, grid, scales)
+
+
+def _share_of_clearance() -> Parameter:
+    name, source = path_of(EffectId.CONTROL_FLOW, "laminar"), "between an orifice and a clearance alone"
+    return Parameter(name, Role.EXTENSION, Scale.NORMAL, 0.0, 0.5, 0.0, 1.0, None, source)
 
 
 def _size(
@@ -135,7 +146,7 @@ FLOW_ENTRIES = (
         _whole(
             E.CONTROL_FLOW, flow_laws.control_flow,
             _size(E.CONTROL_FLOW, "area", 2e-7, 2e-6, Dimension.AREA, "bleeds of .6 to 1 mm at reduced pressure"),
-            grid=({"laminar": 0.0}, {"laminar": 1.0}),
+            grid=({"laminar": 0.0}, {"laminar": 1.0}), scales=(_share_of_clearance(),),
         ),
         (Component.DRAIN_FLOW,), (ChannelName.Q_CASE, ChannelName.Q_OUT), (E.Q_CASE_OFFSET, E.SQUEEZE_PUMPING),
         "every speed and displacement", "the control draws oil from delivery into the case", "sheet D4",

@@ -88,14 +88,16 @@ def laminar_cross_leak(values: Values, courses: Courses, state: BenchState) -> E
 def control_flow(values: Values, courses: Courses, state: BenchState) -> Effects:
     """What the control draws from delivery into the case, at any speed and displacement.
 
-    `area` m2: of an orifice with that flow at rated pressure; `laminar` 0: an orifice, 1: a clearance, whose flow
-    goes with dp/mu and is the orifice's at rated pressure and 25 mPa s.
+    A clearance and an orifice one behind the other, dp/p0 = l (mu/mu0) Q/Q0 + (1 - l) (Q/Q0)^2: `area` m2 of an
+    orifice with the flow Q0 at rated pressure p0, where `laminar` l is the clearance's share of the pressure at
+    mu0 = 25 mPa s; 0: an orifice alone, 1: a clearance alone.
     """
     drop = state.delivery_pressure - state.case_pressure
-    turbulent = orifice_flow(state, values["area"], drop)
-    rated = np.full_like(drop, state.geometry.pump.rated_pressure)
-    laminar = orifice_flow(state, values["area"], rated) * drop / rated * REFERENCE_VISCOSITY / state.viscosity
-    flow = laminar if values["laminar"] else turbulent
+    rated = state.geometry.pump.rated_pressure
+    full = orifice_flow(state, values["area"], np.full_like(drop, rated))
+    slit = values["laminar"] * state.viscosity / REFERENCE_VISCOSITY
+    orifice = 4.0 * (1.0 - values["laminar"]) * np.abs(drop) / rated
+    flow = full * 2.0 * drop / rated / np.maximum(slit + np.sqrt(slit**2 + orifice), 1e-12)
     return replace(unchanged(courses), drain_flow=flow, carried_off=flow * drop)
 
 

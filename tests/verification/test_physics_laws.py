@@ -232,6 +232,17 @@ def test_control_flow_by_orifice_and_by_clearance():
     assert clearance * float(rated.viscosity[0]) / 0.025 == pytest.approx(orifice, rel=1e-12)
 
 
+@pytest.mark.parametrize("pressure", [35.15e6, 5e6])
+def test_control_flow_by_both_takes_up_the_pressure(pressure):
+    at, share, area = state(1000, pressure=pressure), 0.4, 1e-7
+    (flow,) = flow_laws.control_flow({"area": area, "laminar": share}, courses(), at).drain_flow
+    (full,) = flow_laws.control_flow(
+        {"area": area, "laminar": 0.0}, courses(), state(1000, pressure=35.15e6)
+    ).drain_flow
+    taken = share * float(at.viscosity[0]) / 0.025 * flow / full + (1 - share) * (flow / full) ** 2
+    assert taken * 35e6 == pytest.approx(pressure - 0.15e6, rel=1e-12)
+
+
 def test_air_of_sheet_a5():
     for pressure, share in ((1e5, 0.01), (3e5, 0.0044), (25e5, 0.0009)):
         assert flow_laws.free_air(0.01, np.array([pressure]))[0] == pytest.approx(share, rel=0.25)
