@@ -13,7 +13,7 @@ from swashfilm.case_pump import CasePump, operating_rows, own_rows, read_case_pu
 from swashfilm.gap_position import Load, load_rows, position_rows, read_load, read_position, touching
 from swashfilm.physics_case import physics_rows, read_physics
 from system.case_table import Table, quoted
-from system.chamber_kernel import CAVITY_PRESSURE
+from system.chamber_state_kernels import CAVITY_PRESSURE
 from system.floating_parts import FloatingParts, floating_parts
 from system.gap_films import RIGID
 from system.instants import Rotor, rotor

@@ -11,7 +11,7 @@ import numpy as np
 from gaps.course import TURN, Course
 from reynolds.mesh import Array
 from system.case_table import Table, quoted
-from system.chamber_kernel import CAVITY_PRESSURE
+from system.chamber_state_kernels import CAVITY_PRESSURE
 from system.faults import nearest_choice
 from system.fields import Points
 from system.instants import Rotor

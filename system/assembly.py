@@ -10,8 +10,8 @@ import numpy as np
 
 from system.bench import BenchReading, Efficiency, iso_efficiency, paper_efficiency
 from system.chamber import ChamberCycle, Paths
-from system.chamber_kernel import CAVITY_PRESSURE
 from system.chamber_problem import ChamberProblem, LeakTable
+from system.chamber_state_kernels import CAVITY_PRESSURE
 from system.kinematics import Array, stroke
 from system.operating import OperatingPoint
 from system.pairs import FrictionPairs, Pair, over_chambers

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from system import chamber_kernel as kernel
+from system import chamber_state_kernels as chamber_state
 from system.bench_ports import map_ports
 from system.chamber import PERIODICITY, REVOLUTION_LIMIT
 from system.chamber_course import periodic_cubics
@@ -27,7 +28,7 @@ OF_GAPS = ("case_pressure", "kinematic_viscosity")
 class Courses:
     """Periodic revolutions at N points: pressure (N, M) Pa gauge at M equidistant shaft angles from 0, and totals.
 
-    totals (N, INTEGRALS): the integrals of `chamber_kernel` over one turn, one chamber.
+    totals (N, INTEGRALS): the integrals of `chamber_state_kernels` over one turn, one chamber.
     """
 
     pressure: Array
@@ -38,8 +39,8 @@ class Courses:
 class MapProblem:
     """The chamber at N points as compiled code reads it.
 
-    chambers (N,) of `chamber_kernel.CHAMBER`, ports not yet filled in; leaks (N, 3, M); ports (N, 3): their state
-    for `map_ports`.
+    chambers (N,) of `chamber_state_kernels.CHAMBER`, ports not yet filled in; leaks (N, 3, M); ports (N, 3):
+    their state for `map_ports`.
     """
 
     chambers: np.ndarray
@@ -54,7 +55,7 @@ class MapProblem:
 
     def differs_in_gaps_alone(self, other: MapProblem) -> bool:
         """Whether the other's chambers differ, if at all, by what leaks out of their gaps."""
-        names = [name for name in kernel.CHAMBER.names or () if name not in OF_GAPS]
+        names = [name for name in chamber_state.CHAMBER.names or () if name not in OF_GAPS]
         same = all(np.array_equal(self.chambers[name], other.chambers[name]) for name in names)
         return same and np.array_equal(self.ports, other.ports)
 
@@ -64,10 +65,10 @@ def map_problem(
 ) -> MapProblem:
     """The chamber of a pump at N points, given as columns (N, 1), with gaps that leak as `leaks` (N, 3, M)."""
     problem = chamber_problem(pump, point, motion, leaks)
-    chambers = np.zeros(point.shaft_speed.size, dtype=kernel.CHAMBER)
+    chambers = np.zeros(point.shaft_speed.size, dtype=chamber_state.CHAMBER)
     chambers["stroke_scale"] = np.ravel(problem.drive.stroke_scale)
     chambers["cone_swash_product"] = np.ravel(problem.drive.cone_swash_product)
-    for name in kernel.CHAMBER.names or ():
+    for name in chamber_state.CHAMBER.names or ():
         if hasattr(problem, name) and not name.endswith("_port"):
             chambers[name] = np.ravel(getattr(problem, name))
     ports = np.zeros((chambers.size, 3))
@@ -87,7 +88,7 @@ def solve_map(pump: PumpDescription, problem: MapProblem, tolerance: float) -> C
     chambers["suction_port"], chambers["delivery_port"] = ports.suction, ports.delivery
     held = np.zeros((points, 1, 2, 4))
     held[:, 0, 0, 0], held[:, 0, 1, 0] = chambers["delivery_pressure"], chambers["inlet_pressure"]
-    pressure, totals = np.empty((points, samples)), np.empty((points, 2 * kernel.INTEGRALS))
+    pressure, totals = np.empty((points, samples)), np.empty((points, 2 * chamber_state.INTEGRALS))
     statuses = np.empty(points, dtype=np.int64)
     periodicity = max(PERIODICITY, 0.1 * tolerance)
     chamber_map(
@@ -96,7 +97,7 @@ def solve_map(pump: PumpDescription, problem: MapProblem, tolerance: float) -> C
     )  # fmt: skip
     if np.any(statuses != kernel.OK):
         _tell(problem, int(np.argmax(statuses != kernel.OK)))
-    return Courses(pressure, totals[:, : kernel.INTEGRALS])
+    return Courses(pressure, totals[:, : chamber_state.INTEGRALS])
 
 
 def other_gaps(courses: Courses, solved: MapProblem, other: MapProblem) -> Courses:
@@ -123,7 +124,7 @@ def _gap_rates(pressure: Array, problem: MapProblem) -> tuple[Array, Array]:
     """Of each gap (N, 3, M): oil out in m3 at zero gauge pressure, and work of carried oil in J, a turn."""
     case = problem.chambers["case_pressure"][:, None, None]
     modulus = problem.chambers["bulk_modulus"][:, None, None]
-    inside = np.maximum(pressure, kernel.CAVITY_PRESSURE)[:, None, :]
+    inside = np.maximum(pressure, chamber_state.CAVITY_PRESSURE)[:, None, :]
     dense = np.exp(inside / modulus) * TURN / problem.chambers["shaft_speed"][:, None, None]
     flow = problem.leaks.conductance * (pressure[:, None, :] - case) + problem.leaks.carried_flow
     fall = modulus * (np.exp(-case / modulus) - np.exp(-inside / modulus))

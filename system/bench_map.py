@@ -112,18 +112,18 @@ class LumpedBench:
         some 8 %. Chambers are solved anew where anything else of them differs.
         """
         solved = self.solved(values)
-        near = self._near(solved, other, self.points)
-        return self._read(near, other, self.points) - self._read(solved, values, self.points)
+        return self._beside(solved, other, self.points) - self._read(solved, values, self.points)
 
     def slopes(self, values: Array, names: tuple[str, ...]) -> Array:
         """d readings / d value of the named parameters, (N, C, len(names)), by `difference` over STEP spreads."""
-        columns = []
+        solved, columns = self.solved(values), []
+        before = self._read(solved, values, self.points)
         for name in names:
             index = [parameter.name for parameter in self.parameters].index(name)
             step = self._step(index, float(values[index]))
             moved = np.array(values, dtype=float)
             moved[index] += step
-            columns.append(self.difference(values, moved) / step)
+            columns.append((self._beside(solved, moved, self.points) - before) / step)
         return np.stack(columns, axis=-1) if columns else np.zeros((*self._shape, 0))
 
     def input_slopes(self, values: Array) -> Array:
@@ -133,8 +133,7 @@ class LumpedBench:
         for channel in self.inputs:
             step = INPUT_STEPS[channel]
             moved = replace(self.points, **{channel.value: getattr(self.points, channel.value) + step})
-            near = self._near(solved, values, moved)
-            columns.append((self._read(near, values, moved) - before) / step)
+            columns.append((self._beside(solved, values, moved) - before) / step)
         return np.stack(columns, axis=-1) if columns else np.zeros((*self._shape, 0))
 
     def with_parameters(self, parameters: tuple[Parameter, ...]) -> LumpedBench:
@@ -206,6 +205,10 @@ class LumpedBench:
             for oldest in list(self._kept)[:-KEPT]:
                 del self._kept[oldest]
         return self._kept[key]
+
+    def _beside(self, solved: Solved, values: Array, points: BenchPoints) -> Array:
+        """Readings (N, C) of a map beside a solved one."""
+        return self._read(self._near(solved, values, points), values, points)
 
     def _near(self, solved: Solved, values: Array, points: BenchPoints) -> Solved:
         """A map beside a solved one, chambers solved anew where more than gaps differ."""

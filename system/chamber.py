@@ -13,6 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from system import chamber_kernel as kernel
+from system import chamber_state_kernels as chamber_state
 from system.chamber_course import Course, constants, periodic_values, turn_nodes
 from system.chamber_problem import ChamberProblem
 from system.errors import NotConverged
@@ -94,16 +95,17 @@ class ChamberCycle:
     @property
     def cavitates(self) -> bool:
         """Whether the chamber holds a cavity at any sampled shaft angle."""
-        return bool(np.min(self.pressure) < kernel.CAVITY_PRESSURE)
+        return bool(np.min(self.pressure) < chamber_state.CAVITY_PRESSURE)
 
 
 def solve_cycle(problem: ChamberProblem, samples: int, tolerance: float = TOLERANCE) -> ChamberCycle:
     """The periodic revolution of a chamber, sampled at `samples` equidistant shaft angles.
 
-    Integrates Eq. (14) in its conservative form (see `chamber_kernel`) from break to break of the ports, turn by
-    turn, until the pressure at shaft angle 0 repeats to PERIODICITY. Raises NotConverged when it does not within
-    REVOLUTION_LIMIT turns or when a step fails. Where the pressure falls to
-    `chamber_kernel.CAVITY_PRESSURE` a cavity opens and fills again; the ports' and case's oil is always liquid.
+    Integrates Eq. (14) in its conservative form (see `chamber_state_kernels`) from break to break of the ports,
+    turn by turn, until the pressure at shaft angle 0 repeats to PERIODICITY. Raises NotConverged when it does not
+    within REVOLUTION_LIMIT turns or when a step fails. Where the pressure falls to
+    `chamber_state_kernels.CAVITY_PRESSURE` a cavity opens and fills again; the ports' and case's oil is always
+    liquid.
     """
     given = constants(problem)
     nodes, sample_nodes = turn_nodes(problem.suction_port, problem.delivery_port, samples)
@@ -145,7 +147,7 @@ def _checks(problem: ChamberProblem, totals: Array, drift: float, change: float)
     return ChamberChecks(
         mass_balance_error=float(abs(outflow.sum() + drift) / swept),
         energy_balance_error=float(abs(work - energy.sum() - carried_away) / ideal_work),
-        work_error=float(abs(totals[kernel.INTEGRALS + 5]) / ideal_work),
+        work_error=float(abs(totals[chamber_state.INTEGRALS + 5]) / ideal_work),
         periodicity_error=abs(change),
     )
 
@@ -164,7 +166,7 @@ def _cycle(
     samples = course.pressures.size
     angle = TURN * np.arange(samples) / samples
     growth = 0.0 if problem.growth is None else periodic_values(problem.growth[None], samples)[0]
-    liquid = np.exp(-np.maximum(course.pressures, kernel.CAVITY_PRESSURE) / problem.bulk_modulus)
+    liquid = np.exp(-np.maximum(course.pressures, chamber_state.CAVITY_PRESSURE) / problem.bulk_modulus)
     return ChamberCycle(
         shaft_angle=angle,
         pressure=course.pressures,

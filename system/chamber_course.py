@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from system import chamber_kernel as kernel
+from system import chamber_state_kernels as chamber_state
 from system.chamber_problem import ChamberProblem
 from system.kinematics import Array
 from system.ports import TURN, PortOpening, as_array, break_angles
@@ -47,8 +48,10 @@ class Course:
     @classmethod
     def over(cls, nodes: Array) -> Course:
         """An empty one for a revolution over these nodes."""
-        paths = (nodes.size - 1, kernel.PATHS)
-        return cls(np.empty(nodes.size - 1), np.empty(paths), np.empty(paths), np.empty(2 * kernel.INTEGRALS))
+        paths = (nodes.size - 1, chamber_state.PATHS)
+        return cls(
+            np.empty(nodes.size - 1), np.empty(paths), np.empty(paths), np.empty(2 * chamber_state.INTEGRALS)
+        )
 
     def run(self, given: Constants, nodes: Array, start: float, tolerance: float) -> tuple[float, int, int, int]:
         """Fill it from a pressure at nodes[0]; what `revolution` returns."""
@@ -59,17 +62,17 @@ class Course:
     def at(self, nodes: Array, where: np.ndarray) -> Course:
         """The same at the places `where` in nodes[1:], of the oil passed only what goes beyond the mean flow."""
         turned = (nodes[1:] - nodes[0]) / TURN
-        surge = self.passed - turned[:, None] * self.totals[: kernel.PATHS]
+        surge = self.passed - turned[:, None] * self.totals[: chamber_state.PATHS]
         return Course(self.pressures[where], self.rates[where], surge[where] - surge[where[0]], self.totals)
 
 
 def _record(problem: ChamberProblem) -> np.ndarray:
-    chamber = np.zeros(1, dtype=kernel.CHAMBER)
+    chamber = np.zeros(1, dtype=chamber_state.CHAMBER)
     chamber["stroke_scale"] = problem.drive.stroke_scale
     chamber["cone_swash_product"] = problem.drive.cone_swash_product
     chamber["delivery_port"] = as_array(problem.delivery_port)
     chamber["suction_port"] = as_array(problem.suction_port)
-    for name in kernel.CHAMBER.names or ():
+    for name in chamber_state.CHAMBER.names or ():
         if name not in ("stroke_scale", "cone_swash_product", "delivery_port", "suction_port"):
             chamber[name] = getattr(problem, name)
     return chamber

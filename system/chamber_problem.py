@@ -7,7 +7,7 @@ from typing import Generic
 
 import numpy as np
 
-from system import chamber_kernel as kernel
+from system import chamber_state_kernels as chamber_state
 from system.kinematics import Array, Number, SwashDrive
 from system.ports import PortOpening
 
@@ -85,7 +85,7 @@ class ChamberProblem(Generic[Number]):
 
     def specific_volume(self, pressure: float) -> float:
         """Volume of the oil at a pressure in Pa over its volume at zero gauge pressure."""
-        return float(kernel.oil_state(pressure, self.bulk_modulus)[0])
+        return float(chamber_state.oil_volume(pressure, self.bulk_modulus)[0])
 
     @property
     def pressure_span(self) -> Number:

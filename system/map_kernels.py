@@ -5,7 +5,8 @@ from __future__ import annotations
 import numba
 import numpy as np
 
-from system.chamber_kernel import OK, PATHS, revolution, slaved_pressure
+from system.chamber_kernel import OK, revolution, slaved_pressure
+from system.chamber_state_kernels import PATHS
 
 NOT_PERIODIC = 3
 """Status beside those of `chamber_kernel`."""

@@ -20,7 +20,7 @@ from system.relief_grooves import SIZE, ReliefGroove, throat_area
 TURN = 2.0 * np.pi
 SAME_ANGLE = 1e-9  # rad
 MOST_GROOVES = 8
-NUMBERS = 8
+NUMBERS = 9
 """Of a port as compiled code reads it, before its grooves and webs."""
 WEBS_FROM = NUMBERS + MOST_GROOVES * SIZE
 PORT_SIZE = WEBS_FROM + WEBS_SIZE
@@ -84,7 +84,10 @@ def _one_kidney(x, port):  # type: ignore[no-untyped-def]
 def section_area(shaft_angle, port):  # type: ignore[no-untyped-def]
     """Opening area in m2 at one shaft angle; `port` is the array of `as_array`. For use inside compiled code."""
     start = port[6]
-    x = (shaft_angle - port[0] - start) % TURN + start
+    x = shaft_angle - port[0] - start
+    x += start - TURN * np.floor(x / TURN)
+    if x > port[8]:
+        return 0.0
     return _one_kidney(x, port) - port[5] * covered_share(x, port[WEBS_FROM:])
 
 
@@ -111,6 +114,8 @@ def orifice_coefficients(area, flow_coefficient, density, kinematic_viscosity, c
 @numba.njit("UniTuple(f8,2)(f8,f8,f8)", cache=True)
 def orifice(pressure_drop, conductance, critical_square):  # type: ignore[no-untyped-def]
     """Volume flow in m3/s and its slope in m3/(s Pa); see `orifice_flow`. For use inside compiled code."""
+    if conductance == 0.0:
+        return 0.0, 0.0
     square = pressure_drop * pressure_drop + critical_square
     scaled = conductance / np.sqrt(np.sqrt(square))
     return scaled * pressure_drop, scaled * (1.0 - 0.5 * pressure_drop * pressure_drop / square)
@@ -137,6 +142,7 @@ def as_array(port: PortOpening) -> Array:
         port.kidney_area,
         port.opens,
         len(port.grooves),
+        port.shuts,
     )
     for n, groove in enumerate(port.grooves):
         found[NUMBERS + n * SIZE : NUMBERS + (n + 1) * SIZE] = groove.row

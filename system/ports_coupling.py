@@ -15,8 +15,8 @@ import numpy as np
 
 from reynolds.anderson import History
 from system.chamber import TOLERANCE, ChamberCycle, flow_energy, solve_cycle
-from system.chamber_kernel import CAVITY_PRESSURE
 from system.chamber_problem import ChamberProblem, PortPressure
+from system.chamber_state_kernels import CAVITY_PRESSURE
 from system.errors import NotConverged
 from system.kinematics import Array
 from system.lines import HeldPressure, Line, Lines, OrificeLine

@@ -8,6 +8,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from system import chamber_kernel as kernel
+from system import chamber_state_kernels as chamber_state
 from system.chamber import solve_cycle
 from system.chamber_course import periodic_cubics
 from system.chamber_problem import ChamberProblem, LeakTable, PortPressure
@@ -260,7 +261,7 @@ def test_oil_bears_no_tension_and_the_cavity_keeps_its_mass():
     cycle = solve_cycle(problem, 360)
     assert cycle.cavitates
     assert cycle.pressure.min() > -101325.0
-    void = cycle.pressure < kernel.CAVITY_PRESSURE
+    void = cycle.pressure < chamber_state.CAVITY_PRESSURE
     assert 0.01 < void.mean() < 0.06
     assert not solve_cycle(pump(20e6, 0.13), 360).cavitates
 
@@ -276,12 +277,12 @@ def test_a_starved_chamber_takes_in_what_its_orifice_passes():
         delivery_port=replace(narrow, dead_centre=np.pi),
     )
     cycle = solve_cycle(problem, 360)
-    void = cycle.pressure < kernel.CAVITY_PRESSURE
+    void = cycle.pressure < chamber_state.CAVITY_PRESSURE
     assert void.mean() > 0.4  # so that the void's share of the volume matters
     law = (problem.flow_coefficient, problem.density, problem.kinematic_viscosity, problem.critical_reynolds)
     areas = opening_area(problem.suction_port, cycle.shaft_angle)
     taken = [orifice_flow(-p, area, *law) for p, area in zip(cycle.pressure, areas, strict=True)]
-    density = np.exp(np.maximum(cycle.pressure, kernel.CAVITY_PRESSURE) / problem.bulk_modulus)
+    density = np.exp(np.maximum(cycle.pressure, chamber_state.CAVITY_PRESSURE) / problem.bulk_modulus)
     assert -cycle.outflow.suction == pytest.approx(
         np.mean(density * taken) * 2 * np.pi / problem.shaft_speed, rel=2e-3
     )
