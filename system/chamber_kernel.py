@@ -75,6 +75,7 @@ NEWTON_LIMIT = 100
 NEWTON_SHARE = 1e-2  # of the error of a step: the last change of a stage's pressure, which flows follow
 NEWTON_TOLERANCE = 1e-12  # of the bulk modulus: the same where that is larger; some mPa, well above round-off
 SMALLEST_STEP = 1e-12  # rad
+SAFETY = 0.8  # of the step whose error would be just what it may be
 FIRST_STEP = 1e-3  # rad
 CAVITY_STEP = 1e-4  # rad; no longer step may open or close a cavity, where dp/dphi jumps unseen by the mass
 
@@ -256,7 +257,7 @@ def revolution(chamber, table, ports, nodes, pressure, tolerance, pressures, pat
                 continue
             if not fine or size > 1.0:
                 refused += 1
-                wish = length * (max(0.2, 0.9 * size**-0.25) if fine else 0.25)
+                wish = length * (max(0.2, SAFETY * size**-0.25) if fine else 0.25)
                 if wish < SMALLEST_STEP:
                     return mass - begin, taken, refused, STEP_TOO_SMALL if fine else NO_STAGE
                 continue
@@ -273,10 +274,10 @@ def revolution(chamber, table, ports, nodes, pressure, tolerance, pressures, pat
             taken += 1
             angle = nodes[node] if length >= nodes[node] - angle else angle + length
             size = max(size, 1e-4)
-            grown = length * min(4.0, 0.9 * size**-0.25)
+            grown = length * min(4.0, SAFETY * size**-0.25)
             if size > 1e-2 and taken > 1:
                 grown = min(
-                    grown, 0.9 * length * size**-0.25 * (length / last_length) * (last_size / size) ** 0.25
+                    grown, SAFETY * length * size**-0.25 * (length / last_length) * (last_size / size) ** 0.25
                 )
             last_length, last_size = length, size
             wish = max(wish, grown) if length < wish else grown
