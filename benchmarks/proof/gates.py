@@ -140,7 +140,8 @@ def _seen(cases: Outcomes) -> list[Outcome]:
 
 
 def _is(verdict: str) -> Callable[[Outcome], bool]:
-    return lambda one: one.verdict == verdict and is_named(one)
+    """Whether a verdict is of a kind, and not by a class that holds the truth."""
+    return lambda one: one.verdict == verdict and is_named(one) and not is_right(one)
 
 
 def _abstains(one: Outcome) -> bool:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from .outcome import Outcome
+from .outcome import Claimed, Outcome
 
 SURE = 0.9  # probability from which a wrong name is held against it
 FLAGGED = ("suspicion", "incomplete", "failed")
@@ -25,13 +25,17 @@ def is_right(outcome: Outcome) -> bool:
         fits = [
             one
             for one in left
-            if (one.effect == effect and one.pair in (None, pair))
-            or (one.effect != effect and effect in one.equivalent)
+            if (one.effect == effect and _at_gap(one, pair)) or (one.effect != effect and effect in one.equivalent)
         ]
         if not fits:
             return False
         left.remove(fits[0])
     return True
+
+
+def _at_gap(claim: Claimed, pair: str | None) -> bool:
+    """Whether a claim is at a gap: told, in its class, or at no gap at all."""
+    return claim.pair is None or pair in (claim.pair, *claim.elsewhere)
 
 
 def is_named(outcome: Outcome) -> bool:
@@ -49,7 +53,7 @@ def is_wrong_name(outcome: Outcome) -> bool:
         one
         for one in outcome.claims
         for effect, pair in zip(outcome.effects, outcome.pairs, strict=True)
-        if one.effect == effect and one.pair not in (None, pair) and len(outcome.effects) == 1
+        if one.effect == effect and not _at_gap(one, pair) and len(outcome.effects) == 1
     ]
     return bool(wrong_gap) or any(not known & {one.effect, *one.equivalent} for one in outcome.claims)
 

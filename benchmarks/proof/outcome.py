@@ -18,12 +18,13 @@ class Ranked:
 
 @dataclass(frozen=True)
 class Claimed:
-    """One effect that was claimed, and ids that the recording cannot tell from it."""
+    """One effect that was claimed, ids that the recording cannot tell from it, and gaps it cannot tell from `pair`."""
 
     effect: str
     pair: str | None
     probability: float
     equivalent: tuple[str, ...]
+    elsewhere: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -102,7 +103,10 @@ def as_plain(outcome: Outcome) -> dict[str, Any]:
 def from_plain(data: dict[str, Any]) -> Outcome:
     """The inverse of `as_plain` after JSON."""
     kept = dict(data)
-    kept["claims"] = tuple(Claimed(**{**one, "equivalent": tuple(one["equivalent"])}) for one in data["claims"])
+    kept["claims"] = tuple(
+        Claimed(**{**one, **{name: tuple(one[name]) for name in ("equivalent", "elsewhere")}})
+        for one in data["claims"]
+    )
     kept["ranked"] = tuple(
         Ranked(tuple(one["effects"]), tuple(one["pairs"]), one["kind"], one["probability"])
         for one in data["ranked"]

@@ -150,7 +150,8 @@ def _region(study: Study, location: Location) -> tuple[int, ...] | None:
 
 def _claimed(one: Claim) -> Claimed:
     place = one.pair.value if one.pair else None
-    return Claimed(one.effect.value, place, one.probability, tuple(each.value for each in one.equivalent))
+    equivalent, elsewhere = (each.value for each in one.equivalent), (gap.value for gap, _ in one.elsewhere)
+    return Claimed(one.effect.value, place, one.probability, tuple(equivalent), tuple(elsewhere))
 
 
 def _ranked(each: Weighed) -> Ranked:

@@ -59,6 +59,9 @@ def test_a_right_verdict(proof: SimpleNamespace, right: object) -> None:
 def test_a_wrong_verdict(proof: SimpleNamespace, right: object) -> None:
     """Another gap or another id is a wrong name, grave where it is sure and unflagged; a null's name always is."""
     judged, claimed = proof.judged, proof.outcome.Claimed
+    one_of = replace(right, claims=(claimed("elastic_opening", "piston", 0.97, (), ("slipper",)),), status="class")
+    assert judged.is_right(one_of)
+    assert not judged.is_wrong_name(one_of)
     gap = replace(right, claims=(claimed("elastic_opening", "piston", 0.97, ()),))
     assert not judged.is_right(gap)
     assert judged.is_grave(gap)
