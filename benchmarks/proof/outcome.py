@@ -18,7 +18,7 @@ class Ranked:
 
 @dataclass(frozen=True)
 class Claimed:
-    """One effect that was claimed, ids that the recording cannot tell from it, and gaps it cannot tell from `pair`."""
+    """One effect that was claimed, ids that cannot be told from it, and gaps that cannot be told from `pair`."""
 
     effect: str
     pair: str | None
