@@ -28,7 +28,7 @@ from system.physics.effects import both
 from system.physics.extension import Extension
 from system.physics.switched import stated_effects, stated_laws
 from system.ports import TURN
-from system.sensors import ENCODER_OFFSET, SENSOR_NAMES, read
+from system.sensors import ENCODER_OFFSET, READING_NAMES, SENSOR_NAMES, read
 from system.unlike import kinds
 
 SAMPLES_PER_PITCH = 10
@@ -112,7 +112,8 @@ class LumpedBench:
         some 8 %. Chambers are solved anew where anything else of them differs.
         """
         solved = self.solved(values)
-        return self._beside(solved, other, self.points) - self._read(solved, values, self.points)
+        near = self._near(solved, other, self.points)
+        return self._read(near, other, self.points) - self._read(solved, values, self.points)
 
     def slopes(self, values: Array, names: tuple[str, ...]) -> Array:
         """d readings / d value of the named parameters, (N, C, len(names)), by `difference` over STEP spreads."""
@@ -123,7 +124,8 @@ class LumpedBench:
             step = self._step(index, float(values[index]))
             moved = np.array(values, dtype=float)
             moved[index] += step
-            columns.append((self._beside(solved, moved, self.points) - before) / step)
+            near = solved if name in READING_NAMES else self._near(solved, moved, self.points)
+            columns.append((self._read(near, moved, self.points) - before) / step)
         return np.stack(columns, axis=-1) if columns else np.zeros((*self._shape, 0))
 
     def input_slopes(self, values: Array) -> Array:
@@ -133,7 +135,8 @@ class LumpedBench:
         for channel in self.inputs:
             step = INPUT_STEPS[channel]
             moved = replace(self.points, **{channel.value: getattr(self.points, channel.value) + step})
-            columns.append((self._beside(solved, values, moved) - before) / step)
+            near = self._near(solved, values, moved)
+            columns.append((self._read(near, values, moved) - before) / step)
         return np.stack(columns, axis=-1) if columns else np.zeros((*self._shape, 0))
 
     def with_parameters(self, parameters: tuple[Parameter, ...]) -> LumpedBench:
@@ -205,10 +208,6 @@ class LumpedBench:
             for oldest in list(self._kept)[:-KEPT]:
                 del self._kept[oldest]
         return self._kept[key]
-
-    def _beside(self, solved: Solved, values: Array, points: BenchPoints) -> Array:
-        """Readings (N, C) of a map beside a solved one."""
-        return self._read(self._near(solved, values, points), values, points)
 
     def _near(self, solved: Solved, values: Array, points: BenchPoints) -> Solved:
         """A map beside a solved one, chambers solved anew where more than gaps differ."""

@@ -19,10 +19,14 @@ BIASED_INPUTS = (ChannelName.P_OUT, ChannelName.T_CASE, ChannelName.DISPLACEMENT
 """Inputs of which a bias is told apart from others'; their place in `BenchPoints` is their name."""
 CALIBRATION = "calibration of the channel"
 ENCODER_OFFSET = "encoder_offset"
+READING_NAMES = frozenset(
+    f"{channel.value}.{what}" for channel in OUTPUTS for what in ("gain", "zero", "drift", "lag")
+)
+"""Names of the parameters that change what is read, not what is there."""
 SENSOR_NAMES = frozenset(
     {
         ENCODER_OFFSET,
-        *(f"{channel.value}.{what}" for channel in OUTPUTS for what in ("gain", "zero", "drift", "lag")),
+        *READING_NAMES,
         *(f"{channel.value}.zero" for channel in BIASED_INPUTS),
     }
 )
