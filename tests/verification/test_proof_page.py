@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import sys
 from collections.abc import Iterator
 from dataclasses import replace
@@ -19,10 +20,17 @@ ROOT = Path(__file__).resolve().parents[2]
 def proof() -> Iterator[SimpleNamespace]:
     """The proof's modules, benchmarks/ on the path while they are loaded."""
     sys.path.insert(0, str(ROOT / "benchmarks"))
-    from proof import calibration, cases, gates, judged, outcome, page, store
+    from proof import calibration, cases, gates, judged, located, outcome, page, store
 
     yield SimpleNamespace(
-        judged=judged, gates=gates, outcome=outcome, page=page, store=store, cases=cases, calibration=calibration
+        judged=judged,
+        gates=gates,
+        located=located,
+        outcome=outcome,
+        page=page,
+        store=store,
+        cases=cases,
+        calibration=calibration,
     )
     sys.path.remove(str(ROOT / "benchmarks"))
 
@@ -130,3 +138,37 @@ def test_the_page_tells_its_thresholds(proof: SimpleNamespace, tmp_path: Path) -
     digest = load_thresholds().digest
     assert digest in (tmp_path / "proof.md").read_text("utf-8")
     assert digest in (ROOT / "docs" / "proof.md").read_text("utf-8"), "python benchmarks/proof.py --cases 0"
+
+
+def test_a_region_is_as_good_as_its_points(proof: SimpleNamespace, right: object) -> None:
+    """Six points moved by more than half of the most, four of them told and two beside: 4/8."""
+    moved = {"Q_case": (0.0, 0.0, 0.4, 0.4, 1.0, 1.0, -1.0, 0.8, 0.8, 0.6)}
+    told = replace(right, shift=moved, region=(2, 3, 4, 5, 6, 7))
+    assert proof.located.region_overlap(told) == pytest.approx(4.0 / 8.0)
+    assert proof.located.region_overlap(replace(told, region=tuple(range(4, 10)))) == 1.0
+    assert math.isnan(proof.located.region_overlap(replace(told, region=None)))
+
+
+def test_an_angle_is_off_across_the_dead_centre(proof: SimpleNamespace, right: object) -> None:
+    """358 to 2 deg against 6 to 10 deg: 8 deg."""
+    turns = [tuple(math.radians(angle) for angle in ends) for ends in ((358.0, 2.0), (6.0, 10.0))]
+    found = replace(right, turn=turns[0], true_turn=turns[1])
+    assert proof.located.turn_error(found) == pytest.approx(8.0)
+    assert proof.located.turn_error(replace(found, turn=turns[1])) == pytest.approx(0.0)
+
+
+def test_a_point_is_worth_what_it_settles(proof: SimpleNamespace, right: object) -> None:
+    """Left open at 1 nat: the point asked for brings 4, a random one .5; one settled before is not counted."""
+    left_open = replace(right, worth=proof.outcome.Worth(1.0, 4.0, 0.5, 1.2))
+    settled = replace(right, worth=proof.outcome.Worth(6.0, 0.0, 0.0, 0.1))
+    held = {gate.name: (gate.passed, gate.cases) for gate in proof.gates.gates([left_open, settled])}
+    assert held["pairs settled by the point asked for, 3 readings"] == (True, 1)
+    assert held["the same by a point drawn at random"] == (True, 1)
+
+
+def test_a_fit_is_held_against_the_truths_own(proof: SimpleNamespace, right: object) -> None:
+    """Left 1.2 of the noise where the truth's own fit leaves 1: 20 % more, missed."""
+    found = replace(right, heldout={"Q_case": (2.0, 1.2, 1.0)}, oracle={"Q_case": 1.0})
+    gate = next(one for one in proof.gates.gates([found]) if "truth's own fit" in one.name)
+    assert gate.passed is False
+    assert gate.found.startswith("1.20")

@@ -1,0 +1,34 @@
+"""How near what was located is to where it is: regions of the map, windows of shaft angle."""
+
+from __future__ import annotations
+
+from math import degrees, pi
+
+import numpy as np
+
+from .outcome import Outcome
+
+HALF = 0.5  # of the largest shift: what moves less does not belong to a region
+TURN = 2.0 * pi
+
+
+def region_overlap(outcome: Outcome) -> float:
+    """Points that are in both regions over points that are in one: told, and true in the channel told first.
+
+    True are points at which that channel is moved by at least HALF of what it is moved at most. nan where nothing
+    is told, or the channel is not moved at all.
+    """
+    moved = np.abs(outcome.shift.get(outcome.channels[0], ())) if outcome.channels else np.zeros(0)
+    if outcome.region is None or moved.size == 0 or moved.max() == 0.0:
+        return float("nan")
+    told = np.isin(np.arange(moved.size), outcome.region)
+    true = moved >= HALF * moved.max()
+    return float(np.sum(told & true) / np.sum(told | true))
+
+
+def turn_error(outcome: Outcome) -> float:
+    """Degrees from the middle of the window told to the middle of the true one; nan where either is not there."""
+    if outcome.turn is None or outcome.true_turn is None:
+        return float("nan")
+    told, true = (start + 0.5 * ((end - start) % TURN) for start, end in (outcome.turn, outcome.true_turn))
+    return abs(degrees((told - true + pi) % TURN - pi))
