@@ -26,7 +26,7 @@ FRICTION = (Component.PISTON_FRICTION, Component.SLIPPER_FRICTION, Component.PLA
 FILM_CHANNELS = (ChannelName.Q_OUT, ChannelName.Q_CASE, ChannelName.TORQUE)
 HERSEY_SCALES = (3e-8, 1e-7, 3e-7, 1e-6, 3e-6, 1e-5)
 SHEAR_RATES = (1e5, 3e5, 1e6, 3e6)
-RETAINER_FORCES = (0.0, 100.0, 300.0, 1000.0)
+RETAINER_FORCES = (30.0, 100.0, 300.0, 1000.0)
 
 
 def _opening(gap: Gap) -> Extension:
@@ -198,6 +198,7 @@ FILM_ENTRIES = (
                     ),
                 ),
                 tuple({"retainer_force": force} for force in RETAINER_FORCES),
+                (scale_of(EffectId.SLIPPER_LIFT, "retainer_force", RETAINER_FORCES, Dimension.FORCE),),
             ),
         ),
         components=(Component.SLIPPER_LEAKAGE,),
