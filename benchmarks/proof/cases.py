@@ -97,6 +97,8 @@ PHYSICS = (
     _physics("air", "entrained_air", 2e-3, most=0.05),
     _physics("resonance", "line_resonance", 1e-3),
     _physics("suction", "incomplete_filling", 2e4, most=1.2e5),
+    _physics("compression", "compression_loss", 0.1, most=1.0),
+    _physics("lift", "slipper_lift", 20e-6, most=1e-4),
 )
 UNLISTED = tuple(
     _physics(label, "", size, most=most)
@@ -130,7 +132,7 @@ SENSORS = tuple(
 )  # fmt: skip
 NEEDS = {
     "thermal_slipper": ("ovens", "scattered"), "charge_pump": ("scattered",), "air": ("scattered",),
-    "resonance": ("scattered",), "suction": ("open circuit",), "whirl": ("scattered",),
+    "resonance": ("scattered",), "suction": ("open circuit",), "lift": ("open circuit",), "whirl": ("scattered",),
     "cold_seal": ("ovens", "scattered"),
     "mixed_friction": ("ovens", "scattered", "map"),
 }  # fmt: skip

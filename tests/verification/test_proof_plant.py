@@ -144,6 +144,7 @@ MOVES = {  # signs of Q_out, Q_in, Q_case, torque; 0: not moved; None: not asked
     "droop": (1.0e-10, (-1, -1, None, -1)),
     "throttling": (1.0, (0, 0, 0, 1)),
     "air": (0.01, (-1, None, None, None)),
+    "compression": (0.3, (0, 0, 0, 1)),
     "stiffening": (5.0, (1, None, None, None)),
     "spin_leak": (0.1, (None, None, 1, None)),
     "foam": (1.0, (0, 0, 0, 1)),

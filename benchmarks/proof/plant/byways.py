@@ -8,6 +8,7 @@ import numpy as np
 
 from .hidden import Hidden
 from .machine import Array, Machine, viscosity_at
+from .motion import full_stroke
 from .settings import RATED_SPEED, RPM, WARM, Settings
 
 
@@ -28,9 +29,10 @@ def byways(machine: Machine, hidden: Hidden, at: Settings, flow: Array) -> Byway
         across=_short_circuit(machine, hidden, at, viscosity) + _cross_leak(hidden, at, viscosity)
         + hidden.seepage * np.maximum(at.p_out - 28.0e6, 0.0),
         delivery_to_case=_control(machine, hidden, at, viscosity),
-        inlet_to_case=_squeezed(machine, hidden, at)
+        inlet_to_case=_squeezed(machine, hidden, at) + _lifted(machine, hidden, at, viscosity)[0]
         + hidden.windage * at.ratio**2 * (at.speed / RATED_SPEED) * np.sqrt(at.p_out / 20.0e6),
-        torque=_drag(machine, hidden, at, viscosity, flow) + _strange(machine, hidden, at, viscosity),
+        torque=_drag(machine, hidden, at, viscosity, flow) + _strange(machine, hidden, at, viscosity)
+        + _decompressed(machine, hidden, at) + _lifted(machine, hidden, at, viscosity)[1],
     )  # fmt: skip
 
 
@@ -69,6 +71,34 @@ def _squeezed(machine: Machine, hidden: Hidden, at: Settings) -> Array:
     """Slippers that rise and sit down once a turn, less under load."""
     area = machine.pistons * np.pi * machine.slipper_radii[1] ** 2
     return np.asarray(area * hidden.squeeze * at.speed / (2.0 * np.pi) / (1.0 + at.p_out / 120.0e6))
+
+
+def _lifted(machine: Machine, hidden: Hidden, at: Settings, viscosity: Array) -> tuple[Array, Array]:
+    """Slippers of the suction half that their own weight turns off the plate (m3/s into the case, N m less drag).
+
+    .98 N m at 2100 rpm against chamber and retainer, 77 N on 8.4 mm; a share of them that grows with the ratio.
+    """
+    tips = 0.98 * (at.speed / RATED_SPEED) ** 2
+    holds = np.maximum(machine.area * (at.p_in - at.p_case) + 77.0, 1.0) * 8.4e-3
+    film = machine.slipper_film + hidden.lift / (1.0 + (holds / tips) ** 8)
+    inner, outer = machine.slipper_radii
+    bore, length = machine.orifice
+    throttled = 128.0 * viscosity * length / (np.pi * bore**4)
+
+    def through(gap: Array | float) -> Array:
+        land = 6.0 * viscosity * np.log(outer / inner) / (np.pi * gap**3)
+        return np.asarray(0.5 * machine.pistons * (at.p_in - at.p_case) / (land + throttled))
+
+    half = 0.5 * machine.pistons * viscosity * np.pi * (outer**2 - inner**2) * at.speed * machine.radius**2
+    return through(film) - through(machine.slipper_film), half * (1.0 / film - 1.0 / machine.slipper_film)
+
+
+def _decompressed(machine: Machine, hidden: Hidden, at: Settings) -> Array:
+    """Work that the dead volumes do not give back (N m): oil stiffer under pressure, faster ports lose more."""
+    stroke = full_stroke(machine, machine.swash)
+    dead = machine.pistons * (machine.dead_volume + machine.area * stroke * (1.0 - at.ratio) / 2.0)
+    held = dead * (at.p_out - at.p_in) ** 2 / (2.0 * (machine.bulk_modulus + 5.0 * at.p_out))
+    return np.asarray(hidden.compression * (at.speed / RATED_SPEED) ** 0.15 * held / (2.0 * np.pi))
 
 
 def _drag(machine: Machine, hidden: Hidden, at: Settings, viscosity: Array, flow: Array) -> Array:

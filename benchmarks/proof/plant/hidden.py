@@ -14,7 +14,8 @@ class Hidden:
     lost at high rates; mixed_friction: coefficient of dry contact; thermal_*: 1/K; squeeze: m of stroke of the
     slippers; churning: factor; seal: N m; charge_pump: m3 a turn; short_circuit, control_flow: m2; cross_leak: m3;
     droop: 1/Pa of the stroke; throttling: factor; suction: Pa lost in the inlet line at 188.7 L/min; erosion: rad;
-    air: share at 1 atm; resonance: share of Q_out.
+    air: share at 1 atm; resonance: share of Q_out; compression: share of the work of compression that is lost;
+    lift: m that slippers rise off the plate at suction.
     In no catalogue: stiffening: rise of the modulus with pressure; root_drag, foam, whirl, cold_seal: N m at the
     reference point; seepage: m3/s/Pa above 28 MPa; windage: m3/s into the case; spin_leak: factor at full speed.
     """
@@ -42,6 +43,8 @@ class Hidden:
     erosion: float = 0.0
     air: float = 0.0
     resonance: float = 0.0
+    compression: float = 0.0
+    lift: float = 0.0
     stiffening: float = 0.0
     root_drag: float = 0.0
     foam: float = 0.0
