@@ -15,7 +15,6 @@ if TYPE_CHECKING:
     from swashfilm.study_case import StudyCase
 
 COMMAND_LINE = "command line"
-EXIT_NOT_CONVERGED = 3
 SOFT_PRICE = (
     "walls that give way take some ten times as long as with --rigid --isoviscous; a smaller 'finer' costs less"
 )
@@ -75,6 +74,7 @@ def _revolution(case: RevolutionCase, options: argparse.Namespace, meshes: int) 
 
 
 def _study(study: StudyCase, options: argparse.Namespace, workers: int) -> int:
+    from swashfilm.cli_points import ended
     from swashfilm.progress import progress
     from swashfilm.run_folder import final_folder, run_folder
     from swashfilm.series_page import failed_rows, run_study, span_rows
@@ -91,7 +91,7 @@ def _study(study: StudyCase, options: argparse.Namespace, workers: int) -> int:
     for warning in summary["warnings"]:
         show(f"warning: {warning['name']}: {warning['text']}")
     show(f"results in {final_folder(folder)}")
-    return 0 if summary["solved"] else EXIT_NOT_CONVERGED
+    return ended(summary)
 
 
 def _check_options(options: argparse.Namespace, case: Case | StudyCase) -> None:

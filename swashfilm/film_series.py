@@ -3,15 +3,11 @@
 from __future__ import annotations
 
 import hashlib
-import json
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass
-from enum import Enum
-from functools import partial
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from reynolds.errors import FilmInputError, FilmNotConverged
 from swashfilm.film_case import Case
 from swashfilm.film_study import film_summary, solve_case
 from swashfilm.gap_case import GapCase
@@ -19,21 +15,13 @@ from swashfilm.progress import Report
 from swashfilm.revolution_case import RevolutionCase
 from swashfilm.revolution_study import revolution_course, revolution_summary, solve_revolution
 from swashfilm.study_case import Point, StudyCase
-from system.errors import NotConverged
-from system.faults import Fault, InputFaults, nearest_path
-from system.side_by_side import side_by_side
+from system.kept_points import POINTS, KeptPoints, points_of_run, run_kept
+from system.side_by_side import crew
+from system.work import Outcome as WorkOutcome
+from system.work import Status
 
-POINTS = "points"
 COURSE = "course"
 """Of a revolution, beside its summary: what a study compares over the shaft angle."""
-
-
-class Status(Enum):
-    """What has become of a point."""
-
-    SOLVED = "solved"
-    FAULTY = "faulty"
-    NOT_CONVERGED = "not converged"
 
 
 @dataclass(frozen=True)
@@ -46,6 +34,26 @@ class Outcome:
     summary: Mapping[str, Any]
 
 
+@dataclass(frozen=True)
+class StudyWork:
+    """The points of a study as work in parts."""
+
+    study: StudyCase
+
+    def key(self, point: Point) -> str:
+        """The digest of the point's case; raises InputFaults where it is none."""
+        return digest(self.study.case(point))
+
+    def solve(self, point: Point) -> dict[str, Any]:
+        """The summary of the point's film; raises as its solver."""
+        return solved_summary(self.study.case(point))
+
+    def told(self, point: Point, outcome: WorkOutcome) -> str:
+        """Where the point is, and what became of it."""
+        values = ", ".join(f"{key} = {value}" for key, value in self.study.values(point).items())
+        return f"{values}: {outcome.status.value}"
+
+
 def run_points(
     study: StudyCase, folder: Path, report: Report, *, resumed: Path | None = None, workers: int = 1
 ) -> list[Outcome]:
@@ -54,29 +62,14 @@ def run_points(
     Points that `resumed`/points holds already, of the very same resolved case, are taken from there. Raises
     InputFaults where `resumed` holds no points.
     """
-    kept = _kept(study, folder, resumed) if resumed else {}
-    todo = [point for point in study.points if point not in kept]
-    report(0, len(todo), f"{len(kept)} points kept" if kept else "solving")
-    for done, outcome in enumerate(side_by_side(partial(solve_point, study, folder), todo, workers), start=1):
-        kept[outcome.point] = outcome
-        values = ", ".join(f"{key} = {value}" for key, value in study.values(outcome.point).items())
-        report(done, len(todo), f"{values}: {outcome.status.value}")
-    return [kept[point] for point in study.points]
-
-
-def solve_point(study: StudyCase, folder: Path, point: Point) -> Outcome:
-    """One point solved and kept in `folder`; a fault or a solve that does not converge is its reason."""
-    try:
-        case = study.case(point)
-        summary = solved_summary(case)
-    except (InputFaults, FilmInputError) as reason:
-        return Outcome(point, Status.FAULTY, _line(reason), {})
-    except (FilmNotConverged, NotConverged) as reason:
-        outcome = Outcome(point, Status.NOT_CONVERGED, str(reason), {})
-    else:
-        outcome = Outcome(point, Status.SOLVED, "", summary)
-    _keep(folder, digest(case), outcome)
-    return outcome
+    work, store = StudyWork(study), KeptPoints(folder / POINTS)
+    earlier = points_of_run(resumed) if resumed else None
+    with crew(workers) as hands:
+        kept = run_kept(work, study.points, store, hands, earlier=earlier, told=work.told, report=report)
+    return [
+        Outcome(point, found.status, found.reason, found.record)
+        for point, found in zip(study.points, kept.outcomes, strict=True)
+    ]
 
 
 def solved_summary(case: Case) -> dict[str, Any]:
@@ -99,38 +92,3 @@ def digest(case: Case) -> str:
         for part in (case.problem.space.vertices, film.thickness, film.viscosity):
             content.update(part.tobytes())
     return content.hexdigest()[:24]
-
-
-def _keep(folder: Path, name: str, outcome: Outcome) -> None:
-    (folder / POINTS).mkdir(exist_ok=True)
-    record = asdict(outcome) | {"status": outcome.status.value}
-    unfinished = folder / POINTS / f"{name}.tmp"
-    unfinished.write_text(json.dumps(record, allow_nan=False), encoding="utf-8")
-    unfinished.replace(folder / POINTS / f"{name}.json")
-
-
-def _kept(study: StudyCase, folder: Path, resumed: Path) -> dict[Point, Outcome]:
-    """Outcomes that lie in another run folder, copied to this one."""
-    if not (resumed / POINTS).is_dir():
-        found, near = f"{resumed}, which holds no {POINTS}", nearest_path(resumed)
-        fault = Fault("--resume", found, "the folder of a study that was begun", near)
-        raise InputFaults("command line", [fault])
-    taken = {}
-    for point in study.points:
-        try:
-            name = digest(study.case(point))
-        except InputFaults:
-            continue  # told when the point is tried
-        record = resumed / POINTS / f"{name}.json"
-        if record.is_file():
-            values = json.loads(record.read_text("utf-8"))
-            outcome = Outcome(point, Status(values["status"]), values["reason"], values["summary"])
-            _keep(folder, name, outcome)
-            taken[point] = outcome
-    return taken
-
-
-def _line(reason: InputFaults | FilmInputError) -> str:
-    if isinstance(reason, InputFaults):
-        return "; ".join(f"{fault.path}: {fault.found}, expected {fault.expected}" for fault in reason.faults)
-    return str(reason)

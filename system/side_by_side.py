@@ -1,17 +1,33 @@
-"""Work that falls into parts, done by several processes side by side."""
+"""Work that falls into parts, done by several processes side by side; a process that dies costs its part only."""
 
 from __future__ import annotations
 
 import os
+from collections import deque
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, TypeVar
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Generic, TypeVar
 
 if TYPE_CHECKING:
-    from concurrent.futures import Executor
+    from concurrent.futures import Future, ProcessPoolExecutor
 
 Part = TypeVar("Part")
 Result = TypeVar("Result")
+DIED = "its process died twice, the second time alone: out of memory, or killed from outside"
+
+
+class WorkerDied(RuntimeError):
+    """The process that was at a part died, and died again when it had nothing else to do."""
+
+
+@dataclass(frozen=True)
+class Attempt(Generic[Part, Result]):
+    """What came of a part: its result, or the exception that is the reason why it has none."""
+
+    part: Part
+    result: Result | None
+    fault: Exception | None
 
 
 def cores() -> int:
@@ -26,28 +42,78 @@ class Crew:
 
     def __init__(self, workers: int) -> None:
         self.workers = workers
-        self._pool: Executor | None = None
+        self._pool: ProcessPoolExecutor | None = None
 
     def do(self, task: Callable[[Part], Result], parts: Sequence[Part]) -> Iterator[Result]:
-        """The results of `task` in the order in which they are done.
+        """The results of `task` in the order in which they are done; raises what the first part that fails raised.
+
+        Task and parts as those of `attempts`.
+        """
+        for attempt in self.attempts(task, parts):
+            if attempt.fault is not None:
+                raise attempt.fault
+            yield attempt.result  # type: ignore[misc]  # a part without a fault has its result
+
+    def attempts(self, task: Callable[[Part], Result], parts: Sequence[Part]) -> Iterator[Attempt[Part, Result]]:
+        """What comes of each part, in the order in which they are done; no part's failure ends the others.
 
         Task and parts must be fit to be sent to another process. The others are started when they are first
-        needed. Ctrl-C is for this process alone.
+        needed. Ctrl-C is for this process alone. Parts that were at work when a process died are tried once more,
+        each alone, so that the one which kills is known: its fault is WorkerDied.
         """
         if self.workers == 1 or len(parts) < 2:
-            yield from map(task, parts)
+            yield from (_tried(task, part) for part in parts)
             return
-        from concurrent.futures import as_completed
-
-        if self._pool is None:
-            self._pool = _pool(self.workers)
-        for done in as_completed([self._pool.submit(task, part) for part in parts]):
-            yield done.result()
+        waiting, suspects = deque(parts), deque[Part]()
+        while waiting or suspects:
+            alone = bool(suspects)
+            lost: list[Part] = []
+            yield from self._until_a_death(
+                task, suspects if alone else waiting, 1 if alone else self.workers, lost
+            )
+            if alone:
+                yield from (Attempt(part, None, WorkerDied(DIED)) for part in lost)
+            else:
+                suspects.extend(lost)
 
     def leave(self) -> None:
         """Stop the others after the parts they are at."""
         if self._pool is not None:
             self._pool.shutdown(cancel_futures=True)
+            self._pool = None
+
+    def _until_a_death(
+        self, task: Callable[[Part], Result], parts: deque[Part], most: int, lost: list[Part]
+    ) -> Iterator[Attempt[Part, Result]]:
+        """Take parts, `most` at a time, until none is left or a process dies, whose parts are then `lost`."""
+        from concurrent.futures import FIRST_COMPLETED, wait
+        from concurrent.futures.process import BrokenProcessPool
+
+        flying: dict[Future[Result], Part] = {}
+        while parts or flying:
+            try:
+                while parts and len(flying) < most:
+                    flying[self._hands().submit(task, parts[0])] = parts[0]
+                    parts.popleft()
+            except BrokenProcessPool:  # found at the next submit: what flies is lost, if anything flies
+                if not flying:
+                    self.leave()
+                    continue
+            landed = {future: flying.pop(future) for future in wait(flying, return_when=FIRST_COMPLETED).done}
+            broken = {f: part for f, part in landed.items() if isinstance(f.exception(), BrokenProcessPool)}
+            yield from (_landed(f, part) for f, part in landed.items() if f not in broken)
+            if broken:
+                lost.extend([*broken.values(), *flying.values()])
+                self.leave()
+                return
+
+    def _hands(self) -> ProcessPoolExecutor:
+        if self._pool is None:
+            import multiprocessing
+            from concurrent.futures import ProcessPoolExecutor
+
+            self._pool = ProcessPoolExecutor(self.workers, multiprocessing.get_context("spawn"), _begin)
+        return self._pool
 
 
 @contextmanager
@@ -60,17 +126,34 @@ def crew(workers: int) -> Iterator[Crew]:
         hands.leave()
 
 
-def side_by_side(task: Callable[[Part], Result], parts: Sequence[Part], workers: int) -> Iterator[Result]:
-    """The results of `task` in the order in which they are done, by a crew that leaves when it has done them."""
-    with crew(workers) as hands:
-        yield from hands.do(task, parts)
+def _tried(task: Callable[[Part], Result], part: Part) -> Attempt[Part, Result]:
+    """A part done by this process itself."""
+    try:
+        return Attempt(part, task(part), None)
+    except Exception as fault:  # whatever it is, it is told as the part's reason, or raised by `do`
+        return Attempt(part, None, fault)
 
 
-def _pool(workers: int) -> Executor:
-    import multiprocessing
+def _landed(future: Future[Result], part: Part) -> Attempt[Part, Result]:
+    fault = future.exception()
+    if fault is not None and not isinstance(fault, Exception):
+        raise fault
+    return Attempt(part, None if fault else future.result(), fault)
+
+
+def _begin() -> None:
+    """Of a new process: Ctrl-C is not for it, and it does not outlive the one that started it."""
     import signal
-    from concurrent.futures import ProcessPoolExecutor
+    from threading import Thread
 
-    return ProcessPoolExecutor(
-        workers, multiprocessing.get_context("spawn"), signal.signal, (signal.SIGINT, signal.SIG_IGN)
-    )
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    Thread(target=_leave_with_parent, daemon=True).start()
+
+
+def _leave_with_parent() -> None:
+    from multiprocessing import parent_process
+
+    parent = parent_process()
+    if parent is not None:
+        parent.join()
+        os._exit(1)

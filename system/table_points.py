@@ -2,25 +2,25 @@
 
 from __future__ import annotations
 
-import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import partial
 from pathlib import Path
 from typing import Protocol
 
 import numpy as np
 
 from gaps.response import Axis, Samples, fewest_learnt, held_out_points, learnt_points
-from reynolds.bodies.cache import cache_folder, kept
-from reynolds.errors import FilmInputError, FilmNotConverged
+from reynolds.bodies.cache import cache_folder
 from reynolds.mesh import Array
 from system.errors import NotConverged
-from system.faults import InputFaults
 from system.gap_cycle import Report, silent
-from system.side_by_side import side_by_side
+from system.kept_points import POINTS, KeptPoints, run_kept
+from system.side_by_side import crew
+from system.work import Outcome, Status
 
 FEWEST_HELD_OUT = 2
+OUTPUTS = "outputs"
+"""Of a point's record: the numbers that `Asked.solve` gave."""
 
 
 class Asked(Protocol):
@@ -81,6 +81,21 @@ def tables_folder(folder: Path | None = None) -> Path:
     return cache_folder(folder) / "tables"
 
 
+@dataclass(frozen=True)
+class TableWork:
+    """The points of a box as work in parts."""
+
+    asked: Asked
+
+    def key(self, x: Array) -> str:
+        """Name of the content of a place (d,)."""
+        return self.asked.key(x)
+
+    def solve(self, x: Array) -> dict[str, list[float]]:
+        """The outputs there; raises as `Asked.solve`."""
+        return {OUTPUTS: self.asked.solve(x).tolist()}
+
+
 def solved_points(
     asked: Asked, *, workers: int = 1, report: Report = silent, folder: Path | None = None
 ) -> tuple[Solved, ...]:
@@ -89,34 +104,22 @@ def solved_points(
     Interrupted, it goes on where it was at the next call. A point that does not converge, or that no law or case
     reaches, says why and is tried again the next time.
     """
-    place = tables_folder(folder) / "points"
-    task = partial(solve_point, asked, place)
-    parts = list(enumerate(points_of(asked)))
-    known = [(k, x) for k, x in parts if (place / f"{asked.key(x)}.npz").is_file()]
-    found = {k: task((k, x)) for k, x in known}
-    todo = [(k, x) for k, x in parts if k not in found]
-    report(0, len(todo), f"{len(known)} points kept" if known else "solving")
-    for done, solved in enumerate(side_by_side(task, todo, workers), start=1):
-        found[solved.index] = solved
-        report(done, len(todo), "point failed" if solved.reason else "point solved")
-    return tuple(found[k] for k, _ in parts)
+    store = KeptPoints(tables_folder(folder) / POINTS, frozenset({Status.SOLVED}))
+    with crew(workers) as hands:
+        kept = run_kept(TableWork(asked), list(points_of(asked)), store, hands, told=_told, report=report)
+    return tuple(_solved(index, outcome) for index, outcome in enumerate(kept.outcomes))
 
 
-def solve_point(asked: Asked, folder: Path, part: tuple[int, Array]) -> Solved:
-    """A point by its index and place, solved and kept in `folder`, or taken from there."""
-    index, x = part
-    began = time.process_time()
-    try:
-        arrays = kept(asked.key(x), partial(_solve, asked, x), folder).arrays
-    except (NotConverged, FilmNotConverged, FilmInputError, InputFaults) as fault:
-        return Solved(index, None, str(fault), time.process_time() - began)
-    return Solved(index, arrays["outputs"], "", float(arrays["seconds"]))
+def _told(x: Array, outcome: Outcome) -> str:
+    return "point failed" if outcome.reason else "point solved"
 
 
-def _solve(asked: Asked, x: Array) -> Mapping[str, Array]:
-    began = time.process_time()
-    outputs = asked.solve(x)
-    return {"outputs": outputs, "seconds": np.array(time.process_time() - began)}
+def _solved(index: int, outcome: Outcome) -> Solved:
+    """A point by its outcome; raises RuntimeError for an error of the program's own, which no table may hide."""
+    if outcome.status is Status.INTERNAL:
+        raise RuntimeError(outcome.reason)
+    outputs = np.array(outcome.record[OUTPUTS]) if outcome.status is Status.SOLVED else None
+    return Solved(index, outputs, outcome.reason, outcome.seconds)
 
 
 def samples_of(asked: Asked, found: Sequence[Solved]) -> tuple[Samples, Samples]:

@@ -103,7 +103,7 @@ def test_ctrl_c_keeps_what_is_solved(stand_in, tmp_path, capsys):
     assert "the same command goes on" in capsys.readouterr().err
     assert not (tmp_path / "table").exists()
     assert not (tmp_path / "table.partial").exists()
-    kept = len(list((tmp_path / "cache" / "tables" / "points").glob("*.npz")))
+    kept = len(list((tmp_path / "cache" / "tables" / "points").glob("*.json")))
     assert kept > 0
     stand_in()
     assert main(["table", "ref90", *FEW, "-o", str(tmp_path / "table")]) == 0
