@@ -21,6 +21,7 @@ from swashfilm.revolution_study import NO_RUBBING
 from swashfilm.table_run import TABLE, table_warnings, write_table_files
 from system.floating_parts import floating_parts
 from system.response_tables import PRESSURE, RATIO, SPEED, axis_value
+from system.side_by_side import crew
 from system.table_points import Solved, points_of, samples_of, solved_points
 from system.table_store import read_response, response_record, write_response
 from system.units import Dimension, parse_quantity
@@ -78,7 +79,8 @@ def run_gap_table(asked: GapTableCase, folder: Path, report: Report, *, workers:
     The points are kept in the cache, as those of a pump's table are. Returns the summary. Raises NotConverged
     where too few points have a result.
     """
-    found = solved_points(asked, workers=workers, report=report)
+    with crew(workers) as hands:
+        found = solved_points(asked, hands=hands, report=report)
     learnt, held_out = samples_of(asked, found)
     outputs = _measured(asked.outputs, np.concatenate([learnt.values, held_out.values]))
     response = Response(asked.axes, outputs, learnt, held_out)

@@ -14,6 +14,7 @@ from swashfilm.run_folder import write_json
 from system.floating_parts import floating_parts
 from system.pump_file import resolved_toml
 from system.response_tables import LARGE_ERROR, ResponseTable, axis_value
+from system.side_by_side import crew
 from system.table_build import TableCase, build_table
 from system.table_means import MEANINGS
 from system.table_numbers import NUMBERS
@@ -30,7 +31,8 @@ def run_table(case: TableCase, folder: Path, report: Report, *, workers: int = 1
 
     The table itself is kept in the cache, point by point. Returns the summary. Raises as `build_table`.
     """
-    table = build_table(case, workers=workers, report=report)
+    with crew(workers) as hands:
+        table = build_table(case, hands=hands, report=report)
     (folder / "resolved.toml").write_text(resolved_toml(case.pump), encoding="utf-8")
     keep_table(table, folder / TABLE)
     summary = table_summary(table) | {"assumptions": [str(taken) for taken in floating_parts(case.pump).taken]}

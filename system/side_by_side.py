@@ -116,6 +116,10 @@ class Crew:
         return self._pool
 
 
+HERE = Crew(1)
+"""This process itself."""
+
+
 @contextmanager
 def crew(workers: int) -> Iterator[Crew]:
     """A crew for as long as it is needed."""

@@ -27,6 +27,7 @@ from system.response_tables import (
     Origin,
     ResponseTable,
 )
+from system.side_by_side import HERE
 from system.table_means import MEANINGS, TABLE_FORMAT, mean_ratios, measured_outputs
 from system.table_numbers import numbers_error, pump_numbers
 from system.table_point import table_point
@@ -34,6 +35,7 @@ from system.table_points import Solved, points_of, samples_of, solved_points, ta
 from system.table_sources import PointSolver, with_held_ports
 from system.table_store import KEY_LENGTH, keep_table, pump_key
 from system.units import Dimension, format_quantity
+from system.work import Hands
 
 SPEEDS = (0.2, 1.2)
 """Of the rated speed: the box where nothing else is stated."""
@@ -119,14 +121,14 @@ def table_axes(
 
 
 def build_table(
-    case: TableCase, *, workers: int = 1, report: Report = silent, folder: Path | None = None
+    case: TableCase, *, hands: Hands = HERE, report: Report = silent, folder: Path | None = None
 ) -> ResponseTable:
     """The table of a case, kept in the cache; its points as `solved_points`.
 
     Held-out points are run by the table, too, for what it misses of the pump's numbers. Raises NotConverged where
     too few points have a result, and as `table_point`.
     """
-    found = solved_points(case, workers=workers, report=report, folder=folder)
+    found = solved_points(case, hands=hands, report=report, folder=folder)
     (learnt, _), (held_out, numbers) = (_parted(samples) for samples in samples_of(case, found))
     outputs = measured_outputs(np.concatenate([learnt.values, held_out.values]))
     table = ResponseTable(_origin(case, found), Response(case.axes, outputs, learnt, held_out))

@@ -15,8 +15,8 @@ from reynolds.mesh import Array
 from system.errors import NotConverged
 from system.gap_cycle import Report, silent
 from system.kept_points import POINTS, KeptPoints, run_kept
-from system.side_by_side import crew
-from system.work import Outcome, Status
+from system.side_by_side import HERE
+from system.work import Hands, Outcome, Status
 
 FEWEST_HELD_OUT = 2
 OUTPUTS = "outputs"
@@ -97,7 +97,7 @@ class TableWork:
 
 
 def solved_points(
-    asked: Asked, *, workers: int = 1, report: Report = silent, folder: Path | None = None
+    asked: Asked, *, hands: Hands = HERE, report: Report = silent, folder: Path | None = None
 ) -> tuple[Solved, ...]:
     """Every point of `points_of`, in its order; those that are kept already are not solved again.
 
@@ -105,8 +105,7 @@ def solved_points(
     reaches, says why and is tried again the next time.
     """
     store = KeptPoints(tables_folder(folder) / POINTS, frozenset({Status.SOLVED}))
-    with crew(workers) as hands:
-        kept = run_kept(TableWork(asked), list(points_of(asked)), store, hands, told=_told, report=report)
+    kept = run_kept(TableWork(asked), list(points_of(asked)), store, hands, told=_told, report=report)
     return tuple(_solved(index, outcome) for index, outcome in enumerate(kept.outcomes))
 
 
