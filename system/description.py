@@ -31,6 +31,7 @@ from system.fields import (
     Fraction,
     Grooves,
     KinematicViscosity,
+    Leakage,
     Length,
     Mass,
     Modulus,
@@ -59,6 +60,7 @@ from system.parts_description import (
     PadSection,
     ReliefSection,
     RetainerSection,
+    Stroking,
     SurfacesSection,
     SwashPlateSection,
     WavinessSection,
@@ -271,6 +273,19 @@ class BearingsSection(Section):
     rear_position: AnyLength | None = None
 
 
+class ActuatorSection(Section):
+    """[actuator]: the piston that tilts the swash plate, and the spring against it."""
+
+    strokes: Stroking | None = None
+    area: Area | None = None
+    arm: Length | None = None  # from the tilt axis
+    dead_volume: Volume | None = None  # at its innermost place
+    orifice_area: Area | None = None  # between control pressure and actuator
+    leakage: Leakage | None = None  # to the case
+    spring_rate: Stiffness | None = None
+    spring_preload: Force | None = None  # at the actuator's innermost place
+
+
 class FrictionSection(Section):
     """[friction]: Coulomb coefficient of each of the seven friction pairs."""
 
@@ -334,6 +349,7 @@ class PumpDescription(Section):
     operating: OperatingSection
     bore: BoreSection = BoreSection()
     swash_plate: SwashPlateSection = SwashPlateSection()
+    actuator: ActuatorSection = ActuatorSection()
     retainer: RetainerSection = RetainerSection()
     materials: MaterialsSection = MaterialsSection()
     surfaces: SurfacesSection = SurfacesSection()

@@ -106,6 +106,14 @@ def _places(path: str, rows: Rows, start: float, end: float) -> Iterator[Finding
         yield Fault(path, found, f"places from {length(start)} or less to {length(end)} or more")
 
 
+@needs("swash_plate.angle_min", "pump.swash_angle_max")
+def stops_are_apart(pump: PumpDescription) -> Iterator[Finding]:
+    """The swash plate's lower stop is below the upper one, and no farther over centre than that."""
+    low, high = pump.swash_plate.angle_min, pump.pump.swash_angle_max
+    if low is not None and not -high <= low < high:
+        yield Fault("swash_plate.angle_min", angle(low), f"{angle(-high)} to below {angle(high)}, swash_angle_max")
+
+
 def _net(path: str, rows: Rows) -> Iterator[Finding]:
     places, angles = sorted({row[0] for row in rows}), sorted({row[1] for row in rows})
     known = Counter(row[:2] for row in rows)
@@ -277,6 +285,7 @@ PARTS_CHECKS = (
     a_spring_presses_the_retainer,
     lines_have_the_keys_of_their_kinds,
     spins_left_free_are_told,
+    stops_are_apart,
 )
 
 

@@ -14,20 +14,24 @@ from pydantic import Field, computed_field
 
 from system.fields import (
     Angle,
+    AnyLength,
     Area,
     ArealDensity,
     Coefficient,
     Conductivity,
+    Damping,
     Density,
     Elasticity,
     Expansion,
     FaceName,
     FaceNames,
+    Inertia,
     Length,
     MeshFile,
     Profile,
     Section,
     Stiffness,
+    Torque,
 )
 from system.units import Dimension
 
@@ -101,9 +105,14 @@ class BoreSection(Section):
 
 
 class SwashPlateSection(Section):
-    """[swash_plate]: what the slippers slide on."""
+    """[swash_plate]: what the slippers slide on, and what tilts."""
 
     thickness: Length | None = None
+    inertia: Inertia | None = None  # about the tilt axis, with all that tilts
+    pivot_offset: AnyLength | None = None  # of the tilt axis from the shaft's, to the inner dead centre
+    angle_min: Angle | None = None  # of the lower stop; the upper one is at [pump] swash_angle_max
+    damping: Damping | None = None
+    trunnion_friction: Torque | None = None
     body: BodySection | None = None  # of what lies under one slipper
 
 
@@ -125,6 +134,13 @@ class GrooveSection(Section):
     angle: Annotated[float, Dimension.ANGLE, Field(gt=0.0, lt=math.pi)] | None = None  # between the flanks of a V
     width: Length | None = None  # of the round tool
     area: Area | None = None  # of the throat at the kidney
+
+
+class Stroking(Enum):
+    """Which way the actuator's pressure tilts the swash plate: to larger displacement, or to smaller."""
+
+    UP = "up"
+    DOWN = "down"
 
 
 class RetainerKind(Enum):

@@ -29,11 +29,11 @@ class BoreCircle:
 
 @dataclass(frozen=True)
 class Plate:
-    """The swash plate's tilt: angle rad, rate rad/s, acceleration rad/s2."""
+    """The swash plate's tilt: angle rad, rate rad/s, acceleration rad/s2; one, or one for each shaft angle."""
 
-    angle: float
-    rate: float = 0.0
-    acceleration: float = 0.0
+    angle: Array | float
+    rate: Array | float = 0.0
+    acceleration: Array | float = 0.0
 
 
 @dataclass(frozen=True)

@@ -1,0 +1,149 @@
+"""The variable displacement mechanism: swash plate with its inertia, stops and friction, actuator and spring.
+
+Every value is stated by [swash_plate] and [actuator], or taken and told. An actuator pushes the plate along the
+shaft by a pin at `arm` from the tilt axis: its way is arm (sin g - sin g_min), or arm (sin g_max - sin g) where
+its pressure strokes the plate down; the spring stands against it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from system.assumptions import Assumption, Taken
+from system.description import PumpDescription
+from system.floating_parts import STEEL
+from system.lumped_point import lumped_point
+from system.multibody.rotating_group import joint_forces
+from system.operating import OperatingPoint
+from system.parts_description import Stroking
+from system.units import Dimension
+
+HOLDS = 1.3  # times the largest mean moment of the pump that a taken actuator holds
+FILLS = 0.1  # s in which a taken orifice fills the actuator
+DROP = 1e6  # Pa over it meanwhile
+
+
+@dataclass(frozen=True)
+class SwingingPlate:
+    """The plate about its tilt axis: inertia kg m2, pivot_offset m, stops rad, damping N m s/rad, rubbing N m."""
+
+    inertia: float
+    pivot_offset: float
+    angle_min: float
+    angle_max: float
+    damping: float
+    rubbing: float
+
+
+@dataclass(frozen=True)
+class Actuator:
+    """strokes; piston area m2, arm m, dead_volume m3, orifice_area m2, leakage m3/(s Pa); spring N/m, and N at the
+    actuator's innermost place."""
+
+    strokes: Stroking
+    area: float
+    arm: float
+    dead_volume: float
+    orifice_area: float
+    leakage: float
+    spring_rate: float
+    spring_force: float
+
+    @property
+    def sense(self) -> float:
+        """1 where its pressure makes the angle larger, -1 where smaller."""
+        return 1.0 if self.strokes is Stroking.UP else -1.0
+
+    def sweep(self, plate: SwingingPlate) -> float:
+        """Volume from stop to stop, m3."""
+        return self.area * self.arm * float(np.sin(plate.angle_max) - np.sin(plate.angle_min))
+
+
+@dataclass(frozen=True)
+class Mechanism:
+    """Plate and actuator, complete; taken: what is not stated."""
+
+    plate: SwingingPlate
+    actuator: Actuator
+    taken: tuple[Assumption, ...]
+
+
+def mechanism(pump: PumpDescription, point: OperatingPoint, control_pressure: float) -> Mechanism:
+    """The mechanism of a pump; where its actuator is not stated, one that `control_pressure` (Pa) holds it by at
+    `point`, at full displacement."""
+    taken = Taken()
+    plate = _plate(pump, taken)
+    return Mechanism(plate, _actuator(pump, plate, point, control_pressure, taken), tuple(taken.assumptions))
+
+
+def _plate(pump: PumpDescription, taken: Taken) -> SwingingPlate:
+    stated, reach = pump.swash_plate, _reach(pump)
+    material = pump.materials.swash_plate
+    density = STEEL.density if material is None or material.density is None else material.density
+    return SwingingPlate(
+        inertia=taken.value(
+            "swash_plate.inertia", stated.inertia, 0.5 * np.pi * density * reach**5,
+            "half a solid cylinder about the tilt axis, its radius and half its length out to the slippers' rims",
+            Dimension.INERTIA,
+        ),
+        pivot_offset=taken.value(
+            "swash_plate.pivot_offset", stated.pivot_offset, 0.0, "the plate pivots on the shaft's axis",
+            Dimension.LENGTH,
+        ),
+        angle_min=taken.value(
+            "swash_plate.angle_min", stated.angle_min, 0.0, "the lower stop is at no displacement", Dimension.ANGLE
+        ),
+        angle_max=pump.pump.swash_angle_max,
+        damping=taken.value(
+            "swash_plate.damping", stated.damping, 0.0, "orifice and oil alone damp", Dimension.ANGULAR_DAMPING
+        ),
+        rubbing=taken.value(
+            "swash_plate.trunnion_friction", stated.trunnion_friction, 0.0, "rolling bearings", Dimension.TORQUE
+        ),
+    )  # fmt: skip
+
+
+def _reach(pump: PumpDescription) -> float:
+    """From the shaft to the slippers' rims, m."""
+    return pump.pump.pitch_radius + pump.slipper.land_outer_radius
+
+
+def _actuator(
+    pump: PumpDescription, plate: SwingingPlate, point: OperatingPoint, control_pressure: float, taken: Taken
+) -> Actuator:
+    stated = pump.actuator
+    strokes = stated.strokes
+    if strokes is None:
+        strokes = Stroking.UP
+        taken.note("actuator.strokes", strokes.value, "control pressure holds the plate against the pump's moment")
+    arm = taken.value("actuator.arm", stated.arm, _reach(pump), "just beyond the slippers' rims", Dimension.LENGTH)
+    rate = taken.value("actuator.spring_rate", stated.spring_rate, 0.0, "no spring", Dimension.STIFFNESS)
+    force = taken.value("actuator.spring_preload", stated.spring_preload, 0.0, "no spring", Dimension.FORCE)
+    area = stated.area
+    if area is None:
+        moment = abs(_mean_moment(pump, point))
+        needed = HOLDS * (moment / (arm * np.cos(plate.angle_max)) + force)
+        holding = control_pressure - point.case_pressure
+        why = f"highest control pressure holds {HOLDS:g} times the mean moment, {moment:.4g} N m, and the spring"
+        area = taken.value("actuator.area", None, needed / holding, why, Dimension.AREA)
+    swept = area * arm * float(np.sin(plate.angle_max) - np.sin(plate.angle_min))
+    flow = pump.ports.flow_coefficient * np.sqrt(2.0 * DROP / pump.oil.density)
+    return Actuator(
+        strokes, area, arm,
+        taken.value("actuator.dead_volume", stated.dead_volume, swept, "as much as it sweeps", Dimension.VOLUME),
+        taken.value(
+            "actuator.orifice_area", stated.orifice_area, swept / (FILLS * flow),
+            f"fills it within {FILLS:g} s at 1 MPa", Dimension.AREA,
+        ),
+        taken.value(
+            "actuator.leakage", stated.leakage, 0.0, "a sealed piston", Dimension.HYDRAULIC_CONDUCTANCE
+        ),
+        rate, force,
+    )  # fmt: skip
+
+
+def _mean_moment(pump: PumpDescription, point: OperatingPoint) -> float:
+    """Mean of what holds the plate at rest at a point, N m."""
+    return float(np.mean(joint_forces(pump, lumped_point(pump, point)).plate.control))
