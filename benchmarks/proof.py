@@ -2,6 +2,7 @@
 
     python benchmarks/proof.py                            runs what is not there yet, then writes docs/proof.md
     python benchmarks/proof.py --part null --cases 40     only the first 40 cases of a part
+    python benchmarks/proof.py --part rig                 a section of the page: rig, tanks, films; bench: ten maps
     python benchmarks/proof.py --workers 2                side by side
     python benchmarks/proof.py --cases 0                  runs nothing, writes the page from what is there
     python benchmarks/proof.py --development --page FILE  other draws, to look at before a mend
@@ -41,6 +42,7 @@ def main() -> int:
     folders = [] if options.part not in (None, GIVEN) else given()[: options.cases]
     try:
         _run(listed, folders, options.results, options.workers)
+        _tell(options)
     except KeyboardInterrupt:
         print("interrupted; what was finished is kept")
     _page(options.results, options.page, seed)
@@ -49,7 +51,7 @@ def main() -> int:
 
 def _options() -> argparse.Namespace:
     reader = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parts = ("null", "graded", "pair", "parameter", "sensor", "unknown", "trace", "bench")
+    parts = ("null", "graded", "pair", "parameter", "sensor", "unknown", "trace", "bench", "rig", "tanks", "films")
     reader.add_argument("--part", choices=parts, help="only one part")
     reader.add_argument("--cases", type=int, metavar="N", help="only the first N cases of each part")
     reader.add_argument("--results", type=Path, default=ROOT / "build" / "proof", metavar="DIR")
@@ -74,6 +76,18 @@ def _run(listed: list, folders: list[Path], results: Path, workers: int) -> None
         told = f"{outcome.verdict}, {outcome.status}{', ' if told else ''}{told}{outcome.failed}"
         spent = f"{outcome.seconds:.0f} s process time"
         print(f"{number}/{len(missing)} {outcome.name} (z {outcome.score:.1f}): {told}; {spent}", flush=True)
+
+
+def _tell(options: argparse.Namespace) -> None:
+    """Make the page's other sections that are not there yet."""
+    from proof.real import sections
+    from proof.told import keep_told, load_told
+
+    for name, make in sections().items():
+        asked = options.part == name or (options.part is None and not options.development)
+        if asked and options.cases != 0 and load_told(options.results, name) is None:
+            keep_told(options.results, name, make())
+            print(f"section {name}", flush=True)
 
 
 def _outcomes(missing: dict, workers: int) -> Iterator[tuple]:

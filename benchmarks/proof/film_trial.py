@@ -1,0 +1,53 @@
+"""A recording of the film simulation put to the diagnosis, whose simulation is the lumped one."""
+
+from __future__ import annotations
+
+import tempfile
+from pathlib import Path
+from time import process_time
+
+from diagnosis.scant_pump import load_known_pump
+from diagnosis.verdict import Diagnosis
+from swashfilm.diagnose_run import checked_recording, run_diagnosis
+from system.gap_cycle import silent
+from system.physics.catalogue import CATALOGUE, with_films_solved
+
+from .film_plant import FilmPlant, readings
+from .writing import write_recording
+
+HEAD = ("plant", "said", "status", "size", "held out: before / after, of the noise", "chi2", "s")
+SEED = 3  # of calibrations and noise
+
+
+def write_film_recording(plant: FilmPlant, folder: Path, seed: int) -> None:
+    """Write a plant's recording into a folder, made where it is not there."""
+    folder.mkdir(parents=True, exist_ok=True)
+    campaign, read = readings(plant, seed)
+    write_recording(folder, f"film plant {plant.case.value}", read, campaign.circuit)
+
+
+def diagnosed(plant: FilmPlant, seed: int = SEED, film_tables: bool = False) -> tuple[str, ...]:
+    """A row of HEAD: what `swashfilm diagnose` says of a plant's recording."""
+    known, begun = load_known_pump("ref90"), process_time()
+    with tempfile.TemporaryDirectory() as folder:
+        write_film_recording(plant, Path(folder), seed)
+        catalogue = with_films_solved(known.pump) if film_tables else CATALOGUE
+        recording = checked_recording(Path(folder), known)
+        found = run_diagnosis(known, recording, Path(folder), silent, catalogue=catalogue)
+    return plant.case.value, *_row(found), f"{process_time() - begun:.0f}"
+
+
+def _row(found: Diagnosis) -> tuple[str, ...]:
+    said = ", ".join(
+        f"{one.effect.value} ({one.pair.value})" if one.pair else one.effect.value for one in found.effects
+    )
+    sizes = "; ".join(
+        f"{size.name} {size.value:.3g} +- {size.sigma:.2g}" for one in found.effects for size in one.parameters
+    )
+    fit = found.fit
+    ratios = ", ".join(
+        f"{name.value} {fit.before[name] / fit.noise[name]:.2f} / {fit.after[name] / fit.noise[name]:.2f}"
+        for name in fit.before
+    )
+    chi2 = " / ".join(f"{one.objective / one.residual.size:.2f}" for one in (found.before, found.after))
+    return said or found.kind.value, found.status.value, sizes, ratios, chi2
