@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -34,36 +35,56 @@ def brier(outcomes: Sequence[Outcome]) -> float:
 
 def calibration_error(outcomes: Sequence[Outcome]) -> float:
     """Expected calibration error over ten bins (Naeini 2015)."""
-    return float(sum(share * abs(told - true) for told, true, share in bins(outcomes)))
+    return sum(one.weight * abs(one.told - one.true) for one in bins(outcomes))
 
 
-def bins(outcomes: Sequence[Outcome]) -> list[tuple[float, float, float]]:
-    """Mean probability, share of truth and weight of each bin that holds a case."""
+@dataclass(frozen=True)
+class Bin:
+    """Cases of like probability: its mean, the share in which it is true, weight in the mix, number."""
+
+    told: float
+    true: float
+    weight: float
+    cases: int
+
+
+def bins(outcomes: Sequence[Outcome]) -> list[Bin]:
+    """Each bin that holds a case."""
     told, true, weight = weighted(outcomes)
     place = np.clip(np.digitize(told, BINS) - 1, 0, BINS.size - 2)
     found = []
     for each in np.unique(place):
         own = place == each
         share = weight[own].sum()
-        found.append(
-            (float(weight[own] @ told[own] / share), float(weight[own] @ true[own] / share), float(share))
-        )
+        means = (float(weight[own] @ values[own] / share) for values in (told, true))
+        found.append(Bin(*means, float(share), int(own.sum())))
     return found
 
 
+def wilson(hits: float, cases: int, z: float = 1.96) -> tuple[float, float]:
+    """Wilson's (1927) interval of a share."""
+    if cases == 0:
+        return 0.0, 1.0
+    share, weight = hits / cases, z * z / cases
+    middle, half = share + weight / 2.0, z * np.sqrt(share * (1.0 - share) / cases + weight / (4.0 * cases))
+    return float((middle - half) / (1.0 + weight)), float((middle + half) / (1.0 + weight))
+
+
 def draw(outcomes: Sequence[Outcome], path: Path) -> None:
-    """The reliability diagram as a PNG: truth over probability, each bin's area its weight."""
+    """The reliability diagram as a PNG: truth over probability, area by weight, Wilson's 95 % intervals."""
     import matplotlib
 
     matplotlib.use("agg")
     import matplotlib.pyplot as plt
 
-    told, true, share = np.array(bins(outcomes)).T
-    figure, axes = plt.subplots(figsize=(4.2, 4.0), layout="constrained")
+    figure, axes = plt.subplots(figsize=(5.2, 5.0), layout="constrained")
     axes.plot([0, 1], [0, 1], color="0.6", linewidth=1)
-    axes.scatter(told, true, s=20 + 400 * share, color="#1f5a8a", alpha=0.8, zorder=3)
+    for one in bins(outcomes):
+        axes.vlines(one.told, *wilson(one.true * one.cases, one.cases), color="#9aa4ab")
+        axes.scatter(one.told, one.true, s=20 + 400 * one.weight, color="#1f5a8a", alpha=0.8, zorder=3)
+        axes.annotate(f" {one.cases}", (one.told, one.true), (6, -10), textcoords="offset points", fontsize=8)
     axes.set(xlim=(-0.05, 1.05), ylim=(-0.05, 1.05), xlabel="probability of the likeliest explanation",
              ylabel="share of cases in which it is the truth", aspect="equal")  # fmt: skip
-    axes.set_title(f"{len(outcomes)} cases, weighted to the declared mix", fontsize=9)
+    axes.set_title(f"{len(outcomes)} cases, weighted to the declared mix; numbers: cases", fontsize=9)
     figure.savefig(path, dpi=130)
     plt.close(figure)

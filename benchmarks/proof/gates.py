@@ -8,7 +8,7 @@ from typing import TypeVar
 
 import numpy as np
 
-from .calibration import brier, calibration_error
+from .calibration import brier, calibration_error, wilson
 from .judged import in_set, is_grave, is_named, is_right, is_wrong_name, rank
 from .located import region_overlap, turn_error
 from .outcome import Outcome, Worth
@@ -113,15 +113,6 @@ def _fits(outcomes: Outcomes) -> tuple[Gate, ...]:
 
 def _clear(outcomes: Outcomes) -> list[Outcome]:
     return [one for one in outcomes if one.part in KNOWN and one.part != "pair" and one.score >= CLEAR]
-
-
-def wilson(hits: int, cases: int, z: float = 1.96) -> tuple[float, float]:
-    """Wilson's (1927) interval of a share."""
-    if cases == 0:
-        return 0.0, 1.0
-    share, weight = hits / cases, z * z / cases
-    middle, half = share + weight / 2.0, z * np.sqrt(share * (1.0 - share) / cases + weight / (4.0 * cases))
-    return float((middle - half) / (1.0 + weight)), float((middle + half) / (1.0 + weight))
 
 
 def _share(
