@@ -28,7 +28,7 @@ class CasePump:
 
 
 def read_case_pump(top: Table, film: Table, folder: Path) -> CasePump | None:
-    """The pump of `film.pump` with [operating] and [pump.SECTION] of the case; None with the faults told.
+    """The pump that a table names, with [operating] and [pump.SECTION] of the case; None with the faults told.
 
     A value of the case stands in place of the pump file's, written as it would stand there; a file that it
     names, of rows or a mesh, lies beside the case.
@@ -49,7 +49,7 @@ def read_case_pump(top: Table, film: Table, folder: Path) -> CasePump | None:
     try:
         pump = load_pump(place, stated | at_point)
     except InputFaults as reason:
-        top.faults += [_at_case(fault, stated) for fault in reason.faults]
+        top.faults += [_at_case(fault, stated, film.name("pump")) for fault in reason.faults]
         return None
     return CasePump(rotor(pump, operating_point(pump)), place, stated)
 
@@ -90,13 +90,13 @@ def _beside(path: str, value: Any, folder: Path) -> Any:
     return str((folder / value).absolute()) if names_file else value
 
 
-def _at_case(fault: Fault, stated: Mapping[str, Any]) -> Fault:
-    """A fault of the pump told at the key of the case that brought it, or at `film.pump`."""
+def _at_case(fault: Fault, stated: Mapping[str, Any], source: str) -> Fault:
+    """A fault of the pump told at the key of the case that brought it, or at that of its `source`."""
     path = fault.path
     if any(own == path or own.startswith(f"{path}.") for own in stated):
         where = f"pump.{path}"
     elif path.startswith(f"{OPERATING}."):
         where = path
     else:
-        where = "film.pump" if path == "pump" else f"film.pump ({path})"
+        where = source if path == "pump" else f"{source} ({path})"
     return Fault(where, fault.found, fault.expected, fault.nearest)

@@ -19,6 +19,7 @@ from swashfilm.cli_diagnose import (
 )
 from swashfilm.cli_report import run_report
 from swashfilm.cli_table import TABLE_OPTIONS, add_table_options, run_table_command
+from swashfilm.cli_transient import add_transient_options, run_transient_command
 from swashfilm.fidelity import Fidelity
 from swashfilm.physics_switches import SWITCHES, add_switches
 from swashfilm.terminal import show, show_table
@@ -134,6 +135,9 @@ def build_parser() -> argparse.ArgumentParser:
     )
     add_table_options(table)
     _output(table)
+    transient = _command(commands, "transient", "displacement in time: plate, actuator and chambers of a pump")
+    add_transient_options(transient)
+    _output(transient)
     diagnose = _command(
         commands,
         "diagnose",
@@ -143,8 +147,8 @@ def build_parser() -> argparse.ArgumentParser:
     _output(diagnose)
     report = _command(commands, "report", "make the report of a run folder anew")
     report.add_argument("folder", type=Path, metavar="DIR", help="the run folder")
-    check = _command(commands, "check", "validate a pump file, film case or recording without running it")
-    check.add_argument("file", metavar="FILE", help="pump file, built-in pump, film case, or recording")
+    check = _command(commands, "check", "validate a pump file, case or recording without running it")
+    check.add_argument("file", metavar="FILE", help="pump file, built-in pump, film case, transient, or recording")
     _command(commands, "doctor", "what this machine offers: packages, caches, graphics")
     return parser
 
@@ -172,7 +176,7 @@ def _check_command(parser: argparse.ArgumentParser, words: Sequence[str]) -> Non
 def _unknown(command: str | None, word: str) -> Fault:
     """The fault of a word that no option or argument takes."""
     run_options = [*_OVERRIDES, "--fidelity", "--table", "--steps", "--finer", *SWITCHES]
-    own = {"run": run_options, "film": _FILM_OPTIONS, "table": TABLE_OPTIONS, "diagnose": []}
+    own = {"run": run_options, "film": _FILM_OPTIONS, "table": TABLE_OPTIONS, "transient": [], "diagnose": []}
     if command in own:
         options = [*own[command], "-o", "--output", "--help"]
     else:
@@ -322,13 +326,19 @@ def _check(options: argparse.Namespace) -> int:
             check_recording_command(path)
             show(f"{path}: ok")
             return 0
+        if "transient" in tables:
+            from swashfilm.transient_case import load_transient
+
+            show(load_transient(path).resolved)
+            show(f"{path}: ok")
+            return 0
         is_film = bool({"film", "gap"} & set(tables))
         is_pump = isinstance(tables.get("pump"), dict) and not is_film
         if not is_pump and not is_film:
             fault = Fault(
                 "file",
                 f"tables {', '.join(tables) or 'none'}",
-                "a pump file ([pump]), a film case ([film]) or a recording ([channel])",
+                "a pump file ([pump]), a film case ([film]), a transient ([transient]) or a recording ([channel])",
             )
             raise InputFaults(options.file, [fault])
     if is_pump:
@@ -373,6 +383,7 @@ _COMMANDS = {
     "run": _run,
     "film": _film,
     "table": run_table_command,
+    "transient": run_transient_command,
     "diagnose": run_diagnose_command,
     "report": run_report,
     "check": _check,

@@ -20,6 +20,7 @@ PAGES = {
     "pump": "pump_page.write_pump_page",
     "gap_table": "table_page.write_table_page",
     "response_table": "table_page.write_table_page",
+    "transient": "transient_page.write_transient_page",
 }
 """What makes the page of a run, by the `kind` of its summary.json."""
 

@@ -1,0 +1,157 @@
+"""A transient as labelled arrays (results.nc), as a table (course.csv) and as its summary tells it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import asdict
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from system.chamber_state_kernels import CAVITY_PRESSURE
+from system.kinematics import Array, SwashDrive, stroke
+from system.lumped import full_drive
+from system.multibody import transient_kernels as kernel
+from system.multibody.transient import Transient
+from system.multibody.transient_torque import drive_torque
+
+if TYPE_CHECKING:
+    import xarray
+
+COURSE = "course.csv"
+MOMENTS = {
+    "pressure_moment": kernel.MOMENT_PRESSURE,
+    "inertia_moment": kernel.MOMENT_INERTIA,
+    "piston_friction_moment": kernel.MOMENT_FRICTION,
+    "actuator_moment": kernel.MOMENT_ACTUATOR,
+    "spring_moment": kernel.MOMENT_SPRING,
+    "drag_moment": kernel.MOMENT_DRAG,
+    "stop_moment": kernel.MOMENT_STOP,
+}
+"""Moments on the plate by cause, positive where they tilt it further."""
+
+
+def displacement_ratio(found: Transient) -> Array:
+    """Stroke over the full one (N,), negative over centre."""
+    full = full_drive(found.case.pump)
+    whole = np.hypot(np.tan(found.swash_angle), np.tan(found.case.pump.pump.cross_angle or 0.0))
+    drive = SwashDrive(full.pitch_radius, full.bore_cone_angle, np.arctan(whole))
+    return np.asarray(np.where(found.swash_angle < 0.0, -1.0, 1.0) * stroke(drive) / stroke(full))
+
+
+def transient_dataset(found: Transient, name: str) -> xarray.Dataset:
+    """The course over `time` (s), units in the attributes; chambers' pressures over `chamber` besides.
+
+    Flows are means of the step that ends there, at the pressure of their port, drain at the case's.
+    """
+    import xarray
+
+    rows, point, bulk = found.rows, found.case.point, found.case.pump.oil.bulk_modulus
+    specific = {p: np.exp(-max(p, CAVITY_PRESSURE) / bulk) for p in vars(point).values()}
+    columns = {
+        "shaft_angle": (found.shaft_angle, "rad"),
+        "swash_angle": (rows[:, kernel.ANGLE], "rad"),
+        "swash_rate": (rows[:, kernel.RATE], "rad/s"),
+        "displacement_ratio": (displacement_ratio(found), "1"),
+        "control_pressure": (rows[:, kernel.CONTROL], "Pa"),
+        "actuator_pressure": (rows[:, kernel.ACTUATOR], "Pa"),
+        **{name: (rows[:, column], "N m") for name, column in MOMENTS.items()},
+        "delivery_flow": (rows[:, kernel.DELIVERY] * specific[point.delivery_pressure], "m3/s"),
+        "inlet_flow": (-rows[:, kernel.SUCTION] * specific[point.inlet_pressure], "m3/s"),
+        "drain_flow": (rows[:, kernel.CASE] * specific[point.case_pressure], "m3/s"),
+        "shaft_torque": (drive_torque(found), "N m"),
+    }
+    chambers = np.arange(1, found.pressure.shape[1] + 1)
+    return xarray.Dataset(
+        {
+            **{key: ("time", values, {"units": unit}) for key, (values, unit) in columns.items()},
+            "chamber_pressure": (("time", "chamber"), found.pressure, {"units": "Pa"}),
+        },
+        coords={"time": ("time", found.time, {"units": "s"}), "chamber": chambers},
+        attrs={"name": name, "kind": "transient", "pressures": "gauge"},
+    )
+
+
+def write_course(folder: Path, data: xarray.Dataset) -> None:
+    """Write course.csv, units in the head, angles in degrees."""
+    frame = data.drop_dims("chamber").to_dataframe().reset_index()
+    units = {name: data[name].attrs["units"] for name in frame.columns}
+    for name in [name for name, unit in units.items() if unit.startswith("rad")]:
+        frame[name], units[name] = np.degrees(frame[name]), units[name].replace("rad", "deg")
+    frame.columns = [f"{name} [{units[name]}]" for name in frame.columns]
+    frame.to_csv(folder / COURSE, index=False, float_format="%.10g")
+
+
+def transient_summary(found: Transient, name: str, data: xarray.Dataset) -> dict[str, Any]:
+    """What is told of a transient: where the plate begins and ends, how fast, what chambers and stops bear."""
+    angle, ratio = found.swash_angle, data["displacement_ratio"].values
+    turn = 2.0 * np.pi / found.case.point.shaft_speed
+    return {
+        "format": 1,
+        "kind": "transient",
+        "name": name,
+        "pump": found.case.pump.name,
+        "swash_angle": {
+            "start_rad": float(angle[0]),
+            "end_rad": float(angle[-1]),
+            "least_rad": float(angle.min()),
+            "largest_rad": float(angle.max()),
+            "fastest_rad_per_s": float(np.abs(data["swash_rate"]).max()),
+        },
+        "displacement_ratio_start": float(ratio[0]),
+        "displacement_ratio_end": float(ratio[-1]),
+        "travel_10_to_90_s": _travel(found.time, angle),
+        "first_turn": _turn(data, found.time < turn),
+        "last_turn": _turn(data, found.time > found.time[-1] - turn),
+        "chamber_pressure_largest_Pa": float(found.pressure.max()),
+        "actuator_pressure_largest_Pa": float(data["actuator_pressure"].max()),
+        "stops": {
+            "strikes": int(np.count_nonzero(found.impulses)),
+            "largest_impulse_Nms": float(np.abs(found.impulses).max()),
+        },
+        "plate_frequency_Hz": found.swing / (2.0 * np.pi),
+        "step_s": found.step,
+        "steps": int(found.time.size - 1),
+        "checks": asdict(found.checks),
+        "assumptions": [str(taken) for taken in found.mechanism.taken],
+        "warnings": _warnings(found),
+    }
+
+
+def _travel(time: Array, angle: Array) -> float | None:
+    """From 10 to 90 % of the way between the angles at begin and end, s; None where they are the same."""
+    way = angle[-1] - angle[0]
+    if abs(way) < 1e-9:
+        return None
+    share = (angle - angle[0]) / way
+    begins, ends = (float(time[np.argmax(share >= part)]) for part in (0.1, 0.9))
+    return ends - begins
+
+
+def _turn(data: xarray.Dataset, within: NDArray[np.bool_]) -> Mapping[str, float]:
+    """Means over the instants of a turn; the first one's flows belong to the turn before."""
+    part = data.isel(time=np.flatnonzero(within)[1:])
+    return {
+        "delivery_flow_m3_per_s": float(part["delivery_flow"].mean()),
+        "shaft_torque_Nm": float(part["shaft_torque"].mean()),
+        "pressure_moment_Nm": float(part["pressure_moment"].mean()),
+    }
+
+
+def _warnings(found: Transient) -> list[str]:
+    told = []
+    low = found.pressure.min(axis=1) <= CAVITY_PRESSURE
+    if low.any():
+        first = float(found.time[np.argmax(low)])
+        told.append(
+            f"chamber_cavitates: a cavity opens in a chamber at {np.count_nonzero(low)} of {low.size} instants, "
+            f"first at {first * 1e3:.4g} ms; raise the inlet pressure, or let the ports change over sooner"
+        )
+    if found.rows[:, kernel.ACTUATOR].min() <= CAVITY_PRESSURE:
+        told.append(
+            "actuator_cavitates: the plate draws the actuator's piston faster than its orifice fills it; a larger "
+            "orifice, or a higher control pressure"
+        )
+    return told
