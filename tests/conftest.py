@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+import importlib
+import importlib.util
 import os
+import sys
 
 # Read by BLAS as numpy is loaded: its threads cost small solves more than they bring, the more on a busy machine.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
+from types import ModuleType
 from typing import Any
 
 import numpy as np
@@ -185,6 +189,69 @@ def refine() -> Callable[..., Refinement]:
         return tuple(Refinement(column, order, ratio) for column in zip(*results, strict=True))
 
     return run
+
+
+@pytest.fixture
+def energy_balances(validation: Callable[..., None]) -> Callable[..., None]:
+    """energy_balances(*, case, checks): two rows, of a floating point's energy, and mass to round-off."""
+
+    def record(*, case: str, checks: Any) -> None:
+        errors = {
+            "torque from forces": checks.energy_balance_error,
+            "work on the chambers": checks.work_balance_error,
+        }
+        for quantity, obtained in errors.items():
+            validation(
+                case=case,
+                source="conservation; what the project asks for",
+                quantity=f"energy balance error, {quantity}",
+                unit="1",
+                expected=0.0,
+                obtained=obtained,
+                tolerance=1e-3,
+            )
+        assert checks.mass_balance_error < 1e-9
+
+    return record
+
+
+@pytest.fixture(scope="module")
+def example() -> Iterator[Callable[[str], ModuleType]]:
+    """example("cascaded_tanks/overflow.py"): an example as a module, its neighbours on the path meanwhile."""
+    path, loaded = sys.path.copy(), set(sys.modules)
+
+    def load(name: str) -> ModuleType:
+        file = ROOT / "examples" / name
+        sys.path.insert(0, str(file.parent))
+        spec = importlib.util.spec_from_file_location(name, file)
+        assert spec is not None
+        assert spec.loader is not None
+        module = importlib.util.module_from_spec(spec)
+        sys.modules[spec.name] = module
+        spec.loader.exec_module(module)
+        return module
+
+    yield load
+    sys.path[:] = path
+    for name, module in tuple(sys.modules.items()):
+        if name not in loaded and str(ROOT / "examples") in str(getattr(module, "__file__", "")):
+            del sys.modules[name]
+
+
+class Proof:
+    """Modules of benchmarks/proof by their names, loaded as they are asked for."""
+
+    def __getattr__(self, name: str) -> ModuleType:
+        return importlib.import_module(f"proof.{name}")
+
+
+@pytest.fixture(scope="session")
+def proof() -> Iterator[Proof]:
+    """The proof's modules: proof.gates, proof.judged; benchmarks/ is on the path meanwhile."""
+    place = str(ROOT / "benchmarks")
+    sys.path.insert(0, place)
+    yield Proof()
+    sys.path.remove(place)
 
 
 @pytest.fixture(scope="session")

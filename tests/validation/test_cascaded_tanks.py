@@ -5,35 +5,20 @@ recordings/cascaded_tanks by examples/cascaded_tanks: the engine of the pump's d
 
 from __future__ import annotations
 
-import importlib.util
-import sys
-from collections.abc import Iterator
+from collections.abc import Callable
 from pathlib import Path
 from types import ModuleType
 
 import numpy as np
 import pytest
 
-FOLDER = Path(__file__).resolve().parents[2] / "examples" / "cascaded_tanks"
 SOURCE = "recordings/cascaded_tanks, test record; design/diagnosis.md, Cascaded Tanks"
 RIVALS = ("outflow exponent of tank 2", "sensor offset", "leak of tank 2")
 
 
 @pytest.fixture(scope="module")
-def overflow() -> Iterator[ModuleType]:
-    """The example as a module, its neighbour `tanks` on the path while it is loaded."""
-    spec = importlib.util.spec_from_file_location("cascaded_tanks_overflow", FOLDER / "overflow.py")
-    assert spec is not None
-    assert spec.loader is not None
-    module = importlib.util.module_from_spec(spec)
-    sys.path.insert(0, str(FOLDER))
-    sys.modules[spec.name] = module
-    try:
-        spec.loader.exec_module(module)
-        yield module
-    finally:
-        sys.path.remove(str(FOLDER))
-        del sys.modules[spec.name], sys.modules["tanks"]
+def overflow(example: Callable[[str], ModuleType]) -> ModuleType:
+    return example("cascaded_tanks/overflow.py")
 
 
 def test_a_tank_drains(overflow: ModuleType) -> None:

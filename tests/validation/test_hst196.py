@@ -8,8 +8,7 @@ once, his formulas give 96.0 .. 97.0 %.
 
 from __future__ import annotations
 
-import importlib.util
-import sys
+from collections.abc import Callable
 from pathlib import Path
 from types import ModuleType
 
@@ -28,19 +27,12 @@ from system.operating import operating_point
 from system.pump_file import load_pump
 
 PUMP = Path(__file__).resolve().parents[2] / "examples" / "pumps" / "hst196.toml"
-BAND = Path(__file__).resolve().parents[2] / "examples" / "hst196" / "band.py"
 SOURCE = "recordings/hst196, 399 units"
 
 
 @pytest.fixture(scope="module")
-def band() -> ModuleType:
-    spec = importlib.util.spec_from_file_location("hst196_band", BAND)
-    assert spec is not None
-    assert spec.loader is not None
-    module = importlib.util.module_from_spec(spec)
-    sys.modules[spec.name] = module  # where its dataclasses look for their module
-    spec.loader.exec_module(module)
-    return module
+def band(example: Callable[[str], ModuleType]) -> ModuleType:
+    return example("hst196/band.py")
 
 
 @pytest.fixture(scope="module")

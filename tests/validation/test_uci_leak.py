@@ -5,36 +5,21 @@ recordings/uci_hydraulic by examples/uci_hydraulic: the engine of the pump's dia
 
 from __future__ import annotations
 
-import importlib.util
-import sys
-from collections.abc import Iterator
+from collections.abc import Callable
 from pathlib import Path
 from types import ModuleType
 
 import numpy as np
 import pytest
 
-FOLDER = Path(__file__).resolve().parents[2] / "examples" / "uci_hydraulic"
 SOURCE = "recordings/uci_hydraulic; orifices of the rig by Helwig, Pignanelli and Schuetze (2015)"
 COEFFICIENTS = 0.61, 0.70  # of flow, between which a small bore lies: its diameter goes with the root
 ODDS = 3.0  # nats
 
 
 @pytest.fixture(scope="module")
-def leak() -> Iterator[ModuleType]:
-    """The example as a module, its neighbour `rig` on the path while it is loaded."""
-    spec = importlib.util.spec_from_file_location("uci_leak", FOLDER / "leak.py")
-    assert spec is not None
-    assert spec.loader is not None
-    module = importlib.util.module_from_spec(spec)
-    sys.path.insert(0, str(FOLDER))
-    sys.modules[spec.name] = module
-    try:
-        spec.loader.exec_module(module)
-        yield module
-    finally:
-        sys.path.remove(str(FOLDER))
-        del sys.modules[spec.name], sys.modules["rig"]
+def leak(example: Callable[[str], ModuleType]) -> ModuleType:
+    return example("uci_hydraulic/leak.py")
 
 
 def test_slopes_are_those_of_the_readings(leak: ModuleType) -> None:

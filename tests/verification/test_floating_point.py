@@ -39,26 +39,14 @@ def test_gaps_and_chambers_agree(found):
     assert found.pump_point.leaks.carried_flow == pytest.approx(table.carried_flow, rel=1e-12)
 
 
-def test_power_is_accounted_for(found, validation):
+def test_power_is_accounted_for(found, energy_balances):
     """Torque from forces, heat from the films' fields: neither knows of the other.
 
     What is left is forces between 72 angles a turn: five times less than the project asks for.
     """
-    checks = found.pump_point.checks
-    for quantity, obtained in (
-        ("torque from forces", checks.energy_balance_error),
-        ("work on the chambers", checks.work_balance_error),
-    ):
-        validation(
-            case="REF90 floating, coarse films, 10 MPa, 2100 r/min: balances",
-            source="conservation; what the project asks for",
-            quantity=f"energy balance error, {quantity}",
-            unit="1",
-            expected=0.0,
-            obtained=obtained,
-            tolerance=1e-3,
-        )
-    assert checks.mass_balance_error < 1e-9
+    energy_balances(
+        case="REF90 floating, coarse films, 10 MPa, 2100 r/min: balances", checks=found.pump_point.checks
+    )
 
 
 def test_oil_is_kept_by_each_gap(found):

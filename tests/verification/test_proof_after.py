@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Iterator
 from dataclasses import replace
-from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
@@ -17,21 +15,6 @@ from diagnosis.weighed import Weighed
 from system.physics.catalogue import entry_of
 from system.physics.effects import EffectId, Kind
 from system.pump_gap import Gap
-
-BENCHMARKS = Path(__file__).resolve().parents[2] / "benchmarks"
-
-
-@pytest.fixture(scope="module")
-def proof() -> Iterator[SimpleNamespace]:
-    """The proof's modules, benchmarks/ on the path while they are loaded."""
-    sys.path.insert(0, str(BENCHMARKS))
-    from proof import campaigns, cases, oracle, outcome, recordings, sensors, worth
-
-    yield SimpleNamespace(
-        campaigns=campaigns, cases=cases, oracle=oracle, outcome=outcome, recordings=recordings, sensors=sensors,
-        worth=worth,
-    )  # fmt: skip
-    sys.path.remove(str(BENCHMARKS))
 
 
 @pytest.fixture

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
@@ -14,20 +13,6 @@ import pytest
 from diagnosis.recording import reading_sigma
 from diagnosis.recording_reader import read_recording
 from system.channels import ChannelName
-
-BENCHMARKS = Path(__file__).resolve().parents[2] / "benchmarks"
-
-
-@pytest.fixture(scope="module")
-def proof() -> Iterator[SimpleNamespace]:
-    """The proof's modules, benchmarks/ on the path while they are loaded."""
-    sys.path.insert(0, str(BENCHMARKS))
-    from proof import campaigns, cases, recordings, sensors, sizing, writing
-
-    yield SimpleNamespace(
-        campaigns=campaigns, cases=cases, recordings=recordings, sensors=sensors, sizing=sizing, writing=writing
-    )
-    sys.path.remove(str(BENCHMARKS))
 
 
 @pytest.fixture(scope="module")

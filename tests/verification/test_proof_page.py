@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import math
-import sys
-from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
@@ -14,25 +12,6 @@ import pytest
 from diagnosis.thresholds import load_thresholds
 
 ROOT = Path(__file__).resolve().parents[2]
-
-
-@pytest.fixture(scope="module")
-def proof() -> Iterator[SimpleNamespace]:
-    """The proof's modules, benchmarks/ on the path while they are loaded."""
-    sys.path.insert(0, str(ROOT / "benchmarks"))
-    from proof import calibration, cases, gates, judged, located, outcome, page, store
-
-    yield SimpleNamespace(
-        judged=judged,
-        gates=gates,
-        located=located,
-        outcome=outcome,
-        page=page,
-        store=store,
-        cases=cases,
-        calibration=calibration,
-    )
-    sys.path.remove(str(ROOT / "benchmarks"))
 
 
 @pytest.fixture

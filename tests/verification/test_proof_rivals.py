@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Iterator
 from dataclasses import replace
-from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
@@ -18,25 +16,6 @@ from diagnosis.study import Study
 from diagnosis.thresholds import load_thresholds
 from system.pump_file import load_pump
 from system.tolerances import tolerances
-
-BENCHMARKS = Path(__file__).resolve().parents[2] / "benchmarks"
-
-
-@pytest.fixture(scope="module")
-def proof() -> Iterator[SimpleNamespace]:
-    """The proof's modules, benchmarks/ on the path while they are loaded."""
-    sys.path.insert(0, str(BENCHMARKS))
-    from proof import baselines, campaigns, cases, recordings, rivals, writing
-
-    yield SimpleNamespace(
-        baselines=baselines,
-        campaigns=campaigns,
-        cases=cases,
-        recordings=recordings,
-        rivals=rivals,
-        writing=writing,
-    )
-    sys.path.remove(str(BENCHMARKS))
 
 
 @pytest.fixture(scope="module")

@@ -9,13 +9,15 @@ import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
 PAGE = ROOT / "docs" / "validation.md"
+RECORDERS = ("validation", "energy_balances")
+"""Fixtures of tests/conftest.py that record rows."""
 
 
 def _cases_in_tests() -> set[str]:
     found = set()
     for path in sorted((ROOT / "tests").rglob("test_*.py")):
         for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
-            if isinstance(node, ast.Call) and getattr(node.func, "id", "") == "validation":
+            if isinstance(node, ast.Call) and getattr(node.func, "id", "") in RECORDERS:
                 case = next(word.value for word in node.keywords if word.arg == "case")
                 assert isinstance(case, ast.Constant), f"{path.name}:{node.lineno}: case must be a literal"
                 found.add(case.value)
