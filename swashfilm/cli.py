@@ -11,6 +11,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn
 
+from swashfilm.cli_calibrate import CALIBRATE_OPTIONS, add_calibrate_options, run_calibrate_command
 from swashfilm.cli_diagnose import (
     add_diagnose_options,
     check_recording_command,
@@ -145,6 +146,9 @@ def build_parser() -> argparse.ArgumentParser:
     )
     add_diagnose_options(diagnose)
     _output(diagnose)
+    calibrate = _command(commands, "calibrate", "coefficients of a pump by a recording, with their widths")
+    add_calibrate_options(calibrate)
+    _output(calibrate)
     report = _command(commands, "report", "make the report of a run folder anew")
     report.add_argument("folder", type=Path, metavar="DIR", help="the run folder")
     check = _command(commands, "check", "validate a pump file, case or recording without running it")
@@ -176,7 +180,14 @@ def _check_command(parser: argparse.ArgumentParser, words: Sequence[str]) -> Non
 def _unknown(command: str | None, word: str) -> Fault:
     """The fault of a word that no option or argument takes."""
     run_options = [*_OVERRIDES, "--fidelity", "--table", "--steps", "--finer", *SWITCHES]
-    own = {"run": run_options, "film": _FILM_OPTIONS, "table": TABLE_OPTIONS, "transient": [], "diagnose": []}
+    own = {
+        "run": run_options,
+        "film": _FILM_OPTIONS,
+        "table": TABLE_OPTIONS,
+        "transient": [],
+        "diagnose": [],
+        "calibrate": CALIBRATE_OPTIONS,
+    }
     if command in own:
         options = [*own[command], "-o", "--output", "--help"]
     else:
@@ -385,6 +396,7 @@ _COMMANDS = {
     "table": run_table_command,
     "transient": run_transient_command,
     "diagnose": run_diagnose_command,
+    "calibrate": run_calibrate_command,
     "report": run_report,
     "check": _check,
     "doctor": _doctor,

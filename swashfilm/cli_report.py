@@ -13,6 +13,7 @@ from system.faults import Fault, InputFaults, nearest_path
 
 COMMAND_LINE = "command line"
 PAGES = {
+    "calibration": "calibrate_page.write_calibrate_page",
     "diagnosis": "diagnose_page.write_diagnose_page",
     "film": "film_page.write_film_page",
     "film_revolution": "revolution_page.write_revolution_page",

@@ -1,0 +1,193 @@
+"""A pump calibrated by a recording: coefficients with their widths, what is left open, and models compared."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from time import process_time
+
+from diagnosis.data_checks import too_few
+from diagnosis.hypotheses import hypotheses
+from diagnosis.prepare import prepare
+from diagnosis.readings import bench_points
+from diagnosis.recording import Recording
+from diagnosis.refit import refit
+from diagnosis.study import Study, study_of
+from diagnosis.thresholds import Thresholds, load_thresholds
+from diagnosis.weighed import Weighed
+from reynolds.errors import FilmInputError
+from swashfilm.progress import Report
+from system.bench_map import LumpedBench
+from system.bench_points import BenchPoints
+from system.calibration import HeldOutRow, model_rows, physics_rows
+from system.channels import ChannelName
+from system.description import PumpDescription
+from system.errors import NotConverged
+from system.estimation.determined import Combination, undetermined
+from system.estimation.posterior import Posterior
+from system.faults import Fault, InputFaults
+from system.hersey_curve import HerseyCurve, hersey_curves
+from system.loss_models.model import LossModelName
+from system.paper_fit import EqFit, eq_fits, eq_twenty_one, measured_losses, paper_priors
+from system.physics.catalogue import entry_of
+from system.physics.effects import EffectId
+from system.physics.extension import Extension
+from system.tolerances import tolerances
+
+
+@dataclass(frozen=True)
+class Hersey:
+    """Friction over the Hersey number beside constant coefficients: its fit, and ln odds for it.
+
+    laws: what the fit has switched on; carried: the odds are what a name needs.
+    """
+
+    fit: Posterior
+    laws: tuple[Extension, ...]
+    evidence: float
+    carried: bool
+
+
+@dataclass(frozen=True)
+class Calibration:
+    """What a recording says about a pump of which nothing is taken to be missing.
+
+    fit: base and sensor parameters, friction by the paper's ranges, constant; undetermined: what it leaves to the
+    priors; hersey: None where it was not asked for or not to be fitted; equation: Eq. (21) by itself; rows: models
+    in the same splits; notes: what was taken, and what could not be done.
+    """
+
+    study: Study
+    points: BenchPoints
+    fit: Posterior
+    undetermined: tuple[Combination, ...]
+    hersey: Hersey | None
+    curves: tuple[HerseyCurve, ...]
+    equation: tuple[EqFit, ...]
+    rows: tuple[HeldOutRow, ...]
+    notes: tuple[str, ...]
+    seconds: float
+
+    @property
+    def best(self) -> Posterior:
+        """The fit that the calibrated pump is made of: with the Hersey number where the data carry it."""
+        return self.hersey.fit if self.hersey is not None and self.hersey.carried else self.fit
+
+    @property
+    def laws(self) -> tuple[Extension, ...]:
+        """What that pump has switched on."""
+        return self.hersey.laws if self.hersey is not None and self.hersey.carried else ()
+
+
+def calibrate(
+    pump: PumpDescription,
+    recording: Recording,
+    models: Sequence[LossModelName],
+    with_hersey: bool,
+    report: Report,
+) -> Calibration:
+    """Calibrate a pump by a checked recording. Raises InputFaults for too few readings, NotConverged."""
+    begun, thresholds, steps = process_time(), load_thresholds(), 4 + len(models)
+    report(0, steps, "simulating the recording")
+    study, bench, notes = _prepared(pump, recording, with_hersey, thresholds)
+    report(1, steps, "fitting the pump")
+    null = refit(study, hypotheses(study, thresholds)[0], thresholds)
+    fit = _fit_of(null)
+    report(2, steps, "friction over the Hersey number")
+    hersey = _hersey(study, null, thresholds, notes) if with_hersey else None
+    carried = hersey is not None and hersey.carried
+    shown = hersey.fit if hersey is not None and carried else fit
+    report(3, steps, "Eq. (21)")
+    equation = _equation(pump, bench, fit, study, notes)
+    rows = _compared(pump, bench, fit, study, models, notes, report)
+    return Calibration(
+        study=study,
+        points=bench.points,
+        fit=fit,
+        undetermined=undetermined(fit),
+        hersey=hersey,
+        curves=hersey_curves(bench, shown),
+        equation=equation,
+        rows=rows,
+        notes=tuple(notes),
+        seconds=process_time() - begun,
+    )
+
+
+def _prepared(
+    pump: PumpDescription, recording: Recording, with_hersey: bool, thresholds: Thresholds
+) -> tuple[Study, LumpedBench, list[str]]:
+    """The study with the paper's priors of friction, its bench by itself, and what is to be told."""
+    catalogue = (entry_of(EffectId.MIXED_FRICTION),) if with_hersey else ()
+    allowed, taken = tolerances(pump)
+    plain = prepare(pump, recording, allowed, thresholds, ())
+    few = too_few(plain.recording, len(plain.simulator.parameters))
+    if few is not None:
+        raise InputFaults(recording.title, [Fault("recording", few.text, "more readings than parameters")])
+    priors, told = paper_priors(pump)
+    parameters = plain.simulator.with_parameters(priors).parameters
+    points, _ = bench_points(plain.recording, pump)
+    channels = tuple(ChannelName.named(one.name) for one in plain.observations.channels)
+    inputs = tuple(ChannelName.named(one) for one in plain.observations.inputs)
+    bench = LumpedBench(pump, points, channels, parameters, inputs=inputs)
+    study = study_of(plain.recording, bench, plain.observations, plain.axes, catalogue, thresholds)
+    return study, bench, [*(note.text for note in plain.recording.notes), *map(str, taken), *told]
+
+
+def _hersey(study: Study, null: Weighed, thresholds: Thresholds, notes: list[str]) -> Hersey | None:
+    """Mixed friction fitted beside the constant coefficients; None, and told, where that fails."""
+    asked = (EffectId.MIXED_FRICTION,)
+    listed = [one for one in hypotheses(study, thresholds) if one.effects == asked]
+    if not listed:
+        notes.append("friction over the Hersey number shows in no channel of this recording")
+        return None
+    try:
+        found = refit(study, listed[0], thresholds)
+    except NotConverged as reason:
+        notes.append(f"friction over the Hersey number could not be fitted: {reason}")
+        return None
+    evidence = found.log_evidence - null.log_evidence
+    return Hersey(_fit_of(found), found.hypothesis.laws, evidence, evidence > thresholds.name.odds)
+
+
+def _equation(
+    pump: PumpDescription, bench: LumpedBench, fit: Posterior, study: Study, notes: list[str]
+) -> tuple[EqFit, ...]:
+    """Eq. (21), all but the coefficients as the fit has them; nothing, and told, without its flows."""
+    own = tuple(one for one in bench.parameters if one.name.startswith("friction."))
+    try:
+        readings = measured_losses(bench.points, study.observations)
+    except FilmInputError as reason:
+        notes.append(f"Eq. (21) by itself: {reason}")
+        return ()
+    eq = eq_twenty_one(bench, fit.values, own)
+    return eq_fits(eq, readings, bench.points, pump.pump.rated_speed)
+
+
+def _compared(
+    pump: PumpDescription,
+    bench: LumpedBench,
+    fit: Posterior,
+    study: Study,
+    models: Sequence[LossModelName],
+    notes: list[str],
+    report: Report,
+) -> tuple[HeldOutRow, ...]:
+    """The fitted pump and loss models in the same splits; nothing, and told, without the channels of these."""
+    if not models:
+        return ()
+    try:
+        rows = [*physics_rows(fit, study.observations, bench.points)]
+        for at, name in enumerate(models):
+            report(4 + at, 4 + len(models), f"loss model {name.value}")
+            rows += model_rows(name, pump, bench.points, bench.inputs, study.observations)
+    except FilmInputError as reason:
+        notes.append(f"loss models: {reason}")
+        return ()
+    return tuple(rows)
+
+
+def _fit_of(weighed: Weighed) -> Posterior:
+    if weighed.posterior is None:
+        raise ValueError(f"{weighed.hypothesis.text}: not fitted")
+    return weighed.posterior

@@ -1,0 +1,159 @@
+"""Eq. (21): what the hydromechanical loss says about seven friction coefficients."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import cache
+from itertools import product
+
+import numpy as np
+import pytest
+
+from system.bench_map import LumpedBench
+from system.bench_points import BenchPoints
+from system.bench_truth import SIMULATED
+from system.channels import INPUTS
+from system.estimation.fit import maximum_posterior
+from system.estimation.observations import Channel, Observations
+from system.paper_fit import EqTwentyOne, eq_fits, eq_twenty_one, measured_losses, paper_priors
+from system.pump_file import load_pump
+
+PUMP = load_pump("ref90")
+GRID = np.array(list(product((1000, 1700, 2100), (5e6, 10e6, 15e6, 20e6, 25e6, 30e6, 35e6), (0.28, 0.51, 1.0))))
+RPM = np.pi / 30
+
+
+def _points() -> BenchPoints:
+    count = len(GRID)
+    held = {"p_in": 2.5e6, "p_case": 1.5e5, "T_in": 323.0, "T_case": 326.0}
+    return BenchPoints(
+        speed=GRID[:, 0] * RPM,
+        p_out=GRID[:, 1],
+        displacement_ratio=GRID[:, 2],
+        hours=np.full(count, np.nan),
+        order=np.arange(count, dtype=float),
+        **{name: np.full(count, value) for name, value in held.items()},
+    )
+
+
+POINTS = _points()
+
+
+@cache
+def _bench() -> LumpedBench:
+    return LumpedBench(PUMP, POINTS, SIMULATED, paper_priors(PUMP)[0])
+
+
+@cache
+def _eq() -> EqTwentyOne:
+    bench = _bench()
+    centre = np.array([one.centre for one in bench.parameters])
+    return eq_twenty_one(bench, centre, bench.parameters)
+
+
+def _observed(values: np.ndarray) -> Observations:
+    """The bench's readings as a recording of class A would have them."""
+    sigma = np.abs(values) * [6e-4, 1e-3, 4e-3, 6e-4] + [0.08 / 6e4, 0.12 / 6e4, 0.015 / 6e4, 0.25]
+    return Observations(
+        channels=tuple(Channel(name.value, name.dimension) for name in SIMULATED),
+        values=values,
+        sigma=sigma,
+        inputs=tuple(name.value for name in INPUTS),
+        input_sigma=np.tile([0.05, 0.0, 1.5e4, 2e3, 1e3, 0.15, 0.2], (len(values), 1)),
+        quantum=np.zeros(len(SIMULATED)),
+        blocks=np.arange(len(values)),
+    )
+
+
+def test_the_equation_is_exact_in_the_coefficients() -> None:
+    """Eq. (2) of readings simulated at other coefficients = rest + sum of coefficient x column."""
+    bench, factors = _bench(), np.array([1.3, 0.8, 1.1, 0.9, 1.02, 1.2, 0.85])
+    values = np.array([one.centre for one in bench.parameters]) * factors
+    loss = measured_losses(POINTS, _observed(bench.predict(values))).values
+    assert _eq().predict(values) == pytest.approx(loss, rel=1e-9)
+
+
+def test_one_speed_and_displacement_have_rank_two() -> None:
+    """Every pair's loss is a straight line of pressure there: seven coefficients, two that could be told apart.
+
+    The paper tunes seven from these (its Fig. 13). The whole map tells more, never the bearings from each other.
+    """
+    readings = measured_losses(POINTS, _observed(_bench().predict(_eq_values())))
+    *cells, whole = eq_fits(_eq(), readings, POINTS, PUMP.pump.rated_speed)
+    assert [cell.ratio for cell in cells] == pytest.approx([0.28, 0.51, 1.0])
+    assert [cell.rank for cell in cells] == [2, 2, 2]
+    assert all(cell.known <= 2 for cell in cells)
+    assert all(cell.condition > 1e3 for cell in cells)
+    assert 3 <= whole.rank < 7
+    shrunk = {one.name: whole.posterior.sigma(one.name) / one.stretch(0.0) for one in whole.posterior.parameters}
+    assert shrunk["friction.slipper_swash_plate"] < 0.3
+    assert shrunk["friction.front_bearing"] > 0.95
+
+
+def _eq_values() -> np.ndarray:
+    return np.array([one.centre for one in _eq().parameters])
+
+
+def test_planted_coefficients_lie_within_the_posterior() -> None:
+    """200 pumps drawn from priors of a third of the width: intervals hold as often as they say.
+
+    Within 4 sigma of a count of 200, and .02 for the logarithm's bend.
+    """
+    rng, eq = np.random.default_rng(21), _eq()
+    eq = eq.with_parameters(tuple(one.widened(0.3) for one in eq.parameters))
+    sigma, inside = 0.01 * eq.predict(_eq_values()), []
+    for _ in range(200):
+        xi = rng.standard_normal(len(eq.parameters))
+        true = np.array([one.value(float(at)) for one, at in zip(eq.parameters, xi, strict=True)])
+        loss = eq.predict(true) + sigma * rng.standard_normal(sigma.shape)
+        fit = maximum_posterior(eq, _loss_readings(loss, sigma))
+        inside.append(np.abs(fit.xi - xi) / np.sqrt(np.diag(fit.covariance)))
+    for limit, share in ((1.0, 0.683), (1.96, 0.95)):
+        allowed = 4.0 * np.sqrt(share * (1 - share) / 200) + 0.02
+        assert np.all(np.abs((np.array(inside) < limit).mean(axis=0) - share) < allowed)
+
+
+def _loss_readings(loss: np.ndarray, sigma: np.ndarray) -> Observations:
+    empty = np.zeros((len(loss), 0))
+    channel = Channel("hydromechanical_loss", None)
+    return Observations((channel,), loss, sigma, (), empty, np.zeros(1), np.arange(len(loss)))
+
+
+def test_bounds_hold() -> None:
+    """A loss that asks for twelve times the slippers' friction gets the bound, no coefficient is negative."""
+    eq = _eq()
+    names = [one.name for one in eq.parameters]
+    asked = _eq_values()
+    asked[names.index("friction.slipper_swash_plate")] *= 12.0
+    loss = eq.predict(asked)
+    fit = maximum_posterior(eq, _loss_readings(loss, 1e-4 * loss))
+    upper = np.array([one.upper for one in eq.parameters])
+    lower = np.array([one.lower for one in eq.parameters])
+    assert np.all((fit.values <= upper * (1 + 1e-9)) & (fit.values >= lower * (1 - 1e-9)))
+    assert np.any(np.isclose(fit.values, upper, rtol=1e-6))
+
+
+def test_a_coefficient_far_from_the_papers_keeps_its_tolerance() -> None:
+    friction = PUMP.friction.model_copy(update={"piston_cylinder": 0.2, "rear_bearing": 0.0})
+    priors, told = paper_priors(PUMP.model_copy(update={"friction": friction}))
+    names = [one.name for one in priors]
+    assert "friction.piston_cylinder" not in names
+    assert "friction.rear_bearing" not in names
+    assert len(told) == 1
+    assert "0.2" in told[0]
+
+
+def test_the_noise_of_the_loss_is_that_of_its_readings() -> None:
+    """Against 400 draws of all readings and inputs: their scatter, within 2 % on the mean of 63 points."""
+    values = _bench().predict(_eq_values())
+    stated = measured_losses(POINTS, _observed(values)).sigma[:, 0]
+    rng, observed, draws = np.random.default_rng(3), _observed(values), []
+    for _ in range(400):
+        drawn = values + observed.sigma * rng.standard_normal(values.shape)
+        moved = {
+            name: getattr(POINTS, name) + observed.input_sigma[:, at] * rng.standard_normal(len(values))
+            for at, name in enumerate(observed.inputs)
+        }
+        draws.append(measured_losses(replace(POINTS, **moved), replace(observed, values=drawn)).values[:, 0])
+    scatter = np.std(draws, axis=0)
+    assert np.mean(scatter / stated) == pytest.approx(1.0, abs=0.02)
