@@ -59,7 +59,7 @@ def friction_curves(rows: Sequence[Row]) -> bytes:
         )
         axes.semilogx(number, friction, color=colour, label=gap.replace("_", " "))
         axes.fill_between(number, np.maximum(friction - sigma, 0.0), friction + sigma, color=colour, alpha=0.2)
-    axes.set_xlabel("Hersey number mu v/(L p) / 1")
+    axes.set_xlabel("Hersey number mu v w/N / 1")
     axes.set_ylabel("friction coefficient / 1")
     axes.set_ylim(bottom=0.0)
     axes.legend(fontsize=8)

@@ -95,8 +95,7 @@ def calibrate(
     fit = _fit_of(null)
     report(2, steps, "friction over the Hersey number")
     hersey = _hersey(study, null, thresholds, notes) if with_hersey else None
-    carried = hersey is not None and hersey.carried
-    shown = hersey.fit if hersey is not None and carried else fit
+    shown, laws = (hersey.fit, hersey.laws) if hersey is not None and hersey.carried else (fit, ())
     report(3, steps, "Eq. (21)")
     equation = _equation(pump, bench, fit, study, notes)
     rows = _compared(pump, bench, fit, study, models, notes, report)
@@ -106,7 +105,7 @@ def calibrate(
         fit=fit,
         undetermined=undetermined(fit),
         hersey=hersey,
-        curves=hersey_curves(bench, shown),
+        curves=hersey_curves(bench, shown, laws),
         equation=equation,
         rows=rows,
         notes=tuple(notes),

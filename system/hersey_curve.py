@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -14,8 +14,7 @@ from system.kinematics import Array
 from system.lumped import lumped_pairs
 from system.pairs import Pair
 from system.physics.contact_laws import hersey, stribeck_share
-from system.physics.effects import EffectId
-from system.physics.priors import path_of
+from system.physics.extension import Extension
 from system.pump_gap import Gap
 
 PAIRS: Mapping[Gap, Pair] = {
@@ -29,7 +28,7 @@ STEP = 1e-4  # in xi, of slopes
 
 @dataclass(frozen=True)
 class HerseyCurve:
-    """A pair's coefficient (K,) over the Hersey number mu v/(L p) (K,), with one sigma (K,); all pure numbers."""
+    """A pair's coefficient (K,) over the Hersey number mu v w/N (K,), with one sigma (K,); all pure numbers."""
 
     gap: Gap
     number: Array
@@ -37,11 +36,13 @@ class HerseyCurve:
     sigma: Array
 
 
-def hersey_curves(bench: LumpedBench, posterior: Posterior, samples: int = 40) -> tuple[HerseyCurve, ...]:
-    """f = f_c + f_b exp(-H/H0) of the three films over the numbers met at a bench's points under load.
+def hersey_curves(
+    bench: LumpedBench, posterior: Posterior, laws: Sequence[Extension] = (), samples: int = 40
+) -> tuple[HerseyCurve, ...]:
+    """f = f_c + f_b exp(-(H/H0)^d) of the three films over the numbers met at a bench's points under load.
 
-    `posterior` is a fit of the bench with `mixed_friction` on, or without (f = f_c). Load is what exceeds half the
-    delivery pressure.
+    `posterior` is a fit of the bench with `laws` on: `mixed_friction`, or none (f = f_c). Under load is a chamber
+    above half the delivery pressure.
     """
     solved = bench.solved(posterior.values[: len(bench.parameters)])
     at, courses = solved.setting, solved.courses
@@ -53,10 +54,10 @@ def hersey_curves(bench: LumpedBench, posterior: Posterior, samples: int = 40) -
         numbers = hersey(viscosity, gaps[gap])[courses.pressure > 0.5 * at.point.delivery_pressure]
         low, high = np.percentile(numbers[numbers > 0.0], ENDS)
         number = np.geomspace(low, high, samples)
-        friction = _coefficient(posterior, gap, number, posterior.xi)
+        friction = _coefficient(posterior, laws, gap, number, posterior.xi)
         slopes = np.stack(
             [
-                (_coefficient(posterior, gap, number, posterior.xi + STEP * one) - friction) / STEP
+                (_coefficient(posterior, laws, gap, number, posterior.xi + STEP * one) - friction) / STEP
                 for one in np.eye(posterior.xi.size)
             ],
             axis=-1,
@@ -66,11 +67,10 @@ def hersey_curves(bench: LumpedBench, posterior: Posterior, samples: int = 40) -
     return tuple(curves)
 
 
-def _coefficient(posterior: Posterior, gap: Gap, number: Array, xi: Array) -> Array:
+def _coefficient(posterior: Posterior, laws: Sequence[Extension], gap: Gap, number: Array, xi: Array) -> Array:
     named = {one.name: one.value(float(at)) for one, at in zip(posterior.parameters, xi, strict=True)}
-    constant = np.full_like(number, named.get(f"friction.{PAIRS[gap].value}", 0.0))
-    boundary = named.get(path_of(EffectId.MIXED_FRICTION, gap.value))
-    if boundary is None:
-        return constant
-    scale = named[path_of(EffectId.MIXED_FRICTION, "hersey_scale")]
-    return np.asarray(constant + boundary * stribeck_share(number, scale))
+    found = np.full_like(number, named.get(f"friction.{PAIRS[gap].value}", 0.0))
+    for law in laws:
+        own = law.stated(named)
+        found = found + own[gap.value] * stribeck_share(number, own["hersey_scale"], own["exponent"])
+    return found

@@ -31,7 +31,7 @@ def polymod_for(
     by a polynomial that passes through all others. `observations` are those of `modelled`; points without a
     reading are none.
     """
-    used = observations.measured.any(axis=1)
+    used = np.asarray(np.any(observations.measured, axis=1))
     axes = (points.speed, points.p_out - points.p_in, points.displacement_ratio)
     parts = [_levels(axis, used) for axis in axes]
     most = [

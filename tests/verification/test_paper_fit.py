@@ -144,16 +144,17 @@ def test_a_coefficient_far_from_the_papers_keeps_its_tolerance() -> None:
 
 
 def test_the_noise_of_the_loss_is_that_of_its_readings() -> None:
-    """Against 400 draws of all readings and inputs: their scatter, within 2 % on the mean of 63 points."""
-    values = _bench().predict(_eq_values())
-    stated = measured_losses(POINTS, _observed(values)).sigma[:, 0]
-    rng, observed, draws = np.random.default_rng(3), _observed(values), []
-    for _ in range(400):
+    """Against 300 draws of readings and inputs of every ninth point: their scatter, within 4 sigma of its own."""
+    few = replace(POINTS, **{name: values[::9] for name, values in vars(POINTS).items()})
+    values = _bench().predict(_eq_values())[::9]
+    observed, rng, draws = _observed(values), np.random.default_rng(3), []
+    stated = measured_losses(few, observed).sigma[:, 0]
+    for _ in range(300):
         drawn = values + observed.sigma * rng.standard_normal(values.shape)
         moved = {
-            name: getattr(POINTS, name) + observed.input_sigma[:, at] * rng.standard_normal(len(values))
+            name: getattr(few, name) + observed.input_sigma[:, at] * rng.standard_normal(len(values))
             for at, name in enumerate(observed.inputs)
         }
-        draws.append(measured_losses(replace(POINTS, **moved), replace(observed, values=drawn)).values[:, 0])
-    scatter = np.std(draws, axis=0)
-    assert np.mean(scatter / stated) == pytest.approx(1.0, abs=0.02)
+        draws.append(measured_losses(replace(few, **moved), replace(observed, values=drawn)).values[:, 0])
+    scatter = np.std(draws, axis=0, ddof=1)
+    assert np.all(np.abs(scatter / stated - 1.0) < 4.0 / np.sqrt(2 * 299))
