@@ -1,0 +1,118 @@
+"""`swashfilm calibrate`: what it refuses, and the way through from files to files."""
+
+from __future__ import annotations
+
+import csv
+import json
+from itertools import product
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from swashfilm.__main__ import main
+from system.bench_map import LumpedBench
+from system.bench_points import BenchPoints
+from system.bench_truth import SIMULATED
+from system.paper_fit import paper_priors
+from system.pump_file import load_pump
+
+PUMP = load_pump("ref90")
+RECORDING = """format = 1
+title = "made"
+pump = "ref90"
+oil = "ISO VG 46"
+pressure_reference = "gauge"
+
+[steady]
+file = "steady.csv"
+
+[channel]
+speed = { column = "n", unit = "rpm", sigma = 0.5 }
+displacement_ratio = { column = "e", unit = "1", sigma = 0.0 }
+p_out = { column = "p", unit = "bar", sigma = 0.1 }
+p_in = { column = "s", unit = "bar", sigma = 0.02 }
+p_case = { column = "c", unit = "bar", sigma = 0.01 }
+T_in = { column = "t", unit = "degC", sigma = 0.15 }
+T_case = { column = "T", unit = "degC", sigma = 0.15 }
+Q_out = { column = "Q", unit = "L/min", sigma = 0.1 }
+Q_in = { column = "I", unit = "L/min", sigma = 0.1 }
+Q_case = { column = "q", unit = "L/min", sigma = 0.015 }
+torque = { column = "M", unit = "N m", sigma = 0.3 }
+"""
+PLANTED = {"friction.slipper_swash_plate": 0.009, "friction.piston_cylinder": 0.022}
+
+
+def _made(folder: Path) -> Path:
+    """A recording of 24 points of the pump with other friction of slippers and pistons."""
+    grid = np.array(list(product((1000.0, 1600.0, 2100.0), (10e6, 17e6, 26e6, 35e6), (0.4, 1.0))))
+    count = len(grid)
+    points = BenchPoints(
+        speed=grid[:, 0] * np.pi / 30,
+        p_out=grid[:, 1],
+        displacement_ratio=grid[:, 2],
+        p_in=np.full(count, 2.5e6),
+        p_case=np.full(count, 1.5e5),
+        T_case=np.full(count, 328.15),
+        T_in=np.full(count, 323.15),
+        hours=np.full(count, np.nan),
+        order=np.arange(count, dtype=float),
+    )
+    bench = LumpedBench(PUMP, points, SIMULATED, paper_priors(PUMP)[0])
+    values = np.array([PLANTED.get(one.name, one.centre) for one in bench.parameters])
+    noise = np.random.default_rng(4).standard_normal((count, 4)) * [0.1, 0.1, 0.015, 0.3]
+    read = bench.predict(values) * [6e4, 6e4, 6e4, 1.0] + noise
+    folder.mkdir()
+    (folder / "recording.toml").write_text(RECORDING, encoding="utf-8")
+    with (folder / "steady.csv").open("w", encoding="utf-8", newline="") as file:
+        writer = csv.writer(file)
+        writer.writerow(["n", "e", "p", "s", "c", "t", "T", "Q", "I", "q", "M"])
+        for (n, p, e), row in zip(grid, read, strict=True):
+            writer.writerow([n, e, p / 1e5, 25.0, 1.5, 50.0, 55.0, *(f"{number:.5f}" for number in row)])
+    return folder
+
+
+def _table(folder: Path, name: str) -> list[dict[str, str]]:
+    with (folder / name).open(encoding="utf-8", newline="") as file:
+        return list(csv.DictReader(file))
+
+
+@pytest.mark.slow
+def test_from_files_to_files(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """Planted coefficients are found within 3 sigma; models in one table; the fitted pump loads, and reports."""
+    out = tmp_path / "out"
+    recording = _made(tmp_path / "made")
+    words = ["calibrate", "ref90", str(recording), "-o", str(out), "--models", "wilson", "--laws", "none"]
+    assert main(words) == 0
+    told = capsys.readouterr().out
+    assert "slipper swash plate" in told
+    found = {row["name"]: row for row in _table(out, "parameters.csv")}
+    for name, planted in PLANTED.items():
+        assert abs(float(found[name]["mean"]) - planted) < 3 * float(found[name]["sigma"])
+    assert float(found["friction.slipper_swash_plate"]["sigma_over_prior [1]"]) < 0.5
+    rows = _table(out, "heldout.csv")
+    rms = {(row["model"], row["left_out"]): float(row["rms"]) for row in rows if row["channel"] == "torque"}
+    assert rms["physics", "speed"] < rms["wilson", "speed"]
+    assert {row["rank"] for row in _table(out, "equation_21.csv") if row["speed [rpm]"]} == {"2"}
+    calibrated = load_pump(str(out / "pump_calibrated.toml"))
+    mean = float(found["friction.slipper_swash_plate"]["mean"])
+    assert calibrated.friction.slipper_swash_plate == pytest.approx(mean, rel=1e-5)
+    summary = json.loads((out / "summary.json").read_text("utf-8"))
+    assert summary["hersey"] is None
+    assert main(["report", str(out)]) == 0
+
+
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        (["calibrate"], "RECORDING"),
+        (["calibrate", "ref90", "nowhere"], "no such file"),
+        (["calibrate", "ref91", "nowhere"], "ref91"),
+        (["calibrate", "ref90", "nowhere", "--models", "willson"], "wilson"),
+        (["calibrate", "ref90", "nowhere", "--laws", "mixed"], "mixed_friction"),
+        (["calibrate", "ref90", "nowhere", "--law", "none"], "--laws"),
+    ],
+)
+def test_what_is_wrong_is_told(words: list[str], told: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(words) == 2
+    assert told in capsys.readouterr().err
