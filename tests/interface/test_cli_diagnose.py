@@ -5,21 +5,12 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
+from recording_heads import HEAD
 
 from swashfilm.__main__ import main
 
-RECORDING = """format = 1
-pump = "ref90"
-oil = "ISO VG 46"
-pressure_reference = "gauge"
-
-[steady]
-file = "steady.csv"
-
-[channel]
-speed = { column = "n", unit = "rpm", sigma = 0.5 }
-p_out = { column = "p", unit = "bar", sigma = 0.3 }
-Q_case = { column = "q", unit = "L/min", sigma = 0.02 }
+RECORDING = f"""{HEAD}p_out = {{ column = "p", unit = "bar", sigma = 0.3 }}
+Q_case = {{ column = "q", unit = "L/min", sigma = 0.02 }}
 """
 
 

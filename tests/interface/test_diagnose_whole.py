@@ -13,6 +13,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from recording_heads import HEAD
 
 from swashfilm.__main__ import main
 from swashfilm.diagnose_files import read_rows
@@ -30,26 +31,15 @@ PUMP = load_pump("ref90")
 READ = (ChannelName.Q_OUT, ChannelName.Q_CASE, ChannelName.TORQUE)
 NOISE = np.array([0.1, 0.015, 0.3])  # L/min, L/min, N m
 CHURNING = entry_of(EffectId.CHURNING).extensions[0]
-RECORDING = """format = 1
-title = "made"
-pump = "ref90"
-oil = "ISO VG 46"
-pressure_reference = "gauge"
-
-[steady]
-file = "steady.csv"
-
-[channel]
-speed = { column = "n", unit = "rpm", sigma = 0.5 }
-displacement_ratio = { column = "e", unit = "1", sigma = 0.0 }
-p_out = { column = "p", unit = "bar", sigma = 0.1 }
-p_in = { column = "s", unit = "bar", sigma = 0.02 }
-p_case = { column = "c", unit = "bar", sigma = 0.01 }
-T_in = { column = "t", unit = "degC", sigma = 0.15 }
-T_case = { column = "T", unit = "degC", sigma = 0.15 }
-Q_out = { column = "Q", unit = "L/min", sigma = 0.1 }
-Q_case = { column = "q", unit = "L/min", sigma = 0.015 }
-torque = { column = "M", unit = "N m", sigma = 0.3 }
+RECORDING = f"""{HEAD}displacement_ratio = {{ column = "e", unit = "1", sigma = 0.0 }}
+p_out = {{ column = "p", unit = "bar", sigma = 0.1 }}
+p_in = {{ column = "s", unit = "bar", sigma = 0.02 }}
+p_case = {{ column = "c", unit = "bar", sigma = 0.01 }}
+T_in = {{ column = "t", unit = "degC", sigma = 0.15 }}
+T_case = {{ column = "T", unit = "degC", sigma = 0.15 }}
+Q_out = {{ column = "Q", unit = "L/min", sigma = 0.1 }}
+Q_case = {{ column = "q", unit = "L/min", sigma = 0.015 }}
+torque = {{ column = "M", unit = "N m", sigma = 0.3 }}
 """
 
 

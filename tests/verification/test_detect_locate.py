@@ -8,46 +8,33 @@ from functools import cache
 
 import numpy as np
 import pytest
+from toy_maps import LIMITS, SIGMA, ToySimulator, toy_observations, toy_recording
 
 from diagnosis.component_evidence import ComponentGroup
 from diagnosis.contrasts import contrasts, misfit
 from diagnosis.detect import Detection, detect
 from diagnosis.locate import locate
-from diagnosis.map_axes import AXES, axis_values, inside, scaled_axes
+from diagnosis.map_axes import axis_values, inside, scaled_axes
 from diagnosis.multiplicity import family_chance, holm, log_chances
 from diagnosis.noise_memory import noise_memory
-from diagnosis.recording import Circuit, Recording, SteadyTable
+from diagnosis.recording import Recording
 from diagnosis.study import Study, concerned, study_of
-from diagnosis.thresholds import load_thresholds
 from diagnosis.time_scan import TimeKind
-from system.bench_points import BenchPoints
 from system.channels import ChannelName
 from system.components import Component
 from system.estimation.evidence import Sign
-from system.estimation.observations import Array, Channel, Observations
+from system.estimation.observations import Array
 from system.estimation.parameters import Parameter, Role, Scale
 from system.physics.effects import EffectId, Kind
 from system.physics.extension import Entry, Extension
 
 POINTS = 80
-CHANNELS = (ChannelName.Q_OUT, ChannelName.Q_CASE, ChannelName.TORQUE)
-SIGMA = np.array([0.1, 0.02, 0.3])
-LIMITS = load_thresholds()
 
 
 @cache
 def _map() -> Recording:
-    """80 points of speed, pressure, displacement and temperature in an order of no system."""
-    rng = np.random.default_rng(50)
-    values = np.full((POINTS, len(ChannelName)), np.nan)
-    grid = np.array([(n, p, e) for n in (50, 120, 200) for p in (5e6, 15e6, 25e6, 35e6) for e in (0.3, 0.6, 1.0)])
-    picked = grid[rng.permutation(np.arange(POINTS) % len(grid))]
-    columns = (*picked.T, rng.choice([313.0, 333.0, 353.0], POINTS))
-    order = list(ChannelName)
-    for axis, column in zip(AXES, columns, strict=True):
-        values[:, order.index(axis)] = column
-    table = SteadyTable(values, np.arange(POINTS), np.full(POINTS, np.nan), np.ones(POINTS))
-    return Recording("toy", "toy", "", Circuit.CLOSED, (), table, (), ())
+    grid = [(n, p, e) for n in (50, 120, 200) for p in (5e6, 15e6, 25e6, 35e6) for e in (0.3, 0.6, 1.0)]
+    return toy_recording(POINTS, grid, 50)
 
 
 def _parts() -> dict[str, Array]:
@@ -82,7 +69,7 @@ def _effect(effect: EffectId) -> Array:
 
 
 @dataclass(frozen=True)
-class ToyPump:
+class ToyPump(ToySimulator):
     """A pump linear in its parameters: every part has a factor or a zero of its own."""
 
     parameters: tuple[Parameter, ...]
@@ -94,24 +81,12 @@ class ToyPump:
     def slopes(self, values: Array, names: tuple[str, ...]) -> Array:
         return np.stack(self.columns, axis=2)
 
-    def input_slopes(self, values: Array) -> Array:
-        return np.zeros((POINTS, len(CHANNELS), 0))
-
     def with_parameters(self, parameters: tuple[Parameter, ...]) -> ToyPump:
         raise NotImplementedError
 
     def with_extensions(self, extensions: tuple[Extension, ...]) -> ToyPump:
         added = tuple(parameter for one in extensions for parameter in one.parameters)
         return ToyPump(self.parameters + added, (*self.columns, *(_effect(one.id) for one in extensions)))
-
-    def elsewhere(self, points: BenchPoints) -> ToyPump:
-        raise NotImplementedError
-
-    def difference(self, values: Array, other: Array) -> Array:
-        return self.predict(other) - self.predict(values)
-
-    def traces(self, values: Array, points: tuple[int, ...], angles: Array) -> Array:
-        raise NotImplementedError
 
     def components(self, values: Array) -> Mapping[Component, Array]:
         parts, plain = _parts(), self.predict(values)
@@ -161,16 +136,7 @@ def _study(added: Array | float = 0.0, seed: int = 0) -> Study:
         [parameter.value(xi) for parameter, xi in zip(pump.parameters, rng.normal(size=8), strict=True)]
     )
     readings = pump.predict(values) + added + SIGMA * rng.normal(size=(POINTS, 3))
-    observations = Observations(
-        channels=tuple(Channel(channel.value, channel.dimension) for channel in CHANNELS),
-        values=readings,
-        sigma=np.tile(SIGMA, (POINTS, 1)),
-        inputs=(),
-        input_sigma=np.zeros((POINTS, 0)),
-        quantum=np.zeros(3),
-        blocks=np.arange(POINTS) // 8,
-    )
-    return study_of(_map(), pump, observations, scaled_axes(_map()), _catalogue(), LIMITS)
+    return study_of(_map(), pump, toy_observations(readings), scaled_axes(_map()), _catalogue(), LIMITS)
 
 
 def _sized(effect: EffectId, z: float) -> Array:

@@ -8,6 +8,7 @@ from functools import cache
 
 import numpy as np
 import pytest
+from toy_maps import LIMITS, SIGMA, ToySimulator, toy_observations, toy_recording
 
 from diagnosis.detect import confirmed, detect
 from diagnosis.diagnose import diagnose_study
@@ -16,42 +17,30 @@ from diagnosis.heldout import held_out, regions, speak_against
 from diagnosis.hypotheses import hypotheses
 from diagnosis.judge import judge
 from diagnosis.map_axes import AXES, scaled_axes
-from diagnosis.recording import Circuit, Recording, SteadyTable
+from diagnosis.recording import Recording
 from diagnosis.refit import refit
 from diagnosis.screen import joint_evidence
 from diagnosis.study import Candidate, Study, study_of
-from diagnosis.thresholds import load_thresholds
 from diagnosis.unknown import scaling
 from diagnosis.verdict import Diagnosis, Status
 from diagnosis.weighed import Weighed
-from system.bench_points import BenchPoints
 from system.channels import ChannelName
 from system.components import Component
 from system.errors import NotConverged
 from system.estimation.evidence import mixture_evidence, score
-from system.estimation.observations import Array, Channel, Observations
+from system.estimation.observations import Array
 from system.estimation.parameters import Parameter, Role, Scale
 from system.physics.effects import EffectId, Kind
 from system.physics.extension import Entry, Extension
 from system.pump_gap import Gap
 
 POINTS = 96
-CHANNELS = (ChannelName.Q_OUT, ChannelName.Q_CASE, ChannelName.TORQUE)
-SIGMA = np.array([0.1, 0.02, 0.3])
-LIMITS = load_thresholds()
 
 
 @cache
 def _recording() -> Recording:
-    rng = np.random.default_rng(60)
-    values = np.full((POINTS, len(ChannelName)), np.nan)
-    grid = np.array([(n, p, e) for n in (50, 90, 130, 200) for p in (5e6, 15e6, 25e6, 35e6) for e in (0.3, 1.0)])
-    picked = grid[rng.permutation(np.arange(POINTS) % len(grid))]
-    order = list(ChannelName)
-    for axis, column in zip(AXES, (*picked.T, rng.choice([313.0, 333.0, 353.0], POINTS)), strict=True):
-        values[:, order.index(axis)] = column
-    table = SteadyTable(values, np.arange(POINTS), np.full(POINTS, np.nan), np.ones(POINTS))
-    return Recording("toy", "toy", "", Circuit.CLOSED, (), table, (), ())
+    grid = [(n, p, e) for n in (50, 90, 130, 200) for p in (5e6, 15e6, 25e6, 35e6) for e in (0.3, 1.0)]
+    return toy_recording(POINTS, grid, 60)
 
 
 def _axes() -> tuple[Array, ...]:
@@ -145,7 +134,7 @@ def _coordinates() -> dict[str, Array]:
 
 
 @dataclass(frozen=True)
-class ToyPump:
+class ToyPump(ToySimulator):
     """The toy as a simulator; `scale`: of mixed friction's grid; `widest`: film above which it fails."""
 
     parameters: tuple[Parameter, ...] = BASE
@@ -168,9 +157,6 @@ class ToyPump:
             columns.append((self.predict(values + step) - self.predict(values - step)) / 2e-5)
         return np.stack(columns, axis=-1)
 
-    def input_slopes(self, values: Array) -> Array:
-        return np.zeros((POINTS, len(CHANNELS), 0))
-
     def with_parameters(self, parameters: tuple[Parameter, ...]) -> ToyPump:
         given = {one.name: one for one in parameters}
         return replace(self, parameters=tuple(given.get(one.name, one) for one in self.parameters))
@@ -179,15 +165,6 @@ class ToyPump:
         scales = [each.grid[0]["scale"] for each in extensions if "scale" in each.grid[0]]
         added = tuple(one for each in extensions for one in each.parameters)
         return replace(self, parameters=self.parameters + added, scale=(*scales, self.scale)[0])
-
-    def elsewhere(self, points: BenchPoints) -> ToyPump:
-        raise NotImplementedError
-
-    def difference(self, values: Array, other: Array) -> Array:
-        return self.predict(other) - self.predict(values)
-
-    def traces(self, values: Array, points: tuple[int, ...], angles: Array) -> Array:
-        raise NotImplementedError
 
     def components(self, values: Array) -> Mapping[Component, Array]:
         known = {one.name: value for one, value in zip(self.parameters, values, strict=True)}
@@ -211,16 +188,9 @@ def _study(
     for name, value in wrong.items():
         values[[one.name for one in BASE].index(name.replace("__", "."))] = value
     readings = truth.predict(values) + added + SIGMA * rng.normal(size=(POINTS, 3))
-    observations = Observations(
-        channels=tuple(Channel(channel.value, channel.dimension) for channel in CHANNELS),
-        values=readings,
-        sigma=np.tile(SIGMA, (POINTS, 1)),
-        inputs=(),
-        input_sigma=np.zeros((POINTS, 0)),
-        quantum=np.zeros(3),
-        blocks=np.arange(POINTS) // 8,
+    return study_of(
+        _recording(), pump or ToyPump(), toy_observations(readings), scaled_axes(_recording()), CATALOGUE, LIMITS
     )
-    return study_of(_recording(), pump or ToyPump(), observations, scaled_axes(_recording()), CATALOGUE, LIMITS)
 
 
 def _diagnosis(study: Study) -> Diagnosis:
