@@ -54,6 +54,7 @@ def force_columns(joints: JointForces) -> Columns:
         **_vector("rear_bearing_on_shaft", joints.shaft.rear, "xy"),
         **_vector("trunnion_on_plate", trunnion),
         **_vector("trunnion_on_plate_moment", about_pivot, unit="N m"),
+        "actuator_on_plate_z": ("N", joints.plate.actuator[2]),
         "control_moment_on_plate": ("N m", joints.plate.control),
         "drive_torque_on_shaft": ("N m", joints.shaft.torque),
     }
@@ -121,6 +122,7 @@ def _sizes(joints: JointForces) -> dict[str, tuple[str, Array]]:
         "plate_on_slipper_normal": ("N", one.lift),
         "retainer_on_slipper_normal": ("N", joints.hold.pressing),
         "valve_plate_on_block_tipping": ("Nm", np.hypot(*joints.block.valve_plate[3:5])),
+        "actuator_on_plate": ("N", joints.plate.actuator[2]),
         "control_moment_on_plate": ("Nm", joints.plate.control),
         "drive_torque_on_shaft": ("Nm", joints.shaft.torque),
     }

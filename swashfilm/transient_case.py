@@ -13,8 +13,8 @@ from system.case_table import Table, fault_lines, quoted, read_toml
 from system.faults import InputFaults
 from system.kinematics import drive_at_ratio
 from system.lumped import full_drive
+from system.multibody.group_kinematics import swash_angle
 from system.multibody.transient import Course, Schedule, TransientCase
-from system.multibody.transient_setup import swash_angle
 from system.units import Dimension, QuantityError, format_quantity, parse_quantity
 from system.unlike import kinds
 

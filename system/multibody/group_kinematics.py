@@ -58,6 +58,11 @@ class AxialRates:
         return np.asarray(turning + self.tilt_tilt * plate.rate**2 + self.tilt * plate.acceleration)
 
 
+def swash_angle(drive: SwashDrive) -> float:
+    """Tilt (rad) about the swash axis of a drive, whose own tilt a cross angle makes larger."""
+    return float(np.arctan(np.tan(drive.swash_angle) * np.cos(drive.dead_centre_shift)))
+
+
 def circle_of(drive: SwashDrive) -> BoreCircle:
     """The bores of a drive whose plate pivots on the shaft's axis, shaft angles from its own dead centre."""
     return BoreCircle(drive.pitch_radius, drive.bore_cone_angle)

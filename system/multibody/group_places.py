@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from system.assumptions import Assumption, Taken
 from system.description import PumpDescription
 from system.floating_parts import ball_plane_height, retainer_kind, spline_height
-from system.parts_description import RetainerKind
+from system.parts_description import RetainerKind, Stroking
 from system.units import Dimension
 
 
@@ -17,15 +17,16 @@ class GroupPlaces:
     ball guide's centre too; spline, where the shaft holds the block sideways; middles of front and rear
     bearing.
 
-    guide_length m, of the land that guides a piston, from the bore's case edge; None: all of it that is engaged.
-    retained: whether the spring presses the slippers through the retainer, or stands on the shaft.
+    arm m, of the actuator's pin from the tilt axis; strokes: which way its force tilts the plate. retained: the
+    spring presses the slippers through the retainer, or else stands on the shaft.
     """
 
     pivot: float
     spline: float
     front: float
     rear: float
-    guide_length: float | None
+    arm: float
+    strokes: Stroking
     retained: bool
     taken: tuple[Assumption, ...]
 
@@ -37,7 +38,27 @@ def group_places(pump: PumpDescription) -> GroupPlaces:
     spline = spline_height(pump, taken)
     rear, front = _bearings(pump, pivot, taken)
     retained = retainer_kind(pump, taken) is RetainerKind.SPRING
-    return GroupPlaces(pivot, spline, front, rear, pump.piston.guide_length, retained, tuple(taken.assumptions))
+    arm, strokes = actuator_arm(pump, taken), stroking(pump, taken)
+    return GroupPlaces(pivot, spline, front, rear, arm, strokes, retained, tuple(taken.assumptions))
+
+
+def slippers_reach(pump: PumpDescription) -> float:
+    """From the shaft to the slippers' rims, m."""
+    return pump.pump.pitch_radius + pump.slipper.land_outer_radius
+
+
+def actuator_arm(pump: PumpDescription, taken: Taken) -> float:
+    """Distance (m) of the actuator's pin from the tilt axis, stated or taken."""
+    reach = slippers_reach(pump)
+    return taken.value("actuator.arm", pump.actuator.arm, reach, "out to the slippers' rims", Dimension.LENGTH)
+
+
+def stroking(pump: PumpDescription, taken: Taken) -> Stroking:
+    """Which way the actuator's pressure tilts the plate, stated or taken."""
+    if pump.actuator.strokes is not None:
+        return pump.actuator.strokes
+    taken.note("actuator.strokes", Stroking.UP.value, "control pressure holds the plate against the pump's moment")
+    return Stroking.UP
 
 
 def _bearings(pump: PumpDescription, pivot: float, taken: Taken) -> tuple[float, float]:

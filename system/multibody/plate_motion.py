@@ -15,6 +15,7 @@ from system.assumptions import Assumption, Taken
 from system.description import PumpDescription
 from system.floating_parts import STEEL
 from system.lumped_point import lumped_point
+from system.multibody.group_places import actuator_arm, slippers_reach, stroking
 from system.multibody.rotating_group import joint_forces
 from system.operating import OperatingPoint
 from system.parts_description import Stroking
@@ -56,10 +57,6 @@ class Actuator:
         """1 where its pressure makes the angle larger, -1 where smaller."""
         return 1.0 if self.strokes is Stroking.UP else -1.0
 
-    def sweep(self, plate: SwingingPlate) -> float:
-        """Volume from stop to stop, m3."""
-        return self.area * self.arm * float(np.sin(plate.angle_max) - np.sin(plate.angle_min))
-
 
 @dataclass(frozen=True)
 class Mechanism:
@@ -79,7 +76,7 @@ def mechanism(pump: PumpDescription, point: OperatingPoint, control_pressure: fl
 
 
 def _plate(pump: PumpDescription, taken: Taken) -> SwingingPlate:
-    stated, reach = pump.swash_plate, _reach(pump)
+    stated, reach = pump.swash_plate, slippers_reach(pump)
     material = pump.materials.swash_plate
     density = STEEL.density if material is None or material.density is None else material.density
     return SwingingPlate(
@@ -105,20 +102,11 @@ def _plate(pump: PumpDescription, taken: Taken) -> SwingingPlate:
     )  # fmt: skip
 
 
-def _reach(pump: PumpDescription) -> float:
-    """From the shaft to the slippers' rims, m."""
-    return pump.pump.pitch_radius + pump.slipper.land_outer_radius
-
-
 def _actuator(
     pump: PumpDescription, plate: SwingingPlate, point: OperatingPoint, control_pressure: float, taken: Taken
 ) -> Actuator:
     stated = pump.actuator
-    strokes = stated.strokes
-    if strokes is None:
-        strokes = Stroking.UP
-        taken.note("actuator.strokes", strokes.value, "control pressure holds the plate against the pump's moment")
-    arm = taken.value("actuator.arm", stated.arm, _reach(pump), "just beyond the slippers' rims", Dimension.LENGTH)
+    strokes, arm = stroking(pump, taken), actuator_arm(pump, taken)
     rate = taken.value("actuator.spring_rate", stated.spring_rate, 0.0, "no spring", Dimension.STIFFNESS)
     force = taken.value("actuator.spring_preload", stated.spring_preload, 0.0, "no spring", Dimension.FORCE)
     area = stated.area

@@ -26,7 +26,7 @@ from system.lumped import (
     piston_area,
     piston_motion,
 )
-from system.multibody.group_kinematics import SHAFT, BallMotion, Plate, ball_motion, circle_of
+from system.multibody.group_kinematics import SHAFT, BallMotion, Plate, ball_motion, circle_of, swash_angle
 from system.multibody.group_places import GroupPlaces, group_places
 from system.multibody.joints import Levers, SetForces, SetLoads, set_forces, wrench
 from system.multibody.retainer_body import GuideContact, Hold, guide_contact, hold
@@ -132,7 +132,7 @@ def joined(group: TurningGroup, loads: Sequence[ChamberLoads], found: PumpPoint)
         on_shaft = on_shaft + wrench(group.spring * SHAFT, np.zeros((3, 1)))
     on_plate = -group.whole([wrench(one.plate, group.ball.place, one.plate_moment) for one in sets])
     shaft = shaft_reactions(on_shaft, group.places, drag)
-    plate = plate_reactions(on_plate, group.places, group.tilt_axis)
+    plate = plate_reactions(on_plate, group.places, group.tilt_axis, swash_angle(group.drive))
     return JointForces(group, tuple(loads), sets, held, guide, drag, spline, block, shaft, plate)
 
 

@@ -17,6 +17,7 @@ from system.kinematics import Array
 from system.multibody.group_kinematics import SHAFT
 from system.multibody.group_places import GroupPlaces
 from system.multibody.joints import wrench
+from system.parts_description import Stroking
 
 
 @dataclass(frozen=True)
@@ -47,10 +48,11 @@ class ShaftReactions:
 
 @dataclass(frozen=True)
 class PlateReactions:
-    """On the swash plate, wrenches (6, N): of the trunnion; control (N,) N m, moment of the actuator about the
-    tilt axis, positive where it holds the plate to a larger angle."""
+    """On the swash plate: trunnion, wrench (6, N); actuator, wrench (6, N) of a force along the shaft at its pin;
+    control (N,) N m, its moment about the tilt axis, positive to a larger angle."""
 
     trunnion: Array
+    actuator: Array
     control: Array
 
 
@@ -86,14 +88,20 @@ def shaft_reactions(on_shaft: Array, places: GroupPlaces, drag: ShaftDrag) -> Sh
     )
 
 
-def plate_reactions(on_plate: Array, places: GroupPlaces, tilt_axis: Array) -> PlateReactions:
-    """What holds the swash plate at rest under on_plate (6, N): trunnion in the pivot, and actuator about the
-    tilt axis.
+def plate_reactions(on_plate: Array, places: GroupPlaces, tilt_axis: Array, swash_angle: float) -> PlateReactions:
+    """What holds the swash plate at rest under on_plate (6, N): trunnion in the pivot, and actuator at its pin.
 
-    tilt_axis (3,) unit vector; a turn about it makes the swash angle larger.
+    tilt_axis (3,) unit vector; a turn about it makes the swash angle (rad) larger. The pin lies in the plate's
+    plane through the tilt axis, `arm` from it, where a push out of the block tilts the plate the way it strokes.
     """
     pivot = places.pivot * SHAFT
     about_pivot = on_plate[3:] - np.cross(pivot, on_plate[:3], axis=0)
     control = -np.tensordot(tilt_axis, about_pivot, axes=1)
-    held = -about_pivot - control * tilt_axis[:, None]
-    return PlateReactions(wrench(-on_plate[:3], pivot, held), control)
+    side = (-1.0 if places.strokes is Stroking.UP else 1.0) * places.arm
+    along = np.cross(tilt_axis, SHAFT[:, 0])
+    pin = side * (np.cos(swash_angle) * along[:, None] - np.sin(swash_angle) * SHAFT)
+    lever = float(tilt_axis @ np.cross(pin[:, 0], SHAFT[:, 0]))
+    actuator = wrench(control / lever * SHAFT, pivot + pin)
+    force = -on_plate[:3] - actuator[:3]
+    held = -about_pivot - np.cross(pin, actuator[:3], axis=0)
+    return PlateReactions(wrench(force, pivot, held), actuator, control)

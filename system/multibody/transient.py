@@ -17,6 +17,7 @@ from system.kinematics import Array, drive_at_ratio
 from system.lumped import full_drive
 from system.lumped_point import lumped_point
 from system.multibody import transient_kernels as kernel
+from system.multibody.group_kinematics import swash_angle
 from system.multibody.plate_motion import Mechanism, mechanism
 from system.multibody.transient_setup import (
     natural_frequency,
@@ -24,7 +25,6 @@ from system.multibody.transient_setup import (
     plate_record,
     start_states,
     steps_a_pitch,
-    swash_angle,
 )
 from system.operating import OperatingPoint
 from system.physics.switched import hold_plain

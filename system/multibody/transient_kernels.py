@@ -243,6 +243,27 @@ def contents(chamber, states):
 
 
 @numba.njit(cache=True, error_model="numpy")
+def let_go(chamber, plate, shaft_angle, tilt, states, row, free):
+    """Fill the row of a plate that is held; tilt (3,) gets no rate and, if it is `free` now, its acceleration."""
+    moment, turned = moments(chamber, plate, shaft_angle, tilt[0], 0.0, states, row)
+    tilt[1] = 0.0
+    tilt[2] = moment / turned if free and not resting(plate, tilt[0], moment) else 0.0
+    row[MOMENT_STOP] = 0.0 if tilt[2] else -moment
+
+
+@numba.njit(cache=True, error_model="numpy")
+def pass_step(chamber, plate, shaft_angle, tilt, control, states, stages, totals):
+    """Take all oil over a step, totals (INTEGRALS,) being the chambers'; False where a stage finds no pressure."""
+    totals[:] = 0.0
+    aside = np.zeros(INTEGRALS)
+    for k in range(states.shape[0]):
+        into = totals if k < plate[0].pistons else aside
+        if not advance(chamber, plate, k, shaft_angle, tilt, control, states[k], stages, into):
+            return False
+    return True
+
+
+@numba.njit(cache=True, error_model="numpy")
 def course(chamber, plate, held, step, controls, tilt, states, rows, pressures, totals, impulses, before):
     """Fill rows (N + 1, COLUMNS), pressures (N + 1, z) from states (z + 1, 2) at the begin; 0, or a failed step.
 
@@ -250,37 +271,24 @@ def course(chamber, plate, held, step, controls, tilt, states, rows, pressures, 
     and end of each step; totals (INTEGRALS,) of all chambers after the held steps; impulses (N,) N m s on stops;
     before (2,): `contents` of the chambers as the plate is let go.
     """
-    c, pistons = chamber[0], plate[0].pistons
-    stages, one, own = np.empty((STAGES, INTEGRALS + 2)), np.zeros(INTEGRALS), np.zeros(INTEGRALS)
+    pistons, stages, one = plate[0].pistons, np.empty((STAGES, INTEGRALS + 2)), np.zeros(INTEGRALS)
     control = np.array([0.0, 0.0, step])
     for n in range(rows.shape[0]):
-        angle = (n - held) * step * c.shaft_speed
-        if n == 0 or n <= held:
-            moment, turned = moments(chamber, plate, angle, tilt[0], 0.0, states, rows[n])
-            tilt[1], tilt[2] = 0.0, 0.0
-            if n == held:
-                tilt[2] = 0.0 if resting(plate, tilt[0], moment) else moment / turned
-            rows[n, MOMENT_STOP] = -moment if tilt[2] == 0.0 else 0.0
+        row, angle = rows[n], (n - held) * step * chamber[0].shaft_speed
+        if n <= held:
+            let_go(chamber, plate, angle, tilt, states, row, n == held)
+            before[:] = contents(chamber, states[:pistons])
         else:
-            impulses[n - 1] = swing(chamber, plate, angle, tilt, step, states, rows[n])
-        rows[n, TIME], rows[n, ANGLE], rows[n, RATE], rows[n, ACCELERATION] = (
-            (n - held) * step, tilt[0], tilt[1], tilt[2],
-        )  # fmt: skip
-        rows[n, ACTUATOR] = states[pistons, 1]
+            impulses[n - 1] = swing(chamber, plate, angle, tilt, step, states, row)
+        row[TIME], row[ANGLE], row[RATE], row[ACCELERATION] = (n - held) * step, tilt[0], tilt[1], tilt[2]
+        row[ACTUATOR] = states[pistons, 1]
         pressures[n] = states[:pistons, 1]
         if n + 1 == rows.shape[0]:
             return 0
-        rows[n, CONTROL], rows[n + 1, CONTROL] = controls[n, 0], controls[n, 1]
-        control[0], control[1] = controls[n, 0], controls[n, 1]
-        if n == held:
-            before[:] = contents(chamber, states[:pistons])
-        one[:] = 0.0
-        for k in range(pistons + 1):
-            own[:] = 0.0
-            if not advance(chamber, plate, k, angle, tilt, control, states[k], stages, own):
-                return n + 1
-            if k < pistons:
-                one += own
+        row[CONTROL], rows[n + 1, CONTROL] = controls[n, 0], controls[n, 1]
+        control[:2] = controls[n]
+        if not pass_step(chamber, plate, angle, tilt, control, states, stages, one):
+            return n + 1
         if n >= held:
             totals += one
         rows[n + 1, DELIVERY], rows[n + 1, SUCTION] = one[0] / step, one[1] / step

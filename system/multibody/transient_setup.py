@@ -11,11 +11,11 @@ from system import pairs
 from system.chamber_problem import ChamberProblem
 from system.chamber_state_kernels import CAVITY_PRESSURE, WAYS, oil_volume
 from system.description import PumpDescription
-from system.kinematics import Array, SwashDrive
+from system.kinematics import Array
 from system.leakage import piston_carried_flow, piston_conductance
 from system.lumped import chamber_problem, full_drive, lumped_leaks, piston_area, piston_motion, port_openings
 from system.multibody.group_kinematics import BoreCircle, Plate, axial_rates
-from system.multibody.plate_motion import Mechanism
+from system.multibody.plate_motion import Actuator, Mechanism
 from system.multibody.transient_kernels import PLATE, actuator_at
 from system.operating import OperatingPoint
 from system.ports import TURN
@@ -28,11 +28,6 @@ FADING = 1e-3
 """Sliding of a piston, of the balls' speed on their circle, below which its Coulomb friction fades."""
 TRUNNION_FADING = 0.05
 """The same of the plate in its trunnion, rad/s: it creeps rather than sticks."""
-
-
-def swash_angle(drive: SwashDrive) -> float:
-    """Tilt (rad) about the swash axis of a drive, whose own tilt a cross angle makes larger."""
-    return float(np.arctan(np.tan(drive.swash_angle) * np.cos(drive.dead_centre_shift)))
 
 
 def bore_circle(pump: PumpDescription, parts: Mechanism) -> BoreCircle:
@@ -58,12 +53,7 @@ def plate_problem(pump: PumpDescription, point: OperatingPoint) -> ChamberProble
 
 def plate_record(pump: PumpDescription, point: OperatingPoint, parts: Mechanism, step: float) -> np.ndarray:
     """The constants that `transient_kernels` reads, steps of `step` s."""
-    plate, actuator, piston = parts.plate, parts.actuator, pump.piston
-    circle, diameter = bore_circle(pump, parts), pump.pump.piston_diameter
-    at_full = replace(point, displacement_ratio=1.0)
-    leaks = lumped_leaks(pump, at_full, piston_motion(pump, at_full)).conductance
-    clearance, eccentricity, viscosity = piston.radial_clearance, piston.eccentricity_ratio, point.viscosity
-    found = np.zeros(1, dtype=PLATE)
+    plate, circle = parts.plate, bore_circle(pump, parts)
     values = {
         "pistons": pump.pump.pistons,
         "pitch_radius": circle.pitch_radius,
@@ -77,18 +67,36 @@ def plate_record(pump: PumpDescription, point: OperatingPoint, parts: Mechanism,
         "damping": plate.damping,
         "rubbing": plate.rubbing,
         "rubbing_rate": max(TRUNNION_FADING, 2.0 * step * plate.rubbing / plate.inertia),
+        "slide": FADING * point.shaft_speed * circle.pitch_radius,
+    }
+    found = np.zeros(1, dtype=PLATE)
+    for name, value in (values | _piston_values(pump, point) | _actuator_values(parts.actuator)).items():
+        found[name] = value
+    return found
+
+
+def _piston_values(pump: PumpDescription, point: OperatingPoint) -> dict[str, float]:
+    """Pistons and leaks, those that depend on the tilt per length or speed."""
+    piston, diameter, viscosity = pump.piston, pump.pump.piston_diameter, point.viscosity
+    clearance, eccentricity, one = piston.radial_clearance, piston.eccentricity_ratio, np.ones(1)
+    at_full = replace(point, displacement_ratio=1.0)
+    leaks = lumped_leaks(pump, at_full, piston_motion(pump, at_full)).conductance
+    shear = pairs.piston_cylinder_shear(viscosity, diameter, one, one, clearance, eccentricity)
+    return {
         "mass": piston.mass + pump.slipper.mass,
         "engaged_length": piston.engaged_length,
         "overhang": piston.overhang,
         "friction": pump.friction.piston_cylinder,
-        "shear": pairs.piston_cylinder_shear(viscosity, diameter, np.ones(1), np.ones(1), clearance, eccentricity)[
-            0
-        ],
-        "slide": FADING * point.shaft_speed * circle.pitch_radius,
-        "piston_leak": piston_conductance(diameter, clearance, 1.0, eccentricity, viscosity),
-        "slipper_leak": leaks[1, 0],
-        "ring_leak": leaks[2, 0],
-        "carried": piston_carried_flow(diameter, clearance, 1.0),
+        "shear": float(shear[0]),
+        "piston_leak": float(piston_conductance(diameter, clearance, 1.0, eccentricity, viscosity)),
+        "slipper_leak": float(leaks[1, 0]),
+        "ring_leak": float(leaks[2, 0]),
+        "carried": float(piston_carried_flow(diameter, clearance, 1.0)),
+    }
+
+
+def _actuator_values(actuator: Actuator) -> dict[str, float]:
+    return {
         "sense": actuator.sense,
         "arm": actuator.arm,
         "actuator_area": actuator.area,
@@ -98,9 +106,6 @@ def plate_record(pump: PumpDescription, point: OperatingPoint, parts: Mechanism,
         "spring_rate": actuator.spring_rate,
         "spring_force": actuator.spring_force,
     }
-    for name, value in values.items():
-        found[name] = value
-    return found
 
 
 def start_states(

@@ -23,7 +23,17 @@ from system.kinematics import (
 from system.lumped import piston_area
 from system.lumped_point import lumped_point
 from system.multibody.closure import closure
-from system.multibody.group_kinematics import BoreCircle, Plate, axial_rates, ball_motion, circle_of, cross, dot
+from system.multibody.group_kinematics import (
+    BoreCircle,
+    Plate,
+    axial_rates,
+    ball_motion,
+    circle_of,
+    cross,
+    dot,
+    swash_angle,
+)
+from system.multibody.joints import wrench
 from system.multibody.retainer_body import guide_contact, guide_loss
 from system.multibody.rotating_group import JointForces, joint_forces
 from system.operating import operating_point
@@ -274,6 +284,21 @@ def test_bearings_share_the_side_force_as_stated():
         "bearings.front_position",
         "block.spline_position",
     }
+
+
+@pytest.mark.parametrize("strokes", ["up", "down"])
+def test_trunnion_and_actuator_hold_the_plate(strokes):
+    """All on the plate sums to nothing; the trunnion bears no moment about the tilt axis."""
+    joints = found(load_pump("ref90", {"pump.cross_angle": "2 deg", "actuator.strokes": strokes}))
+    group, plate = joints.group, joints.plate
+    from_slippers = -group.whole([wrench(one.plate, group.ball.place, one.plate_moment) for one in joints.sets])
+    assert np.max(np.abs(from_slippers + plate.trunnion + plate.actuator)) < 1e-9
+    pivot = group.places.pivot * np.array([[0.0], [0.0], [1.0]])
+    about = plate.trunnion[3:] - cross(pivot, plate.trunnion[:3])
+    assert np.max(np.abs(group.tilt_axis @ about)) < 1e-9
+    way = 1.0 if strokes == "up" else -1.0
+    lever = group.places.arm * np.cos(swash_angle(group.drive))
+    np.testing.assert_allclose(way * lever * plate.actuator[2], plate.control, rtol=1e-12)
 
 
 def test_sliding_speed_of_the_moving_group_is_equation_9():
