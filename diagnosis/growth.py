@@ -20,6 +20,8 @@ from system.estimation.evidence import score
 from system.estimation.observations import Array
 from system.estimation.posterior import settled
 
+FLAT = 0.25  # of a power: what grows by less more or less grows alike
+
 
 @dataclass(frozen=True)
 class Growth:
@@ -51,9 +53,9 @@ def misgrown(
     """The powers by which a refitted explanation's growth differs from what the readings ask; most often none.
 
     What it adds to the readings, d, becomes d x^b: to first order b d ln x, whose score (Rao 1948) is taken about
-    the refit, one coordinate x at a time. Of explanations of the right form one in twenty is told (rate of false
-    flags; Holm 1979). The pattern is of one direction, and so sees what a free bend, paid for in all directions,
-    does not. Empty where nothing was refitted.
+    the refit, one coordinate x at a time. Of explanations of the right form at most one in twenty is told (rate of
+    false flags; Holm 1979), and no power below FLAT. The pattern is of one direction, and so sees what a free
+    bend, paid for in all directions, does not. Empty where nothing was refitted.
     """
     posterior = weighed.posterior
     logs = {name: np.log(x / np.median(x)) for name, x in along.items() if x.min() > 0 and _moves(x)}
@@ -66,7 +68,7 @@ def misgrown(
     fit = settled(posterior)
     scores = {name: score(fit, fit.whitening.whiten(added * x[:, None])) for name, x in logs.items()}
     least = float(norm.isf(0.5 * thresholds.mismatch.flag_rate / len(logs)))
-    told = [(name, found) for name, found in scores.items() if abs(found.z) > least]
+    told = [(name, found) for name, found in scores.items() if abs(found.z) > least and abs(found.size) > FLAT]
     return tuple(
         Growth(name, found.size, found.sigma) for name, found in sorted(told, key=lambda one: -abs(one[1].z))
     )

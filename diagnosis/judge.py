@@ -2,30 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from scipy.special import logsumexp
-from scipy.stats import chi2
 
 from diagnosis.classes import agrees, equivalents
-from diagnosis.component_evidence import MEMBERS, ComponentGroup, multiplier_columns
-from diagnosis.contrasts import contrasts
-from diagnosis.detect import Detection, most_striking
-from diagnosis.growth import misgrown
+from diagnosis.detect import Detection
 from diagnosis.hypotheses import Hypothesis
-from diagnosis.map_axes import axis_values
-from diagnosis.regions import flagged
+from diagnosis.left_over import left_over
 from diagnosis.study import Study
 from diagnosis.thresholds import Thresholds
 from diagnosis.verdict import Claim, Estimate, Status
 from diagnosis.weighed import Weighed
-from system.channels import ChannelName
-from system.estimation.evidence import multiplier_evidence
 from system.estimation.observations import Array
-from system.estimation.parameters import Role
-from system.estimation.posterior import Posterior, settled
+from system.estimation.posterior import Posterior
 from system.physics.effects import Kind
 from system.pump_gap import Gap
 
@@ -71,10 +63,7 @@ def judge(
     against = _objections(best, members, weighed, thresholds)
     if against:
         return _suspicion(weighed, against)
-    left = (
-        *_left_over(study, null, best, thresholds),
-        *(found.text for found in misgrown(study, best, along, thresholds)[:1]),
-    )
+    left = left_over(study, null, best, along, thresholds)
     claims = _claims(members, weighed, thresholds)
     alike = any(claim.equivalent or claim.elsewhere for claim in claims)
     status = Status.INCOMPLETE if left else Status.CLASS if alike else Status.NAMED
@@ -181,62 +170,6 @@ def _sure(posterior: Posterior, hypothesis: Hypothesis, thresholds: Thresholds) 
 def _sigmas(posterior: Posterior, name: str) -> float:
     at = posterior.index(name)
     return float(abs(posterior.xi[at]) / np.sqrt(posterior.covariance[at, at]))
-
-
-def _left_over(study: Study, null: Weighed, best: Weighed, thresholds: Thresholds) -> tuple[str, ...]:
-    """What the best explanation leaves, in words."""
-    after, before = best.posterior, null.posterior
-    if after is None or before is None:
-        return ()
-    found = ["its law explains more if it is bent over the map"] if best.hypothesis.bent else []
-    p_value = float(chi2.sf(after.objective, after.residual.size))
-    if p_value < thresholds.mismatch.chance:
-        found.append(f"chi-square per reading stays at {after.objective / after.residual.size:.2f}")
-    by_channel = {
-        ChannelName.named(channel.name): contrasts(after, at)
-        for at, channel in enumerate(study.observations.channels)
-    }
-    flags = flagged(by_channel, axis_values(study.recording), thresholds.mismatch.flag_rate)
-    found += [f"{flag.channel.value} stays {flag.contrast:+.1f} sigma off at {flag.text}" for flag in flags[:2]]
-    found += _striking(study, after, best.hypothesis, thresholds)
-    if _pulls(after, best.hypothesis) - _pulls(before, best.hypothesis) > 2.0 * thresholds.name.odds:
-        found.append("parameters move farther from their stated values than without it")
-    if _allowed_gain(study, before, after, thresholds) < thresholds.name.odds:
-        found.append(f"errors of form of {thresholds.name.allowance:.1%} would explain as much")
-    return tuple(found)
-
-
-def _striking(study: Study, after: Posterior, hypothesis: Hypothesis, thresholds: Thresholds) -> Iterator[str]:
-    """A candidate that stands out of what is left as chance hardly makes one."""
-    others = [each for each in study.candidates if each.entry.id not in hypothesis.effects]
-    chance, strongest = most_striking(settled(after), others, thresholds)
-    if chance < thresholds.mismatch.chance:
-        candidate, found = strongest[0]
-        yield f"{candidate.entry.id.value} stands out of what is left by {abs(found.z):.1f} sigma"
-
-
-def _pulls(posterior: Posterior, hypothesis: Hypothesis) -> float:
-    """Sum of xi^2 over what the null has too and the hypothesis does not set free."""
-    kept = np.array(
-        [each.role is not Role.EXTENSION and each.name not in hypothesis.widened for each in posterior.parameters]
-    )
-    return float((posterior.xi[kept] ** 2).sum())
-
-
-def _allowed_gain(study: Study, before: Posterior, after: Posterior, thresholds: Thresholds) -> float:
-    """ln evidence over the null if every leakage and friction law may be bent over the map by the allowance."""
-    laws = (*MEMBERS[ComponentGroup.FILM_LEAKAGE], *MEMBERS[ComponentGroup.FRICTION])
-    bent = [component for component in laws if component in study.components]
-
-    def evidence(posterior: Posterior) -> float:
-        if not bent:
-            return posterior.log_evidence
-        columns = np.hstack([multiplier_columns(study, posterior, component) for component in bent])
-        return posterior.log_evidence + multiplier_evidence(
-            settled(posterior), columns, (thresholds.name.allowance,)
-        )
-
-    return evidence(after) - evidence(before)
 
 
 def _claims(members: Sequence[Weighed], weighed: Sequence[Weighed], thresholds: Thresholds) -> tuple[Claim, ...]:

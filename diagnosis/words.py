@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from diagnosis.growth import FLAT
 from diagnosis.locate import Location
 from diagnosis.next_point import NextPoint
 from diagnosis.shown import (
@@ -30,7 +31,6 @@ from system.physics.effects import Kind
 
 RIVALS = 3  # told by name at most
 WORTH_TELLING = 0.01  # probability of a rival
-FLAT = 0.25  # of an exponent: below it a thing does not grow
 
 
 def statement(diagnosis: Diagnosis) -> str:
