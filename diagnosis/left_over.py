@@ -64,7 +64,7 @@ def _scatter(residual: Array, thresholds: Thresholds) -> Iterator[str]:
 
 
 def _shares(study: Study, best: Weighed, thresholds: Thresholds) -> Array:
-    """(C,), by channel, of the square of what the explanation adds to the readings, in sigma; 0 where not known."""
+    """(C,), by channel, of the square of what the explanation adds, in sigma; 0 where that is not known."""
     try:
         added = repair(study, best, thresholds).added / study.base.whitening.sigma
     except NotConverged:

@@ -406,7 +406,7 @@ def test_tails_of_the_noise_leave_nothing_and_breadth_does() -> None:
 
 
 def test_what_is_left_counts_by_what_is_explained_there() -> None:
-    """Beside a churning of 90 sigma mixed friction of 6, less than a tenth of it, may be its form; a flow may not."""
+    """Beside churning of 90 sigma mixed friction of 6, less than a tenth, may be its form; a flow may not."""
     study = _study(1, laws=((CHURNING, 1.0), (MIXED.members[2], 0.1)))
     assert not any("stands out" in text or "stays" in text for text in _left_by_churning(study))
     study = _study(1, laws=((CHURNING, 1.0), (SHORT, 0.3)))
