@@ -46,7 +46,7 @@ def write_diagnosis_files(
     write_rows(folder / "changes.csv", told.rows)
     write_diagnosis(folder / "diagnosis.json", diagnosis)
     summary = diagnosis_summary(study, diagnosis, thresholds, assumptions)
-    write_json(folder / "summary.json", summary | {"runs": told.text})
+    write_json(folder / "summary.json", summary | {"runs": told.text, "films": told.films})
     from swashfilm.diagnose_page import write_diagnose_page
 
     write_diagnose_page(folder)

@@ -37,13 +37,16 @@ PERCENT = 100.0
 
 @dataclass(frozen=True)
 class Told:
-    """What the two runs came to: rows of changes.csv, and in words where they stand or why there are none."""
+    """What the two runs came to: rows of changes.csv; where they stand, or why there are none; what of films."""
 
     rows: tuple[Row, ...]
     text: str
+    films: str = ""
 
 
 NOTHING = Told((), "")
+FILMS = "Film fields of either: swashfilm run with/resolved.toml --fidelity films (or without/)."
+NO_FILMS = "The film solver reads no [physics] table: of this finding there are no film fields."
 
 
 def claimed_pump(pump: PumpDescription, found: Diagnosis) -> PumpDescription:
@@ -76,7 +79,10 @@ def run_both(
         summaries = [_run(_at(each, point), folder / name, report) for name, each in pumps.items()]
     except NotConverged as reason:
         return Told((), f"Point {at + 1}, where the finding adds most, could not be run: {reason}")
-    return Told(tuple(_changes(*summaries)), f"Point {at + 1}, where the finding adds most: {_setting(point)}.")
+    films = NO_FILMS if pumps[WITH].physics.on else FILMS
+    return Told(
+        tuple(_changes(*summaries)), f"Point {at + 1}, where the finding adds most: {_setting(point)}.", films
+    )
 
 
 def _run(pump: PumpDescription, folder: Path, report: Report) -> dict[str, Any]:

@@ -28,6 +28,7 @@ from diagnosis.weighed import HeldOut, Weighed
 from diagnosis.words import paragraphs, statement
 from swashfilm.__main__ import main
 from swashfilm.diagnose_files import read_rows, write_diagnosis_files
+from swashfilm.diagnose_runs import NOTHING, Told, run_both
 from system.channels import ChannelName
 from system.components import Component
 from system.estimation.fit import maximum_posterior
@@ -334,6 +335,39 @@ def test_the_folder_holds_tables_and_a_page(study: Study, named: Diagnosis, tmp_
     (tmp_path / "report.html").unlink()
     assert main(["report", str(tmp_path)]) == 0
     assert (tmp_path / "report.html").read_text("utf-8") == page
+
+
+def test_a_page_says_what_changes_in_the_pump(study: Study, named: Diagnosis, tmp_path: Path) -> None:
+    """A point run without and with the finding: links to both, each number with its unit; films told."""
+    row = {"quantity": "case drain", "unit": "L/min", "without": "1.2", "with": "1.9", "change": "+0.7"}
+    told = Told((row,), "Point 7, where the finding adds most: 2100 rpm.", "No film fields.")
+    write_diagnosis_files(tmp_path, study, named, load_thresholds(), told=told)
+    page = (tmp_path / "report.html").read_text("utf-8")
+    for part in (
+        "Point 7",
+        'href="without/report.html"',
+        'href="with/report.html"',
+        "1.9 L/min",
+        "No film fields.",
+    ):
+        assert part in page
+    assert read_rows(tmp_path / "changes.csv") == [row]
+
+
+def test_a_meters_fault_is_no_change_of_the_pump(study: Study, named: Diagnosis, tmp_path: Path) -> None:
+    """Nothing is run, and why is told; nothing is told where nothing is claimed."""
+    fault = replace(named, effects=(Claim(E.TORQUE_OFFSET, None, 0.99, (), ()),))
+    pump = load_pump("ref90")
+    told = run_both(tmp_path, pump, study, fault, load_thresholds(), lambda *_: None)
+    assert told.text == "A sensor's fault changes nothing in the pump."
+    assert not list(tmp_path.iterdir())
+    assert run_both(tmp_path, pump, study, _agreeing(named), load_thresholds(), lambda *_: None) == NOTHING
+
+
+def test_numbers_are_told_in_the_units_people_read(study: Study, named: Diagnosis, tmp_path: Path) -> None:
+    """An opening in 1/GPa and not 1/Pa, in the table of what is claimed."""
+    write_diagnosis_files(tmp_path, study, named, load_thresholds())
+    assert "opening 22 +- 2 1/GPa</td>" in (tmp_path / "report.html").read_text("utf-8")
 
 
 def test_a_right_name_lets_the_pulls_fall(named: Diagnosis) -> None:
