@@ -18,6 +18,7 @@ from swashfilm.cli_diagnose import (
     is_recording,
     run_diagnose_command,
 )
+from swashfilm.cli_reference import add_reference_options, run_reference_command
 from swashfilm.cli_report import run_report
 from swashfilm.cli_table import TABLE_OPTIONS, add_table_options, run_table_command
 from swashfilm.cli_transient import add_transient_options, run_transient_command
@@ -149,6 +150,11 @@ def build_parser() -> argparse.ArgumentParser:
     calibrate = _command(commands, "calibrate", "coefficients of a pump by a recording, with their widths")
     add_calibrate_options(calibrate)
     _output(calibrate)
+    reference = _command(
+        commands, "reference", "coefficients of a step, groove or orifice by the Navier-Stokes equations"
+    )
+    add_reference_options(reference)
+    _output(reference)
     report = _command(commands, "report", "make the report of a run folder anew")
     report.add_argument("folder", type=Path, metavar="DIR", help="the run folder")
     check = _command(commands, "check", "validate a pump file, case or recording without running it")
@@ -187,6 +193,7 @@ def _unknown(command: str | None, word: str) -> Fault:
         "transient": [],
         "diagnose": [],
         "calibrate": CALIBRATE_OPTIONS,
+        "reference": [],
     }
     if command in own:
         options = [*own[command], "-o", "--output", "--help"]
@@ -397,6 +404,7 @@ _COMMANDS = {
     "transient": run_transient_command,
     "diagnose": run_diagnose_command,
     "calibrate": run_calibrate_command,
+    "reference": run_reference_command,
     "report": run_report,
     "check": _check,
     "doctor": _doctor,

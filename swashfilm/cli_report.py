@@ -20,6 +20,7 @@ PAGES = {
     "film_study": "series_page.write_study_page",
     "pump": "pump_page.write_pump_page",
     "gap_table": "table_page.write_table_page",
+    "reference": "reference_page.write_reference_page",
     "response_table": "table_page.write_table_page",
     "transient": "transient_page.write_transient_page",
 }
