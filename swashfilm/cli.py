@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn
 
 from swashfilm.cli_calibrate import CALIBRATE_OPTIONS, add_calibrate_options, run_calibrate_command
+from swashfilm.cli_coefficients import COEFFICIENT_OPTIONS, add_coefficient_options, run_coefficients_command
 from swashfilm.cli_diagnose import (
     add_diagnose_options,
     check_recording_command,
@@ -150,15 +151,15 @@ def build_parser() -> argparse.ArgumentParser:
     calibrate = _command(commands, "calibrate", "coefficients of a pump by a recording, with their widths")
     add_calibrate_options(calibrate)
     _output(calibrate)
-    reference = _command(
-        commands, "reference", "coefficients of a step, groove or orifice by the Navier-Stokes equations"
-    )
+    reference = _command(commands, "reference", "what the film equation leaves out at steps, grooves and orifices")
     add_reference_options(reference)
     _output(reference)
+    coefficients = _command(commands, "coefficients", "a port's flow coefficient out of a computed flow")
+    add_coefficient_options(coefficients)
     report = _command(commands, "report", "make the report of a run folder anew")
     report.add_argument("folder", type=Path, metavar="DIR", help="the run folder")
     check = _command(commands, "check", "validate a pump file, case or recording without running it")
-    check.add_argument("file", metavar="FILE", help="pump file, built-in pump, film case, transient, or recording")
+    check.add_argument("file", metavar="FILE", help="pump file, built-in pump, any case, or recording")
     _command(commands, "doctor", "what this machine offers: packages, caches, graphics")
     return parser
 
@@ -194,6 +195,7 @@ def _unknown(command: str | None, word: str) -> Fault:
         "diagnose": [],
         "calibrate": CALIBRATE_OPTIONS,
         "reference": [],
+        "coefficients": COEFFICIENT_OPTIONS,
     }
     if command in own:
         options = [*own[command], "-o", "--output", "--help"]
@@ -350,13 +352,19 @@ def _check(options: argparse.Namespace) -> int:
             show(load_transient(path).resolved)
             show(f"{path}: ok")
             return 0
+        if "reference" in tables:
+            from swashfilm.reference_case import load_reference
+
+            show("\n".join(passage.words for passage in load_reference(path).passages))
+            show(f"{path}: ok")
+            return 0
         is_film = bool({"film", "gap"} & set(tables))
         is_pump = isinstance(tables.get("pump"), dict) and not is_film
         if not is_pump and not is_film:
             fault = Fault(
                 "file",
                 f"tables {', '.join(tables) or 'none'}",
-                "a pump file ([pump]), a film case ([film]), a transient ([transient]) or a recording ([channel])",
+                "[pump] (a pump file), [film] (a film case), [transient], [reference] or [channel] (a recording)",
             )
             raise InputFaults(options.file, [fault])
     if is_pump:
@@ -405,6 +413,7 @@ _COMMANDS = {
     "diagnose": run_diagnose_command,
     "calibrate": run_calibrate_command,
     "reference": run_reference_command,
+    "coefficients": run_coefficients_command,
     "report": run_report,
     "check": _check,
     "doctor": _doctor,

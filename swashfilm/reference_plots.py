@@ -20,9 +20,10 @@ MOST_PICTURES = 4
 NEAR = 5.0
 """Film thicknesses or diameters either side of the passage that a picture shows."""
 GRID = 240
+MOST_NAMED = 12
 RIGHT = {
     "flow_coefficient": "flow coefficient / 1",
-    "whole_extra_length": "extra length, inertia in it / thickness",
+    "whole_extra_length": "whole extra length / h",
 }
 """What the right picture shows of a port, and of a film."""
 
@@ -34,7 +35,8 @@ def flow_plots(solved: Sequence[Solved]) -> dict[str, bytes]:
 
 def coefficient_plot(summary: Mapping[str, Any]) -> bytes:
     """What the passages' coefficients are over the Reynolds number."""
-    figure = figure_of(9.0, 3.4)
+    named = len(summary["passages"]) <= MOST_NAMED
+    figure = figure_of(9.0, 3.0 + 0.16 * named * len(summary["passages"]))
     left, right = figure.subplots(1, 2)
     shown, words = next(pair for pair in RIGHT.items() if summary["passages"][0]["rows"][0][pair[0]] is not None)
     for passage in summary["passages"]:
@@ -48,7 +50,7 @@ def coefficient_plot(summary: Mapping[str, Any]) -> bytes:
         axes.set_xlabel("Reynolds number / 1")
         axes.set_xscale("symlog", linthresh=1.0)
         axes.grid(visible=True, alpha=0.3)
-    if len(summary["passages"]) <= 2 * MOST_PICTURES:
+    if named:
         figure.legend(loc="outside lower center", ncols=1, fontsize=7)
     return png_of(figure)
 
@@ -61,9 +63,9 @@ def _flow(one: Solved) -> bytes:
     figure = figure_of(9.0, float(np.clip(9.0 * across / along + 1.2, 2.6, 6.5)))
     axes = figure.subplots()
     shown = axes.tripcolor(places, np.hypot(u, v), shading="gouraud", cmap="viridis")
-    figure.colorbar(shown, ax=axes, label="speed over mean speed in the passage / 1", shrink=0.9)
-    lines = _on_grid(places, (u, v), x, y)
-    axes.streamplot(x, y, *lines, color="white", linewidth=0.5, arrowsize=0.6, density=1.4)
+    figure.colorbar(shown, ax=axes, label="speed / mean", shrink=0.9)
+    along_x, along_y = (_on_grid(places, values, x, y) for values in (u, v))
+    axes.streamplot(x, y, along_x, along_y, color="white", linewidth=0.5, arrowsize=0.6, density=1.4)
     axes.set(
         xlim=(x[0], x[-1]), ylim=(y[0], y[-1]), aspect="equal", xlabel="x / thickness", ylabel="y / thickness"
     )
@@ -86,11 +88,12 @@ def _velocity(flow: Flow) -> tuple[Triangulation, Array, Array]:
     mesh, basis = flow.problem.space.mesh, flow.problem.space.velocity
     u, v = flow.velocity[basis.nodal_dofs]
     corners = mesh.t
-    return Triangulation(*mesh.p, np.hstack([corners[[0, 1, 2]], corners[[0, 2, 3]]]).T), u, v
+    return Triangulation(mesh.p[0], mesh.p[1], np.hstack([corners[[0, 1, 2]], corners[[0, 2, 3]]]).T), u, v
 
 
-def _on_grid(places: Triangulation, values: Sequence[Array], x: Array, y: Array) -> tuple[Array, ...]:
-    """Values at vertices, on a grid (len(y), len(x)); masked outside the mesh."""
+def _on_grid(places: Triangulation, values: Array, x: Array, y: Array) -> Array:
+    """A value at vertices, on a grid (len(y), len(x)); masked outside the mesh."""
     from matplotlib.tri import LinearTriInterpolator
 
-    return tuple(LinearTriInterpolator(places, value)(*np.meshgrid(x, y)) for value in values)
+    found: Array = LinearTriInterpolator(places, values)(*np.meshgrid(x, y))
+    return found

@@ -34,7 +34,10 @@ LIMITS = {
 
 @dataclass(frozen=True)
 class Solved:
-    """A passage, its correction, and by how much its pressure drops (K,) differ from those of half the cells."""
+    """A passage, its correction, and how far the pressure drops (K,) of half the cells are from its own.
+
+    mesh_error: over friction and inertia added up, which may cancel in a drop.
+    """
 
     passage: Passage
     correction: Correction
@@ -67,7 +70,8 @@ def run_reference(case: ReferenceCase, folder: Path, report: Report) -> dict[str
 def _solved(case: ReferenceCase, passage: Passage) -> Solved:
     coarse = passage.solve(case.reynolds, max(FEWEST_CELLS, case.cells // 2))
     fine = passage.solve(case.reynolds, case.cells)
-    return Solved(passage, fine, np.abs(coarse.drop / fine.drop - 1.0))
+    size = fine.resistance * (fine.length + fine.extra_length) + 0.5 * np.abs(fine.loss_factor) * fine.reynolds
+    return Solved(passage, fine, np.abs(coarse.drop - fine.drop) / size)
 
 
 def write_coefficients(path: Path, case: ReferenceCase, solved: Sequence[Solved]) -> None:

@@ -10,6 +10,7 @@ from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
 
 from system.csv_table import CsvTable, read_table
 from system.faults import Fault, InputFaults
@@ -117,7 +118,7 @@ def _source_faults(table: CsvTable) -> list[Fault]:
     return [Fault("file", "no source", "a line '# source: ..' that says where the numbers come from")]
 
 
-def _range_faults(table: CsvTable, name: str, fine: Array, expected: str) -> list[Fault]:
+def _range_faults(table: CsvTable, name: str, fine: NDArray[np.bool_], expected: str) -> list[Fault]:
     """A fault a line whose number is not fine."""
     values = table.columns[name]
     return [
@@ -126,7 +127,7 @@ def _range_faults(table: CsvTable, name: str, fine: Array, expected: str) -> lis
 
 
 def _order_faults(
-    table: CsvTable, order: Array, opening: Array, reynolds: Array, coefficient: Array
+    table: CsvTable, order: NDArray[np.int64], opening: Array, reynolds: Array, coefficient: Array
 ) -> list[Fault]:
     """A fault a line whose flow number does not exceed that of the next lower Reynolds number of its opening."""
     faults = []

@@ -1,0 +1,150 @@
+"""OpenFOAM cases: a small one written here, Poiseuille flow in a channel, and what is told of bad ones."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from swashfilm.cli import run_command
+from system.coefficient_files import read_flow_coefficients
+from system.faults import InputFaults
+from system.openfoam_case import read_case_flow
+
+LENGTH, HEIGHT, WIDTH, LAYERS = 0.2, 0.01, 0.02, 8
+FLOW, DROP = 3e-4, 500.0  # m3/s, Pa
+DENSITY = 850.0
+WORDS = ["inlet", "outlet", "walls"]
+
+
+def header(kind: str, name: str) -> str:
+    return f"FoamFile\n{{\n version 2.0;\n format ascii;\n class {kind};\n object {name};\n}}\n"
+
+
+def listed(items) -> str:
+    return f"{len(items)}\n(\n" + "\n".join(items) + "\n)\n"
+
+
+def write_mesh(case):
+    """Layers of one cell each over the height: inlet at x = 0, outlet at x = LENGTH, walls all else."""
+    y = np.linspace(0.0, HEIGHT, LAYERS + 1)
+    points = [f"({a} {b} {c})" for b in y for c in (0.0, WIDTH) for a in (0.0, LENGTH)]
+
+    def at(j, k, i):
+        return 4 * j + 2 * k + i
+
+    between = [(at(j, 0, 0), at(j, 1, 0), at(j, 1, 1), at(j, 0, 1)) for j in range(1, LAYERS)]
+    inlet = [(at(j, 0, 0), at(j, 1, 0), at(j + 1, 1, 0), at(j + 1, 0, 0)) for j in range(LAYERS)]
+    outlet = [(at(j, 0, 1), at(j + 1, 0, 1), at(j + 1, 1, 1), at(j, 1, 1)) for j in range(LAYERS)]
+    front = [(at(j, 0, 0), at(j + 1, 0, 0), at(j + 1, 0, 1), at(j, 0, 1)) for j in range(LAYERS)]
+    back = [(at(j, 1, 0), at(j, 1, 1), at(j + 1, 1, 1), at(j + 1, 1, 0)) for j in range(LAYERS)]
+    ends = [(at(0, 0, 0), at(0, 0, 1), at(0, 1, 1), at(0, 1, 0))]
+    ends += [(at(LAYERS, 0, 0), at(LAYERS, 1, 0), at(LAYERS, 1, 1), at(LAYERS, 0, 1))]
+    faces = [*between, *inlet, *outlet, *front, *back, *ends]
+    layers = list(range(LAYERS))
+    owner = [*range(LAYERS - 1), *layers * 4, 0, LAYERS - 1]
+    mesh = case / "constant" / "polyMesh"
+    mesh.mkdir(parents=True)
+    (mesh / "points").write_text(header("vectorField", "points") + listed(points))
+    shown = [f"4({' '.join(map(str, face))})" for face in faces]
+    (mesh / "faces").write_text(header("faceList", "faces") + listed(shown))
+    (mesh / "owner").write_text(header("labelList", "owner") + listed(list(map(str, owner))))
+    neighbour = [str(j) for j in range(1, LAYERS)]
+    (mesh / "neighbour").write_text(header("labelList", "neighbour") + listed(neighbour))
+    sizes = [LAYERS, LAYERS, 2 * LAYERS + 2]
+    starts = LAYERS - 1 + np.cumsum([0, *sizes])
+    parts = [
+        f"{name}\n{{\n type patch;\n nFaces {size};\n startFace {start};\n}}"
+        for name, size, start in zip(WORDS, sizes, starts, strict=False)
+    ]
+    (mesh / "boundary").write_text(header("polyBoundaryMesh", "boundary") + listed(parts))
+
+
+def profile():
+    """Means over each layer of the parabola of FLOW."""
+    edges = np.linspace(0.0, 1.0, LAYERS + 1)
+    return FLOW / (WIDTH * HEIGHT) * np.diff(3.0 * edges**2 - 2.0 * edges**3) * LAYERS
+
+
+def field(kind, name, dimensions, inside, patches):
+    text = header(f"vol{kind.capitalize()}Field", name) + f"dimensions [{dimensions}];\n"
+    text += f"internalField nonuniform List<{kind}> {listed(inside)};\nboundaryField\n{{\n"
+    for patch, values in patches.items():
+        text += f"{patch}\n{{\n type fixedValue;\n value nonuniform List<{kind}> {listed(values)};\n}}\n"
+    return text + "}\n"
+
+
+def write_case(case, dimensions="0 2 -2 0 0 0 0", scale=1.0 / DENSITY, outflow=1.0):
+    write_mesh(case)
+    (case / "system").mkdir()
+    (case / "system" / "controlDict").write_text(header("dictionary", "controlDict") + "application simpleFoam;\n")
+    for time, share in (("50", 0.5), ("100", 1.0)):
+        folder = case / time
+        folder.mkdir()
+        speeds = [[f"({share * factor * u} 0 0)" for u in profile()] for factor in (1.0, outflow)]
+        still = ["(0 0 0)"] * (2 * LAYERS + 2)
+        patches = dict(zip(WORDS, [*speeds, still], strict=True))
+        (folder / "U").write_text(field("vector", "U", "0 1 -1 0 0 0 0", speeds[0], patches))
+        high = [str(share * DROP * scale)] * LAYERS
+        pressures = {"inlet": high, "outlet": ["0"] * LAYERS, "walls": ["0"] * (2 * LAYERS + 2)}
+        (folder / "p").write_text(field("scalar", "p", dimensions, high, pressures))
+    return case
+
+
+@pytest.mark.parametrize(("dimensions", "scale"), [("0 2 -2 0 0 0 0", 1.0 / DENSITY), ("1 -1 -2 0 0 0 0", 1.0)])
+def test_flow_and_drop_of_the_last_time_are_read(tmp_path, dimensions, scale):
+    found = read_case_flow(write_case(tmp_path / "case", dimensions, scale), "inlet", "outlet", DENSITY)
+    assert found.time == 100.0
+    assert found.flow == pytest.approx(FLOW, rel=1e-5)
+    assert found.pressure_drop == pytest.approx(DROP, rel=1e-5)
+    assert abs(found.balance_error) < 1e-6
+
+
+def test_a_case_becomes_a_row_of_a_coefficient_file(tmp_path, capsys):
+    case, file = write_case(tmp_path / "case"), tmp_path / "port.csv"
+    words = ["coefficients", str(case), "--inlet", "inlet", "--outlet", "outlet", "--throat-area", "400 mm2"]
+    words += ["--density", f"{DENSITY} kg/m3", "-o", str(file), "--viscosity"]
+    assert run_command([*words, "20 mm2/s"]) == 0
+    assert run_command([*words, "10 mm2/s"]) == 0
+    assert "18 L/min" in capsys.readouterr().out
+    found = read_flow_coefficients(file)
+    coefficient = FLOW / (4e-4 * np.sqrt(2.0 * DROP / DENSITY))
+    assert found.flow_coefficient[0] == pytest.approx([coefficient] * 2, rel=1e-4)
+    assert found.reynolds[0, 0] == pytest.approx(FLOW / 4e-4 * np.sqrt(16e-4 / np.pi) / 20e-6, rel=1e-4)
+    assert found.source == "OpenFOAM, case"
+    with pytest.raises(InputFaults, match="does not have yet"):
+        run_command([*words, "10 mm2/s"])
+
+
+def test_what_is_wrong_with_a_case_is_told(tmp_path):
+    case = write_case(tmp_path / "case")
+    with pytest.raises(InputFaults, match="one of inlet, outlet") as told:
+        read_case_flow(case, "inlett", "outlets", DENSITY)
+    assert [fault.nearest for fault in told.value.faults] == ["inlet", "outlet"]
+    with pytest.raises(InputFaults, match="inlet and outlet swapped"):
+        read_case_flow(case, "outlet", "inlet", DENSITY)
+    with pytest.raises(InputFaults, match="controlDict"):
+        read_case_flow(tmp_path, "inlet", "outlet", DENSITY)
+    leaky = write_case(tmp_path / "leaky", outflow=0.9)
+    with pytest.raises(InputFaults, match="of the inflow"):
+        read_case_flow(leaky, "inlet", "outlet", DENSITY)
+    odd = write_case(tmp_path / "odd", dimensions="0 0 0 1 0 0 0")
+    with pytest.raises(InputFaults, match="kinematic"):
+        read_case_flow(odd, "inlet", "outlet", DENSITY)
+
+
+def test_sizes_without_units_are_all_told(tmp_path):
+    words = [
+        "coefficients",
+        str(tmp_path),
+        "--inlet",
+        "a",
+        "--outlet",
+        "b",
+        "--throat-area",
+        "1",
+        "--density",
+        "2 m",
+    ]
+    with pytest.raises(InputFaults) as told:
+        run_command([*words, "--viscosity", "0 mm2/s"])
+    assert [fault.path for fault in told.value.faults] == ["--throat-area", "--density", "--viscosity"]
