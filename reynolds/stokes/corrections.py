@@ -100,8 +100,9 @@ def orifice_correction(
 ) -> Correction:
     """Of a sharp-edged bore (axial) or slot (plane) length_ratio h long, between pipes pipe_ratio h wide.
 
-    `cells` across half the passage. Steady and even about the axis: a bore's jet wavers from Re of some hundreds,
-    a slot's leans to one wall of its channel from Re of some tens. Raises FilmNotConverged as `step_correction`.
+    `cells` across half the passage. The pressure behind is that at the end (REACHES): beyond it a jet may get
+    back some 2/pipe_ratio^2 of rho u^2/2 (a slot's 2/pipe_ratio). Steady and even about the axis: a bore's jet
+    wavers from Re of some hundreds, a slot's leans to a wall from Re of some tens. Raises as `step_correction`.
     """
     outer = 0.5 * pipe_ratio
     reaches = REACHES[0] * outer, REACHES[1] * outer
