@@ -11,7 +11,7 @@ from typing import Any
 from diagnosis.diagnosis_file import read_diagnosis
 from swashfilm import diagnose_plots
 from swashfilm.diagnose_files import read_rows
-from swashfilm.diagnose_runs import WITH, WITHOUT
+from swashfilm.diagnose_runs import SHAFT, WITH, WITHOUT
 from system.faults import Fault, InputFaults
 from system.units import Dimension, in_unit, reading_unit
 
@@ -106,7 +106,7 @@ def parameter_rows(rows: Sequence[Mapping[str, str]]) -> Iterator[tuple[str, ...
     for row in ranked:
         unit, pull = row["unit"], f"{float(row['pull_after']):.2f}"
         yield (
-            row["name"].replace("_", " "),
+            row["name"],
             _told(unit, float(row["prior"]), float(row["prior_sigma"])),
             _told(unit, float(row["before"])) if row["before"] else "not there",
             _told(unit, float(row["after"]), float(row["sigma"])),
@@ -115,9 +115,13 @@ def parameter_rows(rows: Sequence[Mapping[str, str]]) -> Iterator[tuple[str, ...
 
 
 def change_rows(rows: Sequence[Mapping[str, str]]) -> Iterator[tuple[str, ...]]:
-    """(quantity, without, with, change) of a point run without and with the finding."""
+    """(quantity, without, with, change, share of the shaft power of both) of a point run without and with it."""
+    shaft = {key: float(row[key]) for row in rows if row["quantity"] == SHAFT for key in (WITHOUT, WITH)}
     for row in rows:
-        yield row["quantity"], *(f"{row[key]} {row['unit']}" for key in (WITHOUT, WITH, "change"))
+        told = (f"{_plain(float(row[key]), 4)} {row['unit']}" for key in (WITHOUT, WITH))
+        moved = f"{_plain(float(row['change']), 3)} {'points' if row['unit'] == '%' else row['unit']}"
+        shares = (f"{100.0 * float(row[key]) / whole:.2f} %" for key, whole in shaft.items() if row["unit"] == "W")
+        yield row["quantity"], *told, moved, " -> ".join(shares)
 
 
 def remarks(found: Mapping[str, Any], summary: Mapping[str, Any]) -> list[str]:
@@ -131,8 +135,13 @@ def _told(unit: str, value: float, sigma: float | None = None) -> str:
     if dimension is not None and dimension is not Dimension.TEMPERATURE:
         unit = reading_unit(value or sigma or 0.0, dimension)
         value, sigma = in_unit(value, unit, dimension), sigma and in_unit(sigma, unit, dimension)
-    shown = f"{value:.4g}" if sigma is None else f"{value:.4g} +- {sigma:.2g}"
+    shown = _plain(value, 4) if sigma is None else f"{_plain(value, 4)} +- {_plain(sigma, 2)}"
     return shown if unit == "1" else f"{shown} {unit}"
+
+
+def _plain(value: float, digits: int) -> str:
+    """A number of so many digits, of those before the point all, without an exponent where it can be helped."""
+    return f"{value:.{digits}g}" if abs(value) < 10.0**digits else f"{value:.0f}"
 
 
 def _pictures(found: Mapping[str, Any], tables: Mapping[str, Sequence[Mapping[str, str]]]) -> dict[str, bytes]:

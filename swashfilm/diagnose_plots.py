@@ -89,7 +89,7 @@ def pull_changes(rows: Sequence[Row]) -> bytes:
     axes.hlines(places, ends[0], ends[1], color=NOISE)
     for values, colour, label in zip(ends, (BEFORE, AFTER), ("before", "after"), strict=True):
         axes.plot(values, places, "o", color=colour, label=label)
-    axes.set_yticks(places, [row["name"].replace("_", " ") for row in ranked], fontsize=8)
+    axes.set_yticks(places, [row["name"] for row in ranked], fontsize=8)
     axes.set_xlabel("pull in stated tolerances; grey: within two")
     axes.invert_yaxis()
     axes.legend(fontsize=8)

@@ -31,6 +31,7 @@ from system.units import Dimension, format_quantity
 
 WITHOUT, WITH = "without", "with"
 """Run folders within the diagnosis's own."""
+SHAFT = "shaft power"
 LPM = 60000.0  # L/min in a m3/s
 PERCENT = 100.0
 
@@ -118,8 +119,8 @@ def _changes(without: Mapping[str, Any], found: Mapping[str, Any]) -> Iterator[R
     other = {name: value for name, _, value in _numbers(found)}
     for name, unit, value in _numbers(without):
         yield {
-            "quantity": name, "unit": unit, WITHOUT: f"{value:.5g}", WITH: f"{other[name]:.5g}",
-            "change": f"{other[name] - value:+.3g}",
+            "quantity": name, "unit": unit, WITHOUT: f"{value:.6g}", WITH: f"{other[name]:.6g}",
+            "change": f"{other[name] - value:.3g}",
         }  # fmt: skip
 
 
@@ -132,7 +133,7 @@ def _numbers(summary: Mapping[str, Any]) -> Iterator[tuple[str, str, float]]:
         if share is not None:
             yield f"efficiency, {name} (ISO 4409)", "%", PERCENT * share
     power = summary["power_balance"]
-    yield "shaft power", "W", power["shaft_W"]
+    yield SHAFT, "W", power["shaft_W"]
     yield "hydraulic power", "W", power["hydraulic_W"]
     yield "compression of the oil", "W", power["elastic_W"]
     for name in ("piston", "slipper", "valve_plate"):

@@ -339,7 +339,7 @@ def test_the_folder_holds_tables_and_a_page(study: Study, named: Diagnosis, tmp_
 
 def test_a_page_says_what_changes_in_the_pump(study: Study, named: Diagnosis, tmp_path: Path) -> None:
     """A point run without and with the finding: links to both, each number with its unit; films told."""
-    row = {"quantity": "case drain", "unit": "L/min", "without": "1.2", "with": "1.9", "change": "+0.7"}
+    row = {"quantity": "case drain", "unit": "L/min", "without": "1.2", "with": "1.9", "change": "0.7"}
     told = Told((row,), "Point 7, where the finding adds most: 2100 rpm.", "No film fields.")
     write_diagnosis_files(tmp_path, study, named, load_thresholds(), told=told)
     page = (tmp_path / "report.html").read_text("utf-8")
