@@ -96,6 +96,22 @@ def forces_summary(joints: JointForces, found: PumpPoint) -> dict[str, Any]:
     }
 
 
+def force_warnings(joints: JointForces) -> list[str]:
+    """Warning of slippers that the plate would have to pull; elsewhere forces are those of parts that touch."""
+    pulled = [one.lift < 0.0 for one in joints.sets]
+    if not any(one.any() for one in pulled):
+        return []
+    number = int(np.argmax([one.sum() for one in pulled]))
+    lift, degrees = joints.sets[number].lift, np.degrees(joints.group.shaft_angle)
+    worst = int(np.argmin(lift))
+    share = f"{pulled[number].sum()} of {lift.size} shaft angles"
+    return [
+        f"slipper_lifts: the plate would have to pull the slipper of chamber {number + 1} at {share}, most with "
+        f"{-lift[worst]:.0f} N at {degrees[worst]:.0f} deg (limit 0): it lifts, and the retainer bears that "
+        "besides its share of the spring; raise the inlet pressure, or lower the speed"
+    ]
+
+
 def _spread(unit: str, values: Array) -> dict[str, float]:
     found = {"mean": np.mean(values), "min": np.min(values), "max": np.max(values)}
     return {f"{part}_{unit}": float(value) for part, value in found.items()}

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, assert_never
 
 from swashfilm.fidelity import Fidelity
 from swashfilm.floating_run import floating_summary, write_floating
-from swashfilm.forces_data import forces_summary, write_forces
+from swashfilm.forces_data import force_warnings, forces_summary, write_forces
 from swashfilm.picture3d import draw
 from swashfilm.progress import Report
 from swashfilm.pump_data import GAPS, PICTURED_TURN, films_dataset, point_dataset, write_tables
@@ -123,9 +123,10 @@ def _write_point(folder: Path, data: xarray.Dataset, point: PumpPoint, summary: 
 
 
 def _tell_forces(folder: Path, joints: JointForces, point: PumpPoint, summary: dict[str, Any]) -> None:
-    """Write forces.csv and tell the summary of it, with what was taken of places."""
+    """Write forces.csv and tell the summary of it, with its warnings and what was taken of places."""
     write_forces(folder, joints)
     summary["forces"] = forces_summary(joints, point)
+    summary["warnings"] += force_warnings(joints)
     places = [str(taken) for taken in joints.group.places.taken]
     summary["assumptions"] += [taken for taken in places if taken not in summary["assumptions"]]
 

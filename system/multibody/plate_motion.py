@@ -21,7 +21,6 @@ from system.operating import OperatingPoint
 from system.parts_description import Stroking
 from system.units import Dimension
 
-HOLDS = 1.3  # times the largest mean moment of the pump that a taken actuator holds
 FILLS = 0.1  # s in which a taken orifice fills the actuator
 DROP = 1e6  # Pa over it meanwhile
 
@@ -111,10 +110,10 @@ def _actuator(
     force = taken.value("actuator.spring_preload", stated.spring_preload, 0.0, "no spring", Dimension.FORCE)
     area = stated.area
     if area is None:
-        moment = abs(_mean_moment(pump, point))
-        needed = HOLDS * (moment / (arm * np.cos(plate.angle_max)) + force)
+        moment = _largest_moment(pump, point)
+        needed = moment / (arm * np.cos(plate.angle_max)) + force
         holding = control_pressure - point.case_pressure
-        why = f"highest control pressure holds {HOLDS:g} times the mean moment, {moment:.4g} N m, and the spring"
+        why = f"the highest control pressure holds the pump's largest moment, {moment:.4g} N m, and the spring"
         area = taken.value("actuator.area", None, needed / holding, why, Dimension.AREA)
     swept = area * arm * float(np.sin(plate.angle_max) - np.sin(plate.angle_min))
     flow = pump.ports.flow_coefficient * np.sqrt(2.0 * DROP / pump.oil.density)
@@ -132,6 +131,6 @@ def _actuator(
     )  # fmt: skip
 
 
-def _mean_moment(pump: PumpDescription, point: OperatingPoint) -> float:
-    """Mean of what holds the plate at rest at a point, N m."""
-    return float(np.mean(joint_forces(pump, lumped_point(pump, point)).plate.control))
+def _largest_moment(pump: PumpDescription, point: OperatingPoint) -> float:
+    """Largest over the turn of what holds the plate at rest at a point, N m."""
+    return float(np.max(np.abs(joint_forces(pump, lumped_point(pump, point)).plate.control)))

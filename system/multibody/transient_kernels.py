@@ -64,6 +64,8 @@ slide m/s, below which friction fades; inner_place m, of the inner dead centre a
 the trunnion, fading below rubbing_rate rad/s; sense 1 for an actuator that strokes the plate up, -1 down.
 """
 
+ATTEMPTS = 10
+"""Newton's method may swing about a narrow port's laminar range and close in slowly: it goes on where it stood."""
 COLUMNS = 16
 TIME, ANGLE, RATE, ACCELERATION, CONTROL, ACTUATOR, MOMENT_PRESSURE, MOMENT_INERTIA = range(8)
 MOMENT_FRICTION, MOMENT_ACTUATOR, MOMENT_SPRING, MOMENT_DRAG, MOMENT_STOP, DELIVERY, SUCTION, CASE = range(8, 16)
@@ -154,9 +156,12 @@ def advance(chamber, plate, which, shaft_angle, tilt, control, state, stages, to
         base = state[0]
         for earlier in range(stage):
             base -= length * TABLEAU[stage, earlier] * stages[earlier, LEFT]
-        pressure, specific, _, found = stage_pressure(
-            chamber, pressure, content, base, GAMMA * control[2], 0.0, ways, flows
-        )
+        for _ in range(ATTEMPTS):
+            pressure, specific, _s, found = stage_pressure(
+                chamber, pressure, content, base, GAMMA * control[2], 0.0, ways, flows
+            )
+            if found:
+                break
         if not found:
             return False
         fill_stage(chamber, pressure, specific, swell, ways, flows, stages[stage])

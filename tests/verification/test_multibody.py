@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from gaps.ball_joint import DrivenBody, ball_forces, swept_acceleration
+from swashfilm.forces_data import force_warnings
 from system.description import PumpDescription
 from system.directions import bore_axis, plate_axes
 from system.kinematics import (
@@ -299,6 +300,15 @@ def test_trunnion_and_actuator_hold_the_plate(strokes):
     way = 1.0 if strokes == "up" else -1.0
     lever = group.places.arm * np.cos(swash_angle(group.drive))
     np.testing.assert_allclose(way * lever * plate.actuator[2], plate.control, rtol=1e-12)
+
+
+def test_a_slipper_that_lifts_is_told():
+    """No charge pressure at twice the speed: inertia pulls slippers off where suction begins."""
+    pump = load_pump("ref90")
+    calm = joint_forces(pump, lumped_point(pump, operating_point(pump)))
+    assert force_warnings(calm) == []
+    wild = found(pump, shaft_speed=440.0, inlet_pressure=0.0, case_pressure=0.2e6)
+    assert "slipper_lifts" in force_warnings(wild)[0]
 
 
 def test_sliding_speed_of_the_moving_group_is_equation_9():
