@@ -154,6 +154,9 @@ def _equation(
 ) -> tuple[EqFit, ...]:
     """Eq. (21), all but the coefficients as the fit has them; nothing, and told, without its flows."""
     own = tuple(one for one in bench.parameters if one.name.startswith("friction."))
+    if not own:
+        notes.append("Eq. (21) by itself: every friction coefficient of the pump is 0")
+        return ()
     try:
         readings = measured_losses(bench.points, study.observations)
     except FilmInputError as reason:

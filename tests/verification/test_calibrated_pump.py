@@ -1,0 +1,110 @@
+"""A calibrated pump: it runs to the readings of its fit and knows itself as well as the fit does."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import cache
+from itertools import product
+
+import numpy as np
+import pytest
+
+from system.bench_map import LumpedBench
+from system.bench_parameters import base_parameters
+from system.bench_points import BenchPoints, operating_at
+from system.bench_truth import SIMULATED
+from system.calibrated_pump import calibrated_pump
+from system.estimation.observations import Channel, Observations
+from system.estimation.posterior import Posterior, linear_posterior
+from system.hersey_curve import PAIRS, hersey_curves
+from system.lumped_point import lumped_point
+from system.physics.catalogue import entry_of
+from system.physics.effects import EffectId
+from system.pump_file import load_pump
+from system.pump_gap import Gap
+from system.tolerances import tolerances
+
+PUMP = load_pump("ref90")
+GRID = np.array(list(product((1000.0, 2100.0), (10e6, 30e6), (0.5, 1.0))))
+HELD = {"p_in": 2.5e6, "p_case": 1.5e5, "T_in": 323.0, "T_case": 326.0, "hours": np.nan}
+POINTS = BenchPoints(
+    speed=GRID[:, 0] * np.pi / 30,
+    p_out=GRID[:, 1],
+    displacement_ratio=GRID[:, 2],
+    order=np.arange(8.0),
+    **{name: np.full(8, value) for name, value in HELD.items()},
+)
+
+
+@cache
+def _bench() -> LumpedBench:
+    return LumpedBench(PUMP, POINTS, SIMULATED, base_parameters(PUMP, tolerances(PUMP)[0]), inputs=())
+
+
+@cache
+def _fit() -> Posterior:
+    """Of readings with more friction of the slippers and thinner oil than described."""
+    bench = _bench()
+    values = np.array([one.centre for one in bench.parameters])
+    for name, factor in (("friction.slipper_swash_plate", 1.3), ("viscosity", 0.97)):
+        values[[one.name for one in bench.parameters].index(name)] *= factor
+    read = bench.predict(values)
+    made = Observations(
+        channels=tuple(Channel(name.value, name.dimension) for name in SIMULATED),
+        values=read,
+        sigma=np.full_like(read, 1.0) * [2e-6, 2e-6, 3e-7, 0.3],
+        inputs=(),
+        input_sigma=np.zeros((8, 0)),
+        quantum=np.zeros(4),
+        blocks=np.arange(8),
+    )
+    found = linear_posterior(bench, made)
+    return replace(found, predictions=bench.predict(found.values))
+
+
+def test_it_runs_to_the_readings_of_its_fit() -> None:
+    """Torque to a tenth of a sigma of a class A bench (.3 N m), flows to 1e-3: a map at its angles."""
+    pump = calibrated_pump(PUMP, _fit())
+    for at in (0, 7):
+        found = lumped_point(pump, operating_at(pump, POINTS, at)).bench
+        expected = _fit().predictions[at]
+        assert found.delivery_flow == pytest.approx(expected[0], rel=1e-3)
+        assert found.shaft_torque == pytest.approx(expected[3], abs=0.03)
+
+
+def test_its_tolerance_is_what_the_fit_leaves() -> None:
+    fit, pump = _fit(), calibrated_pump(PUMP, _fit())
+    stated = PUMP.tolerance.friction or tolerances(PUMP)[0].friction
+    sigma = {one.name: fit.sigma(one.name) / value for one, value in zip(fit.parameters, fit.values, strict=True)}
+    widest = max(
+        sigma[f"friction.{name}"]
+        for name in ("piston_cylinder", "slipper_swash_plate", "valve_plate_cylinder", "piston_slipper_socket")
+    )
+    assert pump.tolerance.friction == pytest.approx(widest, rel=1e-9)
+    assert widest <= stated * (1 + 1e-9)
+    assert pump.tolerance.guide_friction == pytest.approx(sigma["friction.ball_guide_retainer"], rel=1e-9)
+    assert pump.tolerance.viscosity == pytest.approx(sigma["viscosity"], rel=1e-9)
+
+
+def test_constant_friction_is_a_level_line() -> None:
+    fit = _fit()
+    for curve in hersey_curves(_bench(), fit):
+        name = f"friction.{PAIRS[curve.gap].value}"
+        assert curve.friction == pytest.approx(float(fit.values[fit.index(name)]), rel=1e-12)
+        assert curve.sigma == pytest.approx(fit.sigma(name), rel=1e-3)
+        assert np.all(np.diff(curve.number) > 0)
+
+
+def test_friction_falls_with_the_hersey_number_by_the_law() -> None:
+    """f_c + f_b exp(-(H/H0)^d) with the law's own values; most at the least number."""
+    law = entry_of(EffectId.MIXED_FRICTION).extensions[0].members[2]
+    bench = _bench().with_extensions((law,))
+    xi = np.concatenate([_fit().xi, [0.8] * len(law.parameters), np.zeros(len(law.free) - len(law.parameters))])
+    count = len(xi)
+    fit = replace(_fit(), parameters=bench.parameters, xi=xi, precision=np.eye(count))
+    fit = replace(fit, values=np.array([one.value(float(at)) for one, at in zip(fit.parameters, xi, strict=True)]))
+    curve = next(one for one in hersey_curves(bench, fit, (law,)) if one.gap is Gap.PISTON)
+    scale, exponent = law.grid[0]["hersey_scale"], law.grid[0]["exponent"]
+    constant = fit.values[fit.index("friction.piston_cylinder")]
+    expected = constant + 0.8 * 0.05 * np.exp(-((curve.number / scale) ** exponent))
+    assert curve.friction == pytest.approx(expected, rel=1e-9)
