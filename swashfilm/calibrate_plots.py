@@ -11,6 +11,8 @@ from system.calibration import PHYSICS
 
 Row = Mapping[str, str]
 COLOURS = ("#b55a00", "#3c7a8c", "#6d5a9c", "#4f7a3a")
+LEAST = 0.2  # noise: where the bars of models begin
+TICKS = tuple(float(f"{digit}e{power}") for power in range(-1, 9) for digit in (1, 2, 5))
 OWN, OTHERS, NOISE = "#b55a00", "#3c7a8c", "#9aa4ab"
 
 
@@ -43,7 +45,7 @@ def coefficients_over_displacement(rows: Sequence[Row]) -> bytes:
         axes.set_ylim(bottom=0.0)
         axes.tick_params(labelsize=7)
         axes.grid(visible=True, alpha=0.3)
-    grid[0, 0].legend(fontsize=7)
+    figure.legend(*grid[0, 0].get_legend_handles_labels(), loc="lower right", fontsize=9)
     return png_of(figure)
 
 
@@ -69,6 +71,8 @@ def friction_curves(rows: Sequence[Row]) -> bytes:
 
 def held_out_models(rows: Sequence[Row]) -> bytes:
     """RMS in units of the noise by model and split, a panel for each channel, on a logarithmic scale."""
+    from matplotlib.ticker import FormatStrFormatter, NullFormatter
+
     channels = list(dict.fromkeys(row["channel"] for row in rows))
     models = list(dict.fromkeys(row["model"] for row in rows))
     splits = list(dict.fromkeys(row["left_out"] for row in rows))
@@ -84,6 +88,11 @@ def held_out_models(rows: Sequence[Row]) -> bytes:
             axes.barh(places, sizes, 0.18, color=shade, label=label)
         axes.axvline(1.0, color=NOISE, linestyle="--")
         axes.set_xscale("log")
+        axes.set_xlim(left=LEAST)
+        ends = axes.get_xlim()
+        axes.set_xticks([tick for tick in TICKS if ends[0] <= tick <= ends[1]])
+        axes.xaxis.set_major_formatter(FormatStrFormatter("%g"))
+        axes.xaxis.set_minor_formatter(NullFormatter())
         axes.set_title(channel, fontsize=10)
         axes.set_xlabel("rms / noise")
         axes.grid(visible=True, axis="x", alpha=0.3, which="both")
