@@ -48,14 +48,15 @@ def write_calibration_files(
 
 def summary(found: Calibration, title: str, assumptions: tuple[str, ...]) -> dict[str, Any]:
     """What the page needs beside the tables."""
-    fit = found.fit
+    fit = found.best
     return {
         "format": 1,
         "kind": KIND,
         "name": title,
         "points": len(found.study.recording.steady.values),
         "readings": int(fit.residual.size),
-        "chi2_per_reading": float(fit.residual @ fit.residual) / fit.residual.size,
+        "chi2_per_reading": _chi2(fit),
+        "chi2_constant_friction": _chi2(found.fit),
         "parameters": len(fit.parameters),
         "undetermined": len(found.undetermined),
         "hersey": None
@@ -75,9 +76,9 @@ def parameter_rows(fit: Posterior) -> Iterator[Row]:
         yield {
             "name": parameter.name,
             "unit": _unit(parameter.dimension),
-            "prior_low": _text(parameter.value(-1.0)),
+            "prior_low": _text(max(parameter.value(-1.0), parameter.lower)),
             "prior": _text(parameter.centre),
-            "prior_high": _text(parameter.value(1.0)),
+            "prior_high": _text(min(parameter.value(1.0), parameter.upper)),
             "lower": _text(parameter.lower),
             "upper": _text(parameter.upper),
             "mean": _text(float(fit.values[at])),
@@ -162,6 +163,11 @@ def residual_rows(found: Calibration) -> Iterator[Row]:
             "fitted": _text(reading(channel, fitted)),
             "pull": _text((measured - fitted) / sigma[point, at]),
         }
+
+
+def _chi2(fit: Posterior) -> float:
+    """Chi-square per reading."""
+    return float(fit.residual @ fit.residual) / fit.residual.size
 
 
 def _unit(dimension: Dimension | None) -> str:

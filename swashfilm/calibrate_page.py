@@ -57,6 +57,9 @@ def headline(folder: Path) -> tuple[str, ...]:
         odds = f"{law['evidence_nats']:+.1f} nats for it"
         words = "the data carry" if law["carried"] else "the data do not carry"
         told.append(f"{words} a friction that hangs on the Hersey number: {odds}.")
+        if law["carried"]:
+            constant = f"{own['chi2_constant_friction']:.3f}"
+            told.append(f"with constant coefficients chi-square per reading is {constant}.")
     for row in (row for row in read_rows(folder / "parameters.csv") if row["at_bound"] == "yes"):
         told.append(f"{row['name']} is held at its bound, {row['mean']}.")
     return tuple(text[0].upper() + text[1:] for text in told)

@@ -52,9 +52,9 @@ class Hersey:
 class Calibration:
     """What a recording says about a pump of which nothing is taken to be missing.
 
-    fit: base and sensor parameters, friction by the paper's ranges, constant; undetermined: what it leaves to the
-    priors; hersey: None where it was not asked for or not to be fitted; equation: Eq. (21) by itself; rows: models
-    in the same splits; notes: what was taken, and what could not be done.
+    fit: base and sensor parameters, friction by the paper's ranges, constant; hersey: None where it was not asked
+    for or not to be fitted; undetermined, rows: what `best` leaves to the priors, and it beside loss models in the
+    same splits; equation: Eq. (21) by itself; notes: what was taken, and what could not be done.
     """
 
     study: Study
@@ -98,12 +98,12 @@ def calibrate(
     shown, laws = (hersey.fit, hersey.laws) if hersey is not None and hersey.carried else (fit, ())
     report(3, steps, "Eq. (21)")
     equation = _equation(pump, bench, fit, study, notes)
-    rows = _compared(pump, bench, fit, study, models, notes, report)
+    rows = _compared(pump, bench, shown, study, models, notes, report)
     return Calibration(
         study=study,
         points=bench.points,
         fit=fit,
-        undetermined=undetermined(fit),
+        undetermined=undetermined(shown),
         hersey=hersey,
         curves=hersey_curves(bench, shown, laws),
         equation=equation,

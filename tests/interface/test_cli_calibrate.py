@@ -15,6 +15,9 @@ from system.bench_map import LumpedBench
 from system.bench_points import BenchPoints
 from system.bench_truth import SIMULATED
 from system.paper_fit import paper_priors
+from system.physics.catalogue import entry_of
+from system.physics.effects import EffectId
+from system.physics.extension import Extension
 from system.pump_file import load_pump
 
 PUMP = load_pump("ref90")
@@ -41,10 +44,11 @@ Q_case = { column = "q", unit = "L/min", sigma = 0.015 }
 torque = { column = "M", unit = "N m", sigma = 0.3 }
 """
 PLANTED = {"friction.slipper_swash_plate": 0.009, "friction.piston_cylinder": 0.022}
+BOUNDARY = {"mixed_friction.slipper": 0.05}
 
 
-def _made(folder: Path) -> Path:
-    """A recording of 24 points of the pump with other friction of slippers and pistons."""
+def _made(folder: Path, law: Extension | None = None) -> Path:
+    """A recording of 24 points of the pump with other friction of slippers and pistons, and with `law` on."""
     grid = np.array(list(product((1000.0, 1600.0, 2100.0), (10e6, 17e6, 26e6, 35e6), (0.4, 1.0))))
     count = len(grid)
     points = BenchPoints(
@@ -59,7 +63,8 @@ def _made(folder: Path) -> Path:
         order=np.arange(count, dtype=float),
     )
     bench = LumpedBench(PUMP, points, SIMULATED, paper_priors(PUMP)[0])
-    values = np.array([PLANTED.get(one.name, one.centre) for one in bench.parameters])
+    bench = bench if law is None else bench.with_extensions((law,))
+    values = np.array([(PLANTED | BOUNDARY).get(one.name, one.centre) for one in bench.parameters])
     noise = np.random.default_rng(4).standard_normal((count, 4)) * [0.1, 0.1, 0.015, 0.3]
     read = bench.predict(values) * [6e4, 6e4, 6e4, 1.0] + noise
     folder.mkdir()
@@ -82,7 +87,7 @@ def test_from_files_to_files(tmp_path: Path, capsys: pytest.CaptureFixture[str])
     """Planted coefficients are found within 3 sigma; models in one table; the fitted pump loads, and reports."""
     out = tmp_path / "out"
     recording = _made(tmp_path / "made")
-    words = ["calibrate", "ref90", str(recording), "-o", str(out), "--models", "wilson", "--laws", "none"]
+    words = ["calibrate", "ref90", str(recording), "-o", str(out), "--models", "wilson"]
     assert main(words) == 0
     told = capsys.readouterr().out
     assert "slipper swash plate" in told
@@ -98,8 +103,22 @@ def test_from_files_to_files(tmp_path: Path, capsys: pytest.CaptureFixture[str])
     mean = float(found["friction.slipper_swash_plate"]["mean"])
     assert calibrated.friction.slipper_swash_plate == pytest.approx(mean, rel=1e-5)
     summary = json.loads((out / "summary.json").read_text("utf-8"))
-    assert summary["hersey"] is None
+    assert not summary["hersey"]["carried"]
     assert main(["report", str(out)]) == 0
+
+
+@pytest.mark.slow
+def test_friction_over_the_hersey_number_is_found_where_it_is(tmp_path: Path) -> None:
+    """Boundary friction of .05 in the slippers that speed takes away: odds above three nats, and a curve."""
+    law = entry_of(EffectId.MIXED_FRICTION).extensions[0].members[3]
+    recording, out = _made(tmp_path / "made", law), tmp_path / "out"
+    assert main(["calibrate", "ref90", str(recording), "-o", str(out), "--models", "none"]) == 0
+    summary = json.loads((out / "summary.json").read_text("utf-8"))
+    assert summary["hersey"]["carried"]
+    assert _table(out, "heldout.csv") == []
+    slipper = [float(row["friction [1]"]) for row in _table(out, "hersey.csv") if row["gap"] == "slipper"]
+    assert slipper[0] > 1.5 * slipper[-1]
+    assert load_pump(str(out / "pump_calibrated.toml")).physics.mixed_friction is not None
 
 
 @pytest.mark.parametrize(
