@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
@@ -16,7 +17,7 @@ from system.description import PumpDescription
 from system.errors import NotConverged
 from system.kinematics import Array
 from system.lumped import PistonMotion, chamber_problem
-from system.map_kernels import chamber_map
+from system.map_kernels import beside_map, chamber_map
 from system.operating import OperatingPoint
 from system.ports import TURN
 
@@ -28,11 +29,15 @@ OF_GAPS = ("case_pressure", "kinematic_viscosity")
 class Courses:
     """Periodic revolutions at N points: pressure (N, M) Pa gauge at M equidistant shaft angles from 0, and totals.
 
-    totals (N, INTEGRALS): the integrals of `chamber_state_kernels` over one turn, one chamber.
+    totals (N, INTEGRALS): the integrals of `chamber_state_kernels` over one turn, one chamber. Where they were
+    solved for themselves, trail: the steps of all points end to end, those of point i from begins[i] to
+    begins[i + 1].
     """
 
     pressure: Array
     totals: Array
+    trail: Array | None = None
+    begins: Array | None = None
 
 
 @dataclass(frozen=True)
@@ -57,7 +62,11 @@ class MapProblem:
         """Whether the other's chambers differ, if at all, by what leaks out of their gaps."""
         names = [name for name in chamber_state.CHAMBER.names or () if name not in OF_GAPS]
         same = all(np.array_equal(self.chambers[name], other.chambers[name]) for name in names)
-        return same and np.array_equal(self.ports, other.ports)
+        return same and self.has_ports_of(other)
+
+    def has_ports_of(self, other: MapProblem) -> bool:
+        """Whether the other's ports open just as these, so that its chambers can go along these's steps."""
+        return np.array_equal(self.ports, other.ports)
 
 
 def map_problem(
@@ -82,22 +91,48 @@ def solve_map(pump: PumpDescription, problem: MapProblem, tolerance: float) -> C
     Periodic to a tenth of the tolerance (PERIODICITY at least), both of the ports' pressure difference. Raises
     NotConverged with the first point that does not become periodic.
     """
-    points, _, samples = problem.leaks.conductance.shape
-    ports = map_ports(pump, problem.ports, samples)
-    chambers = problem.chambers.copy()
-    chambers["suction_port"], chambers["delivery_port"] = ports.suction, ports.delivery
-    held = np.zeros((points, 1, 2, 4))
-    held[:, 0, 0, 0], held[:, 0, 1, 0] = chambers["delivery_pressure"], chambers["inlet_pressure"]
-    pressure, totals = np.empty((points, samples)), np.empty((points, 2 * chamber_state.INTEGRALS))
-    statuses = np.empty(points, dtype=np.int64)
-    periodicity = max(PERIODICITY, 0.1 * tolerance)
-    chamber_map(
-        chambers, _tables(problem.leaks), held, ports.nodes, ports.firsts, ports.wheres,
-        tolerance, periodicity, REVOLUTION_LIMIT, pressure, totals, statuses,
-    )  # fmt: skip
-    if np.any(statuses != kernel.OK):
-        _tell(problem, int(np.argmax(statuses != kernel.OK)))
-    return Courses(pressure, totals[:, : chamber_state.INTEGRALS])
+    run = _Run.of(pump, problem, tolerance)
+    trail, begins = chamber_map(*run.given, *run.filled)
+    return replace(run.courses(problem), trail=trail, begins=begins)
+
+
+def beside(pump: PumpDescription, courses: Courses, problem: MapProblem, tolerance: float) -> Courses:
+    """`solve_map` of chambers that differ a little, in all but their ports' areas, from those of solved courses.
+
+    They go along the steps of these, so that differences are smoother than those of two maps solved apart, at a
+    third of the price. Points that those steps do not lead well are solved for themselves.
+    """
+    run = _Run.of(pump, problem, tolerance)
+    beside_map(*run.given, courses.trail, courses.begins, *run.filled)
+    return run.courses(problem)
+
+
+@dataclass(frozen=True)
+class _Run:
+    """What the compiled maps are given, and what they fill: pressures, totals, statuses."""
+
+    given: tuple[Any, ...]
+    filled: tuple[Array, Array, Array]
+
+    @classmethod
+    def of(cls, pump: PumpDescription, problem: MapProblem, tolerance: float) -> _Run:
+        points, _, samples = problem.leaks.conductance.shape
+        ports = map_ports(pump, problem.ports, samples)
+        chambers = problem.chambers.copy()
+        chambers["suction_port"], chambers["delivery_port"] = ports.suction, ports.delivery
+        held = np.zeros((points, 1, 2, 4))
+        held[:, 0, 0, 0], held[:, 0, 1, 0] = chambers["delivery_pressure"], chambers["inlet_pressure"]
+        control = tolerance, max(PERIODICITY, 0.1 * tolerance), REVOLUTION_LIMIT
+        given = chambers, _tables(problem.leaks), held, ports.nodes, ports.firsts, control
+        totals = np.empty((points, 2 * chamber_state.INTEGRALS))
+        return cls(given, (np.empty((points, samples)), totals, np.empty(points, dtype=np.int64)))
+
+    def courses(self, problem: MapProblem) -> Courses:
+        """What was filled. Raises NotConverged with the first point that is not periodic."""
+        pressure, totals, statuses = self.filled
+        if np.any(statuses != kernel.OK):
+            _tell(problem, int(np.argmax(statuses != kernel.OK)))
+        return Courses(pressure, totals[:, : chamber_state.INTEGRALS])
 
 
 def other_gaps(courses: Courses, solved: MapProblem, other: MapProblem) -> Courses:

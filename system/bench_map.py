@@ -11,7 +11,7 @@ import numpy as np
 
 from reynolds.errors import FilmInputError
 from system.bench_components import WARMER, components
-from system.bench_courses import Courses, other_gaps, solve_map
+from system.bench_courses import Courses, beside, other_gaps, solve_map
 from system.bench_parameters import BASE_NAMES
 from system.bench_points import BenchPoints
 from system.bench_setting import Setting, affected, setting
@@ -109,7 +109,7 @@ class LumpedBench:
         """Readings (N, C) at `other` values less those at `values`, by `other_gaps` where gaps alone differ.
 
         Friction and sensors are exact; leakage is good to 0.5 % of its change, what it takes from the ports to
-        some 8 %. Chambers are solved anew where anything else of them differs.
+        some 8 %. Chambers that differ in anything else are solved `beside` those at `values`.
         """
         solved = self.solved(values)
         near = self._near(solved, other, self.points)
@@ -210,7 +210,7 @@ class LumpedBench:
         return self._kept[key]
 
     def _near(self, solved: Solved, values: Array, points: BenchPoints) -> Solved:
-        """A map beside a solved one, chambers solved anew where more than gaps differ."""
+        """A map beside a solved one: its chambers along the steps of that, or at its pressures."""
         plain = self._setting(values, points)
         courses = self._moved(solved.plain, solved.plain_courses, plain)
         return self._complete(
@@ -220,6 +220,8 @@ class LumpedBench:
     def _moved(self, before: Setting, courses: Courses, after: Setting) -> Courses:
         if before.problem.differs_in_gaps_alone(after.problem):
             return other_gaps(courses, before.problem, after.problem)
+        if before.problem.has_ports_of(after.problem):
+            return beside(self.pump, courses, after.problem, self.tolerance)
         return self._solve(after)
 
     def _complete(

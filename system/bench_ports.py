@@ -20,14 +20,13 @@ class MapPorts:
     """Suction and delivery port at N points, as compiled code reads them.
 
     suction, delivery: (N, PORT_SIZE); nodes: every point's nodes of a turn, end to end, of point i from firsts[i]
-    to firsts[i + 1]; wheres (N, M): where in a point's nodes[1:] the M samples lie.
+    to firsts[i + 1].
     """
 
     suction: Array
     delivery: Array
     nodes: Array
     firsts: NDArray[np.int64]
-    wheres: NDArray[np.int64]
 
 
 def map_ports(pump: PumpDescription, state: Array, samples: int) -> MapPorts:
@@ -40,13 +39,13 @@ def map_ports(pump: PumpDescription, state: Array, samples: int) -> MapPorts:
     kinds, of_point = np.unique(state, axis=0, return_inverse=True)
     found = [_kind(pump, float(shift), float(advance), float(area), samples) for shift, advance, area in kinds]
     by_point = [found[kind] for kind in of_point.ravel()]
-    suction, delivery, nodes, wheres = zip(*by_point, strict=True)
+    suction, delivery, nodes = zip(*by_point, strict=True)
     firsts = np.cumsum([0, *(own.size for own in nodes)])
-    return MapPorts(np.stack(suction), np.stack(delivery), np.concatenate(nodes), firsts, np.stack(wheres))
+    return MapPorts(np.stack(suction), np.stack(delivery), np.concatenate(nodes), firsts)
 
 
 def _kind(
     pump: PumpDescription, shift: float, advance: float, area: float, samples: int
-) -> tuple[Array, Array, Array, NDArray[np.int64]]:
+) -> tuple[Array, Array, Array]:
     suction, delivery = (eroded(port, advance, area) for port in port_openings(pump, shift))
-    return as_array(suction), as_array(delivery), *turn_nodes(suction, delivery, samples)
+    return as_array(suction), as_array(delivery), turn_nodes(suction, delivery, samples)[0]

@@ -55,7 +55,7 @@ class Course:
 
     def run(self, given: Constants, nodes: Array, start: float, tolerance: float) -> tuple[float, int, int, int]:
         """Fill it from a pressure at nodes[0]; what `revolution` returns."""
-        out = (self.pressures, self.rates, self.passed, self.totals)
+        out = (self.pressures, self.rates, self.passed, self.totals, np.empty((0, kernel.TRAIL)))
         found: tuple[float, int, int, int] = kernel.revolution(*given, nodes, start, tolerance, *out)
         return found
 

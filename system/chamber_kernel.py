@@ -29,8 +29,12 @@ from system.chamber_state_kernels import (
 )
 
 STAGES = 6
-LEFT, PRESSURE = INTEGRALS, INTEGRALS + 1
-"""Columns of a stage beside its integrals' rates: mass out by all paths per radian, and its pressure."""
+LEFT, PRESSURE, DELIVERY, SUCTION = INTEGRALS, INTEGRALS + 1, INTEGRALS + 2, INTEGRALS + 3
+COLUMNS = INTEGRALS + 4
+"""Of a stage: its integrals' rates, mass out by all paths per radian, its pressure, the areas of both ports."""
+KEPT = 3
+TRAIL = 2 + KEPT * STAGES
+"""Numbers of a step that is kept: where it begins and its length (rad), of each stage all from PRESSURE on."""
 
 # Butcher table: row i holds a_ij, the last row is also b; ERROR is b minus the embedded weights.
 GAMMA = 0.25
@@ -132,7 +136,7 @@ def fill_stage(chamber, pressure, specific, swell, ways, flows, out):
     """A row of the stages that `step` needs."""
     integral_rates(chamber, pressure, specific, swell, ways, flows, out)
     out[LEFT] = out[0] + out[1] + out[2] + out[3] + out[4]
-    out[PRESSURE] = pressure
+    out[PRESSURE], out[DELIVERY], out[SUCTION] = pressure, ways[12], ways[13]
 
 
 @numba.njit(
@@ -143,7 +147,7 @@ def fill_stage(chamber, pressure, specific, swell, ways, flows, out):
 def step(chamber, table, ports, shaft_angle, length, mass, slope, close, stages, ways, flows):
     """One step: new mass, error of the mass (filtered for stiffness), success.
 
-    `stages` (STAGES, INTEGRALS + 2) brings the start in its first row and holds every stage after: rates of the
+    `stages` (STAGES, COLUMNS) brings the start in its first row and holds every stage after: rates of the
     integrals, LEFT, PRESSURE; the last row is the solution at the step's end. `slope`: dp/dphi foreseen at the
     start; `ways` and `flows` are room to work in.
     """
@@ -205,26 +209,48 @@ def to_cavity(chamber, table, shaft_angle, length, mass, new_mass, left):
     return way if 0.0 < way < length else q / bend
 
 
+@numba.njit(f8(f8, f8, _matrix), cache=True, error_model="numpy")
+def step_size(mass_error, work, stages):
+    """Error of a step, of what it may be: that of the mass as given, those of the energies times `work`."""
+    size = mass_error
+    for k in range(5, 8):
+        slip = 0.0
+        for stage in range(STAGES):
+            slip += ERROR[stage] * stages[stage, k]
+        size = max(size, abs(slip) * work)
+    return size
+
+
+@numba.njit(numba.void(f8, f8, _matrix, vector), cache=True, error_model="numpy")
+def keep(angle, length, stages, out):
+    """A step as a row of the trail."""
+    out[0], out[1] = angle, length
+    for stage in range(STAGES):
+        for k in range(KEPT):
+            out[2 + KEPT * stage + k] = stages[stage, PRESSURE + k]
+
+
 @numba.njit(
     numba.types.Tuple((f8, numba.i8, numba.i8, numba.i8))(
-        records, cubics, cubics, vector, f8, f8, vector, _matrix, _matrix, vector
+        records, cubics, cubics, vector, f8, f8, vector, _matrix, _matrix, vector, _matrix
     ),
     cache=True,
     error_model="numpy",
 )
-def revolution(chamber, table, ports, nodes, pressure, tolerance, pressures, path_rates, passed, totals):
+def revolution(chamber, table, ports, nodes, pressure, tolerance, pressures, path_rates, passed, totals, trail):
     """One turn from a pressure at nodes[0]: mass at the end less that at the start, steps taken, refused, status.
 
     Steps end on every node (ascending shaft angles over one turn, breaks of the ports among them). `pressures`,
     `path_rates` (mass per radian by path) and `passed` (mass by path since nodes[0]) receive the solution at
-    nodes[1:], `totals` (2 x INTEGRALS) the integrals and the sums of their local error estimates. Every step keeps
+    nodes[1:], `totals` (2 x INTEGRALS) the integrals and the sums of their local error estimates, `trail` (any
+    number, TRAIL) the first steps taken. Every step keeps
     the error of p, and of the work and throttling energy relative to one stroke's, below `tolerance` times the
     port pressure difference.
     """
     c = chamber[0]
     scale = tolerance * (abs(c.delivery_pressure - c.inlet_pressure) + 1e5)
     work_scale = scale * c.piston_area * 2.0 * c.stroke_scale
-    stages, ways, flows = np.empty((STAGES, INTEGRALS + 2)), np.empty(WAYS), np.empty(PATHS)
+    stages, ways, flows = np.empty((STAGES, COLUMNS)), np.empty(WAYS), np.empty(PATHS)
     content, swell = volume(chamber, table, nodes[0])
     specific = oil_volume(pressure, c.bulk_modulus)[0]
     openings(chamber, table, ports, nodes[0], ways)
@@ -243,12 +269,7 @@ def revolution(chamber, table, ports, nodes, pressure, tolerance, pressures, pat
             new_mass, error, fine = step(
                 chamber, table, ports, angle, length, mass, slope, NEWTON_SHARE * scale, stages, ways, flows
             )
-            size = abs(error) / new_mass * c.bulk_modulus / scale
-            for k in range(5, 8):
-                slip = 0.0
-                for stage in range(STAGES):
-                    slip += ERROR[stage] * stages[stage, k]
-                size = max(size, abs(slip) * length / work_scale)
+            size = step_size(c.bulk_modulus * abs(error) / new_mass / scale, length / work_scale, stages)
             crosses = (pressure < CAVITY_PRESSURE) != (stages[STAGES - 1, PRESSURE] < CAVITY_PRESSURE)
             if fine and crosses and length > CAVITY_STEP:
                 way = to_cavity(chamber, table, angle, length, mass, new_mass, stages[0, LEFT])
@@ -266,9 +287,11 @@ def revolution(chamber, table, ports, nodes, pressure, tolerance, pressures, pat
                 for k in range(INTEGRALS):
                     totals[k] += share * stages[stage, k]
                     totals[INTEGRALS + k] += doubt * stages[stage, k]
+            if taken < trail.shape[0]:
+                keep(angle, length, stages, trail[taken])
             end = STAGES - 1
             slope = (stages[end, PRESSURE] - stages[end - 1, PRESSURE]) / ((NODES[end] - NODES[end - 1]) * length)
-            for k in range(INTEGRALS + 2):
+            for k in range(COLUMNS):
                 stages[0, k] = stages[end, k]
             mass = new_mass
             taken += 1

@@ -44,7 +44,7 @@ PATHS = 5
 INTEGRALS = 16
 """Mass out by each path (0-4), work -p dV (5), energy left in each path (6-10), work of moving walls (11-13),
 energy carried into delivery and suction port (14, 15)."""
-WAYS = 12
+WAYS = 14
 
 CAVITY_PRESSURE = 1e3 - 101325.0
 """Gauge pressure in Pa at which a cavity opens (1 kPa absolute): oil bears no tension. Its vapour pressure is
@@ -116,12 +116,12 @@ def volume(chamber, table, shaft_angle):
     return content + cubic(table, at, 6, x), scale * np.sin(shaft_angle) / (swing * swing) + swell
 
 
-@numba.njit(numba.void(records, cubics, cubics, f8, vector), cache=True, error_model="numpy")
-def openings(chamber, table, ports, shaft_angle, out):
-    """What lets oil out at a shaft angle, WAYS numbers.
+@numba.njit(numba.void(records, cubics, cubics, f8, f8, f8, vector), cache=True, error_model="numpy")
+def ways_out(chamber, table, ports, shaft_angle, delivery_area, suction_area, out):
+    """What lets oil out at a shaft angle at which the ports open these areas (m2), WAYS numbers.
 
     Conductances (0-2) and carried flows (3-5) of the gaps; then both orifice coefficients of the delivery (6, 7)
-    and of the suction port (8, 9), and the pressures in Pa behind them (10, 11).
+    and of the suction port (8, 9), the pressures in Pa behind them (10, 11), and their areas (12, 13).
     """
     c = chamber[0]
     at, x = cell(table.shape[0], shaft_angle)
@@ -130,8 +130,17 @@ def openings(chamber, table, ports, shaft_angle, out):
     at, x = cell(ports.shape[0], shaft_angle)
     out[10], out[11] = cubic(ports, at, 0, x), cubic(ports, at, 1, x)
     law = (c.flow_coefficient, c.density, c.kinematic_viscosity, c.critical_reynolds)
-    out[6], out[7] = orifice_coefficients(section_area(shaft_angle, c.delivery_port), *law)
-    out[8], out[9] = orifice_coefficients(section_area(shaft_angle, c.suction_port), *law)
+    out[6], out[7] = orifice_coefficients(delivery_area, *law)
+    out[8], out[9] = orifice_coefficients(suction_area, *law)
+    out[12], out[13] = delivery_area, suction_area
+
+
+@numba.njit(numba.void(records, cubics, cubics, f8, vector), cache=True, error_model="numpy")
+def openings(chamber, table, ports, shaft_angle, out):
+    """`ways_out` at a shaft angle, the ports as far open as they are there."""
+    c = chamber[0]
+    delivery, suction = section_area(shaft_angle, c.delivery_port), section_area(shaft_angle, c.suction_port)
+    ways_out(chamber, table, ports, shaft_angle, delivery, suction, out)
 
 
 @numba.njit(numba.types.UniTuple(f8, 3)(records, f8, vector, vector), cache=True, error_model="numpy")

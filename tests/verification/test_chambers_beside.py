@@ -1,0 +1,73 @@
+"""Chambers that go along the steps of others that differ little: differences in which the steps' errors cancel."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from system.bench_courses import MapProblem, beside, solve_map
+from system.bench_points import BenchPoints
+from system.bench_setting import setting
+from system.pump_file import load_pump
+
+PUMP = load_pump("ref90")
+TOLERANCE = 1e-5
+SHOWN = [0, 1, 5]  # mass out by both ports, work: what flows and torque are read from
+
+
+def _problem(**changed) -> MapProblem:
+    speed = np.array([1000.0, 2100.0, 2100.0, 600.0]) * np.pi / 30.0
+    whole = np.ones(4)
+    points = BenchPoints(
+        speed + changed.get("speed", 0.0), np.array([1.0, 0.4, 0.7, 0.28]),
+        np.array([5e6, 35e6, 20e6, 30e6]) + changed.get("p_out", 0.0),
+        2.5e6 * whole, 0.15e6 * whole, 323.0 * whole, 320.0 * whole, np.arange(4.0), np.arange(4.0),
+    )  # fmt: skip
+    values = {name: value for name, value in changed.items() if name not in ("speed", "p_out")}
+    return setting(PUMP, points, values, 10).problem
+
+
+@pytest.mark.parametrize(
+    "changed",
+    [{"p_out": 1e5}, {"speed": 0.3}, {"dead_volume": 1.01 * PUMP.pump.dead_volume}, {"displacement": 1.002}],
+    ids=lambda one: next(iter(one)),
+)
+def test_differences_are_those_of_fine_steps(changed):
+    """At equal steps errors cancel: 0.5 % of the largest difference, no worse than maps solved apart."""
+    before, after = _problem(), _problem(**changed)
+    fine = [solve_map(PUMP, problem, 1e-9).totals[:, SHOWN] for problem in (before, after)]
+    courses = solve_map(PUMP, before, TOLERANCE)
+    along = beside(PUMP, courses, after, TOLERANCE).totals[:, SHOWN] - courses.totals[:, SHOWN]
+    apart = solve_map(PUMP, after, TOLERANCE).totals[:, SHOWN] - courses.totals[:, SHOWN]
+    expected = fine[1] - fine[0]
+    size = np.abs(expected).max(axis=0)
+    off, off_apart = (np.abs(found - expected).max(axis=0) / size for found in (along, apart))
+    assert np.all(off[:2] < 5e-3)
+    assert np.all(off < np.maximum(2.0 * off_apart, 5e-3))
+
+
+def test_the_same_chambers_have_the_same_courses():
+    problem = _problem()
+    courses = solve_map(PUMP, problem, TOLERANCE)
+    again = beside(PUMP, courses, problem, TOLERANCE)
+    span = np.ptp(courses.pressure, axis=1)[:, None]
+    assert np.abs(again.pressure - courses.pressure).max() < 10.0 * TOLERANCE * span.max()
+    assert again.totals[:, SHOWN] == pytest.approx(courses.totals[:, SHOWN], rel=1e-6)
+
+
+def test_chambers_too_unlike_are_solved_for_themselves():
+    """Steps of a soft chamber are too long for a stiff one; its courses are those of the map to the last digit."""
+    soft = _problem(bulk_modulus=0.4 * PUMP.oil.bulk_modulus)
+    stiff = _problem(bulk_modulus=2.0 * PUMP.oil.bulk_modulus)
+    led = beside(PUMP, solve_map(PUMP, soft, TOLERANCE), stiff, TOLERANCE)
+    alone = solve_map(PUMP, stiff, TOLERANCE)
+    solved = np.all(led.totals == alone.totals, axis=1)
+    assert np.any(solved)
+    assert np.all(led.pressure[solved] == alone.pressure[solved])
+    assert led.totals[:, SHOWN] == pytest.approx(alone.totals[:, SHOWN], rel=1e-4)
+
+
+def test_worn_ports_are_not_gone_along():
+    problem = _problem()
+    worn = replace(problem, ports=problem.ports + np.array([0.0, 0.05, 0.0]))
+    assert not problem.has_ports_of(worn)
