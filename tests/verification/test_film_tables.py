@@ -89,6 +89,7 @@ def test_a_ring_shears_under_the_delivery_pressure_at_every_angle():
     assert found.viscous[2] == pytest.approx(1.0 / 1.6, rel=1e-3)
 
 
+@pytest.mark.slow
 def test_solved_films_open_by_compliance_times_pressure_over_film():
     """Of a slipper that hardly slides: under half the pressure a film of half the thickness opens as far."""
     crawling = REF90.model_copy(update={"pump": REF90.pump.model_copy(update={"rated_speed": 5.0})})
