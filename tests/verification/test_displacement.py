@@ -9,6 +9,9 @@ import pytest
 
 from reynolds.errors import FilmInputError
 from system.displacement import intercept_displacement, toet_displacement
+from system.lumped_point import lumped_point
+from system.operating import operating_point
+from system.pump_file import load_pump
 
 V = 89.86e-6
 SPEEDS = np.array([1000.0, 1300.0, 1700.0, 2100.0, 2500.0]) * np.pi / 30
@@ -59,3 +62,23 @@ def test_too_few_levels_are_refused_or_told():
         toet_displacement(*one_pressure, _flow(*one_pressure))
     with pytest.raises(FilmInputError, match="several shaft speeds"):
         intercept_displacement(*MAP.T, _flow(*MAP.T))
+
+
+def test_ref90_displaces_less_by_toet_than_it_sweeps():
+    """What compression and commutation take in proportion to speed: .4 % on the reference pump."""
+    pump = load_pump("ref90")
+    grid = list(product(SPEEDS, (5e6, 12e6, 20e6, 27.5e6, 35e6)))
+    found = [
+        lumped_point(pump, operating_point(pump, shaft_speed=speed, delivery_pressure=pressure))
+        for speed, pressure in grid
+        if speed <= pump.pump.rated_speed
+    ]
+    bench = [point.bench for point in found]
+    toet = toet_displacement(
+        np.array([one.shaft_speed for one in bench]),
+        np.array([one.delivery_pressure - one.inlet_pressure for one in bench]),
+        np.array([one.delivery_flow for one in bench]),
+    )
+    assert toet.value / found[0].derived_displacement == pytest.approx(0.996, abs=0.001)
+    assert toet.residual < 1e-3 * toet.value
+    assert any("4 speeds" in note for note in toet.notes)
