@@ -125,6 +125,7 @@ BUILDS = {
     ),
     "cylindrical block": ("ref90", {"pump.bore_cone_angle": "0 deg", "pump.displacement": "89.46 cm3/rev"}, 1.0),
     "cross angle": ("ref90", {"pump.cross_angle": "2 deg"}, 0.9),
+    "plate that droops": ("ref90", {"physics.swash_droop.rate": "3 deg/GPa"}, 1.0),
     "retainer that stands": ("ref90", {"retainer.kind": "clearance"}, 1.0),
     "short guide, bearings stated": (
         "ref90",
@@ -142,7 +143,7 @@ def test_forces_moments_and_power_close(build):
     assert max(closed.force, closed.moment, closed.power) < 1e-13
 
 
-@pytest.mark.parametrize("build", ["ref90", "ref90 at part stroke", "cross angle"])
+@pytest.mark.parametrize("build", ["ref90", "ref90 at part stroke", "cross angle", "plate that droops"])
 def test_drive_torque_is_that_of_the_energy_balance(build):
     name, stated, ratio = BUILDS[build]
     pump = load_pump(name, stated)
