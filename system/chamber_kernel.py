@@ -31,7 +31,8 @@ from system.chamber_state_kernels import (
 STAGES = 6
 LEFT, PRESSURE, DELIVERY, SUCTION = INTEGRALS, INTEGRALS + 1, INTEGRALS + 2, INTEGRALS + 3
 COLUMNS = INTEGRALS + 4
-"""Of a stage: its integrals' rates, mass out by all paths per radian, its pressure, the areas of both ports."""
+"""Of a stage: what `fill_stage` fills, its integrals' rates, mass out by all paths per radian, pressure; then the
+areas of both ports."""
 KEPT = 3
 TRAIL = 2 + KEPT * STAGES
 """Numbers of a step that is kept: where it begins and its length (rad), of each stage all from PRESSURE on."""
@@ -136,7 +137,7 @@ def fill_stage(chamber, pressure, specific, swell, ways, flows, out):
     """A row of the stages that `step` needs."""
     integral_rates(chamber, pressure, specific, swell, ways, flows, out)
     out[LEFT] = out[0] + out[1] + out[2] + out[3] + out[4]
-    out[PRESSURE], out[DELIVERY], out[SUCTION] = pressure, ways[12], ways[13]
+    out[PRESSURE] = pressure
 
 
 @numba.njit(
@@ -169,6 +170,7 @@ def step(chamber, table, ports, shaft_angle, length, mass, slope, close, stages,
         if not found:
             return mass, 0.0, False
         fill_stage(chamber, pressure, specific, swell, ways, flows, stages[stage])
+        stages[stage, DELIVERY], stages[stage, SUCTION] = ways[12], ways[13]
     out, error = 0.0, 0.0
     for stage in range(STAGES):
         out += WEIGHTS[stage] * stages[stage, LEFT]
@@ -256,6 +258,7 @@ def revolution(chamber, table, ports, nodes, pressure, tolerance, pressures, pat
     openings(chamber, table, ports, nodes[0], ways)
     outflows(chamber, pressure, ways, flows)
     fill_stage(chamber, pressure, specific, swell, ways, flows, stages[0])
+    stages[0, DELIVERY], stages[0, SUCTION] = ways[12], ways[13]
     begin = content / specific
     mass, slope = begin, 0.0
     totals[:] = 0.0
