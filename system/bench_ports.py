@@ -33,8 +33,9 @@ def map_ports(pump: PumpDescription, state: Array, samples: int) -> MapPorts:
     """The ports at N points of which state (N, 3) tells what differs.
 
     Its columns: by how much the ports lie later (rad, `SwashDrive.dead_centre_shift`), by how much sooner the
-    grooves ahead of the kidneys begin (rad) and by what factor their throats are larger. Points alike share the
-    work.
+    grooves ahead of the kidneys begin (rad) and by what factor their throats are larger. Nodes are the breaks of
+    the ports and, of an even number of samples, every second: over steps no longer the stages tell the pressure
+    as well as the steps do. Points alike share the work.
     """
     kinds, of_point = np.unique(state, axis=0, return_inverse=True)
     found = [_kind(pump, float(shift), float(advance), float(area), samples) for shift, advance, area in kinds]
@@ -48,4 +49,5 @@ def _kind(
     pump: PumpDescription, shift: float, advance: float, area: float, samples: int
 ) -> tuple[Array, Array, Array]:
     suction, delivery = (eroded(port, advance, area) for port in port_openings(pump, shift))
-    return as_array(suction), as_array(delivery), turn_nodes(suction, delivery, samples)[0]
+    ends = samples // 2 if samples % 2 == 0 else samples
+    return as_array(suction), as_array(delivery), turn_nodes(suction, delivery, ends)[0]
