@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import argparse
+from pathlib import Path
 from typing import TYPE_CHECKING
 
-from swashfilm.physics_switches import switched_keys
+from swashfilm.cli_run import expect
+from swashfilm.physics_switches import SWITCHES, add_switches, switched_keys
 from swashfilm.terminal import show, show_table
 from system.faults import Fault, InputFaults
 
@@ -15,9 +17,27 @@ if TYPE_CHECKING:
     from swashfilm.study_case import StudyCase
 
 COMMAND_LINE = "command line"
+FILM_OPTIONS = ["--refine", "--csv", "--resume", "--workers", "--animate", *SWITCHES]
 SOFT_PRICE = (
     "walls that give way take some ten times as long as with --rigid --isoviscous; a smaller 'finer' costs less"
 )
+
+
+def add_film_options(command: argparse.ArgumentParser) -> None:
+    """Give the command what it takes."""
+    command.add_argument("case", type=Path, metavar="CASE.toml", help="the film case")
+    command.add_argument(
+        "--refine", metavar="N", help="solve on N meshes, each twice finer, and tell order and limit"
+    )
+    command.add_argument(
+        "--resume", type=Path, metavar="DIR", help="of a study: take finished points from this folder"
+    )
+    command.add_argument("--workers", metavar="N", help="of a study: processes that solve points side by side (1)")
+    command.add_argument("--csv", action="store_true", help="write the fields as a table too, fields.csv")
+    command.add_argument(
+        "--animate", action="store_true", help="of a revolution: a moving picture, animation.gif (.mp4 by ffmpeg)"
+    )
+    add_switches(command)
 
 
 def run_film(options: argparse.Namespace) -> int:
@@ -30,6 +50,7 @@ def run_film(options: argparse.Namespace) -> int:
     from swashfilm.run_folder import final_folder, run_folder
     from swashfilm.study_case import StudyCase, load_film
 
+    expect(options.case, "film", "run")
     meshes = _count("--refine", options.refine, "a number of meshes", 2, 5)
     workers = _count("--workers", options.workers, "a number of processes", 1, 64)
     case = load_film(options.case, switched_keys(options))

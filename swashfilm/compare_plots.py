@@ -1,0 +1,57 @@
+"""Pictures of two maps side by side: where one is better, and what takes the difference."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from swashfilm.figure_png import figure_of, png_of
+from swashfilm.map_plots import Slice, contours, held_words, levels_of, slice_of
+from system.efficiencies import EfficiencyDefinition
+from system.map_compare import Comparison
+from system.map_data import LOSSES
+from system.map_plan import MapInput
+
+SHOWN = (EfficiencyDefinition.PAPER, EfficiencyDefinition.ENERGY_RETURNED)
+
+
+def compare_plots(found: Comparison) -> dict[str, bytes]:
+    """Captions and PNGs of a comparison."""
+    pictures = {}
+    for up in (MapInput.RATIO, MapInput.SPEED):
+        piece = slice_of(found.one, MapInput.PRESSURE, up)
+        if piece is not None:
+            where = held_words(found.one, piece)
+            pictures[f"Overall efficiency of A and B in %, and B - A in points, {where}"] = _slices(found, piece)
+    pictures["Mean power of every loss over the common levels"] = _losses(found)
+    return pictures
+
+
+def _slices(found: Comparison, piece: Slice) -> bytes:
+    figure = figure_of(11.0, 6.8)
+    panels = figure.subplots(len(SHOWN), 3)
+    for row, definition in zip(panels, SHOWN, strict=True):
+        one, other = (100.0 * piece.of(data.efficiency(definition).overall) for data in (found.one, found.other))
+        both = np.concatenate([one, other])
+        for axes, field, words in zip(row, (one, other, other - one), ("A", "B", "B - A"), strict=True):
+            contours(axes, found.one, piece, field, levels_of(both if words != "B - A" else field))
+            axes.set_title(f"{words}: {definition.label}", fontsize=8)
+    return png_of(figure)
+
+
+def _losses(found: Comparison) -> bytes:
+    sinks = {
+        words: [float(np.mean(data.values[column])) * 1e-3 for data in (found.one, found.other)]
+        for column, words in LOSSES.items()
+    }
+    sinks = {words: pair for words, pair in sinks.items() if any(pair)}
+    figure = figure_of(9.0, max(2.6, 0.4 * len(sinks)))
+    axes, rows = figure.subplots(), np.arange(len(sinks))
+    one, other = zip(*sinks.values(), strict=True)
+    axes.barh(rows - 0.2, one, 0.38, color="#3c7a8c", label="A")
+    axes.barh(rows + 0.2, other, 0.38, color="#8c5a3c", label="B")
+    axes.set_yticks(rows, list(sinks))
+    axes.invert_yaxis()
+    axes.set_xlabel("mean loss / kW")
+    axes.legend()
+    axes.grid(visible=True, axis="x", alpha=0.3)
+    return png_of(figure)

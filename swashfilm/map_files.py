@@ -1,0 +1,225 @@
+"""An operating map as files: one NetCDF file with units and provenance, and tables cut from it."""
+
+from __future__ import annotations
+
+import csv
+import json
+from collections.abc import Mapping, Sequence
+from datetime import UTC, datetime
+from importlib.metadata import version
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from system.efficiencies import EfficiencyDefinition
+from system.faults import Fault, InputFaults, nearest_path
+from system.map_data import MapData, best_points, objects
+from system.map_interpolation import MapError
+from system.map_plan import MapAxis, MapInput, reading_levels
+from system.map_point import QUANTITIES, Members
+
+if TYPE_CHECKING:
+    import xarray
+
+MAP = "map.nc"
+PARTS = ("overall", "volumetric", "hydromechanical")
+ERRORS = ("rms", "largest")
+_DIMENSIONS = {Members.PAIR: "pair", Members.GAP: "gap"}
+_IN_FILES = {"m3/rev": "m^3", "m3/s": "m^3/s"}
+"""Units as UDUNITS and pint both read them; a revolution is none."""
+
+
+def write_map(path: Path, data: MapData, error: MapError | None, summary: Mapping[str, Any]) -> None:
+    """Write a map as NetCDF: all five axes as dimensions, every variable with units, provenance in attributes."""
+    dataset = map_dataset(data, error)
+    dataset.attrs = {
+        "Conventions": "CF-1.11",
+        "title": f"operating map of {data.name}, {data.words}",
+        "source": f"swashfilm {version('swashfilm')}",
+        "created": datetime.now(UTC).isoformat(timespec="seconds"),
+        "pump": data.name,
+        "solver": data.words,
+        "stated": json.dumps(summary["stated"]),
+        "resolved_toml": summary["resolved_toml"],
+        "assumptions": "\n".join(summary["assumptions"]),
+        "interpolation_error": f"{error.count} {error.shown_by}" if error else "",
+        "bulk_modulus": data.bulk_modulus,
+    }
+    dataset.to_netcdf(path, engine="h5netcdf")
+
+
+def map_dataset(data: MapData, error: MapError | None) -> xarray.Dataset:
+    """The map as labelled arrays, SI."""
+    import xarray
+
+    dims = [axis.input.value for axis in data.axes]
+    coordinates: dict[str, Any] = {
+        axis.input.value: (axis.input.value, np.array(axis.values), _about(axis.input.unit, axis.input.words))
+        for axis in data.axes
+    }
+    coordinates |= {dim: (dim, _texts(members.value)) for members, dim in _DIMENSIONS.items()}
+    coordinates["definition"] = ("definition", _texts([one.value for one in EfficiencyDefinition]))
+    variables = _numbers(data, dims) | _efficiencies(data, dims)
+    variables["toet_displacement"] = (
+        dims[2:], _toet(data), _about("m^3", "derived displacement a revolution by Toet (ISO 8426-1)"),
+    )  # fmt: skip
+    variables["status"] = (dims, _texts(data.status), {"long_name": "what became of the point"})
+    variables["reason"] = (dims, _texts(data.reason), {"long_name": "why there is no result"})
+    told = objects([json.dumps([list(one) for one in remarks]) for remarks in data.warnings.flat], data.shape)
+    variables["warnings"] = (dims, told, {"long_name": "warnings of the point: names and texts, JSON"})
+    return xarray.Dataset(variables | _error_variables(error), coords=coordinates)
+
+
+def _numbers(data: MapData, dims: Sequence[str]) -> dict[str, Any]:
+    found = {}
+    for quantity in QUANTITIES:
+        arrays = [data.values[column] for column in quantity.columns]
+        about = _about(_IN_FILES.get(quantity.unit, quantity.unit), quantity.words)
+        dim = _DIMENSIONS.get(quantity.members)
+        found[quantity.name] = ([dim, *dims], np.stack(arrays), about) if dim else (dims, arrays[0], about)
+    return found
+
+
+def _efficiencies(data: MapData, dims: Sequence[str]) -> dict[str, Any]:
+    """The three efficiencies over the definitions; the formulas stand in the attributes."""
+    found = [data.efficiency(definition) for definition in EfficiencyDefinition]
+    formulas = "; ".join(f"{one.value}: {one.formula}" for one in EfficiencyDefinition)
+    return {
+        f"{part}_efficiency": (
+            ["definition", *dims],
+            np.stack([getattr(one, part) for one in found]),
+            _about("1", f"{part} efficiency by definition") | {"formula": formulas},
+        )
+        for part in PARTS
+    }
+
+
+def _toet(data: MapData) -> np.ndarray:
+    found = np.full(data.shape[2:], np.nan)
+    for index, derived in data.toet.items():
+        found[index] = derived.value
+    return found
+
+
+def _error_variables(error: MapError | None) -> dict[str, Any]:
+    """What the map misses between its levels, rms and largest of each number; none where it is not known."""
+    if error is None:
+        return {}
+    found: dict[str, Any] = {}
+    for quantity in QUANTITIES:
+        values = np.array([[getattr(error, kind)[column] for kind in ERRORS] for column in quantity.columns])
+        dim = _DIMENSIONS.get(quantity.members)
+        about = _about(_IN_FILES.get(quantity.unit, quantity.unit), f"error between levels: {quantity.words}")
+        found[f"error_{quantity.name}"] = ([dim, "error"], values, about) if dim else (["error"], values[0], about)
+    return found | {"error": ("error", _texts(ERRORS))}
+
+
+def map_file(place: Path) -> Path:
+    """The file of a map, by itself or by the run folder it lies in."""
+    return place / MAP if place.is_dir() else place
+
+
+def read_map(path: Path) -> tuple[MapData, MapError | None]:
+    """A map from the file that `write_map` wrote, with its error; raises InputFaults where it is none."""
+    import xarray
+
+    try:
+        with xarray.open_dataset(path, engine="h5netcdf") as dataset:
+            dataset.load()
+        return _data(dataset), _error(dataset)
+    except (OSError, KeyError, ValueError) as reason:
+        expected = f"the {MAP} of a run of `swashfilm map`"
+        raise InputFaults(str(path), [Fault("map", repr(reason), expected, nearest_path(path))]) from None
+
+
+def _data(dataset: xarray.Dataset) -> MapData:
+    axes = tuple(MapAxis(given, tuple(map(float, dataset[given.value].values))) for given in MapInput)
+    shape = tuple(len(axis.values) for axis in axes)
+    told = [tuple(tuple(one) for one in json.loads(str(text))) for text in dataset["warnings"].values.flat]
+    return MapData(
+        name=dataset.attrs["pump"],
+        words=dataset.attrs["solver"],
+        bulk_modulus=float(dataset.attrs["bulk_modulus"]),
+        axes=axes,
+        values=dict(_columns(dataset, "")),
+        status=objects([str(text) for text in dataset["status"].values.flat], shape),
+        reason=objects([str(text) for text in dataset["reason"].values.flat], shape),
+        warnings=objects(told, shape),
+    )
+
+
+def _error(dataset: xarray.Dataset) -> MapError | None:
+    if not dataset.attrs["interpolation_error"]:
+        return None
+    count, _, shown_by = dataset.attrs["interpolation_error"].partition(" ")
+    found = dict(_columns(dataset, "error_"))
+    rms, largest = ({name: float(values[k]) for name, values in found.items()} for k in range(len(ERRORS)))
+    return MapError(rms, largest, int(count), shown_by)
+
+
+def _columns(dataset: xarray.Dataset, before: str) -> Any:
+    """(column, values) of every number of the map."""
+    for quantity in QUANTITIES:
+        values = dataset[before + quantity.name].values
+        several = quantity.members in _DIMENSIONS
+        yield from zip(quantity.columns, values if several else [values], strict=True)
+
+
+def write_tables(folder: Path, data: MapData) -> None:
+    """Write map.csv (a line a point), shares.csv (of each loss) and best.csv, units in the heads."""
+    inputs = _input_columns(data)
+    numbers = {
+        f"{column} [{quantity.unit}]": data.values[column]
+        for quantity in QUANTITIES
+        for column in quantity.columns
+    }
+    for definition in EfficiencyDefinition:
+        found = data.efficiency(definition)
+        numbers |= {f"{definition.value}.{part} [1]": getattr(found, part) for part in PARTS}
+    texts = {"status": data.status, "reason": data.reason}
+    _write(folder / "map.csv", inputs | numbers | texts)
+    losses, whole = data.losses, data.loss
+    shares = {f"{words} [%]": 100.0 * loss / whole for words, loss in losses.items()}
+    _write(folder / "shares.csv", inputs | {"loss [W]": whole} | shares)
+    with (folder / "best.csv").open("w", newline="", encoding="utf-8") as file:
+        table = csv.writer(file)
+        table.writerow(["definition", "overall efficiency [%]", *inputs])
+        for best in best_points(data):
+            place = [f"{column[best.index]:.8g}" for column in inputs.values()]
+            table.writerow([best.definition.value, f"{100.0 * best.overall:.6g}", *place])
+
+
+def _input_columns(data: MapData) -> dict[str, np.ndarray]:
+    """The inputs at every point in the units that people read them in, by their head."""
+    found = {}
+    for k, axis in enumerate(data.axes):
+        levels, unit = reading_levels(axis)
+        shape = [1] * len(data.axes)
+        shape[k] = len(levels)
+        found[f"{axis.input.words} [{unit or '1'}]"] = np.broadcast_to(np.reshape(levels, shape), data.shape)
+    return found
+
+
+def _write(path: Path, columns: Mapping[str, np.ndarray]) -> None:
+    with path.open("w", newline="", encoding="utf-8") as file:
+        table = csv.writer(file)
+        table.writerow(columns)
+        for row in zip(*(values.flat for values in columns.values()), strict=True):
+            table.writerow([_cell(value) for value in row])
+
+
+def _cell(value: object) -> str:
+    """A number to eight digits, empty where there is none; a text as it is."""
+    if isinstance(value, str):
+        return value
+    number = float(value)  # type: ignore[arg-type]  # columns are of numbers or of texts
+    return f"{number:.8g}" if np.isfinite(number) else ""
+
+
+def _about(unit: str, words: str) -> dict[str, str]:
+    return {"units": unit, "long_name": words}
+
+
+def _texts(values: Any) -> np.ndarray:
+    return np.array(values, dtype=object)

@@ -1,0 +1,147 @@
+"""summary.json of an operating map: what was asked, what is solved, best points, displacement, errors."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+import numpy as np
+
+from system.description import PumpDescription
+from system.floating_parts import floating_parts
+from system.kept_points import Kept
+from system.kinematics import Array
+from system.map_data import Best, MapData, best_points, toet_notes, told_warnings
+from system.map_interpolation import MapError
+from system.map_plan import MapAxis, MapInput, MapPlan, point_words, reading_levels
+from system.map_point import LumpedSolver, MapWork, TableSolver
+from system.pump_file import check_pump
+from system.work import Status
+
+
+def map_summary(plan: MapPlan, work: MapWork, data: MapData, kept: Kept, error: MapError | None) -> dict[str, Any]:
+    """The summary of a map whose points' outcomes come first in `kept`, those of fresh points after them."""
+    outcomes = kept.outcomes[: len(plan.points)]
+    solved = [outcome for outcome in outcomes if outcome.status is Status.SOLVED]
+    return {
+        "format": 1,
+        "kind": "map",
+        "name": plan.pump.name,
+        "solver": work.solver.words,
+        "stated": dict(work.solver.stated),
+        "axes": [_axis(axis) for axis in plan.axes],
+        "points": len(outcomes),
+        "solved": len(solved),
+        "kept": kept.known,
+        "checked": len(kept.outcomes) - len(outcomes),
+        "failed": [
+            {"at": point_words(point), "status": outcome.status.value, "reason": outcome.reason}
+            for point, outcome in zip(plan.points, outcomes, strict=True)
+            if outcome.status is not Status.SOLVED
+        ],
+        "best": [_best(data, best) for best in best_points(data)],
+        "displacement": list(_displacements(data)),
+        "displacement_notes": list(toet_notes(data)),
+        "loss": _span(data.loss),
+        "energy_balance_error_max": _largest(data.values["energy_balance_error"]),
+        "interpolation": _interpolation(error, data),
+        "table_error": _table_error(work),
+        "seconds_a_point": float(np.mean([one.seconds for one in solved])) if solved else None,
+        "assumptions": _assumptions(work),
+        "warnings": list(_warnings(plan.pump, plan, data)),
+    }
+
+
+def _axis(axis: MapAxis) -> dict[str, Any]:
+    levels, unit = reading_levels(axis)
+    return {
+        "input": axis.input.value,
+        "words": axis.input.words,
+        "values": list(axis.values),
+        "unit": axis.input.unit,
+        "levels": ", ".join(f"{level:.6g}" for level in levels) + f" {unit}".rstrip(),
+    }
+
+
+def _best(data: MapData, best: Best) -> dict[str, Any]:
+    definition = best.definition
+    told = [axis.input for axis in data.axes if len(axis.values) > 1]
+    return {
+        "definition": definition.value,
+        "label": definition.label,
+        "formula": definition.formula,
+        "overall": best.overall,
+        "at": ", ".join(f"{given.words} {given.text(best.inputs[given])}" for given in told) or "the one point",
+        "inputs": {given.value: value for given, value in best.inputs.items()},
+    }
+
+
+def _displacements(data: MapData) -> Iterator[dict[str, Any]]:
+    """Geometric, swept and by Toet at each displacement ratio, temperature and inlet pressure, m3/rev."""
+    for index in np.ndindex(*data.shape[2:]):
+        here = data.solved[:, :, *index]
+        if not np.any(here):
+            continue
+        derived = data.toet.get(index)
+        levels = zip(data.axes[2:], index, strict=True)
+        told = [axis.input.text(axis.values[k]) for axis, k in levels if _is_told(axis)]
+        yield {
+            "at": ", ".join(told),
+            "geometric_m3_per_rev": float(np.mean(data.values["geometric_displacement"][:, :, *index][here])),
+            "swept_m3_per_rev": float(np.mean(data.values["swept_displacement"][:, :, *index][here])),
+            "toet_m3_per_rev": derived.value if derived else None,
+            "toet_sigma_m3_per_rev": derived.sigma if derived and np.isfinite(derived.sigma) else None,
+        }
+
+
+def _is_told(axis: MapAxis) -> bool:
+    return axis.input is MapInput.RATIO or len(axis.values) > 1
+
+
+def _interpolation(error: MapError | None, data: MapData) -> dict[str, Any] | None:
+    """What the map misses between its levels of the headline numbers, SI, with their largest size."""
+    if error is None:
+        return None
+    names = {"shaft_power": "W", "hydraulic_power": "W", "shaft_torque": "Nm", "delivery_flow": "m3_per_s"}
+    return {
+        "count": error.count,
+        "shown_by": error.shown_by,
+        "numbers": {
+            f"{name}_{unit}": {
+                "rms": error.rms[name],
+                "largest": error.largest[name],
+                "of": _largest(np.abs(data.values[name])),
+            }
+            for name, unit in names.items()
+        },
+    }
+
+
+def _table_error(work: MapWork) -> Mapping[str, float] | None:
+    """What runs by the table miss at its held-out points; None where no table is between."""
+    numbers = work.solver.table.numbers if isinstance(work.solver, TableSolver) else None
+    return numbers.largest() if numbers is not None else None
+
+
+def _assumptions(work: MapWork) -> list[str]:
+    if isinstance(work.solver, LumpedSolver):
+        return []
+    return [str(taken) for taken in floating_parts(work.pump).taken]
+
+
+def _warnings(pump: PumpDescription, plan: MapPlan, data: MapData) -> Iterator[str]:
+    """Those of the plan, of the pump, and of the points with how many they stand at."""
+    yield from plan.checked().warnings
+    yield from (str(warning) for warning in check_pump(pump).warnings if not warning.path.startswith("operating."))
+    for name, (count, text) in told_warnings(data).items():
+        yield f"{name}: at {count} of {int(np.sum(data.solved))} points; at the first: {text}"
+
+
+def _span(values: Array) -> dict[str, float] | None:
+    finite = values[np.isfinite(values)]
+    return {"least_W": float(finite.min()), "largest_W": float(finite.max())} if finite.size else None
+
+
+def _largest(values: Array) -> float:
+    finite = values[np.isfinite(values)]
+    return float(finite.max()) if finite.size else 0.0

@@ -1,0 +1,228 @@
+"""`swashfilm map`, `duty` and `compare`: what they take, leave and refuse."""
+
+import csv
+import json
+from pathlib import Path
+
+import numpy as np
+import pint
+import pytest
+import xarray
+
+from swashfilm.__main__ import main
+from swashfilm.cli_levels import map_axis
+from swashfilm.map_files import read_map
+from system import map_point
+from system.errors import NotConverged
+from system.faults import Fault
+from system.map_plan import MapInput
+
+SMALL = [
+    "--fidelity", "lumped", "--speeds", "1000..2000rpm:3", "--pressures", "10,20,30MPa",
+    "--displacements", "0.5,1", "--check", "4",
+]  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def run(tmp_path_factory):
+    """A whole run, pictures and all; the other tests go without pictures, which take most of the time."""
+    folder = tmp_path_factory.mktemp("map") / "run"
+    assert main(["map", "ref90", *SMALL, "-o", str(folder)]) == 0
+    return folder
+
+
+@pytest.fixture(autouse=True)
+def no_pictures(run, monkeypatch):
+    for module, name in (("map_page", "map_plots"), ("duty_run", "duty_plots"), ("compare_run", "compare_plots")):
+        monkeypatch.setattr(f"swashfilm.{module}.{name}", lambda *_: {})
+
+
+@pytest.mark.parametrize(
+    ("text", "given", "levels"),
+    [
+        ("1000,1300,1700,2100rpm", MapInput.SPEED, [1000, 1300, 1700, 2100]),
+        ("500..2500rpm:9, 3000rpm", MapInput.SPEED, [*range(500, 2501, 250), 3000]),
+        ("60 rpm, 1..3rpm:2", MapInput.SPEED, [1, 3, 60]),
+        ("0.28,1,.5", MapInput.RATIO, [0.28, 0.5, 1.0]),
+        ("0.2..1:5", MapInput.RATIO, [0.2, 0.4, 0.6, 0.8, 1.0]),
+    ],
+)
+def test_levels_are_read(text, given, levels):
+    scale = np.pi / 30.0 if given is MapInput.SPEED else 1.0
+    assert map_axis("--x", text, given, "").values == pytest.approx([scale * level for level in levels])
+
+
+@pytest.mark.parametrize(
+    ("text", "words"), [("1000", "unit"), ("1..2rpm", "number of its levels"), ("1..2rpm:1", "2 to"), ("x", "rpm")]
+)
+def test_levels_that_are_none_are_told(text, words):
+    found = map_axis("--speeds", text, MapInput.SPEED, "1000,2000rpm")
+    assert isinstance(found, Fault)
+    assert words in f"{found.found} {found.expected}"
+
+
+def test_a_map_leaves_its_files(run):
+    summary = json.loads((run / "summary.json").read_text())
+    assert (summary["kind"], summary["points"], summary["solved"], summary["checked"]) == ("map", 18, 18, 4)
+    assert len(list((run / "points").glob("*.json"))) == 22
+    rows = list(csv.DictReader((run / "map.csv").open()))
+    assert len(rows) == 18
+    assert {"shaft speed [rpm]", "delivery pressure [MPa]", "shaft_torque [N m]", "paper.overall [1]"} <= set(
+        rows[0]
+    )
+    shares = list(csv.reader((run / "shares.csv").open()))
+    np.testing.assert_allclose([sum(map(float, row[6:])) for row in shares[1:]], 100.0, atol=0.1)
+    page = (run / "report.html").read_text()
+    assert page.count("data:image/png;base64,") == len(list((run / "plots").glob("*.png"))) == 7
+    assert "Best point of each definition" in page
+    (run / "report.html").unlink()
+    assert main(["report", str(run)]) == 0
+    assert (run / "report.html").is_file()
+
+
+def test_the_netcdf_opens_without_us_and_has_units(run):
+    with xarray.open_dataset(run / "map.nc", engine="h5netcdf") as data:
+        assert data.sizes["shaft_speed"] == 3
+        assert data.sizes["inlet_pressure"] == 1
+        full = data.sel(displacement_ratio=1.0, delivery_pressure=20e6).isel(temperature=0, inlet_pressure=0)
+        assert full["pair_loss"].sel(pair="slipper_swash_plate").shape == (3,)
+        assert float(full["overall_efficiency"].sel(definition="paper").max()) > 0.8
+        units = pint.UnitRegistry()
+        for name, variable in data.variables.items():
+            if variable.dtype.kind == "f":
+                units.parse_expression(variable.attrs["units"])
+                assert variable.attrs["long_name"], name
+        assert "[pump]" in data.attrs["resolved_toml"]
+        assert data.attrs["source"].startswith("swashfilm ")
+
+
+def test_a_map_comes_back_from_its_file(run):
+    data, error = read_map(run / "map.nc")
+    assert data.shape == (3, 3, 2, 1, 1)
+    assert error.count == 4
+    rows = list(csv.DictReader((run / "map.csv").open()))
+    assert data.values["shaft_torque"].flat[5] == pytest.approx(float(rows[5]["shaft_torque [N m]"]))
+    assert data.warnings.flat[0][0][0] == "chamber_cavitates"
+
+
+def test_another_level_solves_its_points_only(run, tmp_path, monkeypatch):
+    solved, solve = [], map_point.LumpedSolver.solve
+    monkeypatch.setattr(
+        map_point.LumpedSolver, "solve", lambda *own: solved.append(own[-1].delivery_pressure) or solve(*own)
+    )
+    words = [*SMALL[:5], "10,15,20,30MPa", *SMALL[6:8], "--check", "0", "--resume", str(run)]
+    assert main(["map", "ref90", *words, "-o", str(tmp_path / "more")]) == 0
+    assert solved == [15e6] * 6
+    summary = json.loads((tmp_path / "more" / "summary.json").read_text())
+    assert (summary["kept"], summary["solved"]) == (18, 24)
+
+
+def test_an_interrupted_map_goes_on(run, tmp_path, monkeypatch, capsys):
+    solve, solved = map_point.LumpedSolver.solve, []
+
+    def broken(self, pump, point):
+        if len(solved) == 35:
+            raise KeyboardInterrupt
+        solved.append(point)
+        return solve(self, pump, point)
+
+    monkeypatch.setattr(map_point.LumpedSolver, "solve", broken)
+    words = ["map", "ref90", *SMALL[:3], "1000..2000rpm:9", *SMALL[4:], "-o", str(tmp_path / "run")]
+    assert main(words) == 130
+    assert f"--resume {tmp_path / 'run.partial'}" in capsys.readouterr().err
+    monkeypatch.setattr(map_point.LumpedSolver, "solve", solve)
+    assert main([*words, "--resume", str(tmp_path / "run.partial")]) == 0
+    summary = json.loads((tmp_path / "run" / "summary.json").read_text())
+    assert (summary["kept"], summary["solved"]) == (33, 54)  # parts of 33 points
+
+
+def test_a_point_that_fails_stops_no_other(tmp_path, monkeypatch, capsys):
+    solve = map_point.LumpedSolver.solve
+
+    def stalls(self, pump, point):
+        if point.delivery_pressure == 20e6:
+            raise NotConverged("made to fail")
+        return solve(self, pump, point)
+
+    monkeypatch.setattr(map_point.LumpedSolver, "solve", stalls)
+    assert main(["map", "ref90", *SMALL, "-o", str(tmp_path / "run")]) == 0
+    assert "made to fail" in (tmp_path / "run" / "report.html").read_text()
+    assert "12 of 18 solved, 6 failed" in capsys.readouterr().out
+    (tmp_path / "cycle.csv").write_text(
+        "time [s], speed [rpm], pressure [bar], displacement ratio [1]\n0,1500,200,1\n1,1500,200,1\n"
+    )
+    assert main(["duty", str(tmp_path / "run"), str(tmp_path / "cycle.csv"), "-o", str(tmp_path / "d")]) == 2
+    assert "points without a result" in capsys.readouterr().err
+    assert main(["map", "ref90", *SMALL[:4], "--pressures", "20MPa", "-o", str(tmp_path / "none")]) == 3
+
+
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        (["--speeds", "1000", "--plan", "papr", "--workers", "0"], ["--speeds", "--plan", "--workers"]),
+        (["--pressures", "10bar", "--fidelity", "lumped"], ["operating.pressure", "inlet_pressure"]),
+        (["--displacements", "1.2", "--fidelity", "lumped"], ["operating.displacement_ratio"]),
+        (["--inlet-pressures", "10,25bar"], ["--inlet-pressures", "--direct takes some 448 s"]),
+        (["--fidelity", "lumped", "--direct"], ["--direct"]),
+        (["--fidelity", "table", "--table", "no.json"], ["no.json"]),
+        (["--workers", "2", "--cluster", "tcp://nowhere:1"], ["--workers"]),
+        (["--resume", "nowhere"], ["--resume", "holds no points"]),
+        (["--speed", "1000rpm"], ["--speed", "--speeds"]),
+    ],
+)
+def test_what_is_wrong_is_told_before_the_first_point(words, told, tmp_path, capsys):
+    assert main(["map", "ref90", *words, "-o", str(tmp_path / "run")]) == 2
+    error = capsys.readouterr().err
+    assert all(text in error for text in told), error
+    assert not (tmp_path / "run").exists()
+
+
+def test_duty_and_compare_leave_their_pages(run, tmp_path, capsys):
+    cycle = tmp_path / "cycle.csv"
+    cycle.write_text(
+        "# a digger\ntime [s], pressure [bar], speed [rpm], displacement_ratio [%]\n"
+        "0, 120, 1000, 60\n10, 280, 1900, 100\n10, 150, 1900, 80\n20, 150, 1200, 80\n"
+    )
+    assert main(["duty", str(run), str(cycle), "-o", str(tmp_path / "duty")]) == 0
+    out = capsys.readouterr().out
+    assert "Mean efficiency" in out
+    assert "held by the map: oil temperature in the case 50 degC" in out
+    summary = json.loads((tmp_path / "duty" / "summary.json").read_text())
+    assert summary["duration_s"] == 20.0
+    assert summary["energy_J"]["loss"]["error"] < 0.01 * summary["energy_J"]["loss"]["value"]
+    assert main(["report", str(tmp_path / "duty")]) == 0
+    other = tmp_path / "worn.toml"
+    other.write_text(
+        (run / "resolved.toml").read_text().replace('radial_clearance = "15 um"', 'radial_clearance = "25 um"')
+    )
+    assert main(["compare", str(run), str(other), "--cycle", str(cycle), "-o", str(tmp_path / "cmp")]) == 0
+    rows = json.loads((tmp_path / "cmp" / "summary.json").read_text())
+    differences = {row["words"]: row for row in rows["differences"]}
+    assert differences["leakage of pistons"]["largest"] > 0.0
+    assert differences["ball guide retainer"]["largest"] == pytest.approx(0.0, abs=1e-9)
+    assert len(rows["duty"]) == 2
+    assert main(["report", str(tmp_path / "cmp")]) == 0
+
+
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        ("time [s], speed [rpm], pressure [bar]\n0,1,1\n1,1,1\n", "displacement ratio"),
+        ("time [s], sped [rpm], pressure [bar], displacement ratio [1]\n0,1,1,1\n1,1,1,1\n", "'speed'"),
+        ("time [s], speed [bar], pressure [bar], displacement ratio [1]\n0,1,1,1\n1,1,1,1\n", "rotational speed"),
+        ("time [s], speed [rpm], pressure [bar], displacement ratio [1]\n0,x,1,1\n1,1,1,1\n", "speed, line 2"),
+        (
+            "time [s], speed [rpm], pressure [bar], displacement ratio [1]\n1,1,1,1\n0,1,1,1\n",
+            "order of their time",
+        ),
+        (
+            "time [s], speed [rpm], pressure [bar], displacement ratio [1]\n0,1500,200,1\n1,1500,500,1\n",
+            "50 MPa at 1 s",
+        ),
+    ],
+)
+def test_what_is_wrong_with_a_cycle_is_told(run, text, told, tmp_path, capsys):
+    (tmp_path / "cycle.csv").write_text(text)
+    assert main(["duty", str(run), str(tmp_path / "cycle.csv"), "-o", str(tmp_path / "d")]) == 2
+    assert told in capsys.readouterr().err
+    assert not Path(tmp_path / "d").exists()

@@ -1,0 +1,237 @@
+"""Operating maps: what names a point, what is made of its numbers, and what is told between the levels."""
+
+from dataclasses import replace
+from functools import cache
+
+import numpy as np
+import pytest
+from pydantic import BaseModel
+
+from reynolds.errors import FilmInputError
+from system.duty import Cycle, duty
+from system.efficiencies import EfficiencyDefinition
+from system.faults import InputFaults
+from system.lumped_point import lumped_point
+from system.map_compare import compare
+from system.map_data import LOSSES, best_points, map_data
+from system.map_interpolation import MapInterpolant, check_points, fresh_error, left_out_error, weights
+from system.map_plan import MapAxis, MapInput, map_plan, paper_axes
+from system.map_point import LumpedSolver, MapWork, point_numbers
+from system.operating import operating_point
+from system.pump_file import load_pump
+from system.work import Status, done_part
+
+PUMP = load_pump("ref90")
+RPM = np.pi / 30.0
+AXES = (
+    MapAxis(MapInput.SPEED, tuple(RPM * speed for speed in (1000.0, 1400.0, 1800.0, 2100.0))),
+    MapAxis(MapInput.PRESSURE, (5e6, 12e6, 20e6, 28e6, 35e6)),
+    MapAxis(MapInput.RATIO, (0.5, 0.75, 1.0)),
+)
+
+
+@cache
+def solved(axes=AXES, pump=PUMP):
+    plan, work = map_plan(pump, axes), MapWork(pump, LumpedSolver())
+    return map_data(plan, work, tuple(done_part(work, point) for point in plan.points))
+
+
+@cache
+def fresh(first, count):
+    points = check_points(map_plan(PUMP, AXES), first + count)[first:]
+    solver = LumpedSolver()
+    rows = [point_numbers(solver.solve(PUMP, point)) for point in points]
+    return points, {head.partition(" [")[0]: np.array([row[head] for row in rows]) for head in rows[0]}
+
+
+def test_the_papers_plan_has_112_points():
+    plan = map_plan(PUMP, paper_axes())
+    assert plan.shape == (4, 7, 4, 1, 1)
+    assert len(plan.points) == 112
+    assert plan.points[0].inlet_pressure == PUMP.operating.inlet_pressure
+    assert plan.points[1].displacement_ratio == 0.51
+    assert plan.checked().faults == ()
+
+
+def test_faults_of_points_are_told_once_before_any_is_solved():
+    axes = (MapAxis(MapInput.PRESSURE, (1e6, 20e6)), MapAxis(MapInput.SPEED, (100.0, 150.0, 900.0)))
+    found = map_plan(PUMP, axes).checked()
+    assert [fault.path for fault in found.faults] == ["operating.pressure"]
+    assert any("at 2 points" in text and "rated_speed" in text for text in found.warnings)
+    for values in ((), (2.0, 1.0), (1.0, 1.0)):
+        with pytest.raises(FilmInputError, match="rise"):
+            MapAxis(MapInput.RATIO, values)
+
+
+def numbers_of(model, path=()):
+    for name in type(model).model_fields:
+        value = getattr(model, name)
+        if isinstance(value, BaseModel):
+            yield from numbers_of(value, (*path, name))
+        elif isinstance(value, float):
+            yield (*path, name), value
+
+
+def with_number(model, path, value):
+    inner = value if len(path) == 1 else with_number(getattr(model, path[0]), path[1:], value)
+    return model.model_copy(update={path[0]: inner})
+
+
+def test_what_changes_a_point_changes_its_name():
+    """Every number of the pump file by 1 %: where the result is another, so is the key."""
+    pump = load_pump("ref90_floating")
+    point = operating_point(pump, delivery_pressure=20e6, displacement_ratio=0.77)
+    solver = LumpedSolver()
+
+    def told(changed):
+        at = operating_point(changed, delivery_pressure=20e6, displacement_ratio=0.77)
+        return MapWork(changed, solver).key(at), np.array(list(point_numbers(solver.solve(changed, at)).values()))
+
+    key, result = MapWork(pump, solver).key(point), told(pump)[1]
+    changed = 0
+    for path, value in numbers_of(pump):
+        if path[0] == "tolerance":
+            continue
+        other = with_number(pump, path, value * 0.99 if value else 1e-3)
+        try:
+            other_key, other_result = told(other)
+        except (ValueError, FilmInputError):
+            continue  # no pump any more
+        if not np.array_equal(other_result, result):
+            changed += 1
+            assert other_key != key, ".".join(path)
+    assert changed > 40
+    same = pump.model_copy(update={"name": "other"})
+    assert MapWork(same, solver).key(point) == key
+    assert MapWork(pump, solver).key(replace(point, shaft_speed=point.shaft_speed * 1.01)) != key
+
+
+def test_a_map_holds_what_its_points_have():
+    data = solved()
+    index = (3, 4, 2, 0, 0)
+    point = lumped_point(PUMP, operating_point(PUMP, shaft_speed=2100 * RPM, delivery_pressure=35e6))
+    assert data.values["shaft_torque"][index] == point.bench.shaft_torque
+    assert data.values["pair_loss.slipper_swash_plate"][index] == point.pairs.slipper_swash_plate.mean
+    paper = data.efficiency(EfficiencyDefinition.PAPER)
+    assert paper.overall[index] == point.paper_efficiency.overall
+    assert paper.volumetric[index] == point.paper_efficiency.volumetric
+    swept = data.efficiency(EfficiencyDefinition.ISO_SWEPT)
+    assert swept.hydromechanical[index] == point.iso_efficiency.hydromechanical
+    total = sum(data.values[column] for column in LOSSES)
+    np.testing.assert_allclose(total, data.loss, rtol=1e-3)
+    best = {one.definition: one for one in best_points(data)}
+    assert best[EfficiencyDefinition.PAPER].overall == paper.overall.max()
+
+
+def test_displacement_by_toet_is_below_the_swept_one():
+    """The lumped REF90's own numbers; leakage that grows with pressure alone leaves the swept displacement."""
+    derived = solved().toet[2, 0, 0].value
+    assert derived == pytest.approx(88.25e-6, abs=0.02e-6)
+    assert solved().values["swept_displacement"][0, 0, 2, 0, 0] == pytest.approx(88.61e-6, abs=0.01e-6)
+    assert solved((MapAxis(MapInput.PRESSURE, (10e6, 20e6)),)).toet == {}
+
+
+def test_a_failed_point_leaves_a_gap():
+    plan, work = map_plan(PUMP, AXES[1:2]), MapWork(PUMP, LumpedSolver())
+    outcomes = [done_part(work, point) for point in plan.points]
+    outcomes[2] = replace(outcomes[2], status=Status.NOT_CONVERGED, reason="it stalls", record={})
+    data = map_data(plan, work, tuple(outcomes))
+    assert np.sum(data.solved) == 4
+    assert np.isnan(data.efficiency(EfficiencyDefinition.PAPER).overall[0, 2, 0, 0, 0])
+    with pytest.raises(InputFaults, match="1 of 5 points without a result, the first: it stalls"):
+        MapInterpolant(data)
+
+
+@pytest.mark.parametrize(("levels", "degree"), [(2, 1), (3, 2), (4, 3), (7, 3)])
+def test_weights_hold_polynomials(levels, degree):
+    places = np.sort(np.random.default_rng(1).uniform(10.0, 30.0, levels))
+    axis = MapAxis(MapInput.RATIO, tuple(places))
+    x = np.linspace(places[0], places[-1], 11)
+    for power in range(degree + 1):
+        np.testing.assert_allclose(weights(axis, x) @ places**power, x**power, rtol=1e-9)
+
+
+def test_between_levels_the_stated_error_holds():
+    """Errors told by some fresh points bound those at others; inner levels left out bound them without any."""
+    interpolant = MapInterpolant(solved())
+    points, found = fresh(0, 24)
+    error = fresh_error(interpolant, points, found)
+    others, truth = fresh(24, 24)
+    told = interpolant.at({given: np.array([getattr(one, given.value) for one in others]) for given in MapInput})
+    for name in ("shaft_power", "hydraulic_power", "shaft_torque", "delivery_flow"):
+        off = np.abs(told[name] - truth[name])
+        assert np.mean(off <= error.largest[name]) >= 0.9
+        assert error.largest[name] <= 1e-3 * np.abs(truth[name]).max()
+        assert left_out_error(solved()).largest[name] >= error.rms[name]
+    at_level = interpolant.at({MapInput.SPEED: 1400 * RPM, MapInput.PRESSURE: 12e6, MapInput.RATIO: 0.75})
+    assert at_level["shaft_torque"][0] == pytest.approx(solved().values["shaft_torque"][1, 1, 1, 0, 0], rel=1e-12)
+    with pytest.raises(FilmInputError, match="nothing is extrapolated"):
+        interpolant.at({MapInput.SPEED: 1400 * RPM, MapInput.PRESSURE: 45e6, MapInput.RATIO: 0.75})
+
+
+def cycle_of(time, speed, pressure, ratio):
+    inputs = (MapInput.SPEED, MapInput.PRESSURE, MapInput.RATIO)
+    values = (np.array(speed, float), np.array(pressure, float), np.array(ratio, float))
+    return Cycle(np.array(time, float), dict(zip(inputs, values, strict=True)))
+
+
+def test_a_constant_cycle_is_its_point_times_the_time():
+    data, interpolant = solved(), MapInterpolant(solved())
+    error = left_out_error(data)
+    found = duty(interpolant, cycle_of([0, 4, 10], [1800 * RPM] * 3, [20e6] * 3, [1.0] * 3), error)
+    index = (2, 2, 2, 0, 0)
+    assert found.energies["shaft"].value == pytest.approx(10.0 * data.values["shaft_power"][index], rel=1e-9)
+    paper = data.efficiency(EfficiencyDefinition.PAPER).overall[index]
+    assert found.efficiency[EfficiencyDefinition.PAPER].value == pytest.approx(paper, rel=1e-9)
+    sinks = sum(found.energies[words].value for words in LOSSES.values() if words in found.energies)
+    assert sinks == pytest.approx(found.energies["loss"].value, rel=1e-3)
+    assert found.marked["chamber_overpressure"] == pytest.approx(1.0)
+
+
+def test_a_cycle_with_steps_and_ramps_is_within_its_error():
+    """Against the fidelity itself at many instants of the cycle."""
+    interpolant = MapInterpolant(solved())
+    points, numbers = fresh(0, 24)
+    cycle = cycle_of([0, 5, 5, 9], [1100 * RPM, 2000 * RPM, 1500 * RPM, 1500 * RPM], [8e6, 30e6, 15e6, 34e6],
+                     [0.6, 0.95, 0.7, 0.7])  # fmt: skip
+    found = duty(interpolant, cycle, fresh_error(interpolant, points, numbers))
+    truth = 0.0
+    for begin, end in ((0, 1), (2, 3)):
+        places, shares = np.polynomial.legendre.leggauss(8)
+        for place, share in zip(0.5 * (places + 1.0), shares, strict=True):
+            at = {given: row[begin] + place * (row[end] - row[begin]) for given, row in cycle.inputs.items()}
+            point = operating_point(PUMP, **{given.value: float(value) for given, value in at.items()})
+            power = lumped_point(PUMP, point).power
+            truth += 0.5 * share * (cycle.time[end] - cycle.time[begin]) * (power.shaft - power.hydraulic)
+    assert abs(found.energies["loss"].value - truth) <= found.energies["loss"].error
+    with pytest.raises(FilmInputError, match="40 MPa at 3 s"):
+        duty(interpolant, cycle_of([0, 3], [150, 150], [20e6, 40e6], [0.6, 0.6]), left_out_error(solved()))
+    with pytest.raises(FilmInputError, match="two rows"):
+        cycle_of([0], [150], [20e6], [0.6])
+
+
+def test_a_map_beside_itself_has_no_difference():
+    found = compare(solved(), solved(), (None, None))
+    assert all(one.largest == 0.0 for one in found.differences)
+    worn = load_pump("ref90", {"piston.radial_clearance": "25 um"})
+    differences = {one.words: one for one in compare(solved(), solved(pump=worn), (None, None)).differences}
+    assert differences["leakage of pistons"].largest > 0.0
+    assert differences["leakage of pistons"].told
+    assert differences["ball guide retainer"].largest == 0.0
+
+
+def test_maps_of_other_levels_meet_in_their_common_box():
+    other = solved(
+        (
+            MapAxis(MapInput.SPEED, (1200 * RPM, 1500 * RPM, 1900 * RPM)),
+            MapAxis(MapInput.PRESSURE, (8e6, 15e6, 22e6, 30e6)),
+            MapAxis(MapInput.RATIO, (0.6, 0.8, 1.0)),
+        )
+    )
+    errors = left_out_error(solved()), left_out_error(other)
+    found = compare(solved(), other, errors)
+    assert found.one.axes[1].values == (8e6, 12e6, 20e6, 28e6, 30e6)
+    assert not any(one.told for one in found.differences if one.unit == "W")
+    far = solved((MapAxis(MapInput.PRESSURE, (40e6, 41e6, 42e6)),))
+    with pytest.raises(InputFaults, match="delivery pressure"):
+        compare(solved(), far, (None, None))
