@@ -99,6 +99,8 @@ class MapData:
         difference = pressure - self.values["port_inlet_pressure"]
         for index in np.ndindex(*self.shape[2:]):
             good = self._pumps[:, :, *index]
+            if not np.any(good):
+                continue
             taken = (values[:, :, *index][good] for values in (speed, difference, self.values["delivery_flow"]))
             try:
                 found[index] = toet_displacement(*taken)

@@ -189,7 +189,7 @@ def test_duty_and_compare_leave_their_pages(run, tmp_path, capsys):
     assert "held by the map: oil temperature in the case 50 degC" in out
     summary = json.loads((tmp_path / "duty" / "summary.json").read_text())
     assert summary["duration_s"] == 20.0
-    assert summary["energy_J"]["loss"]["error"] < 0.01 * summary["energy_J"]["loss"]["value"]
+    assert summary["energy_J"]["loss"]["error"] < 0.05 * summary["energy_J"]["loss"]["value"]
     assert main(["report", str(tmp_path / "duty")]) == 0
     other = tmp_path / "worn.toml"
     other.write_text(
@@ -208,7 +208,7 @@ def test_duty_and_compare_leave_their_pages(run, tmp_path, capsys):
     ("text", "told"),
     [
         ("time [s], speed [rpm], pressure [bar]\n0,1,1\n1,1,1\n", "displacement ratio"),
-        ("time [s], sped [rpm], pressure [bar], displacement ratio [1]\n0,1,1,1\n1,1,1,1\n", "'speed'"),
+        ("time [s], sped [rpm], pressure [bar], displacement ratio [1]\n0,1,1,1\n1,1,1,1\n", "try:      speed"),
         ("time [s], speed [bar], pressure [bar], displacement ratio [1]\n0,1,1,1\n1,1,1,1\n", "rotational speed"),
         ("time [s], speed [rpm], pressure [bar], displacement ratio [1]\n0,x,1,1\n1,1,1,1\n", "speed, line 2"),
         (
