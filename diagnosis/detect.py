@@ -52,10 +52,7 @@ def detect(study: Study, thresholds: Thresholds) -> Detection:
     """
     base = study.base
     chance, strongest = most_striking(base, study.candidates, thresholds)
-    by_channel = {
-        ChannelName.named(channel.name): contrasts(base, at)
-        for at, channel in enumerate(study.observations.channels)
-    }
+    by_channel = {name: contrasts(base, at) for at, name in enumerate(study.channels)}
     readings = base.residual.size
     return Detection(
         p_value=float(chi2.sf(base.objective, readings)),
@@ -96,10 +93,11 @@ def channel_misfits(study: Study) -> dict[ChannelName, ChannelMisfit]:
     """Chi-square of each channel over what the model leaves it free, and its share of the excess."""
     found = misfit(study.base)
     observed, free = (found.pull**2).sum(axis=0), found.variance.sum(axis=0)
+    observed, free = map(study.by_shown, (observed, free))
     excess = np.maximum(observed - free, 0.0)
     share = excess / excess.sum() if excess.any() else excess
     return {
-        ChannelName.named(channel.name): ChannelMisfit(float(observed[at] / free[at]), float(share[at]))
-        for at, channel in enumerate(study.observations.channels)
+        name: ChannelMisfit(float(observed[at] / free[at]), float(share[at]))
+        for at, name in enumerate(study.shown_channels)
         if free[at] > 0
     }

@@ -25,7 +25,6 @@ from diagnosis.thresholds import Thresholds
 from diagnosis.unknown import Scaling, scaling
 from diagnosis.verdict import Diagnosis, Status
 from diagnosis.weighed import Weighed, with_probabilities
-from system.channels import ChannelName
 from system.estimation.observations import Array
 from system.estimation.posterior import Effort, Posterior, settled
 from system.gap_cycle import Report, silent
@@ -199,8 +198,8 @@ def scaling_of(study: Study, weighed: Weighed, viscosity: Array, thresholds: Thr
     found = repair(study, weighed, thresholds)
     sigma = study.base.whitening.sigma
     strength = np.where(study.observations.measured, (found.added / sigma) ** 2, 0.0).sum(axis=0)
-    at = int(np.argmax(strength))
-    channel = ChannelName.named(study.observations.channels[at].name)
+    at = int(np.argmax(strength[: len(study.channels)]))
+    channel = study.channels[at]
     return scaling(channel, found.mismatch[:, at], sigma[:, at], coordinates(study, viscosity))
 
 

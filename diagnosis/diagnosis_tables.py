@@ -54,8 +54,8 @@ def residual_rows(study: Study, diagnosis: Diagnosis, thresholds: Thresholds) ->
     order, added = list(ChannelName), added_by_claim(study, diagnosis, thresholds)
     sigma = diagnosis.before.whitening.sigma
     before, after = diagnosis.before.predictions, diagnosis.after.predictions
-    for point, at in np.argwhere(study.observations.measured):
-        channel = ChannelName.named(study.observations.channels[at].name)
+    for point, at in np.argwhere(study.observations.measured[:, : len(study.channels)]):
+        channel = study.channels[at]
         measured, one = study.observations.values[point, at], sigma[point, at]
         place = {
             f"{axis.value} [{channel_unit(axis)}]": _reading(

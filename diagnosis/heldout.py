@@ -36,13 +36,12 @@ def held_out(study: Study, null: Posterior, own: Posterior, thresholds: Threshol
     gains = {name: _density(own, points) - _density(null, points) for name, points in folds.items()}
     vetoed = speak_against(np.array(list(gains.values())), thresholds.heldout)
     fifths = _fifths(len(study.axes), thresholds.seeds.locate)
-    names = [ChannelName.named(channel.name) for channel in study.observations.channels]
     measured = study.observations.measured
 
     def rms(residual: Array) -> dict[ChannelName, float]:
         return {
             name: float(np.sqrt(np.mean(residual[measured[:, at], at] ** 2)))
-            for at, name in enumerate(names)
+            for at, name in enumerate(study.channels)
             if measured[:, at].any()
         }
 

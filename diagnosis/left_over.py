@@ -18,7 +18,6 @@ from diagnosis.repair import repair
 from diagnosis.study import Study
 from diagnosis.thresholds import Thresholds
 from diagnosis.weighed import Weighed
-from system.channels import ChannelName
 from system.errors import NotConverged
 from system.estimation.evidence import multiplier_evidence
 from system.estimation.observations import Array
@@ -64,22 +63,22 @@ def _scatter(residual: Array, thresholds: Thresholds) -> Iterator[str]:
 
 
 def _shares(study: Study, best: Weighed, thresholds: Thresholds) -> Array:
-    """(C,), by channel, of the square of what the explanation adds, in sigma; 0 where that is not known."""
+    """By shown channel, of the square of what the explanation adds, in sigma; 0 where that is not known."""
     try:
         added = repair(study, best, thresholds).added / study.base.whitening.sigma
     except NotConverged:
-        return np.zeros(len(study.observations.channels))
+        return np.zeros(len(study.shown_channels))
     squares = np.where(study.observations.measured, added**2, 0.0).sum(axis=0)
+    squares = study.by_shown(squares)
     return np.asarray(squares / squares.sum()) if squares.any() else np.zeros_like(squares)
 
 
 def _regions(study: Study, after: Posterior, least: Array, thresholds: Thresholds) -> Iterator[str]:
     """The first two parts of the map that stand out of what is left."""
-    names = [ChannelName.named(channel.name) for channel in study.observations.channels]
-    by_channel = {name: contrasts(after, at) for at, name in enumerate(names)}
+    by_channel = {name: contrasts(after, at) for at, name in enumerate(study.channels)}
     flags = flagged(by_channel, axis_values(study.recording), thresholds.mismatch.flag_rate)
     for flag in flags[:2]:
-        if abs(flag.contrast) > least[names.index(flag.channel)]:
+        if abs(flag.contrast) > least[study.channels.index(flag.channel)]:
             yield f"{flag.channel.value} stays {flag.contrast:+.1f} sigma off at {flag.text}"
 
 
@@ -92,7 +91,8 @@ def _striking(
     if chance >= thresholds.mismatch.chance:
         return
     candidate, found = strongest[0]
-    channel = np.bincount(after.whitening.rows[:, 1], candidate.column**2, least.size).argmax()
+    columns = len(study.observations.channels)
+    channel = study.by_shown(np.bincount(after.whitening.rows[:, 1], candidate.column**2, columns)).argmax()
     if abs(found.z) > least[channel]:
         yield f"{candidate.entry.id.value} stands out of what is left by {abs(found.z):.1f} sigma"
 

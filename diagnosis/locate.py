@@ -77,14 +77,15 @@ def of_explanation(study: Study, location: Location, added: Array, thresholds: T
 
 def _channels(study: Study, pattern: Array, least_share: float) -> tuple[ChannelName, ...]:
     """Those in which the best component's missing part shows: raw excess would count every channel's noise."""
-    energy = (pattern**2).sum(axis=0)
+    energy = study.by_shown((pattern**2).sum(axis=0))
     order = np.argsort(-energy)
     least = least_share * energy.sum()
-    names = [ChannelName.named(channel.name) for channel in study.observations.channels]
-    return tuple(names[at] for at in order if energy[at] > 0 and energy[at] >= least)
+    return tuple(study.shown_channels[at] for at in order if energy[at] > 0 and energy[at] >= least)
 
 
 def _region(study: Study, channel: ChannelName, pattern: Array, share: float) -> Region | None:
-    at = [each.name for each in study.observations.channels].index(channel.value)
+    if channel not in study.channels:
+        return None
+    at = study.channels.index(channel)
     axes = axis_values(study.recording)
     return densest_region(channel, contrasts(study.base, at), pattern[:, at], axes, share)

@@ -8,18 +8,16 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Protocol, Self
 
 import numpy as np
 from scipy.linalg import cho_factor, cho_solve
 
 from diagnosis.bench_box import rig_box, rows
-from diagnosis.study import Study
+from diagnosis.study import MovableSimulator, Study
 from system.bench_points import BenchPoints, operating_at
 from system.description import PumpDescription
 from system.estimation.observations import Array, Observations
 from system.estimation.posterior import Posterior, standard_slopes
-from system.estimation.simulator import Simulator
 from system.estimation.whitening import Whitening, whitener
 from system.operating import OperatingPoint
 from system.physics.effects import EffectId
@@ -56,14 +54,6 @@ class NextPoint:
     repeats: int
     why: str
     ranked: tuple[Gained, ...] = ()
-
-
-class MovableSimulator(Simulator, Protocol):
-    """A simulator of a bench map that can be asked at other points."""
-
-    def elsewhere(self, points: BenchPoints) -> Self:
-        """The same pump with the same parameters and laws at other points."""
-        ...
 
 
 @dataclass(frozen=True)
@@ -153,21 +143,20 @@ def _levels(lower: float, upper: float, count: int) -> Array:
 
 def _readings(study: Study, predictions: Array) -> Observations:
     """Readings at new points that are as predicted, with the noise of the recording's channels."""
-    seen = study.observations
-    noise = {channel.name.value: channel for channel in study.recording.channels}
-    recorded = [noise.get(channel.name) for channel in seen.channels]
+    seen, count = study.observations, len(study.channels)
+    recorded = [study.recording.channel(name) for name in study.channels]
     sigma = [
         np.full(len(predictions), np.nan) if one is None else one.sigma + one.sigma_relative * np.abs(column)
         for one, column in zip(recorded, predictions.T, strict=True)
     ]
-    known = seen.measured.any(axis=0) & np.array([one is not None for one in recorded])
+    known = seen.measured[:, :count].any(axis=0) & np.array([one is not None for one in recorded])
     return Observations(
-        channels=seen.channels,
+        channels=seen.channels[:count],
         values=np.where(known, predictions, np.nan),
         sigma=np.stack(sigma, axis=1),
         inputs=seen.inputs,
         input_sigma=np.tile(np.median(seen.input_sigma, axis=0), (len(predictions), 1)),
-        quantum=seen.quantum,
+        quantum=seen.quantum[:count],
         blocks=np.arange(len(predictions)),
     )
 

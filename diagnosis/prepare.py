@@ -12,7 +12,8 @@ from diagnosis.readings import bench_points, complete, measured, observations
 from diagnosis.recording import DataNote, NoteKind, Recording
 from diagnosis.study import Study, study_of
 from diagnosis.thresholds import Thresholds
-from diagnosis.trace_misfits import port_events, trace_misfits
+from diagnosis.trace_misfits import port_events, trace_misfits, trace_parameters
+from diagnosis.traced_bench import traced_bench
 from reynolds.errors import FilmInputError
 from system.bench_map import LumpedBench
 from system.bench_parameters import base_parameters
@@ -37,6 +38,7 @@ def prepare(
 ) -> Study:
     """The study of a recording of a pump, by the lumped fidelity, with the whole catalogue as candidates.
 
+    Chamber traces are readings of it as the steady ones are, some tens of numbers each (`TracedBench`).
     What the recording leaves out is taken and told in the notes of the study's recording. Raises FilmInputError
     for a recording without an output that the simulation knows, NotConverged where a point cannot be simulated.
     """
@@ -52,18 +54,24 @@ def prepare(
         if name not in SIMULATED
     )
     usable = replace(usable, notes=(*usable.notes, *taken, *unused))
-    parameters = (*base_parameters(pump, tolerances), *_sensors(usable, channels))
-    simulator = LumpedBench(pump, points, channels, parameters, inputs=inputs)
-    found = observations(usable, channels, inputs)
-    study = study_of(usable, simulator, found, scaled_axes(usable), catalogue, thresholds)
-    if memory := noise_memory(study, thresholds.mismatch.memory):
+    parameters = (*base_parameters(pump, tolerances), *_sensors(usable, channels), *trace_parameters(usable))
+    bench = LumpedBench(pump, points, channels, parameters, inputs=inputs)
+    found, axes = observations(usable, channels, inputs), scaled_axes(usable)
+    traces = usable.channel(ChannelName.P_CHAMBER) if usable.traces else None
+    study = study_of(usable, bench, found, axes, () if traces else catalogue, thresholds)
+    memory = noise_memory(study, thresholds.mismatch.memory)
+    if memory:
         told = (
             f"what is left goes on from point to point: noise taken as correlated by {memory[0]:.2f} in the order"
         )
         usable = replace(usable, notes=(*usable.notes, DataNote(NoteKind.TOLD, None, (), told)))
         found = replace(found, memory=memory)
-        study = study_of(usable, simulator, found, study.axes, catalogue, thresholds)
-    return replace(study, traces=trace_misfits(usable, simulator), events=port_events(pump))
+    if traces:
+        traced = traced_bench(bench, usable.traces, traces)
+        study = study_of(usable, traced, traced.observations(found), axes, catalogue, thresholds)
+    elif memory:
+        study = study_of(usable, bench, found, axes, catalogue, thresholds)
+    return replace(study, traces=trace_misfits(usable, bench), events=port_events(pump))
 
 
 def _sensors(recording: Recording, channels: tuple[ChannelName, ...]) -> tuple[Parameter, ...]:

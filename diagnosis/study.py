@@ -11,6 +11,7 @@ import numpy as np
 from diagnosis.recording import Recording, TraceBlock
 from diagnosis.thresholds import Thresholds
 from system.bench_points import BenchPoints
+from system.channels import ChannelName
 from system.components import Component
 from system.estimation.evidence import Sign
 from system.estimation.observations import Array, Observations
@@ -42,7 +43,15 @@ SUBJECTS: Mapping[EffectId, str] = {
 """What an effect without a law is about: a parameter, or its name up to the dot where there are several."""
 
 
-class PumpSimulator(Simulator, Protocol):
+class MovableSimulator(Simulator, Protocol):
+    """A simulator of a bench map that can be asked at other points."""
+
+    def elsewhere(self, points: BenchPoints) -> MovableSimulator:
+        """The same pump with the same parameters and laws at other points, steady readings alone."""
+        ...
+
+
+class PumpSimulator(MovableSimulator, Protocol):
     """A simulator of a pump's bench map that laws of the catalogue can be switched on in."""
 
     def with_parameters(self, parameters: tuple[Parameter, ...]) -> Self:
@@ -55,10 +64,6 @@ class PumpSimulator(Simulator, Protocol):
 
     def difference(self, values: Array, other: Array) -> Array:
         """Readings (N, C) at `other` values less those at `values`; may be approximate, as slopes are."""
-        ...
-
-    def elsewhere(self, points: BenchPoints) -> Self:
-        """The same pump with the same parameters and laws at other points."""
         ...
 
     def traces(self, values: Array, points: tuple[int, ...], angles: Array) -> Array:
@@ -101,8 +106,8 @@ class PortEvent:
 class TraceMisfit:
     """A recorded chamber pressure less the simulated one, (K,) in Pa, with what may explain it away.
 
-    nuisances: (K, m), change of the simulated trace by one spread of each parameter it hangs on, encoder offset
-    included; sigma: (K,), one sigma of the recorded mean, Pa.
+    nuisances: (K, m), change of the simulated trace by one spread of each parameter it hangs on; sigma:
+    (K,), one sigma of the recorded mean, Pa.
     """
 
     block: TraceBlock
@@ -128,6 +133,23 @@ class Study:
     axes: Array
     traces: tuple[TraceMisfit, ...] = ()
     events: tuple[PortEvent, ...] = ()
+
+    @property
+    def channels(self) -> tuple[ChannelName, ...]:
+        """Those read at the steady points, the first C of the observations: what follows are numbers of traces."""
+        names = (ChannelName.named(channel.name) for channel in self.observations.channels)
+        return tuple(name for name in names if name is not ChannelName.P_CHAMBER)
+
+    @property
+    def shown_channels(self) -> tuple[ChannelName, ...]:
+        """The same, and the chamber's pressure where it was recorded."""
+        traced = len(self.observations.channels) > len(self.channels)
+        return (*self.channels, ChannelName.P_CHAMBER) if traced else self.channels
+
+    def by_shown(self, sums: Array) -> Array:
+        """Sums of the observations' columns as sums of `shown_channels`: those of the traces' numbers are one."""
+        count = len(self.channels)
+        return np.append(sums[:count], sums[count:].sum()) if count < sums.size else sums
 
 
 def study_of(

@@ -50,9 +50,9 @@ def scan_time(study: Study, thresholds: Thresholds) -> TimeMark | None:
     patterns = _patterns(len(study.observations.values))
     shapes = smooth_shapes(study.axes)
     found = []
-    for at, reading in enumerate(study.observations.channels):
+    for at, name in enumerate(study.channels):
         own = contrasts(study.base, at, beside=_smooth_columns(study, at, shapes))
-        found.append((ChannelName.named(reading.name), own, own.z(patterns) / own.scatter))
+        found.append((name, own, own.z(patterns) / own.scatter))
     best = max(found, key=lambda each: np.abs(each[2]).max())
     channel, own, z = best
     p_value = min(1.0, len(found) * _greatest_p(own, patterns, z, limits.draws, thresholds.seeds.locate))

@@ -7,41 +7,48 @@ from collections.abc import Iterator
 import numpy as np
 
 from diagnosis.recording import RecordedChannel, Recording, TraceBlock, reading_sigma
-from diagnosis.study import PortEvent, PumpSimulator, TraceMisfit
+from diagnosis.study import PortEvent, TraceMisfit
+from system.bench_map import LumpedBench
+from system.bench_parameters import GROOVE_NAMES, groove_parameters
 from system.channels import ChannelName
 from system.description import PumpDescription
 from system.estimation.observations import Array
+from system.estimation.parameters import Parameter
 from system.estimation.posterior import values_at
 from system.lumped import port_openings
-from system.physics.catalogue import entry_of
-from system.physics.effects import EffectId
 from system.ports import TURN, PortOpening
-from system.sensors import encoder_parameter
+from system.sensors import TRACE_NAMES, encoder_parameter, transducer_parameters
 
-MOVING = (
-    "encoder_offset", "bulk_modulus", "dead_volume", "flow_coefficient", "stand_out_share", "p_out.zero",
-    "film_thickness.piston", "film_thickness.slipper", "film_thickness.valve_plate", "viscosity",
-)  # fmt: skip
-"""Parameters that a chamber's pressure over the turn hangs on."""
-GROOVES = tuple(law.members[0] for law in entry_of(EffectId.NOTCH_EROSION).extensions)
-GROOVE_TOLERANCE = 0.3  # of the spread of eroded grooves: half a degree of their start, a tenth of their area
-SMOOTHED = np.radians(1.0)  # over which a transducer and its bore smooth a pressure, one sigma
+MOVING = frozenset({
+    "bulk_modulus", "dead_volume", "flow_coefficient", "stand_out_share", "p_out.zero", "film_thickness.piston",
+    "film_thickness.slipper", "film_thickness.valve_plate", "viscosity", *GROOVE_NAMES, *TRACE_NAMES,
+})  # fmt: skip
+"""Parameters that a chamber's pressure over the turn hangs on, as it is read."""
+LINE_LAG = 1e-4  # s, one sigma: a transducer behind a bore follows within a degree at 1500 r/min
 NO_ENCODER = 1e-6  # rad: one sigma of an encoder that is stated to be without offset
 
 
-def trace_misfits(recording: Recording, simulator: PumpSimulator) -> tuple[TraceMisfit, ...]:
+def trace_parameters(recording: Recording) -> tuple[Parameter, ...]:
+    """What traces hang on and steady readings hardly do: encoder, transducer, cut of the relief grooves.
+
+    None where the recording has no traces.
+    """
+    transducer, encoder = recording.channel(ChannelName.P_CHAMBER), recording.channel(ChannelName.ANGLE)
+    if transducer is None or not recording.traces:
+        return ()
+    offset = max(NO_ENCODER, 0.0 if encoder is None else encoder.zero_sigma)
+    return (encoder_parameter(offset), *transducer_parameters(transducer, LINE_LAG), *groove_parameters())
+
+
+def trace_misfits(recording: Recording, bench: LumpedBench) -> tuple[TraceMisfit, ...]:
     """The recorded traces less those simulated at the prior mean, with what may explain them away.
 
-    Beside the pump's own parameters: the offset of the encoder, gain, zero and smoothing of the pressure sensor,
-    and the tolerance of the relief grooves. An angle is known to its step, so where pressure is steep it is not.
+    An angle is known to its step, so where pressure is steep it is not.
     """
     channel = recording.channel(ChannelName.P_CHAMBER)
     if channel is None:
         return ()
-    encoder = recording.channel(ChannelName.ANGLE)
-    offset = max(NO_ENCODER, 0.0 if encoder is None else encoder.zero_sigma)
-    with_encoder = simulator.with_parameters((encoder_parameter(offset),))
-    return tuple(_misfit(trace, channel, with_encoder) for trace in recording.traces)
+    return tuple(_misfit(trace, channel, bench.finely((trace.point,))) for trace in recording.traces)
 
 
 def port_events(pump: PumpDescription) -> tuple[PortEvent, ...]:
@@ -66,26 +73,16 @@ def _of(port: PortOpening[float]) -> Iterator[tuple[float, str]]:
     yield port.kidney_end, "kidney is shut"
 
 
-def _misfit(trace: TraceBlock, channel: RecordedChannel, simulator: PumpSimulator) -> TraceMisfit:
-    eroded = simulator.with_extensions(GROOVES)
-    spreads = {parameter.name: GROOVE_TOLERANCE for law in GROOVES for parameter in law.parameters}
-    spreads |= dict.fromkeys(MOVING, 1.0)
-    start = np.zeros(len(eroded.parameters))
+def _misfit(trace: TraceBlock, channel: RecordedChannel, bench: LumpedBench) -> TraceMisfit:
+    start = np.zeros(len(bench.parameters))
 
     def simulated(xi: Array) -> Array:
-        return eroded.traces(values_at(eroded.parameters, xi), (trace.point,), trace.angle)[0]
+        return bench.turns(values_at(bench.parameters, xi), trace.angle)[0]
 
     plain = simulated(start)
-    moved = []
-    for at, parameter in enumerate(eroded.parameters):
-        if parameter.name in spreads:
-            xi = start.copy()
-            xi[at] = spreads[parameter.name]
-            moved.append(simulated(xi) - plain)
-    step = TURN / len(plain)
-    steepness = (np.roll(plain, -1) - np.roll(plain, 1)) / (2.0 * step)
-    bend = (np.roll(plain, -1) - 2.0 * plain + np.roll(plain, 1)) / step**2
-    sensor = (channel.gain_sigma * plain, np.full_like(plain, channel.zero_sigma), 0.5 * SMOOTHED**2 * bend)
+    moving = [at for at, parameter in enumerate(bench.parameters) if parameter.name in MOVING]
+    moved = [simulated(np.where(np.arange(start.size) == at, 1.0, 0.0)) - plain for at in moving]
+    rise = 0.5 * (np.roll(plain, -1) - np.roll(plain, 1))
     noise = np.hypot(reading_sigma(channel, trace.mean), channel.quantum / np.sqrt(12.0)) / np.sqrt(trace.cycles)
-    sigma = np.hypot(noise, steepness * step / np.sqrt(12.0))
-    return TraceMisfit(trace, trace.mean - plain, np.stack([*moved, *sensor], axis=1), sigma)
+    sigma = np.hypot(noise, rise / np.sqrt(12.0))
+    return TraceMisfit(trace, trace.mean - plain, np.stack(moved, axis=1), sigma)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from time import process_time
 
 from diagnosis.data_checks import too_few
@@ -119,7 +119,7 @@ def _prepared(
     """The study with the paper's priors of friction, its bench by itself, and what is to be told."""
     catalogue = (entry_of(EffectId.MIXED_FRICTION),) if with_hersey else ()
     allowed, taken = tolerances(pump)
-    plain = prepare(pump, recording, allowed, thresholds, ())
+    plain = prepare(pump, replace(recording, traces=()), allowed, thresholds, ())
     few = too_few(plain.recording, len(plain.simulator.parameters))
     if few is not None:
         raise InputFaults(recording.title, [Fault("recording", few.text, "more readings than parameters")])

@@ -27,8 +27,7 @@ from system.lumped import lumped_pairs
 from system.physics.effects import both
 from system.physics.extension import Extension
 from system.physics.switched import stated_effects, stated_laws
-from system.ports import TURN
-from system.sensors import ENCODER_OFFSET, READING_NAMES, SENSOR_NAMES, read
+from system.sensors import READING_NAMES, SENSOR_NAMES, TRACE_NAMES, read, read_turns
 from system.unlike import kinds
 
 SAMPLES_PER_PITCH = 10
@@ -121,10 +120,10 @@ class LumpedBench:
         before = self._read(solved, values, self.points)
         for name in names:
             index = [parameter.name for parameter in self.parameters].index(name)
-            step = self._step(index, float(values[index]))
+            step = self.step_of(name, values)
             moved = np.array(values, dtype=float)
             moved[index] += step
-            near = solved if name in READING_NAMES else self._near(solved, moved, self.points)
+            near = solved if name in READING_NAMES | TRACE_NAMES else self._near(solved, moved, self.points)
             columns.append((self._read(near, moved, self.points) - before) / step)
         return np.stack(columns, axis=-1) if columns else np.zeros((*self._shape, 0))
 
@@ -156,20 +155,22 @@ class LumpedBench:
         )  # fmt: skip
 
     def traces(self, values: Array, points: tuple[int, ...], angles: Array) -> Array:
-        """Chamber pressure (len(points), K) in Pa gauge at shaft angles (K,) rad as an encoder reads them.
+        """Chamber pressure (len(points), K) in Pa gauge at shaft angles (K,) rad, as `turns` of a finer bench."""
+        return self.finely(points).turns(values, angles)
 
-        The parameter `encoder_offset` (rad), where there is one, is what the encoder reads too much.
-        """
+    def finely(self, points: tuple[int, ...]) -> LumpedBench:
+        """The same bench at some of its points, with as many shaft angles as a trace asks for."""
         chosen = list(points)
         some = replace(self.points, **{name: getattr(self.points, name)[chosen] for name in vars(self.points)})
-        fine = LumpedBench(
+        return LumpedBench(
             self.pump, some, self.channels, self.parameters, self.physics, self.inputs, TRACE_SAMPLES_PER_PITCH,
             self.tolerance,
         )  # fmt: skip
-        pressure = fine.solved(values).courses.pressure
-        place = (angles - self._named(values).get(ENCODER_OFFSET, 0.0)) % TURN
-        grid = TURN * np.arange(pressure.shape[1]) / pressure.shape[1]
-        return np.stack([np.interp(place, grid, one, period=TURN) for one in pressure])
+
+    def turns(self, values: Array, angles: Array) -> Array:
+        """Chamber pressure (N, K) in Pa gauge at shaft angles (K,) rad, as encoder and transducer read it."""
+        pressure = self.solved(values).courses.pressure
+        return read_turns(pressure, self.points.speed, angles, self._named(values))
 
     def courses(self, values: Array) -> Courses:
         """Chamber pressure over the turn at all points, and the totals of a turn."""
@@ -243,9 +244,10 @@ class LumpedBench:
         found = truth(solved)[:, self._columns]
         return read(found, self.channels, points, self._named(values))
 
-    def _step(self, index: int, value: float) -> float:
-        """A step of a value in SI, away from its nearer bound."""
-        parameter = self.parameters[index]
+    def step_of(self, name: str, values: Array) -> float:
+        """The step in SI by which a slope of the named parameter is taken, away from its nearer bound."""
+        index = [parameter.name for parameter in self.parameters].index(name)
+        parameter, value = self.parameters[index], float(values[index])
         step = STEP * parameter.stretch(parameter.standard(value))
         if parameter.scale is Scale.LOG:
             step = min(step, LOG_STEP * value)

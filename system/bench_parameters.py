@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from math import inf
 
 import numpy as np
@@ -25,15 +26,19 @@ _THICKNESS = {
     Gap.VALVE_PLATE: ("valve_plate", "film_thickness"),
 }
 
+GROOVE_NAMES = (GROOVE_ADVANCE, GROOVE_AREA) = ("groove_advance", "groove_area")
+GROOVE_SPREAD = (np.radians(0.5), 0.1)
+"""One sigma of how relief grooves are cut: of their beginning (rad), of their throats' area (relative)."""
+
 BASE_NAMES = frozenset(
     {
         *(f"film_thickness.{gap.value}" for gap in Gap),
         *(f"friction.{pair}" for pair in FrictionSection.model_fields),
         "eccentricity_ratio", "bulk_modulus", "viscosity", "viscosity_slope", "displacement", "dead_volume",
-        "flow_coefficient", "stand_out_share",
+        "flow_coefficient", "stand_out_share", *GROOVE_NAMES,
     }
 )  # fmt: skip
-"""Names of all parameters of `base_parameters`."""
+"""Names of all parameters of `base_parameters` and `groove_parameters`."""
 
 
 def base_parameters(pump: PumpDescription, tolerances: Tolerances) -> tuple[Parameter, ...]:
@@ -52,6 +57,20 @@ def base_parameters(pump: PumpDescription, tolerances: Tolerances) -> tuple[Para
         _relative("dead_volume", pump.pump.dead_volume, tolerances.dead_volume, Dimension.VOLUME),
         _relative("flow_coefficient", pump.ports.flow_coefficient, tolerances.flow_coefficient, None, upper=1.0),
         _absolute("stand_out_share", _share(pump), tolerances.stand_out_share, 0.0, 1.2),
+    )
+
+
+def groove_parameters() -> tuple[Parameter, ...]:
+    """How the relief grooves ahead of the kidneys are cut: groove_advance in rad sooner, groove_area a factor.
+
+    Steady readings hardly show it: for what has traces.
+    """
+    advance, area = GROOVE_SPREAD
+    return (
+        Parameter(
+            GROOVE_ADVANCE, Role.BASE, Scale.NORMAL, 0.0, advance, -0.1, 0.1, Dimension.ANGLE, "cut of grooves"
+        ),
+        replace(_relative(GROOVE_AREA, 1.0, area, None), source="cut of grooves"),
     )
 
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from reynolds.oil import walther
 from system.bench_courses import MapProblem, map_problem
-from system.bench_parameters import pump_with
+from system.bench_parameters import GROOVE_ADVANCE, GROOVE_AREA, pump_with
 from system.bench_points import BenchPoints
 from system.chamber_problem import LeakTable
 from system.description import PumpDescription
@@ -47,7 +47,10 @@ def setting(
         viscosity=walther(temperature, own.oil.fluid) * own.oil.density,
     )
     motion = piston_motion(own, point, samples_per_pitch)
-    return Setting(own, point, motion, map_problem(own, point, motion, lumped_leaks(own, point, motion)))
+    problem = map_problem(own, point, motion, lumped_leaks(own, point, motion))
+    problem.ports[:, 1] += values.get(GROOVE_ADVANCE, 0.0)
+    problem.ports[:, 2] *= values.get(GROOVE_AREA, 1.0)
+    return Setting(own, point, motion, problem)
 
 
 def affected(given: Setting, effects: Effects) -> Setting:
@@ -61,7 +64,8 @@ def affected(given: Setting, effects: Effects) -> Setting:
     leaks = LeakTable(leaks.conductance * np.swapaxes(effects.conductance, 0, 1), leaks.carried_flow)
     problem = map_problem(given.pump, point, motion, leaks)
     ports = problem.ports.copy()
-    ports[:, 1], ports[:, 2] = effects.groove_advance, effects.groove_area
+    ports[:, 1] = given.problem.ports[:, 1] + effects.groove_advance
+    ports[:, 2] = given.problem.ports[:, 2] * effects.groove_area
     return Setting(given.pump, point, motion, replace(problem, ports=ports))
 
 

@@ -13,19 +13,25 @@ from system.bench_points import BenchPoints
 from system.channels import OUTPUTS, ChannelName
 from system.estimation.parameters import Parameter, Role, Scale
 from system.kinematics import Array
+from system.ports import TURN
 from system.units import Dimension
 
 BIASED_INPUTS = (ChannelName.P_OUT, ChannelName.T_CASE, ChannelName.DISPLACEMENT_RATIO)
 """Inputs of which a bias is told apart from others'; their place in `BenchPoints` is their name."""
 CALIBRATION = "calibration of the channel"
 ENCODER_OFFSET = "encoder_offset"
+CHAMBER_GAIN, CHAMBER_ZERO, CHAMBER_LAG = (
+    f"{ChannelName.P_CHAMBER.value}.{what}" for what in ("gain", "zero", "lag")
+)
+TRACE_NAMES = frozenset({ENCODER_OFFSET, CHAMBER_GAIN, CHAMBER_ZERO, CHAMBER_LAG})
+"""Names of the parameters that change what traces read, and no steady reading."""
 READING_NAMES = frozenset(
     f"{channel.value}.{what}" for channel in OUTPUTS for what in ("gain", "zero", "drift", "lag")
 )
 """Names of the parameters that change what is read, not what is there."""
 SENSOR_NAMES = frozenset(
     {
-        ENCODER_OFFSET,
+        *TRACE_NAMES,
         *READING_NAMES,
         *(f"{channel.value}.zero" for channel in BIASED_INPUTS),
     }
@@ -75,6 +81,37 @@ def encoder_parameter(sigma: float) -> Parameter:
     return Parameter(
         ENCODER_OFFSET, Role.SENSOR, Scale.NORMAL, 0.0, sigma, -0.2, 0.2, Dimension.ANGLE, CALIBRATION
     )
+
+
+def transducer_parameters(transducer: Sensor, lag: float) -> tuple[Parameter, ...]:
+    """p_chamber.gain, p_chamber.zero (Pa) and p_chamber.lag (s, one sigma `lag`) of the transducer of traces.
+
+    The lag is that of the bore and line before it, a first-order one. What is known for certain has no parameter.
+    """
+    found = [lag_parameter(transducer.name, lag)]
+    if transducer.gain_sigma > 0.0:
+        found.append(_bias(transducer.name, "gain", transducer.gain_sigma, None, 0.9))
+    if transducer.zero_sigma > 0.0:
+        found.append(_bias(transducer.name, "zero", transducer.zero_sigma, transducer.name.dimension, inf))
+    return tuple(found)
+
+
+def read_turns(pressure: Array, speed: Array, angles: Array, values: Mapping[str, float]) -> Array:
+    """Chamber pressure (N, K) in Pa gauge as read at shaft angles (K,) rad, of turns (N, M) at even angles from 0.
+
+    speed (N,), rad/s. By the values of TRACE_NAMES: the encoder reads its offset too much; what the transducer
+    follows with its lag tau is the turn's k-th harmonic over 1 + i k omega tau.
+    """
+    samples = pressure.shape[1]
+    lag = values.get(CHAMBER_LAG, 0.0)
+    if lag > 0.0:
+        order = np.arange(samples // 2 + 1)
+        late = np.fft.rfft(pressure, axis=1) / (1.0 + 1j * order * np.reshape(speed, (-1, 1)) * lag)
+        pressure = np.fft.irfft(late, samples, axis=1)
+    place = (angles - values.get(ENCODER_OFFSET, 0.0)) % TURN
+    grid = TURN * np.arange(samples) / samples
+    there = np.stack([np.interp(place, grid, one, period=TURN) for one in pressure])
+    return np.asarray(there * (1.0 + values.get(CHAMBER_GAIN, 0.0)) + values.get(CHAMBER_ZERO, 0.0))
 
 
 def actual(points: BenchPoints, values: Mapping[str, float]) -> BenchPoints:

@@ -21,7 +21,7 @@ def gaussian_process(study: Study, residual: Array) -> Rival:
     """Whether a smooth discrepancy (Kennedy and O'Hagan 2001) is likelier than none in a channel; no name."""
     apart = np.linalg.norm(study.axes[:, None, :] - study.axes[None, :, :], axis=2)
     gains = []
-    for at in range(residual.shape[1]):
+    for at in range(len(study.channels)):
         rows = study.observations.measured[:, at]
         own = residual[rows, at]
         found = [
@@ -36,9 +36,9 @@ def gaussian_process(study: Study, residual: Array) -> Rival:
 def sparse_regression(study: Study, residual: Array) -> Rival:
     """LASSO (Tibshirani 1996) of each channel's residual on textbook terms, penalty by Schwarz' criterion."""
     strongest, named = 0.0, ()
-    for at, channel in enumerate(study.observations.channels):
+    for at, name in enumerate(study.channels):
         rows = study.observations.measured[:, at]
-        terms = _terms(study, channel.name)
+        terms = _terms(study, name.value)
         matrix = np.stack([column[rows] for column in terms.values()], axis=1) / _sigma(study, at)[rows, None]
         matrix /= np.linalg.norm(matrix, axis=0)
         found = _lasso(matrix, residual[rows, at])

@@ -120,7 +120,7 @@ def _largest(study: Study, residual: Array) -> Rival:
     """The channel that is farthest off after a fit, and what is usually blamed for it."""
     squares = np.where(study.observations.measured, residual**2, 0.0)
     alarm = bool(chi2.sf(squares.sum(), int(study.observations.measured.sum())) < SURE)
-    worst = study.observations.channels[int(np.argmax(squares.mean(axis=0)))].name
+    worst = study.channels[int(np.argmax(squares.mean(axis=0)[: len(study.channels)]))].value
     return Rival(alarm, (USUAL_NAME[worst],) if alarm else ())
 
 

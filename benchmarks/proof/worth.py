@@ -73,7 +73,7 @@ def _recorded(
     at = held(campaign, rng)
     truth = run(made.machine, at.moved("ratio", made.setting), made.hidden, STEPS)
     columns = read_after(campaign, at, truth, made.faults, made.readings.calibrations, rng)
-    values = [_si(channel.name, columns[channel.name]) for channel in study.observations.channels]
+    values = [_si(name.value, columns[name.value]) for name in study.channels]
     return _as_read(wanted, campaign, columns), np.stack(values, axis=1)
 
 
