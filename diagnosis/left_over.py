@@ -91,8 +91,9 @@ def _striking(
     if chance >= thresholds.mismatch.chance:
         return
     candidate, found = strongest[0]
-    columns = len(study.observations.channels)
-    channel = study.by_shown(np.bincount(after.whitening.rows[:, 1], candidate.column**2, columns)).argmax()
+    squares = np.zeros(len(study.observations.channels))
+    np.add.at(squares, after.whitening.rows[:, 1], candidate.column**2)
+    channel = study.by_shown(squares).argmax()
     if abs(found.z) > least[channel]:
         yield f"{candidate.entry.id.value} stands out of what is left by {abs(found.z):.1f} sigma"
 
