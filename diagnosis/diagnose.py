@@ -25,6 +25,7 @@ from diagnosis.thresholds import Thresholds
 from diagnosis.unknown import Scaling, scaling
 from diagnosis.verdict import Diagnosis, Status
 from diagnosis.weighed import Weighed, with_probabilities
+from system.channels import ChannelName
 from system.estimation.observations import Array
 from system.estimation.posterior import Effort, Posterior, settled
 from system.gap_cycle import Report, silent
@@ -194,11 +195,16 @@ def _finding(
 
 
 def scaling_of(study: Study, weighed: Weighed, viscosity: Array, thresholds: Thresholds) -> Scaling | None:
-    """Exponents of the mismatch as an explanation sees it, in the channel where it is greatest in sigma."""
+    """Exponents of the mismatch as an explanation sees it, in the channel where it is greatest in sigma.
+
+    None for what shows in the traces most.
+    """
     found = repair(study, weighed, thresholds)
     sigma = study.base.whitening.sigma
     strength = np.where(study.observations.measured, (found.added / sigma) ** 2, 0.0).sum(axis=0)
-    at = int(np.argmax(strength[: len(study.channels)]))
+    at = int(np.argmax(study.by_shown(strength)))
+    if study.shown_channels[at] is ChannelName.P_CHAMBER:
+        return None
     channel = study.channels[at]
     return scaling(channel, found.mismatch[:, at], sigma[:, at], coordinates(study, viscosity))
 

@@ -22,7 +22,7 @@ PLACES = {Gap.PISTON: "the pistons", Gap.SLIPPER: "the slippers", Gap.VALVE_PLAT
 CHANNELS = {
     ChannelName.Q_OUT: "delivery flow", ChannelName.Q_IN: "inlet flow", ChannelName.Q_CASE: "case drain",
     ChannelName.TORQUE: "shaft torque", ChannelName.T_OUT: "outlet temperature",
-    ChannelName.ELECTRIC_POWER: "motor power",
+    ChannelName.ELECTRIC_POWER: "motor power", ChannelName.P_CHAMBER: "chamber pressure",
 }  # fmt: skip
 """What an output is to who reads it."""
 
