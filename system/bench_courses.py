@@ -99,8 +99,8 @@ def solve_map(pump: PumpDescription, problem: MapProblem, tolerance: float) -> C
 def beside(pump: PumpDescription, courses: Courses, problem: MapProblem, tolerance: float) -> Courses:
     """`solve_map` of chambers that differ a little, in all but their ports' areas, from those of solved courses.
 
-    They go along the steps of these, so that differences are smoother than those of two maps solved apart, at a
-    third of the price. Points that those steps do not lead well are solved for themselves.
+    They go along the steps of these, so that differences are smoother than those of two maps solved apart, at
+    six tenths of the price. Points that those steps do not lead well are solved for themselves.
     """
     run = _Run.of(pump, problem, tolerance)
     beside_map(*run.given, courses.trail, courses.begins, *run.filled)
