@@ -21,6 +21,7 @@ from swashfilm.cli_film import FILM_OPTIONS, add_film_options, run_film
 from swashfilm.cli_map import MAP_OPTIONS, add_map_options, run_map_command
 from swashfilm.cli_reference import add_reference_options, run_reference_command
 from swashfilm.cli_report import run_report
+from swashfilm.cli_reproduce import REPRODUCE_OPTIONS, add_reproduce_options, run_reproduce_command
 from swashfilm.cli_run import RUN_OPTIONS, add_run_options, pump_faults, run_pump_command
 from swashfilm.cli_table import TABLE_OPTIONS, add_table_options, run_table_command
 from swashfilm.cli_transient import add_transient_options, run_transient_command
@@ -124,6 +125,9 @@ def build_parser() -> argparse.ArgumentParser:
     _output(reference)
     coefficients = _command(commands, "coefficients", "a port's flow coefficient out of a computed flow")
     add_coefficient_options(coefficients)
+    reproduce = _command(commands, "reproduce", "the paper's figures: its statements beside the same numbers here")
+    add_reproduce_options(reproduce)
+    _output(reproduce)
     report = _command(commands, "report", "make the report of a run folder anew")
     report.add_argument("folder", type=Path, metavar="DIR", help="the run folder")
     check = _command(commands, "check", "validate a pump file, case or recording without running it")
@@ -166,6 +170,7 @@ def _unknown(command: str | None, word: str) -> Fault:
         "duty": [],
         "compare": COMPARE_OPTIONS,
         "diagnose": [],
+        "reproduce": REPRODUCE_OPTIONS,
     }
     if command in own:
         options = [*own[command], "-o", "--output", "--help"]
@@ -199,6 +204,7 @@ _COMMANDS = {
     "calibrate": run_calibrate_command,
     "reference": run_reference_command,
     "coefficients": run_coefficients_command,
+    "reproduce": run_reproduce_command,
     "report": run_report,
     "check": run_check_command,
     "doctor": _doctor,

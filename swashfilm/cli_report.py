@@ -24,6 +24,7 @@ PAGES = {
     "map": "map_page.write_map_page",
     "gap_table": "table_page.write_table_page",
     "reference": "reference_page.write_reference_page",
+    "reproduction": "reproduce_page.write_reproduce_page",
     "response_table": "table_page.write_table_page",
     "transient": "transient_page.write_transient_page",
 }

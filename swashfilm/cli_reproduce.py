@@ -1,0 +1,137 @@
+"""The command `swashfilm reproduce`: the paper's figures and tables, its statements beside our numbers."""
+
+from __future__ import annotations
+
+import argparse
+import json
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from swashfilm.physics_switches import SWITCHES, add_switches
+from swashfilm.terminal import show, show_table
+from system.faults import Fault, InputFaults, nearest_choice
+
+if TYPE_CHECKING:
+    from swashfilm.reproduce_run import ReproduceAsked
+
+COMMAND_LINE = "command line"
+REPRODUCE_OPTIONS = ["--fidelity", "--pump", "--page", "--workers", "--steps", "--finer", *SWITCHES]
+ALL, LIST = "all", "list"
+_LUMPED = "lumped"
+
+
+def add_reproduce_options(command: argparse.ArgumentParser) -> None:
+    """The words that `swashfilm reproduce` takes."""
+    command.add_argument(
+        "figure", nargs="?", default=ALL, metavar="FIGURE", help="fig2, table1, .., all of them (all), or list"
+    )
+    command.add_argument(
+        "--fidelity", metavar="{lumped,films,floating}", default=_LUMPED,
+        help="films of given thickness (seconds), solved at given positions (minutes), or floating (fig8, fig9)",
+    )  # fmt: skip
+    command.add_argument("--pump", default="ref90", metavar="PUMP", help="built-in name (ref90) or pump file")
+    command.add_argument("--page", type=Path, metavar="FILE.md", help="write the page there as Markdown too")
+    command.add_argument("--workers", metavar="N", help="processes that solve points side by side (1)")
+    command.add_argument("--steps", metavar="N", help="floating gaps: angles of a turn that are reported (360)")
+    command.add_argument("--finer", metavar="X", help="floating gaps: times the usual cells (.5; --rigid: 1)")
+    add_switches(command)
+
+
+def run_reproduce_command(options: argparse.Namespace) -> int:
+    """Run `swashfilm reproduce` and return its exit code; raises InputFaults with what is wrong in the words."""
+    if options.figure == LIST:
+        return _list()
+    asked, workers = _asked(options)
+    from swashfilm.progress import progress
+    from swashfilm.reproduce_page import count_words, markdown_page, verdict_rows
+    from swashfilm.reproduce_run import run_reproduce
+    from swashfilm.run_folder import final_folder, run_folder
+    from system.side_by_side import crew
+
+    with (
+        crew(workers) as hands,
+        run_folder("reproduce", options.output) as folder,
+        progress(1, f"reproduce {options.figure}") as report,
+    ):
+        run_reproduce(asked, hands, folder, report)
+        rows = json.loads((folder / "claims.json").read_text("utf-8"))["claims"]
+        if options.page is not None:
+            _write_page(options.page, markdown_page(folder, _command(options)))
+    head = ("statement", "reading", "the paper", "here", "verdict")
+    show_table(f"The paper by {asked.pump.name}, {asked.fidelity.value}", [head, *verdict_rows(rows)])
+    show(count_words(rows))
+    show(f"results in {final_folder(folder)}")
+    return 0
+
+
+def _list() -> int:
+    from system.paper.figures import DRAWINGS, Figure
+
+    show_table("Figures and tables", [(figure.value, figure.title) for figure in Figure])
+    show_table("Drawings, without numbers", list(DRAWINGS.items()))
+    return 0
+
+
+def _asked(options: argparse.Namespace) -> tuple[ReproduceAsked, int]:
+    """What a command line means, and how many workers; raises InputFaults with every fault at once."""
+    from swashfilm.cli_floating import alike_faults, floating_faults, floating_options
+    from swashfilm.reproduce_run import ReproduceAsked
+    from system.paper.figures import Figure
+    from system.paper.reproduce import PaperFidelity
+    from system.pump_file import load_pump
+    from system.table_sources import FloatingSolver
+
+    faults = _word_faults(options)
+    try:
+        pump = load_pump(options.pump)
+    except InputFaults as reason:
+        raise InputFaults(reason.source, [*faults, *reason.faults], reason.lines) from None
+    faults += floating_faults(options, pump, options.fidelity)
+    if options.fidelity != _LUMPED:
+        faults += alike_faults(pump)
+    if faults:
+        raise InputFaults(COMMAND_LINE, faults)
+    fidelity = PaperFidelity(options.fidelity)
+    figures = fidelity.figures if options.figure == ALL else (Figure.named(options.figure),)
+    solver = FloatingSolver(floating_options(options))
+    return ReproduceAsked(pump, figures, fidelity, solver), int(options.workers or 1)
+
+
+def _word_faults(options: argparse.Namespace) -> list[Fault]:
+    """What is wrong with the words, whatever the pump."""
+    from system.paper.figures import DRAWINGS, Figure
+    from system.paper.reproduce import PaperFidelity
+
+    faults: list[Fault] = []
+    figures = [ALL, LIST, *(figure.value for figure in Figure)]
+    if options.figure in DRAWINGS:
+        told = f"one of {', '.join(figures)}"
+        faults.append(Fault("FIGURE", f"{options.figure}, a drawing ({DRAWINGS[options.figure]})", told))
+    elif options.figure not in figures:
+        near = nearest_choice(options.figure, figures)
+        faults.append(Fault("FIGURE", repr(options.figure), f"one of {', '.join(figures)}", near))
+    fidelities = [fidelity.value for fidelity in PaperFidelity]
+    if options.fidelity not in fidelities:
+        near = nearest_choice(options.fidelity, fidelities)
+        faults.append(Fault("--fidelity", repr(options.fidelity), f"one of {', '.join(fidelities)}", near))
+    workers = options.workers
+    if workers is not None and not (workers.isdecimal() and 1 <= int(workers) <= 256):
+        faults.append(Fault("--workers", repr(workers), "a number, 1 to 256"))
+    return faults
+
+
+def _command(options: argparse.Namespace) -> str:
+    """The command that makes the same page again."""
+    stated = {"--fidelity": _LUMPED, "--pump": "ref90"}
+    given = {name: getattr(options, name[2:]) for name in stated}
+    words = [f" {name} {text}" for name, text in given.items() if text != stated[name]]
+    return f"swashfilm reproduce {options.figure}{''.join(words)} --page {options.page}"
+
+
+def _write_page(path: Path, text: str) -> None:
+    try:
+        path.write_text(text, encoding="utf-8")
+    except OSError as reason:
+        raise InputFaults(
+            COMMAND_LINE, [Fault("--page", f"{path}: {reason.strerror}", "a file to write")]
+        ) from None

@@ -1,0 +1,137 @@
+"""What is reproduced of the paper: its figures and tables, and the curves that stand in for them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import Enum
+
+from system.kinematics import Array
+
+
+class Figure(Enum):
+    """A figure or table of the paper by its name on the command line, with what it shows."""
+
+    TABLE1 = ("table1", "the simulated pump (the paper's Table 1 is lost; what its text states)")
+    FIG2 = ("fig2", "overall efficiency at rated speed")
+    FIG3 = ("fig3", "efficiencies and losses of Cases 1 to 3")
+    FIG8 = ("fig8", "film between piston and cylinder")
+    FIG9 = ("fig9", "slipper film over displacement")
+    FIG10 = ("fig10", "flow area of the ports over a turn")
+    FIG11 = ("fig11", "chamber pressure at 5 and 35 MPa")
+    FIG13 = ("fig13", "tuned friction coefficients at rated speed")
+    FIG15 = ("fig15", "relative locus of ball guide and retainer")
+    FIG16 = ("fig16", "hydro-mechanical loss over pressure")
+    FIG17 = ("fig17", "shares of the pairs at full displacement")
+    FIG18 = ("fig18", "losses of the pairs over pressure")
+    FIG19 = ("fig19", "ball guide-retainer loss by equation and by multibody forces")
+    FIG20 = ("fig20", "shares over displacement at 5 MPa and rated speed")
+    FIG21 = ("fig21", "shares over pressure at 28 % and rated speed")
+    FIG22 = ("fig22", "shares over speed at 28 % and 5 MPa")
+    EQUATIONS = ("equations", "equations that print otherwise than they can be")
+
+    title: str
+
+    def __new__(cls, name: str, title: str) -> Figure:
+        """A member whose value is its name alone."""
+        member = object.__new__(cls)
+        member._value_ = name
+        member.title = title
+        return member
+
+    @classmethod
+    def named(cls, name: str) -> Figure:
+        """The figure of a name on the command line. Raises KeyError for a name that is none."""
+        return {figure.value: figure for figure in cls}[name]
+
+
+DRAWINGS = {
+    "fig1": "test circuit and bed",
+    "fig4": "structure of the pump",
+    "fig5": "locus of a slipper",
+    "fig6": "ball guide and retainer",
+    "fig7": "co-simulation model",
+    "fig12": "joints between the parts",
+    "fig14": "co-simulation structure",
+}
+"""Figures of the paper that are drawings: no number stands in them."""
+
+
+class Unit(Enum):
+    """What a number is measured in: SI unit, the unit it is shown in, and the factor from the one to the other."""
+
+    NUMBER = ("1", "1", 1.0)
+    SHARE = ("1 as a share", "%", 100.0)
+    PRESSURE = ("Pa", "MPa", 1e-6)
+    POWER = ("W", "W", 1.0)
+    FILM = ("m, of a film", "um", 1e6)
+    LENGTH = ("m", "mm", 1e3)
+    AREA = ("m2", "mm2", 1e6)
+    ANGLE = ("rad", "deg", 57.29577951308232)
+    SPEED = ("rad/s", "r/min", 9.549296585513721)
+    DISPLACEMENT = ("m3/rev", "mL/rev", 1e6)
+    FLOW = ("m3/s", "L/min", 6e4)
+    FORCE = ("N", "N", 1.0)
+
+    @property
+    def si(self) -> str:
+        """The SI unit."""
+        return self.value[0].split()[0].rstrip(",")
+
+    @property
+    def shown(self) -> str:
+        """The unit it is shown in."""
+        return self.value[1]
+
+    @property
+    def factor(self) -> float:
+        """Shown number over SI number."""
+        return self.value[2]
+
+
+@dataclass(frozen=True)
+class Axis:
+    """What is drawn along an axis; its numbers are SI."""
+
+    words: str
+    unit: Unit
+
+
+@dataclass(frozen=True)
+class Curve:
+    """Points (n,) in SI."""
+
+    name: str
+    x: Array
+    y: Array
+
+
+@dataclass(frozen=True)
+class Field:
+    """Values (m, n) over x (n,) and y (m,)."""
+
+    axis: Axis
+    x: Array
+    y: Array
+    values: Array
+
+
+class PanelKind(Enum):
+    """How it is drawn: as lines, over a logarithmic axis, stacked, to one scale both ways, or as a field."""
+
+    LINES = "lines"
+    LOGARITHMIC = "logarithmic"
+    STACKED = "stacked"
+    TRUE_SCALE = "true scale"
+    FIELD = "field"
+
+
+@dataclass(frozen=True)
+class Panel:
+    """One picture of a figure."""
+
+    title: str
+    kind: PanelKind
+    x: Axis
+    y: Axis
+    curves: tuple[Curve, ...] = ()
+    field: Field | None = None

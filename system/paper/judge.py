@@ -1,0 +1,161 @@
+"""A statement of the paper against a number of ours: reached, missed, or contradicted by physics."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from enum import Enum
+from math import inf, isfinite
+
+from reynolds.errors import FilmInputError
+from system.paper.figures import Figure, Panel, Unit
+from system.paper.points import Reading
+
+ROUND_OFF = 1e-6
+"""Of a shown number: below it stands 0."""
+
+
+class Verdict(Enum):
+    """What becomes of a statement; CONTRADICTED must be earned by an impossibility that holds."""
+
+    REACHED = "reached"
+    MISSED = "missed"
+    CONTRADICTED = "contradicted by physics"
+
+
+@dataclass(frozen=True)
+class Range:
+    """From low to high, both within; -inf or inf: no end. Raises FilmInputError for a range that is none."""
+
+    low: float = -inf
+    high: float = inf
+
+    def __post_init__(self) -> None:
+        if not self.low <= self.high:
+            raise FilmInputError("range", f"{self.low} to {self.high}", "a low end below the high one")
+
+    def holds(self, other: Range) -> bool:
+        """Whether all of another range lies within."""
+        return self.low <= other.low and other.high <= self.high
+
+    def text(self, unit: Unit, digits: int = 4) -> str:
+        """Both ends in the unit that they are shown in."""
+        low, high = (_shown(unit.factor * end, digits) for end in (self.low, self.high))
+        shown = "" if unit is Unit.NUMBER else f" {unit.shown}"
+        if not isfinite(self.low):
+            return f"at most {high}{shown}" if isfinite(self.high) else "any"
+        if not isfinite(self.high):
+            return f"at least {low}{shown}"
+        return f"{low}{shown}" if low == high else f"{low} to {high}{shown}"
+
+
+def _shown(value: float, digits: int) -> str:
+    """So many digits; what is nothing but round-off is nothing."""
+    return "0" if abs(value) < ROUND_OFF else f"{value:.{digits}g}"
+
+
+def range_of(values: Iterable[float]) -> Range:
+    """The least range that holds some numbers."""
+    listed = [float(value) for value in values]
+    return Range(min(listed), max(listed))
+
+
+@dataclass(frozen=True)
+class Claim:
+    """A statement of the paper: its words, the quantity that judges it, and the range it is to lie in, SI.
+
+    A number in print is met where it agrees in its last digit. `taken`: what a word without a number ("small") is
+    taken for, which is ours.
+    """
+
+    id: str
+    figure: Figure
+    words: str
+    quantity: str
+    unit: Unit
+    expected: Range
+    taken: str = ""
+
+
+OURS = "a bound of ours; the paper gives none"
+"""What a bound says of itself that the paper does not state."""
+
+
+def share_claim(
+    name: str, figure: Figure, words: str, quantity: str, low: float, high: float, taken: str = ""
+) -> Claim:
+    """A statement about a share, shown in percent."""
+    return Claim(name, figure, words, quantity, Unit.SHARE, Range(low, high), taken)
+
+
+def number_claim(
+    name: str, figure: Figure, words: str, quantity: str, low: float, high: float, taken: str = ""
+) -> Claim:
+    """A statement about a bare number."""
+    return Claim(name, figure, words, quantity, Unit.NUMBER, Range(low, high), taken)
+
+
+@dataclass(frozen=True)
+class Impossibility:
+    """Why no number of ours could meet a statement: a quantity that would have to lie within a bound and does not.
+
+    It is computed each time; where the quantity lies within, there is no contradiction.
+    """
+
+    quantity: str
+    unit: Unit
+    value: float
+    bound: Range
+
+    @property
+    def holds(self) -> bool:
+        """Whether the quantity does lie outside."""
+        return not self.bound.holds(Range(self.value, self.value))
+
+    @property
+    def text(self) -> str:
+        """In words."""
+        alone = Range(self.value, self.value).text(self.unit)
+        return f"{self.quantity}: {alone}, where the statement needs {self.bound.text(self.unit)}"
+
+
+@dataclass(frozen=True)
+class Judged:
+    """A claim with what was found, in one reading of the losses (None: where they do not matter)."""
+
+    claim: Claim
+    reading: Reading | None
+    found: Range
+    verdict: Verdict
+    reason: str
+    impossible: Impossibility | None
+
+
+@dataclass(frozen=True)
+class FigureResult:
+    """A figure anew: its pictures, its statements judged, and what else is to be told."""
+
+    figure: Figure
+    panels: tuple[Panel, ...] = ()
+    judged: tuple[Judged, ...] = ()
+    remarks: tuple[str, ...] = ()
+
+
+def judge(
+    claim: Claim,
+    found: Range,
+    *,
+    reading: Reading | None = None,
+    reason: str = "",
+    impossible: Impossibility | None = None,
+) -> Judged:
+    """A claim with its verdict.
+
+    REACHED where all that was found lies within what is expected; else CONTRADICTED where an impossibility holds;
+    else MISSED. An impossibility that holds no longer is not told.
+    """
+    if claim.expected.holds(found):
+        return Judged(claim, reading, found, Verdict.REACHED, reason, None)
+    if impossible is not None and impossible.holds:
+        return Judged(claim, reading, found, Verdict.CONTRADICTED, reason, impossible)
+    return Judged(claim, reading, found, Verdict.MISSED, reason, None)

@@ -1,0 +1,235 @@
+"""The operating points of the paper's figures, solved once by a fidelity and read two ways."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass, replace
+from enum import Enum
+from math import pi
+from typing import Any
+
+import numpy as np
+
+from reynolds.bodies.cache import content_key
+from reynolds.errors import FilmInputError
+from system.assembly import PumpPoint
+from system.bench import BenchReading, LossSplit, paper_efficiency, paper_losses
+from system.description import PumpDescription
+from system.films import films_point
+from system.gap_cycle import Report, silent
+from system.kept_points import KeptPoints, run_kept
+from system.kinematics import Array
+from system.lumped_point import lumped_point
+from system.operating import OperatingPoint, operating_point
+from system.pairs import Pair
+from system.paper.figures import Figure
+from system.pump_file import resolved_toml
+from system.work import Hands, Record, Status
+
+POINT_FORMAT = 1
+"""Raised when the same point gives other numbers: by the laws behind it, or by what is kept."""
+KEY_LENGTH = 24
+RPM = pi / 30.0
+SPEEDS = tuple(RPM * speed for speed in (1000.0, 1300.0, 1700.0, 2100.0))
+PRESSURES = tuple(1e6 * pressure for pressure in (5.0, 10.0, 15.0, 20.0, 25.0, 30.0, 35.0))
+RATIOS = (0.13, 0.28, 0.51, 0.77, 1.0)
+"""The paper's levels: speed rad/s, delivery pressure Pa gauge, displacement ratio; 13 % in Figs. 2, 3 and 20."""
+RATED = SPEEDS[-1]
+FULL = RATIOS[-1]
+NEAR_ZERO = 5e5
+"""Pressure difference (Pa) taken for the "near 0" at which Case 2 of Fig. 3 begins."""
+
+
+class PointFidelity(Enum):
+    """How a point is solved: films of given thickness, or films solved at given positions."""
+
+    LUMPED = "lumped"
+    FILMS = "films"
+
+
+class Reading(Enum):
+    """How a pair's loss is read.
+
+    WITH_SHEAR: a Coulomb coefficient and the shear of the film beside it, REF90's loss model. MIXED: coefficients
+    alone, as in the paper, whose coefficients hold the film's shear too; the shaft's torque then lacks the shear.
+    """
+
+    WITH_SHEAR = "with shear"
+    MIXED = "mixed coefficients alone"
+
+
+@dataclass(frozen=True)
+class Place:
+    """Where a point stands: shaft speed rad/s, delivery pressure Pa gauge, share of the full displacement."""
+
+    speed: float
+    pressure: float
+    ratio: float
+
+
+@dataclass(frozen=True)
+class PaperPoint:
+    """A solved point, SI: bench reading, mean losses of the seven pairs (in the order of `Pair`), port throttling,
+    and a chamber's pressure (Pa gauge) over its shaft angle (rad, inner dead centre at 0)."""
+
+    bench: BenchReading
+    coulomb: tuple[float, ...]
+    viscous: tuple[float, ...]
+    throttling: float
+    shaft_angle: tuple[float, ...]
+    chamber_pressure: tuple[float, ...]
+
+    def pair_losses(self, reading: Reading) -> Array:
+        """Losses (7,) of the pairs in W, in the order of `Pair`."""
+        coulomb = np.array(self.coulomb)
+        return coulomb + np.array(self.viscous) if reading is Reading.WITH_SHEAR else coulomb
+
+    def loss(self, pair: Pair, reading: Reading) -> float:
+        """Loss of one pair in W."""
+        return float(self.pair_losses(reading)[list(Pair).index(pair)])
+
+    def share(self, pair: Pair, reading: Reading) -> float:
+        """Share of one pair in the loss of all seven."""
+        return self.loss(pair, reading) / float(self.pair_losses(reading).sum())
+
+    def read(self, reading: Reading) -> BenchReading:
+        """What a bench reads; mixed coefficients alone leave the torque of the films' shear out."""
+        if reading is Reading.WITH_SHEAR:
+            return self.bench
+        return replace(
+            self.bench, shaft_torque=self.bench.shaft_torque - sum(self.viscous) / self.bench.shaft_speed
+        )
+
+    def overall(self, reading: Reading) -> float:
+        """Overall efficiency, the paper's Eq. (3)."""
+        return paper_efficiency(self.read(reading)).overall
+
+    def split(self, reading: Reading) -> LossSplit:
+        """Volumetric and hydromechanical loss, the paper's Eqs. (1), (2)."""
+        return paper_losses(self.read(reading))
+
+
+def paper_point(found: PumpPoint) -> PaperPoint:
+    """What the paper's figures need of a solved point."""
+    losses = [found.pairs.loss(pair) for pair in Pair]
+    return PaperPoint(
+        bench=found.bench,
+        coulomb=tuple(loss.mean_coulomb for loss in losses),
+        viscous=tuple(loss.mean_viscous for loss in losses),
+        throttling=found.power.throttling,
+        shaft_angle=tuple(found.cycle.shaft_angle.tolist()),
+        chamber_pressure=tuple(found.cycle.pressure.tolist()),
+    )
+
+
+@dataclass(frozen=True)
+class PaperWork:
+    """Solves the paper's points of a pump: a `system.work.Work`."""
+
+    pump: PumpDescription
+    fidelity: PointFidelity
+
+    def key(self, part: Place) -> str:
+        """Name of all that the point's numbers depend on."""
+        return content_key(POINT_FORMAT, self.fidelity, resolved_toml(self.pump), part)[:KEY_LENGTH]
+
+    def solve(self, part: Place) -> Record:
+        """The point as JSON; raises as the fidelity."""
+        return asdict(paper_point(self.solved(part)))
+
+    def solved(self, place: Place) -> PumpPoint:
+        """The point itself; raises as the fidelity."""
+        point = self.at(place)
+        if self.fidelity is PointFidelity.LUMPED:
+            return lumped_point(self.pump, point)
+        return films_point(self.pump, point).pump_point
+
+    def at(self, place: Place) -> OperatingPoint:
+        """The operating point of a place, all else the pump's own."""
+        return operating_point(
+            self.pump,
+            shaft_speed=place.speed,
+            delivery_pressure=place.pressure,
+            displacement_ratio=place.ratio,
+        )
+
+
+@dataclass(frozen=True)
+class PaperPoints:
+    """A pump's solved points by place."""
+
+    pump: PumpDescription
+    fidelity: PointFidelity
+    points: Mapping[Place, PaperPoint]
+
+    def at(self, speed: float, pressure: float, ratio: float) -> PaperPoint:
+        """The point of a place; KeyError where it was not asked for."""
+        return self.points[Place(speed, pressure, ratio)]
+
+    def over_pressure(self, speed: float, ratio: float) -> tuple[PaperPoint, ...]:
+        """The points over PRESSURES."""
+        return tuple(self.at(speed, pressure, ratio) for pressure in PRESSURES)
+
+
+def near_zero(pump: PumpDescription) -> float:
+    """Delivery pressure (Pa gauge) at which Case 2 of Fig. 3 begins: NEAR_ZERO above the inlet's."""
+    return pump.operating.inlet_pressure + NEAR_ZERO
+
+
+def places_of(pump: PumpDescription, figures: Sequence[Figure]) -> tuple[Place, ...]:
+    """The points that some figures are made of, each once."""
+    low = (near_zero(pump), *PRESSURES)
+    plan = _grid(SPEEDS, PRESSURES, RATIOS[1:])
+    needs: dict[Figure, tuple[Place, ...]] = {
+        Figure.FIG2: _grid((RATED,), PRESSURES, RATIOS),
+        Figure.FIG3: (
+            *_grid((RATED,), PRESSURES[:1], RATIOS),
+            *_grid((RATED,), low, RATIOS[:1]),
+            *_grid((RATED,), PRESSURES[-1:], (FULL,)),
+        ),
+        Figure.FIG10: _grid((RATED,), PRESSURES[-1:], (FULL,)),
+        Figure.FIG11: _grid((RATED,), (PRESSURES[0], PRESSURES[-1]), (FULL,)),
+        Figure.FIG13: plan,
+        Figure.FIG16: plan,
+        Figure.FIG17: _grid(SPEEDS, PRESSURES, (FULL,)),
+        Figure.FIG18: _grid((RATED,), PRESSURES, (FULL,)),
+        Figure.FIG20: _grid((RATED,), PRESSURES[:1], RATIOS),
+        Figure.FIG21: _grid((RATED,), PRESSURES, RATIOS[1:2]),
+        Figure.FIG22: _grid(SPEEDS, PRESSURES[:1], RATIOS[1:2]),
+    }
+    return tuple(dict.fromkeys(place for figure in figures for place in needs.get(figure, ())))
+
+
+def _grid(speeds: Sequence[float], pressures: Sequence[float], ratios: Sequence[float]) -> tuple[Place, ...]:
+    return tuple(Place(n, p, ratio) for ratio in ratios for n in speeds for p in pressures)
+
+
+def solve_points(
+    pump: PumpDescription,
+    fidelity: PointFidelity,
+    places: Sequence[Place],
+    store: KeptPoints,
+    hands: Hands,
+    report: Report = silent,
+) -> PaperPoints:
+    """The places solved, or taken from `store`. Raises FilmInputError for the first that has no solution."""
+    work = PaperWork(pump, fidelity)
+    if fidelity is PointFidelity.LUMPED:  # dearer to keep than to solve
+        solved = {}
+        for done, place in enumerate(places):
+            report(done, len(places), "lumped points")
+            solved[place] = paper_point(work.solved(place))
+        return PaperPoints(pump, fidelity, solved)
+    kept = run_kept(work, places, store, hands, report=report)
+    for place, outcome in zip(places, kept.outcomes, strict=True):
+        if outcome.status is not Status.SOLVED:
+            raise FilmInputError(f"paper's point {place}", outcome.reason, "a point that can be solved")
+    points = {place: _point(one.record) for place, one in zip(places, kept.outcomes, strict=True)}
+    return PaperPoints(pump, fidelity, points)
+
+
+def _point(record: Mapping[str, Any]) -> PaperPoint:
+    coulomb, viscous, angle, pressure = (
+        tuple(record[name]) for name in ("coulomb", "viscous", "shaft_angle", "chamber_pressure")
+    )
+    return PaperPoint(BenchReading(**record["bench"]), coulomb, viscous, record["throttling"], angle, pressure)

@@ -1,0 +1,107 @@
+"""All figures of the paper by one call."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from enum import Enum
+
+from system.description import PumpDescription
+from system.gap_cycle import Report, silent
+from system.kept_points import KeptPoints
+from system.paper.chambers import fig10, fig11
+from system.paper.coefficients import fig13
+from system.paper.efficiencies import fig2, fig3
+from system.paper.equations import equations
+from system.paper.figures import Figure
+from system.paper.films import GIVEN, NO_FIELD, fig8_of_films, floating_figures
+from system.paper.guide import fig15, fig19
+from system.paper.judge import FigureResult
+from system.paper.pair_losses import fig16, fig17, fig18, fig20, fig21, fig22
+from system.paper.points import PaperPoints, PointFidelity, places_of, solve_points
+from system.paper.table_one import table1
+from system.table_sources import FloatingSolver
+from system.work import Hands
+
+OF_POINTS: Mapping[Figure, Callable[[PaperPoints], FigureResult]] = {
+    Figure.TABLE1: table1,
+    Figure.FIG2: fig2,
+    Figure.FIG3: fig3,
+    Figure.FIG10: fig10,
+    Figure.FIG11: fig11,
+    Figure.FIG15: fig15,
+    Figure.FIG16: fig16,
+    Figure.FIG17: fig17,
+    Figure.FIG18: fig18,
+    Figure.FIG19: fig19,
+    Figure.FIG20: fig20,
+    Figure.FIG21: fig21,
+    Figure.FIG22: fig22,
+    Figure.EQUATIONS: equations,
+}
+"""Figures that are made of the operating points alone."""
+
+
+class PaperFidelity(Enum):
+    """How the paper's numbers are had: films of given thickness, solved at given positions, or floating."""
+
+    LUMPED = "lumped"
+    FILMS = "films"
+    FLOATING = "floating"
+
+    @property
+    def figures(self) -> tuple[Figure, ...]:
+        """The figures that mean something by it; the floating gaps' films alone are Figs. 8 and 9."""
+        return FLOATING if self is PaperFidelity.FLOATING else tuple(Figure)
+
+
+FLOATING = (Figure.FIG8, Figure.FIG9)
+
+
+@dataclass(frozen=True)
+class Means:
+    """What the work is done with: where costly points are kept, who does them, how floating gaps are solved."""
+
+    store: KeptPoints
+    hands: Hands
+    floating: FloatingSolver
+    report: Report = silent
+
+
+def reproduce(
+    pump: PumpDescription, figures: Sequence[Figure], fidelity: PaperFidelity, means: Means
+) -> tuple[FigureResult, ...]:
+    """The figures, in the order asked for; of those that mean nothing in this fidelity the reason alone.
+
+    Raises FilmInputError where a point has no solution, as the fidelity where the pump is none for it.
+    """
+    if fidelity is PaperFidelity.FLOATING:
+        made = {
+            result.figure: result
+            for result in floating_figures(pump, means.floating, means.store, means.hands, means.report)
+        }
+        return tuple(made.get(figure, _nothing(figure)) for figure in figures)
+    own = PointFidelity(fidelity.value)
+    points = solve_points(pump, own, places_of(pump, figures), means.store, means.hands, means.report)
+    return tuple(_made(points, figures, means))
+
+
+def _made(points: PaperPoints, figures: Sequence[Figure], means: Means) -> Iterator[FigureResult]:
+    lumped = points.fidelity is PointFidelity.LUMPED
+    for figure in figures:
+        if figure in OF_POINTS:
+            yield OF_POINTS[figure](points)
+        elif figure is Figure.FIG8:
+            yield FigureResult(figure, remarks=(NO_FIELD,)) if lumped else fig8_of_films(points.pump)
+        elif figure is Figure.FIG9:
+            yield FigureResult(figure, remarks=(GIVEN,))
+        else:
+            yield fig13(points if lumped else _lumped(points.pump, means), points)
+
+
+def _lumped(pump: PumpDescription, means: Means) -> PaperPoints:
+    return solve_points(pump, PointFidelity.LUMPED, places_of(pump, (Figure.FIG13,)), means.store, means.hands)
+
+
+def _nothing(figure: Figure) -> FigureResult:
+    return FigureResult(figure, remarks=("Floating gaps are solved for Figs. 8 and 9 alone: minutes a point.",))
