@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, assert_never
 
+from swashfilm.coefficients_told import coefficient_records, coefficient_warnings
 from swashfilm.fidelity import Fidelity
 from swashfilm.floating_run import floating_summary, write_floating
 from swashfilm.forces_data import force_warnings, forces_summary, write_forces
@@ -61,6 +62,7 @@ def run_pump(
             summary = _run_table(pump, folder, table)
         case _:
             assert_never(fidelity)
+    summary["coefficients"] = coefficient_records(pump)
     write_json(folder / "summary.json", summary)
     from swashfilm.pump_page import write_pump_page
 
@@ -112,7 +114,8 @@ def _run_table(pump: PumpDescription, folder: Path, table: Path | None) -> dict[
 
 def _warnings(pump: PumpDescription, point: PumpPoint) -> list[str]:
     """Warnings of the pump and of its point, whatever the fidelity."""
-    return [*(str(warning) for warning in check_pump(pump).warnings), *(str(remark) for remark in point.warnings)]
+    stated = [*check_pump(pump).warnings, *point.warnings]
+    return [*(str(warning) for warning in stated), *coefficient_warnings(pump, point)]
 
 
 def _write_point(folder: Path, data: xarray.Dataset, point: PumpPoint, summary: dict[str, Any]) -> None:

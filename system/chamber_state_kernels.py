@@ -15,7 +15,8 @@ from __future__ import annotations
 import numba
 import numpy as np
 
-from system.ports import PORT_SIZE, orifice, orifice_coefficients, section_area
+from system.flow_tables import flow_scale, with_factor
+from system.ports import FLOW_FROM, PORT_SIZE, orifice, orifice_coefficients, section_area
 
 CHAMBER = np.dtype(
     [
@@ -44,7 +45,7 @@ PATHS = 5
 INTEGRALS = 16
 """Mass out by each path (0-4), work -p dV (5), energy left in each path (6-10), work of moving walls (11-13),
 energy carried into delivery and suction port (14, 15)."""
-WAYS = 14
+WAYS = 16
 
 CAVITY_PRESSURE = 1e3 - 101325.0
 """Gauge pressure in Pa at which a cavity opens (1 kPa absolute): oil bears no tension. Its vapour pressure is
@@ -116,23 +117,32 @@ def volume(chamber, table, shaft_angle):
     return content + cubic(table, at, 6, x), scale * np.sin(shaft_angle) / (swing * swing) + swell
 
 
+@numba.njit(numba.void(records, f8, f8, vector), cache=True, error_model="numpy")
+def port_ways(chamber, delivery_area, suction_area, out):
+    """Of `ways_out` what the ports' areas (m2) give: 6-9 and 12-15."""
+    c = chamber[0]
+    law = (c.flow_coefficient, c.density, c.kinematic_viscosity, c.critical_reynolds)
+    out[6], out[7] = orifice_coefficients(delivery_area, *law)
+    out[8], out[9] = orifice_coefficients(suction_area, *law)
+    out[12], out[13] = delivery_area, suction_area
+    out[14] = flow_scale(delivery_area, c.density, c.kinematic_viscosity, c.delivery_port[FLOW_FROM:])
+    out[15] = flow_scale(suction_area, c.density, c.kinematic_viscosity, c.suction_port[FLOW_FROM:])
+
+
 @numba.njit(numba.void(records, cubics, cubics, f8, f8, f8, vector), cache=True, error_model="numpy")
 def ways_out(chamber, table, ports, shaft_angle, delivery_area, suction_area, out):
     """What lets oil out at a shaft angle at which the ports open these areas (m2), WAYS numbers.
 
     Conductances (0-2) and carried flows (3-5) of the gaps; then both orifice coefficients of the delivery (6, 7)
-    and of the suction port (8, 9), the pressures in Pa behind them (10, 11), and their areas (12, 13).
+    and of the suction port (8, 9), the pressures in Pa behind them (10, 11), their areas (12, 13) and their
+    `flow_scale` (14, 15).
     """
-    c = chamber[0]
     at, x = cell(table.shape[0], shaft_angle)
     for row in range(6):
         out[row] = cubic(table, at, row, x)
     at, x = cell(ports.shape[0], shaft_angle)
     out[10], out[11] = cubic(ports, at, 0, x), cubic(ports, at, 1, x)
-    law = (c.flow_coefficient, c.density, c.kinematic_viscosity, c.critical_reynolds)
-    out[6], out[7] = orifice_coefficients(delivery_area, *law)
-    out[8], out[9] = orifice_coefficients(suction_area, *law)
-    out[12], out[13] = delivery_area, suction_area
+    port_ways(chamber, delivery_area, suction_area, out)
 
 
 @numba.njit(numba.void(records, cubics, cubics, f8, vector), cache=True, error_model="numpy")
@@ -146,9 +156,12 @@ def openings(chamber, table, ports, shaft_angle, out):
 @numba.njit(numba.types.UniTuple(f8, 3)(records, f8, vector, vector), cache=True, error_model="numpy")
 def outflows(chamber, pressure, ways, flows):
     """Fill the volume flows in m3/s of the five paths; return the slopes in m3/(s Pa) of the ports' and of all."""
-    case = chamber[0].case_pressure
-    flows[0], delivery = orifice(pressure - ways[10], ways[6], ways[7])
-    flows[1], suction = orifice(pressure - ways[11], ways[8], ways[9])
+    c = chamber[0]
+    case, ahead, behind = c.case_pressure, pressure - ways[10], pressure - ways[11]
+    flow, slope = orifice(ahead, ways[6], ways[7])
+    flows[0], delivery = with_factor(flow, slope, ahead, ways[14], ways[12], c.delivery_port[FLOW_FROM:])
+    flow, slope = orifice(behind, ways[8], ways[9])
+    flows[1], suction = with_factor(flow, slope, behind, ways[15], ways[13], c.suction_port[FLOW_FROM:])
     for gap in range(3):
         flows[2 + gap] = ways[gap] * (pressure - case) + ways[3 + gap]
     return delivery, suction, delivery + suction + ways[0] + ways[1] + ways[2]

@@ -6,11 +6,13 @@ Lengths in m, angles in rad, speeds in rad/s, pressures in Pa gauge (atmosphere 
 
 from __future__ import annotations
 
+import hashlib
 import math
 from collections.abc import Iterator
+from pathlib import Path
 from typing import Annotated
 
-from pydantic import Field
+from pydantic import Field, computed_field
 
 from gaps.bearing_pads import BearingPads
 from gaps.slipper_lands import SlipperLands, lands_between
@@ -23,6 +25,7 @@ from system.fields import (
     AnyLength,
     Area,
     Coefficient,
+    CoefficientFile,
     Conductivity,
     Density,
     Displacement,
@@ -186,6 +189,7 @@ class DeliverySection(Section):
     kidney_full_end: Angle | None = None
     kidney_end: Angle | None = None
     kidney_area: Area | None = None
+    coefficient_file: CoefficientFile | None = None
     grooves: tuple[GrooveSection, ...] = ()
     webs: Webs | None = None
 
@@ -205,6 +209,7 @@ class PortsSection(Section):
     kidney_area: Area
     flow_coefficient: Annotated[float, Field(gt=0.0, le=1.0)]
     critical_reynolds: Annotated[float, Positive]  # laminar-turbulent transition of the orifice law
+    coefficient_file: CoefficientFile | None = None  # over opening and Reynolds number; the two above scale it
     grooves: tuple[GrooveSection, ...] = ()  # in place of groove_start and groove_area
 
     webs: Webs | None = None  # that part the port into several kidneys
@@ -226,6 +231,19 @@ class PortsSection(Section):
             own |= {"grooves": ()}
         bare = self.model_copy(update={"delivery": None})
         return bare, bare.model_copy(update=own)
+
+    @property
+    def coefficient_files(self) -> tuple[Path, ...]:
+        """Those of [ports] and of the delivery port, each once."""
+        stated = (self.coefficient_file, self.delivery.coefficient_file if self.delivery else None)
+        return tuple(dict.fromkeys(path for path in stated if path is not None))
+
+    @computed_field  # type: ignore[prop-decorator]
+    @property
+    def coefficient_content(self) -> str:
+        """A name for what these files hold, part of the table's repr: a file that has changed is another."""
+        found = [path.read_bytes() if path.is_file() else b"absent" for path in self.coefficient_files]
+        return hashlib.sha256(b"\0".join(found)).hexdigest() if found else ""
 
     @property
     def web_spans(self) -> tuple[tuple[float, float], ...]:

@@ -105,6 +105,7 @@ Webs = Annotated[
     Field(min_length=1),
 ]
 MeshFile = Annotated[Path, Text.FILE]
+CoefficientFile = Annotated[Path, Text.FILE]
 FaceName = Annotated[str, Text.NAME, Field(min_length=1)]
 FaceNames = Annotated[tuple[str, ...], Text.NAMES, Field(min_length=1)]
 

@@ -10,6 +10,7 @@ import numpy as np
 from system import pairs
 from system.chamber_problem import ChamberProblem, LeakTable
 from system.description import PortsSection, PumpDescription
+from system.flow_tables import FlowTable, port_table
 from system.kinematics import (
     Array,
     Number,
@@ -205,7 +206,15 @@ def _port_opening(pump: PumpDescription, p: PortsSection, dead_centre: Number | 
         kidney_area=p.kidney_area,
         grooves=tuple(relief_groove(groove, p.kidney_full_end, radius) for groove in p.relief_grooves),
         webs=PortWebs(pump.valve_plate.kidney_arc, p.web_spans),
+        coefficients=_coefficients(pump.ports, p),
     )
+
+
+def _coefficients(ports: PortsSection, side: PortsSection) -> FlowTable:
+    """Flow coefficients of one side, scaled by [ports] flow_coefficient; none where no file is stated."""
+    if ports.coefficient_file is None or side.coefficient_file is None:
+        return FlowTable()
+    return port_table(ports.coefficient_file, side.coefficient_file, ports.critical_reynolds)
 
 
 def piston_forces(

@@ -11,7 +11,8 @@ from operator import itemgetter
 
 from system.checks import CheckWarning, Finding, angle, needs
 from system.description import PortsSection, PumpDescription
-from system.faults import Fault
+from system.faults import Fault, InputFaults
+from system.flow_tables import coefficients_of
 from system.port_description import groove_faults, throats
 from system.port_webs import MOST_WEBS
 from system.units import Dimension, format_quantity
@@ -161,7 +162,23 @@ def webs_part_the_port(pump: PumpDescription) -> Iterator[Finding]:
         last = max(last, stop)
 
 
+@needs("ports.delivery.coefficient_file")
+def delivery_coefficients_are_a_table(pump: PumpDescription) -> Iterator[Finding]:
+    """A file of the delivery port's own is such a file, and stands beside one of [ports]."""
+    own = pump.ports.delivery.coefficient_file if pump.ports.delivery else None
+    if own is None:
+        return
+    key = "ports.delivery.coefficient_file"
+    if pump.ports.coefficient_file is None:
+        yield Fault(key, "without ports.coefficient_file", "one of [ports] too, or of [ports] alone")
+    try:
+        coefficients_of(own)
+    except InputFaults as reason:
+        yield from (replace(fault, path=key, found=f"{fault.path}: {fault.found}") for fault in reason.faults)
+
+
 PORT_CHECKS = (
+    delivery_coefficients_are_a_table,
     ports_open_in_order,
     ports_shut_before_the_other_opens,
     ports_belong_to_the_kidney,

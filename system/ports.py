@@ -13,6 +13,7 @@ from typing import Generic
 import numba
 import numpy as np
 
+from system.flow_tables import FLOW_SIZE, FlowTable
 from system.kinematics import Array, Number
 from system.port_webs import WEBS_SIZE, PortWebs, covered_share
 from system.relief_grooves import SIZE, ReliefGroove, throat_area
@@ -21,10 +22,12 @@ TURN = 2.0 * np.pi
 SAME_ANGLE = 1e-9  # rad
 MOST_GROOVES = 8
 NUMBERS = 9
-"""Of a port as compiled code reads it, before its grooves and webs."""
+"""Of a port as compiled code reads it, before its grooves, webs and flow coefficients."""
 WEBS_FROM = NUMBERS + MOST_GROOVES * SIZE
-PORT_SIZE = WEBS_FROM + WEBS_SIZE
+FLOW_FROM = WEBS_FROM + WEBS_SIZE
+PORT_SIZE = FLOW_FROM + FLOW_SIZE
 NO_WEBS = PortWebs()
+PLAIN = FlowTable()
 
 
 @dataclass(frozen=True)
@@ -44,6 +47,7 @@ class PortOpening(Generic[Number]):
     kidney_area: float
     grooves: tuple[ReliefGroove, ...] = ()
     webs: PortWebs = NO_WEBS
+    coefficients: FlowTable = PLAIN
 
     def __post_init__(self) -> None:
         if len(self.grooves) > MOST_GROOVES:
@@ -88,7 +92,7 @@ def section_area(shaft_angle, port):  # type: ignore[no-untyped-def]
     x += start - TURN * np.floor(x / TURN)
     if x > port[8]:
         return 0.0
-    return _one_kidney(x, port) - port[5] * covered_share(x, port[WEBS_FROM:])
+    return _one_kidney(x, port) - port[5] * covered_share(x, port[WEBS_FROM:FLOW_FROM])
 
 
 @numba.njit("f8(f8,f8,f8,f8,f8)", cache=True)
@@ -146,7 +150,8 @@ def as_array(port: PortOpening) -> Array:
     )
     for n, groove in enumerate(port.grooves):
         found[NUMBERS + n * SIZE : NUMBERS + (n + 1) * SIZE] = groove.row
-    found[WEBS_FROM:] = port.webs.row
+    found[WEBS_FROM:FLOW_FROM] = port.webs.row
+    found[FLOW_FROM:] = port.coefficients.row
     return found
 
 

@@ -15,10 +15,11 @@ from reynolds.oil import ISO_GRADES
 from system.body_checks import BODY_CHECKS
 from system.case_table import toml_tables
 from system.checks import CheckReport, run_checks
-from system.description import FORMAT, SINGLE_PARTS, PumpDescription
+from system.description import FORMAT, SINGLE_PARTS, PortsSection, PumpDescription
 from system.faults import Fault, InputFaults, key_lines, nearest_choice, nearest_path
 from system.fields import Section, dimension_of, table_of, tables_of
 from system.film_checks import FILM_CHECKS
+from system.flow_tables import coefficients_of, file_law
 from system.geometry_checks import GEOMETRY_CHECKS
 from system.operating_checks import OPERATING_CHECKS
 from system.parts_checks import PARTS_CHECKS, single_parts_checked
@@ -38,6 +39,7 @@ _CHECKS = (
     *VALUE_CHECKS,
 )
 _VISCOSITIES = ("kinematic_viscosity_40C", "kinematic_viscosity_100C")
+_OF_LAW = ("flow_coefficient", "critical_reynolds")
 _TABLES = {name: model for name, info in PumpDescription.model_fields.items() if (model := table_of(info))}
 
 
@@ -262,6 +264,8 @@ def _values(name: str, model: type[Section], table: Mapping[str, object], readin
         absolute = key != written
         if (name, written) == ("oil", "grade"):
             values |= _grade_viscosities(raw, table, reading)
+        elif (name, written) == ("ports", "coefficient_file"):
+            values |= _file_law(raw, table, reading)
         elif name in SINGLE_PARTS and _is_chamber(written):
             continue  # a single part: `_singles`
         elif info is None or (absolute and dimension_of(info) is not Dimension.PRESSURE):
@@ -283,6 +287,22 @@ def _values(name: str, model: type[Section], table: Mapping[str, object], readin
             else:
                 values[key] = to_gauge(value) if absolute and isinstance(value, float) else value
     return values
+
+
+def _file_law(raw: object, table: Mapping[str, object], reading: _Reading) -> dict[str, object]:
+    """Return [ports] coefficient_file and, where the table does not state them, the law nearest to the file."""
+    path = "ports.coefficient_file"
+    try:
+        file = read_value(PortsSection.model_fields["coefficient_file"], raw, reading.folder)
+        law = file_law(coefficients_of(Path(str(file))))
+    except (QuantityError, InputFaults) as reason:
+        faults = reason.faults if isinstance(reason, InputFaults) else [reason]
+        for fault in faults:
+            where = f"{fault.path}: " if isinstance(fault, Fault) else ""
+            reading.fault(path, where + fault.found, fault.expected, fault.nearest)
+        reading.told |= {f"ports.{key}" for key in _OF_LAW}
+        return {}
+    return {"coefficient_file": file} | {key: getattr(law, key) for key in _OF_LAW if key not in table}
 
 
 def _inner_tables(path: str, model: type[Section], raw: object, reading: _Reading) -> tuple[Section, ...]:

@@ -18,7 +18,7 @@ import numba
 import numpy as np
 
 from system.chamber_kernel import GAMMA, LEFT, NODES, STAGES, TABLEAU, WEIGHTS, fill_stage, stage_pressure
-from system.chamber_state_kernels import INTEGRALS, PATHS, WAYS, oil_energy, oil_volume, outflows
+from system.chamber_state_kernels import INTEGRALS, PATHS, WAYS, oil_energy, oil_volume, outflows, port_ways
 from system.multibody.plate_kernels import axial
 from system.ports import orifice_coefficients, section_area
 
@@ -95,9 +95,8 @@ def piston_at(chamber, plate, shaft_angle, angle, rate, ways):
     ways[0] = p.piston_leak / (p.engaged_length - out)
     ways[1], ways[2] = p.slipper_leak, p.ring_leak
     ways[3], ways[4], ways[5] = p.carried * way * c.shaft_speed, 0.0, 0.0
-    law = (c.flow_coefficient, c.density, c.kinematic_viscosity, c.critical_reynolds)
-    ways[6], ways[7] = orifice_coefficients(section_area(shaft_angle, c.delivery_port), *law)
-    ways[8], ways[9] = orifice_coefficients(section_area(shaft_angle, c.suction_port), *law)
+    ports = section_area(shaft_angle, c.delivery_port), section_area(shaft_angle, c.suction_port)
+    port_ways(chamber, ports[0], ports[1], ways)
     ways[10], ways[11] = c.delivery_pressure, c.inlet_pressure
     return c.dead_volume + c.piston_area * out, c.piston_area * way
 

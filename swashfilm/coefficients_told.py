@@ -1,0 +1,79 @@
+"""What a run tells of coefficients that came from files: where from, and how far the run left their range."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from reynolds.mesh import Array
+from system.assembly import PumpPoint
+from system.coefficient_files import FlowCoefficients
+from system.description import PumpDescription
+from system.flow_tables import coefficients_of
+from system.units import Dimension, format_quantity
+
+LARGEST_SHARE_BEYOND = 0.01
+"""Of the time in which a port is open, from which it is told that its coefficients are those of an edge."""
+
+
+def coefficient_records(pump: PumpDescription) -> list[dict[str, Any]]:
+    """Of each file of coefficients its key, path, source and range."""
+    ports, own = pump.ports, pump.ports.delivery.coefficient_file if pump.ports.delivery else None
+    stated = {"ports.coefficient_file": ports.coefficient_file, "ports.delivery.coefficient_file": own}
+    found = []
+    for key, path in stated.items():
+        if path is not None:
+            table = coefficients_of(path)
+            found.append({"key": key, "file": str(path), "source": table.source, "range": _range(table)})
+    return found
+
+
+def coefficient_warnings(pump: PumpDescription, point: PumpPoint) -> list[str]:
+    """A warning for each port that stood open beyond its file for longer than LARGEST_SHARE_BEYOND of the time."""
+    found = []
+    sides = zip(
+        ("suction", "delivery"),
+        pump.ports.sides,
+        (point.suction_area, point.delivery_area),
+        (point.suction.pressure, point.delivery.pressure),
+        strict=True,
+    )
+    for name, side, area, behind in sides:
+        if side.coefficient_file is None:
+            continue
+        table = coefficients_of(side.coefficient_file)
+        share = share_beyond(table, area, point.cycle.pressure - behind, pump.oil.density, point.point.viscosity)
+        if share > LARGEST_SHARE_BEYOND:
+            found.append(
+                f"coefficients_beyond_file: {name} port: {share:.0%} of the time in which it is open lies beyond "
+                f"{side.coefficient_file.name} ({_range(table)}), where its edge is taken (limit "
+                f"{LARGEST_SHARE_BEYOND:.0%}); give rows for it"
+            )
+    return found
+
+
+def share_beyond(
+    table: FlowCoefficients, area: Array, pressure_drop: Array, density: float, viscosity: float
+) -> float:
+    """Share of the places with an open port (areas (N,) m2, drops (N,) Pa) that lie beyond a file's rows.
+
+    Laminar flow below its least flow number does not count. 0 where the port is never open.
+    """
+    is_open = area > 0.0
+    size, drop = area[is_open], np.abs(pressure_drop[is_open])
+    if not size.size:
+        return 0.0
+    number = np.sqrt(8.0 * size / np.pi * density * drop) / viscosity
+    largest = np.interp(np.log(size), np.log(table.opening), np.log(table.flow_number[:, -1]))
+    outside = (size < table.opening[0]) | (size > table.opening[-1])
+    if table.opening.size == 1:
+        outside = np.zeros_like(outside)  # such a file says that the opening does not matter
+    return float(np.mean(outside | (number > np.exp(largest))))
+
+
+def _range(table: FlowCoefficients) -> str:
+    """The openings and Reynolds numbers of a file, in words."""
+    ends = [format_quantity(float(size), Dimension.AREA, digits=4) for size in table.opening[[0, -1]]]
+    opening = " .. ".join(ends) if ends[0] != ends[1] else f"{ends[0]} for all"
+    return f"opening {opening}, Re {table.reynolds.min():.3g} .. {table.reynolds.max():.3g}"
