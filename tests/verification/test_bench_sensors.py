@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 import pytest
 
-from system.bench_parameters import BASE_NAMES, base_parameters
+from system.bench_parameters import BASE_NAMES, base_parameters, groove_parameters
 from system.bench_points import BenchPoints
 from system.channels import ChannelName
 from system.estimation.parameters import Role, Scale
@@ -95,7 +95,7 @@ def test_priors_stand_about_what_the_pump_states():
         for name in ("viscosity_slope", "displacement", "dead_volume", "flow_coefficient", "stand_out_share")
     }
     found = {one.name: one for one in base_parameters(pump, stated)}
-    assert set(found) == BASE_NAMES
+    assert {*found, *(one.name for one in groove_parameters())} == BASE_NAMES
     assert found["film_thickness.slipper"].centre == pump.slipper.film_thickness
     assert found["film_thickness.slipper"].value(1.0) == pytest.approx(pump.slipper.film_thickness * np.exp(0.08))
     assert found["friction.front_bearing"].spread == 0.1

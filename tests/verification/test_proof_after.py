@@ -12,6 +12,7 @@ import pytest
 from diagnosis.bench_box import BenchBox
 from diagnosis.hypotheses import Hypothesis, together
 from diagnosis.weighed import Weighed
+from system.channels import ChannelName
 from system.physics.catalogue import entry_of
 from system.physics.effects import EffectId, Kind
 from system.pump_gap import Gap
@@ -90,8 +91,7 @@ def test_a_point_is_recorded_where_it_was_asked(proof: SimpleNamespace, made: Si
     """Inputs as read stand within their noise of the place; the drain carries the fault it has."""
     ends = ((100.0, 200.0), (5e6, 35e6), (0.3, 1.0), (320.0, 330.0))
     box = BenchBox(ends, 2.4e6, 0.15e6, 3.0, (13.0, 1.0))
-    channels = [SimpleNamespace(name=name) for name in ("Q_out", "Q_case")]
-    study = SimpleNamespace(observations=SimpleNamespace(channels=channels))
+    study = SimpleNamespace(channels=(ChannelName.Q_OUT, ChannelName.Q_CASE))
     place = (150.0, 20e6, 0.8, 326.0)
     rng = np.random.default_rng(4)
     points, values = proof.worth._recorded(study, box, place, made.case, made.made, rng)
