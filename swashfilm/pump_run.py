@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, assert_never
 
-from swashfilm.coefficients_told import coefficient_records, coefficient_warnings
+from swashfilm.coefficients_told import coefficient_warnings
 from swashfilm.fidelity import Fidelity
 from swashfilm.floating_run import floating_summary, write_floating
 from swashfilm.forces_data import force_warnings, forces_summary, write_forces
@@ -62,7 +62,6 @@ def run_pump(
             summary = _run_table(pump, folder, table)
         case _:
             assert_never(fidelity)
-    summary["coefficients"] = coefficient_records(pump)
     write_json(folder / "summary.json", summary)
     from swashfilm.pump_page import write_pump_page
 

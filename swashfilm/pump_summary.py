@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from gaps.result import GapFilm
+from swashfilm.coefficients_told import coefficient_records
 from swashfilm.fidelity import Fidelity
 from swashfilm.pump_data import gap_films
 from system.assembly import PumpPoint
@@ -72,6 +73,7 @@ def pump_summary(
         "power_balance": _power(point),
         "gaps": {gap: gap_report(series) for gap, series in gap_films(films).items()} if films else {},
         "checks": _checks(point, films),
+        "coefficients": coefficient_records(pump),
         "assumptions": [str(taken) for taken in films.parts.taken] if films else [],
         "warnings": list(warnings),
     }
