@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import base64
 import csv
 import json
 from collections.abc import Iterator, Mapping
@@ -12,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from swashfilm.duty_plots import duty_plots
+from swashfilm.kept_pictures import keep_pictures
 from swashfilm.run_folder import write_json
 from system.duty import Cycle, Duty, Energy, duty
 from system.faults import Fault, InputFaults
@@ -124,9 +124,6 @@ def write_duty_page(folder: Path) -> Path:
         head, *rows = csv.reader(file)
     course = dict(zip(head, np.array(rows, dtype=float).T, strict=True))
     pictures = duty_plots(course, summary)
-    (folder / "plots").mkdir(exist_ok=True)
-    for number, png in enumerate(pictures.values(), start=1):
-        (folder / "plots" / f"duty-{number}.png").write_bytes(png)
     template = Environment(loader=PackageLoader("swashfilm"), autoescape=True).get_template("duty.html.jinja")
     page = template.render(
         summary=summary,
@@ -135,7 +132,7 @@ def write_duty_page(folder: Path) -> Path:
         efficiencies=list(efficiency_rows(summary)),
         efficiency_head=EFFICIENCY_HEAD,
         marked=list(marked_rows(summary)),
-        pictures={text: base64.b64encode(png).decode("ascii") for text, png in pictures.items()},
+        pictures=keep_pictures(folder, "duty", pictures),
     )
     path = folder / "report.html"
     path.write_text(page, encoding="utf-8")

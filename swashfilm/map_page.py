@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import base64
 import json
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
+from swashfilm.kept_pictures import keep_pictures
 from swashfilm.map_files import MAP, read_map
 from swashfilm.map_plots import map_plots
 from system.faults import Fault, InputFaults
@@ -29,9 +29,6 @@ def write_map_page(folder: Path) -> Path:
         raise InputFaults(str(folder), [Fault(name, "no such file", "a map's run folder") for name in missing])
     summary = json.loads((folder / "summary.json").read_text("utf-8"))
     pictures = map_plots(read_map(folder / MAP)[0]) if summary["solved"] else {}
-    (folder / "plots").mkdir(exist_ok=True)
-    for number, png in enumerate(pictures.values(), start=1):
-        (folder / "plots" / f"map-{number}.png").write_bytes(png)
     template = Environment(loader=PackageLoader("swashfilm"), autoescape=True).get_template("map.html.jinja")
     page = template.render(
         summary=summary,
@@ -44,7 +41,7 @@ def write_map_page(folder: Path) -> Path:
         error_head=ERROR_HEAD,
         table_errors=[(name, f"{100.0 * error:.3g} %") for name, error in (summary["table_error"] or {}).items()],
         failed=list(failed_rows(summary)),
-        pictures={text: base64.b64encode(png).decode("ascii") for text, png in pictures.items()},
+        pictures=keep_pictures(folder, "map", pictures),
         resolved=(folder / "resolved.toml").read_text("utf-8"),
     )
     path = folder / "report.html"

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from recording_heads import HEAD
 
 from swashfilm.__main__ import main
 from system.bench_map import LumpedBench
@@ -21,18 +22,9 @@ from system.physics.extension import Extension
 from system.pump_file import load_pump
 
 PUMP = load_pump("ref90")
-RECORDING = """format = 1
-title = "made"
-pump = "ref90"
-oil = "ISO VG 46"
-pressure_reference = "gauge"
-
-[steady]
-file = "steady.csv"
-
-[channel]
-speed = { column = "n", unit = "rpm", sigma = 0.5 }
-displacement_ratio = { column = "e", unit = "1", sigma = 0.0 }
+RECORDING = (
+    HEAD
+    + """displacement_ratio = { column = "e", unit = "1", sigma = 0.0 }
 p_out = { column = "p", unit = "bar", sigma = 0.1 }
 p_in = { column = "s", unit = "bar", sigma = 0.02 }
 p_case = { column = "c", unit = "bar", sigma = 0.01 }
@@ -43,6 +35,7 @@ Q_in = { column = "I", unit = "L/min", sigma = 0.1 }
 Q_case = { column = "q", unit = "L/min", sigma = 0.015 }
 torque = { column = "M", unit = "N m", sigma = 0.3 }
 """
+)
 PLANTED = {"friction.slipper_swash_plate": 0.009, "friction.piston_cylinder": 0.022}
 BOUNDARY = {"mixed_friction.slipper": 0.05}
 
