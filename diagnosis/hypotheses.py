@@ -23,7 +23,8 @@ class Hypothesis:
     extra: parameters added to the simulator; widened: names of those whose prior is widened; log_prior: natural
     logarithm of its prior probability; laws: what is switched on, each with the members of its grid that are open;
     component: of unknown physics, whose law is bent freely over the map; bent: the laws' own form is not all;
-    reach: what the prior of the widened is wider by than the fault factor.
+    stand_ins: what beside them would take up what their form leaves; reach: what the prior of the widened is wider
+    by than the fault factor.
     """
 
     effects: tuple[EffectId, ...]
@@ -35,6 +36,7 @@ class Hypothesis:
     laws: tuple[Extension, ...] = ()
     component: Component | None = None
     bent: bool = False
+    stand_ins: tuple[EffectId, ...] = ()
     reach: float = 1.0
 
     @property

@@ -42,7 +42,7 @@ def left_over(
     after, before = best.posterior, null.posterior
     if after is None or before is None:
         return ()
-    found = ["its law explains more if it is bent over the map"] if best.hypothesis.bent else []
+    found = list(_bent(best.hypothesis))
     found += _scatter(after.residual, thresholds)
     least = np.sqrt(MATERIAL * max(before.objective - after.objective, 0.0) * _shares(study, best, thresholds))
     found += _regions(study, after, least, thresholds)
@@ -53,6 +53,16 @@ def left_over(
     if _allowed_gain(study, before, after, thresholds) < thresholds.name.odds:
         found.append(f"errors of form of {thresholds.name.allowance:.1%} would explain as much")
     return tuple(found)
+
+
+def _bent(hypothesis: Hypothesis) -> Iterator[str]:
+    if not hypothesis.bent:
+        return
+    beside = " and ".join(each.value for each in hypothesis.stand_ins)
+    stands = (
+        f"; {beside} beside it would do so too, but takes up no more than its form may leave" if beside else ""
+    )
+    yield f"its law explains more if it is bent over the map{stands}"
 
 
 def _scatter(residual: Array, thresholds: Thresholds) -> Iterator[str]:

@@ -327,6 +327,25 @@ def test_a_law_of_another_form_is_named_without_stand_ins() -> None:
     assert found.hypotheses[0].hypothesis.text == "churning, bent"
 
 
+@cache
+def _beside(share: float) -> Diagnosis:
+    """Opening by 1 + .4 p, and a control flow of a part of that: both in the case drain."""
+    return _diagnosis(_study(1, laws=((OPENING[Gap.VALVE_PLATE], 0.4), (CONTROL, share))))
+
+
+def test_what_takes_up_less_than_a_laws_form_may_leave_is_told_but_not_claimed() -> None:
+    """Control flow of some 8 sigma beside an opening of 94: a hundredth of its square, as a wrong form leaves."""
+    found = _beside(0.1)
+    assert _told(found) == (Kind.MISSING_PHYSICS, Status.INCOMPLETE, (EffectId.ELASTIC_OPENING,))
+    assert found.hypotheses[0].hypothesis.stand_ins == (EffectId.CONTROL_FLOW,)
+    assert any("control_flow beside it" in note for note in found.notes)
+
+
+def test_what_takes_up_more_than_a_laws_form_may_leave_is_claimed() -> None:
+    claimed = {claim.effect for claim in _beside(0.3).effects}
+    assert claimed == {EffectId.ELASTIC_OPENING, EffectId.CONTROL_FLOW}
+
+
 def test_a_law_of_a_wrong_power_tells_which() -> None:
     """Drag with n^3 in place of n^2: churning, incomplete, and a power more of 1 within what nuisances take up."""
     zero = np.zeros(POINTS)
