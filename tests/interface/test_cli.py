@@ -20,6 +20,7 @@ from system.pump_file import load_pump, resolved_toml
 
 ROOT = Path(__file__).resolve().parents[2]
 EXAMPLES = ROOT / "examples" / "films"
+SOLVED_OFTEN = ("floating_slipper_study", "friction_map_study", "own_slipper", "stribeck_study")
 CASE = """
 format = 1
 [film]
@@ -285,7 +286,13 @@ def run_example(name: str) -> dict:
     return summary_of(Path(name))
 
 
-@pytest.mark.parametrize("path", sorted(EXAMPLES.glob("*.toml")), ids=lambda path: path.stem)
+@pytest.mark.parametrize(
+    "path",
+    [
+        pytest.param(path, id=path.stem, marks=pytest.mark.long if path.stem in SOLVED_OFTEN else ())
+        for path in sorted(EXAMPLES.glob("*.toml"))
+    ],
+)
 def test_every_example_film_closes_its_balances(path):
     summary = run_example(path.stem)
     # Of a turn it is what its flows miss between the reported angles, of a film round-off.

@@ -92,6 +92,7 @@ def test_the_page_shows_the_gaps_and_can_be_made_anew(folder):
     assert write_pump_page(folder).read_text("utf-8") == page
 
 
+@pytest.mark.long
 def test_a_worn_piston_stands_beside_the_others(tmp_path, monkeypatch):
     monkeypatch.setattr("system.floating.PRESSURE_TOLERANCE", 1.0)
     monkeypatch.setattr("system.floating.FRICTION_TOLERANCE", 1.0)

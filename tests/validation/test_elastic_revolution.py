@@ -70,7 +70,7 @@ def test_walls_give_way_to_the_pressure(slippers):
     assert soft[2] < 1.01 * rigid[2]
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_elastic_piston_closes():
     """At rated pressure, on its edges in contact; between rigid walls these bear three times as much."""
     at, parts, driven = driven_at("35 MPa")

@@ -20,7 +20,7 @@ from system.pump_file import load_pump, resolved_toml
 ROUGHLY = FloatingOptions(
     RIGID, steps=36, finer=0.25, accuracy=Accuracy(step=0.05, floor=1e-8, closed=0.1, reach=1.0), keep=6
 )
-pytestmark = pytest.mark.slow
+pytestmark = pytest.mark.long
 
 
 @pytest.fixture(scope="module")

@@ -242,7 +242,7 @@ def test_plates_turn_in_their_film(columns, tolerance, tmp_path):
     assert np.abs(as_built[(x > 0.0) & (y > 0.0)]).mean() > 1.3 * np.abs(as_built[(x < 0.0) & (y < 0.0)]).mean()
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_a_pump_of_own_meshes_runs_alike(tmp_path):
     """Slipper and swash plate of ref90_floating from files, straight edges: films over the turn differ by 1 %.
 
