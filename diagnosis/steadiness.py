@@ -57,7 +57,8 @@ def is_steady(window: Array, sigma: Array, rule: SteadyRule) -> bool:
     borders = np.linspace(0, len(window), min(PARTS, len(window) // 4) + 1).astype(np.int64)
     middle = (borders[1:] + borders[:-1]) / len(window) - 1.0
     shapes = np.stack([np.ones_like(middle), middle, 1.5 * middle**2 - 0.5], axis=1)
-    for column, harmless in zip(window.T, sigma, strict=True):
+    rounded = np.maximum(sigma, ROUNDING * np.max(np.abs(window), axis=0))  # a commanded value has no noise at all
+    for column, harmless in zip(window.T, rounded, strict=True):
         means, error = _parts(column, borders)
         size, *_ = np.linalg.lstsq(shapes, means, rcond=None)
         errors = error * np.sqrt(np.diag(np.linalg.inv(shapes.T @ shapes)))

@@ -46,6 +46,12 @@ def test_what_is_harmless_is_steady_however_sure():
     assert not is_steady(ramp, np.array([0.5]), RULE)
 
 
+@pytest.mark.parametrize("value", [0.28, 0.51, 0.77, 1.0 / 3.0])
+def test_a_commanded_value_without_noise_is_steady(value):
+    """Means over tenths differ from it by rounding."""
+    assert is_steady(np.full((100, 1), value), np.zeros(1), RULE)
+
+
 def test_stretches_are_the_plateaus_and_nothing_between():
     rng = np.random.default_rng(7)
     levels = np.repeat([10.0, 20.0, 15.0, 30.0], 400)
