@@ -24,6 +24,8 @@ class FilmHeatingSection(Section):
     slipper: _WallResistance = 0.0
     valve_plate: _WallResistance = 0.0
     carried_share: Fraction = 0.0
+    throttled_share: Fraction = 1.0
+    carry_over: Annotated[float, Field(ge=0.0, le=0.95)] = 0.0
 
 
 class ViscosityPressureSection(Section):

@@ -48,6 +48,22 @@ def _one(effect: EffectId, law: Law, *parameters: tuple[str, float, float, Dimen
     return Extension(effect, None, law, own)
 
 
+def _walls(gap: Gap) -> Parameter:
+    name, source = path_of(EffectId.FILM_HEATING, gap.value), "6.6e-5 of ref90's films, solved"
+    return half(name, 5e-5, 2e-3, Dimension.THERMAL_RESISTANCE, source)
+
+
+def _carried() -> Parameter:
+    name = path_of(EffectId.FILM_HEATING, "carried_share")
+    return half(name, 0.1, 1.0, None, "1: walls that take no heat")
+
+
+def _share(key: str, upper: float, source: str) -> Parameter:
+    """A share that nothing but its range is known of."""
+    name = path_of(EffectId.FILM_HEATING, key)
+    return Parameter(name, Role.EXTENSION, Scale.NORMAL, 0.5, 0.5, 0.0, upper, None, source)
+
+
 def _falling_off() -> Parameter:
     name, source = path_of(EffectId.MIXED_FRICTION, "exponent"), ".5 to 1.4 of rough pads; Greenwood, Tripp 1970"
     return Parameter(name, Role.EXTENSION, Scale.LOG, 1.0, 0.3, 0.3, 2.5, None, source)
@@ -58,14 +74,16 @@ FILM_ENTRIES = (
         id=EffectId.FILM_HEATING,
         verdict=Kind.MISSING_PHYSICS,
         extensions=(
-            _one(
+            Extension(
                 EffectId.FILM_HEATING,
+                None,
                 film_heating,
-                *(
-                    (gap.value, 5e-5, 2e-3, Dimension.THERMAL_RESISTANCE, "6.6e-5 of ref90's films, solved")
-                    for gap in Gap
+                (*(_walls(gap) for gap in Gap), _carried()),
+                ({"throttled_share": 0.5, "carry_over": 0.5},),
+                (
+                    _share("throttled_share", 1.0, "1: oil that comes as warm as the case"),
+                    _share("carry_over", 0.95, ".7 to .9 of pads; Ettles 1969"),
                 ),
-                ("carried_share", 0.1, 1.0, None, "1: walls that take no heat"),
             ),
         ),
         components=(*LEAKAGE, *FRICTION, Component.THERMAL_STATE),

@@ -101,35 +101,51 @@ def shear_thinning(values: Values, courses: Courses, state: BenchState) -> Effec
 def film_heating(values: Values, courses: Courses, state: BenchState) -> Effects:
     """Films warmer than the case: what they lose and throttle, less what walls and oil take off.
 
-    `piston`, `slipper`, `valve_plate` R (m2 K/W): of the way through the gap's walls to the case; `carried_share`
-    s: of the heat, that leaves with the oil before it comes to a wall. Mean rise of a film over the turn by
-    `film_rise`; viscosity at that temperature serves leakage and shear, both in balance with it.
+    `piston`, `slipper`, `valve_plate` R (m2 K/W): of the way through the gap's walls to the case; `carried_share`,
+    `throttled_share`, `carry_over`: `HeatShares`. Mean rise of a film over the turn by `film_rise`; viscosity at
+    that temperature serves leakage and shear, both in balance with it.
     """
+    shares = HeatShares(values["carried_share"], values["throttled_share"], values["carry_over"])
     ratios = []
     for gap in GAPS:
-        ratio = warmed(state, film_rise(values[gap.value], values["carried_share"], courses[gap], state))
+        ratio = warmed(state, film_rise(values[gap.value], shares, courses[gap], state))
         ratios.append(ratio[:, None] * np.ones_like(courses[gap].film))
     return _in_films(courses, state, [1.0 / ratio for ratio in ratios], ratios)
 
 
-def film_rise(resistance: float, share: float, own: GapCourse, state: BenchState) -> Array:
+@dataclass(frozen=True)
+class HeatShares:
+    """What of a film's heat goes which way, each 0 to 1; the defaults are those of films solved with heat.
+
+    carried: of the heat, that leaves with the oil before it comes to a wall; throttled: of 0.45 K/MPa, that warms
+    the film above the case: 1 where oil comes as warm as the case, less where it comes from cooler chambers;
+    carry_over: of the oil that sliding draws in, that is the film's own come back (Ettles 1969: .7 to .9 of pads).
+    """
+
+    carried: float = 0.0
+    throttled: float = 1.0
+    carry_over: float = 0.0
+
+
+def film_rise(resistance: float, shares: HeatShares, own: GapCourse, state: BenchState) -> Array:
     """Kelvin (N,) by which a film is warmer than the case: heat P over G = A/R to the walls and C with the oil.
 
-    P: the pair's loss, Coulomb and shear, and 0.45 K/MPa of throttling; C = rho c (leakage + h U w/2, the cool oil
-    that sliding draws in over the width w). theta = P/(G + C), of which s P goes with the oil alone:
-    theta = P (1 + s G/C)/(G + C). Solved by Newton's method as if viscosity fell by THINNING a kelvin.
+    P: the pair's loss, Coulomb and shear, and q 0.45 K/MPa of throttling; C = rho c (leakage + (1 - k) h U w/2,
+    the cool oil that sliding draws in over the width w). theta = P/(G + C), of which s P goes with the oil alone:
+    theta = P (1 + s G/C)/(G + C). s, q, k of `shares`. Solved by Newton's method as if viscosity fell by THINNING
+    a kelvin.
     """
     oil, area = state.geometry.oil, own.land_area
     heat = oil.density * oil.specific_heat
-    drawn = heat * 0.5 * own.width * (own.film * own.sliding_speed).mean(axis=1)
+    drawn = (1.0 - shares.carry_over) * heat * 0.5 * own.width * (own.film * own.sliding_speed).mean(axis=1)
     leaked = heat * np.abs(own.leakage).mean(axis=1)
-    throttled = ISENTROPIC_RISE * heat * (own.leakage * own.pressure).mean(axis=1)
+    throttled = shares.throttled * ISENTROPIC_RISE * heat * (own.leakage * own.pressure).mean(axis=1)
     rubbed, sheared = own.coulomb.mean(axis=1), own.viscous.mean(axis=1)
     rise = np.zeros_like(area)
     for _ in range(WARM_PASSES):
         ratio = warmed(state, rise)
         carried = drawn + leaked / ratio
-        kept = (resistance + share * area / carried) / (area + resistance * carried)
+        kept = (resistance + shares.carried * area / carried) / (area + resistance * carried)
         image = (rubbed + ratio * sheared + throttled / ratio) * kept
         rise = rise + (image - rise) / (1.0 + THINNING * image)
     return rise

@@ -26,7 +26,7 @@ from system.given_positions import given_block, given_slipper
 from system.instants import Rotor, rotor
 from system.operating import operating_point
 from system.physics.effects import BenchState, GapCourse
-from system.physics.film_laws import ISENTROPIC_RISE, film_rise
+from system.physics.film_laws import ISENTROPIC_RISE, HeatShares, film_rise
 from system.physics.state import warmed
 from system.pump_file import load_pump
 from system.pump_gap import Gap
@@ -105,7 +105,7 @@ def law_of(gap: Gap, at: Rotor, pressure: float, leakage: float, shear: float, a
     nothing = np.zeros(1)
     kelvin, viscosity = np.array([at.point.temperature]), np.array([at.point.viscosity])
     state = BenchState(*([nothing] * 5), viscosity, kelvin, nothing, REF90)
-    return state, float(film_rise(RESISTANCE, 0.0, course, state)[0])
+    return state, float(film_rise(RESISTANCE, HeatShares(), course, state)[0])
 
 
 @pytest.mark.slow

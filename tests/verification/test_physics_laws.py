@@ -77,19 +77,33 @@ def test_heating_meets_nahme_while_it_is_small(walls, factor):
     film, conductivity, at = 10e-6, 0.13, state(2100)
     shear = float(at.viscosity[0]) * 9.9**2 / film
     heated = courses(pressure=0.0, film=film, viscous=shear, leakage=0.0, width=1e-6, area=1.0)
-    values = {gap.value: film / (walls * conductivity) for gap in Gap} | {"carried_share": 0.0}
+    values = {gap.value: film / (walls * conductivity) for gap in Gap} | {
+        "carried_share": 0.0,
+        "throttled_share": 1.0,
+        "carry_over": 0.0,
+    }
     assert film_laws.film_heating(values, heated, at).viscous[1] == pytest.approx(factor, abs=0.012)
 
 
-@pytest.mark.parametrize(("resistance", "share"), [(5e-5, 0.0), (0.0, 0.1), (2e-3, 0.0), (5e-5, 0.3)])
-def test_heating_solves_its_balance(resistance, share):
+@pytest.mark.parametrize(
+    ("resistance", "share", "throttled", "back"),
+    [
+        (5e-5, 0.0, 1.0, 0.0),
+        (0.0, 0.1, 1.0, 0.0),
+        (2e-3, 0.0, 1.0, 0.0),
+        (5e-5, 0.3, 1.0, 0.0),
+        (5e-5, 0.3, 0.2, 0.8),
+    ],
+)
+def test_heating_solves_its_balance(resistance, share, throttled, back):
     """Heat of loss and throttling is what the walls take and the oil takes away; it thins by 2.5 %/K: to 1e-3."""
     at, given = state(2100), courses(coulomb=120.0, viscous=90.0)
-    (rise,) = film_laws.film_rise(resistance, share, given[Gap.PISTON], at)
+    shares = film_laws.HeatShares(share, throttled, back)
+    (rise,) = film_laws.film_rise(resistance, shares, given[Gap.PISTON], at)
     ratio = float(warmed(at, np.array([rise]))[0])
     heat = REF90.oil.density * REF90.oil.specific_heat
-    carried = heat * (5e-6 / ratio + 0.5 * 0.028 * 10e-6 * 9.9) * rise
-    gained = 120.0 + ratio * 90.0 + 0.45e-6 * 35e6 * heat * 5e-6 / ratio
+    carried = heat * (5e-6 / ratio + (1.0 - back) * 0.5 * 0.028 * 10e-6 * 9.9) * rise
+    gained = 120.0 + ratio * 90.0 + throttled * 0.45e-6 * 35e6 * heat * 5e-6 / ratio
     if resistance > 0.0:
         walls = 405e-6 / resistance
         assert rise * (walls + carried / rise) == pytest.approx(
@@ -98,14 +112,15 @@ def test_heating_solves_its_balance(resistance, share):
     else:
         assert carried == pytest.approx(share * gained, rel=1e-3)
     values = {"piston": resistance, "slipper": 0.0, "valve_plate": 0.0, "carried_share": share}
+    values |= {"throttled_share": throttled, "carry_over": back}
     assert film_laws.film_heating(values, given, at).viscous[0, 0, 0] == pytest.approx(ratio, rel=1e-12)
 
 
 def test_heat_that_no_wall_takes_leaves_with_the_oil():
     """Both limits of one film: walls that take nothing, and a share of one."""
     at, given = state(2100), courses(coulomb=120.0, viscous=90.0)[Gap.PISTON]
-    insulated = film_laws.film_rise(1e6, 0.0, given, at)
-    outright = film_laws.film_rise(0.0, 1.0, given, at)
+    insulated = film_laws.film_rise(1e6, film_laws.HeatShares(0.0), given, at)
+    outright = film_laws.film_rise(0.0, film_laws.HeatShares(1.0), given, at)
     assert insulated == pytest.approx(outright, rel=1e-5)
     assert insulated[0] == pytest.approx(20.0, abs=10.0)
 
