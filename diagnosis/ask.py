@@ -5,8 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
+from diagnosis.bench_box import ordinary_box, rig_box
+from diagnosis.forecast import Contender
 from diagnosis.hypotheses import simulator_of
-from diagnosis.next_point import Contender, next_point
+from diagnosis.next_point import NextPoint, next_point
+from diagnosis.own_leak import own_leak
+from diagnosis.shown import effect_words
 from diagnosis.study import Study
 from diagnosis.thresholds import Thresholds
 from diagnosis.verdict import Diagnosis
@@ -19,14 +23,29 @@ STANDS = 0.001  # probability of a rival worth a reading
 def with_next_point(study: Study, pump: PumpDescription, found: Diagnosis, thresholds: Thresholds) -> Diagnosis:
     """The diagnosis with the point that separates its first explanation from the likeliest other.
 
-    Unchanged where no refitted rival stands, or where no point of the rig tells it from the first. Raises
-    NotConverged where a point of the rig's box cannot be simulated.
+    Unchanged where no refitted rival stands. Raises NotConverged where a point cannot be simulated.
     """
     asked = rivals(found)
     if asked is None:
         return found
-    contenders = [contender(study, each, thresholds) for each in asked]
-    return replace(found, next_point=next_point(study, pump, contenders[0], contenders[1]))
+    first, second = (contender(study, each, thresholds) for each in asked)
+    return replace(found, next_point=asked_for(study, pump, first, second))
+
+
+def asked_for(study: Study, pump: PumpDescription, first: Contender, second: Contender) -> NextPoint:
+    """A point of the rig's box if one settles two that are open, else one of an ordinary bench's if that does.
+
+    Else the rig's best, with what would instead.
+    """
+    box = rig_box(study.recording, pump)
+    point = next_point(study, pump, box, first, second)
+    if point.settles or not point.is_open:
+        return point
+    farther = next_point(study, pump, ordinary_box(study.recording, pump), first, second)
+    if farther.settles:
+        return replace(farther, beyond=True)
+    leak = own_leak(study, box, first, second)
+    return replace(point, instead=leak.text if leak else "")
 
 
 def rivals(found: Diagnosis) -> tuple[Weighed, Weighed] | None:
@@ -51,4 +70,6 @@ def contender(study: Study, weighed: Weighed, thresholds: Thresholds) -> Contend
     if weighed.posterior is None:
         raise ValueError(f"{weighed.hypothesis.text}: not refitted")
     simulator = simulator_of(study.simulator, weighed.hypothesis, thresholds.name.fault_factor)
-    return Contender(weighed.hypothesis.effects, simulator, weighed.posterior)
+    own = weighed.hypothesis
+    text = effect_words(own.effects, own.pair) + (", of another form" if own.bent else "")
+    return Contender(own.effects, simulator, weighed.posterior, text, weighed.probability)

@@ -8,13 +8,17 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.readings import bench_points
+from diagnosis.readings import bench_points, measured
 from diagnosis.recording import Recording
 from system.bench_points import BenchPoints
+from system.channels import INPUTS, ChannelName
 from system.description import PumpDescription
 from system.kinematics import Array
 
 BEYOND = 0.1  # of a range as recorded, beyond each of its ends
+SLOW, UNLOADED, SWIVELLED = 0.25, 0.1, 0.2  # of rated speed, rated pressure, full displacement: least on a bench
+COLD, HOT = 303.15, 353.15  # K: inlet temperatures that a bench with heater and cooler holds
+VARIED = 0.05  # of the greatest displacement ratio: a pump that was swivelled so far can be
 
 
 @dataclass(frozen=True)
@@ -73,6 +77,30 @@ def rig_box(recording: Recording, pump: PumpDescription) -> BenchBox:
         warmer=float(np.median(points.T_case - points.T_in)),
         last=(float(points.order.max()) + 1.0, float(points.hours.max())),
     )
+
+
+def ordinary_box(recording: Recording, pump: PumpDescription) -> BenchBox:
+    """The box of `rig_box`, widened to what an ordinary bench reaches along each axis that was measured.
+
+    From a quarter of the rated speed and a tenth of the rated pressure to both, displacement from a fifth to all
+    where the pump was swivelled, the inlet at 30 to 80 degC.
+    """
+    box, rated = rig_box(recording, pump), pump.pump
+    known = set(measured(recording, INPUTS))
+    least_ratio, most_ratio = box.ends[2]
+    swivels = most_ratio - least_ratio > VARIED * most_ratio
+    wide = (
+        (SLOW * rated.rated_speed, rated.rated_speed),
+        (UNLOADED * rated.rated_pressure, rated.rated_pressure),
+        (SWIVELLED, 1.0) if swivels else box.ends[2],
+        (COLD + box.warmer, HOT + box.warmer),
+    )
+    axes = (ChannelName.SPEED, ChannelName.P_OUT, ChannelName.DISPLACEMENT_RATIO, ChannelName.T_CASE)
+    ends = tuple(
+        (min(own[0], more[0]), max(own[1], more[1])) if axis in known else own
+        for axis, own, more in zip(axes, box.ends, wide, strict=True)
+    )
+    return replace(box, ends=ends)
 
 
 def _ends(values: Array, rating: float) -> tuple[float, float]:

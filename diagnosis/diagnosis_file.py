@@ -8,7 +8,7 @@ from math import degrees, isfinite
 from pathlib import Path
 from typing import Any
 
-from diagnosis.next_point import NextPoint
+from diagnosis.next_point import READINGS, NextPoint
 from diagnosis.shown import difference, difference_unit, last_word, reading
 from diagnosis.verdict import Claim, Diagnosis, Estimate
 from diagnosis.weighed import HeldOut, Weighed
@@ -164,7 +164,14 @@ def _next_test(found: NextPoint) -> dict[str, Any]:
             "T_case_degC": reading(ChannelName.T_CASE, point.temperature),
         },
         "separates": [effect.value for effect in found.separates],
+        "between": list(found.between),
+        "settles": found.settles,
+        "chance": found.chance,
+        "readings": READINGS,
         "gain_nats": found.gain,
+        "log_odds": {"now": found.before, "foretold": found.after},
+        "beyond_recorded": found.beyond,
         "repeats": found.repeats,
         "why": found.why,
+        "instead": found.instead,
     }

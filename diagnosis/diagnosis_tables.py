@@ -119,7 +119,7 @@ def parameter_rows(diagnosis: Diagnosis) -> Iterator[Row]:
 
 
 def next_point_rows(found: NextPoint | None) -> Iterator[Row]:
-    """Points of the rig's box by what one reading there would tell, in nats, the best first."""
+    """Points of the rig's box by what three readings there would tell, in nats, the best first."""
     for one in () if found is None else found.ranked:
         point = one.point
         yield {

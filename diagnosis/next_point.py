@@ -1,38 +1,38 @@
-"""The next point to record: where two explanations part the most.
+"""The next point to record: where two explanations part the most, and whether three readings there settle them.
 
-What a reading there would tell is the divergence of the two predictive distributions (Kullback and Leibler 1951;
-Box and Hill 1967): each explanation foretells a Gaussian, as wide as the noise and its own parameters make it.
+What readings at a point would tell is the divergence of the two predictive distributions (Kullback and Leibler
+1951; Box and Hill 1967).
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
+from math import log
 
 import numpy as np
-from scipy.linalg import cho_factor, cho_solve
 
-from diagnosis.bench_box import rig_box, rows
-from diagnosis.study import MovableSimulator, Study
+from diagnosis.bench_box import BenchBox, rows
+from diagnosis.forecast import Contender, Forecast, forecasts, foretold, readings
+from diagnosis.study import Study
 from system.bench_points import BenchPoints, operating_at
 from system.description import PumpDescription
-from system.estimation.observations import Array, Observations
-from system.estimation.posterior import Posterior, standard_slopes
-from system.estimation.whitening import Whitening, whitener
+from system.estimation.observations import Array
 from system.operating import OperatingPoint
 from system.physics.effects import EffectId
 from system.units import Dimension, format_quantity
 
+READINGS = 3  # at the point that is asked for
+SETTLED = log(20.0)  # nats: odds of 20 to 1
+PROMISED = 0.8  # chance of that, from which a point is said to settle a pair
 ENOUGH = 5.0  # nats: odds of 150 to 1, that readings at the point are to bring
 MOST_REPEATS = 20
 LOOKED_AT = 48  # points whose slopes are asked for: those where the predictions part the most
 LEVELS = (6, 6, 3, 3)  # of speed, delivery pressure, displacement ratio, case temperature over the box
-LEAST_GAIN = 0.05  # nats, below which a point separates nothing
 
 
 @dataclass(frozen=True)
 class Gained:
-    """A point and the gain of one reading there in nats; temperatures as of a `NextPoint`."""
+    """A point and what READINGS readings there bring at least, in nats; temperatures as of a `NextPoint`."""
 
     point: OperatingPoint
     inlet_temperature: float
@@ -41,168 +41,109 @@ class Gained:
 
 @dataclass(frozen=True)
 class NextPoint:
-    """A point, the ids it separates, the gain of one reading in nats, repeats to be sure, and why in words.
+    """The best point of a box for two explanations, and what READINGS readings there do to their odds.
 
-    point.temperature is that of the case; inlet_temperature, in K, what it goes with in the recording. ranked: all
-    points whose gain was asked for, this one first.
+    point.temperature is that of the case; inlet_temperature, in K, what it goes with in the recording. between:
+    the two in words, the likelier first; separates: their ids. before: ln odds of the first against the second by
+    the recording; gain: nats that the readings bring on average, whichever of the two is true; after: ln odds for
+    the true one that they lead to on average, and chance of odds of 20 to 1 for it, each the lesser of both cases.
+    repeats: readings that bring ENOUGH nats, None where MOST_REPEATS do not;
+    why: in words; ranked: all points whose gain was asked for, this one first; instead: what would settle the two
+    where the point does not, in words; beyond: the box goes beyond what was recorded.
     """
 
+    box: BenchBox
     point: OperatingPoint
     inlet_temperature: float
+    between: tuple[str, str]
     separates: tuple[EffectId, ...]
+    before: float
     gain: float
-    repeats: int
+    after: float
+    chance: float
+    repeats: int | None
     why: str
     ranked: tuple[Gained, ...] = ()
+    beyond: bool = False
+    instead: str = ""
+
+    @property
+    def settles(self) -> bool:
+        """Whether the point is said to settle the two: odds of 20 to 1 are likely, whichever of them is true."""
+        return self.chance >= PROMISED
+
+    @property
+    def is_open(self) -> bool:
+        """Whether the recording leaves the odds of the two below 20 to 1."""
+        return abs(self.before) < SETTLED
 
 
-@dataclass(frozen=True)
-class Contender:
-    """One explanation as refitted: its ids, the simulator with its laws on, and its posterior."""
-
-    effects: tuple[EffectId, ...]
-    simulator: MovableSimulator
-    posterior: Posterior
-
-
-@dataclass(frozen=True)
-class _Forecast:
-    """What two explanations foretell of the readings at one point, whitened: difference and parameter spreads."""
-
-    difference: Array
-    first: Array
-    second: Array
-
-    def gain(self, repeats: int = 1) -> float:
-        """Nats that `repeats` readings bring at least, whichever of the two is true."""
-        noise = np.eye(self.difference.size) / repeats
-        one, two = noise + self.first, noise + self.second
-        return min(divergence(self.difference, one, two), divergence(self.difference, two, one))
-
-
-def next_point(study: Study, pump: PumpDescription, first: Contender, second: Contender) -> NextPoint | None:
-    """The point of the rig's box at which one reading separates two explanations best, and how often to take it.
-
-    The box is that of the recording and a tenth of its range beyond, within the pump's rating. None where no point
-    of it would bring more than 0.05 nats: the two are one on this rig.
-    """
-    box = rig_box(study.recording, pump)
+def next_point(
+    study: Study, pump: PumpDescription, box: BenchBox, first: Contender, second: Contender
+) -> NextPoint:
+    """The point of a box at which READINGS readings separate two explanations best."""
     points = box.points(tuple(_levels(*ends, count) for ends, count in zip(box.ends, LEVELS, strict=True)))
-    parting = _parting(study, first, second, points)
-    best = np.sort(np.argsort(parting)[::-1][:LOOKED_AT])
+    best = np.sort(np.argsort(_parting(study, first, second, points))[::-1][:LOOKED_AT])
     some = rows(points, best)
-    forecasts = list(_forecasts(study, first, second, some))
-    gains = [forecast.gain() for forecast in forecasts]
-    at = int(np.argsort(gains)[-1])
-    if gains[at] < LEAST_GAIN:
-        return None
-    repeats = next((n for n in range(1, MOST_REPEATS) if forecasts[at].gain(n) >= ENOUGH), MOST_REPEATS)
-    separates = tuple(dict.fromkeys((*first.effects, *second.effects)))
-    why = _why(study, first, second, rows(some, np.array([at])))
+    found = list(forecasts(study, first, second, some))
+    gains = [forecast.gain(READINGS) for forecast in found]
+    order = np.argsort(gains)[::-1]
+    at = int(order[0])
     ranked = tuple(
-        Gained(operating_at(pump, some, place), float(some.T_in[place]), gains[place])
-        for place in np.argsort(gains)[::-1]
+        Gained(operating_at(pump, some, place), float(some.T_in[place]), gains[place]) for place in order
     )
-    return NextPoint(ranked[0].point, ranked[0].inlet_temperature, separates, gains[at], repeats, why, ranked)
+    before = log(first.probability / second.probability)
+    after, chance = _led_to(found[at], before)
+    return NextPoint(
+        box=box,
+        point=ranked[0].point,
+        inlet_temperature=ranked[0].inlet_temperature,
+        between=(first.text, second.text),
+        separates=tuple(dict.fromkeys((*first.effects, *second.effects))),
+        before=before,
+        gain=gains[at],
+        after=after,
+        chance=chance,
+        repeats=next((n for n in range(1, MOST_REPEATS + 1) if found[at].gain(n) >= ENOUGH), None),
+        why=_why(study, first, second, rows(some, np.array([at]))),
+        ranked=ranked,
+    )
 
 
 def gains_at(study: Study, first: Contender, second: Contender, points: BenchPoints) -> Array:
-    """(N,), nats that one reading at each of the points brings at least, whichever of the two is true."""
-    return np.array([forecast.gain() for forecast in _forecasts(study, first, second, points)])
+    """(N,), nats that READINGS readings at each of the points bring at least, whichever of the two is true."""
+    return np.array([forecast.gain(READINGS) for forecast in forecasts(study, first, second, points)])
 
 
-def log_density(study: Study, contender: Contender, points: BenchPoints, values: Array) -> float:
-    """ln of the joint density of readings (N, C), SI, at new points as an explanation foretells them.
-
-    nan: not read. But for a constant that all explanations share.
-    """
-    there = contender.simulator.elsewhere(points)
-    whitening = whitener(_readings(study, values), there.input_slopes(contender.posterior.values))
-    residual = whitening.whiten(values - there.predict(contender.posterior.values))
-    spread = _spread(contender, points, whitening)
-    covariance = np.eye(residual.size) + spread @ spread.T
-    squares = float(residual @ cho_solve(cho_factor(covariance), residual))
-    return whitening.log_determinant - 0.5 * (squares + float(np.linalg.slogdet(covariance)[1]))
-
-
-def divergence(difference: Array, true: Array, other: Array) -> float:
-    """Nats by which readings of N(0, true) speak for it against N(difference, other), on average.
-
-    (tr(S2^-1 S1) - m + d^T S2^-1 d + ln det S2 - ln det S1) / 2 (Kullback and Leibler 1951); never negative.
-    """
-    factor = cho_factor(other)
-    trace = float(np.trace(cho_solve(factor, true)))
-    distance = float(difference @ cho_solve(factor, difference))
-    volume = float(np.linalg.slogdet(other)[1] - np.linalg.slogdet(true)[1])
-    return 0.5 * (trace - difference.size + distance + volume)
+def _led_to(forecast: Forecast, before: float) -> tuple[float, float]:
+    """ln odds for the true one after READINGS readings, chance of SETTLED, each the lesser of both cases."""
+    cases = list(zip((before, -before), forecast.brought(READINGS), strict=True))
+    after = min(odds + told.mean for odds, told in cases)
+    return after, min(told.chance(SETTLED - odds) for odds, told in cases)
 
 
 def _levels(lower: float, upper: float, count: int) -> Array:
     return np.linspace(lower, upper, count) if upper > lower else np.array([lower])
 
 
-def _readings(study: Study, predictions: Array) -> Observations:
-    """Readings at new points that are as predicted, with the noise of the recording's channels."""
-    seen, count = study.observations, len(study.channels)
-    recorded = [study.recording.channel(name) for name in study.channels]
-    sigma = [
-        np.full(len(predictions), np.nan) if one is None else one.sigma + one.sigma_relative * np.abs(column)
-        for one, column in zip(recorded, predictions.T, strict=True)
-    ]
-    known = seen.measured[:, :count].any(axis=0) & np.array([one is not None for one in recorded])
-    return Observations(
-        channels=seen.channels[:count],
-        values=np.where(known, predictions, np.nan),
-        sigma=np.stack(sigma, axis=1),
-        inputs=seen.inputs,
-        input_sigma=np.tile(np.median(seen.input_sigma, axis=0), (len(predictions), 1)),
-        quantum=seen.quantum[:count],
-        blocks=np.arange(len(predictions)),
-    )
-
-
 def _parting(study: Study, first: Contender, second: Contender, points: BenchPoints) -> Array:
     """(N,), sum over the channels of the squared difference of the two predictions, in sigma of a reading."""
-    one, other = (_predict(contender, points) for contender in (first, second))
-    readings = _readings(study, one)
-    squares = np.where(readings.measured, ((one - other) / readings.sigma) ** 2, 0.0)
+    one, other = (foretold(contender, points) for contender in (first, second))
+    read = readings(study, one)
+    squares = np.where(read.measured, ((one - other) / read.sigma) ** 2, 0.0)
     return np.asarray(squares.sum(axis=1), dtype=float)
-
-
-def _predict(contender: Contender, points: BenchPoints) -> Array:
-    return contender.simulator.elsewhere(points).predict(contender.posterior.values)
-
-
-def _forecasts(study: Study, first: Contender, second: Contender, points: BenchPoints) -> Iterator[_Forecast]:
-    """What the two foretell at each of the points."""
-    one, other = (_predict(contender, points) for contender in (first, second))
-    there = first.simulator.elsewhere(points)
-    whitening = whitener(_readings(study, one), there.input_slopes(first.posterior.values))
-    difference = whitening.whiten(other - one)
-    spreads = [_spread(contender, points, whitening) for contender in (first, second)]
-    for at in range(len(points.speed)):
-        own = whitening.rows[:, 0] == at
-        yield _Forecast(difference[own], *(spread[own] @ spread[own].T for spread in spreads))
-
-
-def _spread(contender: Contender, points: BenchPoints, whitening: Whitening) -> Array:
-    """(n, k), factor of the covariance that a contender's parameters give its predictions, whitened."""
-    slopes = whitening.whiten(standard_slopes(contender.simulator.elsewhere(points), contender.posterior.xi))
-    spread: Array = slopes @ np.linalg.cholesky(contender.posterior.covariance)
-    return spread
 
 
 def _why(study: Study, first: Contender, second: Contender, point: BenchPoints) -> str:
     """In words: the channel in which the two part the most at the point, and by how much."""
-    one, other = (_predict(contender, point)[0] for contender in (first, second))
-    readings = _readings(study, one[None])
-    apart = np.where(readings.measured[0], np.abs(other - one) / readings.sigma[0], 0.0)
+    one, other = (foretold(contender, point)[0] for contender in (first, second))
+    read = readings(study, one[None])
+    apart = np.where(read.measured[0], np.abs(other - one) / read.sigma[0], 0.0)
     most = int(np.argmax(apart))
-    channel = readings.channels[most]
+    channel = read.channels[most]
     told = [_told(value[most], channel.dimension) for value in (one, other)]
-    ids = [" + ".join(effect.value for effect in contender.effects) or "nothing" for contender in (first, second)]
     return (
-        f"there {channel.name} is {told[0]} by {ids[0]} and {told[1]} by {ids[1]}, "
+        f"there {channel.name} is {told[0]} by {first.text} and {told[1]} by {second.text}, "
         f"{apart[most]:.1f} sigma of one reading apart"
     )
 

@@ -43,16 +43,12 @@ SUBJECTS: Mapping[EffectId, str] = {
 """What an effect without a law is about: a parameter, or its name up to the dot where there are several."""
 
 
-class MovableSimulator(Simulator, Protocol):
-    """A simulator of a bench map that can be asked at other points."""
+class PumpSimulator(Simulator, Protocol):
+    """A simulator of a pump's bench map that laws of the catalogue can be switched on in."""
 
-    def elsewhere(self, points: BenchPoints) -> MovableSimulator:
+    def elsewhere(self, points: BenchPoints) -> PumpSimulator:
         """The same pump with the same parameters and laws at other points, steady readings alone."""
         ...
-
-
-class PumpSimulator(MovableSimulator, Protocol):
-    """A simulator of a pump's bench map that laws of the catalogue can be switched on in."""
 
     def with_parameters(self, parameters: tuple[Parameter, ...]) -> Self:
         """The same model with these parameters: replaced where a name is there already, added where not."""

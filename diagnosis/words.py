@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from math import exp
 
 from diagnosis.growth import FLAT
 from diagnosis.locate import Location
-from diagnosis.next_point import NextPoint
+from diagnosis.next_point import READINGS, NextPoint
 from diagnosis.shown import (
     CHANNELS,
     PLACES,
@@ -82,7 +83,30 @@ def held_out_text(diagnosis: Diagnosis) -> str:
 
 
 def next_point_text(found: NextPoint) -> str:
-    """What to record next, with units, and what it brings."""
+    """What to record next, with units, and what three readings there bring; or that no point settles it."""
+    first, second = found.between
+    pair = f"{first} from {second} (odds now {_odds(abs(found.before))})"
+    times = f"{_point(found)}, {READINGS} times"
+    if found.settles:
+        beyond = ", outside the range recorded," if found.beyond else ""
+        sure = f"1:20 or better with a chance of {chance(found.chance)}"
+        return (
+            f"To separate {pair}, record{beyond} {times}: odds of {_odds(found.after)} are foretold, {sure}, "
+            f"whichever is true; {found.why}."
+        )
+    factor = f"multiplies the odds for the true one by {exp(found.gain):.2g} on average"
+    if not found.is_open:
+        return (
+            f"To be surer of {first} than {_odds(abs(found.before))} against {second}, record {times}: {factor}."
+        )
+    more = f", and it takes {found.repeats} to be sure" if found.repeats else ""
+    return (
+        f"No point that an ordinary bench runs is likely to separate {pair}: the best of the range recorded, "
+        f"{times}, {factor}{more}; {found.why}.{' ' if found.instead else ''}{found.instead}"
+    )
+
+
+def _point(found: NextPoint) -> str:
     point = found.point
     values = {
         ChannelName.SPEED: point.shaft_speed,
@@ -95,11 +119,11 @@ def next_point_text(found: NextPoint) -> str:
         f"{channel.value} {reading(channel, value):.4g} {channel_unit(channel)}".removesuffix(" 1")
         for channel, value in values.items()
     ]
-    times = "once" if found.repeats == 1 else f"{found.repeats} times"
-    return (
-        f"To separate {effect_words(found.separates)}, record {', '.join(told)}, {times}: {found.why}; one "
-        f"reading is worth {found.gain:.2g} nats."
-    )
+    return ", ".join(told)
+
+
+def _odds(nats: float) -> str:
+    return odds_text(1.0, exp(-nats))
 
 
 def _where(diagnosis: Diagnosis) -> str:

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TypeVar
 
 import numpy as np
+
+from diagnosis.next_point import PROMISED, SETTLED
 
 from .calibration import brier, calibration_error, wilson
 from .judged import in_set, is_grave, is_named, is_right, is_wrong_name, rank
@@ -17,7 +19,6 @@ PHYSICS, SENSOR, UNKNOWN, NULL = "missing_physics", "sensor_fault", "unknown_phy
 PLACED = {"elastic_opening", "thermal_clearance", "film_thickness"}  # ids that act in one gap
 KNOWN = ("graded", "pair", "parameter", "sensor")
 CLEAR = 7.5  # score from which a case counts as z >= 8: sizes are found to 2 %
-SETTLED = 3.0  # nats, odds of 20 to 1
 TRACED = "map"  # the campaign with chamber traces
 Outcomes = Sequence[Outcome]
 T = TypeVar("T")
@@ -156,17 +157,18 @@ def _number(name: str, cases: Outcomes, value: Callable[[Outcomes], float], limi
 
 
 def _asked(outcomes: Outcomes) -> tuple[Gate, Gate]:
-    """Of two explanations that the recording leaves open: whether three more readings settle them."""
+    """Of two explanations that the recording leaves open: whether three more readings settle them.
+
+    Where a point is asked for to settle them; the others are told to be beyond the rig, and are counted beside.
+    """
     open_still = [one.worth for one in outcomes if one.worth is not None and abs(one.worth.before) < SETTLED]
-    return (
-        _share(
-            "pairs settled by the point asked for, 3 readings",
-            open_still,
-            lambda w: _settles(w, w.asked),
-            at_least=0.8,
-        ),
-        _share("the same by a point drawn at random", open_still, lambda w: _settles(w, w.other), at_most=0.3),
+    promised = [worth for worth in open_still if worth.promised >= PROMISED]
+    beyond = f"{len(open_still) - len(promised)} more told to be settled by no point"
+    by_asked = _share(
+        "pairs settled by the point asked for, 3 readings", promised, lambda w: _settles(w, w.asked), at_least=0.8
     )
+    by_other = _share("the same by a point drawn at random", promised, lambda w: _settles(w, w.other), at_most=0.3)
+    return replace(by_asked, found=f"{by_asked.found}; {beyond}"), by_other
 
 
 def _settles(worth: Worth, told: float) -> bool:

@@ -40,13 +40,15 @@ class Worth:
     """What readings recorded after the diagnosis tell of two explanations, one of them the truth, in nats for it.
 
     before: by the recording; asked: three more readings at the point that was asked for; other: at a point drawn
-    from the rig's box; promised: for one reading at the point asked for.
+    from the same box; foretold: what those at the point asked for were to bring. promised: the chance of odds of
+    20 to 1 that was told with the point.
     """
 
     before: float
     asked: float
     other: float
     promised: float
+    foretold: float = 0.0
 
 
 @dataclass(frozen=True)

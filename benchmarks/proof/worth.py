@@ -4,12 +4,14 @@ two explanations that the point was to separate."""
 from __future__ import annotations
 
 from dataclasses import replace
+from math import log
 
 import numpy as np
 
 from diagnosis.ask import contender, rivals
-from diagnosis.bench_box import BenchBox, rig_box
-from diagnosis.next_point import log_density
+from diagnosis.bench_box import BenchBox
+from diagnosis.forecast import forecasts, log_density
+from diagnosis.next_point import READINGS
 from diagnosis.study import Study
 from diagnosis.thresholds import Thresholds
 from diagnosis.verdict import Diagnosis
@@ -27,7 +29,6 @@ from .plant.settings import Settings
 from .recordings import STEPS, Made
 from .sensors import METERS, read_after
 
-REPEATS = 3
 SEEDS = 900_000  # added to a case's: draws of its own
 GAUGE = ("p_out", "p_in", "p_case")
 NAMES = {"ratio": "displacement_ratio"}  # of the plant's settings, where the simulation's differ
@@ -49,7 +50,7 @@ def worth(
     if asked is None or two is None or not any(is_of_truth(each, expected) for each in two):
         return None
     true, false = two if is_of_truth(two[0], expected) else two[::-1]
-    box, rng = rig_box(study.recording, pump), np.random.default_rng(SEEDS + case.seed)
+    box, rng = asked.box, np.random.default_rng(SEEDS + case.seed)
     explained = [contender(study, each, thresholds) for each in (true, false)]
 
     def told(place: tuple[float, ...]) -> float:
@@ -60,15 +61,18 @@ def worth(
     point = asked.point
     there = point.shaft_speed, point.delivery_pressure, point.displacement_ratio, point.temperature
     anywhere = tuple(float(rng.uniform(*ends)) for ends in box.ends)
-    return Worth(true.log_weight - false.log_weight, told(there), told(anywhere), asked.gain)
+    wanted = box.points(tuple(np.array([value]) for value in there))
+    brought, _ = next(forecasts(study, *explained, wanted)).brought(READINGS)
+    before = log(true.probability / false.probability)
+    return Worth(before, told(there), told(anywhere), asked.chance, brought.mean)
 
 
 def _recorded(
     study: Study, box: BenchBox, place: tuple[float, ...], case: Case, made: Made, rng: np.random.Generator
 ) -> tuple[BenchPoints, Array]:
-    """REPEATS readings at a place of the box as the bench takes them: inputs as read, and outputs (n, C) in SI."""
+    """READINGS readings at a place of the box as the bench takes them: inputs as read, outputs (n, C) in SI."""
     wanted = box.points(tuple(np.array([value]) for value in place))
-    wanted = replace(wanted, **{name: np.repeat(value, REPEATS) for name, value in vars(wanted).items()})
+    wanted = replace(wanted, **{name: np.repeat(value, READINGS) for name, value in vars(wanted).items()})
     campaign = replace(campaigns()[case.campaign], points=_settings(wanted), traces=())
     at = held(campaign, rng)
     truth = run(made.machine, at.moved("ratio", made.setting), made.hidden, STEPS)

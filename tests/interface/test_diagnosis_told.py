@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 from diagnosis.angle_scan import AngleWindow
+from diagnosis.bench_box import BenchBox
 from diagnosis.detect import ChannelMisfit, Detection
 from diagnosis.diagnosis_file import diagnosis_record, read_diagnosis, write_diagnosis
 from diagnosis.diagnosis_tables import pull_sums
@@ -25,7 +26,7 @@ from diagnosis.time_scan import TimeKind, TimeMark
 from diagnosis.unknown import Scaling
 from diagnosis.verdict import Claim, Diagnosis, Estimate, Status
 from diagnosis.weighed import HeldOut, Weighed
-from diagnosis.words import paragraphs, statement
+from diagnosis.words import next_point_text, paragraphs, statement
 from swashfilm.__main__ import main
 from swashfilm.diagnose_files import read_rows, write_diagnosis_files
 from swashfilm.diagnose_runs import NOTHING, Told, run_both
@@ -142,7 +143,19 @@ def named() -> Diagnosis:
             {"speed": 0.02, "pressure": 2.1, "displacement": 0.0, "viscosity": -1.0},
             dict.fromkeys(("speed", "pressure", "displacement", "viscosity"), 0.1),
         ),
-        next_point=NextPoint(point, 343.15, (E.ELASTIC_OPENING, E.FILM_HEATING), 1.7, 3, "there Q_case parts"),
+        next_point=NextPoint(
+            box=BenchBox(((104.7, 104.7), (1e6, 37e6), (1.0, 1.0), (343.15, 343.15)), 2e6, 1e5, 0.0, (40.0, 1.0)),
+            point=point,
+            inlet_temperature=343.15,
+            between=("elastic opening at the valve plate", "film heating"),
+            separates=(E.ELASTIC_OPENING, E.FILM_HEATING),
+            before=np.log(15.5),
+            gain=7.0,
+            after=4.3,
+            chance=0.87,
+            repeats=3,
+            why="there Q_case parts",
+        ),
         not_identifiable=("film_thickness slipper vs film_thickness piston",),
         notes=("row 3 of Q_case was removed",),
         effort=Effort(10, 3, 1.0),
@@ -191,6 +204,29 @@ def test_a_named_effect_is_told_with_place_size_and_odds(named: Diagnosis) -> No
         "3 times",
     ):
         assert part in told, told
+
+
+def test_the_next_point_is_told_with_what_it_promises(named: Diagnosis) -> None:
+    """A promise with its odds; where none can be made so, with what would instead; where the odds do, no more."""
+    found = named.next_point
+    assert found is not None
+    text = next_point_text(found)
+    for part in (
+        "To separate elastic opening at the valve plate from film heating (odds now 1:16), record speed",
+        "3 times: odds of 1:74 are foretold, 1:20 or better with a chance of 0.87",
+    ):
+        assert part in text
+    assert "outside the range recorded" in next_point_text(replace(found, beyond=True))
+    poor = replace(found, chance=0.1, gain=0.7, repeats=None, instead="The leak would.")
+    text = next_point_text(poor)
+    assert text.startswith("No point that an ordinary bench runs is likely to separate")
+    assert "multiplies the odds for the true one by 2 on average" in text
+    assert text.endswith("The leak would.")
+    assert next_point_text(replace(poor, before=-8.0)).startswith("To be surer")
+    record = diagnosis_record(replace(named, next_point=poor))["next_test"]
+    assert (record["settles"], record["chance"], record["readings"]) == (False, 0.1, 3)
+    assert record["log_odds"] == {"now": pytest.approx(np.log(15.5)), "foretold": 4.3}
+    assert (record["instead"], record["repeats"]) == ("The leak would.", None)
 
 
 @pytest.mark.parametrize("status", Status)

@@ -8,10 +8,12 @@ from typing import Any
 
 import numpy as np
 import pytest
+from scipy.special import softmax
 from scipy.stats import norm
 
-from diagnosis.bench_box import rig_box
-from diagnosis.next_point import Contender, NextPoint, divergence, gains_at, log_density, next_point
+from diagnosis.bench_box import BenchBox, rig_box
+from diagnosis.forecast import Contender, brought, forecasts, independent, log_density
+from diagnosis.next_point import READINGS, SETTLED, NextPoint, gains_at, next_point
 from diagnosis.recording import Circuit, RecordedChannel, Recording, SteadyTable
 from diagnosis.study import Study
 from system.bench_map import LumpedBench
@@ -98,10 +100,10 @@ def _recording(points: BenchPoints, flow: Array) -> Recording:
     return Recording("toy", "ref90", "", Circuit.CLOSED, channels, steady, (), ())
 
 
-def _rivals(true: Law, seed: int) -> tuple[Study, Contender, Contender]:
-    """Readings made by one law, and both laws fitted to them."""
+def _rivals(true: Law, seed: int, size: float = 0.3) -> tuple[Study, Contender, Contender]:
+    """Readings made by one law, so many L/min large, and both laws fitted to them."""
     points = _points()
-    flow = points.p_out / PRESSURE * LPM + 0.3 * LPM * true(points)
+    flow = points.p_out / PRESSURE * LPM + size * LPM * true(points)
     flow = flow + SIGMA * np.random.default_rng(seed).normal(size=24)
     readings = Observations(
         channels=(Channel("Q_case", Dimension.VOLUME_FLOW),),
@@ -112,12 +114,20 @@ def _rivals(true: Law, seed: int) -> tuple[Study, Contender, Contender]:
         quantum=np.zeros(1),
         blocks=np.arange(24),
     )
-    drains = [_drain(points, law, 0.3 * LPM) for law in (_square, _fast)]
+    drains = [_drain(points, law, size * LPM) for law in (_square, _fast)]
     fits = [maximum_posterior(drain, readings) for drain in drains]
-    ids = (EffectId.ELASTIC_OPENING,), (EffectId.FILM_HEATING,)
-    first, second = (Contender(*each) for each in zip(ids, drains, fits, strict=True))
-    simulator: Any = drains[0]  # nothing else of it is asked for
-    return Study(_recording(points, flow), simulator, readings, fits[0], (), {}, np.zeros((24, 4))), first, second
+    ids = EffectId.ELASTIC_OPENING, EffectId.FILM_HEATING
+    weights = softmax([fit.log_evidence for fit in fits])
+    simulators: Any = drains  # nothing but readings is asked of them
+    first, second = (
+        Contender((one,), drain, fit, one.value, float(weight))
+        for one, drain, fit, weight in zip(ids, simulators, fits, weights, strict=True)
+    )
+    return (
+        Study(_recording(points, flow), simulators[0], readings, fits[0], (), {}, np.zeros((24, 4))),
+        first,
+        second,
+    )
 
 
 def _asked(point: NextPoint) -> BenchPoints:
@@ -129,12 +139,19 @@ def _asked(point: NextPoint) -> BenchPoints:
     return BenchPoints(*(np.array([number]) for number in numbers))
 
 
+def _box(study: Study) -> BenchBox:
+    return rig_box(study.recording, load_pump("ref90"))
+
+
+def _repeated(points: BenchPoints, count: int) -> BenchPoints:
+    return replace(points, **{name: np.repeat(value, count) for name, value in vars(points).items()})
+
+
 @pytest.mark.parametrize("true", [_square, _fast])
 def test_next_point_separates_twice_as_well_as_one_more_of_the_same(true: Law) -> None:
     """The gate of diagnosis.md 2.3: at least twice the separation of a reading at the campaign's median point."""
     study, first, second = _rivals(true, seed=5)
-    found = next_point(study, load_pump("ref90"), first, second)
-    assert found is not None
+    found = next_point(study, load_pump("ref90"), _box(study), first, second)
     per_point = gains_at(study, first, second, _points())
     assert found.gain >= 2 * np.median(per_point)
     assert found.gain == pytest.approx(gains_at(study, first, second, _asked(found))[0], rel=1e-9)
@@ -144,15 +161,14 @@ def test_next_point_separates_twice_as_well_as_one_more_of_the_same(true: Law) -
 def test_next_point_leaves_the_line_that_the_campaign_ran_along() -> None:
     """Speed and pressure went together: what separates p^2 from p n is to take them apart."""
     study, first, second = _rivals(_square, seed=5)
-    found = next_point(study, load_pump("ref90"), first, second)
-    assert found is not None
+    found = next_point(study, load_pump("ref90"), _box(study), first, second)
     apart = found.point.shaft_speed / SPEED - found.point.delivery_pressure / PRESSURE
     assert abs(apart) > 0.3
     assert "Q_case" in found.why
     assert "elastic_opening" in found.why
 
 
-def test_gain_is_the_mean_log_odds_that_readings_bring() -> None:
+def test_ln_odds_have_the_mean_and_scatter_that_is_foretold() -> None:
     """Draw readings from one forecast and weigh them by both: the mean of ln odds is the divergence."""
     rng = np.random.default_rng(3)
     factors = [rng.normal(size=(3, 3)) + 2 * np.eye(3) for _ in range(2)]
@@ -165,16 +181,44 @@ def test_gain_is_the_mean_log_odds_that_readings_bring() -> None:
         return np.asarray(-0.5 * (white**2).sum(axis=0) - 0.5 * np.linalg.slogdet(covariance)[1])
 
     odds = log_density(draws, one) - log_density(draws - apart[:, None], other)
-    error = odds.std() / np.sqrt(odds.size)
-    assert divergence(apart, one, other) == pytest.approx(odds.mean(), abs=4 * error)
-    assert divergence(np.zeros(3), one, one) == pytest.approx(0.0, abs=1e-12)
+    told = brought(apart, one, other)
+    assert told.mean == pytest.approx(odds.mean(), abs=4 * odds.std() / np.sqrt(odds.size))
+    fourth = float(((odds - odds.mean()) ** 4).mean())
+    assert told.sigma**2 == pytest.approx(odds.var(), abs=4 * np.sqrt(fourth / odds.size))
+    assert brought(np.zeros(3), one, one).mean == pytest.approx(0.0, abs=1e-12)
+
+
+def test_readings_with_memory_are_worth_fewer() -> None:
+    """Of a first-order memory rho, n in a row are worth (n - (n - 2) rho)/(1 + rho): variance of the best mean."""
+    assert independent(3, ()) == 3.0
+    for count in (1, 3, 12):
+        assert independent(count, (0.3,)) == pytest.approx((count - (count - 2) * 0.3) / 1.3)
+
+
+def test_what_the_point_promises_comes_about() -> None:
+    """Of pairs fitted to drawn recordings, as many settle by drawn readings as the chance says."""
+    settled, foretold, reached = [], [], []
+    for seed in range(24):
+        study, first, second = _rivals(_square, seed, size=0.03)
+        found = next_point(study, load_pump("ref90"), _box(study), first, second)
+        place = _repeated(_asked(found), READINGS)
+        rng = np.random.default_rng(1000 + seed)
+        one = next(forecasts(study, first, second, _asked(found))).brought(READINGS)[0]
+        flow = place.p_out / PRESSURE * LPM + 0.03 * LPM * _square(place) + SIGMA * rng.normal(size=READINGS)
+        odds = log_density(study, first, place, flow[:, None]) - log_density(study, second, place, flow[:, None])
+        settled.append(found.before + odds >= SETTLED)
+        foretold.append(one.chance(SETTLED - found.before))
+        reached.append((odds - one.mean) / one.sigma)
+    assert abs(np.mean(reached)) < 3 / np.sqrt(24)
+    spread = np.sqrt(np.sum(np.array(foretold) * (1 - np.array(foretold)))) / 24
+    assert abs(np.mean(settled) - np.mean(foretold)) < 3 * spread
+    assert 0.1 < np.mean(foretold) < 0.95
 
 
 def test_readings_speak_by_the_forecast_of_each_law() -> None:
     """Odds of a reading are those of two normal densities, each as wide as noise and parameters make it."""
     study, first, second = _rivals(_square, seed=5)
-    found = next_point(study, load_pump("ref90"), first, second)
-    assert found is not None
+    found = next_point(study, load_pump("ref90"), _box(study), first, second)
     point, reading = _asked(found), np.array([[0.9 * LPM]])
     told, expected = [], []
     for one in (first, second):
@@ -186,10 +230,16 @@ def test_readings_speak_by_the_forecast_of_each_law() -> None:
     assert told[0] - told[1] == pytest.approx(expected[0] - expected[1], rel=1e-9)
 
 
-def test_two_names_for_one_law_have_no_next_point() -> None:
-    """Where no point of the box parts two explanations, none is proposed."""
+def test_no_point_is_said_to_settle_two_names_for_one_law() -> None:
+    """Where nothing of the box parts two explanations, the best point brings nothing and none is promised."""
     study, first, _ = _rivals(_square, seed=5)
-    assert next_point(study, load_pump("ref90"), first, replace(first, effects=(EffectId.FILM_HEATING,))) is None
+    found = next_point(
+        study, load_pump("ref90"), _box(study), first, replace(first, effects=(EffectId.FILM_HEATING,))
+    )
+    assert found.gain == pytest.approx(0.0, abs=1e-9)
+    assert found.is_open
+    assert not found.settles
+    assert found.repeats is None
 
 
 def test_box_holds_what_the_rig_can_do() -> None:

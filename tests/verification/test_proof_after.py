@@ -95,7 +95,7 @@ def test_a_point_is_recorded_where_it_was_asked(proof: SimpleNamespace, made: Si
     place = (150.0, 20e6, 0.8, 326.0)
     rng = np.random.default_rng(4)
     points, values = proof.worth._recorded(study, box, place, made.case, made.made, rng)
-    assert values.shape == (proof.worth.REPEATS, 2)
+    assert values.shape == (proof.worth.READINGS, 2)
     assert points.speed == pytest.approx(150.0, abs=0.6)
     assert points.p_out == pytest.approx(20e6, abs=4e5)
     assert points.p_in == pytest.approx(2.4e6, abs=6e4)

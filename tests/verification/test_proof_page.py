@@ -137,12 +137,21 @@ def test_an_angle_is_off_across_the_dead_centre(proof: SimpleNamespace, right: o
 
 
 def test_a_point_is_worth_what_it_settles(proof: SimpleNamespace, right: object) -> None:
-    """Left open at 1 nat: the point asked for brings 4, a random one .5; one settled before is not counted."""
-    left_open = replace(right, worth=proof.outcome.Worth(1.0, 4.0, 0.5, 1.2))
-    settled = replace(right, worth=proof.outcome.Worth(6.0, 0.0, 0.0, 0.1))
-    held = {gate.name: (gate.passed, gate.cases) for gate in proof.gates.gates([left_open, settled])}
-    assert held["pairs settled by the point asked for, 3 readings"] == (True, 1)
-    assert held["the same by a point drawn at random"] == (True, 1)
+    """Left open at 1 nat: the point asked for brings 4, a random one .5; one settled before is not counted.
+
+    One of which the verdict says that no point settles it is counted beside; where a promise fails the gate does.
+    """
+    left_open = replace(right, worth=proof.outcome.Worth(1.0, 4.0, 0.5, 0.9))
+    settled = replace(right, worth=proof.outcome.Worth(6.0, 0.0, 0.0, 0.9))
+    beyond = replace(right, worth=proof.outcome.Worth(1.0, 0.1, 0.0, 0.02))
+    found = {gate.name: gate for gate in proof.gates.gates([left_open, settled, beyond])}
+    by_asked = found["pairs settled by the point asked for, 3 readings"]
+    by_other = found["the same by a point drawn at random"]
+    assert (by_asked.passed, by_asked.cases) == (True, 1)
+    assert by_asked.found.endswith("; 1 more told to be settled by no point")
+    assert (by_other.passed, by_other.cases) == (True, 1)
+    broken = replace(right, worth=proof.outcome.Worth(1.0, 0.5, 0.5, 0.9))
+    assert next(one for one in proof.gates.gates([broken]) if one.name == by_asked.name).passed is False
 
 
 def test_a_fit_is_held_against_the_truths_own(proof: SimpleNamespace, right: object) -> None:
