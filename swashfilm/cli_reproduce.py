@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 COMMAND_LINE = "command line"
 REPRODUCE_OPTIONS = ["--fidelity", "--pump", "--page", "--workers", "--steps", "--finer", *SWITCHES]
 ALL, LIST = "all", "list"
-_LUMPED = "lumped"
+_LUMPED, _FLOATING = "lumped", "floating"
 
 
 def add_reproduce_options(command: argparse.ArgumentParser) -> None:
@@ -29,7 +29,9 @@ def add_reproduce_options(command: argparse.ArgumentParser) -> None:
         "--fidelity", metavar="{lumped,films,floating}", default=_LUMPED,
         help="films of given thickness (seconds), solved at given positions (minutes), or floating (fig8, fig9)",
     )  # fmt: skip
-    command.add_argument("--pump", default="ref90", metavar="PUMP", help="built-in name (ref90) or pump file")
+    command.add_argument(
+        "--pump", metavar="PUMP", help="built-in name or pump file (ref90; whose gaps float: ref90_floating)"
+    )
     command.add_argument("--page", type=Path, metavar="FILE.md", help="write the page there as Markdown too")
     command.add_argument("--workers", metavar="N", help="processes that solve points side by side (1)")
     command.add_argument("--steps", metavar="N", help="floating gaps: angles of a turn that are reported (360)")
@@ -79,11 +81,10 @@ def _asked(options: argparse.Namespace) -> tuple[ReproduceAsked, int]:
     from system.paper.figures import Figure
     from system.paper.reproduce import PaperFidelity
     from system.pump_file import load_pump
-    from system.table_sources import FloatingSolver
 
     faults = _word_faults(options)
     try:
-        pump = load_pump(options.pump)
+        pump = load_pump(_pump_of(options))
     except InputFaults as reason:
         raise InputFaults(reason.source, [*faults, *reason.faults], reason.lines) from None
     faults += floating_faults(options, pump, options.fidelity)
@@ -93,8 +94,12 @@ def _asked(options: argparse.Namespace) -> tuple[ReproduceAsked, int]:
         raise InputFaults(COMMAND_LINE, faults)
     fidelity = PaperFidelity(options.fidelity)
     figures = fidelity.figures if options.figure == ALL else (Figure.named(options.figure),)
-    solver = FloatingSolver(floating_options(options))
-    return ReproduceAsked(pump, figures, fidelity, solver), int(options.workers or 1)
+    return ReproduceAsked(pump, figures, fidelity, floating_options(options)), int(options.workers or 1)
+
+
+def _pump_of(options: argparse.Namespace) -> str:
+    """The pump that is named, else the reference pump, of which floating takes the one whose parts can float."""
+    return options.pump or ("ref90_floating" if options.fidelity == _FLOATING else "ref90")
 
 
 def _word_faults(options: argparse.Namespace) -> list[Fault]:
@@ -122,9 +127,9 @@ def _word_faults(options: argparse.Namespace) -> list[Fault]:
 
 def _command(options: argparse.Namespace) -> str:
     """The command that makes the same page again."""
-    stated = {"--fidelity": _LUMPED, "--pump": "ref90"}
-    given = {name: getattr(options, name[2:]) for name in stated}
-    words = [f" {name} {text}" for name, text in given.items() if text != stated[name]]
+    given = {name: getattr(options, name[2:]) for name in ("--fidelity", "--pump", "--steps", "--finer")}
+    words = [f" {name} {text}" for name, text in given.items() if text not in (None, _LUMPED)]
+    words += [f" {switch}" for switch in SWITCHES if getattr(options, switch[2:].replace("-", "_"))]
     return f"swashfilm reproduce {options.figure}{''.join(words)} --page {options.page}"
 
 

@@ -12,12 +12,12 @@ from reynolds.bodies.cache import cache_folder
 from swashfilm.progress import Report
 from swashfilm.reproduce_files import claim_rows, write_reproduction
 from system.description import PumpDescription
+from system.floating_gaps import FloatingOptions
 from system.kept_points import KeptPoints
 from system.paper.figures import DRAWINGS, Figure
 from system.paper.judge import FigureResult
 from system.paper.reproduce import Means, PaperFidelity, reproduce
 from system.pump_file import resolved_toml
-from system.table_sources import FloatingSolver
 from system.work import Hands
 
 
@@ -28,7 +28,7 @@ class ReproduceAsked:
     pump: PumpDescription
     figures: tuple[Figure, ...]
     fidelity: PaperFidelity
-    floating: FloatingSolver
+    floating: FloatingOptions
 
 
 def paper_points() -> KeptPoints:

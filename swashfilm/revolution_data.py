@@ -15,7 +15,7 @@ from gaps.turn import GapInstant
 from reynolds.mesh import Array
 from reynolds.overlap import vertex_thickness
 from swashfilm.revolution_study import RevolutionStudy, friction_power, tilt
-from system.instants import travel
+from system.instants import engaged_share
 from system.pump_gap import Gap
 
 if TYPE_CHECKING:
@@ -123,9 +123,8 @@ def _walls(study: RevolutionStudy) -> dict[str, float]:
 
 def piston_end(study: RevolutionStudy) -> Array:
     """Eccentricity (2, n) m of the piston's axis where its film ends inside: at its own end, or the guide's."""
-    pump, guide = study.case.rotor.pump, study.parts.piston.guide_length
-    reach = [pump.piston.engaged_length - travel(study.case.rotor, angle) for angle in study.revolution.angles]
-    share = np.minimum(np.array(reach) / guide, 1.0)
+    guide = study.parts.piston.guide_length
+    share = engaged_share(study.case.rotor, guide, study.revolution.angles)
     inner, case = study.revolution.positions.T[:2], study.revolution.positions.T[2:]
     return np.asarray(case + (inner - case) * share)
 

@@ -10,7 +10,7 @@ import numpy as np
 from gaps.ball_joint import Spins
 from gaps.ring import ValvePlateGeometry
 from system.description import PumpDescription
-from system.kinematics import SwashDrive, drive_at_ratio, piston_displacement
+from system.kinematics import Array, SwashDrive, drive_at_ratio, piston_displacement
 from system.lumped import full_drive, piston_stand_out
 from system.operating import OperatingPoint
 from system.spins import SpinTorques, estimated_torques, spins
@@ -49,6 +49,15 @@ def rotor(pump: PumpDescription, point: OperatingPoint) -> Rotor:
 def travel(rotor: Rotor, shaft_angle: float) -> float:
     """Way of the piston (m) beyond its innermost place at full displacement."""
     return piston_stand_out(rotor.pump, rotor.drive) + float(piston_displacement(rotor.drive, shaft_angle))
+
+
+def engaged_share(rotor: Rotor, guide_length: float, shaft_angles: Array) -> Array:
+    """Share (n,) of a piston's guide (m) that its film fills at shaft angles (n,) rad, from the case edge inwards.
+
+    1 where the piston reaches through; else the film's inner end is the piston's own.
+    """
+    ways = np.array([travel(rotor, float(angle)) for angle in shaft_angles])
+    return np.minimum((rotor.pump.piston.engaged_length - ways) / guide_length, 1.0)
 
 
 def valve_plate_geometry(pump: PumpDescription, turned: float = 0.0) -> ValvePlateGeometry:

@@ -66,6 +66,13 @@ class Place:
     pressure: float
     ratio: float
 
+    @property
+    def text(self) -> str:
+        """In words."""
+        return (
+            f"{self.speed / RPM:.0f} r/min, {1e-6 * self.pressure:g} MPa, {100.0 * self.ratio:.0f} % displacement"
+        )
+
 
 @dataclass(frozen=True)
 class PaperPoint:
@@ -223,7 +230,7 @@ def solve_points(
     kept = run_kept(work, places, store, hands, report=report)
     for place, outcome in zip(places, kept.outcomes, strict=True):
         if outcome.status is not Status.SOLVED:
-            raise FilmInputError(f"paper's point {place}", outcome.reason, "a point that can be solved")
+            raise FilmInputError(f"paper's point {place.text}", outcome.reason, "a point that can be solved")
     points = {place: _point(one.record) for place, one in zip(places, kept.outcomes, strict=True)}
     return PaperPoints(pump, fidelity, points)
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from enum import Enum
 
 from system.description import PumpDescription
+from system.floating_gaps import FloatingOptions
 from system.gap_cycle import Report, silent
 from system.kept_points import KeptPoints
 from system.paper.chambers import fig10, fig11
@@ -14,13 +15,13 @@ from system.paper.coefficients import fig13
 from system.paper.efficiencies import fig2, fig3
 from system.paper.equations import equations
 from system.paper.figures import Figure
-from system.paper.films import GIVEN, NO_FIELD, fig8_of_films, floating_figures
+from system.paper.films import GIVEN, NO_FIELD, fig8_of_films
+from system.paper.floating_films import floating_figures
 from system.paper.guide import fig15, fig19
 from system.paper.judge import FigureResult
 from system.paper.pair_losses import fig16, fig17, fig18, fig20, fig21, fig22
 from system.paper.points import PaperPoints, PointFidelity, places_of, solve_points
 from system.paper.table_one import table1
-from system.table_sources import FloatingSolver
 from system.work import Hands
 
 OF_POINTS: Mapping[Figure, Callable[[PaperPoints], FigureResult]] = {
@@ -64,7 +65,7 @@ class Means:
 
     store: KeptPoints
     hands: Hands
-    floating: FloatingSolver
+    floating: FloatingOptions
     report: Report = silent
 
 

@@ -11,12 +11,12 @@ import pytest
 from swashfilm.__main__ import main
 from swashfilm.reproduce_files import claim_rows
 from swashfilm.reproduce_run import paper_points
+from system.floating_gaps import FloatingOptions
 from system.paper.figures import Figure
 from system.paper.reproduce import Means, PaperFidelity, reproduce
 from system.paper.statements import CLAIMS
 from system.pump_file import load_pump
 from system.side_by_side import HERE
-from system.table_sources import FloatingSolver
 
 ROOT = Path(__file__).parents[2]
 PAGE = ROOT / "docs" / "reproduction.md"
@@ -30,7 +30,7 @@ def _numbers(text):
 def test_the_page_in_the_docs_is_the_program(monkeypatch, tmp_path):
     """Every statement stands on the page with the number and verdict that the program finds now."""
     monkeypatch.setenv("SWASHFILM_CACHE", str(tmp_path))
-    means = Means(paper_points(), HERE, FloatingSolver())
+    means = Means(paper_points(), HERE, FloatingOptions())
     rows = claim_rows(reproduce(load_pump("ref90"), tuple(Figure), PaperFidelity.LUMPED, means), "lumped")
     assert {row["id"] for row in rows} == set(CLAIMS) - FLOATING
     page = PAGE.read_text("utf-8")
