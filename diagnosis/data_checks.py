@@ -9,7 +9,7 @@ import numpy as np
 
 from diagnosis.outliers import outliers
 from diagnosis.recording import DataNote, NoteKind, Recording
-from diagnosis.sensor_checks import copies, noiseless, stuck
+from diagnosis.sensor_checks import copies, noiseless, repeated_rows, stuck, stuck_inputs
 from diagnosis.unit_checks import implausible
 from system.channels import OUTPUTS, ChannelName
 
@@ -25,7 +25,7 @@ def check_recording(recording: Recording, displacement: float | None) -> Recordi
     noise at all). REMOVED: these readings are not used (outliers, a stuck sensor). TOLD: to be borne in mind.
     """
     recording = _noted(recording, [*implausible(recording, displacement), *_gaps(recording)])
-    for find in (stuck, copies, noiseless, outliers):
+    for find in (stuck, stuck_inputs, repeated_rows, copies, noiseless, outliers):
         recording = _noted(recording, find(recording))
     return recording
 

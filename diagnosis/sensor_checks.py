@@ -1,8 +1,8 @@
-"""Sensors that do not measure: stuck readings, copies of another channel, readings without noise."""
+"""Sensors that do not measure: stuck readings, copies of another channel, rows written twice, no noise."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from itertools import combinations
 
 import numpy as np
@@ -10,11 +10,16 @@ import numpy as np
 from diagnosis.recording import DataNote, NoteKind, RecordedChannel, Recording, reading_sigma
 from system.channels import INPUTS, OUTPUTS, ChannelName
 from system.kinematics import Array
+from system.units import Dimension
 
 LEAST_RUN = 5  # readings alike from which a sensor may be stuck
 MOVED = 0.05  # share of its largest value by which an input moves
 ALIVE = 3.0  # steps by which a channel changes from point to point at half of the points
 SAME = 0.05  # of one sigma: two channels that agree to this are one
+SCATTER = 1e-3  # of a channel's own spread, beyond which it has noise of its own however large its sigma is stated
+BY_CHANCE = 1e-3  # of a noisy input that reads alike on end
+FLOWS = (ChannelName.Q_OUT, ChannelName.Q_IN, ChannelName.Q_CASE)
+TELLING = 4  # channels that do not repeat themselves together
 
 
 def stuck(recording: Recording) -> Iterator[DataNote]:
@@ -36,13 +41,65 @@ def stuck(recording: Recording) -> Iterator[DataNote]:
                 yield DataNote(NoteKind.REMOVED, name, points, text)
 
 
+def stuck_inputs(recording: Recording) -> Iterator[DataNote]:
+    """Yield inputs that read the same on end for longer than noise allows, and those that never change.
+
+    Steps from point to point are 0 elsewhere with a share p, or q/(2 sqrt(pi) sigma) by step and noise: a run of
+    m among N points comes by chance N p^(m-1) times. One that reads alike in most points is set, not measured.
+    """
+    for name in INPUTS:
+        channel, values = recording.channel(name), recording.steady.column(name)
+        known = values[np.isfinite(values)]
+        if channel is None or len(known) < 2 * LEAST_RUN or channel.sigma <= 0.0:
+            continue
+        if np.ptp(known) == 0.0:
+            text = f"{name.value} reads the same at every point: set rather than measured?"
+            yield DataNote(NoteKind.TOLD, name, (), text)
+            continue
+        runs = [(start, stop) for start, stop in _runs(values) if stop - start >= LEAST_RUN]
+        held = sum(stop - start for start, stop in runs)
+        if 2 * held > len(known):
+            continue
+        still = int(np.sum(np.diff(values) == 0.0)) - sum(stop - start - 1 for start, stop in runs)
+        alike = max(still, 1) / (len(known) - held)
+        alike = max(alike, channel.quantum / (2.0 * np.sqrt(np.pi) * channel.sigma))
+        for start, stop in runs:
+            if len(known) * alike ** (stop - start - 1) < BY_CHANCE:
+                text = f"{name.value} is stuck at points {start + 1} to {stop}: one reading, without its noise"
+                yield DataNote(NoteKind.REMOVED, name, tuple(range(start, stop)), text)
+
+
+def repeated_rows(recording: Recording) -> Iterator[DataNote]:
+    """Yield points that are others to the last digit in every channel: a fault from `LEAST_RUN` of them on."""
+    values = recording.steady.values
+    if int(np.any(np.isfinite(values), axis=0).sum()) < TELLING:
+        return
+    _, first = np.unique(np.nan_to_num(values, nan=-1e300), axis=0, return_index=True)
+    points = tuple(int(point) for point in sorted(set(range(len(values))) - set(first.tolist())))
+    if points:
+        kind = NoteKind.FAULT if len(points) >= LEAST_RUN else NoteKind.TOLD
+        text = "the same as earlier points in every channel: written twice? Leave them out"
+        yield DataNote(kind, None, points, text)
+
+
 def copies(recording: Recording) -> Iterator[DataNote]:
-    """Yield a fault for each pair of channels of which one is the other, shifted or scaled, to within its step."""
+    """Yield a fault for each pair of channels of which one is the other, shifted or scaled, to within its step.
+
+    Of three flows also where one is computed from the two others.
+    """
     measured = [channel for channel in recording.channels if channel.name in (*INPUTS, *OUTPUTS)]
+    found = False
     for one, other in combinations(measured, 2):
-        if one.name.dimension is other.name.dimension and _is_copy(recording, one, other):
+        if one.name.dimension is other.name.dimension and _is_computed(recording, other, (one,)):
+            found = True
             text = f"{other.name.value} follows {one.name.value} without noise of its own: computed, not measured"
             yield DataNote(NoteKind.FAULT, other.name, (), text + "; leave it out of [channel]")
+    flows = [channel for channel in measured if channel.name.dimension is Dimension.VOLUME_FLOW]
+    if len(flows) == len(FLOWS) and not found:
+        *two, last = flows
+        if _is_computed(recording, last, two):
+            text = f"{', '.join(name.value for name in FLOWS)} give each other without noise: one is computed"
+            yield DataNote(NoteKind.FAULT, last.name, (), text + "; leave it out of [channel]")
 
 
 def noiseless(recording: Recording) -> Iterator[DataNote]:
@@ -86,17 +143,17 @@ def _moved(part: Array, whole: Array) -> bool:
     return bool(np.nanmax(part) - np.nanmin(part) > MOVED * np.nanmax(np.abs(whole)))
 
 
-def _is_copy(recording: Recording, one: RecordedChannel, other: RecordedChannel) -> bool:
-    """True where a straight line through `one` gives `other` to within its step, or `SAME` of its sigma."""
-    x, y = recording.steady.column(one.name), recording.steady.column(other.name)
-    known = np.isfinite(x) & np.isfinite(y)
-    if known.sum() < 2 * LEAST_RUN:
-        return False
+def _is_computed(recording: Recording, other: RecordedChannel, sources: Sequence[RecordedChannel]) -> bool:
+    """True where a linear law of the sources gives `other` to within its step, theirs, or `SAME` of its sigma."""
+    x = np.stack([recording.steady.column(one.name) for one in sources], axis=1)
+    y = recording.steady.column(other.name)
+    known = np.all(np.isfinite(x), axis=1) & np.isfinite(y)
     x, y = x[known], y[known]
-    if len(np.unique(x)) < LEAST_RUN or len(np.unique(y)) < LEAST_RUN:
+    if len(y) < 2 * LEAST_RUN or min(len(np.unique(column)) for column in (*x.T, y)) < LEAST_RUN:
         return False
-    shape = np.stack([np.ones_like(x), (x - np.mean(x)) / np.std(x)], axis=1)
+    shape = np.column_stack([np.ones(len(y)), (x - np.mean(x, axis=0)) / np.std(x, axis=0)])
     size, *_ = np.linalg.lstsq(shape, y, rcond=None)
     scatter = float(np.std(y - shape @ size))
-    steps = max(other.quantum, abs(size[1]) / float(np.std(x)) * one.quantum)
-    return scatter <= max(steps, SAME * float(np.mean(reading_sigma(other, y))))
+    theirs = np.abs(size[1:]) / np.std(x, axis=0) * [one.quantum for one in sources]
+    own = min(SAME * float(np.mean(reading_sigma(other, y))), SCATTER * float(np.std(y)))
+    return scatter <= max(other.quantum, float(np.max(theirs)), own)

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -23,7 +23,12 @@ LIKELY = {
 HIGHEST = 1e8  # Pa
 LOWEST_DELIVERY = 2e5  # Pa gauge
 FLOW_RATIO = (0.4, 1.15)  # Q_out over displacement x speed
+INLET_RATIO = (0.4, 1.5)  # Q_in over the same
+APART = 0.15  # share of a flow by which two groups of points differ that are no one pump at one setting
 TORQUE_RATIO = (0.85, 2.5)  # torque over displacement x pressure difference
+CASE_PRESSURE = (-3e4, 1e6)  # Pa gauge: no vacuum, and less than any shaft seal bears
+HOTTEST = 383.15  # K: beyond, oil ages within hours
+DRAIN_WARMER = (-1.0, 80.0)  # K, T_case less T_in: what leaks has been throttled
 BULK_MODULUS = 1.6e9  # Pa, good to a fifth for any mineral oil in use
 FLOW_SHARE = 0.005  # of a flow to which meters agree
 OTHER_UNITS: Mapping[Dimension, tuple[str, ...]] = {
@@ -33,6 +38,10 @@ OTHER_UNITS: Mapping[Dimension, tuple[str, ...]] = {
     Dimension.TORQUE: ("N m", "kN m", "lbf ft", "lbf inch"),
     Dimension.TEMPERATURE: ("degC", "degF", "K"),
 }
+Ratio = Callable[[Recording], float | None]
+_TENFOLD = (("large", 0.1), ("small", 10.0))
+_DIRECTED = (ChannelName.SPEED, ChannelName.Q_OUT, ChannelName.Q_IN, ChannelName.Q_CASE, ChannelName.TORQUE)
+"""Counted in the direction of a pump: from inlet to delivery, out of the case, driven."""
 
 
 def implausible(recording: Recording, displacement: float | None) -> Iterator[DataNote]:
@@ -46,8 +55,11 @@ def implausible(recording: Recording, displacement: float | None) -> Iterator[Da
     yield from _references(recording)
     yield from _places(recording)
     yield from _balance(recording)
+    yield from _signs(recording)
+    yield from _case(recording)
     if displacement is not None and not sizes:
         yield from _ratios(recording, displacement)
+        yield from _groups(recording, displacement)
 
 
 def _sizes(recording: Recording) -> Iterator[DataNote]:
@@ -109,44 +121,66 @@ def _meant(channel: RecordedChannel, found: float, span: _Span) -> str:
 
 
 def _ratios(recording: Recording, displacement: float) -> Iterator[DataNote]:
-    """Flow and torque that do not go with the pump's size."""
-    steady = recording.steady
-    speed, p_out, torque, flow = (
-        steady.column(name)
-        for name in (ChannelName.SPEED, ChannelName.P_OUT, ChannelName.TORQUE, ChannelName.Q_OUT)
-    )
-    ratio, p_in = steady.column(ChannelName.DISPLACEMENT_RATIO), steady.column(ChannelName.P_IN)
-    per_radian = displacement / (2.0 * math.pi) * np.where(np.isfinite(ratio), ratio, 1.0)
-    volumetric = _median(flow / (per_radian * speed))
-    mechanical = _median(torque / (per_radian * (p_out - np.nan_to_num(p_in))))
-    flow_span, torque_span = _Span(*FLOW_RATIO), _Span(*TORQUE_RATIO)
-    if volumetric is not None and not flow_span.holds(volumetric):
-        text = f"Q_out is {volumetric:.3g} times displacement x speed at half of the points"
-        yield _ratio_fault(recording, text, {ChannelName.Q_OUT: 1, ChannelName.SPEED: -1}, volumetric, flow_span)
-    if mechanical is not None and not torque_span.holds(mechanical):
-        text = f"torque is {mechanical:.3g} times displacement x pressure difference / 2 pi at half of the points"
-        yield _ratio_fault(
-            recording, text, {ChannelName.TORQUE: 1, ChannelName.P_OUT: -1}, mechanical, torque_span
-        )
+    """Flows and torque that do not go with the pump's size."""
+
+    def flow_of(name: ChannelName) -> Ratio:
+        return lambda given: _median(given.steady.column(name) / _swept(given, displacement))
+
+    def torque_of(given: Recording) -> float | None:
+        rise = given.steady.column(ChannelName.P_OUT) - np.nan_to_num(given.steady.column(ChannelName.P_IN))
+        power = _swept(given, displacement) / given.steady.column(ChannelName.SPEED) * rise
+        return _median(given.steady.column(ChannelName.TORQUE) / power)
+
+    for name, span in ((ChannelName.Q_OUT, _Span(*FLOW_RATIO)), (ChannelName.Q_IN, _Span(*INLET_RATIO))):
+        text = f"{name.value} is {{:.3g}} times displacement x speed at half of the points"
+        yield from _ratio_fault(recording, flow_of(name), text, (name, ChannelName.SPEED), span)
+    text = "torque is {:.3g} times displacement x pressure difference / 2 pi at half of the points"
+    names = (ChannelName.TORQUE, ChannelName.P_OUT, ChannelName.P_IN)
+    yield from _ratio_fault(recording, torque_of, text, names, _Span(*TORQUE_RATIO))
+
+
+def _swept(recording: Recording, displacement: float) -> Array:
+    """Displacement x speed, m3/s, at the points' displacement ratios; full where none is recorded."""
+    ratio = recording.steady.column(ChannelName.DISPLACEMENT_RATIO)
+    swept: Array = np.where(np.isfinite(ratio), ratio, 1.0) * recording.steady.column(ChannelName.SPEED)
+    return displacement / (2.0 * math.pi) * swept
 
 
 def _ratio_fault(
-    recording: Recording, text: str, powers: Mapping[ChannelName, int], found: float, span: _Span
-) -> DataNote:
-    """A fault of a ratio of two channels, with the unit of either that would mend it."""
-    for name, power in powers.items():
+    recording: Recording, ratio: Ratio, text: str, names: tuple[ChannelName, ...], span: _Span
+) -> Iterator[DataNote]:
+    """A fault of a ratio beyond its span, with each unit, power of ten or sign of a channel that would mend it."""
+    found = ratio(recording)
+    if found is None or span.holds(found):
+        return
+
+    def mends(name: ChannelName, factor: float) -> bool:
+        mended = ratio(_scaled(recording, name, factor))
+        return mended is not None and span.holds(mended)
+
+    ways = []
+    for name in names:
         channel = recording.channel(name)
         if channel is None or name.dimension is None:
             continue
         own = unit_scale(channel.unit, name.dimension)[0]
-        for unit in OTHER_UNITS.get(name.dimension, ()):
-            change = unit_scale(unit, name.dimension)[0] / own
-            if not math.isclose(change, 1.0) and span.holds(found * change**power):
-                text += f"; {name.value} in '{unit}'?"
-    for power_of_ten in (0.1, 10.0):
-        if span.holds(found * power_of_ten):
-            text += f"; a factor of {1.0 / power_of_ten:g}?"
-    return DataNote(NoteKind.FAULT, next(iter(powers)), (), text)
+        changes = {unit: unit_scale(unit, name.dimension)[0] / own for unit in OTHER_UNITS[name.dimension]}
+        ways += [
+            f"{name.value} in '{unit}'"
+            for unit, by in changes.items()
+            if not math.isclose(by, 1) and mends(name, by)
+        ]
+        ways += [f"{name.value} too {word} by a factor of 10" for word, by in _TENFOLD if mends(name, by)]
+        ways += [f"{name.value} of the other sign"] * (name in _DIRECTED and mends(name, -1.0))
+    hint = f"; {' or '.join(ways)}?" if ways else ""
+    yield DataNote(NoteKind.FAULT, names[0], (), text.format(found) + hint)
+
+
+def _scaled(recording: Recording, name: ChannelName, factor: float) -> Recording:
+    """The recording with one channel's readings times a factor."""
+    values = recording.steady.values.copy()
+    values[:, list(ChannelName).index(name)] *= factor
+    return replace(recording, steady=replace(recording.steady, values=values))
 
 
 def _references(recording: Recording) -> Iterator[DataNote]:
@@ -168,7 +202,9 @@ def _places(recording: Recording) -> Iterator[DataNote]:
     steady = recording.steady
     rise = _median(steady.column(ChannelName.P_OUT) - steady.column(ChannelName.P_IN))
     if rise is not None and rise < 0.0:
-        text = "p_out is below p_in at half of the points: have they changed places?"
+        mended = _median(10.0 * steady.column(ChannelName.P_OUT) - steady.column(ChannelName.P_IN))
+        ten = "; p_out too small, or p_in too large, by a factor of 10?" if mended and mended > 0.0 else ""
+        text = f"p_out is below p_in at half of the points: have they changed places?{ten}"
         yield DataNote(NoteKind.FAULT, ChannelName.P_OUT, (), text)
     drawn = steady.column(ChannelName.Q_IN) - steady.column(ChannelName.Q_OUT)
     lost: Array = drawn / np.abs(steady.column(ChannelName.Q_CASE))
@@ -176,6 +212,52 @@ def _places(recording: Recording) -> Iterator[DataNote]:
     if share is not None and share < -0.3:
         text = "Q_in is below Q_out at half of the points, while oil leaves by the case: have they changed places?"
         yield DataNote(NoteKind.TOLD, ChannelName.Q_IN, (), text)
+
+
+def _signs(recording: Recording) -> Iterator[DataNote]:
+    """Channels that read below zero where a pump's read above."""
+    for name in _DIRECTED:
+        middle = _median(recording.steady.column(name))
+        if middle is not None and middle < 0.0:
+            text = f"{name.value} is below zero at half of the points; of the other sign?"
+            yield DataNote(NoteKind.FAULT, name, (), text)
+
+
+def _case(recording: Recording) -> Iterator[DataNote]:
+    """Pressures and temperatures of the case and beside it that are seldom meant, told only."""
+    steady = recording.steady
+    pressure = _median(steady.column(ChannelName.P_CASE))
+    if pressure is not None and not CASE_PRESSURE[0] <= pressure <= CASE_PRESSURE[1]:
+        way = "a gauge pressure taken as absolute" if pressure < 0.0 else "another unit"
+        text = f"p_case is {pressure / 1e5:.3g} bar gauge at half of the points: {way}?"
+        yield DataNote(NoteKind.TOLD, ChannelName.P_CASE, (), text)
+    for name in (ChannelName.T_IN, ChannelName.T_CASE):
+        middle = _median(steady.column(name))
+        if middle is not None and middle > HOTTEST:
+            text = f"{name.value} is {middle - 273.15:.3g} degC at half of the points; unit = 'degF'?"
+            yield DataNote(NoteKind.TOLD, name, (), text)
+    warmer = _median(steady.column(ChannelName.T_CASE) - steady.column(ChannelName.T_IN))
+    if warmer is not None and not DRAIN_WARMER[0] <= warmer <= DRAIN_WARMER[1]:
+        text = f"T_case is {warmer:+.3g} K off T_in at half of the points: a unit, or have they changed places?"
+        yield DataNote(NoteKind.TOLD, ChannelName.T_CASE, (), text)
+
+
+def _groups(recording: Recording, displacement: float) -> Iterator[DataNote]:
+    """Flows in two groups, a tenth of the points or more in each, that one pump at one setting does not give."""
+    swept = _swept(recording, displacement)
+    for name in (ChannelName.Q_IN, ChannelName.Q_OUT):
+        shares = np.sort((flow := recording.steady.column(name) / swept)[np.isfinite(flow)])
+        tenth = max(2, math.ceil(0.1 * len(shares)))
+        steps = np.diff(shares)[tenth - 1 : len(shares) - tenth]
+        if not len(steps) or steps.max() < APART * abs(float(np.median(shares))):
+            continue
+        at = tenth + int(np.argmax(steps))
+        text = (
+            f"{name.value} over displacement x speed is {np.median(shares[:at]):.2g} at {at} points and "
+            f"{np.median(shares[at:]):.2g} at {len(shares) - at}: two pumps or settings in one recording?"
+        )
+        yield DataNote(NoteKind.TOLD, name, (), text)
+        return
 
 
 def _balance(recording: Recording) -> Iterator[DataNote]:

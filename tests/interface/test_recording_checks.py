@@ -73,9 +73,12 @@ def test_sound_readings_tell_nothing(seed):
         ("p_out", 10.0, "factor of 10"),
         ("Q_out", 10.0, "factor of 10"),
         ("Q_out", 60.0 / 1000.0, "'m3/h'"),
-        ("torque", 0.1, "factor of 0.1"),
+        ("torque", 0.1, "torque too small by a factor of 10"),
         ("torque", 1e-3, "'kN m'"),
-        ("speed", 0.1, "factor of 10"),
+        ("speed", 0.1, "speed too small by a factor of 10"),
+        ("Q_in", 0.1, "Q_in too small by a factor of 10"),
+        ("Q_case", -1.0, "of the other sign"),
+        ("torque", -1.0, "torque of the other sign"),
         ("Q_case", 10.0, "Q_case is far beyond"),
         ("displacement_ratio", 100.0, "unit = '%'"),
     ],
@@ -136,6 +139,49 @@ def test_stuck_sensor_is_put_aside():
     removed = [n for n in check_recording(_with("torque", hold), DISPLACEMENT).notes if n.kind is NoteKind.REMOVED]
     assert removed[0].channel is ChannelName.TORQUE
     assert removed[0].points == tuple(range(20, 27))
+
+
+def test_a_stuck_input_is_put_aside_and_a_set_one_told():
+    def hold(column):
+        column = column.copy()
+        column[20:27] = column[20]
+        return column
+
+    removed = [n for n in check_recording(_with("T_case", hold), DISPLACEMENT).notes if n.kind is NoteKind.REMOVED]
+    assert [(n.channel, n.points) for n in removed] == [(ChannelName.T_CASE, tuple(range(20, 27)))]
+    told = _told(_with("p_in", lambda x: 0.0 * x + 2.4e6))
+    assert [(kind, channel) for kind, channel, _ in told] == [(NoteKind.TOLD, ChannelName.P_IN)]
+
+
+def test_rows_written_twice_are_a_fault():
+    recording = _sound()
+    steady = recording.steady
+    twice = {name: np.concatenate([values, values[:20]]) for name, values in vars(steady).items()}
+    told = _told(replace(recording, steady=replace(steady, **twice)))
+    assert any(kind is NoteKind.FAULT and "written twice" in text for kind, _, text in told)
+
+
+def test_a_flow_computed_from_two_others_is_a_fault():
+    own = _sound().steady
+    total = own.column(ChannelName.Q_OUT) + own.column(ChannelName.Q_CASE)
+    told = _told(_with("Q_in", lambda _: total))
+    assert any(kind is NoteKind.FAULT and "one is computed" in text for kind, _, text in told)
+
+
+def test_two_pumps_in_one_recording_are_told():
+    def smaller(column):
+        return np.where(np.arange(len(column)) % 2, 0.6 * column, column)
+
+    assert any("two pumps" in text for _, _, text in _told(_with("Q_in", smaller)))
+
+
+@pytest.mark.parametrize(
+    ("name", "change", "told"),
+    [("p_case", 1.3e6, "p_case is"), ("T_case", -9.0, "changed places"), ("T_in", 90.0, "degF")],
+)
+def test_a_case_that_is_seldom_meant_is_told(name, change, told):
+    kinds = {kind for kind, _, text in _told(_with(name, lambda x: x + change)) if told in text}
+    assert kinds == {NoteKind.TOLD}
 
 
 def test_copies_and_readings_without_noise_are_faults():
