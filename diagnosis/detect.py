@@ -68,15 +68,20 @@ def confirmed(study: Study, found: Detection, null: Posterior, thresholds: Thres
     """The same, its chance that about the null's own fit where that holds and the chance is the larger.
 
     About the prior mean the curvature of what lies within tolerance (leakage goes with the cube of a film) looks
-    like a mismatch. A fit holds whose goodness and pulls chance makes: one that does not has been dragged to where
-    slopes of the prior mean tell nothing.
+    like a mismatch. A fit that does not hold (`holds`) has been dragged to where slopes of the prior mean tell
+    nothing.
     """
-    limits = thresholds.mismatch
-    fits = chi2.sf(null.objective, null.residual.size) >= limits.chance
-    if not fits or np.abs(null.pulls).max(initial=0.0) > limits.pull:
+    if not holds(null, thresholds):
         return found
     chance = most_striking(settled(null), study.candidates, thresholds)[0]
     return replace(found, chance=max(found.chance, chance))
+
+
+def holds(null: Posterior, thresholds: Thresholds) -> bool:
+    """Whether chance makes the goodness of the null's own fit and the pulls of its parameters."""
+    limits = thresholds.mismatch
+    fits = chi2.sf(null.objective, null.residual.size) >= limits.chance
+    return bool(fits) and float(np.abs(null.pulls).max(initial=0.0)) <= limits.pull
 
 
 def most_striking(

@@ -9,7 +9,7 @@ from math import inf
 import numpy as np
 
 from diagnosis.bent import without_stand_ins
-from diagnosis.detect import Detection, confirmed, detect
+from diagnosis.detect import Detection, confirmed, detect, holds
 from diagnosis.growth import coordinates
 from diagnosis.heldout import held_out
 from diagnosis.hypotheses import hypotheses
@@ -46,10 +46,11 @@ def diagnose_study(
     the linear model has it.
     """
     detection, location = detect(study, thresholds), locate(study, thresholds)
-    screened = screen(study, hypotheses(study, thresholds), thresholds)
+    screened = screen(study, study.base, hypotheses(study, thresholds), thresholds)
     report(0, 1, "fitting the model as it is")
     null, not_null = _null(study, screened[0], thresholds)
     detection = confirmed(study, detection, _fit_of(null), thresholds)
+    screened = _screened_anew(study, detection, screened, null, thresholds)
     with crew(workers) as hands:
         fits = _fits(study, detection, screened, null, thresholds, hands, report)
     ranked = _foretold(study, null, with_probabilities(fits.weighed, thresholds.name.temperature), thresholds)
@@ -76,7 +77,7 @@ def _fits(
     report: Report,
 ) -> _Fits:
     """The likeliest refitted; where there is a mismatch wrong parameters too, and several effects together."""
-    listed = shortlist(study, screened, is_settled(detection, null, thresholds), thresholds)
+    listed = shortlist(screened, is_settled(detection, null, thresholds), thresholds)
     combined: tuple[Weighed, ...] = ()
     if is_settled(detection, null, thresholds):
         refitted, failed = refit_all(study, listed, thresholds, hands, report)
@@ -98,6 +99,20 @@ def _null(study: Study, linear: Weighed, thresholds: Thresholds) -> tuple[Weighe
     """The null refitted; where that fails, in the linear model about the prior mean, with what failed in words."""
     null, reason = try_refit(study, linear, thresholds)
     return (null, ()) if reason is None else (replace(null, posterior=study.base), (reason,))
+
+
+def _screened_anew(
+    study: Study, detection: Detection, screened: tuple[Weighed, ...], null: Weighed, thresholds: Thresholds
+) -> tuple[Weighed, ...]:
+    """The same about the null's own fit where nothing speaks against it.
+
+    About the prior mean what lies within tolerance but bends the readings (an encoder's offset on the flank of a
+    trace) looks like an effect, which a refit would cost many maps to take away.
+    """
+    fit = _fit_of(null)
+    if not is_settled(detection, null, thresholds) or not holds(fit, thresholds):
+        return screened
+    return screen(study, settled(fit), [each.hypothesis for each in screened], thresholds)
 
 
 def _placed(

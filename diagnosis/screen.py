@@ -1,4 +1,4 @@
-"""How all hypotheses stand in the linear model at the prior mean, before any is refitted."""
+"""How all hypotheses stand in a linear model, before any is refitted."""
 
 from __future__ import annotations
 
@@ -28,12 +28,14 @@ class Joint:
     sizes: Array
 
 
-def screen(study: Study, single: Sequence[Hypothesis], thresholds: Thresholds) -> tuple[Weighed, ...]:
-    """All hypotheses with their linear evidence, in the order given; those on a grid averaged over it.
+def screen(
+    study: Study, posterior: Posterior, single: Sequence[Hypothesis], thresholds: Thresholds
+) -> tuple[Weighed, ...]:
+    """All hypotheses with their linear evidence about a posterior that has none of them, in the order given.
 
-    The scale of the evidence is that of the linear posterior at the prior mean.
+    Those on a grid are averaged over it. The scale of the evidence is that of the posterior.
     """
-    return tuple(_weighed(study, hypothesis, thresholds) for hypothesis in single)
+    return tuple(_weighed(study, posterior, hypothesis, thresholds) for hypothesis in single)
 
 
 def linear_gain(study: Study, posterior: Posterior, hypothesis: Hypothesis, thresholds: Thresholds) -> float:
@@ -73,17 +75,16 @@ def unknown_gain(study: Study, posterior: Posterior, component: Component, thres
     return multiplier_evidence(posterior, columns, thresholds.locate.multiplier_widths)
 
 
-def _weighed(study: Study, hypothesis: Hypothesis, thresholds: Thresholds) -> Weighed:
-    base = study.base
+def _weighed(study: Study, posterior: Posterior, hypothesis: Hypothesis, thresholds: Thresholds) -> Weighed:
     if hypothesis.component is not None:
-        gain = unknown_gain(study, base, hypothesis.component, thresholds)
+        gain = unknown_gain(study, posterior, hypothesis.component, thresholds)
     elif hypothesis.effects:
-        gain = linear_gain(study, base, hypothesis, thresholds)
+        gain = linear_gain(study, posterior, hypothesis, thresholds)
     else:
         gain = 0.0
-    scores = [score(base, each.column).z for member in hypothesis.members for each in candidates_of(study, member)]
-    z = max(scores, key=abs, default=0.0)
-    return Weighed(hypothesis, base.log_evidence + gain, True, None, z, 0.0, None)
+    columns = [each.column for member in hypothesis.members for each in candidates_of(study, member)]
+    z = max((score(posterior, column).z for column in columns), key=abs, default=0.0)
+    return Weighed(hypothesis, posterior.log_evidence + gain, True, None, z, 0.0, None)
 
 
 _SIGNS = {Sign.POSITIVE: 1.0, Sign.NEGATIVE: -1.0, Sign.EITHER: 0.0}

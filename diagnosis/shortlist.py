@@ -27,9 +27,7 @@ def is_settled(detection: Detection, null: Weighed, thresholds: Thresholds) -> b
     return detection.chance >= limits.suspicion and p_value >= limits.chance
 
 
-def shortlist(
-    study: Study, screened: Sequence[Weighed], settled: bool, thresholds: Thresholds
-) -> tuple[Weighed, ...]:
+def shortlist(screened: Sequence[Weighed], settled: bool, thresholds: Thresholds) -> tuple[Weighed, ...]:
     """The explanations of the catalogue to refit: those within the gap of the best in the linear model.
 
     Where the null holds, only those that gain on it, and none while the null is not improbable: a verdict needs
@@ -42,7 +40,7 @@ def shortlist(
         return ()
     least = max(
         ranked[0].log_evidence - limits.shortlist_gap,
-        study.base.log_evidence if settled else -float("inf"),
+        null.log_evidence if settled else -float("inf"),
     )
     return tuple(each for each in ranked[: limits.shortlist] if each.log_evidence > least)
 

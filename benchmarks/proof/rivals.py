@@ -57,7 +57,7 @@ def rivals(study: Study, thresholds: Thresholds) -> dict[str, Rival]:
 
 def _screened(study: Study, thresholds: Thresholds, single: list[Hypothesis] | None = None) -> Rival:
     """The verdict of the linear screen: a mismatch by both tests, and its likeliest explanation."""
-    found = screen(study, single or hypotheses(study, thresholds), thresholds)
+    found = screen(study, study.base, single or hypotheses(study, thresholds), thresholds)
     logs = log_softmax(np.array([each.log_weight for each in found]))
     null = next(k for k, each in enumerate(found) if each.hypothesis.kind is Kind.NO_MISMATCH)
     alarm = bool(

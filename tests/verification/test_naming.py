@@ -20,11 +20,11 @@ from diagnosis.left_over import left_over
 from diagnosis.map_axes import AXES, scaled_axes
 from diagnosis.recording import Recording
 from diagnosis.refit import refit
-from diagnosis.screen import joint_evidence
+from diagnosis.screen import joint_evidence, screen
 from diagnosis.study import Candidate, Study, study_of
 from diagnosis.unknown import scaling
 from diagnosis.verdict import Diagnosis, Status
-from diagnosis.weighed import Weighed
+from diagnosis.weighed import Weighed, with_probabilities
 from system.channels import ChannelName
 from system.components import Component
 from system.errors import NotConverged
@@ -440,6 +440,18 @@ def test_a_chance_is_that_about_the_null_where_it_holds() -> None:
         assert null is not None
         striking = replace(detect(study, LIMITS), chance=1e-4)
         assert (confirmed(study, striking, null, LIMITS).chance > 0.01) is larger
+
+
+def test_what_lies_within_tolerance_is_weighed_about_the_nulls_fit() -> None:
+    """A film 3 sigma thick leaks with its cube: an effect about the prior mean, nothing about the null's fit."""
+    study = _study(1, film_thickness__slipper=1.27)
+    screened = screen(study, study.base, hypotheses(study, LIMITS), LIMITS)
+    about_mean = with_probabilities(screened, LIMITS.name.temperature)
+    assert next(each for each in about_mean if not each.hypothesis.effects).probability < 0.05
+    found = _diagnosis(study)
+    assert _told(found) == (Kind.NO_MISMATCH, Status.NAMED, ())
+    assert found.hypotheses[0].probability > 0.5
+    assert [each.hypothesis.text for each in found.hypotheses if each.posterior is not None] == ["nothing"]
 
 
 def test_what_stands_in_no_catalogue_is_unknown() -> None:
