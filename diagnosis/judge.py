@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from scipy.special import logsumexp
+from scipy.stats import chi2, norm
 
 from diagnosis.classes import agrees, equivalents
 from diagnosis.detect import Detection
@@ -156,15 +157,25 @@ def _objections(
 
 
 def _sure(posterior: Posterior, hypothesis: Hypothesis, thresholds: Thresholds) -> bool:
-    """Each law with a size more than some sigma from nothing; each wrong parameter beyond its stated tolerance."""
+    """Each law with sizes more than some sigma from nothing; each wrong parameter beyond its stated tolerance.
+
+    Several sizes of one law together: none may be sure alone where readings tell their sum.
+    """
     for law in hypothesis.laws:
-        if not any(_sigmas(posterior, one.name) > thresholds.name.sure for one in law.parameters):
+        if _chance_of(posterior, [one.name for one in law.parameters]) > 2.0 * norm.sf(thresholds.name.sure):
             return False
     for name in hypothesis.widened:
         beyond = abs(posterior.xi[posterior.index(name)]) * thresholds.name.fault_factor * hypothesis.reach
         if beyond <= thresholds.mismatch.pull or _sigmas(posterior, name) <= thresholds.name.sure:
             return False
     return True
+
+
+def _chance_of(posterior: Posterior, names: Sequence[str]) -> float:
+    """The chance that all of these are nothing: of xi^T C^-1 xi, chi2 of as many degrees of freedom."""
+    at = [posterior.index(name) for name in names]
+    xi = posterior.xi[at]
+    return float(chi2.sf(xi @ np.linalg.solve(posterior.covariance[np.ix_(at, at)], xi), len(at)))
 
 
 def _sigmas(posterior: Posterior, name: str) -> float:
