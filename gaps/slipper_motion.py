@@ -17,6 +17,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from gaps.course import OverTurn
+from gaps.orifice_table import OrificeTable
 from gaps.physics import FilmLaws, Physics, laws_left
 from gaps.profiles import PLAIN, Profile
 from gaps.rubbing import Rubbed, rubbed
@@ -40,12 +41,14 @@ ROUND_OFF = 1e-13  # of a retainer's force
 class Orifice:
     """Diameter and length (m) of the bore that feeds the pocket; flow coefficient of its ends, None: none.
 
-    With a flow coefficient Cd entry and exit take rho/2 (q/(Cd A))^2 on top of the laminar loss.
+    With a flow coefficient Cd entry and exit take rho/2 (q/(Cd A))^2 on top of the laminar loss. A table holds the
+    whole drop, in place of both.
     """
 
     diameter: float
     length: float
     flow_coefficient: float | None = None
+    table: OrificeTable | None = None
 
 
 @dataclass(frozen=True)
@@ -152,6 +155,8 @@ def supply(shape: Orifice, viscosity: float, density: float) -> Callable[[float]
     viscosity Pa s, density kg/m3; raises FilmInputError for sizes that are none.
     """
     require_positive("slipper orifice", diameter=shape.diameter, length=shape.length, viscosity=viscosity)
+    if (table := shape.table) is not None:
+        return lambda drop: table.flow(drop, shape.diameter, viscosity, density)
     conductance = hagen_poiseuille_conductance(shape.diameter, shape.length, viscosity)
     loss = 0.0
     if shape.flow_coefficient is not None:

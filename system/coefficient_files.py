@@ -1,6 +1,7 @@
-"""Coefficients that come from elsewhere, CFD or a test bench: of ports over opening and Reynolds number, of steps.
+"""Coefficients that come from elsewhere, CFD or a test bench: of ports and bores over opening and Reynolds number.
 
-A CSV file each, with `# source: where the numbers come from` ahead of its head. It holds in the range of its rows.
+A CSV file with `# source: where the numbers come from` ahead of its head. It holds in the range of its rows.
+Those of the edges of films are in `loss_files`.
 """
 
 from __future__ import annotations
@@ -18,7 +19,6 @@ from system.kinematics import Array
 from system.units import Dimension
 
 PORT_HEADS = {"opening": Dimension.AREA, "reynolds": None, "flow_coefficient": None}
-LOSS_HEADS = {"film_ratio": None, "reynolds": None, "extra_length": None, "loss_factor": None}
 SOURCE = "source"
 
 
@@ -42,21 +42,6 @@ class FlowCoefficients:
         return self.reynolds / self.flow_coefficient
 
 
-@dataclass(frozen=True)
-class LossFactors:
-    """Of a film that meets one film_ratio (K,) times as thick, at Reynolds numbers (N,), both ascending.
-
-    extra_length (K,) in thicknesses of the thinner film, loss_factor (K, N) of its rho u^2/2.
-    """
-
-    path: Path
-    source: str
-    film_ratio: Array
-    reynolds: Array
-    extra_length: Array
-    loss_factor: Array
-
-
 def read_flow_coefficients(path: Path) -> FlowCoefficients:
     """The flow coefficients of a file with the columns of PORT_HEADS.
 
@@ -65,11 +50,11 @@ def read_flow_coefficients(path: Path) -> FlowCoefficients:
     number Re/Cd must rise with Re).
     """
     table = read_table(path, PORT_HEADS)
-    faults = _source_faults(table)
+    faults = source_faults(table)
     opening, reynolds, coefficient = (table.columns[name] for name in PORT_HEADS)
     for name, values in (("opening", opening), ("reynolds", reynolds), ("flow_coefficient", coefficient)):
-        faults += _range_faults(table, name, values > 0.0, "above zero")
-    faults += _range_faults(table, "flow_coefficient", coefficient <= 1.2, "1.2 at most, as no orifice has more")
+        faults += range_faults(table, name, values > 0.0, "above zero")
+    faults += range_faults(table, "flow_coefficient", coefficient <= 1.2, "1.2 at most, as no orifice has more")
     order = np.lexsort([reynolds, opening])
     sizes, counts = np.unique(opening, return_counts=True)
     if np.any(counts != counts[0]):
@@ -84,41 +69,20 @@ def read_flow_coefficients(path: Path) -> FlowCoefficients:
     )
 
 
-def read_loss_factors(path: Path) -> LossFactors:
-    """The loss factors of a file with the columns of LOSS_HEADS: every ratio at every Reynolds number.
-
-    Raises InputFaults with everything wrong: as `read_table`, no source, numbers out of their range, a grid with
-    holes, extra lengths that differ between the rows of one ratio.
-    """
-    table = read_table(path, LOSS_HEADS)
-    faults = _source_faults(table)
-    ratio, reynolds, extra, loss = (table.columns[name] for name in LOSS_HEADS)
-    faults += _range_faults(table, "film_ratio", ratio > 0.0, "above zero")
-    faults += _range_faults(table, "reynolds", reynolds >= 0.0, "zero or more")
-    order = np.lexsort([reynolds, ratio])
-    ratios, numbers = np.unique(ratio), np.unique(reynolds)
-    shape = ratios.size, numbers.size
-    if ratio.size != shape[0] * shape[1] or np.any(reynolds[order] != np.tile(numbers, shape[0])):
-        faults.append(
-            Fault("reynolds", f"{ratio.size} rows", f"each of {shape[0]} film ratios at each of {shape[1]}")
-        )
-    elif np.ptp(extra[order].reshape(shape), axis=1).max() > 0.0:
-        faults.append(Fault("extra_length", "values that vary with Re", "one of each film ratio: Stokes flow's"))
-    if faults:
-        raise InputFaults(str(path), faults)
-    return LossFactors(
-        path, table.comment(SOURCE), ratios, numbers, extra[order].reshape(shape)[:, 0], loss[order].reshape(shape)
-    )
+def seen(path: Path) -> tuple[Path, int, int]:
+    """A file's path, time of its last change and size: what it is read once for."""
+    state = path.stat()
+    return path, state.st_mtime_ns, state.st_size
 
 
-def _source_faults(table: CsvTable) -> list[Fault]:
+def source_faults(table: CsvTable) -> list[Fault]:
     """The fault of a file that does not say where its numbers come from."""
     if table.comment(SOURCE):
         return []
     return [Fault("file", "no source", "a line '# source: ..' that says where the numbers come from")]
 
 
-def _range_faults(table: CsvTable, name: str, fine: NDArray[np.bool_], expected: str) -> list[Fault]:
+def range_faults(table: CsvTable, name: str, fine: NDArray[np.bool_], expected: str) -> list[Fault]:
     """A fault a line whose number is not fine."""
     values = table.columns[name]
     return [

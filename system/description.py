@@ -6,7 +6,6 @@ Lengths in m, angles in rad, speeds in rad/s, pressures in Pa gauge (atmosphere 
 
 from __future__ import annotations
 
-import hashlib
 import math
 from collections.abc import Iterator
 from pathlib import Path
@@ -50,6 +49,7 @@ from system.fields import (
     Temperature,
     Volume,
     Webs,
+    files_content,
     table_of,
     tables_of,
 )
@@ -126,6 +126,9 @@ class SlipperSection(Section):
     tilt_tangential: Angle
     ball_height: Length | None = None  # of the ball centre above the sliding face
     orifice_flow_coefficient: Annotated[float, Field(gt=0.0, le=1.0)] | None = None  # of entry and exit
+    orifice_file: CoefficientFile | None = None  # flow coefficients of the whole bore
+    pocket_file: CoefficientFile | None = None  # losses of steps, at the edges of pocket, lands and rim
+    groove_file: CoefficientFile | None = None  # losses of grooves, of those in the land
     profile: Profile | None = None  # over the radius
     crown: AnyLength | None = None  # of the face over its outer radius; negative: dished
     rim_relief: ReliefSection | None = None  # at the outer radius
@@ -134,6 +137,12 @@ class SlipperSection(Section):
     flange_thickness: Length | None = None
     socket_radius: Length | None = None  # up to which the ball holds the flange
     body: BodySection | None = None
+
+    @computed_field  # type: ignore[prop-decorator]
+    @property
+    def coefficient_content(self) -> str:
+        """A name for what its files of coefficients hold, part of the table's repr."""
+        return files_content((self.orifice_file, self.pocket_file, self.groove_file))
 
     @property
     def lands(self) -> SlipperLands:
@@ -156,12 +165,19 @@ class ValvePlateSection(Section):
     tilt_x: Angle
     tilt_y: Angle
     residual_clamping: Coefficient  # fraction of the pressure force
+    kidney_file: CoefficientFile | None = None  # losses of steps, at the edges of the lands
     thickness: Length | None = None
     waviness: WavinessSection | None = None
     profile: Profile | None = None  # over the radius
     pads: tuple[PadSection, ...] = ()  # beyond the outer land
     sphere_radius: Length | None = None  # of a face that bulges into a hollow block; radii are then off the axis
     body: BodySection | None = None
+
+    @computed_field  # type: ignore[prop-decorator]
+    @property
+    def coefficient_content(self) -> str:
+        """A name for what its file of coefficients holds, part of the table's repr."""
+        return files_content((self.kidney_file,))
 
     @property
     def sphere(self) -> Sphere:
@@ -242,8 +258,7 @@ class PortsSection(Section):
     @property
     def coefficient_content(self) -> str:
         """A name for what these files hold, part of the table's repr: a file that has changed is another."""
-        found = [path.read_bytes() if path.is_file() else b"absent" for path in self.coefficient_files]
-        return hashlib.sha256(b"\0".join(found)).hexdigest() if found else ""
+        return files_content(self.coefficient_files)
 
     @property
     def web_spans(self) -> tuple[tuple[float, float], ...]:
@@ -387,6 +402,13 @@ class PumpDescription(Section):
             *(part.body for _, part in self.single_slippers),
         )  # fmt: skip
         return tuple(body for body in stated if body is not None)
+
+    @property
+    def file_contents(self) -> tuple[str, ...]:
+        """Names for what the files hold that the pump's own names by their paths: meshes and coefficients."""
+        slippers = (self.slipper, *(part for _, part in self.single_slippers))
+        losses = (*(part.coefficient_content for part in slippers), self.valve_plate.coefficient_content)
+        return (*(body.content for body in self.bodies), *losses, self.ports.coefficient_content)
 
     def of_chamber(self, chamber: int) -> PumpDescription:
         """The pump with the piston and slipper of a chamber (1 .. z) in place of all, and no single parts."""

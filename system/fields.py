@@ -5,7 +5,9 @@ Each is a type of a model's field: the quantity's dimension, or its columns', st
 
 from __future__ import annotations
 
+import hashlib
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass
 from enum import Enum
 from pathlib import Path
@@ -108,6 +110,12 @@ MeshFile = Annotated[Path, Text.FILE]
 CoefficientFile = Annotated[Path, Text.FILE]
 FaceName = Annotated[str, Text.NAME, Field(min_length=1)]
 FaceNames = Annotated[tuple[str, ...], Text.NAMES, Field(min_length=1)]
+
+
+def files_content(paths: Iterable[Path | None]) -> str:
+    """A name for what files hold, none of them: an empty one; a file that has changed is another."""
+    found = [path.read_bytes() if path.is_file() else b"absent" for path in paths if path is not None]
+    return hashlib.sha256(b"\0".join(found)).hexdigest() if found else ""
 
 
 class Section(BaseModel):

@@ -20,6 +20,7 @@ from system.floating_parts import FloatingParts, floating_parts
 from system.gap_cycle import PLAIN, GapCycle, GapPhysics, Report, gap_cycle, silent
 from system.instants import Rotor, rotor
 from system.kinematics import Array
+from system.land_losses import creeping_film_leaks, land_losses, with_inertia
 from system.lumped import (
     SAMPLES_PER_PITCH,
     chamber_problem,
@@ -99,7 +100,7 @@ def films_point(
             at, parts, cycle.shaft_angle[::every], cycle.pressure[::every], report, physics=physics,
             rubbing=_rubbing(lumped_pairs(pump, point, motion, cycle)), finer=finer,
         )  # fmt: skip
-        problem = chamber_problem(pump, point, motion, leak_table(gaps, point.case_pressure))
+        problem = chamber_problem(pump, point, motion, edged_leaks(pump, point, gaps))
         draws = port_draws(gaps, at.point, pump.oil.bulk_modulus)
         ported = ported_cycle((problem,), lines, pump.pump.pistons, motion.shaft_angle.size, draws=draws)
         at = rotor(pump, met_point(point, ported))
@@ -129,6 +130,16 @@ def _rubbing(losses: FrictionPairs) -> tuple[float, float, float]:
 def leak_table(gaps: GapCycle, case_pressure: float) -> LeakTable:
     """Flow out of one chamber into each gap as G (p - p_case) + C, exact at the pressures of `gaps`."""
     return LeakTable(gaps.conductance, gaps.flow - gaps.conductance * (gaps.chamber_pressure - case_pressure))
+
+
+def edged_leaks(pump: PumpDescription, point: OperatingPoint, gaps: GapCycle) -> LeakTable:
+    """`leak_table` with what the lands' edges lose where files say it (`land_losses`); pressures of films stay."""
+    leaks = leak_table(gaps, point.case_pressure)
+    if not land_losses(pump).any:
+        return leaks
+    creeping = creeping_film_leaks(pump, leaks, point.viscosity)
+    drop = gaps.chamber_pressure - point.case_pressure
+    return with_inertia(pump, creeping, drop, point.viscosity, bore=False)
 
 
 def gap_exchange(gaps: GapCycle, cycle: ChamberCycle, pistons: int, point: OperatingPoint) -> GapExchange:

@@ -29,6 +29,7 @@ from system.kinematics import (
     slipper_acceleration,
     slipper_sliding_velocity,
 )
+from system.land_losses import bore_table
 from system.lumped import block_spring, piston_area
 from system.parts_description import RetainerKind
 from system.places import ball_centre
@@ -268,5 +269,6 @@ def piston_shape(rotor: Rotor, parts: FloatingParts) -> PistonShape:
 def slipper_shape(rotor: Rotor, parts: FloatingParts) -> SlipperShape:
     """The slipper's face and feed."""
     slipper = rotor.pump.slipper
-    orifice = Orifice(slipper.orifice_diameter, slipper.orifice_length, parts.slipper.orifice_flow_coefficient)
+    flow_coefficient = parts.slipper.orifice_flow_coefficient
+    orifice = Orifice(slipper.orifice_diameter, slipper.orifice_length, flow_coefficient, bore_table(slipper))
     return SlipperShape(slipper.lands, orifice, parts.slipper.face)

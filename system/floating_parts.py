@@ -85,10 +85,10 @@ class RetainerParts:
 
 @dataclass(frozen=True)
 class SlipperParts:
-    """ball_height m over the face; flow coefficient of the orifice's ends; face by radius; retainer; laws."""
+    """ball_height m over the face; flow coefficient of the orifice's ends (None: by file); face by radius."""
 
     ball_height: float
-    orifice_flow_coefficient: float
+    orifice_flow_coefficient: float | None
     face: Profile
     retainer: RetainerParts
     laws: FilmLaws
@@ -179,7 +179,7 @@ def _slipper(pump: PumpDescription, laws: FilmLaws, taken: Taken) -> SlipperPart
         "slipper.ball_height", part.ball_height, 1.3 * part.centre_of_mass_to_ball,
         "1.3 times the distance of its centre of mass from the ball", Dimension.LENGTH,
     )  # fmt: skip
-    flow = taken.value(
+    flow = None if part.orifice_file is not None else taken.value(
         "slipper.orifice_flow_coefficient", part.orifice_flow_coefficient, 1.5**-0.5,
         "a sharp entry and a free exit take 1.5 velocity heads, Idelchik 1960",
     )  # fmt: skip

@@ -15,7 +15,7 @@ from pathlib import Path
 import numba
 import numpy as np
 
-from system.coefficient_files import FlowCoefficients, read_flow_coefficients
+from system.coefficient_files import FlowCoefficients, read_flow_coefficients, seen
 from system.kinematics import Array
 
 MOST_OPENINGS = 12
@@ -81,14 +81,14 @@ def flow_table(coefficients: FlowCoefficients, law: PlainLaw) -> FlowTable:
     plain, bend = law.log_coefficient(grid)
     found = np.zeros((count, NODES, 2))
     for own, number, reynolds in zip(found, numbers, coefficients.reynolds, strict=True):
-        value, slope = _log_reynolds(np.log(number), np.log(reynolds), grid)
+        value, slope = log_reynolds_over(np.log(number), np.log(reynolds), grid)
         own[:] = np.stack([value - grid - plain, slope - 1.0 - bend], axis=-1)
     areas = np.zeros(MOST_OPENINGS)
     areas[:count] = np.log(coefficients.opening)
     return FlowTable((float(count), float(grid[0]), float(grid[1] - grid[0]), *areas, *found.ravel()))
 
 
-def _log_reynolds(log_number: Array, log_reynolds: Array, grid: Array) -> tuple[Array, Array]:
+def log_reynolds_over(log_number: Array, log_reynolds: Array, grid: Array) -> tuple[Array, Array]:
     """ln Re and its slope over ln lambda: between the rows a monotone cubic (Fritsch, Carlson 1980).
 
     Below them Re grows with lambda^2, above them with lambda; so more pressure drop is more flow throughout.
@@ -110,18 +110,12 @@ def port_table(base: Path, own: Path, critical_reynolds: float) -> FlowTable:
     Files are read once as long as they stay as they are. Raises InputFaults as `read_flow_coefficients`.
     """
     law = PlainLaw(file_law(coefficients_of(base)).flow_coefficient, critical_reynolds)
-    return _kept_table(*_seen(own), law)
+    return _kept_table(*seen(own), law)
 
 
 def coefficients_of(path: Path) -> FlowCoefficients:
     """What a file holds, read once while it stays as it is; raises InputFaults as `read_flow_coefficients`."""
-    return _kept_file(*_seen(path))
-
-
-def _seen(path: Path) -> tuple[Path, int, int]:
-    """A file's path, time of its last change and size."""
-    state = path.stat()
-    return path, state.st_mtime_ns, state.st_size
+    return _kept_file(*seen(path))
 
 
 @lru_cache(maxsize=32)

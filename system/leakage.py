@@ -77,14 +77,18 @@ def slipper_leakage_short_orifice(
 
 
 def valve_plate_conductance(
-    land_radii: tuple[float, float, float, float], film_thickness: float, pistons: int, viscosity: Number
+    land_radii: tuple[float, float, float, float],
+    film_thickness: float,
+    pistons: int,
+    viscosity: Number,
+    extra_logs: tuple[float, float] = (0.0, 0.0),
 ) -> Number:
     """Leakage of one chamber over both sealing lands of the valve plate per pascal; paper Eq. (17).
 
     G = alpha h^3/(12 mu) [1/ln(R2/R1) + 1/ln(R4/R3)], alpha = 2 pi/z: each chamber pressurises its own pitch.
-    Parallel film, radii R1 < R2 < R3 < R4 in m.
+    Parallel film, radii R1 < R2 < R3 < R4 in m. extra_logs: what edges add to the two logarithms.
     """
     r1, r2, r3, r4 = land_radii
     pitch = 2.0 * np.pi / pistons
-    lands = 1.0 / np.log(r2 / r1) + 1.0 / np.log(r4 / r3)
+    lands = 1.0 / (np.log(r2 / r1) + extra_logs[0]) + 1.0 / (np.log(r4 / r3) + extra_logs[1])
     return pitch * film_thickness**3 / (12.0 * viscosity) * float(lands)

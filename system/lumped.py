@@ -23,6 +23,7 @@ from system.kinematics import (
     slipper_sliding_speed,
     stand_out,
 )
+from system.land_losses import land_losses
 from system.leakage import (
     piston_carried_flow,
     piston_conductance,
@@ -143,13 +144,20 @@ def piston_motion(
 
 
 def lumped_leaks(pump: PumpDescription, point: OperatingPoint[Number], motion: PistonMotion[Number]) -> LeakTable:
-    """Leakage of one chamber's gaps over shaft angle: paper Eqs. (15)-(17), viscosity at case temperature."""
+    """Leakage of one chamber's gaps over shaft angle: paper Eqs. (15)-(17), viscosity at case temperature.
+
+    With what edges and the slipper's bore lose in creeping flow where files say it (`land_losses`).
+    """
     p, s, v, mu = pump.piston, pump.slipper, pump.valve_plate, point.viscosity
+    losses = land_losses(pump)
     diameter = pump.pump.piston_diameter
     radii = (v.land_radius_1, v.land_radius_2, v.land_radius_3, v.land_radius_4)
     r1, r2, r3, r4 = (float(radius * v.sphere.stretch(radius)) for radius in radii)
-    slipper = slipper_conductance(s.lands.log_ratio, s.film_thickness, s.orifice_diameter, s.orifice_length, mu)
-    plate = valve_plate_conductance((r1, r2, r3, r4), v.film_thickness, pump.pump.pistons, mu)
+    log_ratio = s.lands.log_ratio + losses.slipper.extra_log
+    bore = s.orifice_length if losses.bore is None else losses.bore.equal_length(s.orifice_diameter)
+    slipper = slipper_conductance(log_ratio, s.film_thickness, s.orifice_diameter, bore, mu)
+    extra_logs = losses.inner.extra_log, losses.outer.extra_log
+    plate = valve_plate_conductance((r1, r2, r3, r4), v.film_thickness, pump.pump.pistons, mu, extra_logs)
     ones = np.ones_like(motion.shaft_angle)
     piston = piston_conductance(diameter, p.radial_clearance, motion.engaged_length, p.eccentricity_ratio, mu)
     carried = piston_carried_flow(diameter, p.radial_clearance, motion.velocity)

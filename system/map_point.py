@@ -268,8 +268,8 @@ class MapWork:
     def key(self, point: OperatingPoint) -> str:
         """Name of all that a point's numbers depend on: pump as far as it is read, solver, point, program."""
         made_by = "operating map", MAP_FORMAT, version("swashfilm"), sorted(self.solver.stated.items())
-        meshes = [body.content for body in self.pump.bodies]
-        return content_key(*made_by, self._read, meshes, np.array(astuple(point)))[:KEY_LENGTH]
+        read = self._read, self.pump.file_contents
+        return content_key(*made_by, *read, np.array(astuple(point)))[:KEY_LENGTH]
 
     def solve(self, point: OperatingPoint) -> dict[str, object]:
         """The point's numbers and warnings."""

@@ -21,6 +21,7 @@ from system.fields import Section, dimension_of, table_of, tables_of
 from system.film_checks import FILM_CHECKS
 from system.flow_tables import coefficients_of, file_law
 from system.geometry_checks import GEOMETRY_CHECKS
+from system.loss_checks import LOSS_CHECKS
 from system.operating_checks import OPERATING_CHECKS
 from system.parts_checks import PARTS_CHECKS, single_parts_checked
 from system.port_checks import PORT_CHECKS
@@ -32,6 +33,7 @@ ABSOLUTE = "_abs"  # a pressure key that ends so is absolute
 _CHECKS = (
     *GEOMETRY_CHECKS,
     *PORT_CHECKS,
+    *LOSS_CHECKS,
     *FILM_CHECKS,
     *OPERATING_CHECKS,
     *PARTS_CHECKS,

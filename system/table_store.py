@@ -33,8 +33,8 @@ def pump_key(pump: PumpDescription) -> str:
         update={"speed": 0.0, "pressure": 0.0, "displacement_ratio": 1.0, "temperature": 0.0}
     )
     bare = with_held_ports(pump).model_copy(update={"name": "", "operating": stated})
-    files = [*(body.content for body in pump.bodies), pump.ports.coefficient_content]
-    return content_key("pump of a response table", TABLE_FORMAT, resolved_toml(bare), files)[:KEY_LENGTH]
+    made_of = TABLE_FORMAT, resolved_toml(bare), pump.file_contents
+    return content_key("pump of a response table", *made_of)[:KEY_LENGTH]
 
 
 def keep_table(table: ResponseTable, place: Path) -> None:

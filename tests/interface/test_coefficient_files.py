@@ -8,9 +8,10 @@ import pytest
 
 from swashfilm.cli import run_command
 from swashfilm.coefficients_told import share_beyond
-from system.coefficient_files import read_flow_coefficients, read_loss_factors
+from system.coefficient_files import read_flow_coefficients
 from system.csv_table import read_table
 from system.faults import InputFaults
+from system.loss_files import read_step_losses
 from system.pump_file import load_pump, resolved_toml
 from system.units import Dimension
 
@@ -67,15 +68,15 @@ def test_columns_and_numbers_that_are_none_are_told(tmp_path):
 
 def test_loss_factors_are_a_full_grid(tmp_path):
     head = "# source: x\nfilm_ratio [1], reynolds [1], extra_length [1], loss_factor [1]\n"
-    found = read_loss_factors(
+    found = read_step_losses(
         file_of(tmp_path, head + "2, 0, .4, -1\n0.5, 0, .4, 1\n2, 5, .4, -.9\n0.5, 5, .4, 1.2\n")
     )
     assert found.loss_factor.tolist() == [[1.0, 1.2], [-1.0, -0.9]]
-    assert set(faults_of(read_loss_factors, file_of(tmp_path, head + "2, 0, .4, -1\n0.5, 1, .4, 1\n"))) == {
+    assert set(faults_of(read_step_losses, file_of(tmp_path, head + "2, 0, .4, -1\n0.5, 1, .4, 1\n"))) == {
         "reynolds"
     }
     varied = head + "2, 0, .4, -1\n2, 1, .5, 1\n"
-    assert set(faults_of(read_loss_factors, file_of(tmp_path, varied))) == {"extra_length"}
+    assert set(faults_of(read_step_losses, file_of(tmp_path, varied))) == {"extra_length", "film_ratio"}
 
 
 def test_time_beyond_a_file_is_counted(tmp_path):

@@ -9,8 +9,9 @@ import pytest
 
 from swashfilm.cli import run_command
 from swashfilm.reference_case import ReferenceKind, load_reference
-from system.coefficient_files import read_flow_coefficients, read_loss_factors
+from system.coefficient_files import read_flow_coefficients
 from system.faults import InputFaults
+from system.loss_files import read_step_losses
 
 EXAMPLES = sorted((Path(__file__).parents[2] / "examples" / "references").glob("*.toml"))
 STEP = 'format = 1\n[reference]\nkind = "step"\nfilm_ratio = [2, 0.5]\nreynolds = [5, 0]\ncells = 2\n'
@@ -45,9 +46,9 @@ def test_a_step_leaves_loss_factors_and_a_page(tmp_path, capsys):
     folder = tmp_path / "out"
     assert run_command(["reference", str(written(tmp_path, STEP)), "-o", str(folder)]) == 0
     assert "film behind / film before = 0.5" in capsys.readouterr().out
-    found = read_loss_factors(folder / "loss_factor.csv")
+    found = read_step_losses(folder / "loss_factor.csv")
     assert list(found.reynolds) == [0.0, 5.0]
-    assert found.film_ratio.tolist() == [0.5, 2.0]
+    assert found.sizes.tolist() == [[0.5], [2.0]]
     assert found.extra_length[0] == pytest.approx(found.extra_length[1], rel=0.05)
     assert found.source.startswith("swashfilm")
     (folder / "report.html").unlink()
