@@ -19,11 +19,14 @@ from diagnosis.diagnosis_tables import (
 from diagnosis.recording import DataNote
 from diagnosis.study import Study
 from diagnosis.thresholds import Thresholds
+from diagnosis.trace_tables import trace_residual_rows
 from diagnosis.verdict import Diagnosis
 from swashfilm.diagnose_runs import NOTHING, Told
 from swashfilm.run_folder import write_json
 
 KIND = "diagnosis"
+TRACES = "trace_residuals.csv"
+"""In the run folder of a recording with traces: what residuals.csv is of steady readings."""
 
 
 def write_diagnosis_files(
@@ -34,12 +37,14 @@ def write_diagnosis_files(
     assumptions: Sequence[str] = (),
     told: Told = NOTHING,
 ) -> None:
-    """Write diagnosis.json, summary.json, six tables and report.html into a run folder.
+    """Write diagnosis.json, summary.json, six tables (of traces a seventh) and report.html into a run folder.
 
     assumptions: what was taken of the pump; told: of the pump run without and with the finding.
     """
     write_rows(folder / "steady.csv", steady_rows(study.recording))
     write_rows(folder / "residuals.csv", residual_rows(study, diagnosis, thresholds))
+    if study.traces:
+        write_rows(folder / TRACES, trace_residual_rows(study, diagnosis, thresholds))
     write_rows(folder / "hypotheses.csv", hypothesis_rows(diagnosis))
     write_rows(folder / "parameters.csv", parameter_rows(diagnosis))
     write_rows(folder / "next_points.csv", next_point_rows(diagnosis.next_point))
@@ -85,8 +90,17 @@ def note_text(note: DataNote) -> str:
     """A finding in the data with its channel and its points, counted from 1."""
     where = [note.channel.value] if note.channel else []
     if note.points:
-        where.append("point " + ", ".join(str(point + 1) for point in note.points))
+        where.append(f"point {_ranges(note.points)}")
     return f"{note.kind.value}: {': '.join([' '.join(where), note.text] if where else [note.text])}"
+
+
+def _ranges(points: Sequence[int]) -> str:
+    """Points counted from 1, runs of them by their ends: "3, 8 to 12"."""
+    breaks = [k for k in range(1, len(points)) if points[k] != points[k - 1] + 1]
+    parts = [points[start:stop] for start, stop in zip([0, *breaks], [*breaks, len(points)], strict=True)]
+    return ", ".join(
+        f"{p[0] + 1} to {p[-1] + 1}" if len(p) > 2 else ", ".join(str(k + 1) for k in p) for p in parts
+    )
 
 
 def write_rows(path: Path, rows: Iterable[Mapping[str, str]]) -> None:

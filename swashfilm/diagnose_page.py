@@ -10,8 +10,9 @@ from typing import Any
 
 from diagnosis.diagnosis_file import read_diagnosis
 from swashfilm import diagnose_plots
-from swashfilm.diagnose_files import read_rows
+from swashfilm.diagnose_files import TRACES, read_rows
 from swashfilm.diagnose_runs import SHAFT, WITH, WITHOUT
+from swashfilm.diagnose_trace_plots import trace_residuals
 from system.faults import Fault, InputFaults
 from system.units import Dimension, in_unit, reading_unit
 
@@ -36,6 +37,8 @@ def write_diagnose_page(folder: Path) -> Path:
         raise InputFaults(str(folder), faults)
     found = read_diagnosis(folder / "diagnosis.json")
     tables = {name: read_rows(folder / f"{name}.csv") for name in TABLES}
+    if (folder / TRACES).is_file():
+        tables["traces"] = read_rows(folder / TRACES)
     template = Environment(loader=PackageLoader("swashfilm"), autoescape=True).get_template("diagnose.html.jinja")
     summary = json.loads((folder / "summary.json").read_text("utf-8"))
     page = template.render(
@@ -156,8 +159,28 @@ def _pictures(found: Mapping[str, Any], tables: Mapping[str, Sequence[Mapping[st
         pictures["held_out"] = diagnose_plots.held_out_bars(held_out)
     if tables["hypotheses"]:
         pictures["hypotheses"] = diagnose_plots.hypothesis_bars(tables["hypotheses"])
+    if tables.get("traces"):
+        pictures["traces"] = trace_residuals(
+            tables["traces"], found["where"]["shaft_angle_deg"], _settings(residuals)
+        )
     pictures["pulls"] = diagnose_plots.pull_changes(tables["parameters"])
     return pictures
+
+
+def _settings(residuals: Sequence[Mapping[str, str]]) -> dict[str, str]:
+    """Each point with what was set there: "point 7: 1000 rpm, 374 bar, displacement ratio 0.28"."""
+    told = {}
+    for row in residuals:
+        known = [(row[f"{name} [{unit}]"], words) for name, unit, words in _SET if row[f"{name} [{unit}]"]]
+        values = ", ".join(words.format(float(value)) for value, words in known)
+        told[row["point"]] = f"point {int(row['point']) + 1}: {values}"
+    return told
+
+
+_SET = (
+    ("speed", "rpm", "{:.0f} rpm"), ("p_out", "bar", "{:.0f} bar"),
+    ("displacement_ratio", "1", "displacement {:.2g}"),
+)  # fmt: skip
 
 
 def _course(found: Mapping[str, Any]) -> tuple[str | None, str]:

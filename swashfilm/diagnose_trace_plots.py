@@ -1,0 +1,66 @@
+"""Pictures of recorded chamber pressures beside simulated ones, from the table of a diagnosis's run folder."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from reynolds.mesh import Array
+from swashfilm.figure_png import figure_of, png_of
+
+Row = Mapping[str, str]
+BEFORE, AFTER, NOISE, WINDOW = "#b55a00", "#3c7a8c", "#9aa4ab", "#e8d9a0"
+MOST_TRACES = 4
+QUARTERS = np.arange(0, 361, 90)
+
+
+def trace_residuals(rows: Sequence[Row], window: Sequence[float] | None, settings: Mapping[str, str]) -> bytes:
+    """The traces that part most before: recorded pressure, and what it has beyond the simulated one, on one scale.
+
+    window: shaft angles in deg between which they stand out; settings: by point, what is written over it.
+    """
+    points = _worst(rows)
+    figure = figure_of(10.0, 0.8 + 1.9 * len(points))
+    grid = figure.subplots(len(points), 2, squeeze=False, sharex=True, sharey="col", width_ratios=(1, 2))
+    for line, point in zip(grid, points, strict=True):
+        own = [row for row in rows if row["point"] == point]
+        angle, measured, sigma = (_column(own, key) for key in ("angle [deg]", "measured [bar]", "sigma [bar]"))
+        line[0].plot(angle, measured, color="#1c2328", linewidth=1.0)
+        line[0].set_ylabel("p_chamber / bar", fontsize=8)
+        line[0].set_title(settings.get(point, ""), fontsize=8, loc="left")
+        line[1].fill_between(angle, -2 * sigma, 2 * sigma, color=NOISE, alpha=0.35, linewidth=0, label="two sigma")
+        for key, colour in (("before [bar]", BEFORE), ("after [bar]", AFTER)):
+            line[1].plot(angle, measured - _column(own, key), color=colour, linewidth=1.0, label=key.split()[0])
+        line[1].set_ylabel("residual / bar", fontsize=8)
+        for axes in line:
+            for start, end in _spans(window):
+                axes.axvspan(start, end, color=WINDOW, alpha=0.5, zorder=0)
+            axes.set(xlim=(0.0, 360.0), xticks=QUARTERS)
+            axes.tick_params(labelsize=8)
+            axes.grid(visible=True, alpha=0.3)
+    grid[0, 1].legend(fontsize=8, ncols=3, loc="lower right", bbox_to_anchor=(1.0, 1.0), frameon=False)
+    for axes in grid[-1]:
+        axes.set_xlabel("shaft angle from the inner dead centre / deg", fontsize=8)
+    return png_of(figure)
+
+
+def _spans(window: Sequence[float] | None) -> list[tuple[float, float]]:
+    """The window between 0 and 360 deg, parted where it goes over the inner dead centre."""
+    if not window:
+        return []
+    start, end = window
+    return [(start, end)] if start <= end else [(start, 360.0), (0.0, end)]
+
+
+def _worst(rows: Sequence[Row]) -> list[str]:
+    """Points of the traces with the largest misfit before, in the order of the recording."""
+    misfit: dict[str, float] = {}
+    for row in rows:
+        misfit[row["point"]] = misfit.get(row["point"], 0.0) + float(row["pull_before"]) ** 2
+    worst = sorted(misfit, key=lambda point: -misfit[point])[:MOST_TRACES]
+    return sorted(worst, key=int)
+
+
+def _column(rows: Sequence[Row], key: str) -> Array:
+    return np.array([float(row[key]) for row in rows])

@@ -1,0 +1,46 @@
+"""The table and the picture of recorded chamber pressures in a diagnosis's run folder."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from diagnosis.recording import TraceBlock
+from diagnosis.study import TraceMisfit
+from diagnosis.trace_tables import trace_residual_rows
+from swashfilm.diagnose_trace_plots import trace_residuals
+
+ANGLE = 2.0 * np.pi * np.arange(72) / 72
+SIGMA = 0.4e5  # Pa
+
+
+def _rows(points=(4, 9)):
+    """Traces that read 3 sigma above a simulation without any pressure (gauge), where nothing is claimed."""
+
+    def misfit(point):
+        block = TraceBlock(point, ANGLE, np.full(72, 3.0 * SIGMA), None, 1)
+        return TraceMisfit(block, block.mean, np.zeros((72, 0)), np.full(72, SIGMA))
+
+    flat = SimpleNamespace(traces=lambda values, points, angles: np.zeros((len(points), len(angles))))
+    study = SimpleNamespace(traces=tuple(map(misfit, points)), simulator=flat)
+    nothing = SimpleNamespace(
+        effects=(), hypotheses=(SimpleNamespace(posterior=None),), before=SimpleNamespace(values=np.zeros(0))
+    )
+    return list(trace_residual_rows(study, nothing, None))
+
+
+def test_each_sample_stands_in_the_table_with_its_pulls():
+    rows = _rows()
+    assert [row["point"] for row in rows] == ["4"] * 72 + ["9"] * 72
+    assert float(rows[1]["angle [deg]"]) == pytest.approx(5.0)
+    for row in rows:
+        assert float(row["measured [bar]"]) == pytest.approx(1.2)
+        assert (row["before [bar]"], row["after [bar]"], row["sigma [bar]"]) == ("0", "0", "0.4")
+        assert float(row["pull_before"]) == pytest.approx(3.0)
+
+
+def test_the_picture_shows_the_worst_few():
+    rows = _rows(tuple(range(7)))
+    png = trace_residuals(rows, (350.0, 5.0), {"3": "point 4: 1000 rpm"})
+    assert png.startswith(b"\x89PNG")
+    assert len(png) > len(trace_residuals(rows[:72], None, {}))
