@@ -45,15 +45,20 @@ class LandLosses:
 def land_losses(pump: PumpDescription) -> LandLosses:
     """What the files of a pump say of its lands. Raises InputFaults for files that are none."""
     plate, pitch = pump.valve_plate, TURN / pump.pump.pistons
-    steps = None if plate.kidney_file is None else step_losses(plate.kidney_file)
+    inner = outer = LandPath(pitch, plate.film_thickness)
+    if plate.kidney_file is not None:
+        steps = step_losses(plate.kidney_file)
+        r1, r2, r3, r4 = _plate_radii(pump)
+        inner = LandPath(pitch, plate.film_thickness, _edges_of((r2, r1), steps), ((r2, r1),))
+        outer = LandPath(pitch, plate.film_thickness, _edges_of((r3, r4), steps), ((r3, r4),))
+    return LandLosses(slipper_path(pump.slipper), inner, outer, bore_table(pump.slipper))
+
+
+def _plate_radii(pump: PumpDescription) -> tuple[float, ...]:
+    """Radii in m of the valve plate's lands, (4,), along its face."""
+    plate = pump.valve_plate
     radii = (plate.land_radius_1, plate.land_radius_2, plate.land_radius_3, plate.land_radius_4)
-    r1, r2, r3, r4 = (float(radius * plate.sphere.stretch(radius)) for radius in radii)
-    return LandLosses(
-        slipper=slipper_path(pump.slipper),
-        inner=_across(pitch, plate.film_thickness, r2, r1, steps),
-        outer=_across(pitch, plate.film_thickness, r3, r4, steps),
-        bore=bore_table(pump.slipper),
-    )
+    return tuple(float(radius * plate.sphere.stretch(radius)) for radius in radii)
 
 
 def creeping_film_leaks(pump: PumpDescription, leaks: LeakTable, viscosity: float) -> LeakTable:
@@ -103,10 +108,7 @@ def with_inertia(
 
 def _plate_shares(pump: PumpDescription) -> tuple[float, float]:
     """Shares of the valve plate's inner and outer land in its leakage, by the parallel film's logarithms."""
-    plate = pump.valve_plate
-    radii = (plate.land_radius_1, plate.land_radius_2, plate.land_radius_3, plate.land_radius_4)
-    r1, r2, r3, r4 = (float(radius * plate.sphere.stretch(radius)) for radius in radii)
-    losses = land_losses(pump)
+    (r1, r2, r3, r4), losses = _plate_radii(pump), land_losses(pump)
     inner = 1.0 / (np.log(r2 / r1) + losses.inner.extra_log)
     outer = 1.0 / (np.log(r4 / r3) + losses.outer.extra_log)
     return float(inner / (inner + outer)), float(outer / (inner + outer))
@@ -139,6 +141,8 @@ def orifice_table(coefficients: FlowCoefficients, opening: float) -> OrificeTabl
 
 def slipper_path(slipper: SlipperSection) -> LandPath:
     """From a slipper's pocket across its sealing lands to the case."""
+    if slipper.pocket_file is None and slipper.groove_file is None:
+        return LandPath(TURN, slipper.film_thickness)
     lands = slipper.lands.sealing
     steps = None if slipper.pocket_file is None else step_losses(slipper.pocket_file)
     edges: list[Edge] = []
@@ -156,13 +160,6 @@ def slipper_path(slipper: SlipperSection) -> LandPath:
 def deepest(losses: LossFactors) -> tuple[int, int]:
     """Rows of the deepest step into a thin film and of that out of it."""
     return 0, len(losses.sizes) - 1
-
-
-def _across(angle: float, film: float, start: float, end: float, steps: LossFactors | None) -> LandPath:
-    """One land between two radii (m), in the direction of the flow."""
-    if steps is None:
-        return LandPath(angle, film)
-    return LandPath(angle, film, _edges_of((start, end), steps), ((start, end),))
 
 
 def _edges_of(land: tuple[float, float], steps: LossFactors) -> tuple[Edge, Edge]:
