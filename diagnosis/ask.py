@@ -15,7 +15,9 @@ from diagnosis.study import Study
 from diagnosis.thresholds import Thresholds
 from diagnosis.verdict import Diagnosis
 from diagnosis.weighed import Weighed
+from reynolds.errors import FilmInputError
 from system.description import PumpDescription
+from system.errors import NotConverged
 
 STANDS = 0.001  # probability of a rival worth a reading
 
@@ -35,13 +37,17 @@ def with_next_point(study: Study, pump: PumpDescription, found: Diagnosis, thres
 def asked_for(study: Study, pump: PumpDescription, first: Contender, second: Contender) -> NextPoint:
     """A point of the rig's box if one settles two that are open, else one of an ordinary bench's if that does.
 
-    Else the rig's best, with what would instead.
+    Else the rig's best, with what would instead. Raises NotConverged where a point of the rig's box cannot be
+    simulated; where one farther out cannot, that is told.
     """
     box = rig_box(study.recording, pump)
     point = next_point(study, pump, box, first, second)
     if point.settles or not point.is_open:
         return point
-    farther = next_point(study, pump, ordinary_box(study.recording, pump), first, second)
+    try:
+        farther = next_point(study, pump, ordinary_box(study.recording, pump), first, second)
+    except (NotConverged, FilmInputError) as reason:
+        return replace(point, instead=f"Farther out nothing can be foretold: {reason}.")
     if farther.settles:
         return replace(farther, beyond=True)
     leak = own_leak(study, box, first, second)

@@ -16,7 +16,7 @@ from system.description import PumpDescription
 from system.kinematics import Array
 
 BEYOND = 0.1  # of a range as recorded, beyond each of its ends
-SLOW, UNLOADED, SWIVELLED = 0.25, 0.1, 0.2  # of rated speed, rated pressure, full displacement: least on a bench
+SLOW, UNLOADED, SWIVELLED = 0.25, 0.1, 0.2  # of rated speed, rise of pressure, displacement: least on a bench
 COLD, HOT = 303.15, 353.15  # K: inlet temperatures that a bench with heater and cooler holds
 VARIED = 0.05  # of the greatest displacement ratio: a pump that was swivelled so far can be
 
@@ -60,19 +60,21 @@ def rows(points: BenchPoints, chosen: NDArray[np.int64]) -> BenchPoints:
 def rig_box(recording: Recording, pump: PumpDescription) -> BenchBox:
     """The ranges of a recording and a tenth beyond each end, within the pump's rating and its full displacement.
 
-    What was not measured is as a simulation of the recording takes it (`diagnosis.readings.bench_points`); other
-    pressures and the difference of case and inlet temperature stay at their median.
+    Delivery pressure is counted from the inlet's: a pump raises it. What was not measured is as a simulation of
+    the recording takes it (`diagnosis.readings.bench_points`); other pressures and the difference of case and
+    inlet temperature stay at their median.
     """
     points, _ = bench_points(recording, pump)
-    rated = pump.pump
+    rated, inlet = pump.pump, float(np.median(points.p_in))
+    least, most = _ends(points.p_out - inlet, rated.rated_pressure - inlet)
     return BenchBox(
         ends=(
             _ends(points.speed, rated.rated_speed),
-            _ends(points.p_out, rated.rated_pressure),
+            (inlet + least, inlet + most),
             _ends(points.displacement_ratio, 1.0),
             _ends(points.T_case, np.inf),
         ),
-        inlet_pressure=float(np.median(points.p_in)),
+        inlet_pressure=inlet,
         case_pressure=float(np.median(points.p_case)),
         warmer=float(np.median(points.T_case - points.T_in)),
         last=(float(points.order.max()) + 1.0, float(points.hours.max())),
@@ -82,8 +84,8 @@ def rig_box(recording: Recording, pump: PumpDescription) -> BenchBox:
 def ordinary_box(recording: Recording, pump: PumpDescription) -> BenchBox:
     """The box of `rig_box`, widened to what an ordinary bench reaches along each axis that was measured.
 
-    From a quarter of the rated speed and a tenth of the rated pressure to both, displacement from a fifth to all
-    where the pump was swivelled, the inlet at 30 to 80 degC.
+    From a quarter of the rated speed and a tenth of the rated rise of pressure to both, displacement from a fifth
+    to all where the pump was swivelled, the inlet at 30 to 80 degC.
     """
     box, rated = rig_box(recording, pump), pump.pump
     known = set(measured(recording, INPUTS))
@@ -91,7 +93,7 @@ def ordinary_box(recording: Recording, pump: PumpDescription) -> BenchBox:
     swivels = most_ratio - least_ratio > VARIED * most_ratio
     wide = (
         (SLOW * rated.rated_speed, rated.rated_speed),
-        (UNLOADED * rated.rated_pressure, rated.rated_pressure),
+        (box.inlet_pressure + UNLOADED * (rated.rated_pressure - box.inlet_pressure), rated.rated_pressure),
         (SWIVELLED, 1.0) if swivels else box.ends[2],
         (COLD + box.warmer, HOT + box.warmer),
     )

@@ -17,6 +17,7 @@ from diagnosis.recording import Circuit, RecordedChannel, Recording, SteadyTable
 from system.bench_points import BenchPoints
 from system.channels import ChannelName
 from system.components import Component
+from system.errors import NotConverged
 from system.estimation.observations import Array
 from system.estimation.parameters import Parameter, Role, Scale
 from system.physics.effects import EffectId
@@ -92,7 +93,7 @@ def test_a_leak_that_is_known_too_badly_is_not_asked_for() -> None:
 
 def _recording(ratio: Array) -> Recording:
     columns = {
-        ChannelName.SPEED: np.linspace(1000 * RPM, 1500 * RPM, 8), ChannelName.P_OUT: np.linspace(5e6, 1e7, 8),
+        ChannelName.SPEED: np.linspace(1000 * RPM, 1500 * RPM, 8), ChannelName.P_OUT: np.linspace(1e7, 2e7, 8),
         ChannelName.DISPLACEMENT_RATIO: ratio, ChannelName.T_IN: np.full(8, 323.15),
         ChannelName.T_CASE: np.full(8, 326.15),
     }  # fmt: skip
@@ -109,7 +110,8 @@ def test_an_ordinary_bench_goes_to_the_rating_and_warms_the_oil() -> None:
     pump = load_pump("ref90")
     box = ordinary_box(_recording(np.ones(8)), pump)
     assert box.ends[0] == pytest.approx((0.25 * pump.pump.rated_speed, pump.pump.rated_speed))
-    assert box.ends[1] == pytest.approx((0.1 * pump.pump.rated_pressure, pump.pump.rated_pressure))
+    inlet, rated = pump.operating.inlet_pressure, pump.pump.rated_pressure
+    assert box.ends[1] == pytest.approx((inlet + 0.1 * (rated - inlet), rated))
     assert box.ends[2] == (1.0, 1.0)
     assert box.ends[3] == pytest.approx((306.15, 356.15))
     swivelled = _recording(np.linspace(0.5, 0.9, 8))
@@ -151,3 +153,20 @@ def test_a_farther_point_is_asked_for_where_none_near_settles(
     pump: Any = None
     contender: Any = None
     assert ask.asked_for(study, pump, contender, contender) == expected
+
+
+def test_a_farther_point_that_cannot_be_simulated_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The rig's own best stays, with what failed in words."""
+
+    def best(study: object, pump: object, box: str, *contenders: object) -> Promise:
+        if box == "ordinary":
+            raise NotConverged("chambers of point 3 do not repeat")
+        return Promise(False)
+
+    monkeypatch.setattr(ask, "rig_box", lambda *_: "rig")
+    monkeypatch.setattr(ask, "ordinary_box", lambda *_: "ordinary")
+    monkeypatch.setattr(ask, "next_point", best)
+    study: Any = SimpleNamespace(recording=None)
+    contender: Any = None
+    found = ask.asked_for(study, contender, contender, contender)
+    assert "chambers of point 3 do not repeat" in found.instead
