@@ -14,7 +14,7 @@ from diagnosis.growth import coordinates
 from diagnosis.heldout import held_out
 from diagnosis.hypotheses import hypotheses
 from diagnosis.judge import Verdict, judge
-from diagnosis.locate import Location, locate, of_explanation
+from diagnosis.locate import Location, locate, of_explanation, without_explanation
 from diagnosis.pairs import combine
 from diagnosis.refit import refit_all, try_refit
 from diagnosis.repair import repair
@@ -191,6 +191,8 @@ def _finding(
     described = first if told else None
     if claimed is not None and claimed.posterior is not None:
         location = of_explanation(study, location, repair(study, claimed, thresholds).added, thresholds)
+        if ChannelName.P_CHAMBER in location.channels:
+            location = without_explanation(study, location, claimed, thresholds)
     return Diagnosis(
         kind=verdict.kind,
         status=verdict.status,

@@ -17,9 +17,11 @@ from diagnosis.component_evidence import (
 from diagnosis.contrasts import contrasts
 from diagnosis.map_axes import axis_values
 from diagnosis.regions import Region, densest_region
+from diagnosis.repair import unexplained_traces
 from diagnosis.study import Study
 from diagnosis.thresholds import Thresholds
 from diagnosis.time_scan import TimeMark, scan_time
+from diagnosis.weighed import Weighed
 from system.channels import ChannelName
 from system.components import Component
 from system.estimation.observations import Array
@@ -73,6 +75,16 @@ def of_explanation(study: Study, location: Location, added: Array, thresholds: T
     channels = _channels(study, pattern, limits.channel_share)
     region = _region(study, channels[0], pattern, limits.region_share) if channels else None
     return replace(location, channels=channels, region=region)
+
+
+def without_explanation(study: Study, location: Location, weighed: Weighed, thresholds: Thresholds) -> Location:
+    """The same with the shaft angle at which traces part from a refit that has its explanation taken out.
+
+    Where it shows in the chamber: tolerance alone may well follow it (a worn groove is one cut too long).
+    """
+    traces = unexplained_traces(study, weighed, thresholds)
+    angle = scan_angles(traces, study.events, thresholds.locate, thresholds.seeds.locate)
+    return replace(location, angle=angle)
 
 
 def _channels(study: Study, pattern: Array, least_share: float) -> tuple[ChannelName, ...]:

@@ -69,9 +69,10 @@ def prepare(
     if traces:
         traced = traced_bench(bench, usable.traces, traces)
         study = study_of(usable, traced, traced.observations(found), axes, catalogue, thresholds)
+        study = replace(study, traces=trace_misfits(traced, traces, thresholds.mismatch.pull))
     elif memory:
         study = study_of(usable, bench, found, axes, catalogue, thresholds)
-    return replace(study, traces=trace_misfits(usable, bench), events=port_events(pump))
+    return replace(study, events=port_events(pump))
 
 
 def _sensors(recording: Recording, channels: tuple[ChannelName, ...]) -> tuple[Parameter, ...]:

@@ -2,20 +2,21 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from diagnosis.component_evidence import likeliest_multiplier, multiplier_columns
-from diagnosis.hypotheses import simulator_of
+from diagnosis.hypotheses import Hypothesis, simulator_of
 from diagnosis.map_axes import smooth_shapes
-from diagnosis.study import Study
+from diagnosis.recording import TraceBlock
+from diagnosis.study import Study, TraceMisfit
 from diagnosis.thresholds import Thresholds
 from diagnosis.weighed import Weighed
 from system.components import Component
 from system.estimation.evidence import project
 from system.estimation.observations import Array
-from system.estimation.posterior import values_at
+from system.estimation.posterior import Posterior, values_at
 
 
 @dataclass(frozen=True)
@@ -40,9 +41,31 @@ def repair(study: Study, weighed: Weighed, thresholds: Thresholds) -> Repair:
         nothing = np.zeros_like(study.base.predictions)
         return Repair(nothing, study.observations.values - study.base.predictions)
     simulator = simulator_of(study.simulator, own, thresholds.name.fault_factor)
-    closed = np.array([each.name in own.open_names for each in posterior.parameters])
-    without = simulator.predict(values_at(posterior.parameters, np.where(closed, 0.0, posterior.xi)))
+    without = simulator.predict(_closed(posterior, own))
     return Repair(posterior.predictions - without, study.observations.values - posterior.predictions)
+
+
+def unexplained_traces(study: Study, weighed: Weighed, thresholds: Thresholds) -> tuple[TraceMisfit, ...]:
+    """The study's traces less those of an explanation's refit that has the explanation taken out.
+
+    Raises NotConverged.
+    """
+    posterior, own = weighed.posterior, weighed.hypothesis
+    if posterior is None:
+        return study.traces
+    simulator = simulator_of(study.simulator, own, thresholds.name.fault_factor)
+    values = _closed(posterior, own)
+
+    def left(block: TraceBlock) -> Array:
+        return block.mean - np.asarray(simulator.traces(values, (block.point,), block.angle)[0])
+
+    return tuple(replace(trace, residual=left(trace.block)) for trace in study.traces)
+
+
+def _closed(posterior: Posterior, own: Hypothesis) -> Array:
+    """Values (k,) of a refit with what its hypothesis sets free at nothing."""
+    free = np.array([each.name in own.open_names for each in posterior.parameters])
+    return values_at(posterior.parameters, np.where(free, 0.0, posterior.xi))
 
 
 def _bent(study: Study, component: Component, thresholds: Thresholds) -> Repair:

@@ -8,8 +8,10 @@ import numpy as np
 
 from diagnosis.recording import RecordedChannel, Recording, TraceBlock, reading_sigma
 from diagnosis.study import PortEvent, TraceMisfit
+from diagnosis.trace_fit import MOVING, settled_traces
+from diagnosis.traced_bench import TracedBench
 from system.bench_map import LumpedBench
-from system.bench_parameters import GROOVE_NAMES, groove_parameters
+from system.bench_parameters import groove_parameters
 from system.channels import ChannelName
 from system.description import PumpDescription
 from system.estimation.observations import Array
@@ -17,13 +19,8 @@ from system.estimation.parameters import Parameter
 from system.estimation.posterior import values_at
 from system.lumped import port_openings
 from system.ports import TURN, PortOpening
-from system.sensors import TRACE_NAMES, encoder_parameter, transducer_parameters
+from system.sensors import encoder_parameter, transducer_parameters
 
-MOVING = frozenset({
-    "bulk_modulus", "dead_volume", "flow_coefficient", "stand_out_share", "p_out.zero", "film_thickness.piston",
-    "film_thickness.slipper", "film_thickness.valve_plate", "viscosity", *GROOVE_NAMES, *TRACE_NAMES,
-})  # fmt: skip
-"""Parameters that a chamber's pressure over the turn hangs on, as it is read."""
 LINE_LAG = 1e-4  # s, one sigma: a transducer behind a bore follows within a degree at 1500 r/min
 NO_ENCODER = 1e-6  # rad: one sigma of an encoder that is stated to be without offset
 
@@ -40,15 +37,15 @@ def trace_parameters(recording: Recording) -> tuple[Parameter, ...]:
     return (encoder_parameter(offset), *transducer_parameters(transducer, LINE_LAG), *groove_parameters())
 
 
-def trace_misfits(recording: Recording, bench: LumpedBench) -> tuple[TraceMisfit, ...]:
-    """The recorded traces less those simulated at the prior mean, with what may explain them away.
+def trace_misfits(traced: TracedBench, channel: RecordedChannel, reach: float) -> tuple[TraceMisfit, ...]:
+    """The recorded traces less those simulated, with what may explain them away.
 
+    Simulated is what fits them best of all that lies within `reach` spreads of the prior mean (`settled_traces`).
     An angle is known to its step, so where pressure is steep it is not.
     """
-    channel = recording.channel(ChannelName.P_CHAMBER)
-    if channel is None:
-        return ()
-    return tuple(_misfit(trace, channel, bench.finely((trace.point,))) for trace in recording.traces)
+    settled = settled_traces(traced, reach)
+    blocks = [row.block for row in traced.rows]
+    return tuple(_misfit(block, channel, traced.bench.finely((block.point,)), settled) for block in blocks)
 
 
 def port_events(pump: PumpDescription) -> tuple[PortEvent, ...]:
@@ -73,15 +70,13 @@ def _of(port: PortOpening[float]) -> Iterator[tuple[float, str]]:
     yield port.kidney_end, "kidney is shut"
 
 
-def _misfit(trace: TraceBlock, channel: RecordedChannel, bench: LumpedBench) -> TraceMisfit:
-    start = np.zeros(len(bench.parameters))
-
+def _misfit(trace: TraceBlock, channel: RecordedChannel, bench: LumpedBench, settled: Array) -> TraceMisfit:
     def simulated(xi: Array) -> Array:
         return bench.turns(values_at(bench.parameters, xi), trace.angle)[0]
 
-    plain = simulated(start)
+    plain = simulated(settled)
     moving = [at for at, parameter in enumerate(bench.parameters) if parameter.name in MOVING]
-    moved = [simulated(np.where(np.arange(start.size) == at, 1.0, 0.0)) - plain for at in moving]
+    moved = [simulated(settled + (np.arange(settled.size) == at)) - plain for at in moving]
     rise = 0.5 * (np.roll(plain, -1) - np.roll(plain, 1))
     noise = np.hypot(reading_sigma(channel, trace.mean), channel.quantum / np.sqrt(12.0)) / np.sqrt(trace.cycles)
     sigma = np.hypot(noise, rise / np.sqrt(12.0))

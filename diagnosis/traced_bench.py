@@ -38,7 +38,7 @@ class TracedBench:
 
     def predict(self, values: Array) -> Array:
         """Readings (N, C + F). Raises NotConverged."""
-        return self._beside(self.bench.predict(values), self._numbers(self.fine, values))
+        return self._beside(self.bench.predict(values), self.numbers(values))
 
     def difference(self, values: Array, other: Array) -> Array:
         """Readings (N, C + F) at `other` values less those at `values`: of the bench's kind, of traces exact."""
@@ -47,15 +47,7 @@ class TracedBench:
 
     def slopes(self, values: Array, names: tuple[str, ...]) -> Array:
         """d readings / d value of the named parameters, (N, C + F, len(names)), by differences."""
-        steady, here = self.bench.slopes(values, names), self._numbers(self.fine, values)
-        columns = []
-        for at, name in enumerate(names):
-            step = self.fine.step_of(name, values)
-            moved = np.array(values, dtype=float)
-            moved[[parameter.name for parameter in self.parameters].index(name)] += step
-            change = (self._numbers(self.fine, moved) - here) / step
-            columns.append(self._beside(steady[..., at], change))
-        return np.stack(columns, axis=-1) if columns else self._beside(steady, np.zeros((*here.shape, 0)))
+        return self._beside(self.bench.slopes(values, names), self.number_slopes(values, names))
 
     def input_slopes(self, values: Array) -> Array:
         """d readings / d input, (N, C + F, M), in SI per SI."""
@@ -93,18 +85,49 @@ class TracedBench:
 
     def observations(self, steady: Observations) -> Observations:
         """The steady readings (N, C) with the numbers of the traces beside them."""
-        recorded = np.full((len(self.rows), self._count), np.nan)
-        for own, row in zip(recorded, self.rows, strict=True):
-            own[: len(row.weights)] = row.values
-        values = self._beside(steady.values, recorded, np.nan)
+        values = self._beside(steady.values, self.recorded, np.nan)
         noise = np.ones((len(steady.values), self._count))
         return replace(
             steady,
-            channels=(*steady.channels, *[Channel(ChannelName.P_CHAMBER.value, None)] * self._count),
+            channels=(*steady.channels, *self._channels),
             values=values,
             sigma=np.hstack([steady.sigma, noise]),
             quantum=np.concatenate([steady.quantum, np.zeros(self._count)]),
         )
+
+    def trace_observations(self) -> Observations:
+        """The numbers (T, F) of the T traces alone."""
+        recorded = self.recorded
+        count = len(recorded)
+        noise, none = np.ones_like(recorded), np.zeros((count, 0))
+        return Observations(self._channels, recorded, noise, (), none, np.zeros(self._count), np.arange(count))
+
+    @property
+    def recorded(self) -> Array:
+        """(T, F), of the recorded traces; nan beyond the numbers of a trace that has fewer."""
+        found = np.full((len(self.rows), self._count), np.nan)
+        for own, row in zip(found, self.rows, strict=True):
+            own[: len(row.weights)] = row.values
+        return found
+
+    def numbers(self, values: Array) -> Array:
+        """(T, F), of the traces as simulated; 0 beyond those of a trace that has fewer. Raises NotConverged."""
+        return self._numbers(self.fine, values)
+
+    def number_slopes(self, values: Array, names: tuple[str, ...]) -> Array:
+        """d numbers / d value of the named parameters, (T, F, len(names)), by differences."""
+        here, own = self.numbers(values), [parameter.name for parameter in self.parameters]
+        columns = np.zeros((*here.shape, len(names)))
+        for at, name in enumerate(names):
+            moved = np.array(values, dtype=float)
+            step = self.fine.step_of(name, values)
+            moved[own.index(name)] += step
+            columns[..., at] = (self.numbers(moved) - here) / step
+        return columns
+
+    @property
+    def _channels(self) -> tuple[Channel, ...]:
+        return (Channel(ChannelName.P_CHAMBER.value, None),) * self._count
 
     @property
     def _count(self) -> int:

@@ -7,7 +7,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from diagnosis.angle_scan import scan_angles
 from diagnosis.recording import RecordedChannel, TraceBlock
+from diagnosis.thresholds import load_thresholds
+from diagnosis.trace_fit import settled_traces
+from diagnosis.trace_misfits import trace_misfits
 from diagnosis.trace_rows import WINDOWS, shrunk_covariance, trace_rows, windows
 from diagnosis.traced_bench import TracedBench, traced_bench
 from system.bench_map import LumpedBench
@@ -141,6 +145,23 @@ def test_grooves_that_begin_sooner_are_found_in_traces():
     for name, value in true.items():
         assert abs(fit.values[fit.index(name)] - value) < 3.0 * fit.sigma(name)
         assert fit.sigma(name) < 0.5 * fit.parameters[fit.index(name)].spread
+
+
+def test_what_tolerance_moves_is_no_window_though_a_flank_is_not_linear():
+    """Encoder and flow coefficient 2 spreads off: windows stand out about the prior mean, none about the fit."""
+    traced = _traced()
+    moved = {"encoder_offset": 2.0, "flow_coefficient": -2.0}
+    values = np.array([one.value(moved.get(one.name, 0.0)) for one in traced.parameters])
+    turns = traced.traces(values, (1, 2), ANGLE)
+    noise = 4e4 * np.random.default_rng(71).standard_normal(turns.shape)
+    rows = tuple(
+        replace(row, block=replace(row.block, mean=turn))
+        for row, turn in zip(traced.rows, turns + noise, strict=True)
+    )
+    recorded, limits = replace(traced, rows=rows), load_thresholds().locate
+    assert scan_angles(trace_misfits(recorded, CHANNEL, 0.01), (), limits, 1) is not None
+    assert scan_angles(trace_misfits(recorded, CHANNEL, 3.0), (), limits, 1) is None
+    assert np.abs(settled_traces(recorded, 1.0)).max() <= 1.0
 
 
 def _steady(traced: TracedBench, values: np.ndarray) -> Observations:
