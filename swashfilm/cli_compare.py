@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -10,8 +11,8 @@ from swashfilm.terminal import show, show_table
 from system.faults import Fault, InputFaults, nearest_choice, nearest_path
 
 if TYPE_CHECKING:
-    from system.map_data import MapData
-    from system.map_interpolation import MapError
+    from swashfilm.compare_run import Known
+    from system.description import PumpDescription
     from system.map_plan import MapAxis
 
 COMPARE_OPTIONS = ["--cycle"]
@@ -40,6 +41,8 @@ def run_compare_command(options: argparse.Namespace) -> int:
     found = compare(one[0], other[0], (one[1], other[1]))
     with run_folder(f"compare-{one[0].name}-{other[0].name}", options.output) as folder:
         summary = run_compare(found, (options.one, options.other), (one, other), cycle, folder)
+    for warning in summary["warnings"]:
+        show(f"warning: {warning}")
     show_table(f"{options.one} and {options.other}", [DIFFERENCE_HEAD, *difference_rows(summary)])
     if summary["duty"]:
         show_table("Over the cycle", [DUTY_HEAD, *duty_rows(summary)])
@@ -47,14 +50,32 @@ def run_compare_command(options: argparse.Namespace) -> int:
     return 0
 
 
-def _both(one: str, other: str) -> tuple[tuple[MapData, MapError | None], tuple[MapData, MapError | None]]:
-    """Both maps; a pump's is made over the axes of the other, or of the paper's plan."""
+def _both(one: str, other: str) -> tuple[Known, Known]:
+    """Both maps; a pump's is made over the axes of the other, or of the paper's plan.
+
+    Raises InputFaults with what is wrong with either.
+    """
     from system.map_plan import paper_axes
 
-    named = {name: _map_of(name) for name in (one, other) if not _is_pump(name)}
-    axes = next(iter(named.values()))[0].axes if named else paper_axes()
-    made = {name: named.get(name) or _lumped_map(name, axes) for name in (one, other)}
-    return made[one], made[other]
+    loaded: list[Known | PumpDescription] = []
+    wrong: list[InputFaults] = []
+    for name in (one, other):
+        try:
+            loaded.append(_pump_of(name) if _is_pump(name) else _map_of(name))
+        except InputFaults as reason:
+            wrong.append(reason)
+    if len(wrong) == 1:
+        raise wrong[0]
+    if wrong:
+        told = [
+            replace(fault, path=f"{letter}: {fault.path}")
+            for letter, reason in zip("AB", wrong, strict=True)
+            for fault in reason.faults
+        ]
+        raise InputFaults(f"{one} and {other}", told)
+    axes = next((known[0].axes for known in loaded if isinstance(known, tuple)), paper_axes())
+    maps = [known if isinstance(known, tuple) else _lumped_map(known, axes) for known in loaded]
+    return maps[0], maps[1]
 
 
 def _is_pump(name: str) -> bool:
@@ -65,28 +86,32 @@ def _is_pump(name: str) -> bool:
         return True
     if not path.exists():
         near = nearest_choice(name, builtin_pumps()) or nearest_path(path)
-        fault = Fault("A, B", f"'{name}'", "the run folder of a map, its map.nc, or a pump", near)
+        fault = Fault("map or pump", f"'{name}'", "the run folder of a map, its map.nc, or a pump", near)
         raise InputFaults("command line", [fault])
     return False
 
 
-def _map_of(name: str) -> tuple[MapData, MapError | None]:
+def _pump_of(name: str) -> PumpDescription:
+    from system.pump_file import load_pump
+
+    return load_pump(name)
+
+
+def _map_of(name: str) -> Known:
     from swashfilm.map_files import map_file, read_map
 
     return read_map(map_file(Path(name)))
 
 
-def _lumped_map(name: str, axes: tuple[MapAxis, ...]) -> tuple[MapData, None]:
+def _lumped_map(pump: PumpDescription, axes: tuple[MapAxis, ...]) -> Known:
     """A pump's map, solved here; raises InputFaults where a point cannot be."""
     from system.map_data import map_data
     from system.map_plan import map_plan
     from system.map_point import LumpedSolver, MapWork
-    from system.pump_file import load_pump
     from system.work import done_part
 
-    pump = load_pump(name)
     plan = map_plan(pump, axes)
     if faults := plan.checked().faults:
-        raise InputFaults(name, faults)
+        raise InputFaults(pump.name, faults)
     work = MapWork(pump, LumpedSolver())
     return map_data(plan, work, tuple(done_part(work, point) for point in plan.points)), None

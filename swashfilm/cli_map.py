@@ -67,7 +67,8 @@ def run_map_command(options: argparse.Namespace) -> int:
 
     asked = _asked(options)
     pump = asked.plan.pump
-    for warning in asked.plan.checked().warnings:
+    early = [*asked.plan.checked().warnings.values()]
+    for warning in early:
         show(f"warning: {warning}")
     with (
         _hands(options, asked) as hands,
@@ -83,7 +84,8 @@ def run_map_command(options: argparse.Namespace) -> int:
     if summary["failed"]:
         show_table("Points without a result", failed_rows(summary))
     for warning in summary["warnings"]:
-        show(f"warning: {warning}")
+        if warning not in early:
+            show(f"warning: {warning}")
     show(f"results in {final_folder(folder)}")
     return ended(summary)
 

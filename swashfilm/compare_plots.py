@@ -5,7 +5,15 @@ from __future__ import annotations
 import numpy as np
 
 from swashfilm.figure_png import figure_of, png_of
-from swashfilm.map_plots import Slice, contours, held_words, levels_of, slice_of
+from swashfilm.map_plots import (
+    Slice,
+    contours,
+    difference_levels,
+    efficiency_levels,
+    held_words,
+    shown,
+    slice_of,
+)
 from system.efficiencies import EfficiencyDefinition
 from system.map_compare import Comparison
 from system.map_data import LOSSES
@@ -21,7 +29,9 @@ def compare_plots(found: Comparison) -> dict[str, bytes]:
         piece = slice_of(found.one, MapInput.PRESSURE, up)
         if piece is not None:
             where = held_words(found.one, piece)
-            pictures[f"Overall efficiency of A and B in %, and B - A in points, {where}"] = _slices(found, piece)
+            pictures[f"Overall efficiency of A and B in %, and B - A in percentage points, {where}"] = _slices(
+                found, piece
+            )
     pictures["Mean power of every loss over the common levels"] = _losses(found)
     return pictures
 
@@ -31,10 +41,13 @@ def _slices(found: Comparison, piece: Slice) -> bytes:
     panels = figure.subplots(len(SHOWN), 3)
     for row, definition in zip(panels, SHOWN, strict=True):
         one, other = (100.0 * piece.of(data.efficiency(definition).overall) for data in (found.one, found.other))
-        both = np.concatenate([one, other])
-        for axes, field, words in zip(row, (one, other, other - one), ("A", "B", "B - A"), strict=True):
-            contours(axes, found.one, piece, field, levels_of(both if words != "B - A" else field))
-            axes.set_title(f"{words}: {definition.label}", fontsize=8)
+        levels = efficiency_levels(*(shown(found.one, piece, field) for field in (one, other)))
+        for axes, field, words in zip(row, (one, other), "AB", strict=False):
+            contours(axes, found.one, piece, field, levels)
+            axes.set_title(f"{words} / %: {definition.label}", fontsize=8)
+        apart = other - one
+        contours(row[-1], found.one, piece, apart, difference_levels(shown(found.one, piece, apart)), "RdBu")
+        row[-1].set_title(f"B - A / percentage points: {definition.label}", fontsize=8)
     return png_of(figure)
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import base64
 import csv
 import json
 from collections.abc import Iterator, Mapping
@@ -11,6 +10,7 @@ from typing import Any
 
 from swashfilm.compare_plots import compare_plots
 from swashfilm.duty_run import duty_summary
+from swashfilm.kept_pictures import keep_pictures, kept_pictures
 from swashfilm.run_folder import write_json
 from system.duty import Cycle, duty
 from system.map_compare import Comparison
@@ -18,7 +18,8 @@ from system.map_data import MapData
 from system.map_interpolation import MapError, MapInterpolant, left_out_error
 from system.map_plan import MapInput
 
-DIFFERENCE_HEAD = ("", "A, mean", "B, mean", "largest difference, B - A", "at", "interpolation misses at most")
+PICTURES = "compare"
+DIFFERENCE_HEAD = ("", "A, mean", "B, mean", "largest difference, B - A", "at", "interpolation may miss there")
 DUTY_HEAD = ("", "A", "B", "B - A", "error of both")
 _SCALES = {"W": (1e-3, "kW"), "m3/s": (6e4, "L/min"), "1": (100.0, "%"), "N m": (1.0, "N m")}
 
@@ -35,6 +36,7 @@ def run_compare(
         "names": list(names),
         "pumps": [data.name for data, _ in both],
         "solvers": [data.words for data, _ in both],
+        "warnings": list(_warnings(both)),
         "box": [
             {
                 "words": axis.input.words,
@@ -60,13 +62,16 @@ def run_compare(
     }
     write_json(folder / "summary.json", summary)
     _write_table(folder / "differences.csv", summary)
-    (folder / "plots").mkdir()
-    pictures = compare_plots(found)
-    for number, (caption, png) in enumerate(pictures.items(), start=1):
-        (folder / "plots" / f"compare-{number}.png").write_bytes(png)
-        (folder / "plots" / f"compare-{number}.txt").write_text(caption, encoding="utf-8")
+    keep_pictures(folder, PICTURES, compare_plots(found))
     write_compare_page(folder)
     return summary
+
+
+def _warnings(both: tuple[Known, Known]) -> Iterator[str]:
+    """What a reader of the differences must know."""
+    one, other = (data.words for data, _ in both)
+    if one != other:
+        yield f"A is {one}, B is {other}: part of every difference is that of the fidelities, not of the pumps"
 
 
 def _duty(data: MapData, error: MapError | None, cycle: Cycle) -> dict[str, Any]:
@@ -102,12 +107,15 @@ def duty_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:
 
 
 def _write_table(path: Path, summary: Mapping[str, Any]) -> None:
+    places = [f"at {given.words} [{given.unit}]" for given in MapInput]
     with path.open("w", newline="", encoding="utf-8") as file:
         table = csv.writer(file)
-        table.writerow(["number", "unit", "A mean", "B mean", "largest B - A", "interpolation misses at most"])
+        heads = "number", "unit", "A mean", "B mean", "largest B - A", "interpolation may miss there"
+        table.writerow([*heads, *places])
         for row in summary["differences"]:
-            numbers = (f"{row[name]:.8g}" for name in ("one", "other", "largest", "error"))
-            table.writerow([row["words"], row["unit"], *numbers])
+            numbers = [row[name] for name in ("one", "other", "largest", "error")]
+            at = [row["at"][given.value] for given in MapInput]
+            table.writerow([row["words"], row["unit"], *(f"{number:.8g}" for number in (*numbers, *at))])
 
 
 def write_compare_page(folder: Path) -> Path:
@@ -115,10 +123,6 @@ def write_compare_page(folder: Path) -> Path:
     from jinja2 import Environment, PackageLoader
 
     summary = json.loads((folder / "summary.json").read_text("utf-8"))
-    pictures = {
-        path.with_suffix(".txt").read_text("utf-8"): base64.b64encode(path.read_bytes()).decode("ascii")
-        for path in sorted((folder / "plots").glob("compare-*.png"))
-    }
     template = Environment(loader=PackageLoader("swashfilm"), autoescape=True).get_template("compare.html.jinja")
     page = template.render(
         summary=summary,
@@ -127,7 +131,7 @@ def write_compare_page(folder: Path) -> Path:
         difference_head=DIFFERENCE_HEAD,
         duty=list(duty_rows(summary)) if summary["duty"] else [],
         duty_head=DUTY_HEAD,
-        pictures=pictures,
+        pictures=kept_pictures(folder, PICTURES),
     )
     path = folder / "report.html"
     path.write_text(page, encoding="utf-8")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import math
 import re
 from collections.abc import Iterator, Mapping
 from pathlib import Path
@@ -24,6 +25,15 @@ HEADS = {
     "temperature": MapInput.TEMPERATURE,
     "inlet pressure": MapInput.INLET_PRESSURE,
 }
+UNITS = {
+    TIME: "s",
+    "speed": "rpm",
+    "pressure": "bar",
+    "displacement ratio": "1",
+    "temperature": "degC",
+    "inlet pressure": "bar",
+}
+"""A unit of each column, for messages."""
 EXAMPLE = "time [s], speed [rpm], pressure [bar], displacement ratio [1]"
 _HEAD = re.compile(r"\s*(.+?)\s*\[(.+)\]\s*")
 _RATIO_UNITS = {"1": 1.0, "-": 1.0, "%": 0.01}
@@ -48,10 +58,11 @@ def read_cycle(path: Path, axes: tuple[MapAxis, ...]) -> Cycle:
     lacking = [name for name in needed if name not in columns]
     if lacking and not faults:
         found = ", ".join(columns)
-        faults.append(Fault("head", found, f"columns {', '.join(lacking)} too: the map is over them, {EXAMPLE}"))
+        heads = ", ".join(f"{name} [{UNITS[name]}]" for name in lacking)
+        faults.append(Fault("head", found, f"columns {heads} too: a cycle has a time, and what its map is over"))
     if faults:
         raise InputFaults(str(path), faults)
-    values = dict(_values(rows[1:], columns, faults))
+    values = dict(_values(rows[1:], len(rows[0][1]), columns, faults))
     if faults:
         raise InputFaults(str(path), faults)
     try:
@@ -70,13 +81,18 @@ def _levels(axes: tuple[MapAxis, ...], given: MapInput) -> int:
 
 def _columns(head: list[str], faults: list[Fault]) -> Iterator[tuple[str, tuple[int, float, float]]]:
     """Name of each column, its place, and factor and offset to SI."""
-    known = [TIME, *HEADS]
+    known, named = [TIME, *HEADS], set[str]()
     for place, cell in enumerate(head):
         match = _HEAD.fullmatch(cell)
         name = (match[1] if match else cell).strip().replace("_", " ").lower()
         if match is None or name not in known:
-            faults.append(Fault("head", f"'{cell.strip()}'", EXAMPLE, nearest_choice(name, known)))
+            near = "commas between columns" if ";" in cell else nearest_choice(name, known)
+            faults.append(Fault("head", f"'{cell.strip()}'", EXAMPLE, near))
             continue
+        if name in named:
+            faults.append(Fault(f"head {name}", "twice", "each column once"))
+            continue
+        named.add(name)
         dimension = Dimension.TIME if name == TIME else HEADS[name].dimension
         try:
             yield name, (place, *_scale(match[2].strip(), dimension))
@@ -93,15 +109,31 @@ def _scale(unit: str, dimension: Dimension | None) -> tuple[float, float]:
 
 
 def _values(
-    rows: list[tuple[int, list[str]]], columns: Mapping[str, tuple[int, float, float]], faults: list[Fault]
+    rows: list[tuple[int, list[str]]],
+    width: int,
+    columns: Mapping[str, tuple[int, float, float]],
+    faults: list[Fault],
 ) -> Iterator[tuple[str, Array]]:
-    """Each column in SI."""
+    """Each column in SI; every row has as many cells as the head has columns."""
+    uneven = [(number, len(cells)) for number, cells in rows if len(cells) != width]
+    if uneven:
+        found = f"{uneven[0][1]} cells, as {len(uneven)} rows" if len(uneven) > 1 else f"{uneven[0][1]} cells"
+        remedy = "decimals with a point: 1.5"
+        faults.append(Fault(f"line {uneven[0][0]}", found, f"{width}, as many as the head has columns", remedy))
+        return
     for name, (place, factor, offset) in columns.items():
-        found = []
+        numbers = []
         for number, cells in rows:
             text = cells[place].strip() if place < len(cells) else ""
             try:
-                found.append(factor * float(text) + offset)
+                numbers.append(factor * _finite(text) + offset)
             except ValueError:
                 faults.append(Fault(f"{name}, line {number}", repr(text), "a number", with_point(text)))
-        yield name, np.array(found)
+        yield name, np.array(numbers)
+
+
+def _finite(text: str) -> float:
+    """The number of a text; raises ValueError for one that is none, nan and inf too."""
+    if not math.isfinite(number := float(text)):
+        raise ValueError
+    return number

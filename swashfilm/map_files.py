@@ -14,6 +14,7 @@ import numpy as np
 
 from system.efficiencies import EfficiencyDefinition
 from system.faults import Fault, InputFaults, nearest_path
+from system.kept_points import POINTS
 from system.map_data import MapData, best_points, objects
 from system.map_interpolation import MapError
 from system.map_plan import MapAxis, MapInput, reading_levels
@@ -116,8 +117,21 @@ def _error_variables(error: MapError | None) -> dict[str, Any]:
 
 
 def map_file(place: Path) -> Path:
-    """The file of a map, by itself or by the run folder it lies in."""
-    return place / MAP if place.is_dir() else place
+    """The file of a map, by itself or by the run folder it lies in; raises InputFaults where there is none."""
+    if place.is_file() or (place / MAP).is_file():
+        return place / MAP if place.is_dir() else place
+    found = f"'{place}', " + (f"a folder without {MAP}" if place.is_dir() else "no such file or folder")
+    near = _makes_a_map(place) if place.is_dir() else nearest_path(place)
+    fault = Fault("map", found, f"the run folder of a `swashfilm map`, or its {MAP}", near)
+    raise InputFaults("command line", [fault])
+
+
+def _makes_a_map(folder: Path) -> str:
+    """How a folder comes to a map: one that was broken off, or another kind of run of a pump."""
+    if ".partial" in folder.suffixes[-1:] or (folder / POINTS).is_dir():
+        return f"swashfilm map .. --resume {folder} ends it"
+    pump = folder / "resolved.toml"
+    return f"swashfilm map {pump} makes one" if pump.is_file() else ""
 
 
 def read_map(path: Path) -> tuple[MapData, MapError | None]:
@@ -128,9 +142,9 @@ def read_map(path: Path) -> tuple[MapData, MapError | None]:
         with xarray.open_dataset(path, engine="h5netcdf") as dataset:
             dataset.load()
         return _data(dataset), _error(dataset)
-    except (OSError, KeyError, ValueError) as reason:
-        expected = f"the {MAP} of a run of `swashfilm map`"
-        raise InputFaults(str(path), [Fault("map", repr(reason), expected, nearest_path(path))]) from None
+    except (OSError, KeyError, ValueError, TypeError) as reason:
+        found = f"what is no map of ours ({type(reason).__name__}: {reason})"
+        raise InputFaults(str(path), [Fault("map", found, f"the {MAP} of a run of `swashfilm map`")]) from None
 
 
 def _data(dataset: xarray.Dataset) -> MapData:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -17,6 +18,10 @@ from system.map_interpolation import weights
 from system.map_plan import MapInput, reading_levels
 
 LINES = 12
+DOWNWARDS = (1, 1, 1, 1, 2, 2, 5, 5, 10, 10, 20)
+"""Steps between contours of an efficiency from the best down, in units; the last goes on."""
+UNITS = tuple(digit * 10.0**power for power in (-3, -2, -1, 0) for digit in (1, 2, 5))
+"""Units of these steps, percent: the first is taken that needs no more than LINES and two contours."""
 FINE = 61
 """Places along an axis between which contours are drawn."""
 SHOWN_SHARES = 6
@@ -96,28 +101,35 @@ def _place(data: MapData, given: MapInput) -> int:
 
 
 def _efficiencies(data: MapData, piece: Slice, parts: Sequence[str]) -> bytes | None:
-    """A panel for each definition and part, all with the same contours; those that are one share a panel."""
-    fields: list[tuple[str, Array]] = []
-    for part in parts:
-        for one in EfficiencyDefinition:
-            field, words = piece.of(getattr(data.efficiency(one), part)), f"{one.label}"
-            alike = next((k for k, (_, known) in enumerate(fields) if _same(known, field)), None)
-            if alike is not None:
-                fields[alike] = (f"{fields[alike][0]}\n{words}", fields[alike][1])
-            elif np.isfinite(field).any():
-                fields.append((f"{part}: {words}", field))
-    if not fields:
+    """A row for each part on a scale of its own, a panel for each definition; those that are one share a panel."""
+    found = {part: fields for part in parts if (fields := _by_definition(data, piece, part))}
+    if not found:
         return None
-    figure = figure_of(11.0, 3.6 * -(-len(fields) // 3))
-    ends = [_ends(100.0 * field) for _, field in fields]
-    levels = _levels(min(low for low, _ in ends), max(high for _, high in ends))
-    for axes, (words, field) in zip(_panels(figure, len(fields)), fields, strict=True):
-        contours(axes, data, piece, 100.0 * field, levels)
-        x, y = _grids(data, piece)
-        best = np.unravel_index(int(np.nanargmax(field)), field.shape)
-        mark(axes, x[best], y[best], "*", "#b55a00", 12.0)
-        axes.set_title(f"{words}\n{100.0 * field[best]:.1f} % at best", fontsize=8)
+    figure = figure_of(11.0, 3.6 * len(found))
+    rows = figure.subfigures(len(found), 1, squeeze=False)[:, 0]
+    for row, (part, fields) in zip(rows, found.items(), strict=True):
+        levels = efficiency_levels(*(shown(data, piece, 100.0 * field) for field in fields.values()))
+        panels = row.subplots(1, len(fields), squeeze=False)[0]
+        for axes, (words, field) in zip(panels, fields.items(), strict=True):
+            contours(axes, data, piece, 100.0 * field, levels)
+            x, y = _grids(data, piece)
+            best = np.unravel_index(int(np.nanargmax(field)), field.shape)
+            mark(axes, x[best], y[best], "*", "#b55a00", 12.0)
+            axes.set_title(f"{part} / %: {words}\n{100.0 * field[best]:.1f} % at best", fontsize=8)
     return png_of(figure)
+
+
+def _by_definition(data: MapData, piece: Slice, part: str) -> dict[str, Array]:
+    """A part of the efficiency on a slice by the definitions' names; those that are one have one entry."""
+    fields: list[tuple[str, Array]] = []
+    for one in EfficiencyDefinition:
+        field = piece.of(getattr(data.efficiency(one), part))
+        alike = next((k for k, (_, known) in enumerate(fields) if _same(known, field)), None)
+        if alike is not None:
+            fields[alike] = (f"{fields[alike][0]}\n{one.label}", fields[alike][1])
+        elif np.isfinite(field).any():
+            fields.append((one.label, field))
+    return dict(fields)
 
 
 def _same(one: Array, other: Array) -> bool:
@@ -132,11 +144,11 @@ def _losses(data: MapData, piece: Slice) -> bytes:
     figure = figure_of(11.0, 6.4)
     panels = _panels(figure, len(largest) + 1)
     axes = next(panels)
-    contours(axes, data, piece, whole * 1e-3, levels_of(whole * 1e-3))
+    contours(axes, data, piece, whole * 1e-3, levels_of(shown(data, piece, whole * 1e-3)))
     axes.set_title("shaft power less p Q / kW", fontsize=9)
     for axes, words in zip(panels, largest, strict=True):
         share = 100.0 * sinks[words] / whole
-        contours(axes, data, piece, share, levels_of(share))
+        contours(axes, data, piece, share, levels_of(shown(data, piece, share)))
         axes.set_title(f"{words}: share / %", fontsize=9)
     return png_of(figure)
 
@@ -169,14 +181,21 @@ def _panels(figure: Any, count: int) -> Iterator[Any]:
         yield figure.add_subplot(rows, min(3, count), k + 1)
 
 
-def contours(axes: Any, data: MapData, piece: Slice, field: Array, levels: Array) -> None:
+def contours(
+    axes: Any, data: MapData, piece: Slice, field: Array, levels: Array, colours: str = "viridis"
+) -> None:
     """Draw a field of a slice with its solved points, interpolated as the map is, with a colour bar."""
+    from matplotlib.colors import BoundaryNorm
+
     x, y = _grids(data, piece)
-    drawn = _between(data, piece, x, y, field)
-    painted = axes.contourf(*drawn, levels=levels, cmap="viridis")
-    lines = axes.contour(*drawn, levels=levels, colors="white", linewidths=0.5)
+    between = shown(data, piece, field)
+    places = [x, y]
+    if np.all(np.isfinite(field)):
+        places = [*np.meshgrid(*(np.linspace(ends.min(), ends.max(), FINE) for ends in (x, y)))]
+    painted = axes.contourf(*places, between, levels=levels, cmap=colours, norm=BoundaryNorm(levels, 256))
+    lines = axes.contour(*places, between, levels=levels, colors="white", linewidths=0.5)
     axes.clabel(lines, fontsize=7)
-    axes.figure.colorbar(painted, ax=axes)
+    axes.figure.colorbar(painted, ax=axes, ticks=levels).ax.tick_params(labelsize=7)
     good = np.isfinite(field)
     mark(axes, x[good], y[good], ".", "#1c2328", 2.5)
     mark(axes, x[~good], y[~good], "x", "#b55a00", 6.0)
@@ -196,17 +215,15 @@ def _grids(data: MapData, piece: Slice) -> tuple[Array, Array]:
     return x, y
 
 
-def _between(data: MapData, piece: Slice, x: Array, y: Array, field: Array) -> tuple[Array, Array, Array]:
-    """The field between its levels as the map is interpolated; as it is where points have no result."""
+def shown(data: MapData, piece: Slice, field: Array) -> Array:
+    """A field of a slice at FINE places along either axis; at its own levels where a point has no result."""
     if not np.all(np.isfinite(field)):
-        return x, y, np.ma.masked_invalid(field)
-    ends = [data.axes[place].values for place in (piece.across, piece.up)]
+        return np.ma.masked_invalid(field)
     across, up = (
-        weights(data.axes[place], np.linspace(values[0], values[-1], FINE))
-        for place, values in zip((piece.across, piece.up), ends, strict=True)
+        weights(axis, np.linspace(axis.values[0], axis.values[-1], FINE))
+        for axis in (data.axes[place] for place in (piece.across, piece.up))
     )
-    fine = np.meshgrid(np.linspace(x[0, 0], x[0, -1], FINE), np.linspace(y[0, 0], y[-1, 0], FINE))
-    return fine[0], fine[1], up @ field @ across.T
+    return np.asarray(up @ field @ across.T)
 
 
 def _label(data: MapData, place: int) -> str:
@@ -215,18 +232,43 @@ def _label(data: MapData, place: int) -> str:
     return f"{axis.input.words} / {unit}" if unit else axis.input.words
 
 
-def _levels(least: float, most: float) -> Array:
-    """Round contour levels from below the least to above the most."""
+def efficiency_levels(*fields: Array) -> Array:
+    """Contours of efficiencies in percent, round, close by the best and wider apart below it."""
+    least, most = _ends(*fields)
+    for unit in UNITS:
+        levels = _downwards(least / unit, most / unit)
+        if len(levels) <= LINES + 2:
+            break
+    return unit * np.array(levels[::-1], float)
+
+
+def _downwards(least: float, most: float) -> list[int]:
+    """Whole numbers from above the most down to below the least, multiples of ever larger steps."""
+    found = [math.ceil(most)]
+    while found[-1] > least or len(found) == 1:
+        step = DOWNWARDS[min(len(found), len(DOWNWARDS)) - 1]
+        found.append((found[-1] - 1) // step * step)
+    return found
+
+
+def levels_of(*fields: Array) -> Array:
+    """Round contour levels, evenly, from below the least of all fields to above their most."""
+    least, most = _ends(*fields)
+    return _even(least, most)
+
+
+def difference_levels(field: Array) -> Array:
+    """Round contour levels, evenly, as far below zero as above it."""
+    most = max(map(abs, _ends(field)))
+    return _even(-most, most)
+
+
+def _even(least: float, most: float) -> Array:
     from matplotlib.ticker import MaxNLocator
 
     return np.asarray(MaxNLocator(LINES).tick_values(least, max(most, least + 1e-6)))
 
 
-def levels_of(field: Array) -> Array:
-    """Round contour levels about the values of a field."""
-    return _levels(*_ends(field))
-
-
-def _ends(values: Array) -> tuple[float, float]:
-    finite = values[np.isfinite(values)]
+def _ends(*fields: Array) -> tuple[float, float]:
+    finite = np.concatenate([np.ma.compressed(np.ma.masked_invalid(field)) for field in fields])
     return (float(finite.min()), float(finite.max())) if finite.size else (0.0, 1.0)

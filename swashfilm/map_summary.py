@@ -131,8 +131,11 @@ def _assumptions(work: MapWork) -> list[str]:
 
 def _warnings(pump: PumpDescription, plan: MapPlan, data: MapData) -> Iterator[str]:
     """Those of the plan, of the pump, and of the points with how many they stand at."""
-    yield from plan.checked().warnings
-    yield from (str(warning) for warning in check_pump(pump).warnings if not warning.path.startswith("operating."))
+    own = plan.checked().warnings
+    yield from own.values()
+    for warning in check_pump(pump).warnings:
+        if not warning.path.startswith("operating.") and warning.path not in own:
+            yield str(warning)
     for name, (count, text) in told_warnings(data).items():
         yield f"{name}: at {count} of {int(np.sum(data.solved))} points; at the first: {text}"
 

@@ -9,6 +9,7 @@ import json
 import os
 import re
 import shutil
+import sys
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from itertools import count
@@ -16,6 +17,7 @@ from pathlib import Path
 from typing import Any
 
 from system.faults import Fault, InputFaults
+from system.kept_points import POINTS
 
 RUNS = Path("runs")
 
@@ -36,9 +38,10 @@ class Interrupted(KeyboardInterrupt):
 def run_folder(name: str, wanted: Path | None = None) -> Iterator[Path]:
     """A folder to write a run's files into; afterwards they lie in `wanted`, or in `runs/<name>-<n>`, n fresh.
 
-    Left by an error or Interrupted, nothing stays; left by Ctrl-C, the `.partial` folder stays if it holds
-    results, and Interrupted tells where. Raises InputFaults for a `wanted` that holds files or cannot be made, and
-    where another run has filled it meanwhile (the results then stay in the `.partial` folder).
+    Left by an error or Interrupted, nothing stays but points that were solved, and where they lie is told. Left by
+    Ctrl-C, the `.partial` folder stays if it holds results, and Interrupted tells where. Raises InputFaults for a
+    `wanted` that holds files or cannot be made, and where another run has filled it meanwhile (the results then
+    stay in the `.partial` folder).
     """
     final, partial = _claim(name, wanted)
     try:
@@ -52,7 +55,10 @@ def run_folder(name: str, wanted: Path | None = None) -> Iterator[Path]:
         shutil.rmtree(partial)
         raise Interrupted(None) from None
     except BaseException:
-        shutil.rmtree(partial)
+        if any((partial / POINTS).glob("*.json")):
+            sys.stderr.write(f"swashfilm: points that were solved are kept in {partial}: --resume {partial}\n")
+        else:
+            shutil.rmtree(partial)
         raise
     _give_its_name(partial, final)
 

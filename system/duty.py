@@ -66,7 +66,7 @@ class Duty:
 
 
 def duty(interpolant: MapInterpolant, cycle: Cycle, error: MapError) -> Duty:
-    """A cycle's energies; raises FilmInputError for a cycle that leaves the map's box, with its first such time.
+    """A cycle's energies; raises FilmInputError for a cycle that leaves the map's box, saying where.
 
     The error of each energy is the largest that the map has shown of that power, over the whole time: it holds
     wherever in the box the cycle stays.
@@ -96,18 +96,20 @@ def duty(interpolant: MapInterpolant, cycle: Cycle, error: MapError) -> Duty:
 
 
 def _hold_inside(data: MapData, cycle: Cycle) -> None:
-    """Raise FilmInputError for the first row outside the box; between rows a cycle cannot leave it."""
+    """Raise FilmInputError with each input's first row outside the box; between rows a cycle cannot leave it."""
     out = [
         (int(np.argmin(good)), axis)
         for axis in data.axes
         if axis.input in cycle.inputs and not np.all(good := inside(axis, cycle.inputs[axis.input]))
     ]
     if out:
-        row, axis = min(out, key=lambda one: one[0])
-        given, (lower, upper) = axis.input, (axis.values[0], axis.values[-1])
-        found = f"{given.text(float(cycle.inputs[given][row]))} at {cycle.time[row]:.6g} s"
-        expected = f"{given.text(lower)} .. {given.text(upper)}, the map's box: nothing is extrapolated"
-        raise FilmInputError(given.words, found, expected)
+        found = (
+            f"{axis.input.text(float(cycle.inputs[axis.input][row]))} at {cycle.time[row]:.6g} s"
+            for row, axis in out
+        )
+        box = (f"{axis.input.text(axis.values[0])} .. {axis.input.text(axis.values[-1])}" for _, axis in out)
+        expected = f"{', '.join(box)}, the map's box: nothing is extrapolated"
+        raise FilmInputError(", ".join(axis.input.words for _, axis in out), ", ".join(found), expected)
 
 
 def _stretches(cycle: Cycle) -> tuple[dict[MapInput, Array], Array]:

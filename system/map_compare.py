@@ -27,7 +27,7 @@ COMPARED = {
 @dataclass(frozen=True)
 class Difference:
     """A number of two maps over their common box: means, the largest difference (other less one) and where; error:
-    what both interpolations miss at most. SI.
+    what both interpolations may miss there, by the largest errors that either map has shown. SI.
     """
 
     words: str
@@ -72,16 +72,22 @@ def common_axes(one: MapData, other: MapData) -> tuple[MapAxis, ...]:
         lower, upper = max(mine.values[0], theirs.values[0]), min(mine.values[-1], theirs.values[-1])
         given = mine.input
         if lower > upper and not (inside(mine, np.array([lower]))[0] and inside(theirs, np.array([lower]))[0]):
-            box, own = (
-                f"{given.text(axis.values[0])} .. {given.text(axis.values[-1])}" for axis in (theirs, mine)
+            box, own = (_range(axis) for axis in (theirs, mine))
+            remedy = "maps of both over the same levels, or a pump in place of one map"
+            faults.append(
+                Fault(given.words, f"{box} in the second map", f"some of {own}, the first map's", remedy)
             )
-            faults.append(Fault(given.words, box, f"some of {own}, the first map's"))
             continue
         levels = {lower, max(lower, upper)} | {value for value in mine.values if lower < value < upper}
         found.append(MapAxis(given, tuple(sorted(levels))))
     if faults:
         raise InputFaults(f"{one.name} and {other.name}", faults)
     return tuple(found)
+
+
+def _range(axis: MapAxis) -> str:
+    ends = dict.fromkeys(axis.input.text(value) for value in (axis.values[0], axis.values[-1]))
+    return " .. ".join(ends)
 
 
 def at_levels(interpolant: MapInterpolant, axes: tuple[MapAxis, ...]) -> MapData:
@@ -104,8 +110,8 @@ def _differences(one: MapData, other: MapData, errors: list[MapError]) -> Iterat
     for definition in EfficiencyDefinition:
         pair = one.efficiency(definition).overall, other.efficiency(definition).overall
         if all(np.isfinite(values).any() for values in pair):
-            error = sum(_efficiency_error(data, each) for data, each in zip((one, other), errors, strict=False))
-            yield _difference(f"overall efficiency, {definition.label}", "1", one, *pair, error)
+            told = _difference(f"overall efficiency, {definition.label}", "1", one, *pair, 0.0)
+            yield replace(told, error=sum(_efficiency_error(one, other, told, each) for each in errors))
     for column, (words, unit) in COMPARED.items():
         pair = one.values[column], other.values[column]
         if any(np.any(values) for values in pair):
@@ -119,8 +125,8 @@ def _difference(words: str, unit: str, data: MapData, one: Array, other: Array, 
     return Difference(words, unit, float(np.nanmean(one)), float(np.nanmean(other)), float(off[index]), at, error)
 
 
-def _efficiency_error(data: MapData, error: MapError) -> float:
-    """What errors of both powers make of an efficiency where the shaft power is least."""
-    return (error.largest["shaft_power"] + error.largest["hydraulic_power"]) / float(
-        data.values["shaft_power"].min()
-    )
+def _efficiency_error(one: MapData, other: MapData, told: Difference, error: MapError) -> float:
+    """What errors of both powers make of an efficiency P_h/P where it is told of: dP_h/P + dP/P, P the lesser."""
+    at = tuple(list(axis.values).index(told.at[axis.input]) for axis in one.axes)
+    power = min(float(data.values["shaft_power"][at]) for data in (one, other))
+    return (error.largest["shaft_power"] + error.largest["hydraulic_power"]) / power

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from enum import Enum
 from functools import cached_property
@@ -105,16 +105,16 @@ class MapPlan:
             faults.update(report.faults)
             for warning in report.warnings:
                 warnings.setdefault(warning.path, []).append(warning)
-        told = tuple(f"at {len(found)} points; at the first: {found[0]}" for found in warnings.values())
+        told = {path: f"at {len(found)} points; at the first: {found[0]}" for path, found in warnings.items()}
         return MapCheck(tuple(faults), told)
 
 
 @dataclass(frozen=True)
 class MapCheck:
-    """Faults of a plan's points, none twice, and its warnings, one for each key of [operating]."""
+    """Faults of a plan's points, none twice, and its warnings by the key of the pump file that they are of."""
 
     faults: tuple[Fault, ...]
-    warnings: tuple[str, ...]
+    warnings: Mapping[str, str]
 
 
 def map_plan(pump: PumpDescription, axes: Sequence[MapAxis]) -> MapPlan:
