@@ -17,7 +17,6 @@ from pathlib import Path
 from typing import Any
 
 from system.faults import Fault, InputFaults
-from system.kept_points import POINTS
 
 RUNS = Path("runs")
 
@@ -55,6 +54,8 @@ def run_folder(name: str, wanted: Path | None = None) -> Iterator[Path]:
         shutil.rmtree(partial)
         raise Interrupted(None) from None
     except BaseException:
+        from system.kept_points import POINTS
+
         if any((partial / POINTS).glob("*.json")):
             sys.stderr.write(f"swashfilm: points that were solved are kept in {partial}: --resume {partial}\n")
         else:
