@@ -90,11 +90,11 @@ def note_text(note: DataNote) -> str:
     """A finding in the data with its channel and its points, counted from 1."""
     where = [note.channel.value] if note.channel else []
     if note.points:
-        where.append(f"point {_ranges(note.points)}")
+        where.append(f"point {point_ranges(note.points)}")
     return f"{note.kind.value}: {': '.join([' '.join(where), note.text] if where else [note.text])}"
 
 
-def _ranges(points: Sequence[int]) -> str:
+def point_ranges(points: Sequence[int]) -> str:
     """Points counted from 1, runs of them by their ends: "3, 8 to 12"."""
     breaks = [k for k in range(1, len(points)) if points[k] != points[k - 1] + 1]
     parts = [points[start:stop] for start, stop in zip([0, *breaks], [*breaks, len(points)], strict=True)]

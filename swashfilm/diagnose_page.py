@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import base64
 import json
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 from diagnosis.diagnosis_file import read_diagnosis
 from swashfilm import diagnose_plots
 from swashfilm.diagnose_files import TRACES, read_rows
-from swashfilm.diagnose_runs import SHAFT, WITH, WITHOUT
+from swashfilm.diagnose_runs import HYDRAULIC, SHAFT, WITH, WITHOUT
 from swashfilm.diagnose_trace_plots import trace_residuals
 from system.faults import Fault, InputFaults
 from system.units import Dimension, in_unit, reading_unit
@@ -119,12 +119,17 @@ def parameter_rows(rows: Sequence[Mapping[str, str]]) -> Iterator[tuple[str, ...
 
 def change_rows(rows: Sequence[Mapping[str, str]]) -> Iterator[tuple[str, ...]]:
     """(quantity, without, with, change, share of the shaft power of both) of a point run without and with it."""
-    shaft = {key: float(row[key]) for row in rows if row["quantity"] == SHAFT for key in (WITHOUT, WITH)}
+    shaft = shaft_power(rows)
     for row in rows:
         told = (f"{_plain(float(row[key]), 4)} {row['unit']}" for key in (WITHOUT, WITH))
         moved = f"{_plain(float(row['change']), 3)} {'points' if row['unit'] == '%' else row['unit']}"
         shares = (f"{100.0 * float(row[key]) / whole:.2f} %" for key, whole in shaft.items() if row["unit"] == "W")
         yield row["quantity"], *told, moved, " -> ".join(shares)
+
+
+def shaft_power(rows: Sequence[Mapping[str, str]]) -> dict[str, float]:
+    """Shaft power in W without and with the finding; empty where nothing was run."""
+    return {key: float(row[key]) for row in rows if row["quantity"] == SHAFT for key in (WITHOUT, WITH)}
 
 
 def remarks(found: Mapping[str, Any], summary: Mapping[str, Any]) -> list[str]:
@@ -152,7 +157,7 @@ def _pictures(found: Mapping[str, Any], tables: Mapping[str, Sequence[Mapping[st
     residuals = tables["residuals"]
     held_out = {name: row for name, row in found["fit"]["heldout"].items() if all(row[key] for key in _HELD_OUT)}
     pictures = {"maps": diagnose_plots.residual_maps(residuals)}
-    channel, axis = _course(found)
+    channel, axis = _course(found, {row["channel"] for row in residuals})
     if channel is not None and found["effects"] and any(row[axis] for row in residuals):
         pictures["course"] = diagnose_plots.effect_course(residuals, channel, axis)
     if held_out:
@@ -163,6 +168,11 @@ def _pictures(found: Mapping[str, Any], tables: Mapping[str, Sequence[Mapping[st
         pictures["traces"] = trace_residuals(
             tables["traces"], found["where"]["shaft_angle_deg"], _settings(residuals)
         )
+    if whole := shaft_power(tables["changes"]):
+        losses = [
+            row for row in tables["changes"] if row["unit"] == "W" and row["quantity"] not in (SHAFT, HYDRAULIC)
+        ]
+        pictures["losses"] = diagnose_plots.loss_bars(losses, whole)
     pictures["pulls"] = diagnose_plots.pull_changes(tables["parameters"])
     return pictures
 
@@ -183,8 +193,11 @@ _SET = (
 )  # fmt: skip
 
 
-def _course(found: Mapping[str, Any]) -> tuple[str | None, str]:
-    """The channel, and the axis that its residual grows with most."""
-    channel = next(iter(found["where"]["channels"]), None)
+def _course(found: Mapping[str, Any], steady: Collection[str]) -> tuple[str | None, str]:
+    """The first channel of steady readings in which it sits, and the axis that its residual grows with most.
+
+    None for what sits in the chamber's traces alone.
+    """
+    channel = next((name for name in found["where"]["channels"] if name in steady), None)
     exponents = (found["scaling"] or {}).get("exponents", {"pressure": 1.0})
     return channel, AXES[max(exponents, key=lambda name: abs(exponents[name]))]

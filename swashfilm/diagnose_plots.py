@@ -17,30 +17,38 @@ Row = Mapping[str, str]
 BEFORE, AFTER, NOISE = "#b55a00", "#3c7a8c", "#9aa4ab"
 MOST_BARS = 12
 MOST_LEVELS = 4
+SEEN = 0.05  # % of the shaft power, below which a loss is not drawn
 RATIO_STEP = 0.1
 """Points whose displacement ratios differ by less are drawn together."""
 
 
 def residual_maps(rows: Sequence[Row]) -> bytes:
-    """Pulls over speed and pressure, a row for each channel, before and after side by side, on one scale."""
+    """Pulls over speed and pressure by channel and displacement, before beside after on one scale.
+
+    Of more than two displacements before stands over after, so that a reader sees each.
+    """
     channels = list(dict.fromkeys(row["channel"] for row in rows))
     levels = _levels(_column(rows, "displacement_ratio [1]"))
-    figure = figure_of(1.5 + (2.1 if len(levels) < 3 else 1.5) * 2 * len(levels), 0.6 + 2.1 * len(channels))
-    grid = figure.subplots(len(channels), 2 * len(levels), squeeze=False, sharex=True, sharey=True)
+    both = ("pull_before", "pull_after")
+    kinds = [both] if len(levels) < 3 else [(key,) for key in both]
+    lines = [(channel, keys) for channel in channels for keys in kinds]
+    columns = len(levels) * len(kinds[0])
+    figure = figure_of(1.5 + 2.3 * columns, 0.6 + (2.1 if len(levels) < 3 else 1.5) * len(lines))
+    grid = figure.subplots(len(lines), columns, squeeze=False, sharex=True, sharey=True)
     most = max(3.0, float(np.nanpercentile(np.abs(_column(rows, "pull_before")), 98)))
     drawn: Any = None
-    for line, channel in zip(grid, channels, strict=True):
-        for at, level in enumerate(levels):
+    for line, (channel, keys) in zip(grid, lines, strict=True):
+        places = [(level, key) for level in levels for key in keys]
+        for axes, (level, key) in zip(line, places, strict=True):
             own = [row for row in rows if row["channel"] == channel and _of_level(row, level)]
-            for shift, key in enumerate(("pull_before", "pull_after")):
-                axes = line[2 * at + shift]
-                drawn = _map(axes, own, key, most)
+            drawn = _map(axes, own, key, most)
+            axes.set_title(f"{_when(key)}{_title(level)}", fontsize=8, pad=3)
         line[0].set_ylabel(f"{channel}\np_out / bar", fontsize=8)
-    titles = [_title(level, key) for level in levels for key in ("pull_before", "pull_after")]
-    for top, bottom, title in zip(grid[0], grid[-1], titles, strict=True):
-        top.set_title(title, fontsize=8)
-        bottom.set_xlabel("speed / rpm", fontsize=8)
-    bar = figure.colorbar(drawn, ax=grid.ravel().tolist(), shrink=0.8, extend="both")
+    for axes in grid[-1]:
+        axes.set_xlabel("speed / rpm", fontsize=8)
+    bar = figure.colorbar(
+        drawn, ax=grid.ravel().tolist(), shrink=min(0.8, 6.0 / (1.5 * len(lines))), extend="both"
+    )
     bar.set_label("(measured - simulated) / sigma", fontsize=8)
     return png_of(figure)
 
@@ -69,7 +77,8 @@ def hypothesis_bars(rows: Sequence[Row]) -> bytes:
     axes, places = figure.subplots(), np.arange(len(ranked))
     axes.barh(places, [float(row["probability"]) for row in ranked], 0.6, color=AFTER)
     for place, row in enumerate(ranked):
-        text = f"{float(row['behind [nats]']):.3g} nats behind, z {float(row['z'] or 0):.3g}"
+        size = f", z {float(row['z']):.3g}" if float(row["z"] or 0.0) else ""  # the unknown has no one size
+        text = f"{float(row['behind [nats]']):.3g} nats behind{size}"
         axes.text(float(row["probability"]) + 0.01, place, text, va="center", fontsize=8)
     axes.set_yticks(places, [row["hypothesis"].replace("_", " ") for row in ranked], fontsize=8)
     axes.set(xlim=(0.0, 1.35), xlabel="probability", xticks=np.linspace(0, 1, 6))
@@ -90,7 +99,7 @@ def pull_changes(rows: Sequence[Row]) -> bytes:
     for values, colour, label in zip(ends, (BEFORE, AFTER), ("before", "after"), strict=True):
         axes.plot(values, places, "o", color=colour, label=label)
     axes.set_yticks(places, [row["name"] for row in ranked], fontsize=8)
-    axes.set_xlabel("pull in stated tolerances; grey: within two")
+    axes.set_xlabel("pull; grey: within two, as of most values that are stated rightly")
     axes.invert_yaxis()
     axes.legend(fontsize=8)
     return png_of(figure)
@@ -125,6 +134,23 @@ def effect_course(rows: Sequence[Row], channel: str, axis: str) -> bytes:
     return png_of(figure)
 
 
+def loss_bars(rows: Sequence[Row], whole: Mapping[str, float]) -> bytes:
+    """Where the shaft power goes, without and with the finding, in % of each one's shaft power; `whole` in W."""
+    runs = tuple(whole)
+    shares = {row["quantity"]: [100.0 * float(row[run]) / whole[run] for run in runs] for row in rows}
+    shown = {name: both for name, both in shares.items() if max(map(abs, both)) >= SEEN}
+    figure = figure_of(8.0, 1.0 + 0.36 * len(shown))
+    axes, places = figure.subplots(), np.arange(len(shown))
+    for at, (run, colour) in enumerate(zip(runs, (BEFORE, AFTER), strict=True)):
+        axes.barh(places + 0.38 * at - 0.19, [both[at] for both in shown.values()], 0.36, color=colour, label=run)
+    axes.set_yticks(places, list(shown), fontsize=8)
+    axes.set_xlabel("share of the shaft power / %")
+    axes.invert_yaxis()
+    axes.legend(fontsize=8)
+    axes.grid(visible=True, axis="x", alpha=0.3)
+    return png_of(figure)
+
+
 def _map(axes: Axes, rows: Sequence[Row], key: str, most: float) -> Any:
     """One map of pulls; points at one place (of other temperatures) stand side by side."""
     speed, pressure = _column(rows, "speed [rpm]"), _column(rows, "p_out [bar]")
@@ -134,7 +160,8 @@ def _map(axes: Axes, rows: Sequence[Row], key: str, most: float) -> Any:
     width = 0.1 * (float(np.ptp(pressure)) or 1.0)
     axes.tick_params(labelsize=7)
     return axes.scatter(
-        speed, pressure + width * shift, c=_column(rows, key), cmap="RdBu_r", vmin=-most, vmax=most, s=16,
+        speed, pressure + width * shift, c=_column(rows, key), cmap="RdBu_r", vmin=-most, vmax=most,
+        s=float(np.clip(1200.0 / max(len(rows), 1), 14.0, 45.0)),
         edgecolors="#6b747a", linewidths=0.3,
     )  # fmt: skip
 
@@ -155,13 +182,17 @@ def _of_level(row: Row, level: tuple[float, float]) -> bool:
     return not text or lower <= float(text) <= upper
 
 
-def _title(level: tuple[float, float], key: str) -> str:
-    when = key.removeprefix("pull_")
+def _when(key: str) -> str:
+    return key.removeprefix("pull_")
+
+
+def _title(level: tuple[float, float]) -> str:
+    """What is written behind the time: of which displacements the points are, nothing of all."""
     if not np.all(np.isfinite(level)):
-        return when
+        return ""
     lower, upper = level
     one = f"{(lower + upper) / 2:.2g}" if upper - lower < RATIO_STEP / 2 else f"{lower:.2g} to {upper:.2g}"
-    return f"displacement {one}, {when}"
+    return f", displacement {one}"
 
 
 def _column(rows: Sequence[Row], key: str) -> Array:

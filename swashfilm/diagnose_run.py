@@ -9,13 +9,13 @@ from diagnosis.data_checks import check_recording, too_few, too_smooth
 from diagnosis.diagnose import diagnose_study
 from diagnosis.prepare import prepare
 from diagnosis.readings import bench_points
-from diagnosis.recording import NoteKind, Recording
+from diagnosis.recording import DataNote, NoteKind, Recording
 from diagnosis.recording_reader import read_recording
 from diagnosis.scant_pump import KnownPump, load_known_pump
 from diagnosis.thresholds import load_thresholds
 from diagnosis.verdict import Diagnosis
 from reynolds.oil import walther
-from swashfilm.diagnose_files import note_text, write_diagnosis_files
+from swashfilm.diagnose_files import point_ranges, write_diagnosis_files
 from swashfilm.diagnose_runs import claimed_pump, run_both
 from swashfilm.progress import Report
 from system.faults import Fault, InputFaults
@@ -39,11 +39,16 @@ def checked_recording(path: Path, known: KnownPump | None = None) -> Recording:
     recording = check_recording(recording, None if known is None else known.pump.pump.displacement)
     faults = [note for note in recording.notes if note.kind is NoteKind.FAULT]
     if faults:
-        told = [
-            Fault("recording", note_text(note), "readings as they were taken, with their units") for note in faults
-        ]
-        raise InputFaults(str(path), told)
+        raise InputFaults(str(path), [_fault(note) for note in faults])
     return recording
+
+
+def _fault(note: DataNote) -> Fault:
+    """A finding as a fault of its channel; what may mend it, behind a semicolon, is the nearest choice."""
+    where = f"channel.{note.channel.value}" if note.channel else "recording"
+    found, _, mend = note.text.partition("; ")
+    at = f"point {point_ranges(note.points)}: " if note.points else ""
+    return Fault(where, at + found, "readings as they were taken, with their units", mend.removesuffix("?"))
 
 
 def run_diagnosis(

@@ -31,7 +31,7 @@ from system.units import Dimension, format_quantity
 
 WITHOUT, WITH = "without", "with"
 """Run folders within the diagnosis's own."""
-SHAFT = "shaft power"
+SHAFT, HYDRAULIC = "shaft power", "hydraulic power"
 LPM = 60000.0  # L/min in a m3/s
 PERCENT = 100.0
 
@@ -134,7 +134,7 @@ def _numbers(summary: Mapping[str, Any]) -> Iterator[tuple[str, str, float]]:
             yield f"efficiency, {name} (ISO 4409)", "%", PERCENT * share
     power = summary["power_balance"]
     yield SHAFT, "W", power["shaft_W"]
-    yield "hydraulic power", "W", power["hydraulic_W"]
+    yield HYDRAULIC, "W", power["hydraulic_W"]
     yield "compression of the oil", "W", power["elastic_W"]
     for name in ("piston", "slipper", "valve_plate"):
         yield f"leakage, {name.replace('_', ' ')}", "W", power[f"leakage_{name}_W"]
