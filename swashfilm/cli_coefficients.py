@@ -1,22 +1,35 @@
-"""The command `swashfilm coefficients`: a flow coefficient out of an OpenFOAM case, as a row of a file."""
+"""The command `swashfilm coefficients`: what an OpenFOAM case says of a port, bore, step or groove, as a row."""
 
 from __future__ import annotations
 
 import argparse
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-from swashfilm.terminal import show, show_table
+from swashfilm.terminal import show_table
 from system.faults import Fault, InputFaults
 from system.units import Dimension, QuantityError, parse_quantity
 
+if TYPE_CHECKING:
+    from system.film_passages import FilmPassage
+    from system.openfoam_case import CaseFlow
+
 COMMAND_LINE = "command line"
 SIZES = {
-    "--throat-area": (Dimension.AREA, "narrowest section of the flow"),
+    "--throat-area": (Dimension.AREA, "narrowest section of the flow; of a film, that of the thinner one"),
     "--density": (Dimension.DENSITY, "density of the liquid"),
     "--viscosity": (Dimension.KINEMATIC_VISCOSITY, "its kinematic viscosity"),
 }
-HEAD = "opening [mm2], reynolds [1], flow_coefficient [1]"
-COEFFICIENT_OPTIONS = ["--inlet", "--outlet", *SIZES]
+FILM_SIZES = {
+    "--film": (Dimension.LENGTH, "of a step or groove: thickness of the thinner film"),
+    "--before": (Dimension.LENGTH, "length of the film from the inlet patch to the step or groove"),
+    "--behind": (Dimension.LENGTH, "length of the film from the step or groove to the outlet patch"),
+}
+FILM_RATIOS = {
+    "--film-ratio": "film behind / film before; of a groove: in the groove / film",
+    "--width-ratio": "of a groove: its width / film",
+}
+COEFFICIENT_OPTIONS = ["--inlet", "--outlet", *SIZES, *FILM_SIZES, *FILM_RATIOS]
 
 
 def add_coefficient_options(command: argparse.ArgumentParser) -> None:
@@ -26,6 +39,10 @@ def add_coefficient_options(command: argparse.ArgumentParser) -> None:
     command.add_argument("--outlet", required=True, metavar="PATCH", help="patch where it leaves")
     for option, (dimension, what) in SIZES.items():
         command.add_argument(option, required=True, metavar=f"'{dimension.example}'", help=what)
+    for option, (dimension, what) in FILM_SIZES.items():
+        command.add_argument(option, metavar=f"'{dimension.example}'", help=what)
+    for option, what in FILM_RATIOS.items():
+        command.add_argument(option, type=float, metavar="R", help=what)
     command.add_argument(
         "-o",
         "--output",
@@ -39,60 +56,101 @@ def run_coefficients_command(options: argparse.Namespace) -> int:
     """Run `swashfilm coefficients` and return its exit code; raises InputFaults with what is wrong."""
     from system.openfoam_case import read_case_flow
 
-    area, density, viscosity = _sizes(options)
+    area, density, viscosity = _sizes(options, SIZES)
+    passage = _passage(options, area)
     found = read_case_flow(options.folder, options.inlet, options.outlet, density)
-    coefficient, number = found.flow_coefficient(area, density), found.reynolds(area, viscosity)
     rows = [
         ("time", f"{found.time:g}"),
         ("flow", f"{6e4 * found.flow:.5g} L/min"),
         ("pressure drop", f"{1e-5 * found.pressure_drop:.5g} bar"),
         ("outflow less inflow", f"{found.balance_error:.1e} of the inflow"),
-        ("Reynolds number", f"{number:.5g}"),
-        ("flow coefficient", f"{coefficient:.4f}"),
     ]
-    show_table(f"OpenFOAM case {options.folder}", rows)
-    if options.output is not None:
-        append_row(options.output, options.folder, area, number, coefficient)
-        show(f"row in {options.output}")
+    if passage is None:
+        _tell_port(options, found, rows, area, density, viscosity)
+    else:
+        _tell_film(options, found, rows, passage, density, viscosity)
     return 0
 
 
-def append_row(path: Path, case: Path, area: float, number: float, coefficient: float) -> None:
-    """Add a row to a coefficient file, with its case in a comment; a file that is absent gets source and head.
+def _tell_port(
+    options: argparse.Namespace,
+    found: CaseFlow,
+    rows: list[tuple[str, str]],
+    area: float,
+    density: float,
+    viscosity: float,
+) -> None:
+    """Show and write the flow coefficient of a port or bore."""
+    from swashfilm.coefficient_rows import port_row
 
-    Raises InputFaults for a file of other columns, which stays as it is.
-    """
-    import numpy as np
-
-    from system.coefficient_files import PORT_HEADS, SOURCE
-    from system.csv_table import read_table
-
-    row = f"# case: {case.resolve()}\n{1e6 * area:.6g}, {number:.6g}, {coefficient:.6g}\n"
-    if not path.exists():
-        path.write_text(f"# {SOURCE}: OpenFOAM, {case.resolve().name}\n{HEAD}\n{row}", encoding="utf-8")
-        return
-    found = read_table(path, PORT_HEADS)
-    if HEAD not in path.read_text("utf-8-sig").splitlines():
-        raise InputFaults(str(path), [Fault("head", "other order or units", HEAD)])
-    alike = (
-        np.isclose(found.columns[name], own, rtol=1e-5) for name, own in (("opening", area), ("reynolds", number))
-    )
-    if np.any(np.logical_and(*alike)):
-        fault = Fault("row", f"Re {number:.6g} at this opening", "a row that the file does not have yet")
-        raise InputFaults(str(path), [fault])
-    with path.open("a", encoding="utf-8") as file:
-        file.write(row)
+    coefficient, number = found.flow_coefficient(area, density), found.reynolds(area, viscosity)
+    told = [("Reynolds number", f"{number:.5g}"), ("flow coefficient", f"{coefficient:.4f}")]
+    show_table(f"OpenFOAM case {options.folder}", [*rows, *told])
+    if options.output is not None:
+        port_row(options.output, options.folder, area, number, coefficient)
 
 
-def _sizes(options: argparse.Namespace) -> list[float]:
-    """Area in m2, density in kg/m3, kinematic viscosity in m2/s; raises InputFaults with every fault at once."""
+def _tell_film(
+    options: argparse.Namespace,
+    found: CaseFlow,
+    rows: list[tuple[str, str]],
+    passage: FilmPassage,
+    density: float,
+    viscosity: float,
+) -> None:
+    """Show and write extra length and loss factor of a step or groove."""
+    from swashfilm.coefficient_rows import known_extra_length, loss_row
+    from system.film_passages import film_loss
+
+    known = known_extra_length(options.output, passage)
+    loss = film_loss(passage, found, density, viscosity, known)
+    source = "of this flow" if known is None else "of the file"
+    told = [
+        ("Reynolds number", f"{loss.reynolds:.5g}"),
+        ("extra length / film", f"{loss.extra_length:.4f}, {source}"),
+        ("loss factor", f"{loss.loss_factor:.4f}" + (", of first order in Re" if known is None else "")),
+    ]
+    show_table(f"OpenFOAM case {options.folder}", [*rows, *told])
+    if options.output is not None:
+        loss_row(options.output, options.folder, passage, loss)
+
+
+def _passage(options: argparse.Namespace, area: float) -> FilmPassage | None:
+    """The step or groove that the options state, None where they state a port; raises InputFaults for a part."""
+    from system.film_passages import FilmPassage
+
+    needed = (*FILM_SIZES, "--film-ratio")
+    stated = [option for option in (*needed, "--width-ratio") if _given(options, option) is not None]
+    if not stated:
+        return None
+    faults = [
+        Fault(option, "nothing", f"a value, as {stated[0]} is there") for option in needed if option not in stated
+    ]
+    ratio, width = options.film_ratio, options.width_ratio
+    if ratio is not None and not (ratio > 1.0 if width is not None else ratio > 0.0 and ratio != 1.0):
+        expected = "more than 1, of a groove" if width is not None else "above zero, not 1"
+        faults.append(Fault("--film-ratio", f"{ratio:g}", expected))
+    if width is not None and not width > 0.0:
+        faults.append(Fault("--width-ratio", f"{width:g}", "above zero"))
+    if faults:
+        raise InputFaults(COMMAND_LINE, faults)
+    film, before, behind = _sizes(options, FILM_SIZES)
+    return FilmPassage(film, area, ratio, before, behind, width)
+
+
+def _given(options: argparse.Namespace, option: str) -> object:
+    return getattr(options, option[2:].replace("-", "_"))
+
+
+def _sizes(options: argparse.Namespace, sizes: dict[str, tuple[Dimension, str]]) -> list[float]:
+    """The options' values in SI; raises InputFaults with every fault at once."""
     found, faults = [], []
-    for option, (dimension, _) in SIZES.items():
-        text = getattr(options, option[2:].replace("-", "_"))
+    for option, (dimension, _) in sizes.items():
+        text = _given(options, option)
         try:
             found.append(parse_quantity(text, dimension))
             if not found[-1] > 0.0:
-                faults.append(Fault(option, text, f"{dimension.noun} above zero"))
+                faults.append(Fault(option, str(text), f"{dimension.noun} above zero"))
         except QuantityError as reason:
             faults.append(Fault(option, reason.found, reason.expected, reason.nearest))
     if faults:

@@ -9,6 +9,7 @@ from swashfilm.coefficients_told import coefficient_warnings
 from swashfilm.fidelity import Fidelity
 from swashfilm.floating_run import floating_summary, write_floating
 from swashfilm.forces_data import force_warnings, forces_summary, write_forces
+from swashfilm.losses_told import loss_warnings, losses_left_out
 from swashfilm.picture3d import draw
 from swashfilm.progress import Report
 from swashfilm.pump_data import GAPS, PICTURED_TURN, films_dataset, point_dataset, write_tables
@@ -71,7 +72,7 @@ def run_pump(
 
 def _run_lumped(pump: PumpDescription, folder: Path) -> dict[str, Any]:
     point = lumped_point(pump, operating_point(pump))
-    summary = pump_summary(pump, point, None, _warnings(pump, point))
+    summary = pump_summary(pump, point, None, _warnings(pump, point) + loss_warnings(pump, point))
     _write_point(folder, point_dataset(point, pump.name), point, summary)
     _tell_forces(folder, joint_forces(pump, point), point, summary)
     return summary
@@ -81,7 +82,8 @@ def _run_films(pump: PumpDescription, folder: Path, report: Report) -> dict[str,
     films = films_point(pump, operating_point(pump), report=report)
     point = films.pump_point
     write_fields(folder, films)
-    warnings = _warnings(pump, point) + films_warnings(films) + draw_gaps(folder, films)
+    warnings = _warnings(pump, point) + loss_warnings(pump, point) + films_warnings(films)
+    warnings += draw_gaps(folder, films)
     summary = pump_summary(pump, point, films, warnings)
     _write_point(folder, point_dataset(point, pump.name).merge(films_dataset(films)), point, summary)
     _tell_forces(folder, joint_forces(pump, point), point, summary)
@@ -93,7 +95,7 @@ def _run_floating(
 ) -> dict[str, Any]:
     found = floating_point(pump, operating_point(pump), options, side_by_side=side_by_side, report=report)
     point = found.pump_point
-    summary = floating_summary(found, _warnings(pump, point))
+    summary = floating_summary(found, _warnings(pump, point) + losses_left_out(pump))
     _write_point(folder, point_dataset(point, pump.name), point, summary)
     _tell_forces(folder, floating_joint_forces(found), point, summary)
     reason = draw(write_floating(folder, found)).reason

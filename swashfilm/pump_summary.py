@@ -11,6 +11,7 @@ import numpy as np
 from gaps.result import GapFilm
 from swashfilm.coefficients_told import coefficient_records
 from swashfilm.fidelity import Fidelity
+from swashfilm.losses_told import loss_records
 from swashfilm.pump_data import gap_films
 from system.assembly import PumpPoint
 from system.bench import Efficiency, energy_split, ideal_flow, ideal_torque, paper_losses
@@ -73,7 +74,7 @@ def pump_summary(
         "power_balance": _power(point),
         "gaps": {gap: gap_report(series) for gap, series in gap_films(films).items()} if films else {},
         "checks": _checks(point, films),
-        "coefficients": coefficient_records(pump),
+        "coefficients": [*coefficient_records(pump), *loss_records(pump)],
         "assumptions": [str(taken) for taken in films.parts.taken] if films else [],
         "warnings": list(warnings),
     }

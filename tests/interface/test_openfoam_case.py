@@ -7,7 +7,9 @@ import pytest
 
 from swashfilm.cli import run_command
 from system.coefficient_files import read_flow_coefficients
+from system.csv_table import read_table
 from system.faults import InputFaults
+from system.loss_files import GROOVE_HEADS, STEP_HEADS
 from system.openfoam_case import read_case_flow
 
 LENGTH, HEIGHT, WIDTH, LAYERS = 0.2, 0.01, 0.02, 8
@@ -113,6 +115,51 @@ def test_a_case_becomes_a_row_of_a_coefficient_file(tmp_path, capsys):
     assert found.source == "OpenFOAM, case"
     with pytest.raises(InputFaults, match="does not have yet"):
         run_command([*words, "10 mm2/s"])
+
+
+def film_words(case, file, viscosity, ratio="0.1", *more):
+    """Poiseuille flow between planes, as if a film of HEIGHT, LENGTH/2 on either side, met another."""
+    words = ["coefficients", str(case), "--inlet", "inlet", "--outlet", "outlet", "--throat-area", "200 mm2"]
+    words += ["--density", f"{DENSITY} kg/m3", "--viscosity", viscosity, "--film", "10 mm", "-o", str(file)]
+    return [*words, "--before", "100 mm", "--behind", "100 mm", "--film-ratio", ratio, *more]
+
+
+def test_a_slow_case_gives_the_extra_length_and_faster_ones_the_loss_factor(tmp_path):
+    case, file = write_case(tmp_path / "case"), tmp_path / "steps.csv"
+    speed, nu = FLOW / 2e-4, 0.02  # Re = .75
+    head, viscous = 0.5 * DENSITY * speed**2, 12.0 * DENSITY * nu * speed / HEIGHT
+    length = 0.1 * 0.1**3 + 0.1  # of the film that is ten times as thick, and of the thin one
+    assert run_command(film_words(case, file, "20000 mm2/s")) == 0
+    kinetic = 54.0 / 35.0 * (1.0 - 0.1**2)
+    extra = (DROP - viscous * length / HEIGHT - kinetic * head) / viscous
+    assert run_command(film_words(case, file, "100 mm2/s")) == 0  # Re 150
+    columns = read_table(file, STEP_HEADS).columns
+    assert columns["reynolds"] == pytest.approx([0.75, 150.0], rel=1e-4)
+    assert columns["extra_length"] == pytest.approx([extra, extra], rel=1e-4)
+    faster = viscous * 100.0 / 20000.0
+    loss = (DROP - faster * (length / HEIGHT + extra)) / head
+    assert columns["loss_factor"] == pytest.approx([kinetic, loss], rel=1e-4)
+    with pytest.raises(InputFaults, match="does not have yet"):
+        run_command(film_words(case, file, "100 mm2/s"))
+    with pytest.raises(InputFaults, match="a slower flow first"):
+        run_command(film_words(case, file, "100 mm2/s", "10"))
+
+
+def test_a_groove_has_a_width_and_its_own_length_of_film(tmp_path):
+    case, file = write_case(tmp_path / "case"), tmp_path / "grooves.csv"
+    assert run_command(film_words(case, file, "20000 mm2/s", "2", "--width-ratio", "4")) == 0
+    columns = read_table(file, GROOVE_HEADS).columns
+    viscous = 12.0 * DENSITY * 0.02 * FLOW / 2e-4 / HEIGHT
+    assert columns["loss_factor"][0] == 0.0
+    assert columns["extra_length"][0] == pytest.approx(DROP / viscous - 20.0 - 4.0 / 8.0, rel=1e-4)
+
+
+def test_parts_of_a_step_are_told(tmp_path):
+    words = film_words(tmp_path, "x.csv", "1 mm2/s", "1")
+    del words[words.index("--film") : words.index("--film") + 2]
+    with pytest.raises(InputFaults) as told:
+        run_command(words)
+    assert [fault.path for fault in told.value.faults] == ["--film", "--film-ratio"]
 
 
 def test_what_is_wrong_with_a_case_is_told(tmp_path):

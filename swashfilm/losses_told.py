@@ -1,0 +1,127 @@
+"""What a run tells of the files by which its lands and bores lose: where from, and how far it left their range."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from reynolds.mesh import Array
+from system.assembly import PumpPoint
+from system.description import PumpDescription, SlipperSection
+from system.edge_losses import LandPath
+from system.flow_tables import coefficients_of
+from system.land_losses import deepest, land_losses
+from system.loss_files import LossFactors, groove_losses, step_losses
+from system.units import Dimension, format_quantity
+
+LARGEST_SHARE_BEYOND = 0.01
+"""Of the turn, from which it is told that losses are those of a file's last row."""
+
+
+def loss_records(pump: PumpDescription) -> list[dict[str, Any]]:
+    """Of each file of losses its key, path, source and range; single slippers' too, where they are others."""
+    stated = [("slipper", pump.slipper), *((f"slipper.{n}", part) for n, part in pump.single_slippers)]
+    found: list[dict[str, Any]] = []
+    seen: set[tuple[str, Path]] = set()
+    for table, part in stated:
+        for key, path, words in _of_slipper(part):
+            if (key, path) not in seen:
+                seen.add((key, path))
+                found.append({"key": f"{table}.{key}", "file": str(path), **words})
+    plate = pump.valve_plate.kidney_file
+    if plate is not None:
+        found.append({"key": "valve_plate.kidney_file", "file": str(plate), **_steps(step_losses(plate))})
+    return found
+
+
+def _of_slipper(part: SlipperSection) -> Iterator[tuple[str, Path, dict[str, str]]]:
+    """Keys of a slipper's files, their paths, source and range."""
+    if part.orifice_file is not None:
+        table = coefficients_of(part.orifice_file)
+        own = format_quantity(0.25 * np.pi * part.orifice_diameter**2, Dimension.AREA, digits=4)
+        words = f"opening {own} of {table.opening.size} in it, Re {_ends(table.reynolds)}"
+        yield "orifice_file", part.orifice_file, {"source": table.source, "range": words}
+    if part.pocket_file is not None:
+        yield "pocket_file", part.pocket_file, _steps(step_losses(part.pocket_file))
+    if part.groove_file is not None:
+        losses = groove_losses(part.groove_file)
+        ratio, width = losses.sizes.T
+        ends = _ends(width[ratio == ratio.max()])
+        words = f"film_ratio {ratio.max():g} taken, width_ratio {ends}, Re {_ends(losses.reynolds)}"
+        yield "groove_file", part.groove_file, {"source": losses.source, "range": words}
+
+
+def _steps(losses: LossFactors) -> dict[str, str]:
+    """Source and range of a file of steps."""
+    into, out = deepest(losses)
+    lengths = f"extra length {losses.extra_length[into]:.3g} and {losses.extra_length[out]:.3g}"
+    ratios = f"film_ratio {losses.sizes[into, 0]:g} and {losses.sizes[out, 0]:g} taken"
+    return {"source": losses.source, "range": f"{ratios}, {lengths}, Re {_ends(losses.reynolds)}"}
+
+
+def _ends(values: Array) -> str:
+    return f"{values.min():.3g} .. {values.max():.3g}"
+
+
+def loss_warnings(pump: PumpDescription, point: PumpPoint) -> list[str]:
+    """A warning for each file beyond whose Reynolds numbers flow was for longer than LARGEST_SHARE_BEYOND.
+
+    Of chambers like the first ones; of floating gaps, which take the files of bores alone, see `losses_left_out`.
+    """
+    losses = land_losses(pump)
+    _, slipper, plate = _flows(point)
+    kinematic = point.point.viscosity / pump.oil.density
+    stated = [
+        ("slipper.pocket_file", pump.slipper.pocket_file, step_losses, losses.slipper, slipper),
+        ("slipper.groove_file", pump.slipper.groove_file, groove_losses, losses.slipper, slipper),
+        # Half of a kidney's flow a land, near enough to say whether a range is left.
+        ("valve_plate.kidney_file", pump.valve_plate.kidney_file, step_losses, losses.inner, 0.5 * plate),
+    ]
+    found = []
+    for key, path, read, lands, flow in stated:
+        if path is not None:
+            number = _reynolds(lands, flow, kinematic)
+            found += _beyond(key, path, number, float(read(path).reynolds[-1]))
+    if (path := pump.slipper.orifice_file) is not None:
+        number = 4.0 * np.abs(slipper) / (np.pi * pump.slipper.orifice_diameter * kinematic)
+        found += _beyond("slipper.orifice_file", path, number, float(coefficients_of(path).reynolds.max()))
+    return found
+
+
+def losses_left_out(pump: PumpDescription) -> list[str]:
+    """A warning with the files that floating gaps do not take."""
+    stated = {
+        "slipper.pocket_file": pump.slipper.pocket_file,
+        "slipper.groove_file": pump.slipper.groove_file,
+        "valve_plate.kidney_file": pump.valve_plate.kidney_file,
+    }
+    keys = [key for key, path in stated.items() if path is not None]
+    if not keys:
+        return []
+    told = ", ".join(keys)
+    return [f"losses_left_out: {told}: floating gaps take no losses of edges; run --fidelity lumped or films"]
+
+
+def _flows(point: PumpPoint) -> Array:
+    """Flow (m3/s) of one chamber by pressure into each gap, (3, N), at the angles of its leaks."""
+    every = point.cycle.pressure.size // point.leaks.conductance.shape[-1]
+    return point.leaks.conductance * (point.cycle.pressure[::every] - point.point.case_pressure)
+
+
+def _reynolds(path: LandPath, flow: Array, kinematic_viscosity: float) -> Array:
+    """The largest u h/nu at an edge of each flow."""
+    return np.array([path.largest_reynolds(one, kinematic_viscosity) for one in np.atleast_1d(flow)])
+
+
+def _beyond(key: str, path: Path, reynolds: Array, largest: float) -> list[str]:
+    share = float(np.mean(reynolds > largest))
+    if share <= LARGEST_SHARE_BEYOND:
+        return []
+    return [
+        f"coefficients_beyond_file: {key}: {share:.0%} of the turn lies at Reynolds numbers up to "
+        f"{reynolds.max():.3g}, beyond {path.name} (Re {largest:.3g}), whose last row is taken (limit "
+        f"{LARGEST_SHARE_BEYOND:.0%} of the turn); give rows for it"
+    ]
