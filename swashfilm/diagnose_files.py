@@ -16,7 +16,7 @@ from diagnosis.diagnosis_tables import (
     residual_rows,
     steady_rows,
 )
-from diagnosis.recording import DataNote
+from diagnosis.recording import DataNote, NoteKind
 from diagnosis.study import Study
 from diagnosis.thresholds import Thresholds
 from diagnosis.trace_tables import trace_residual_rows
@@ -91,7 +91,8 @@ def note_text(note: DataNote) -> str:
     where = [note.channel.value] if note.channel else []
     if note.points:
         where.append(f"point {point_ranges(note.points)}")
-    return f"{note.kind.value}: {': '.join([' '.join(where), note.text] if where else [note.text])}"
+    kind = [] if note.kind is NoteKind.TOLD else [note.kind.value]
+    return ": ".join([*kind, *([" ".join(where)] if where else []), note.text])
 
 
 def point_ranges(points: Sequence[int]) -> str:

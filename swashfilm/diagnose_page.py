@@ -77,7 +77,7 @@ def place_rows(found: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
     where = found["where"]
     yield "channels", ", ".join(where["channels"]) or "none"
     yield "region of the map", where["region"] or "everywhere"
-    if where["components"]:
+    if where["components"] and set(where["channels"]) - {"p_chamber"}:  # they are told by steady readings
         yield "component", " or ".join(where["components"]).replace("_", " ")
     if where["pair"]:
         yield "pair", where["pair"].replace("_", " ")

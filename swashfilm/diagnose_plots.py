@@ -15,6 +15,7 @@ if TYPE_CHECKING:
 
 Row = Mapping[str, str]
 BEFORE, AFTER, NOISE = "#b55a00", "#3c7a8c", "#9aa4ab"
+WIDTH = 10.0  # inches, of every picture that is as wide as the page
 MOST_BARS = 12
 MOST_LEVELS = 4
 SEEN = 0.05  # % of the shaft power, below which a loss is not drawn
@@ -56,7 +57,7 @@ def residual_maps(rows: Sequence[Row]) -> bytes:
 def held_out_bars(held_out: Mapping[str, Mapping[str, Any]]) -> bytes:
     """RMS of held-out residuals before and after, in units of each channel's noise."""
     names = list(held_out)
-    figure = figure_of(7.0, 1.2 + 0.5 * len(names))
+    figure = figure_of(WIDTH, 1.2 + 0.5 * len(names))
     axes, places = figure.subplots(), np.arange(len(names))
     for shift, (key, colour) in enumerate((("before", BEFORE), ("after", AFTER))):
         sizes = [held_out[name][key] / held_out[name]["noise"] for name in names]
@@ -65,7 +66,7 @@ def held_out_bars(held_out: Mapping[str, Mapping[str, Any]]) -> bytes:
     axes.set_yticks(places, names)
     axes.set_xlabel("rms of held-out residuals / noise")
     axes.invert_yaxis()
-    axes.legend(fontsize=8)
+    _legend_above(axes)
     axes.grid(visible=True, axis="x", alpha=0.3)
     return png_of(figure)
 
@@ -73,7 +74,7 @@ def held_out_bars(held_out: Mapping[str, Mapping[str, Any]]) -> bytes:
 def hypothesis_bars(rows: Sequence[Row]) -> bytes:
     """The likeliest hypotheses: probability, and how far behind the best each lies."""
     ranked = sorted(rows, key=lambda row: -float(row["probability"]))[:MOST_BARS]
-    figure = figure_of(8.0, 1.0 + 0.34 * len(ranked))
+    figure = figure_of(WIDTH, 1.0 + 0.34 * len(ranked))
     axes, places = figure.subplots(), np.arange(len(ranked))
     axes.barh(places, [float(row["probability"]) for row in ranked], 0.6, color=AFTER)
     for place, row in enumerate(ranked):
@@ -91,7 +92,7 @@ def pull_changes(rows: Sequence[Row]) -> bytes:
     common = [row for row in rows if row["pull_before"]]
     ranked = sorted(common, key=lambda row: -max(abs(float(row[key])) for key in ("pull_before", "pull_after")))
     ranked = ranked[:MOST_BARS]
-    figure = figure_of(8.0, 1.0 + 0.3 * len(ranked))
+    figure = figure_of(WIDTH, 1.0 + 0.3 * len(ranked))
     axes, places = figure.subplots(), np.arange(len(ranked))
     ends = [np.array([float(row[key]) for row in ranked]) for key in ("pull_before", "pull_after")]
     axes.axvspan(-2, 2, color=NOISE, alpha=0.2)
@@ -101,7 +102,7 @@ def pull_changes(rows: Sequence[Row]) -> bytes:
     axes.set_yticks(places, [row["name"] for row in ranked], fontsize=8)
     axes.set_xlabel("pull; grey: within two, as of most values that are stated rightly")
     axes.invert_yaxis()
-    axes.legend(fontsize=8)
+    _legend_above(axes)
     return png_of(figure)
 
 
@@ -110,7 +111,7 @@ def effect_course(rows: Sequence[Row], channel: str, axis: str) -> bytes:
     own = [row for row in rows if row["channel"] == channel and row[axis]]
     place, added = _column(own, axis), _column(own, "added")
     without = _column(own, "after") - added
-    figure = figure_of(8.0, 4.0)
+    figure = figure_of(WIDTH, 4.0)
     axes = figure.subplots()
     axes.errorbar(
         place, _column(own, "measured") - without, _column(own, "sigma"), fmt="o", markersize=4, color=BEFORE,
@@ -139,16 +140,21 @@ def loss_bars(rows: Sequence[Row], whole: Mapping[str, float]) -> bytes:
     runs = tuple(whole)
     shares = {row["quantity"]: [100.0 * float(row[run]) / whole[run] for run in runs] for row in rows}
     shown = {name: both for name, both in shares.items() if max(map(abs, both)) >= SEEN}
-    figure = figure_of(8.0, 1.0 + 0.36 * len(shown))
+    figure = figure_of(WIDTH, 1.0 + 0.36 * len(shown))
     axes, places = figure.subplots(), np.arange(len(shown))
     for at, (run, colour) in enumerate(zip(runs, (BEFORE, AFTER), strict=True)):
         axes.barh(places + 0.38 * at - 0.19, [both[at] for both in shown.values()], 0.36, color=colour, label=run)
     axes.set_yticks(places, list(shown), fontsize=8)
     axes.set_xlabel("share of the shaft power / %")
     axes.invert_yaxis()
-    axes.legend(fontsize=8)
+    _legend_above(axes)
     axes.grid(visible=True, axis="x", alpha=0.3)
     return png_of(figure)
+
+
+def _legend_above(axes: Axes) -> None:
+    """The legend in a row over the axes, where it hides nothing."""
+    axes.legend(fontsize=8, ncols=3, loc="lower right", bbox_to_anchor=(1.0, 1.0), frameon=False)
 
 
 def _map(axes: Axes, rows: Sequence[Row], key: str, most: float) -> Any:

@@ -10,7 +10,8 @@ from reynolds.mesh import Array
 from swashfilm.figure_png import figure_of, png_of
 
 Row = Mapping[str, str]
-BEFORE, AFTER, NOISE, WINDOW = "#b55a00", "#3c7a8c", "#9aa4ab", "#e8d9a0"
+FITS = {"before [bar]": "#b55a00", "after [bar]": "#3c7a8c"}
+NOISE, WINDOW = "#9aa4ab", "#e8d9a0"
 MOST_TRACES = 4
 QUARTERS = np.arange(0, 361, 90)
 
@@ -21,7 +22,9 @@ def trace_residuals(rows: Sequence[Row], window: Sequence[float] | None, setting
     window: shaft angles in deg between which they stand out; settings: by point, what is written over it.
     """
     points = _worst(rows)
+    rows = [row for row in rows if row["point"] in points]
     figure = figure_of(10.0, 0.8 + 1.9 * len(points))
+    most = max(float(np.max(np.abs(_residual(rows, key)))) for key in FITS)
     grid = figure.subplots(len(points), 2, squeeze=False, sharex=True, sharey="col", width_ratios=(1, 2))
     for line, point in zip(grid, points, strict=True):
         own = [row for row in rows if row["point"] == point]
@@ -30,9 +33,10 @@ def trace_residuals(rows: Sequence[Row], window: Sequence[float] | None, setting
         line[0].set_ylabel("p_chamber / bar", fontsize=8)
         line[0].set_title(settings.get(point, ""), fontsize=8, loc="left")
         line[1].fill_between(angle, -2 * sigma, 2 * sigma, color=NOISE, alpha=0.35, linewidth=0, label="two sigma")
-        for key, colour in (("before [bar]", BEFORE), ("after [bar]", AFTER)):
-            line[1].plot(angle, measured - _column(own, key), color=colour, linewidth=1.0, label=key.split()[0])
+        for key, colour in FITS.items():
+            line[1].plot(angle, _residual(own, key), color=colour, linewidth=1.2, label=key.split()[0])
         line[1].set_ylabel("residual / bar", fontsize=8)
+        line[1].set_ylim(-1.1 * most, 1.1 * most)
         for axes in line:
             for start, end in _spans(window):
                 axes.axvspan(start, end, color=WINDOW, alpha=0.5, zorder=0)
@@ -43,6 +47,12 @@ def trace_residuals(rows: Sequence[Row], window: Sequence[float] | None, setting
     for axes in grid[-1]:
         axes.set_xlabel("shaft angle from the inner dead centre / deg", fontsize=8)
     return png_of(figure)
+
+
+def _residual(rows: Sequence[Row], key: str) -> Array:
+    """Measured less simulated, bar."""
+    found: Array = _column(rows, "measured [bar]") - _column(rows, key)
+    return found
 
 
 def _spans(window: Sequence[float] | None) -> list[tuple[float, float]]:
