@@ -54,7 +54,8 @@ class Calibration:
 
     fit: base and sensor parameters, friction by the paper's ranges, constant; hersey: None where it was not asked
     for or not to be fitted; undetermined, rows: what `best` leaves to the priors, and it beside loss models in the
-    same splits; equation: Eq. (21) by itself; notes: what was taken, and what could not be done.
+    same splits; equation: Eq. (21) by itself, mixed: of coefficients that hold the films' shear too; notes: what
+    was taken, and what could not be done.
     """
 
     study: Study
@@ -64,6 +65,7 @@ class Calibration:
     hersey: Hersey | None
     curves: tuple[HerseyCurve, ...]
     equation: tuple[EqFit, ...]
+    mixed: tuple[EqFit, ...]
     rows: tuple[HeldOutRow, ...]
     notes: tuple[str, ...]
     seconds: float
@@ -97,7 +99,7 @@ def calibrate(
     hersey = _hersey(study, null, thresholds, notes) if with_hersey else None
     shown, laws = (hersey.fit, hersey.laws) if hersey is not None and hersey.carried else (fit, ())
     report(3, steps, "Eq. (21)")
-    equation = _equation(pump, bench, fit, study, notes)
+    equation, mixed = _equations(pump, bench, fit, study, notes)
     rows = _compared(pump, bench, shown, study, models, notes, report)
     return Calibration(
         study=study,
@@ -107,6 +109,7 @@ def calibrate(
         hersey=hersey,
         curves=hersey_curves(bench, shown, laws),
         equation=equation,
+        mixed=mixed,
         rows=rows,
         notes=tuple(notes),
         seconds=process_time() - begun,
@@ -149,21 +152,22 @@ def _hersey(study: Study, null: Weighed, thresholds: Thresholds, notes: list[str
     return Hersey(_fit_of(found), found.hypothesis.laws, evidence, evidence > thresholds.name.odds)
 
 
-def _equation(
+def _equations(
     pump: PumpDescription, bench: LumpedBench, fit: Posterior, study: Study, notes: list[str]
-) -> tuple[EqFit, ...]:
-    """Eq. (21), all but the coefficients as the fit has them; nothing, and told, without its flows."""
+) -> tuple[tuple[EqFit, ...], tuple[EqFit, ...]]:
+    """Eq. (21) beside the films' shear and with it held, all else as fitted; nothing, and told, without flows."""
     own = tuple(one for one in bench.parameters if one.name.startswith("friction."))
     if not own:
         notes.append("Eq. (21) by itself: every friction coefficient of the pump is 0")
-        return ()
+        return (), ()
     try:
         readings = measured_losses(bench.points, study.observations)
     except FilmInputError as reason:
         notes.append(f"Eq. (21) by itself: {reason}")
-        return ()
-    eq = eq_twenty_one(bench, fit.values, own)
-    return eq_fits(eq, readings, bench.points, pump.pump.rated_speed)
+        return (), ()
+    eq, rated = eq_twenty_one(bench, fit.values, own), pump.pump.rated_speed
+    beside, mixed = (eq_fits(one, readings, bench.points, rated) for one in (eq, eq.mixed))
+    return beside, mixed
 
 
 def _compared(

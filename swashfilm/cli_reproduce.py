@@ -12,12 +12,14 @@ from swashfilm.terminal import show, show_table
 from system.faults import Fault, InputFaults, nearest_choice
 
 if TYPE_CHECKING:
+    from diagnosis.recording import Recording
     from swashfilm.reproduce_run import ReproduceAsked
 
 COMMAND_LINE = "command line"
-REPRODUCE_OPTIONS = ["--fidelity", "--pump", "--page", "--workers", "--steps", "--finer", *SWITCHES]
+REPRODUCE_OPTIONS = ["--fidelity", "--pump", "--recording", "--page", "--workers", "--steps", "--finer", *SWITCHES]
 ALL, LIST = "all", "list"
 _LUMPED, _FLOATING = "lumped", "floating"
+_TUNED = "fig13"
 
 
 def add_reproduce_options(command: argparse.ArgumentParser) -> None:
@@ -32,6 +34,10 @@ def add_reproduce_options(command: argparse.ArgumentParser) -> None:
     command.add_argument(
         "--pump", metavar="PUMP", help="built-in name or pump file (ref90; whose gaps float: ref90_floating)"
     )
+    command.add_argument(
+        "--recording", type=Path, metavar="RECORDING",
+        help="fig13: tune to this bench's readings (folder of a recording.toml), not to made ones",
+    )  # fmt: skip
     command.add_argument("--page", type=Path, metavar="FILE.md", help="write the page there as Markdown too")
     command.add_argument("--workers", metavar="N", help="processes that solve points side by side (1)")
     command.add_argument("--steps", metavar="N", help="floating gaps: angles of a turn that are reported (360)")
@@ -55,12 +61,14 @@ def run_reproduce_command(options: argparse.Namespace) -> int:
         run_folder("reproduce", options.output) as folder,
         progress(1, f"reproduce {options.figure}") as report,
     ):
-        run_reproduce(asked, hands, folder, report)
+        summary = run_reproduce(asked, hands, folder, report)
         rows = json.loads((folder / "claims.json").read_text("utf-8"))["claims"]
         if options.page is not None:
             _write_page(options.page, markdown_page(folder, _command(options)))
     head = ("statement", "reading", "the paper", "here", "verdict")
     show_table(f"The paper by {asked.pump.name}, {asked.fidelity.value}", [head, *verdict_rows(rows)])
+    if summary["about"]:
+        show(summary["about"])
     show(count_words(rows))
     show(f"results in {final_folder(folder)}")
     return 0
@@ -92,9 +100,20 @@ def _asked(options: argparse.Namespace) -> tuple[ReproduceAsked, int]:
         faults += alike_faults(pump)
     if faults:
         raise InputFaults(COMMAND_LINE, faults)
-    fidelity = PaperFidelity(options.fidelity)
+    fidelity, recording = PaperFidelity(options.fidelity), _recording_of(options)
     figures = fidelity.figures if options.figure == ALL else (Figure.named(options.figure),)
-    return ReproduceAsked(pump, figures, fidelity, floating_options(options)), int(options.workers or 1)
+    asked = ReproduceAsked(pump, figures, fidelity, floating_options(options), recording)
+    return asked, int(options.workers or 1)
+
+
+def _recording_of(options: argparse.Namespace) -> Recording | None:
+    """The recording that Fig. 13 is tuned to, checked; raises InputFaults where nothing can be made of it."""
+    if options.recording is None:
+        return None
+    from diagnosis.scant_pump import load_known_pump
+    from swashfilm.diagnose_run import checked_recording
+
+    return checked_recording(options.recording, load_known_pump(_pump_of(options)))
 
 
 def _pump_of(options: argparse.Namespace) -> str:
@@ -119,6 +138,9 @@ def _word_faults(options: argparse.Namespace) -> list[Fault]:
     if options.fidelity not in fidelities:
         near = nearest_choice(options.fidelity, fidelities)
         faults.append(Fault("--fidelity", repr(options.fidelity), f"one of {', '.join(fidelities)}", near))
+    if options.recording is not None and (options.figure not in (ALL, _TUNED) or options.fidelity != _LUMPED):
+        asked = f"with {options.figure}, --fidelity {options.fidelity}"
+        faults.append(Fault("--recording", asked, f"{_TUNED} or {ALL}, --fidelity {_LUMPED}: what is tuned to it"))
     workers = options.workers
     if workers is not None and not (workers.isdecimal() and 1 <= int(workers) <= 256):
         faults.append(Fault("--workers", repr(workers), "a number, 1 to 256"))
@@ -127,10 +149,11 @@ def _word_faults(options: argparse.Namespace) -> list[Fault]:
 
 def _command(options: argparse.Namespace) -> str:
     """The command that makes the same page again."""
-    given = {name: getattr(options, name[2:]) for name in ("--fidelity", "--pump", "--steps", "--finer")}
-    words = [f" {name} {text}" for name, text in given.items() if text not in (None, _LUMPED)]
-    words += [f" {switch}" for switch in SWITCHES if getattr(options, switch[2:].replace("-", "_"))]
-    return f"swashfilm reproduce {options.figure}{''.join(words)} --page {options.page}"
+    words = ("--fidelity", "--pump", "--recording", "--steps", "--finer")
+    given = {name: getattr(options, name[2:]) for name in words}
+    said = [f" {name} {text}" for name, text in given.items() if text not in (None, _LUMPED)]
+    said += [f" {switch}" for switch in SWITCHES if getattr(options, switch[2:].replace("-", "_"))]
+    return f"swashfilm reproduce {options.figure}{''.join(said)} --page {options.page}"
 
 
 def _write_page(path: Path, text: str) -> None:

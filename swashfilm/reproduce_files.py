@@ -100,21 +100,22 @@ def _write_curves(path: Path, panels: Sequence[Panel]) -> None:
     """All points of all curves and fields, in the units they are drawn in."""
     with path.open("w", encoding="utf-8", newline="") as file:
         writer = csv.writer(file)
-        writer.writerow(["panel", "curve", "x", "x unit", "y", "y unit", "value", "value unit"])
+        writer.writerow(["panel", "curve", "x", "x unit", "y", "y unit", "one sigma of y", "value", "value unit"])
         for panel in panels:
             writer.writerows(_points(panel))
 
 
 def _points(panel: Panel) -> Iterator[list[str]]:
     for curve in panel.curves:
-        for x, y in zip(curve.x, curve.y, strict=True):
-            yield [panel.title, curve.name, *_number(x, panel.x), *_number(y, panel.y), "", ""]
+        widths = [""] * len(curve.y) if curve.sigma is None else [_number(one, panel.y)[0] for one in curve.sigma]
+        for x, y, width in zip(curve.x, curve.y, widths, strict=True):
+            yield [panel.title, curve.name, *_number(x, panel.x), *_number(y, panel.y), width, "", ""]
     if panel.field is not None:
         field = panel.field
         for y, row in zip(field.y, field.values, strict=True):
             for x, value in zip(field.x, row, strict=True):
                 place = [*_number(x, panel.x), *_number(y, panel.y)]
-                yield [panel.title, field.axis.words, *place, *_number(value, field.axis)]
+                yield [panel.title, field.axis.words, *place, "", *_number(value, field.axis)]
 
 
 def _number(value: float, axis: Axis) -> tuple[str, str]:

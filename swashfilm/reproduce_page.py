@@ -91,6 +91,7 @@ def markdown_page(folder: Path, command: str) -> str:
         "",
         f"Written by `{command}`; nothing in it is typed by hand.",
         HEAD,
+        *(["", summary["about"]] if summary["about"] else []),
         "",
         f"{count_words(rows)}; each reading counts by itself.",
     ]

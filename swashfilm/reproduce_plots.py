@@ -14,6 +14,8 @@ COLOURS = ("#3c7a8c", "#b55a00", "#5b9a5b", "#b8862b", "#6d5a9c", "#8c5a3c", "#9
 COLUMNS = 2
 LEVELS = 12
 """Contour lines of a field."""
+MANY = 6
+"""Curves that leave no room for a legend among them."""
 
 
 def figure_picture(panels: Sequence[Panel]) -> bytes:
@@ -35,10 +37,13 @@ def _draw(figure: Any, axes: Any, panel: Panel) -> None:
             _field(figure, axes, panel)
         case PanelKind.STACKED:
             _stacked(axes, panel)
+        case PanelKind.BARS:
+            _bars(axes, panel)
         case _:
             _lines(axes, panel)
     axes.set_title(panel.title, fontsize=9)
-    axes.set_xlabel(_words(panel.x), fontsize=8)
+    if panel.x.words:
+        axes.set_xlabel(_words(panel.x), fontsize=8)
     axes.set_ylabel(_words(panel.y), fontsize=8)
     axes.tick_params(labelsize=7)
 
@@ -48,17 +53,36 @@ def _lines(axes: Any, panel: Panel) -> None:
     for k, curve in enumerate(panel.curves):
         marker, dashes = ("o" if few else ""), ("-" if k % 2 == 0 else "--")
         x, y = panel.x.unit.factor * curve.x, panel.y.unit.factor * curve.y
-        axes.plot(x, y, dashes, marker=marker, markersize=3.0, linewidth=1.3, color=_colour(k), label=curve.name)
+        sigma = None if curve.sigma is None else panel.y.unit.factor * curve.sigma
+        axes.errorbar(x, y, sigma, fmt=dashes, marker=marker, markersize=3.0, linewidth=1.3, elinewidth=0.8,
+                      capsize=2.0, color=_colour(k), label=curve.name)  # fmt: skip
     axes.grid(visible=True, alpha=0.3)
-    axes.legend(fontsize=7)
+    _legend(axes, panel)
     if panel.kind is PanelKind.LOGARITHMIC:
         axes.set_yscale("log")
     elif panel.kind is PanelKind.TRUE_SCALE:
         axes.set_aspect("equal", adjustable="datalim")
-    else:
-        axes.set_ylim(bottom=min(0.0, axes.get_ylim()[0]))
+    elif min(float(curve.y.min()) for curve in panel.curves) >= 0.0:
+        axes.set_ylim(0.0, 1.06 * panel.y.unit.factor * max(float(curve.y.max()) for curve in panel.curves))
     if panel.x.unit is Unit.ANGLE:
         axes.locator_params(axis="x", nbins=9)
+
+
+def _legend(axes: Any, panel: Panel) -> None:
+    """Where it hides nothing: beside many curves, under a locus."""
+    if len(panel.curves) >= MANY:
+        axes.legend(fontsize=7, loc="center left", bbox_to_anchor=(1.0, 0.5))
+    elif panel.kind is PanelKind.TRUE_SCALE:
+        axes.legend(fontsize=7, loc="upper center", bbox_to_anchor=(0.5, -0.14), ncols=2)
+    else:
+        axes.legend(fontsize=7)
+
+
+def _bars(axes: Any, panel: Panel) -> None:
+    heights = [panel.y.unit.factor * float(curve.y[0]) for curve in panel.curves]
+    drawn = axes.bar([curve.name for curve in panel.curves], heights, 0.5, color=COLOURS)
+    axes.bar_label(drawn, fmt="{:.4g}" if max(heights) < 1e3 else "{:.0f}", fontsize=8)
+    axes.margins(y=0.12)
 
 
 def _stacked(axes: Any, panel: Panel) -> None:
@@ -85,6 +109,11 @@ def _field(figure: Any, axes: Any, panel: Panel) -> None:
     bar = figure.colorbar(filled, ax=axes)
     bar.set_label(_words(field.axis), fontsize=8)
     bar.ax.tick_params(labelsize=7)
+    for mark in panel.curves:
+        own_x, own_y = panel.x.unit.factor * mark.x, panel.y.unit.factor * mark.y
+        axes.plot(own_x, own_y, "*", color="#b5002a", markersize=11, label=mark.name, clip_on=False)
+    if panel.curves:
+        axes.legend(fontsize=7, loc="lower right")
     if x.size * y.size < 100:
         axes.plot(*(one.ravel() for one in np.meshgrid(x, y)), ".", color="white", markersize=2.5)
 

@@ -8,8 +8,10 @@ from pathlib import Path
 from time import process_time
 from typing import Any
 
+from diagnosis.recording import Recording
 from reynolds.bodies.cache import cache_folder
 from swashfilm.progress import Report
+from swashfilm.recorded_coefficients import recorded_fig13
 from swashfilm.reproduce_files import claim_rows, write_reproduction
 from system.description import PumpDescription
 from system.floating_gaps import FloatingOptions
@@ -17,23 +19,40 @@ from system.kept_points import KeptPoints
 from system.paper.figures import DRAWINGS, Figure
 from system.paper.judge import FigureResult
 from system.paper.reproduce import Means, PaperFidelity, reproduce
-from system.pump_file import resolved_toml
+from system.pump_file import load_pump, resolved_toml
 from system.work import Hands
+
+PAPERS_OWN = ("ref90", "ref90_floating")
+"""Built-in pumps that stand for the paper's."""
 
 
 @dataclass(frozen=True)
 class ReproduceAsked:
-    """What is asked for: the pump, figures, a fidelity, and how gaps float where they do."""
+    """What is asked for: pump, figures, fidelity, how gaps float where they do, what Fig. 13 is tuned to.
+
+    recording: checked; None where readings are made.
+    """
 
     pump: PumpDescription
     figures: tuple[Figure, ...]
     fidelity: PaperFidelity
     floating: FloatingOptions
+    recording: Recording | None = None
 
 
 def paper_points() -> KeptPoints:
     """Where points of the costly fidelities are kept between runs."""
     return KeptPoints(cache_folder() / "paper" / "points")
+
+
+def about(pump: PumpDescription) -> str:
+    """What the paper's statements are to a pump that does not stand for the paper's own; else nothing."""
+    if any(pump == load_pump(name) for name in PAPERS_OWN):
+        return ""
+    return (
+        f"The statements are of the paper's own pump, for which ref90 stands: against {pump.name} they tell how "
+        "far another pump goes with them, not whether they hold."
+    )
 
 
 def run_reproduce(asked: ReproduceAsked, hands: Hands, folder: Path, report: Report) -> dict[str, Any]:
@@ -44,12 +63,13 @@ def run_reproduce(asked: ReproduceAsked, hands: Hands, folder: Path, report: Rep
     """
     began = process_time()
     means = Means(paper_points(), hands, asked.floating, report)
-    results = reproduce(asked.pump, asked.figures, asked.fidelity, means)
+    results = _results(asked, means)
     (folder / "resolved.toml").write_text(resolved_toml(asked.pump), encoding="utf-8")
     summary = {
         "format": 1,
         "kind": "reproduction",
         "pump": asked.pump.name,
+        "about": about(asked.pump),
         "fidelity": asked.fidelity.value,
         "verdicts": _verdicts(results, asked.fidelity),
         "drawings": dict(DRAWINGS),
@@ -61,6 +81,16 @@ def run_reproduce(asked: ReproduceAsked, hands: Hands, folder: Path, report: Rep
 
     write_reproduce_page(folder)
     return summary
+
+
+def _results(asked: ReproduceAsked, means: Means) -> tuple[FigureResult, ...]:
+    """The figures in the order asked for, Fig. 13 by the recording where there is one."""
+    if asked.recording is None:
+        return reproduce(asked.pump, asked.figures, asked.fidelity, means)
+    others = tuple(figure for figure in asked.figures if figure is not Figure.FIG13)
+    found = {one.figure: one for one in reproduce(asked.pump, others, asked.fidelity, means)}
+    found[Figure.FIG13] = recorded_fig13(asked.pump, asked.recording, means.report)
+    return tuple(found[figure] for figure in asked.figures)
 
 
 def _verdicts(results: Sequence[FigureResult], fidelity: PaperFidelity) -> dict[str, int]:

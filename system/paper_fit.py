@@ -20,7 +20,7 @@ from system.estimation.fit import maximum_posterior
 from system.estimation.folds import levels
 from system.estimation.observations import Channel, Observations
 from system.estimation.parameters import Parameter, Role, Scale
-from system.estimation.posterior import Posterior
+from system.estimation.posterior import Posterior, values_at
 from system.kinematics import Array
 from system.pairs import Pair
 from system.units import Dimension
@@ -65,13 +65,19 @@ class EqTwentyOne:
     """Hydromechanical loss of N points: rest + sum of coefficient x column; a `Simulator` of one channel.
 
     rest: (N,) W, what Eq. (2) counts beside Coulomb friction (shear, throttling, compression charged or not);
-    columns: (N, k) W, each pair's Coulomb loss at a coefficient of 1. Coefficients do not move the chambers'
-    pressure, so this is exact.
+    columns: (N, k) W, each pair's Coulomb loss at a coefficient of 1; shear: (N,) W of the films, a part of the
+    rest. Coefficients do not move the chambers' pressure, so this is exact.
     """
 
     rest: Array
     columns: Array
+    shear: Array
     parameters: tuple[Parameter, ...]
+
+    @property
+    def mixed(self) -> EqTwentyOne:
+        """The same for coefficients that hold the films' shear, as the paper's do: none of it is in the rest."""
+        return replace(self, rest=self.rest - self.shear, shear=np.zeros_like(self.shear))
 
     def predict(self, values: Array) -> Array:
         """Loss (N, 1) in W at the coefficients (k,)."""
@@ -110,7 +116,9 @@ def eq_twenty_one(bench: LumpedBench, values: Array, parameters: tuple[Parameter
     matrix = np.stack(columns, axis=-1)
     stated = np.array([getattr(friction, parameter.name.rpartition(".")[2]) for parameter in parameters])
     loss = _hydromechanical(bench.points, {name: simulated[:, n] for n, name in enumerate(_CHANNELS)})
-    return EqTwentyOne(loss - matrix @ stated, matrix, parameters)
+    every = [found.loss(pair) for pair in Pair]
+    shear = np.sum([_mean_power(at, one.count * one.viscous) for one in every], axis=0)
+    return EqTwentyOne(loss - matrix @ stated, matrix, shear, parameters)
 
 
 def measured_losses(points: BenchPoints, observations: Observations) -> Observations:
@@ -184,7 +192,7 @@ def _fit(
 ) -> EqFit:
     own = readings.without(~rows)
     used = own.measured[:, 0]
-    posterior = maximum_posterior(eq, own)
+    posterior = maximum_posterior(eq, own, _bounded_start(eq, own))
     values = np.linalg.svd(posterior.slopes, compute_uv=False)
     matrix = eq.columns[used]
     printed = np.linalg.lstsq(matrix, own.values[used, 0] - eq.rest[used], rcond=0.0)[0]
@@ -192,6 +200,21 @@ def _fit(
     condition = float(sizes[0] / sizes[-1]) if len(matrix) >= matrix.shape[1] else np.inf
     rank, known = int(np.sum(sizes > RANK_NOISE * sizes[0])), int(np.sum(values > 1.0))
     return EqFit(speed, ratio, int(used.sum()), posterior, rank, known, printed, condition)
+
+
+def _bounded_start(eq: EqTwentyOne, readings: Observations) -> Array:
+    """The peak's xi (k,) by a trust region within the bounds: where several bite, steps from 0 get stuck."""
+    from scipy.optimize import least_squares
+
+    low, high = (np.array([getattr(one, end) for one in eq.parameters]) for end in ("lowest", "highest"))
+    used, sigma = readings.measured[:, 0], readings.sigma[:, 0]
+
+    def left(xi: Array) -> Array:
+        missed = (readings.values[:, 0] - eq.predict(values_at(eq.parameters, xi))[:, 0]) / sigma
+        return np.concatenate([missed[used], xi])
+
+    found = least_squares(left, np.zeros(len(low)), bounds=(low, high), x_scale="jac")
+    return np.asarray(found.x)
 
 
 _CHANNELS = (ChannelName.Q_OUT, ChannelName.Q_IN, ChannelName.Q_CASE, ChannelName.TORQUE)

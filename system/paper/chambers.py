@@ -28,14 +28,25 @@ def fig10(points: PaperPoints) -> FigureResult:
         Curve(name, ANGLES, opening_area(port, ANGLES))
         for name, port in (("suction", suction), ("delivery", delivery))
     )
-    panel = Panel("Flow area of the ports", PanelKind.LINES, _ANGLE, Axis("area", Unit.AREA), curves)
+    area = Axis("area", Unit.AREA)
+    panels = (
+        Panel("Flow area of the ports", PanelKind.LINES, _ANGLE, area, curves),
+        Panel("Relief groove of the delivery", PanelKind.LINES, _ANGLE, area, (_groove(delivery),)),
+    )
     count = float(sections(suction) + sections(delivery))
     rise = groove_share(pump, points.at(RATED, PRESSURES[-1], FULL))
     judged = (
         judge(CLAIMS["fig10.sections"], Range(count, count)),
         judge(CLAIMS["fig10.groove"], Range(rise, rise)),
     )
-    return FigureResult(Figure.FIG10, (panel,), judged, ("The areas are geometry, the same in every fidelity.",))
+    return FigureResult(Figure.FIG10, panels, judged, ("The areas are geometry, the same in every fidelity.",))
+
+
+def _groove(port: PortOpening) -> Curve:
+    """The port's area until its kidney has begun to open."""
+    length = port.kidney_start - port.opens
+    angles = port.dead_centre + np.linspace(port.opens - 0.5 * length, port.kidney_start + 0.1 * length, 161)
+    return Curve("delivery", angles, opening_area(port, angles))
 
 
 def sections(port: PortOpening) -> int:
@@ -63,19 +74,20 @@ def fig11(points: PaperPoints) -> FigureResult:
               np.array(one.chamber_pressure))
         for one in (low, high)
     )  # fmt: skip
-    inside = [_within(curve) for curve in curves[:1]]
     panels = (
         Panel("Chamber pressure over a turn", PanelKind.LINES, _ANGLE, Axis("pressure", Unit.PRESSURE), curves),
-        Panel("Pre-relief transition at 5 MPa", PanelKind.LINES, _ANGLE, Axis("pressure", Unit.PRESSURE),
-              (inside[0],)),
+        Panel("Pre-relief transition", PanelKind.LINES, _ANGLE,
+              Axis("pressure over delivery pressure", Unit.SHARE), tuple(map(_transition, (low, high)))),
     )  # fmt: skip
     judged = (_impact("fig11.small", low, rated), _impact("fig11.none", high, rated))
     return FigureResult(Figure.FIG11, panels, judged, tuple(_trapped(one) for one in (low, high)))
 
 
-def _within(curve: Curve) -> Curve:
-    inside = (curve.x >= BEFORE) & (curve.x <= AFTER)
-    return Curve(curve.name, curve.x[inside], curve.y[inside])
+def _transition(point: PaperPoint) -> Curve:
+    """Chamber pressure over the delivery pressure where delivery begins."""
+    angle, pressure = np.array(point.shaft_angle), np.array(point.chamber_pressure)
+    inside, delivery = (angle >= BEFORE) & (angle <= AFTER), point.bench.delivery_pressure
+    return Curve(f"{Unit.PRESSURE.factor * delivery:.0f} MPa", angle[inside], pressure[inside] / delivery)
 
 
 def _impact(claim: str, point: PaperPoint, rated: float) -> Judged:

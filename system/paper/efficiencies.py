@@ -10,7 +10,7 @@ import numpy as np
 from system.bench import LossSplit, paper_efficiency
 from system.description import PumpDescription
 from system.paper.figures import Axis, Curve, Field, Figure, Panel, PanelKind, Unit
-from system.paper.judge import FigureResult, Impossibility, Judged, Range, judge, range_of
+from system.paper.judge import FigureResult, Judged, Range, judge, range_of
 from system.paper.points import (
     FULL,
     PRESSURES,
@@ -39,7 +39,8 @@ def fig2(points: PaperPoints) -> FigureResult:
         panels.append(
             Panel(
                 f"Overall efficiency, Eq. (3), rated speed, {reading.value}", PanelKind.FIELD,
-                Axis("displacement", Unit.SHARE), Axis("delivery pressure", Unit.PRESSURE), field=field,
+                Axis("displacement", Unit.SHARE), Axis("delivery pressure", Unit.PRESSURE),
+                (_best_point(field),), field,
             )
         )  # fmt: skip
         values, best = field.values, float(field.values.max())
@@ -64,6 +65,7 @@ def fig3(points: PaperPoints) -> FigureResult:
          np.array([near_zero(points.pump), *PRESSURES]), case_two(points)),
     )  # fmt: skip
     panels = [panel for words, x, at, own in cases for panel in _case_panels(words, x, at, own)]
+    panels += _rated_panels(case_three(points))
     split = case_three(points).split(Reading.WITH_SHEAR)
     near = Unit.PRESSURE.factor * near_zero(points.pump)
     remarks = (
@@ -104,6 +106,13 @@ def share_with_drain(split: LossSplit, drain: float, fall: float) -> float:
 def _field(points: PaperPoints, reading: Reading) -> Field:
     rows = [[points.at(RATED, p, ratio).overall(reading) for ratio in RATIOS] for p in PRESSURES]
     return Field(Axis("overall efficiency", Unit.SHARE), np.array(RATIOS), np.array(PRESSURES), np.array(rows))
+
+
+def _best_point(field: Field) -> Curve:
+    """Where the best efficiency stands."""
+    row, column = np.unravel_index(int(np.argmax(field.values)), field.values.shape)
+    best = Unit.SHARE.factor * float(field.values[row, column])
+    return Curve(f"best {best:.1f} %", field.x[column : column + 1], field.y[row : row + 1])
 
 
 def _best_reason(points: PaperPoints, best: float, reading: Reading) -> str:
@@ -148,8 +157,7 @@ def _judged_cases(points: PaperPoints, reading: Reading) -> Iterator[Judged]:
         range_of(one.split(reading).hydromechanical_share for one in case)
         for case in (case_one(points), case_two(points))
     )
-    reason, impossible = _laminar(points, reading)
-    yield judge(CLAIMS["fig3.case1"], first, reading=reading, reason=reason, impossible=impossible)
+    yield judge(CLAIMS["fig3.case1"], first, reading=reading, reason=_needed_drain(points, reading))
     yield judge(CLAIMS["fig3.case2"], second, reading=reading, reason=_steady_drain(points, reading))
 
 
@@ -157,31 +165,28 @@ def _falls(point: PaperPoint) -> float:
     return point.bench.delivery_pressure - point.bench.drain_pressure
 
 
-def _laminar(points: PaperPoints, reading: Reading) -> tuple[str, Impossibility]:
-    """What drain Case 1 needs, and what that drain, were it a laminar film's, would leave of Case 2."""
+def _needed_drain(points: PaperPoints, reading: Reading) -> str:
+    """What flow into the case Case 1 needs, and what it would leave of Case 2 by its law of pressure."""
+    expected = CLAIMS["fig3.case1"].expected
     needed = [
         drain_for_share(one.split(reading), share, _falls(one))
         for one in case_one(points)
-        for share in (CLAIMS["fig3.case1"].expected.low, CLAIMS["fig3.case1"].expected.high)
+        for share in (expected.low, expected.high)
     ]
     one, last = case_one(points)[0], case_two(points)[-1]
-    least = drain_for_share(one.split(reading), CLAIMS["fig3.case1"].expected.high, _falls(one))
+    least = drain_for_share(one.split(reading), expected.high, _falls(one))
     rises = _falls(last) / _falls(one)
-    left, orifice = (
+    laminar, orifice = (
         share_with_drain(last.split(reading), least * more, _falls(last)) for more in (rises, rises**0.5)
     )
-    reason = (
-        f"the shares of Case 1 need {Range(min(needed), max(needed)).text(Unit.FLOW)} into the case at 5 MPa "
-        "beside "
-        "the gaps; laminar gaps pass a flow that rises with pressure, and would waste at 35 MPa what Case 2 "
-        "denies "
-        f"(an orifice would leave {100.0 * orifice:.0f} %)"
+    stated = CLAIMS["fig3.case2"].expected.low
+    left = [Range(one, one).text(Unit.SHARE) for one in (laminar, orifice, stated)]
+    passes = "an orifice's" if orifice >= stated else "one that hardly rises with pressure"
+    return (
+        f"it takes {range_of(needed).text(Unit.FLOW)} into the case at 5 MPa beside the gaps' flow; the least of "
+        f"it through laminar gaps would leave {left[0]} at 35 MPa and 13 %, through an orifice {left[1]}, where "
+        f"Case 2 states {left[2]} or more: not a flow of the pump's gaps, but {passes}, as control or flushing"
     )
-    impossible = Impossibility(
-        "share left at 35 MPa and 13 % of displacement by the least such flow through laminar gaps",
-        Unit.SHARE, left, Range(low=CLAIMS["fig3.case2"].expected.low),
-    )  # fmt: skip
-    return reason, impossible
 
 
 def _steady_drain(points: PaperPoints, reading: Reading) -> str:
@@ -191,8 +196,7 @@ def _steady_drain(points: PaperPoints, reading: Reading) -> str:
     first = [share_with_drain(one.split(reading), drain, _falls(one)) for one in case_one(points)]
     return (
         f"{Range(expected.low, expected.low).text(Unit.SHARE)} at 35 MPa need {Unit.FLOW.factor * drain:.1f} "
-        "L/min "
-        f"into the case beside the gaps; the same flow at every pressure would make Case 1 "
+        "L/min into the case beside the gaps; the same flow at every pressure would make Case 1 "
         f"{range_of(first).text(Unit.SHARE)}: control or flushing flow of the bench, which no gap of the pump "
         "shows"
     )
@@ -216,3 +220,22 @@ def _case_panels(words: str, x: Axis, at: np.ndarray, case: tuple[PaperPoint, ..
             Curve("hydro-mechanical, Eq. (2)", at, np.array([one.hydromechanical for one in splits])),
         ),
     )  # fmt: skip
+
+
+def _rated_panels(rated: PaperPoint) -> Iterator[Panel]:
+    """Case 3, one point."""
+    found, split = paper_efficiency(rated.bench), rated.split(Reading.WITH_SHEAR)
+    none = Axis("", Unit.NUMBER)
+    yield Panel(
+        "Case 3: rated point, efficiencies", PanelKind.BARS, none, Axis("efficiency", Unit.SHARE),
+        (_bar("volumetric", found.volumetric), _bar("mechanical", found.hydromechanical),
+         _bar("overall", found.overall)),
+    )  # fmt: skip
+    yield Panel(
+        "Case 3: rated point, losses", PanelKind.BARS, none, Axis("loss", Unit.POWER),
+        (_bar("volumetric", split.volumetric), _bar("hydro-mechanical", split.hydromechanical)),
+    )  # fmt: skip
+
+
+def _bar(name: str, value: float) -> Curve:
+    return Curve(name, np.zeros(1), np.array([value]))

@@ -98,11 +98,12 @@ class Axis:
 
 @dataclass(frozen=True)
 class Curve:
-    """Points (n,) in SI."""
+    """Points (n,) in SI; sigma (n,): how widely each is known, None where it is computed."""
 
     name: str
     x: Array
     y: Array
+    sigma: Array | None = None
 
 
 @dataclass(frozen=True)
@@ -116,18 +117,19 @@ class Field:
 
 
 class PanelKind(Enum):
-    """How it is drawn: as lines, over a logarithmic axis, stacked, to one scale both ways, or as a field."""
+    """As lines, over a logarithmic axis, stacked, to one scale both ways, as a field, or as bars."""
 
     LINES = "lines"
     LOGARITHMIC = "logarithmic"
     STACKED = "stacked"
     TRUE_SCALE = "true scale"
     FIELD = "field"
+    BARS = "bars"
 
 
 @dataclass(frozen=True)
 class Panel:
-    """One picture of a figure."""
+    """One picture of a figure; curves of a field are points marked on it, of bars one bar each."""
 
     title: str
     kind: PanelKind

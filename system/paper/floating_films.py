@@ -132,7 +132,7 @@ def _fig8(pump: PumpDescription, piston: Mapping[str, Any], told: tuple[str, ...
         Panel("Eccentricity of the piston over its clearance", PanelKind.LINES, angle,
               Axis("eccentricity over clearance", Unit.NUMBER), courses),
     )  # fmt: skip
-    mean, over = piston["mean"], float(values.mean() / values.min()) if values.min() > 0.0 else inf
+    mean, over = piston["mean"], float(values.mean() / values.min())
     wider = (
         f"clearance {clearance * 1e6:g} um: what its mean exceeds it by, relieved edges and walls that give way"
     )

@@ -9,10 +9,10 @@ from system.directions import plate_axes
 from system.kinematics import Array, SwashDrive, drive_at_ratio
 from system.lumped import block_spring, full_drive
 from system.multibody.retainer_body import contact_circle, guide_loss
-from system.pairs import ball_guide_coulomb
+from system.pairs import Pair, ball_guide_coulomb
 from system.paper.figures import Axis, Curve, Figure, Panel, PanelKind, Unit
 from system.paper.judge import FigureResult, Range, judge, range_of
-from system.paper.points import FULL, RATED, SPEEDS, PaperPoints
+from system.paper.points import FULL, PRESSURES, RATED, RPM, SPEEDS, PaperPoints, Reading
 from system.paper.statements import CLAIMS
 from system.retainer import BallGuide, RetainerMotion, mean_sliding_speed, relative_locus
 
@@ -70,8 +70,13 @@ def fig19(points: PaperPoints) -> FigureResult:
     x = np.array(SPEEDS)
     curves = (Curve("equation (25), rigid retainer", x, law), Curve("multibody", x, bodies),
               Curve("equation (25), k as printed", x, printed))  # fmt: skip
-    panel = Panel("Loss of ball guide and retainer", PanelKind.LINES, Axis("shaft speed", Unit.SPEED),
-                  Axis("loss", Unit.POWER), curves)  # fmt: skip
+    loss = Axis("loss", Unit.POWER)
+    panels = (
+        Panel("Loss of ball guide and retainer over speed", PanelKind.LINES, Axis("shaft speed", Unit.SPEED), loss,
+              curves),
+        Panel("The pump's own, over pressure", PanelKind.LINES, Axis("delivery pressure", Unit.PRESSURE), loss,
+              _over_pressure(points)),
+    )  # fmt: skip
     apart = bodies / law - 1.0
     tilt = 1.0 / float(np.cos(drive.swash_angle))
     judged = (
@@ -86,7 +91,24 @@ def fig19(points: PaperPoints) -> FigureResult:
         f"At rated speed: law {law[rated]:.1f} W, multibody {bodies[rated]:.1f} W, "
         f"k as printed {printed[rated]:.1f} W."
     )
-    return FigureResult(Figure.FIG19, (panel,), judged, (remark, "Pressure enters none of the three."))
+    return FigureResult(Figure.FIG19, panels, judged, (remark, "Pressure enters none of the three."))
+
+
+def _over_pressure(points: PaperPoints) -> tuple[Curve, ...]:
+    """Loss of the pair in the solved points, speed by speed."""
+    return tuple(
+        Curve(
+            f"{speed / RPM:.0f} r/min",
+            np.array(PRESSURES),
+            np.array(
+                [
+                    one.loss(Pair.BALL_GUIDE_RETAINER, Reading.WITH_SHEAR)
+                    for one in points.over_pressure(speed, FULL)
+                ]
+            ),
+        )
+        for speed in SPEEDS
+    )
 
 
 def ball_guide(pump: PumpDescription) -> BallGuide:

@@ -31,7 +31,7 @@ def pair_words(pair: Pair) -> str:
 def fig16(points: PaperPoints) -> FigureResult:
     """Hydromechanical loss over pressure: sum of the pairs, and Eq. (2) as a bench has it."""
     cases = [points.over_pressure(speed, ratio) for speed, ratio in PRINTED]
-    panels = tuple(_case(*at, row) for at, row in zip(PRINTED, cases, strict=True))
+    panels = tuple(_case(*each) for each in zip("abcdefgh", PRINTED, cases, strict=True))
     judged = []
     for reading in Reading:
         rows = [(_pairs_sum(row, reading), _by_bench(row, reading)) for row in cases]
@@ -47,14 +47,14 @@ def fig16(points: PaperPoints) -> FigureResult:
     ))  # fmt: skip
 
 
-def _case(speed: float, ratio: float, row: Sequence[PaperPoint]) -> Panel:
-    x = np.array(PRESSURES)
+def _case(letter: str, at: tuple[float, float], row: Sequence[PaperPoint]) -> Panel:
+    (speed, ratio), x = at, np.array(PRESSURES)
     curves = tuple(
         Curve(f"{what}, {reading.value}", x, of(row, reading))
         for reading in Reading
         for what, of in (("pairs", _pairs_sum), ("Eq. (2)", _by_bench))
     )
-    words = f"{speed / RPM:.0f} r/min, {100.0 * ratio:.0f} % of displacement"
+    words = f"({letter}) {speed / RPM:.0f} r/min, {100.0 * ratio:.0f} % of displacement"
     return Panel(words, PanelKind.LINES, _PRESSURE, Axis("hydro-mechanical loss", Unit.POWER), curves)
 
 

@@ -188,6 +188,7 @@ def places_of(pump: PumpDescription, figures: Sequence[Figure]) -> tuple[Place, 
     low = (near_zero(pump), *PRESSURES)
     plan = _grid(SPEEDS, PRESSURES, RATIOS[1:])
     needs: dict[Figure, tuple[Place, ...]] = {
+        Figure.TABLE1: _grid((RATED,), (PRESSURES[0], PRESSURES[-1]), (FULL,)),
         Figure.FIG2: _grid((RATED,), PRESSURES, RATIOS),
         Figure.FIG3: (
             *_grid((RATED,), PRESSURES[:1], RATIOS),
@@ -200,6 +201,7 @@ def places_of(pump: PumpDescription, figures: Sequence[Figure]) -> tuple[Place, 
         Figure.FIG16: plan,
         Figure.FIG17: _grid(SPEEDS, PRESSURES, (FULL,)),
         Figure.FIG18: _grid((RATED,), PRESSURES, (FULL,)),
+        Figure.FIG19: _grid(SPEEDS, PRESSURES, (FULL,)),
         Figure.FIG20: _grid((RATED,), PRESSURES[:1], RATIOS),
         Figure.FIG21: _grid((RATED,), PRESSURES, RATIOS[1:2]),
         Figure.FIG22: _grid(SPEEDS, PRESSURES[:1], RATIOS[1:2]),

@@ -7,11 +7,10 @@ from system.lumped import block_spring, full_drive, piston_area
 from system.pairs import Pair
 from system.paper.figures import Figure
 from system.paper.judge import FigureResult, Range, judge
-from system.paper.points import PaperPoints
+from system.paper.points import FULL, PRESSURES, RATED, PaperPoints, Reading
 from system.paper.statements import CLAIMS
 
-_PAIRS = {pair.value for pair in Pair}
-_COEFFICIENT = "a start value in the paper, to be tuned; here the films' shear is counted beside it"
+_PAIRS = {pair.value: pair for pair in Pair}
 
 
 def table1(points: PaperPoints) -> FigureResult:
@@ -33,7 +32,7 @@ def table1(points: PaperPoints) -> FigureResult:
         judge(
             CLAIMS[f"table1.{name}"],
             Range(float(value), float(value)),
-            reason=_COEFFICIENT if name in _PAIRS else "",
+            reason=_holding_shear(points, _PAIRS[name]) if name in _PAIRS else "",
         )
         for name, value in found.items()
     )
@@ -41,3 +40,18 @@ def table1(points: PaperPoints) -> FigureResult:
         "The table itself is lost: every number that its text does not state is an assumption of the pump file."
     )
     return FigureResult(Figure.TABLE1, (), judged, (remark,))
+
+
+def _holding_shear(points: PaperPoints, pair: Pair) -> str:
+    """What a pair's coefficient would be, held the film's shear in it as the paper's do."""
+    told = "a start value in the paper, to be tuned"
+    ends = [points.at(RATED, pressure, FULL) for pressure in (PRESSURES[-1], PRESSURES[0])]
+    mixed, alone = ([one.loss(pair, reading) for one in ends] for reading in (Reading.WITH_SHEAR, Reading.MIXED))
+    if mixed == alone:
+        return told
+    stated = getattr(points.pump.friction, pair.value)
+    held = [stated * both / own for both, own in zip(mixed, alone, strict=True)]
+    return (
+        f"{told}; the film's shear is counted beside it, held in it the coefficient would be {held[0]:.4f} at 35 "
+        f"MPa and {held[1]:.4f} at 5, rated speed and full displacement"
+    )

@@ -6,20 +6,32 @@ import json
 import re
 from pathlib import Path
 
+import numpy as np
 import pytest
 
+from diagnosis.scant_pump import load_known_pump
 from swashfilm.__main__ import main
+from swashfilm.diagnose_run import checked_recording
 from swashfilm.reproduce_files import claim_rows
-from swashfilm.reproduce_run import paper_points
+from swashfilm.reproduce_plots import figure_picture
+from swashfilm.reproduce_run import about, paper_points
+from system.checks import run_checks
+from system.floating_checks import slipper_has_a_wedge
 from system.floating_gaps import FloatingOptions
+from system.kept_points import KeptPoints
 from system.paper.figures import Figure
+from system.paper.floating_films import FLOATING_RATIOS, FloatingWork, floating_figures
+from system.paper.judge import Verdict
+from system.paper.points import PRESSURES, RATED, Place
 from system.paper.reproduce import Means, PaperFidelity, reproduce
 from system.paper.statements import CLAIMS
 from system.pump_file import load_pump
 from system.side_by_side import HERE
+from system.work import Outcome, Status
 
 ROOT = Path(__file__).parents[2]
 PAGE = ROOT / "docs" / "reproduction.md"
+EXAMPLE = ROOT / "examples" / "recordings" / "paper_points"
 FLOATING = {claim.id for claim in CLAIMS.values() if claim.figure in (Figure.FIG8, Figure.FIG9)}
 
 
@@ -70,9 +82,69 @@ def test_what_means_nothing_in_a_fidelity_says_so(tmp_path):
     assert "floating" in summary["figures"][0]["remarks"][0]
 
 
+def test_a_pump_that_is_not_the_papers_is_told_so(tmp_path, capsys):
+    pump, folder, page = ROOT / "examples" / "pumps" / "ref90_worn.toml", tmp_path / "run", tmp_path / "page.md"
+    assert main(["reproduce", "fig15", "--pump", str(pump), "-o", str(folder), "--page", str(page)]) == 0
+    assert "of the paper's own pump" in capsys.readouterr().out
+    assert f"--pump {pump}" in page.read_text("utf-8")
+    assert "of the paper's own pump" in page.read_text("utf-8")
+    assert about(load_pump("ref90")) == about(load_pump("ref90_floating")) == ""
+
+
+def test_floating_films_are_drawn_from_what_is_kept(tmp_path):
+    """Points kept by content make both figures: a slipper whose film falls, a piston tilted across its bore."""
+    pump, store = load_pump("ref90_floating"), KeptPoints(tmp_path)
+    work = FloatingWork(pump, FloatingOptions())
+    angle = np.linspace(0.0, 2.0 * np.pi, 9)
+    for ratio, film in zip(FLOATING_RATIOS, (9e-6, 8.7e-6, 8.4e-6, 8.2e-6), strict=True):
+        piston = {
+            "mean": 15.2e-6, "least": -1e-6, "contact": 3e3, "angle": angle.tolist(), "shown": 4.7,
+            "eccentricity": [[1.2e-5] * 9, [0.9e-5] * 9],
+            "field": [[0.0, 3.0, 6.0], [0.0, 1.0], [[1e-6, 15e-6, 29e-6], [29e-6, 15e-6, 1e-6]]],
+        }  # fmt: skip
+        record = {"slipper": {"mean": film, "least": 2e-6, "contact": 0.0}, "piston": piston}
+        key = work.key(Place(RATED, PRESSURES[-1], ratio))
+        store.put(Outcome(key, Status.SOLVED, "", record, 1.0, "test"))
+    figures = floating_figures(pump, work.options, store, HERE)
+    verdicts = {one.claim.id: one.verdict for figure in figures for one in figure.judged}
+    assert set(verdicts) == FLOATING
+    assert set(verdicts.values()) == {Verdict.REACHED}
+    for figure in figures:
+        assert figure_picture(figure.panels).startswith(b"\x89PNG")
+    assert "0.80 at the film's inner end" in figures[0].remarks[0]
+    assert not run_checks((slipper_has_a_wedge,), pump).warnings
+
+
+def test_the_example_recording_is_whole():
+    recording = checked_recording(EXAMPLE, load_known_pump("ref90"))
+    assert len(recording.steady.values) == 112
+
+
+@pytest.mark.slow
+def test_coefficients_are_tuned_to_a_recording(tmp_path):
+    """The example's planted coefficients within 4 sigma; one speed and displacement tell 2 or 3 of 7 apart."""
+    folder = tmp_path / "run"
+    assert main(["reproduce", "fig13", "--recording", str(EXAMPLE), "-o", str(folder)]) == 0
+    rows = json.loads((folder / "claims.json").read_text("utf-8"))["claims"]
+    solved = next(row for row in rows if row["id"] == "fig13.solved")
+    assert solved["verdict"] == "contradicted by physics"
+    assert solved["found"][1] < 4.0
+    told = " ".join(json.loads((folder / "summary.json").read_text("utf-8"))["figures"][0]["remarks"])
+    whole = told.split("All 112 points together, with shear", 1)[1]
+    prior = 0.5 * np.log(0.03 / 0.008)
+    planted = {"piston cylinder": 0.030, "slipper swash plate": 0.0070, "valve plate cylinder": 0.013}
+    for name, true in planted.items():
+        found, width = re.search(rf"{name} ([\d.]+) \((\d+) %\)", whole).groups()
+        assert abs(np.log(float(found) / true)) < 4.0 * float(width) / 100.0 * prior
+
+
 @pytest.mark.parametrize(
     ("words", "told"),
     [
+        (["fig2", "--recording", str(EXAMPLE)], "fig13 or all"),
+        (["fig13", "--fidelity", "films", "--recording", str(EXAMPLE)], "--fidelity lumped"),
+        (["fig13", "--recording", "no_such_folder"], "no_such_folder"),
+        (["fig2", "--pump", "ref9"], "ref90"),
         (["fig7"], "a drawing (co-simulation model)"),
         (["fig99"], "'fig99'"),
         (["fig2", "--fidelity", "lumpd"], "lumped"),

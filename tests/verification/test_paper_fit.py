@@ -133,6 +133,39 @@ def test_bounds_hold() -> None:
     assert np.any(np.isclose(fit.values, upper, rtol=1e-6))
 
 
+def test_coefficients_that_hold_the_shear_leave_none_of_it() -> None:
+    """Mixed: the rest is less by the films' shear; a loss made so gives its coefficients back, within 4 sigma."""
+    eq = _eq()
+    assert eq.mixed.rest + eq.shear == pytest.approx(eq.rest)
+    assert eq.shear.min() > 0.0
+    planted = _eq_values() * 1.1
+    loss = eq.mixed.predict(planted)
+    *_, whole = eq_fits(eq.mixed, _loss_readings(loss, 1e-3 * loss), POINTS, PUMP.pump.rated_speed)
+    off = (whole.posterior.values - planted) / [whole.posterior.sigma(one.name) for one in eq.parameters]
+    assert np.abs(off).max() < 4.0
+
+
+def test_bounds_that_bite_do_not_stop_the_fit_where_it_starts() -> None:
+    """The shear held in the coefficients drives several to their bounds: no single change betters the place."""
+    eq = _eq()
+    loss = eq.predict(_eq_values())
+    *_, whole = eq_fits(eq.mixed, _loss_readings(loss, 2e-3 * loss), POINTS, PUMP.pump.rated_speed)
+    xi = whole.posterior.xi
+
+    def objective(at: np.ndarray) -> float:
+        values = np.array([one.value(float(each)) for one, each in zip(eq.parameters, at, strict=True)])
+        missed = (loss - eq.mixed.predict(values))[:, 0] / (2e-3 * loss[:, 0])
+        return float(missed @ missed + at @ at)
+
+    best = objective(xi)
+    assert best < 0.5 * objective(np.zeros(xi.size))
+    for k, one in enumerate(eq.parameters):
+        for step in (-0.02, 0.02):
+            moved = xi.copy()
+            moved[k] = np.clip(moved[k] + step, one.lowest, one.highest)
+            assert objective(moved) > best - 1e-3 * best
+
+
 def test_a_coefficient_far_from_the_papers_keeps_its_tolerance() -> None:
     friction = PUMP.friction.model_copy(update={"piston_cylinder": 0.2, "rear_bearing": 0.0})
     priors, told = paper_priors(PUMP.model_copy(update={"friction": friction}))

@@ -1,0 +1,70 @@
+"""What a bench would read at the paper's test plan, made of solved points, and Eq. (21) of the same points."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from system.bench_points import BenchPoints
+from system.channels import ChannelName
+from system.estimation.observations import Channel, Observations
+from system.pairs import Pair
+from system.paper.points import PRESSURES, RATIOS, SPEEDS, PaperPoint, PaperPoints, Reading
+from system.paper_fit import EqTwentyOne, paper_priors
+
+SEED = 13
+NOISE = {
+    ChannelName.Q_OUT: (0.08 / 6e4, 0.0006),
+    ChannelName.Q_IN: (0.12 / 6e4, 0.001),
+    ChannelName.Q_CASE: (0.015 / 6e4, 0.004),
+    ChannelName.TORQUE: (0.25, 0.0006),
+}
+"""One sigma of a channel, SI: so much, and so much of the reading; the sensors of a good test bench."""
+MADE = "made, not measured"
+PLAN = tuple((speed, pressure, ratio) for ratio in RATIOS[1:] for speed in SPEEDS for pressure in PRESSURES)
+"""The paper's test plan, 112 points."""
+
+
+def made_readings(seen: PaperPoints) -> tuple[BenchPoints, Observations]:
+    """What a bench with sensors of NOISE would read at PLAN; the same at each call."""
+    rows = [seen.at(*place) for place in PLAN]
+    true = np.array([
+        [of.delivery_flow, of.inlet_flow, of.drain_flow, of.shaft_torque] for of in (one.bench for one in rows)
+    ])  # fmt: skip
+    sigma = np.array([one for one, _ in NOISE.values()]) + np.array(
+        [share for _, share in NOISE.values()]
+    ) * np.abs(true)
+    values = true + sigma * np.random.default_rng(SEED).standard_normal(true.shape)
+    channels = tuple(Channel(name.value, name.dimension) for name in NOISE)
+    count = len(rows)
+    readings = Observations(channels, values, sigma, (), np.zeros((count, 0)), np.zeros(4), np.arange(count))
+    return _bench_points(rows, seen), readings
+
+
+def _bench_points(rows: Sequence[PaperPoint], seen: PaperPoints) -> BenchPoints:
+    at, count = seen.pump.operating, len(rows)
+    held = np.full(count, at.temperature)
+    return BenchPoints(
+        speed=np.array([one.bench.shaft_speed for one in rows]),
+        displacement_ratio=np.array([ratio for _, _, ratio in PLAN]),
+        p_out=np.array([one.bench.delivery_pressure for one in rows]),
+        p_in=np.array([one.bench.inlet_pressure for one in rows]),
+        p_case=np.array([one.bench.drain_pressure for one in rows]),
+        T_case=held,
+        T_in=held,
+        hours=np.zeros(count),
+        order=np.arange(count, dtype=float),
+    )
+
+
+def equation_of(model: PaperPoints) -> EqTwentyOne:
+    """Eq. (21) at PLAN: each pair's Coulomb loss at a coefficient of 1, and what Eq. (2) counts besides."""
+    priors, _ = paper_priors(model.pump)
+    rows = [model.at(*place) for place in PLAN]
+    pairs = [Pair(prior.name.rpartition(".")[2]) for prior in priors]
+    stated = np.array([getattr(model.pump.friction, pair.value) for pair in pairs])
+    losses = np.array([[one.coulomb[list(Pair).index(pair)] for pair in pairs] for one in rows])
+    loss = np.array([one.split(Reading.WITH_SHEAR).hydromechanical for one in rows])
+    shear = np.array([sum(one.viscous) for one in rows])
+    return EqTwentyOne(loss - losses.sum(axis=1), losses / stated, shear, priors)
