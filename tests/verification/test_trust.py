@@ -1,0 +1,52 @@
+"""Steps between bounds: the least of a convex model in a box, whichever bounds are active."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from system.estimation.trust import Bounds, Quadratic, bounded_step
+
+
+def _models(count: int):
+    """Models of strongly tied parameters, some of them on a bound already, with boxes of all kinds."""
+    rng = np.random.default_rng(7)
+    for size in rng.integers(2, 30, count):
+        slopes = rng.normal(size=(size + 3, size))
+        slopes[:, 0] += 3.0 * slopes[:, 1]
+        xi = rng.normal(0.0, 0.3, size)
+        room = rng.random(size) * (rng.random(size) < 0.5)
+        lowest = np.where(rng.random(size) < 0.5, np.minimum(xi, 0.0) - room, -np.inf)
+        highest = np.where(rng.random(size) < 0.3, np.maximum(xi, 0.5), np.inf)
+        model = Quadratic(xi, 5.0 * rng.normal(size=size), slopes.T @ slopes + np.eye(size))
+        yield model, Bounds(lowest, highest)
+
+
+def test_a_step_is_the_least_between_the_bounds():
+    """Within, and no push left but out of a bound: Karush, Kuhn and Tucker's conditions, to round-off."""
+    held = 0
+    for model, bounds in _models(300):
+        step = bounded_step(model, bounds, 0.0, np.inf)
+        reached = model.xi + step
+        np.testing.assert_array_less(bounds.lowest - 1e-12, reached)
+        np.testing.assert_array_less(reached, bounds.highest + 1e-12)
+        left = model.gradient - model.precision @ step
+        small = 1e-9 * np.abs(model.gradient).max()
+        assert np.all((left < small) | (reached > bounds.highest - 1e-12))
+        assert np.all((left > -small) | (reached < bounds.lowest + 1e-12))
+        held += int(np.sum(np.abs(left) > small))
+    assert held > 300
+
+
+@pytest.mark.parametrize("damping", [0.0, 0.1, 10.0])
+def test_a_step_never_promises_a_rise(damping):
+    for model, bounds in _models(100):
+        assert model.fall(bounded_step(model, bounds, damping, 0.3)) >= 0.0
+
+
+def test_a_bound_that_is_passed_first_may_be_free_after():
+    """Two tied parameters: alone the second would pass its bound, with the first on its own it does not."""
+    model = Quadratic(np.zeros(2), np.array([3.0, -0.5]), np.array([[2.0, 1.5], [1.5, 2.0]]))
+    bounds = Bounds(np.array([-1.0, -0.5]), np.array([0.2, 1.0]))
+    step = bounded_step(model, bounds, 0.0, np.inf)
+    assert step == pytest.approx([0.2, -0.4])
