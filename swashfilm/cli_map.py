@@ -15,8 +15,7 @@ from system.faults import Fault, InputFaults, nearest_choice
 
 if TYPE_CHECKING:
     from swashfilm.map_run import MapAsked
-    from system.description import PumpDescription
-    from system.map_plan import MapPlan
+    from system.map_plan import MapAxis, MapPlan
     from system.work import Hands
 
 COMMAND_LINE = "command line"
@@ -110,28 +109,29 @@ def _hands(options: argparse.Namespace, asked: MapAsked) -> Iterator[Hands]:
 def _asked(options: argparse.Namespace) -> MapAsked:
     """What a command line means; raises InputFaults with every fault at once."""
     from swashfilm.map_run import MapAsked
+    from system.map_plan import map_plan
     from system.pump_file import load_pump
 
     faults = [*_word_faults(options)]
+    axes = _axes(options, faults)
     expect(options.pump, "pump", "film")
     try:
         pump = load_pump(options.pump)
     except InputFaults as reason:
         raise InputFaults(reason.source, [*faults, *reason.faults], reason.lines) from None
-    plan = _plan(options, pump, faults)
-    if plan is not None:
-        faults += [*plan.checked().faults, *_solver_faults(options, plan)]
-    if faults or plan is None:
+    plan = map_plan(pump, axes)
+    faults += [*plan.checked().faults, *_solver_faults(options, plan)]
+    if faults:
         raise InputFaults(COMMAND_LINE, faults)
     checks = None if options.check is None else int(options.check)
     fidelity = Fidelity(options.fidelity)
     return MapAsked(plan, fidelity, options.table, options.direct, checks, options.resume)
 
 
-def _plan(options: argparse.Namespace, pump: PumpDescription, faults: list[Fault]) -> MapPlan | None:
-    """The plan of the stated axes over those of --plan; None where an axis has a fault."""
+def _axes(options: argparse.Namespace, faults: list[Fault]) -> list[MapAxis]:
+    """The stated axes over those of --plan; what is wrong with any goes to `faults`."""
     from swashfilm.cli_levels import map_axis
-    from system.map_plan import MapInput, map_plan, paper_axes
+    from system.map_plan import MapInput, paper_axes
 
     axes = {axis.input: axis for axis in paper_axes()} if options.plan == "paper" else {}
     for option, (name, example, _) in LEVELS.items():
@@ -143,7 +143,7 @@ def _plan(options: argparse.Namespace, pump: PumpDescription, faults: list[Fault
             faults.append(found)
         else:
             axes[found.input] = found
-    return None if faults else map_plan(pump, list(axes.values()))
+    return list(axes.values())
 
 
 def _word_faults(options: argparse.Namespace) -> Iterator[Fault]:

@@ -19,6 +19,8 @@ from system.units import Dimension
 IN_UNIT = {"opening": ("mm2", 1e6)}
 """Unit in which a column is written, and what makes it of SI; all else are bare numbers."""
 SAME = 1e-5
+PRESSURES = "pressures: static, means over the patches of inlet and outlet"
+"""Where a row's pressure drop was taken: a coefficient means nothing without it."""
 
 
 def port_row(path: Path, case: Path, opening: float, reynolds: float, coefficient: float) -> None:
@@ -50,7 +52,7 @@ def sizes_of(passage: FilmPassage) -> dict[str, float]:
 
 
 def append_row(path: Path, case: Path, heads: Heads, values: Mapping[str, float], key: tuple[str, ...]) -> None:
-    """Add a row of SI values below a comment with its case; a file that is absent gets source and head.
+    """Add a row of SI values below a comment with its case; a file that is absent gets source, pressures and head.
 
     Raises InputFaults for a file of other columns, order or units, and for a row that it has by its `key`.
     """
@@ -58,7 +60,8 @@ def append_row(path: Path, case: Path, heads: Heads, values: Mapping[str, float]
     cells = (f"{values[name] * _unit(heads, name)[1]:.6g}" for name in heads)
     row = f"# case: {case.resolve()}\n{', '.join(cells)}\n"
     if not path.exists():
-        path.write_text(f"# {SOURCE}: OpenFOAM, {case.resolve().name}\n{head}\n{row}", encoding="utf-8")
+        ahead = f"# {SOURCE}: OpenFOAM, {case.resolve().name}\n# {PRESSURES}\n"
+        path.write_text(f"{ahead}{head}\n{row}", encoding="utf-8")
     else:
         found = read_table(path, heads)
         if head not in path.read_text("utf-8-sig").splitlines():

@@ -50,6 +50,9 @@ def read_cycle(path: Path, axes: tuple[MapAxis, ...]) -> Cycle:
         fault = Fault("cycle", f"'{path}', which cannot be read: {reason}", "a CSV file", nearest_path(path))
         raise InputFaults("command line", [fault]) from None
     rows = [(number, cells) for number, cells in enumerate(csv.reader(lines), start=1) if _counts(cells)]
+    if rows and ";" in "".join(rows[0][1]):
+        fault = Fault("head", f"'{','.join(rows[0][1])}'", f"commas between columns: {EXAMPLE}", "decimals as 1.5")
+        raise InputFaults(str(path), [fault])
     if len(rows) < 3:
         raise InputFaults(str(path), [Fault("rows", str(max(0, len(rows) - 1)), f"two at least, under {EXAMPLE}")])
     faults: list[Fault] = []
@@ -86,8 +89,8 @@ def _columns(head: list[str], faults: list[Fault]) -> Iterator[tuple[str, tuple[
         match = _HEAD.fullmatch(cell)
         name = (match[1] if match else cell).strip().replace("_", " ").lower()
         if match is None or name not in known:
-            near = "commas between columns" if ";" in cell else nearest_choice(name, known)
-            faults.append(Fault("head", f"'{cell.strip()}'", EXAMPLE, near))
+            near = nearest_choice(name, known)
+            faults.append(Fault("head", f"'{cell.strip()}'", EXAMPLE, f"{near} [{UNITS[near]}]" if near else ""))
             continue
         if name in named:
             faults.append(Fault(f"head {name}", "twice", "each column once"))
@@ -117,7 +120,7 @@ def _values(
     """Each column in SI; every row has as many cells as the head has columns."""
     uneven = [(number, len(cells)) for number, cells in rows if len(cells) != width]
     if uneven:
-        found = f"{uneven[0][1]} cells, as {len(uneven)} rows" if len(uneven) > 1 else f"{uneven[0][1]} cells"
+        found = f"{uneven[0][1]} cells, so in {len(uneven)} rows" if len(uneven) > 1 else f"{uneven[0][1]} cells"
         remedy = "decimals with a point: 1.5"
         faults.append(Fault(f"line {uneven[0][0]}", found, f"{width}, as many as the head has columns", remedy))
         return

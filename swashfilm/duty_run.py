@@ -29,8 +29,8 @@ FINE = 400
 def run_duty(data: MapData, error: MapError | None, cycle: Cycle, folder: Path) -> dict[str, Any]:
     """Run a cycle by a map and write course.csv, summary.json and report.html; return the summary.
 
-    The error is that of the map's file; without one, what inner levels left out show. Raises FilmInputError for a
-    cycle that leaves the map, InputFaults for a map that is not whole.
+    The error is that of the map's file; without one, what inner levels left out show. Raises InputFaults
+    for a cycle that leaves the map, and for a map that is not whole.
     """
     interpolant = MapInterpolant(data)
     known = error or left_out_error(data)

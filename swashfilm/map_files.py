@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     import xarray
 
 MAP = "map.nc"
+MAP_SUFFIX = ".nc"
 PARTS = ("overall", "volumetric", "hydromechanical")
 ERRORS = ("rms", "largest")
 _DIMENSIONS = {Members.PAIR: "pair", Members.GAP: "gap"}
@@ -118,19 +119,22 @@ def _error_variables(error: MapError | None) -> dict[str, Any]:
 
 def map_file(place: Path) -> Path:
     """The file of a map, by itself or by the run folder it lies in; raises InputFaults where there is none."""
-    if place.is_file() or (place / MAP).is_file():
-        return place / MAP if place.is_dir() else place
-    found = f"'{place}', " + (f"a folder without {MAP}" if place.is_dir() else "no such file or folder")
-    near = _makes_a_map(place) if place.is_dir() else nearest_path(place)
+    if place.suffix == MAP_SUFFIX and place.is_file():
+        return place
+    if (place / MAP).is_file():
+        return place / MAP
+    what = f"a folder without {MAP}" if place.is_dir() else "a file of another kind"
+    found = f"'{place}', {what if place.exists() else 'no such file or folder'}"
+    near = _makes_a_map(place) if place.exists() else nearest_path(place)
     fault = Fault("map", found, f"the run folder of a `swashfilm map`, or its {MAP}", near)
     raise InputFaults("command line", [fault])
 
 
-def _makes_a_map(folder: Path) -> str:
-    """How a folder comes to a map: one that was broken off, or another kind of run of a pump."""
-    if ".partial" in folder.suffixes[-1:] or (folder / POINTS).is_dir():
-        return f"swashfilm map .. --resume {folder} ends it"
-    pump = folder / "resolved.toml"
+def _makes_a_map(place: Path) -> str:
+    """How a map comes of what is there: points of a run that was broken off, another kind of run, a pump file."""
+    if (place / POINTS).is_dir():
+        return f"swashfilm map .. --resume {place} ends it"
+    pump = place if place.suffix == ".toml" else place / "resolved.toml"
     return f"swashfilm map {pump} makes one" if pump.is_file() else ""
 
 

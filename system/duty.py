@@ -9,10 +9,11 @@ import numpy as np
 
 from reynolds.errors import FilmInputError
 from system.efficiencies import EfficiencyDefinition
+from system.faults import Fault, InputFaults
 from system.kinematics import Array
 from system.map_data import LOSSES, MapData
 from system.map_interpolation import MapError, MapInterpolant, inside
-from system.map_plan import MapInput
+from system.map_plan import MapAxis, MapInput
 
 GAUSS_POINTS = 4
 """Places in each stretch of a cycle, Gauss and Legendre's: exact for powers of the seventh degree along it."""
@@ -66,7 +67,7 @@ class Duty:
 
 
 def duty(interpolant: MapInterpolant, cycle: Cycle, error: MapError) -> Duty:
-    """A cycle's energies; raises FilmInputError for a cycle that leaves the map's box, saying where.
+    """A cycle's energies; raises InputFaults for a cycle that leaves the map's box, saying where.
 
     The error of each energy is the largest that the map has shown of that power, over the whole time: it holds
     wherever in the box the cycle stays.
@@ -96,20 +97,21 @@ def duty(interpolant: MapInterpolant, cycle: Cycle, error: MapError) -> Duty:
 
 
 def _hold_inside(data: MapData, cycle: Cycle) -> None:
-    """Raise FilmInputError with each input's first row outside the box; between rows a cycle cannot leave it."""
+    """Raise InputFaults with each input's first row outside the box; between rows a cycle cannot leave it."""
     out = [
         (int(np.argmin(good)), axis)
         for axis in data.axes
         if axis.input in cycle.inputs and not np.all(good := inside(axis, cycle.inputs[axis.input]))
     ]
     if out:
-        found = (
-            f"{axis.input.text(float(cycle.inputs[axis.input][row]))} at {cycle.time[row]:.6g} s"
-            for row, axis in out
-        )
-        box = (f"{axis.input.text(axis.values[0])} .. {axis.input.text(axis.values[-1])}" for _, axis in out)
-        expected = f"{', '.join(box)}, the map's box: nothing is extrapolated"
-        raise FilmInputError(", ".join(axis.input.words for _, axis in out), ", ".join(found), expected)
+        raise InputFaults("cycle", [_beyond(axis, cycle, row) for row, axis in out])
+
+
+def _beyond(axis: MapAxis, cycle: Cycle, row: int) -> Fault:
+    given, ends = axis.input, (axis.values[0], axis.values[-1])
+    found = f"{given.text(float(cycle.inputs[given][row]))} at {cycle.time[row]:.6g} s"
+    box = " .. ".join(dict.fromkeys(map(given.text, ends)))
+    return Fault(given.words, found, f"{box}, the map's box: nothing is extrapolated")
 
 
 def _stretches(cycle: Cycle) -> tuple[dict[MapInput, Array], Array]:

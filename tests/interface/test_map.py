@@ -12,6 +12,7 @@ import xarray
 from swashfilm.__main__ import main
 from swashfilm.cli_levels import map_axis
 from swashfilm.map_files import read_map
+from swashfilm.map_plots import efficiency_levels
 from system import map_point
 from system.errors import NotConverged
 from system.faults import Fault
@@ -73,7 +74,9 @@ def test_a_map_leaves_its_files(run):
     shares = list(csv.reader((run / "shares.csv").open()))
     np.testing.assert_allclose([sum(map(float, row[6:])) for row in shares[1:]], 100.0, atol=0.1)
     page = (run / "report.html").read_text()
-    assert page.count("data:image/png;base64,") == len(list((run / "plots").glob("*.png"))) == 7
+    captions = json.loads((run / "plots" / "map.json").read_text())
+    assert page.count("data:image/png;base64,") == len(captions) == 7
+    assert all((run / "plots" / name).is_file() for name in captions)
     assert "Best point of each definition" in page
     (run / "report.html").unlink()
     assert main(["report", str(run)]) == 0
@@ -177,6 +180,63 @@ def test_what_is_wrong_is_told_before_the_first_point(words, told, tmp_path, cap
     assert not (tmp_path / "run").exists()
 
 
+def test_pump_and_axes_are_told_of_together(tmp_path, capsys):
+    (tmp_path / "bad.toml").write_text('name = "bad"\nformat = 1\n')
+    assert main(["map", str(tmp_path / "bad.toml"), "--speeds", "1000", "--workers", "x"]) == 2
+    error = capsys.readouterr().err
+    assert all(text in error for text in ("--speeds", "--workers", "[pump]")), error
+
+
+@pytest.mark.parametrize(
+    ("build", "told"),
+    [
+        (lambda place: None, "no such file or folder"),
+        (lambda place: place.write_text('name = "pump"'), "swashfilm map"),
+        (lambda place: place.mkdir(), "a folder without map.nc"),
+        (lambda place: (place / "points").mkdir(parents=True), "--resume"),
+        (lambda place: (place.mkdir(), (place / "map.nc").write_text("x")), "what is no map of ours"),
+    ],
+)
+def test_what_is_no_map_is_told(build, told, tmp_path, capsys):
+    place = tmp_path / "pump.toml"
+    build(place)
+    (tmp_path / "cycle.csv").write_text("")
+    assert main(["duty", str(place), str(tmp_path / "cycle.csv"), "-o", str(tmp_path / "d")]) == 2
+    assert told in capsys.readouterr().err
+
+
+def test_both_sides_of_a_comparison_are_told(tmp_path, capsys):
+    assert main(["compare", str(tmp_path), "nowhere"]) == 2
+    error = capsys.readouterr().err
+    assert "A: map" in error
+    assert "B: map or pump" in error
+
+
+def test_solved_points_outlive_an_error(tmp_path, monkeypatch, capsys):
+    def broken(*_):
+        raise ZeroDivisionError("a bug")
+
+    monkeypatch.setattr("swashfilm.map_run.write_tables", broken)
+    words = ["map", "ref90", *SMALL[:2], "--speeds", "1000rpm", *SMALL[4:], "-o", str(tmp_path / "run")]
+    with pytest.raises(ZeroDivisionError):
+        main(words)
+    assert f"--resume {tmp_path / 'run.partial'}" in capsys.readouterr().err
+    assert list((tmp_path / "run.partial" / "points").glob("*.json"))
+
+
+@pytest.mark.parametrize(
+    ("least", "most"), [(44.1, 85.8), (97.3, 99.73), (99.9, 99.9), (0.0, 100.0), (-3.0, 12.0)]
+)
+def test_contours_of_efficiencies_are_close_by_the_best(least, most):
+    levels = efficiency_levels(np.array([least, most]))
+    steps = np.diff(levels)
+    assert levels[0] <= least
+    assert levels[-2] <= most <= levels[-1] + 1e-9
+    assert 2 <= len(levels) <= 14
+    assert np.all(steps[:-1] >= 0.49 * steps[1:])
+    assert steps[0] >= steps[-1] > 0.0
+
+
 def test_duty_and_compare_leave_their_pages(run, tmp_path, capsys):
     cycle = tmp_path / "cycle.csv"
     cycle.write_text(
@@ -219,6 +279,15 @@ def test_duty_and_compare_leave_their_pages(run, tmp_path, capsys):
             "time [s], speed [rpm], pressure [bar], displacement ratio [1]\n0,1500,200,1\n1,1500,500,1\n",
             "50 MPa at 1 s",
         ),
+        (
+            "time [s], speed [rpm], pressure [bar], displacement ratio [1]\n0,-5,200,1\n1,1500,500,1\n",
+            "cycle: 2 faults",
+        ),
+        ("time [s], speed [rpm], pressure [bar], displacement ratio [1]\n0,nan,1,1\n1,1,inf,1\n", "2 faults"),
+        ("time [s];speed [rpm];pressure [bar];displacement ratio [1]\n0;1;1;0,5\n", "commas between columns"),
+        ("time [s], speed [rpm], pressure [bar], displacement ratio [1]\n0,1,1,0,5\n1,1,1,0,5\n", "5 cells"),
+        ("time [s], speed [rpm], speed [rpm], displacement ratio [1]\n0,1,1,1\n1,1,1,1\n", "twice"),
+        ("time, speed, pressure\n0,1,1\n1,1,1\n", "try:      speed [rpm]"),
     ],
 )
 def test_what_is_wrong_with_a_cycle_is_told(run, text, told, tmp_path, capsys):
