@@ -1,0 +1,88 @@
+"""Your own model in the engine that finds what a simulation leaves out: a valve, and a leak beside its orifice.
+
+    python examples/own_simulator/valve.py
+
+    Q = a sqrt(p), or with what is left out Q = a sqrt(p) + b p
+
+A model is whatever has the five members of `system.estimation.simulator.Simulator`. Readings here are made up.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from system.estimation.fit import maximum_posterior
+from system.estimation.observations import Array, Channel, Observations
+from system.estimation.parameters import Parameter, Role, Scale
+
+DROP = np.linspace(1e5, 40e5, 30)  # Pa, at which the flow was read
+SIGMA = 2e-6  # m3/s
+ORIFICE = Parameter("orifice", Role.BASE, Scale.NORMAL, 1e-7, 5e-8, 0.0, 1e-6, None, "drawing")
+LEAK = Parameter("leak", Role.EXTENSION, Scale.HALF, 0.0, 1e-11, 0.0, 1e-9, None, "a worn seat")
+
+
+@dataclass(frozen=True)
+class Valve:
+    """Flow (N, 1) in m3/s through the valve at the pressure drops DROP."""
+
+    parameters: tuple[Parameter, ...] = (ORIFICE,)
+
+    def predict(self, values: Array) -> Array:
+        """The flow; a parameter that the model does not have is nothing."""
+        known = {"leak": 0.0} | {one.name: value for one, value in zip(self.parameters, values, strict=True)}
+        found: Array = (known["orifice"] * np.sqrt(DROP) + known["leak"] * DROP)[:, None]
+        return found
+
+    def slopes(self, values: Array, names: tuple[str, ...]) -> Array:
+        """d flow / d value, (N, 1, k), by differences; they lead a fit and decide nothing."""
+        columns = []
+        for at, one in enumerate(self.parameters):
+            if one.name in names:
+                step = 1e-4 * one.spread
+                moved = np.where(np.arange(values.size) == at, values + step, values)
+                columns.append((self.predict(moved) - self.predict(values)) / step)
+        return np.stack(columns, axis=-1)
+
+    def input_slopes(self, values: Array) -> Array:
+        """(N, 1, 0): pressure drops are known exactly."""
+        return np.zeros((DROP.size, 1, 0))
+
+    def with_parameters(self, parameters: tuple[Parameter, ...]) -> Valve:
+        """The same valve with these parameters, in place of those of their names and beside the others."""
+        given = {one.name: one for one in parameters}
+        kept = tuple(given.pop(one.name, one) for one in self.parameters)
+        return replace(self, parameters=(*kept, *given.values()))
+
+
+def readings(leak: float) -> Observations:
+    """Flows of a valve with a leak in m3/(s Pa), with noise."""
+    flow = 1e-7 * np.sqrt(DROP) + leak * DROP + SIGMA * np.random.default_rng(1).standard_normal(DROP.size)
+    return Observations(
+        channels=(Channel("flow", None),),
+        values=flow[:, None],
+        sigma=np.full((DROP.size, 1), SIGMA),
+        inputs=(),
+        input_sigma=np.zeros((DROP.size, 0)),
+        quantum=np.zeros(1),
+        blocks=np.arange(DROP.size) // 10,
+    )
+
+
+def main(leak: float = 5e-12) -> float:
+    """Print both fits; return by how much the evidence of a leak exceeds that of none, in nats."""
+    seen, evidence = readings(leak), []
+    for valve in (Valve(), Valve().with_parameters((LEAK,))):
+        fit = maximum_posterior(valve, seen)
+        evidence.append(fit.log_evidence)
+        sizes = ", ".join(
+            f"{one.name} {value:.3g} +- {fit.sigma(one.name):.1g}"
+            for one, value in zip(valve.parameters, fit.values, strict=True)
+        )
+        print(f"ln evidence {fit.log_evidence:8.1f}   {sizes}")
+    return evidence[1] - evidence[0]
+
+
+if __name__ == "__main__":
+    main()
