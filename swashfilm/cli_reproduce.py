@@ -67,6 +67,9 @@ def run_reproduce_command(options: argparse.Namespace) -> int:
             _write_page(options.page, markdown_page(folder, _command(options)))
     head = ("statement", "reading", "the paper", "here", "verdict")
     show_table(f"The paper by {asked.pump.name}, {asked.fidelity.value}", [head, *verdict_rows(rows)])
+    for figure in summary["figures"]:
+        if all(row["figure"] != figure["name"] for row in rows):
+            show(f"{figure['name']}: {' '.join(figure['remarks'])}")
     if summary["about"]:
         show(summary["about"])
     show(count_words(rows))

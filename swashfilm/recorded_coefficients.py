@@ -22,6 +22,6 @@ def recorded_fig13(pump: PumpDescription, recording: Recording, report: Report) 
     if not found.equation:
         raise InputFaults(title, [Fault("--recording", "; ".join(found.notes), "what Eq. (2) is made of")])
     count = len(found.points.speed)
-    told = f"Tuned to the recording {title}, {count} points; all else of the pump as it fits them."
-    notes = tuple(f"{note[:1].upper()}{note[1:]}." for note in found.notes)
-    return fig13_of({Reading.WITH_SHEAR: found.equation, Reading.MIXED: found.mixed}, (told, *notes))
+    told = f'Tuned to the recording "{title}", {count} points; all else of the pump as it fits them.'
+    notes = f"What was taken: {'; '.join(found.notes)}."
+    return fig13_of({Reading.WITH_SHEAR: found.equation, Reading.MIXED: found.mixed}, (told, notes))

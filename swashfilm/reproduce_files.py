@@ -27,7 +27,7 @@ def write_reproduction(folder: Path, results: Sequence[FigureResult], summary: R
             (folder / name).mkdir(exist_ok=True)
         _write_curves(folder / DATA / f"{result.figure.value}.csv", result.panels)
         (folder / PLOTS / f"{result.figure.value}.png").write_bytes(figure_picture(result.panels))
-    write_json(folder / "summary.json", summary | {"figures": [_figure_row(result) for result in results]})
+    write_json(folder / "summary.json", summary)
 
 
 def claim_rows(results: Sequence[FigureResult], fidelity: str) -> list[Row]:
@@ -72,7 +72,8 @@ def _ends(of: Range) -> list[float | None]:
     return [end if isfinite(end) else None for end in (of.low, of.high)]
 
 
-def _figure_row(result: FigureResult) -> Row:
+def figure_row(result: FigureResult) -> Row:
+    """A figure as summary.json has it."""
     figure = result.figure
     return {
         "name": figure.value,

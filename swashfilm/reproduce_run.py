@@ -12,7 +12,7 @@ from diagnosis.recording import Recording
 from reynolds.bodies.cache import cache_folder
 from swashfilm.progress import Report
 from swashfilm.recorded_coefficients import recorded_fig13
-from swashfilm.reproduce_files import claim_rows, write_reproduction
+from swashfilm.reproduce_files import claim_rows, figure_row, write_reproduction
 from system.description import PumpDescription
 from system.floating_gaps import FloatingOptions
 from system.kept_points import KeptPoints
@@ -72,6 +72,7 @@ def run_reproduce(asked: ReproduceAsked, hands: Hands, folder: Path, report: Rep
         "about": about(asked.pump),
         "fidelity": asked.fidelity.value,
         "verdicts": _verdicts(results, asked.fidelity),
+        "figures": [figure_row(result) for result in results],
         "drawings": dict(DRAWINGS),
         "seconds": process_time() - began,
         "warnings": [],

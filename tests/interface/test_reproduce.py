@@ -76,8 +76,9 @@ def test_figures_are_listed(capsys):
     assert "co-simulation" in told
 
 
-def test_what_means_nothing_in_a_fidelity_says_so(tmp_path):
+def test_what_means_nothing_in_a_fidelity_says_so(tmp_path, capsys):
     assert main(["reproduce", "fig9", "-o", str(tmp_path / "run")]) == 0
+    assert "only --fidelity floating" in capsys.readouterr().out
     summary = json.loads((tmp_path / "run" / "summary.json").read_text("utf-8"))
     assert "floating" in summary["figures"][0]["remarks"][0]
 
