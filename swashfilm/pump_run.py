@@ -28,6 +28,7 @@ from system.multibody.floating_group import floating_joint_forces
 from system.multibody.rotating_group import JointForces, joint_forces
 from system.operating import operating_point
 from system.pump_file import check_pump, resolved_toml
+from system.table_sources import Source
 
 if TYPE_CHECKING:
     import xarray
@@ -106,7 +107,9 @@ def _run_floating(
 def _run_table(pump: PumpDescription, folder: Path, table: Path | None) -> dict[str, Any]:
     told = told_point(pump, operating_point(pump), table)
     point = told.pump_point
-    warnings = [*_warnings(pump, point), *told_warnings(told)]
+    floats = told.table.origin.source is Source.FLOATING
+    of_lands = losses_left_out(pump) if floats else loss_warnings(pump, point)
+    warnings = [*_warnings(pump, point), *of_lands, *told_warnings(told)]
     summary = pump_summary(pump, point, None, warnings) | told_summary(pump, told)
     _write_point(folder, point_dataset(point, pump.name), point, summary)
     _tell_forces(folder, joint_forces(pump, point), point, summary)

@@ -9,7 +9,7 @@ from gaps.orifice_table import OrificeTable
 from gaps.slipper_motion import Orifice, hagen_poiseuille_conductance, supply
 from reynolds.errors import FilmInputError
 from system.edge_losses import KINETIC, Edge, LandPath, LossCourse, secant_conductance
-from system.land_losses import land_losses, orifice_table
+from system.land_losses import creeping_film_leaks, land_losses, orifice_table, with_inertia
 from system.lumped import lumped_leaks, piston_motion
 from system.lumped_point import lumped_point
 from system.operating import operating_point
@@ -116,6 +116,26 @@ def test_extra_length_is_that_much_land(tmp_path, plain):
     ]
     share = sum(1.0 / (log + more) for log, more in logs) / sum(1.0 / log for log, _ in logs)
     assert found.valve_plate / plain.valve_plate == pytest.approx(share, abs=1e-5)
+
+
+def test_films_that_are_parallel_lose_as_the_lumped_law(tmp_path):
+    """Leaks of a parallel film with edges in series are those of the law whose logarithms have grown."""
+    file = step_file(tmp_path, 0.63, 1.6, -1.4)
+    over = {"slipper.film_thickness": "30 um", "valve_plate.film_thickness": "24 um"}
+    plain, edged = (
+        load_pump("ref90", over | files)
+        for files in ({}, {"slipper.pocket_file": file, "valve_plate.kidney_file": file})
+    )
+    point = operating_point(plain)
+    motion = piston_motion(plain, point)
+    found = creeping_film_leaks(edged, lumped_leaks(plain, point, motion), point.viscosity)
+    law = lumped_leaks(edged, point, motion)
+    assert found.conductance == pytest.approx(law.conductance, rel=1e-6)
+    drop = np.full(motion.shaft_angle.size, 3e7)
+    one, other = (with_inertia(edged, leaks, drop, point.viscosity, bore=True) for leaks in (found, law))
+    assert one.conductance == pytest.approx(other.conductance, rel=1e-6)
+    assert np.all(one.conductance[1:] < 0.999 * law.conductance[1:])
+    assert np.array_equal(one.conductance[0], law.conductance[0])
 
 
 def test_leakage_falls_with_every_loss_and_nothing_is_lost(tmp_path):
