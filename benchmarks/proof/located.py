@@ -10,6 +10,7 @@ from .outcome import Outcome
 
 HALF = 0.5  # of the largest shift: what moves less does not belong to a region
 TURN = 2.0 * pi
+WIDEST = pi / 3.0  # rad, of a window that is told: thresholds.toml
 
 
 def region_overlap(outcome: Outcome) -> float:
@@ -27,8 +28,15 @@ def region_overlap(outcome: Outcome) -> float:
 
 
 def turn_error(outcome: Outcome) -> float:
-    """Degrees from the middle of the window told to the middle of the true one; nan where either is not there."""
+    """Degrees from the middle of the window told to the middle of the true one; nan where either is not there.
+
+    A true window wider than WIDEST, which no told one is, spans two places, as both transitions are that a worn
+    groove moves: to the nearer of its ends.
+    """
     if outcome.turn is None or outcome.true_turn is None:
         return float("nan")
-    told, true = (start + 0.5 * ((end - start) % TURN) for start, end in (outcome.turn, outcome.true_turn))
-    return abs(degrees((told - true + pi) % TURN - pi))
+    start, end = outcome.true_turn
+    breadth = (end - start) % TURN
+    true = (start, end) if breadth > WIDEST else (start + 0.5 * breadth,)
+    told = outcome.turn[0] + 0.5 * ((outcome.turn[1] - outcome.turn[0]) % TURN)
+    return min(abs(degrees((told - one + pi) % TURN - pi)) for one in true)

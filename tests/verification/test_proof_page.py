@@ -134,6 +134,8 @@ def test_an_angle_is_off_across_the_dead_centre(proof: SimpleNamespace, right: o
     found = replace(right, turn=turns[0], true_turn=turns[1])
     assert proof.located.turn_error(found) == pytest.approx(8.0)
     assert proof.located.turn_error(replace(found, turn=turns[1])) == pytest.approx(0.0)
+    both = tuple(math.radians(angle) for angle in (181.0, 2.0))  # two transitions: either is right
+    assert proof.located.turn_error(replace(found, true_turn=both, turn=turns[1])) == pytest.approx(6.0)
 
 
 def test_a_point_is_worth_what_it_settles(proof: SimpleNamespace, right: object) -> None:
