@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import csv
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
+
+import numpy as np
 
 from diagnosis.diagnosis_file import write_diagnosis
 from diagnosis.diagnosis_tables import (
@@ -17,12 +19,14 @@ from diagnosis.diagnosis_tables import (
     steady_rows,
 )
 from diagnosis.recording import DataNote, NoteKind
+from diagnosis.shown import reading
 from diagnosis.study import Study
 from diagnosis.thresholds import Thresholds
 from diagnosis.trace_tables import trace_residual_rows
 from diagnosis.verdict import Diagnosis
 from swashfilm.diagnose_runs import NOTHING, Told
 from swashfilm.run_folder import write_json
+from system.channels import ChannelName
 
 KIND = "diagnosis"
 TRACES = "trace_residuals.csv"
@@ -44,7 +48,7 @@ def write_diagnosis_files(
     write_rows(folder / "steady.csv", steady_rows(study.recording))
     write_rows(folder / "residuals.csv", residual_rows(study, diagnosis, thresholds))
     if study.traces:
-        write_rows(folder / TRACES, trace_residual_rows(study, diagnosis, thresholds))
+        write_rows(folder / TRACES, with_stated(study, trace_residual_rows(study, diagnosis, thresholds)))
     write_rows(folder / "hypotheses.csv", hypothesis_rows(diagnosis))
     write_rows(folder / "parameters.csv", parameter_rows(diagnosis))
     write_rows(folder / "next_points.csv", next_point_rows(diagnosis.next_point))
@@ -55,6 +59,13 @@ def write_diagnosis_files(
     from swashfilm.diagnose_page import write_diagnose_page
 
     write_diagnose_page(folder)
+
+
+def with_stated(study: Study, rows: Iterable[Mapping[str, str]]) -> Iterator[Mapping[str, str]]:
+    """The rows of the traces, in their order, with what the pump as described gives: nothing fitted."""
+    stated = np.concatenate([trace.block.mean - trace.residual for trace in study.traces])
+    for row, pressure in zip(rows, stated, strict=True):
+        yield {**row, "stated [bar]": f"{reading(ChannelName.P_CHAMBER, float(pressure)):.6g}"}
 
 
 def diagnosis_summary(

@@ -10,14 +10,18 @@ from reynolds.mesh import Array
 from swashfilm.figure_png import figure_of, png_of
 
 Row = Mapping[str, str]
-FITS = {"before [bar]": "#b55a00", "after [bar]": "#3c7a8c"}
+FITS = {
+    "stated [bar]": ("#a274ad", "pump as described"),
+    "before [bar]": ("#b55a00", "before: fitted without the finding"),
+    "after [bar]": ("#3c7a8c", "after"),
+}
 NOISE, WINDOW = "#9aa4ab", "#e8d9a0"
 MOST_TRACES = 4
 QUARTERS = np.arange(0, 361, 90)
 
 
 def trace_residuals(rows: Sequence[Row], window: Sequence[float] | None, settings: Mapping[str, str]) -> bytes:
-    """The traces that part most before: recorded pressure, and what it has beyond the simulated one, on one scale.
+    """The traces that part most before: recorded pressure, and what simulated ones lack of it, on one scale.
 
     window: shaft angles in deg between which they stand out; settings: by point, what is written over it.
     """
@@ -33,8 +37,8 @@ def trace_residuals(rows: Sequence[Row], window: Sequence[float] | None, setting
         line[0].set_ylabel("p_chamber / bar", fontsize=8)
         line[0].set_title(settings.get(point, ""), fontsize=8, loc="left")
         line[1].fill_between(angle, -2 * sigma, 2 * sigma, color=NOISE, alpha=0.35, linewidth=0, label="two sigma")
-        for key, colour in FITS.items():
-            line[1].plot(angle, _residual(own, key), color=colour, linewidth=1.2, label=key.split()[0])
+        for key, (colour, label) in FITS.items():
+            line[1].plot(angle, _residual(own, key), color=colour, linewidth=1.2, label=label)
         line[1].set_ylabel("residual / bar", fontsize=8)
         line[1].set_ylim(-1.1 * most, 1.1 * most)
         for axes in line:
@@ -43,7 +47,7 @@ def trace_residuals(rows: Sequence[Row], window: Sequence[float] | None, setting
             axes.set(xlim=(0.0, 360.0), xticks=QUARTERS)
             axes.tick_params(labelsize=8)
             axes.grid(visible=True, alpha=0.3)
-    grid[0, 1].legend(fontsize=8, ncols=3, loc="lower right", bbox_to_anchor=(1.0, 1.0), frameon=False)
+    grid[0, 1].legend(fontsize=8, ncols=4, loc="lower right", bbox_to_anchor=(1.0, 1.0), frameon=False)
     for axes in grid[-1]:
         axes.set_xlabel("shaft angle from the inner dead centre / deg", fontsize=8)
     return png_of(figure)

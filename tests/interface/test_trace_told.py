@@ -8,6 +8,7 @@ import pytest
 from diagnosis.recording import TraceBlock
 from diagnosis.study import TraceMisfit
 from diagnosis.trace_tables import trace_residual_rows
+from swashfilm.diagnose_files import with_stated
 from swashfilm.diagnose_trace_plots import trace_residuals
 
 ANGLE = 2.0 * np.pi * np.arange(72) / 72
@@ -26,7 +27,7 @@ def _rows(points=(4, 9)):
     nothing = SimpleNamespace(
         effects=(), hypotheses=(SimpleNamespace(posterior=None),), before=SimpleNamespace(values=np.zeros(0))
     )
-    return list(trace_residual_rows(study, nothing, None))
+    return list(with_stated(study, trace_residual_rows(study, nothing, None)))
 
 
 def test_each_sample_stands_in_the_table_with_its_pulls():
@@ -36,6 +37,7 @@ def test_each_sample_stands_in_the_table_with_its_pulls():
     for row in rows:
         assert float(row["measured [bar]"]) == pytest.approx(1.2)
         assert (row["before [bar]"], row["after [bar]"], row["sigma [bar]"]) == ("0", "0", "0.4")
+        assert row["stated [bar]"] == "0"
         assert float(row["pull_before"]) == pytest.approx(3.0)
 
 
