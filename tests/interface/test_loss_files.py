@@ -8,8 +8,11 @@ import numpy as np
 import pytest
 
 from swashfilm.cli import run_command
+from swashfilm.losses_told import loss_records, losses_left_out
 from system.faults import InputFaults
+from system.land_losses import land_losses
 from system.loss_files import read_groove_losses, read_step_losses
+from system.lumped_point import lumped_point
 from system.map_point import LumpedSolver, MapWork
 from system.operating import operating_point
 from system.pump_file import check_pump, load_pump, resolved_toml
@@ -133,20 +136,15 @@ def test_a_reference_s_file_is_a_pump_s(tmp_path):
     case.write_text(text, encoding="utf-8")
     assert run_command(["reference", str(case), "-o", str(tmp_path / "step")]) == 0
     losses = tmp_path / "step" / "loss_factor.csv"
-    kept = []
-    for name, given in (("plain", {}), ("edged", {"slipper.pocket_file": str(losses)})):
-        pump = tmp_path / f"{name}.toml"
-        pump.write_text(resolved_toml(load_pump("ref90", given)), encoding="utf-8")
-        assert run_command(["run", str(pump), "--fidelity", "lumped", "-o", str(tmp_path / name)]) == 0
-        kept.append(json.loads((tmp_path / name / "summary.json").read_text("utf-8")))
+    plain, edged = (load_pump("ref90", given) for given in ({}, {"slipper.pocket_file": str(losses)}))
+    before, after = (lumped_point(pump, operating_point(pump)).leakage_flow.slipper for pump in (plain, edged))
     slipper, film = load_pump("ref90").slipper, read_step_losses(losses)
     lengths = film.extra_length * slipper.film_thickness
     more = lengths[0] / slipper.land_inner_radius + lengths[1] / slipper.land_outer_radius
-    fallen = kept[1]["leakage"]["slipper_m3_per_s"] / kept[0]["leakage"]["slipper_m3_per_s"]
     log = slipper.lands.log_ratio
-    # Inertia is a few 1e-5 here: Re is below one.
-    assert fallen == pytest.approx(log / (log + more), abs=1e-4)
-    (told,) = kept[1]["coefficients"]
+    # Inertia is a few 1e-5 here: Re is about one.
+    assert after / before == pytest.approx(log / (log + more), abs=1e-4)
+    (told,) = loss_records(edged)
     assert told["source"].startswith("swashfilm")
 
 
@@ -161,8 +159,6 @@ def test_a_map_s_point_is_another_where_a_file_has_changed(tmp_path):
 
 
 def test_floating_gaps_say_what_they_leave_out(tmp_path):
-    from swashfilm.losses_told import losses_left_out
-
     pump = load_pump("ref90", {"valve_plate.kidney_file": str(steps_of(tmp_path))})
     (told,) = losses_left_out(pump)
     assert told.startswith("losses_left_out: valve_plate.kidney_file")
@@ -170,11 +166,24 @@ def test_floating_gaps_say_what_they_leave_out(tmp_path):
 
 
 def test_single_slippers_files_are_told_at_their_own(tmp_path):
-    from swashfilm.losses_told import loss_records
-
     text = resolved_toml(load_pump("ref90")) + f'[slipper.3]\npocket_file = "{steps_of(tmp_path)}"\n'
     pump = tmp_path / "pump.toml"
     pump.write_text(text, encoding="utf-8")
     (told,) = loss_records(load_pump(pump))
     assert told["key"] == "slipper.3.pocket_file"
     assert np.all([word in told["range"] for word in ("0.05", "20")])
+
+
+def test_a_groove_s_reference_is_a_slipper_s(tmp_path):
+    case = tmp_path / "groove.toml"
+    text = (
+        'format = 1\n[reference]\nkind = "groove"\nfilm_ratio = 3\nwidth_ratio = [1, 3]\nreynolds = 0\ncells = 2\n'
+    )
+    case.write_text(text, encoding="utf-8")
+    assert run_command(["reference", str(case), "-o", str(tmp_path / "groove")]) == 0
+    file = tmp_path / "groove" / "loss_factor.csv"
+    found = read_groove_losses(file)
+    assert found.sizes.tolist() == [[3.0, 1.0], [3.0, 3.0]]
+    over = {"slipper.groove_file": str(file), "slipper.grooves": [["10 mm", "10.01 mm"]]}
+    (edge,) = land_losses(load_pump("ref90", over)).slipper.edges
+    assert edge.extra_length == pytest.approx(found.extra_length[0] + 1.0 / 27.0, rel=1e-5)
