@@ -113,10 +113,9 @@ def _recording_of(options: argparse.Namespace) -> Recording | None:
     """The recording that Fig. 13 is tuned to, checked; raises InputFaults where nothing can be made of it."""
     if options.recording is None:
         return None
-    from diagnosis.scant_pump import load_known_pump
-    from swashfilm.diagnose_run import checked_recording
+    from swashfilm.recorded_coefficients import recording_for_fig13
 
-    return checked_recording(options.recording, load_known_pump(_pump_of(options)))
+    return recording_for_fig13(options.recording, _pump_of(options))
 
 
 def _pump_of(options: argparse.Namespace) -> str:

@@ -2,14 +2,29 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 from diagnosis.recording import Recording
+from diagnosis.scant_pump import load_known_pump
 from swashfilm.calibrate_run import calibrate
+from swashfilm.diagnose_run import checked_recording
 from swashfilm.progress import Report
 from system.description import PumpDescription
 from system.faults import Fault, InputFaults
 from system.paper.coefficients import fig13_of
 from system.paper.judge import FigureResult
 from system.paper.points import Reading
+from system.paper_fit import LOSS_CHANNELS
+
+
+def recording_for_fig13(path: Path, pump: str) -> Recording:
+    """The recording of a path, checked against a pump by name or file; raises InputFaults where it will not do."""
+    recording = checked_recording(path, load_known_pump(pump))
+    missing = [one.value for one in LOSS_CHANNELS if recording.channel(one) is None]
+    if missing:
+        needed = f"{', '.join(one.value for one in LOSS_CHANNELS)}: Eq. (2) is made of them"
+        raise InputFaults(str(path), [Fault("[channel]", f"no {', '.join(missing)}", needed)])
+    return recording
 
 
 def recorded_fig13(pump: PumpDescription, recording: Recording, report: Report) -> FigureResult:

@@ -38,6 +38,8 @@ RANGES: Mapping[Pair, tuple[float, float]] = {
     Pair.REAR_BEARING: _BEARINGS,
 }
 """The paper's reasonable ranges of the friction coefficients."""
+LOSS_CHANNELS = (ChannelName.Q_OUT, ChannelName.Q_IN, ChannelName.Q_CASE, ChannelName.TORQUE)
+"""What Eq. (2) is made of, beside speed and pressures."""
 RANK_NOISE = 1e-3  # of the loss: no bench is better
 BEYOND = 2.0  # times the range's ends: no coefficient is looked for farther away
 
@@ -115,7 +117,7 @@ def eq_twenty_one(bench: LumpedBench, values: Array, parameters: tuple[Parameter
         columns.append(power / getattr(friction, pair.value))
     matrix = np.stack(columns, axis=-1)
     stated = np.array([getattr(friction, parameter.name.rpartition(".")[2]) for parameter in parameters])
-    loss = _hydromechanical(bench.points, {name: simulated[:, n] for n, name in enumerate(_CHANNELS)})
+    loss = _hydromechanical(bench.points, {name: simulated[:, n] for n, name in enumerate(LOSS_CHANNELS)})
     every = [found.loss(pair) for pair in Pair]
     shear = np.sum([_mean_power(at, one.count * one.viscous) for one in every], axis=0)
     return EqTwentyOne(loss - matrix @ stated, matrix, shear, parameters)
@@ -128,13 +130,13 @@ def measured_losses(points: BenchPoints, observations: Observations) -> Observat
     Raises FilmInputError where a flow or the torque was not measured.
     """
     names = [channel.name for channel in observations.channels]
-    missing = [channel.value for channel in _CHANNELS if channel.value not in names]
+    missing = [channel.value for channel in LOSS_CHANNELS if channel.value not in names]
     if missing:
         raise FilmInputError("Eq. (21)", f"no {', '.join(missing)}", "both port flows, the drain and the torque")
-    own = {channel: observations.values[:, names.index(channel.value)] for channel in _CHANNELS}
+    own = {channel: observations.values[:, names.index(channel.value)] for channel in LOSS_CHANNELS}
     loss = _hydromechanical(points, own)
     variance = np.zeros_like(loss)
-    for channel in _CHANNELS:
+    for channel in LOSS_CHANNELS:
         at = names.index(channel.value)
         sigma = np.hypot(observations.sigma[:, at], observations.quantum[at] / np.sqrt(12.0))
         moved = _hydromechanical(points, {**own, channel: own[channel] + sigma})
@@ -215,9 +217,6 @@ def _bounded_start(eq: EqTwentyOne, readings: Observations) -> Array:
 
     found = least_squares(left, np.zeros(len(low)), bounds=(low, high), x_scale="jac")
     return np.asarray(found.x)
-
-
-_CHANNELS = (ChannelName.Q_OUT, ChannelName.Q_IN, ChannelName.Q_CASE, ChannelName.TORQUE)
 
 
 def _hydromechanical(points: BenchPoints, readings: Mapping[ChannelName, Array]) -> Array:

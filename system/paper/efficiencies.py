@@ -23,6 +23,7 @@ from system.paper.points import (
     Reading,
     near_zero,
     paper_point,
+    places_of,
 )
 from system.paper.statements import CLAIMS
 
@@ -33,6 +34,8 @@ LOW = RATIOS[0]
 
 def fig2(points: PaperPoints) -> FigureResult:
     """Overall efficiency by Eq. (3) at rated speed over pressure and displacement."""
+    if idle := _undelivered(points, Figure.FIG2):
+        return FigureResult(Figure.FIG2, remarks=idle)
     panels, judged = [], []
     for reading in Reading:
         field = _field(points, reading)
@@ -56,6 +59,8 @@ def fig2(points: PaperPoints) -> FigureResult:
 
 def fig3(points: PaperPoints) -> FigureResult:
     """Volumetric and hydromechanical efficiency and loss, Eqs. (1), (2), (4), (5), in Cases 1 to 3."""
+    if idle := _undelivered(points, Figure.FIG3):
+        return FigureResult(Figure.FIG3, remarks=idle)
     judged: list[Judged] = []
     for reading in Reading:
         judged += _judged_cases(points, reading)
@@ -75,6 +80,17 @@ def fig3(points: PaperPoints) -> FigureResult:
         f"'Near 0' of Case 2 is taken as {near:.3g} MPa at the delivery port, half a MPa above the inlet's.",
     )
     return FigureResult(Figure.FIG3, tuple(panels), tuple(judged), remarks)
+
+
+def _undelivered(points: PaperPoints, figure: Figure) -> tuple[str, ...]:
+    """Where the pump leaks all that it displaces, so that efficiencies have no value; else nothing."""
+    places = places_of(points.pump, (figure,))
+    idle = [place.text for place in places if points.points[place].bench.delivery_flow <= 0.0]
+    if not idle:
+        return ()
+    return (
+        f"Not made: this pump delivers nothing at {'; '.join(idle)}, and Eqs. (3) to (5) have no value there.",
+    )
 
 
 def case_one(points: PaperPoints) -> tuple[PaperPoint, ...]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import re
+import shutil
 from pathlib import Path
 
 import numpy as np
@@ -119,6 +120,16 @@ def test_floating_films_are_drawn_from_what_is_kept(tmp_path):
 def test_the_example_recording_is_whole():
     recording = checked_recording(EXAMPLE, load_known_pump("ref90"))
     assert len(recording.steady.values) == 112
+
+
+def test_a_recording_that_lacks_what_the_loss_is_made_of_is_refused(tmp_path, capsys):
+    lacking = tmp_path / "lacking"
+    shutil.copytree(EXAMPLE, lacking)
+    head = lacking / "recording.toml"
+    kept = [line for line in head.read_text("utf-8").splitlines() if not line.startswith("torque")]
+    head.write_text("\n".join(kept), encoding="utf-8")
+    assert main(["reproduce", "fig13", "--recording", str(lacking), "-o", str(tmp_path / "run")]) == 2
+    assert "no torque" in capsys.readouterr().err
 
 
 @pytest.mark.slow

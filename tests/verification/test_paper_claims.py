@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from math import inf
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -11,7 +12,7 @@ from reynolds.errors import FilmInputError
 from system.bench import LossSplit
 from system.kept_points import KeptPoints
 from system.pairs import Pair
-from system.paper.efficiencies import drain_for_share, share_with_drain, without_trapped_oil
+from system.paper.efficiencies import drain_for_share, fig2, share_with_drain, without_trapped_oil
 from system.paper.equations import equations
 from system.paper.figures import Figure, Unit
 from system.paper.guide import turned
@@ -22,6 +23,7 @@ from system.paper.statements import CLAIMS
 from system.pump_file import load_pump
 from system.side_by_side import HERE
 
+PUMPS = Path(__file__).parents[2] / "examples" / "pumps"
 REF90 = load_pump("ref90")
 CLAIM = Claim("a", Figure.FIG2, "words", "quantity", Unit.SHARE, Range(0.2, 0.4))
 NEEDED = Impossibility("needed", Unit.NUMBER, 5.0, Range(high=3.0))
@@ -119,6 +121,14 @@ def test_equations_in_print_are_contradicted(tmp_path):
     assert found["equations.8"].found.low == pytest.approx(39.0, rel=0.05)
     assert found["equations.9"].found.low == pytest.approx(0.975, abs=1e-3)
     assert found["equations.9"].found.high == pytest.approx(1.079, abs=1e-3)
+
+
+def test_a_pump_that_delivers_nothing_somewhere_has_no_efficiency_there(tmp_path):
+    """4.6 mL/r at 13 % leak more than they displace: the figure says where, others are made."""
+    points = _points(tmp_path, load_pump(str(PUMPS / "cylindrical_block.toml")), Figure.FIG2)
+    result = fig2(points)
+    assert not result.judged
+    assert "35 MPa, 13 %" in result.remarks[0]
 
 
 def test_later_kidneys_are_a_copy():
