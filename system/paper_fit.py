@@ -20,7 +20,7 @@ from system.estimation.fit import maximum_posterior
 from system.estimation.folds import levels
 from system.estimation.observations import Channel, Observations
 from system.estimation.parameters import Parameter, Role, Scale
-from system.estimation.posterior import Posterior, values_at
+from system.estimation.posterior import Posterior
 from system.kinematics import Array
 from system.pairs import Pair
 from system.units import Dimension
@@ -194,7 +194,7 @@ def _fit(
 ) -> EqFit:
     own = readings.without(~rows)
     used = own.measured[:, 0]
-    posterior = maximum_posterior(eq, own, _bounded_start(eq, own))
+    posterior = maximum_posterior(eq, own)
     values = np.linalg.svd(posterior.slopes, compute_uv=False)
     matrix = eq.columns[used]
     printed = np.linalg.lstsq(matrix, own.values[used, 0] - eq.rest[used], rcond=0.0)[0]
@@ -202,21 +202,6 @@ def _fit(
     condition = float(sizes[0] / sizes[-1]) if len(matrix) >= matrix.shape[1] else np.inf
     rank, known = int(np.sum(sizes > RANK_NOISE * sizes[0])), int(np.sum(values > 1.0))
     return EqFit(speed, ratio, int(used.sum()), posterior, rank, known, printed, condition)
-
-
-def _bounded_start(eq: EqTwentyOne, readings: Observations) -> Array:
-    """The peak's xi (k,) by a trust region within the bounds: where several bite, steps from 0 get stuck."""
-    from scipy.optimize import least_squares
-
-    low, high = (np.array([getattr(one, end) for one in eq.parameters]) for end in ("lowest", "highest"))
-    used, sigma = readings.measured[:, 0], readings.sigma[:, 0]
-
-    def left(xi: Array) -> Array:
-        missed = (readings.values[:, 0] - eq.predict(values_at(eq.parameters, xi))[:, 0]) / sigma
-        return np.concatenate([missed[used], xi])
-
-    found = least_squares(left, np.zeros(len(low)), bounds=(low, high), x_scale="jac")
-    return np.asarray(found.x)
 
 
 def _hydromechanical(points: BenchPoints, readings: Mapping[ChannelName, Array]) -> Array:
