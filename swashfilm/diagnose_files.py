@@ -83,14 +83,7 @@ def diagnosis_summary(
         "points": len(recording.steady.values),
         "channels": [channel.name.value for channel in recording.channels],
         "data_notes": [note_text(note) for note in recording.notes],
-        "assumptions": [
-            *assumptions,
-            *(
-                f"{channel.name.value}: {', '.join(channel.assumed)} not stated by the recording"
-                for channel in recording.channels
-                if channel.assumed
-            ),
-        ],
+        "assumptions": list(assumptions),
         "squared_pulls": {"before": before, "after": after},
         "thresholds_sha256": thresholds.digest,
         "seconds": diagnosis.effort.seconds,

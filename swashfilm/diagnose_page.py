@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import base64
 import json
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from diagnosis.diagnosis_file import read_diagnosis
+from reynolds.mesh import Array
 from swashfilm import diagnose_plots
 from swashfilm.diagnose_files import TRACES, read_rows
 from swashfilm.diagnose_runs import HYDRAULIC, SHAFT, WITH, WITHOUT
@@ -22,9 +25,9 @@ FILES = (
 )  # fmt: skip
 TABLES = ("residuals", "hypotheses", "parameters", "next_points", "changes")
 MOST_POINTS = 8
-AXES = {"speed": "speed [rpm]", "pressure": "p_out [bar]", "displacement": "displacement_ratio [1]",
-        "viscosity": "T_case [degC]"}  # fmt: skip
-"""The column that an exponent of a scaling goes over."""
+AXES = ("p_out [bar]", "speed [rpm]", "displacement_ratio [1]", "T_case [degC]")
+FAINT = 0.3  # sigma, rms: what adds less to a channel is not drawn there
+MOST_COURSES = 2
 
 
 def write_diagnose_page(folder: Path) -> Path:
@@ -157,9 +160,8 @@ def _pictures(found: Mapping[str, Any], tables: Mapping[str, Sequence[Mapping[st
     residuals = tables["residuals"]
     held_out = {name: row for name, row in found["fit"]["heldout"].items() if all(row[key] for key in _HELD_OUT)}
     pictures = {"maps": diagnose_plots.residual_maps(residuals)}
-    channel, axis = _course(found, {row["channel"] for row in residuals})
-    if channel is not None and found["effects"] and any(row[axis] for row in residuals):
-        pictures["course"] = diagnose_plots.effect_course(residuals, channel, axis)
+    if courses := strongest_courses(residuals) if found["effects"] else []:
+        pictures["course"] = diagnose_plots.effect_courses(residuals, courses)
     if held_out:
         pictures["held_out"] = diagnose_plots.held_out_bars(held_out)
     if tables["hypotheses"]:
@@ -193,11 +195,27 @@ _SET = (
 )  # fmt: skip
 
 
-def _course(found: Mapping[str, Any], steady: Collection[str]) -> tuple[str | None, str]:
-    """The first channel of steady readings in which it sits, and the axis that its residual grows with most.
+def strongest_courses(residuals: Sequence[Mapping[str, str]]) -> list[tuple[str, str]]:
+    """Channels in which what is claimed adds most in sigma, each with the axis that its size goes with most.
 
     None for what sits in the chamber's traces alone.
     """
-    channel = next((name for name in found["where"]["channels"] if name in steady), None)
-    exponents = (found["scaling"] or {}).get("exponents", {"pressure": 1.0})
-    return channel, AXES[max(exponents, key=lambda name: abs(exponents[name]))]
+    strength, courses = {}, {}
+    for channel in dict.fromkeys(row["channel"] for row in residuals):
+        own = [row for row in residuals if row["channel"] == channel]
+        added = np.array([float(row["added"]) for row in own])
+        strength[channel] = float(np.sqrt(np.mean((added / [float(row["sigma"]) for row in own]) ** 2)))
+        alike = {axis: _alike(own, axis, added) for axis in AXES}
+        courses[channel] = max(alike, key=lambda axis: alike[axis])
+    ranked = sorted((name for name, size in strength.items() if size > FAINT), key=lambda name: -strength[name])
+    return [(channel, courses[channel]) for channel in ranked[:MOST_COURSES]]
+
+
+def _alike(rows: Sequence[Mapping[str, str]], axis: str, added: Array) -> float:
+    """Size of the correlation of what is added with an axis; 0 where that is not known or does not vary."""
+    if not all(row[axis] for row in rows):
+        return 0.0
+    place = np.array([float(row[axis]) for row in rows])
+    if np.ptp(place) == 0.0 or np.ptp(added) == 0.0:
+        return 0.0
+    return abs(float(np.corrcoef(place, added)[0, 1]))

@@ -106,32 +106,24 @@ def pull_changes(rows: Sequence[Row]) -> bytes:
     return png_of(figure)
 
 
-def effect_course(rows: Sequence[Row], channel: str, axis: str) -> bytes:
-    """What the effect adds to a channel over one axis, beside what the simulation without it leaves."""
-    own = [row for row in rows if row["channel"] == channel and row[axis]]
-    place, added = _column(own, axis), _column(own, "added")
-    without = _column(own, "after") - added
+def effect_courses(rows: Sequence[Row], courses: Sequence[tuple[str, str]]) -> bytes:
+    """What is claimed adds to channels, each over an axis, beside what the simulation without it leaves."""
     figure = figure_of(WIDTH, 4.0)
-    axes = figure.subplots()
-    axes.errorbar(
-        place, _column(own, "measured") - without, _column(own, "sigma"), fmt="o", markersize=4, color=BEFORE,
-        markerfacecolor="none", ecolor=NOISE, label="measured less simulated without it", alpha=0.8,
-    )  # fmt: skip
-    axes.plot(
-        place,
-        added,
-        "x",
-        color=AFTER,
-        markeredgewidth=1.8,
-        label="what it adds",
-        zorder=3,
-    )
-    axes.axhline(0.0, color="#1c2328", linewidth=0.8)
-    name, _, unit = axis.partition(" [")
-    axes.set_xlabel(f"{name} / {unit.rstrip(']')}")
-    axes.set_ylabel(f"{channel} / {own[0]['unit'].replace('degC', 'K')}")
-    axes.legend(fontsize=8)
-    axes.grid(visible=True, alpha=0.3)
+    for axes, (channel, axis) in zip(figure.subplots(1, len(courses), squeeze=False)[0], courses, strict=True):
+        own = [row for row in rows if row["channel"] == channel and row[axis]]
+        place, added = _column(own, axis), _column(own, "added")
+        left = _column(own, "measured") - (_column(own, "after") - added)
+        axes.errorbar(
+            place, left, _column(own, "sigma"), fmt="o", markersize=4, color=BEFORE, markerfacecolor="none",
+            ecolor=NOISE, label="measured less simulated without it", alpha=0.8,
+        )  # fmt: skip
+        axes.plot(place, added, "x", color=AFTER, markeredgewidth=1.8, label="what it adds", zorder=3)
+        axes.axhline(0.0, color="#1c2328", linewidth=0.8)
+        name, _, unit = axis.partition(" [")
+        axes.set_xlabel(f"{name} / {unit.rstrip(']')}")
+        axes.set_ylabel(f"{channel} / {own[0]['unit'].replace('degC', 'K')}")
+        axes.grid(visible=True, alpha=0.3)
+    _legend_above(axes)
     return png_of(figure)
 
 

@@ -9,6 +9,7 @@ from diagnosis.recording import TraceBlock
 from diagnosis.study import TraceMisfit
 from diagnosis.trace_tables import trace_residual_rows
 from swashfilm.diagnose_files import with_stated
+from swashfilm.diagnose_page import strongest_courses
 from swashfilm.diagnose_trace_plots import trace_residuals
 
 ANGLE = 2.0 * np.pi * np.arange(72) / 72
@@ -46,3 +47,18 @@ def test_the_picture_shows_the_worst_few():
     png = trace_residuals(rows, (350.0, 5.0), {"3": "point 4: 1000 rpm"})
     assert png.startswith(b"\x89PNG")
     assert len(png) > len(trace_residuals(rows[:72], None, {}))
+
+
+def test_what_is_claimed_is_drawn_where_it_adds_most_and_nowhere_of_a_trace_alone():
+    def rows(drain, torque):
+        place = [(bar, rpm) for bar in (100, 200, 300) for rpm in (1000, 2000)]
+        return [
+            {"channel": name, "p_out [bar]": str(bar), "speed [rpm]": str(rpm), "displacement_ratio [1]": "",
+             "T_case [degC]": "50", "added": str(size), "sigma": "1"}
+            for bar, rpm in place
+            for name, size in (("Q_case", drain * bar / 100), ("torque", torque * rpm / 1000))
+        ]  # fmt: skip
+
+    assert strongest_courses(rows(5.0, -1.0)) == [("Q_case", "p_out [bar]"), ("torque", "speed [rpm]")]
+    assert strongest_courses(rows(0.01, 1.0)) == [("torque", "speed [rpm]")]
+    assert strongest_courses(rows(0.0, 0.0)) == []
