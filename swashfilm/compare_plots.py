@@ -19,6 +19,7 @@ from system.map_compare import Comparison
 from system.map_data import LOSSES
 from system.map_plan import MapInput
 
+INK = "#55616a"
 SHOWN = (EfficiencyDefinition.PAPER, EfficiencyDefinition.ENERGY_RETURNED)
 
 
@@ -46,7 +47,8 @@ def _slices(found: Comparison, piece: Slice) -> bytes:
             contours(axes, found.one, piece, field, levels)
             axes.set_title(f"{words} / %: {definition.label}", fontsize=8)
         apart = other - one
-        contours(row[-1], found.one, piece, apart, difference_levels(shown(found.one, piece, apart)), "RdBu")
+        levels = difference_levels(shown(found.one, piece, apart))
+        contours(row[-1], found.one, piece, apart, levels, colours="RdBu", ink=INK)
         row[-1].set_title(f"B - A / percentage points: {definition.label}", fontsize=8)
     return png_of(figure)
 

@@ -21,7 +21,7 @@ from system.map_plan import MapInput
 
 COURSE = "course.csv"
 ENERGY_HEAD = ("", "energy", "error", "mean power", "of the loss")
-EFFICIENCY_HEAD = ("definition", "mean efficiency", "error", "formula")
+EFFICIENCY_HEAD = ("definition", "mean efficiency", "error", "overall, volumetric")
 FINE = 400
 """Places over time of the course that is written and drawn."""
 
@@ -97,9 +97,14 @@ def marked_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
 
 
 def _write_course(path: Path, interpolant: MapInterpolant, cycle: Cycle) -> None:
-    """Inputs, loss and efficiency over time, evenly and at every row of the cycle."""
-    time = np.union1d(cycle.time, np.linspace(cycle.time[0], cycle.time[-1], FINE))
-    inputs = {given: np.interp(time, cycle.time, values) for given, values in cycle.inputs.items()}
+    """Inputs, loss and efficiency over time, evenly and at every row of the cycle: of a step both."""
+    even = np.setdiff1d(np.linspace(cycle.time[0], cycle.time[-1], FINE), cycle.time)
+    before = np.searchsorted(cycle.time, even)
+    time = np.insert(cycle.time, before, even)
+    inputs = {
+        given: np.insert(values, before, np.interp(even, cycle.time, values))
+        for given, values in cycle.inputs.items()
+    }
     told = interpolant.at(inputs)
     shown = {"time [s]": time}
     for given, values in inputs.items():

@@ -14,7 +14,7 @@ from system.faults import Fault, InputFaults
 
 FILES = ("summary.json", "resolved.toml", MAP)
 CM3 = 1e6
-BEST_HEAD = ("definition", "overall efficiency", "at", "formula")
+BEST_HEAD = ("definition", "overall efficiency", "at", "overall, volumetric")
 DISPLACEMENT_HEAD = ("displacement ratio", "geometric", "swept", "by Toet (ISO 8426-1)")
 ERROR_HEAD = ("number", "rms", "largest", "of the map's largest")
 _SHOWN = {"W": (1e-3, "kW"), "Nm": (1.0, "N m"), "m3_per_s": (6e4, "L/min")}

@@ -66,7 +66,11 @@ def map_plots(data: MapData) -> dict[str, bytes]:
     if data.shape[pressure] > 1:
         held = _held(data)
         words = held_words(data, Slice(pressure, pressure, held))
-        found[f"Where the shaft power goes beside the oil delivered, over pressure {words}"] = _shares(data, held)
+        below = [name for name, loss in data.losses.items() if np.any(loss[_over_pressure(held, pressure)] < 0.0)]
+        left = f"; gains somewhere, and left out there: {', '.join(below)}" if below else ""
+        found[f"Where the shaft power goes beside the oil delivered, over pressure {words}{left}"] = _shares(
+            data, held
+        )
     return found
 
 
@@ -156,7 +160,7 @@ def _losses(data: MapData, piece: Slice) -> bytes:
 def _shares(data: MapData, held: tuple[int, ...]) -> bytes:
     """Losses stacked over the pressure: in kW, and as shares of the sum."""
     place = _place(data, MapInput.PRESSURE)
-    index: tuple[Any, ...] = (*held[:place], slice(None), *held[place + 1 :])
+    index = _over_pressure(held, place)
     losses = {words: np.maximum(loss[index], 0.0) for words, loss in data.losses.items()}
     levels, unit = reading_levels(data.axes[place])
     figure = figure_of(11.0, 4.6)
@@ -174,6 +178,10 @@ def _shares(data: MapData, held: tuple[int, ...]) -> bytes:
     return png_of(figure)
 
 
+def _over_pressure(held: tuple[int, ...], place: int) -> tuple[Any, ...]:
+    return (*held[:place], slice(None), *held[place + 1 :])
+
+
 def _panels(figure: Any, count: int) -> Iterator[Any]:
     """Axes in rows of three, none left empty."""
     rows = -(-count // 3)
@@ -182,9 +190,15 @@ def _panels(figure: Any, count: int) -> Iterator[Any]:
 
 
 def contours(
-    axes: Any, data: MapData, piece: Slice, field: Array, levels: Array, colours: str = "viridis"
+    axes: Any,
+    data: MapData,
+    piece: Slice,
+    field: Array,
+    levels: Array,
+    colours: str = "viridis",
+    ink: str = "white",
 ) -> None:
-    """Draw a field of a slice with its solved points, interpolated as the map is, with a colour bar."""
+    """Draw a field of a slice with its solved points, interpolated as the map is: lines in `ink`, a colour bar."""
     from matplotlib.colors import BoundaryNorm
 
     x, y = _grids(data, piece)
@@ -193,7 +207,7 @@ def contours(
     if np.all(np.isfinite(field)):
         places = [*np.meshgrid(*(np.linspace(ends.min(), ends.max(), FINE) for ends in (x, y)))]
     painted = axes.contourf(*places, between, levels=levels, cmap=colours, norm=BoundaryNorm(levels, 256))
-    lines = axes.contour(*places, between, levels=levels, colors="white", linewidths=0.5)
+    lines = axes.contour(*places, between, levels=levels, colors=ink, linewidths=0.5)
     axes.clabel(lines, fontsize=7)
     axes.figure.colorbar(painted, ax=axes, ticks=levels).ax.tick_params(labelsize=7)
     good = np.isfinite(field)

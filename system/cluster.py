@@ -90,9 +90,8 @@ def cluster(address: str) -> Iterator[Cluster]:
     versions than this process, or threads of its own in its libraries.
     """
     if find_spec("distributed") is None:
-        fault = Fault(
-            "--cluster", "no package 'distributed'", "the extra: pip install 'swashfilm[cluster]'", RECIPE
-        )
+        expected = "the extra [cluster]: make install, or pip install '.[cluster]' in the checkout"
+        fault = Fault("--cluster", "no package 'distributed'", expected, RECIPE)
         raise InputFaults("command line", [fault])
     from distributed import Client
 

@@ -41,7 +41,7 @@ class Halves:
 
 def test_without_dask_the_extra_is_named(monkeypatch):
     monkeypatch.setattr("system.cluster.find_spec", lambda name: None)
-    with pytest.raises(InputFaults, match=r"swashfilm\[cluster\]"), cluster("tcp://nowhere:1"):
+    with pytest.raises(InputFaults, match=r"\.\[cluster\]"), cluster("tcp://nowhere:1"):
         pass
 
 

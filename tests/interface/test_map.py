@@ -249,6 +249,9 @@ def test_duty_and_compare_leave_their_pages(run, tmp_path, capsys):
     assert "held by the map: oil temperature in the case 50 degC" in out
     summary = json.loads((tmp_path / "duty" / "summary.json").read_text())
     assert summary["duration_s"] == 20.0
+    course = list(csv.DictReader((tmp_path / "duty" / "course.csv").open()))
+    step = [float(row["delivery pressure [Pa]"]) for row in course if float(row["time [s]"]) == 10.0]
+    assert step == pytest.approx([28e6, 15e6])
     assert summary["energy_J"]["loss"]["error"] < 0.05 * summary["energy_J"]["loss"]["value"]
     assert main(["report", str(tmp_path / "duty")]) == 0
     other = tmp_path / "worn.toml"
