@@ -114,7 +114,7 @@ def test_commands_parse(page):
 def _check_words(words: list[str], known: set[str]) -> None:
     options = build_parser().parse_args(words)
     for name in ("pump", "case", "file"):
-        asked = str(getattr(options, name, "ref90"))
+        asked = str(getattr(options, name, None) or "ref90")
         assert asked in builtin_pumps() or asked in known or (ROOT / asked).is_file(), asked
 
 
