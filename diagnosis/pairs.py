@@ -18,6 +18,7 @@ from system.pump_gap import Gap
 from system.side_by_side import Crew
 
 REFITTED = 2  # of the additions to the best, and of the pairs at the prior mean
+MOST_REFITTED = 4  # where more stand within the gap of a class: what cannot be told apart is told together
 MOST_EFFECTS = 3
 
 
@@ -64,8 +65,7 @@ def _additions(study: Study, best: Weighed, known: Sequence[Weighed], thresholds
             both = together(best.hypothesis, each.hypothesis, thresholds.prior.pair_penalty)
             gain = linear_gain(study, posterior, each.hypothesis, thresholds)
             found.append(Weighed(both, best.log_evidence + gain, True, None, 0.0, 0.0, None))
-    better = [each for each in found if each.log_weight > best.log_weight]
-    return sorted(better, key=_weight, reverse=True)[:REFITTED]
+    return _likeliest([each for each in found if each.log_weight > best.log_weight], thresholds)
 
 
 def _pairs(study: Study, known: Sequence[Weighed], thresholds: Thresholds) -> list[Weighed]:
@@ -81,8 +81,14 @@ def _pairs(study: Study, known: Sequence[Weighed], thresholds: Thresholds) -> li
     least = study.base.log_evidence + max(
         gain + each.hypothesis.log_prior for gain, each in zip(alone, singles, strict=True)
     )
-    better = [each for each in found if each.log_weight > least]
-    return sorted(better, key=_weight, reverse=True)[:REFITTED]
+    return _likeliest([each for each in found if each.log_weight > least], thresholds)
+
+
+def _likeliest(found: Sequence[Weighed], thresholds: Thresholds) -> list[Weighed]:
+    """The first REFITTED, and what stands within the gap of a class behind the first, MOST_REFITTED in all."""
+    ranked = sorted(found, key=_weight, reverse=True)[:MOST_REFITTED]
+    near = [each for each in ranked if ranked[0].log_weight - each.log_weight <= thresholds.name.class_gap]
+    return ranked[: max(REFITTED, len(near))]
 
 
 def _best_member(study: Study, posterior: Posterior, both: Hypothesis, thresholds: Thresholds) -> float:
