@@ -13,6 +13,8 @@ from diagnosis.sensor_checks import copies, noiseless, repeated_rows, stuck, stu
 from diagnosis.unit_checks import implausible
 from system.channels import OUTPUTS, ChannelName
 
+VARIED = 2.0
+"""Of flow over displacement ratio from point to point: more than leakage makes, so that the speed varied."""
 LEAST_CHI2 = 0.2
 """Of chi-square per reading: chance makes less of 20 readings once in twenty thousand recordings."""
 
@@ -24,7 +26,7 @@ def check_recording(recording: Recording, displacement: float | None) -> Recordi
     FAULT: nothing can be made of the recording before it is put right (units, a channel that copies another, no
     noise at all). REMOVED: these readings are not used (outliers, a stuck sensor). TOLD: to be borne in mind.
     """
-    recording = _noted(recording, [*implausible(recording, displacement), *_gaps(recording)])
+    recording = _noted(recording, [*implausible(recording, displacement), *_gaps(recording), *_speed(recording)])
     for find in (stuck, stuck_inputs, repeated_rows, copies, noiseless, outliers):
         recording = _noted(recording, find(recording))
     return recording
@@ -65,6 +67,21 @@ def _noted(recording: Recording, notes: Iterable[DataNote]) -> Recording:
             values[list(note.points), list(ChannelName).index(note.channel)] = np.nan
     steady = replace(recording.steady, values=values)
     return replace(recording, steady=steady, notes=(*recording.notes, *found))
+
+
+def _speed(recording: Recording) -> Iterable[DataNote]:
+    """A recording without its speed is of one speed; a flow that says otherwise is a fault."""
+    if recording.channel(ChannelName.SPEED) is not None or recording.channel(ChannelName.Q_OUT) is None:
+        return
+    ratio = recording.steady.column(ChannelName.DISPLACEMENT_RATIO)
+    flow = recording.steady.column(ChannelName.Q_OUT) / np.where(np.isfinite(ratio), ratio, 1.0)
+    known = flow[np.isfinite(flow) & (flow > 0.0)]
+    if known.size and known.max() > VARIED * known.min():
+        text = (
+            f"speed is not recorded, and Q_out over displacement_ratio varies {known.max() / known.min():.1f} "
+            "times: more than leakage makes. Add the speed, or keep to points of one speed"
+        )
+        yield DataNote(NoteKind.FAULT, ChannelName.SPEED, (), text)
 
 
 def _gaps(recording: Recording) -> Iterable[DataNote]:

@@ -91,6 +91,12 @@ class QuantityError(ValueError):
         super().__init__(f"found {found}, expected {expected}" + (f"; try {nearest}" if nearest else ""))
 
 
+_HABITS = {
+    Dimension.TEMPERATURE: {"C": "degC", "c": "degC", "F": "degF", "deg": "degC"},
+    Dimension.ANGULAR_SPEED: {"U/min": "rpm", "upm": "rpm", "UpM": "rpm", "1/min": "rpm", "min-1": "rpm"},
+    Dimension.VOLUME_FLOW: {"l/m": "L/min", "LPM": "L/min", "l": "L/min"},
+}
+"""What benches write, that is no unit or another one, and what is meant."""
 _QUANTITY = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d{1,3})?)\s*(.*?)\s*")
 _COMMA = re.compile(r"\s*([+-]?\d+),(\d+)(\s*[^\s,.\d].*|)")
 _ANGLE_WORDS = ("radian", "turn", "revolution", "arcminute", "arcsecond", "grade")
@@ -119,11 +125,12 @@ def parse_quantity(text: object, dimension: Dimension) -> float:
     number, unit_text = match[1], match[2]
     if not unit_text:
         raise QuantityError(_shown(text), expected, f"'{number} {_example_unit(dimension)}'")
-    unit = _unit(unit_text)
+    unit, meant = _unit(unit_text), _meant(unit_text, dimension)
+    nearest = f"'{number} {meant}'" if meant else ""
     if unit is None:
-        raise QuantityError(f"{_shown(text)}, a unit that is not known", expected)
+        raise QuantityError(f"{_shown(text)}, a unit that is not known", expected, nearest)
     if not _measures(unit, dimension):
-        raise QuantityError(f"{_shown(text)}, which is not {dimension.noun}", expected)
+        raise QuantityError(f"{_shown(text)}, which is not {dimension.noun}", expected, nearest)
     value = _in_si(number, unit, dimension)
     if value != 0 and not 1 / LARGEST <= abs(value) <= LARGEST:
         raise QuantityError(_shown(text), expected)
@@ -213,14 +220,19 @@ def unit_scale(name: str, dimension: Dimension) -> tuple[float, float]:
 
     Raises QuantityError for a unit that is not known or measures something else.
     """
-    unit = _unit(name)
+    unit, meant = _unit(name), _meant(name, dimension)
+    nearest = f"'{meant}'" if meant else ""
     expected = f"a unit of {dimension.noun}, such as '{_example_unit(dimension)}'"
     if unit is None:
-        raise QuantityError(f"{name!r}, a unit that is not known", expected)
+        raise QuantityError(f"{name!r}, a unit that is not known", expected, nearest)
     if not _measures(unit, dimension):
-        raise QuantityError(f"{name!r}, which is not of {dimension.noun}", expected)
+        raise QuantityError(f"{name!r}, which is not of {dimension.noun}", expected, nearest)
     si = _unit_of(dimension.si_unit)
     return float(unit.factor / si.factor), float(unit.offset / si.factor)
+
+
+def _meant(unit_text: str, dimension: Dimension) -> str:
+    return _HABITS.get(dimension, {}).get(unit_text, "")
 
 
 def _in_si(number: str, unit: _Unit, dimension: Dimension) -> Fraction:

@@ -226,3 +226,27 @@ def test_bench_recordings_tell_nothing(shared):
     for folder in sorted((shared / "recordings" / "bench").glob("open-*")):
         recording = read_recording(folder)
         assert check_recording(recording, DISPLACEMENT).notes == recording.notes, folder.name
+
+
+def _without_speed(recording: Recording) -> Recording:
+    values = recording.steady.values.copy()
+    values[:, COLUMNS[ChannelName.SPEED]] = np.nan
+    channels = tuple(one for one in recording.channels if one.name is not ChannelName.SPEED)
+    return replace(recording, channels=channels, steady=replace(recording.steady, values=values))
+
+
+def test_speeds_that_are_not_recorded_are_a_fault_where_the_flow_shows_them():
+    faults = [text for kind, name, text in _told(_without_speed(_sound())) if kind is NoteKind.FAULT]
+    assert len(faults) == 1
+    assert "Q_out over displacement_ratio varies" in faults[0]
+    assert "Add the speed" in faults[0]
+
+
+def test_one_speed_need_not_be_recorded():
+    sound = _sound()
+    rows = sound.steady.column(ChannelName.SPEED) < 110.0
+    kept = SteadyTable(
+        sound.steady.values[rows], np.arange(rows.sum()), np.full(rows.sum(), np.nan), np.ones(rows.sum())
+    )
+    told = _told(_without_speed(replace(sound, steady=kept)))
+    assert not [text for kind, _, text in told if kind is NoteKind.FAULT]

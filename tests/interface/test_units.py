@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from system.units import Dimension, QuantityError, format_quantity, parse_quantity
+from system.units import Dimension, QuantityError, format_quantity, parse_quantity, unit_scale
 
 SIZES = st.one_of(st.just(0.0), st.floats(1e-29, 1e29), st.floats(-1e29, -1e-29))
 
@@ -89,3 +89,21 @@ def test_rounded_quantities_are_near(dimension, value, digits):
     assert (
         abs(parse_quantity(shown, dimension) - value) <= 0.51 * 10.0 ** (1 - digits) * abs(value - offset) + 1e-300
     )
+
+
+@pytest.mark.parametrize(
+    ("text", "dimension", "meant"),
+    [
+        ("50 C", Dimension.TEMPERATURE, "'50 degC'"),
+        ("2100 U/min", Dimension.ANGULAR_SPEED, "'2100 rpm'"),
+        ("2100 1/min", Dimension.ANGULAR_SPEED, "'2100 rpm'"),
+        ("180 LPM", Dimension.VOLUME_FLOW, "'180 L/min'"),
+    ],
+)
+def test_what_benches_write_is_understood_as_a_hint(text, dimension, meant):
+    with pytest.raises(QuantityError) as caught:
+        parse_quantity(text, dimension)
+    assert caught.value.nearest == meant
+    with pytest.raises(QuantityError) as caught:
+        unit_scale(text.split()[1], dimension)
+    assert caught.value.nearest == f"'{meant.split()[1]}"
