@@ -66,7 +66,8 @@ def of_explanation(study: Study, location: Location, added: Array, thresholds: T
     """The same with channels and region of what an explanation adds to the readings, (N, C) in SI.
 
     A law's free multiplier knows its level only up to what films and zeros take up: whether too much leaks at low
-    pressure or too little at high, only the explanation tells.
+    pressure or too little at high, only the explanation tells. Components are told by steady readings: none are
+    where it adds to traces alone.
     """
     limits = thresholds.locate
     whitening = study.base.whitening
@@ -74,7 +75,8 @@ def of_explanation(study: Study, location: Location, added: Array, thresholds: T
     pattern = added / sigma
     channels = _channels(study, pattern, limits.channel_share)
     region = _region(study, channels[0], pattern, limits.region_share) if channels else None
-    return replace(location, channels=channels, region=region)
+    tie = location.tie if set(channels) & set(study.channels) else ()
+    return replace(location, channels=channels, region=region, tie=tie)
 
 
 def without_explanation(study: Study, location: Location, weighed: Weighed, thresholds: Thresholds) -> Location:

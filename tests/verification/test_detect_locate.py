@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cache
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -13,7 +14,7 @@ from toy_maps import LIMITS, SIGMA, ToySimulator, toy_observations, toy_recordin
 from diagnosis.component_evidence import ComponentGroup
 from diagnosis.contrasts import contrasts, misfit
 from diagnosis.detect import Detection, detect
-from diagnosis.locate import locate
+from diagnosis.locate import Location, locate, of_explanation
 from diagnosis.map_axes import axis_values, inside, scaled_axes
 from diagnosis.multiplicity import family_chance, holm, log_chances
 from diagnosis.noise_memory import noise_memory
@@ -338,3 +339,19 @@ def test_contrasts_are_standard_normal_and_leave_out_what_parameters_take_up() -
 def test_effects_without_a_law_find_their_parameters() -> None:
     assert concerned(EffectId.Q_CASE_OFFSET, _pump().parameters) == ("Q_case.zero",)
     assert concerned(EffectId.CHURNING, _pump().parameters) == ()
+
+
+def test_components_are_not_told_of_traces_alone() -> None:
+    """Two columns, the second of traces: what adds to it alone is no part's flow or torque."""
+    whitening = SimpleNamespace(measured=np.ones((POINTS, 2), dtype=bool), sigma=np.ones((POINTS, 2)))
+    study = SimpleNamespace(
+        base=SimpleNamespace(whitening=whitening),
+        channels=(ChannelName.TORQUE,),
+        shown_channels=(ChannelName.TORQUE, ChannelName.P_CHAMBER),
+        by_shown=lambda sums: sums,
+    )
+    before = Location((ChannelName.TORQUE,), None, (), (), (Component.DISPLACEMENT,), None, None)
+    added = np.tile([0.0, 1.0], (POINTS, 1))
+    found = of_explanation(study, before, added, LIMITS)  # type: ignore[arg-type]
+    assert found.channels == (ChannelName.P_CHAMBER,)
+    assert found.tie == ()
