@@ -131,12 +131,12 @@ def _unknown(weighed: Sequence[Weighed], thresholds: Thresholds) -> Verdict:
 def _objections(
     best: Weighed, members: Sequence[Weighed], weighed: Sequence[Weighed], thresholds: Thresholds
 ) -> tuple[str, ...]:
-    """Why the class may not be named."""
+    """Why the class may not be named. Its members weigh together: the prior of one id is shared by its gaps."""
     limits = thresholds.name
     probability = sum(each.probability for each in weighed if agrees(each, members))
     others = [each for each in weighed if each not in members and not agrees(each, members)]
     rival = max(others, key=_weight)
-    ahead = best.log_weight - rival.log_weight
+    ahead = float(logsumexp([each.log_weight for each in members])) - rival.log_weight
     found = []
     if probability < limits.probability:
         found.append(f"a probability of {probability:.2f} only")
