@@ -133,7 +133,7 @@ def in_true_place() -> None:
     assert middle[1] == pytest.approx(0.0, abs=1e-6)
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_a_film_that_warms_tells_its_temperatures():
     """In table, results, fields and page: between the oil that enters at 50 degC and the hottest place."""
     import meshio
@@ -258,6 +258,7 @@ def test_the_command_line_leaves_physics_out(capsys):
 STUDY = SLIPPER + '[study]\n"pump.slipper.rim_relief.depth" = ["2 um", "3 um"]\n'
 
 
+@pytest.mark.long
 def test_a_study_varies_the_pump_and_goes_on_after_a_break(monkeypatch):
     assert main(["film", str(written(STUDY)), "-o", "out"]) == 0
     found = table("out/study.csv")

@@ -139,7 +139,7 @@ def test_freund_diaphragm(tmp_path, validation):
         )
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_freund_diaphragm_converges(tmp_path):
     """What agrees is no accident of the mesh: a finer one changes less than the reading does."""
     coarse, fine = (_freund(tmp_path, n) for n in (2, 3))

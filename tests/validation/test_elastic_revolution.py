@@ -41,7 +41,7 @@ def slippers() -> tuple[GapRevolution[SlipperSeen], GapRevolution[SlipperSeen]]:
     return rigid, soft
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_elastic_slipper_closes(slippers):
     soft = slippers[1]
     turn = soft.turn
@@ -54,7 +54,7 @@ def test_elastic_slipper_closes(slippers):
         assert np.abs(rest).max() < 1e-3 * np.abs(outer).max()
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_walls_give_way_to_the_pressure(slippers):
     """They open the film on the whole, close it where it is thinnest, and add nothing to the pressure."""
     rigid, soft = (

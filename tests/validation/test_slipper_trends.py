@@ -100,7 +100,7 @@ def assert_falls(values: list[float], least: float) -> None:
         assert after < before * (1.0 - least), values
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_film_falls_with_displacement(validation):
     """Fig. 9's trend at either pressure; neighbours on one mesh differ less than the mesh is off, all alike."""
     ratios = (0.28, 0.51, 0.77, 1.0)
@@ -130,7 +130,7 @@ def test_film_falls_with_displacement(validation):
     )
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_friction_has_a_least_at_a_speed_that_goes_with_pressure(validation):
     """B1: mixed below, viscous above; the least at n_m ~ p/mu, found by a parabola over the logarithm."""
 
@@ -153,7 +153,7 @@ def test_friction_has_a_least_at_a_speed_that_goes_with_pressure(validation):
     )
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_warmth_raises_mixed_friction_and_lowers_viscous(validation):
     """B1: the sign of temperature turns from low speed to high."""
     for speed, sign in ((400.0, 1.0), (2100.0, -1.0)):

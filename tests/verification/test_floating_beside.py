@@ -29,7 +29,7 @@ def asked(options: FloatingOptions = ROUGHLY) -> Driven:
     )
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_a_process_of_its_own_finds_the_same_piston():
     here, told = asked(), []
     parts = floating_parts(here.rotor.pump)

@@ -22,7 +22,7 @@ ROUGHLY = FloatingOptions(
 PUMP = load_pump("ref90_floating", {"operating.pressure": "5 MPa"})
 CLEARANCE = PUMP.piston.radial_clearance
 WORN, WEAR = 2, 2.0  # chamber 3
-pytestmark = pytest.mark.slow
+pytestmark = pytest.mark.long
 
 
 def with_clearance(clearance: float) -> PumpDescription:
@@ -83,7 +83,6 @@ def test_power_is_accounted_for(found):
     assert worn.mass_balance_error < 1e-9
 
 
-@pytest.mark.long
 def test_a_worn_pump_comes_to_its_end():
     """Gaps and chambers agree at rated pressure, the worn piston's wear as measured points beside more clearance.
 
