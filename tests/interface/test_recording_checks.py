@@ -130,24 +130,23 @@ def test_an_effect_at_the_rim_of_the_map_is_no_outlier():
     assert not [note for note in _told(_with("Q_out", starved)) if note[0] is NoteKind.REMOVED]
 
 
-def test_stuck_sensor_is_put_aside():
-    def hold(column):
-        column = column.copy()
-        column[20:27] = column[20]
-        return column
+def _held(column):
+    """Readings of which seven on end are alike."""
+    column = column.copy()
+    column[20:27] = column[20]
+    return column
 
-    removed = [n for n in check_recording(_with("torque", hold), DISPLACEMENT).notes if n.kind is NoteKind.REMOVED]
+
+def test_stuck_sensor_is_put_aside():
+    notes = check_recording(_with("torque", _held), DISPLACEMENT).notes
+    removed = [note for note in notes if note.kind is NoteKind.REMOVED]
     assert removed[0].channel is ChannelName.TORQUE
     assert removed[0].points == tuple(range(20, 27))
 
 
 def test_a_stuck_input_is_put_aside_and_a_set_one_told():
-    def hold(column):
-        column = column.copy()
-        column[20:27] = column[20]
-        return column
-
-    removed = [n for n in check_recording(_with("T_case", hold), DISPLACEMENT).notes if n.kind is NoteKind.REMOVED]
+    notes = check_recording(_with("T_case", _held), DISPLACEMENT).notes
+    removed = [note for note in notes if note.kind is NoteKind.REMOVED]
     assert [(n.channel, n.points) for n in removed] == [(ChannelName.T_CASE, tuple(range(20, 27)))]
     told = _told(_with("p_in", lambda x: 0.0 * x + 2.4e6))
     assert [(kind, channel) for kind, channel, _ in told] == [(NoteKind.TOLD, ChannelName.P_IN)]
