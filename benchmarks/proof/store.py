@@ -14,7 +14,10 @@ from .outcome import Outcome, as_plain, from_plain
 
 HERE = Path(__file__).resolve().parent
 PACKAGES = ("diagnosis", "system", "gaps", "reynolds")
-ASKED = ("diagnosis.ask", "diagnosis.diagnose", "diagnosis.recording_reader", "system.tolerances")
+ASKED = (
+    "diagnosis.ask", "diagnosis.data_checks", "diagnosis.diagnose", "diagnosis.prepare", "diagnosis.readings",
+    "diagnosis.recording_reader", "diagnosis.scant_pump", "system.tolerances",
+)  # fmt: skip
 """Modules that a diagnosis is made of; all that they import counts, too."""
 MAKERS = ("plant", "campaigns.py", "sensors.py", "sizing.py", "recordings.py", "writing.py")
 
@@ -37,11 +40,17 @@ def name_of_folder(folder: Path) -> str:
 
 
 @cache
+def counted() -> frozenset[str]:
+    """The modules that a verdict hangs on."""
+    graph = grimp.build_graph(*PACKAGES)
+    return frozenset(ASKED).union(*(graph.find_upstream_modules(name) for name in ASKED)) - set(PACKAGES)
+
+
+@cache
 def program() -> str:
     """Of what a verdict hangs on, thresholds and pump with it: an outcome made by another one is told as such."""
-    root, graph = HERE.parents[1], grimp.build_graph(*PACKAGES)
-    used = set(ASKED).union(*(graph.find_upstream_modules(name) for name in ASKED))
-    modules = [root.joinpath(*name.split(".")).with_suffix(".py") for name in sorted(used - set(PACKAGES))]
+    root = HERE.parents[1]
+    modules = [root.joinpath(*name.split(".")).with_suffix(".py") for name in sorted(counted())]
     data = [path for name in PACKAGES for path in sorted((root / name).rglob("*.toml"))]
     return _digest([path for path in modules if path.exists()] + data)[:12]
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
@@ -23,6 +24,15 @@ def small(proof: SimpleNamespace) -> Iterator[str]:
     proof.campaigns.campaigns()["few"] = replace(whole, name="few", points=points, traces=(3,))
     yield "few"
     del proof.campaigns.campaigns()["few"]
+
+
+def test_an_outcome_is_of_another_program_once_anything_that_made_it_changes(proof: SimpleNamespace) -> None:
+    """All that a trial imports of the diagnosis and the simulation is counted, laws of the catalogue with it."""
+    counted = proof.store.counted()
+    tree = ast.parse(Path(proof.trial.__file__).read_text("utf-8"))
+    taken = {node.module for node in ast.walk(tree) if isinstance(node, ast.ImportFrom) and not node.level}
+    assert {name for name in taken if name and name.split(".")[0] in proof.store.PACKAGES} <= counted
+    assert {"diagnosis.data_checks", "system.physics.film_laws", "system.bench_map", "reynolds.oil"} <= counted
 
 
 def test_every_part_has_its_cases(proof: SimpleNamespace) -> None:
