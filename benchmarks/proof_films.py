@@ -4,7 +4,7 @@
     python benchmarks/proof_films.py --film-tables        the same with elastic walls as the film solver has them
     python benchmarks/proof_films.py --plant NAME         only this one
     python benchmarks/proof_films.py --write NAME FOLDER  writes its recording, for `swashfilm diagnose`
-    python benchmarks/proof_films.py --make NAME          solves the plant's films anew, half a minute to one
+    python benchmarks/proof_films.py --make NAME          solves the plant's films anew, half a minute to ten
 
 A diagnosis takes 10 to 70 s of process time.
 """
@@ -40,7 +40,7 @@ def main() -> int:
 
 
 def _options() -> argparse.Namespace:
-    names = ("rigid", "viscosity_pressure", "elastic_slipper")
+    names = ("rigid", "viscosity_pressure", "elastic_slipper", "warm")
     reader = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     reader.add_argument("--plant", choices=names, help="only this plant")
     reader.add_argument("--film-tables", action="store_true", help="elastic walls by the film solver's tables")

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.readings import bench_points, measured
+from diagnosis.inputs import bench_points, measured
 from diagnosis.recording import Recording
 from system.bench_points import BenchPoints
 from system.channels import INPUTS, ChannelName

@@ -8,8 +8,9 @@ from math import degrees, isfinite
 from pathlib import Path
 from typing import Any
 
+from diagnosis.bench_units import difference, difference_unit, reading
 from diagnosis.next_point import READINGS, NextPoint
-from diagnosis.shown import difference, difference_unit, last_word, reading
+from diagnosis.shown import last_word
 from diagnosis.verdict import Claim, Diagnosis, Estimate
 from diagnosis.weighed import HeldOut, Weighed
 from diagnosis.words import paragraphs, statement

@@ -9,10 +9,10 @@ from collections.abc import Iterator, Mapping
 
 import numpy as np
 
+from diagnosis.bench_units import channel_unit, difference, reading
 from diagnosis.next_point import NextPoint
 from diagnosis.recording import Recording
 from diagnosis.repair import repair
-from diagnosis.shown import channel_unit, difference, reading
 from diagnosis.study import Study
 from diagnosis.thresholds import Thresholds
 from diagnosis.verdict import Diagnosis

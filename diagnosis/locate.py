@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 
@@ -14,9 +16,9 @@ from diagnosis.component_evidence import (
     missing_pattern,
     tied,
 )
-from diagnosis.contrasts import contrasts
+from diagnosis.contrasts import Contrasts, contrasts
 from diagnosis.map_axes import axis_values
-from diagnosis.regions import Region, densest_region
+from diagnosis.regions import Region, densest_region, strongest_region
 from diagnosis.repair import unexplained_traces
 from diagnosis.study import Study
 from diagnosis.thresholds import Thresholds
@@ -25,6 +27,8 @@ from diagnosis.weighed import Weighed
 from system.channels import ChannelName
 from system.components import Component
 from system.estimation.observations import Array
+
+_Box = Callable[[ChannelName, Contrasts, Array, Mapping[ChannelName, Array]], Region | None]
 
 
 @dataclass(frozen=True)
@@ -51,9 +55,10 @@ def locate(study: Study, thresholds: Thresholds) -> Location:
     tie = tied(ranking, thresholds.name.odds)
     pattern = missing_pattern(study, tie[0], thresholds) if tie else np.zeros(study.observations.values.shape)
     channels = _channels(study, pattern, limits.channel_share)
+    densest = partial(densest_region, share=limits.region_share)
     return Location(
         channels=channels,
-        region=_region(study, channels[0], pattern, limits.region_share) if channels else None,
+        region=_region(study, channels[0], pattern, densest) if channels else None,
         components=ranking,
         groups=group_evidences(ranking),
         tie=tie,
@@ -63,18 +68,17 @@ def locate(study: Study, thresholds: Thresholds) -> Location:
 
 
 def of_explanation(study: Study, location: Location, added: Array, thresholds: Thresholds) -> Location:
-    """The same with channels and region of what an explanation adds to the readings, (N, C) in SI.
+    """The same with channels and strongest region of what an explanation adds to the readings, (N, C) in SI.
 
     A law's free multiplier knows its level only up to what films and zeros take up: whether too much leaks at low
     pressure or too little at high, only the explanation tells. Components are told by steady readings: none are
     where it adds to traces alone.
     """
-    limits = thresholds.locate
     whitening = study.base.whitening
     sigma = np.where(whitening.measured, whitening.sigma, np.inf)
     pattern = added / sigma
-    channels = _channels(study, pattern, limits.channel_share)
-    region = _region(study, channels[0], pattern, limits.region_share) if channels else None
+    channels = _channels(study, pattern, thresholds.locate.channel_share)
+    region = _region(study, channels[0], pattern, strongest_region) if channels else None
     tie = location.tie if set(channels) & set(study.channels) else ()
     return replace(location, channels=channels, region=region, tie=tie)
 
@@ -97,9 +101,9 @@ def _channels(study: Study, pattern: Array, least_share: float) -> tuple[Channel
     return tuple(study.shown_channels[at] for at in order if energy[at] > 0 and energy[at] >= least)
 
 
-def _region(study: Study, channel: ChannelName, pattern: Array, share: float) -> Region | None:
+def _region(study: Study, channel: ChannelName, pattern: Array, box: _Box) -> Region | None:
+    """The box of a pattern (N, C) in a channel; None for what has no place in the map."""
     if channel not in study.channels:
         return None
     at = study.channels.index(channel)
-    axes = axis_values(study.recording)
-    return densest_region(channel, contrasts(study.base, at), pattern[:, at], axes, share)
+    return box(channel, contrasts(study.base, at), pattern[:, at], axis_values(study.recording))

@@ -12,9 +12,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from diagnosis.bench_box import BenchBox
+from diagnosis.bench_units import channel_unit, difference, reading
 from diagnosis.forecast import Contender, Forecast
 from diagnosis.next_point import READINGS, SETTLED
-from diagnosis.shown import PLACES, channel_unit, difference, reading
+from diagnosis.shown import PLACES
 from diagnosis.study import Study
 from system.bench_points import BenchPoints
 from system.channels import ChannelName

@@ -6,9 +6,10 @@ from dataclasses import replace
 
 import numpy as np
 
+from diagnosis.inputs import bench_points, complete, measured, taken_parameters
 from diagnosis.map_axes import scaled_axes
 from diagnosis.noise_memory import noise_memory
-from diagnosis.readings import bench_points, complete, measured, observations
+from diagnosis.readings import observations
 from diagnosis.recording import DataNote, NoteKind, Recording
 from diagnosis.study import Study, study_of
 from diagnosis.thresholds import Thresholds
@@ -54,7 +55,10 @@ def prepare(
         if name not in SIMULATED
     )
     usable = replace(usable, notes=(*usable.notes, *taken, *unused))
-    parameters = (*base_parameters(pump, tolerances), *_sensors(usable, channels), *trace_parameters(usable))
+    parameters = (
+        *base_parameters(pump, tolerances), *_sensors(usable, channels), *taken_parameters(usable, pump),
+        *trace_parameters(usable),
+    )  # fmt: skip
     bench = LumpedBench(pump, points, channels, parameters, inputs=inputs)
     found, axes = observations(usable, channels, inputs), scaled_axes(usable)
     traces = usable.channel(ChannelName.P_CHAMBER) if usable.traces else None

@@ -10,9 +10,6 @@ from system.physics.effects import EffectId
 from system.pump_gap import Gap
 from system.units import Dimension, in_unit, reading_unit
 
-BENCH_UNITS = {Dimension.PRESSURE: "bar", Dimension.TEMPERATURE: "degC", Dimension.VOLUME_FLOW: "L/min"}
-"""What a bench reads in, where it is not the usual reading unit."""
-
 MOST_ODDS = 1000000
 """Odds beyond which a number means nothing: models are not that true."""
 
@@ -31,30 +28,6 @@ def channel_words(channel: ChannelName) -> str:
     """A channel in words with its name: "case drain (Q_case)"."""
     words = CHANNELS.get(channel)
     return f"{words} ({channel.value})" if words else channel.value
-
-
-def channel_unit(channel: ChannelName) -> str:
-    """The unit a bench reads a channel in; "1" for a pure number."""
-    dimension = channel.dimension
-    if dimension is None:
-        return "1"
-    return BENCH_UNITS.get(dimension, dimension.reading_units[0])
-
-
-def difference_unit(channel: ChannelName) -> str:
-    """The unit of a difference of two readings: of two temperatures K."""
-    return "K" if channel.dimension is Dimension.TEMPERATURE else channel_unit(channel)
-
-
-def reading(channel: ChannelName, value: float) -> float:
-    """A reading in SI in the unit that the bench reads it in."""
-    dimension = channel.dimension
-    return value if dimension is None else in_unit(value, channel_unit(channel), dimension)
-
-
-def difference(channel: ChannelName, value: float) -> float:
-    """A difference of two readings in SI in its unit."""
-    return reading(channel, value) - reading(channel, 0.0)
 
 
 def estimate_text(estimate: Estimate) -> str:

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from diagnosis.bench_units import channel_unit, difference, reading
 from diagnosis.diagnosis_tables import Row
 from diagnosis.hypotheses import simulator_of
-from diagnosis.shown import channel_unit, difference, reading
 from diagnosis.study import Study
 from diagnosis.thresholds import Thresholds
 from diagnosis.verdict import Diagnosis

@@ -5,23 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 from math import exp
 
+from diagnosis.bench_units import channel_unit, difference, difference_unit, reading
 from diagnosis.growth import FLAT
 from diagnosis.locate import Location
 from diagnosis.next_point import READINGS, NextPoint
-from diagnosis.shown import (
-    CHANNELS,
-    PLACES,
-    chance,
-    channel_unit,
-    channel_words,
-    difference,
-    difference_unit,
-    effect_words,
-    estimate_text,
-    listed,
-    odds_text,
-    reading,
-)
+from diagnosis.shown import CHANNELS, PLACES, chance, channel_words, effect_words, estimate_text, listed, odds_text
 from diagnosis.time_scan import TimeKind
 from diagnosis.unknown import Scaling
 from diagnosis.verdict import Claim, Diagnosis, Status

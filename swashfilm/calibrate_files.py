@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from diagnosis.shown import channel_unit, difference, difference_unit, reading
+from diagnosis.bench_units import channel_unit, difference, difference_unit, reading
 from swashfilm.calibrate_run import Calibration
 from swashfilm.diagnose_files import write_rows
 from swashfilm.run_folder import write_json

@@ -8,8 +8,8 @@ from time import process_time
 
 from diagnosis.data_checks import too_few
 from diagnosis.hypotheses import hypotheses
+from diagnosis.inputs import bench_points
 from diagnosis.prepare import prepare
-from diagnosis.readings import bench_points
 from diagnosis.recording import Recording
 from diagnosis.refit import refit
 from diagnosis.study import Study, study_of

@@ -102,8 +102,8 @@ def _channel_rows(recording: Recording) -> Sequence[tuple[str, ...]]:
     """(channel, readings, least to largest, sigma) of all steady channels."""
     import numpy as np
 
+    from diagnosis.bench_units import channel_unit, difference, difference_unit, reading
     from diagnosis.recording import reading_sigma
-    from diagnosis.shown import channel_unit, difference, difference_unit, reading
 
     rows = []
     for channel in recording.channels:

@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from diagnosis.bench_units import reading
 from diagnosis.diagnosis_file import write_diagnosis
 from diagnosis.diagnosis_tables import (
     hypothesis_rows,
@@ -19,7 +20,6 @@ from diagnosis.diagnosis_tables import (
     steady_rows,
 )
 from diagnosis.recording import DataNote, NoteKind
-from diagnosis.shown import reading
 from diagnosis.study import Study
 from diagnosis.thresholds import Thresholds
 from diagnosis.trace_tables import trace_residual_rows

@@ -7,8 +7,8 @@ from pathlib import Path
 from diagnosis.ask import with_next_point
 from diagnosis.data_checks import check_recording, too_few, too_smooth
 from diagnosis.diagnose import diagnose_study
+from diagnosis.inputs import bench_points
 from diagnosis.prepare import prepare
-from diagnosis.readings import bench_points
 from diagnosis.recording import DataNote, NoteKind, Recording
 from diagnosis.recording_reader import read_recording
 from diagnosis.scant_pump import KnownPump, load_known_pump

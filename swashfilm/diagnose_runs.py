@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from diagnosis.diagnosis_tables import Row, added_by_claim
-from diagnosis.readings import bench_points
+from diagnosis.inputs import bench_points
 from diagnosis.study import Study
 from diagnosis.thresholds import Thresholds
 from diagnosis.verdict import Diagnosis

@@ -10,15 +10,16 @@ from typing import Protocol
 import numpy as np
 
 from system.bench_points import BenchPoints
-from system.channels import OUTPUTS, ChannelName
+from system.channels import INPUTS, OUTPUTS, ChannelName
 from system.estimation.parameters import Parameter, Role, Scale
 from system.kinematics import Array
 from system.ports import TURN
 from system.units import Dimension
 
 BIASED_INPUTS = (ChannelName.P_OUT, ChannelName.T_CASE, ChannelName.DISPLACEMENT_RATIO)
-"""Inputs of which a bias is told apart from others'; their place in `BenchPoints` is their name."""
-CALIBRATION = "calibration of the channel"
+"""Inputs of which a calibration's bias is told apart from others'."""
+CALIBRATION, TAKEN = "calibration of the channel", "not measured, taken"
+FARTHEST = 4.0  # sigma that what is taken may be off
 ENCODER_OFFSET = "encoder_offset"
 CHAMBER_GAIN, CHAMBER_ZERO, CHAMBER_LAG = (
     f"{ChannelName.P_CHAMBER.value}.{what}" for what in ("gain", "zero", "lag")
@@ -33,7 +34,7 @@ SENSOR_NAMES = frozenset(
     {
         *TRACE_NAMES,
         *READING_NAMES,
-        *(f"{channel.value}.zero" for channel in BIASED_INPUTS),
+        *(f"{channel.value}.zero" for channel in INPUTS),
     }
 )
 """Names of all parameters of sensors."""
@@ -62,6 +63,11 @@ def sensor_parameters(sensors: Iterable[Sensor]) -> tuple[Parameter, ...]:
         if sensor.name in (*OUTPUTS, *BIASED_INPUTS) and sensor.zero_sigma > 0.0:
             found.append(_bias(sensor.name, "zero", sensor.zero_sigma, sensor.name.dimension, inf))
     return tuple(found)
+
+
+def taken_parameter(channel: ChannelName, sigma: float) -> Parameter:
+    """CHANNEL.zero of an input that was not measured: by how much too high it is taken (SI)."""
+    return replace(_bias(channel, "zero", sigma, channel.dimension, FARTHEST * sigma), source=TAKEN)
 
 
 def drift_parameter(channel: ChannelName, sigma: float) -> Parameter:
@@ -115,9 +121,9 @@ def read_turns(pressure: Array, speed: Array, angles: Array, values: Mapping[str
 
 
 def actual(points: BenchPoints, values: Mapping[str, float]) -> BenchPoints:
-    """The points as they were, by their readings less the zeros of BIASED_INPUTS."""
+    """The points as they were, by their readings less the inputs' zeros."""
     changed = {}
-    for channel in BIASED_INPUTS:
+    for channel in INPUTS:
         zero = values.get(f"{channel.value}.zero", 0.0)
         if zero != 0.0:
             changed[channel.value] = getattr(points, channel.value) - zero

@@ -2,8 +2,8 @@
 
 A point is the films fidelity (`system.films.films_point`): three gaps solved on meshes over the turn, parts at the
 places that the pump file gives, with one piece of film physics that the lumped simulation leaves out. A point
-takes half a second to two, so that the true readings are kept beside this file; sensors read them as those of the
-other plant.
+takes half a second to two, a warm one ten, so that the true readings are kept beside this file; sensors read them
+as those of the other plant.
 """
 
 from __future__ import annotations
@@ -45,11 +45,12 @@ SEED = 7
 
 
 class FilmCase(Enum):
-    """What the films of a plant have beyond rigid walls and a viscosity that pressure leaves."""
+    """What the films of a plant have beyond rigid walls and oil as warm as the case, whatever its pressure."""
 
     RIGID = "rigid"
     VISCOSITY_PRESSURE = "viscosity_pressure"
     ELASTIC_SLIPPER = "elastic_slipper"
+    WARM = "warm"
 
 
 @dataclass(frozen=True)
@@ -67,11 +68,12 @@ class FilmPlant:
 def cases() -> tuple[FilmPlant, ...]:
     """All plants, the one with nothing beyond first."""
     stiffening = SMOOTH.including(Effect.PRESSURE_VISCOSITY)
-    soft = SMOOTH.including(Effect.ELASTIC_WALLS)
+    soft, warm = SMOOTH.including(Effect.ELASTIC_WALLS), SMOOTH.including(Effect.HEAT)
     return (
         FilmPlant(FilmCase.RIGID, "", None, PLAIN, 0.5, 48),
         FilmPlant(FilmCase.VISCOSITY_PRESSURE, "viscosity_pressure", None, GapPhysics.alike(stiffening), 0.5, 48),
         FilmPlant(FilmCase.ELASTIC_SLIPPER, "elastic_opening", "slipper", GapPhysics(slipper=soft), 0.5, 44),
+        FilmPlant(FilmCase.WARM, "film_heating", None, GapPhysics.alike(warm), 0.5, 48),
     )
 
 

@@ -15,7 +15,7 @@ from .outcome import Outcome, as_plain, from_plain
 HERE = Path(__file__).resolve().parent
 PACKAGES = ("diagnosis", "system", "gaps", "reynolds")
 ASKED = (
-    "diagnosis.ask", "diagnosis.data_checks", "diagnosis.diagnose", "diagnosis.prepare", "diagnosis.readings",
+    "diagnosis.ask", "diagnosis.data_checks", "diagnosis.diagnose", "diagnosis.inputs", "diagnosis.prepare",
     "diagnosis.recording_reader", "diagnosis.scant_pump", "system.tolerances",
 )  # fmt: skip
 """Modules that a diagnosis is made of; all that they import counts, too."""

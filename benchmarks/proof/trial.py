@@ -12,10 +12,10 @@ import numpy as np
 
 from diagnosis.ask import with_next_point
 from diagnosis.diagnose import diagnose_study
+from diagnosis.inputs import bench_points
 from diagnosis.locate import Location
 from diagnosis.map_axes import axis_values, inside
 from diagnosis.prepare import prepare
-from diagnosis.readings import bench_points
 from diagnosis.scant_pump import load_known_pump
 from diagnosis.study import Study
 from diagnosis.thresholds import load_thresholds

@@ -5,11 +5,14 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from diagnosis.readings import bench_points, complete, measured, observations
+from diagnosis.inputs import bench_points, complete, measured, taken_parameters
+from diagnosis.readings import observations
 from diagnosis.recording import Circuit, NoteKind, RecordedChannel, Recording, SteadyTable, TraceBlock
 from reynolds.errors import FilmInputError
 from system.channels import INPUTS, ChannelName
+from system.description import PumpDescription
 from system.pump_file import load_pump
+from system.sensors import actual
 
 C = ChannelName
 SIGMAS = {C.SPEED: 0.05, C.P_OUT: 1.5e4, C.T_IN: 0.2, C.Q_CASE: 2.5e-7}
@@ -42,16 +45,33 @@ def test_a_point_without_an_input_is_taken_out_and_told() -> None:
     assert complete(found) is found
 
 
-def test_what_is_not_measured_is_taken_and_told() -> None:
-    pump = load_pump("ref90")
+@pytest.fixture
+def pump() -> PumpDescription:
+    return load_pump("ref90")
+
+
+def test_what_is_not_measured_is_taken_and_told(pump: PumpDescription) -> None:
     points, notes = bench_points(complete(_recording()), pump)
     assert {note.channel for note in notes} == {C.DISPLACEMENT_RATIO, C.P_IN, C.P_CASE, C.T_CASE}
     assert np.all(points.p_in == pump.operating.inlet_pressure)
     assert np.all(points.T_case == 320.0)
     assert np.all(points.displacement_ratio == pump.operating.displacement_ratio)
-    assert any("T_case is not measured: taken as T_in" in note.text for note in notes)
+    told = {note.text for note in notes}
+    assert "T_case is not measured: taken as T_in +- 5 K" in told
+    assert "p_in is not measured: taken 25 +- 2.5 bar" in told
     opened, _ = bench_points(complete(_recording(Circuit.OPEN)), pump)
     assert np.all(opened.p_in == 0.0)
+
+
+def test_what_is_taken_may_be_off(pump: PumpDescription) -> None:
+    """By one amount at all points: p_in 10 % of the charge pressure, of an open circuit 0.1 bar."""
+    found = {one.name: one for one in taken_parameters(complete(_recording()), pump)}
+    assert list(found) == ["displacement_ratio.zero", "p_in.zero", "p_case.zero", "T_case.zero"]
+    assert found["p_in.zero"].spread == pytest.approx(0.1 * pump.operating.inlet_pressure)
+    opened = {one.name: one for one in taken_parameters(complete(_recording(Circuit.OPEN)), pump)}
+    assert opened["p_in.zero"].spread == pytest.approx(1e4)
+    points, _ = bench_points(complete(_recording()), pump)
+    assert actual(points, {"p_in.zero": 2e5}).p_in == pytest.approx(points.p_in - 2e5)
 
 
 def test_readings_carry_their_noise_and_that_of_the_inputs() -> None:

@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from diagnosis.readings import bench_points, observations
+from diagnosis.inputs import bench_points
+from diagnosis.readings import observations
 from diagnosis.recording_reader import read_recording
 from system.bench_map import LumpedBench
 from system.bench_parameters import base_parameters

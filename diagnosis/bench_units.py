@@ -1,0 +1,33 @@
+"""Readings in the units that a bench reads them in."""
+
+from __future__ import annotations
+
+from system.channels import ChannelName
+from system.units import Dimension, in_unit
+
+BENCH_UNITS = {Dimension.PRESSURE: "bar", Dimension.TEMPERATURE: "degC", Dimension.VOLUME_FLOW: "L/min"}
+"""What a bench reads in, where it is not the usual reading unit."""
+
+
+def channel_unit(channel: ChannelName) -> str:
+    """The unit a bench reads a channel in; "1" for a pure number."""
+    dimension = channel.dimension
+    if dimension is None:
+        return "1"
+    return BENCH_UNITS.get(dimension, dimension.reading_units[0])
+
+
+def difference_unit(channel: ChannelName) -> str:
+    """The unit of a difference of two readings: of two temperatures K."""
+    return "K" if channel.dimension is Dimension.TEMPERATURE else channel_unit(channel)
+
+
+def reading(channel: ChannelName, value: float) -> float:
+    """A reading in SI in the unit that the bench reads it in."""
+    dimension = channel.dimension
+    return value if dimension is None else in_unit(value, channel_unit(channel), dimension)
+
+
+def difference(channel: ChannelName, value: float) -> float:
+    """A difference of two readings in SI in its unit."""
+    return reading(channel, value) - reading(channel, 0.0)
