@@ -40,7 +40,7 @@ def main() -> int:
 
 
 def _options() -> argparse.Namespace:
-    names = ("rigid", "viscosity_pressure", "elastic_slipper", "warm")
+    names = ("rigid", "viscosity_pressure", "elastic_slipper", "warm", "elastic_and_warm")
     reader = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     reader.add_argument("--plant", choices=names, help="only this plant")
     reader.add_argument("--film-tables", action="store_true", help="elastic walls by the film solver's tables")

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import cache
-from math import inf
+from math import inf, nan
 
 import numpy as np
 from scipy.special import logsumexp
@@ -29,6 +29,7 @@ from system.physics.effects import EffectId, Kind
 Evidence = Callable[[Weighed], float | None]
 
 FORM = 0.03  # of a law's square: what a closed form that is off by a sixth of itself may leave
+THIRD = 0.1  # of a law's square: what is off by a third of itself is more than its form
 SLACK = 9.0  # of a sum of squares: one parameter more takes up as much of noise once in 370 times
 OWN = 4.0  # a law that is off by half of itself, a fifth of the mismatch in square, is another law
 
@@ -36,7 +37,8 @@ OWN = 4.0  # a law that is off by half of itself, a fifth of the mismatch in squ
 def without_stand_ins(study: Study, weighed: Sequence[Weighed], thresholds: Thresholds) -> tuple[Weighed, ...]:
     """Explanations of one and more effects, those whose last effects are stand-ins cut to what they stand on.
 
-    Of A + B, where A has a law and was refitted, B stands in if A bent does as well within the odds of a name.
+    Of A + B, where A has a law and was refitted, B stands in if A bent does as well within the odds of a name, and
+    B takes up no more than THIRD of what A does.
     What is left is A with the evidence that the two have, or A bent, whichever is less: it claims A, and that its
     form is not all. B stands in too if in each channel it takes up less than FORM of what A does there: then A
     has the evidence of the two. So it is with unknown physics, a component bent freely: it stands in where one
@@ -88,7 +90,7 @@ def _cut(
             continue
         if _is_slight(study, whole, each, null):
             stands.append((each, whole.log_evidence))
-        elif found >= whole.log_evidence - odds:
+        elif found >= whole.log_evidence - odds and not _is_more(whole, each, null):
             stands.append((each, min(found, whole.log_evidence)))
     if not stands:
         return whole
@@ -108,6 +110,13 @@ def _is_slight(study: Study, whole: Weighed, part: Weighed, null: Weighed) -> bo
         return False
     before, by_part, by_whole = (_squares(study, fit) for fit in fits if fit is not None)
     return bool(np.all(by_part - by_whole < FORM * np.maximum(before - by_part, 0.0) + SLACK))
+
+
+def _is_more(whole: Weighed, part: Weighed, null: Weighed) -> bool:
+    """Whether the rest of an explanation takes up more of the objective than the form of a part can be off by."""
+    fits = [each.posterior for each in (null, part, whole)]
+    before, by_part, by_whole = (nan if fit is None else fit.objective for fit in fits)
+    return by_part - by_whole > THIRD * (before - by_part)
 
 
 def _squares(study: Study, fit: Posterior) -> Array:

@@ -90,9 +90,22 @@ def _fits(
         refitted, failed = refit_all(study, (*listed, *more), thresholds, hands, report, hopeless)
         placed = _placed(study, screened, null, refitted)
         combined, not_combined = combine(study, placed, thresholds, hands, report)
-        failed = (*failed, *not_combined)
+        parts, not_parted = refit_all(study, _parts(placed, combined), thresholds, hands, report)
+        refitted, failed = (*refitted, *parts), (*failed, *not_combined, *not_parted)
     single = _unknown_anew(study, _placed(study, screened, null, refitted), null, thresholds)
     return _Fits(without_stand_ins(study, (*single, *combined), thresholds), failed)
+
+
+def _parts(placed: Sequence[Weighed], combined: Sequence[Weighed]) -> tuple[Weighed, ...]:
+    """Of what the likeliest explanation has several effects of: those that were not refitted alone."""
+    best = max((*placed, *combined), key=lambda each: each.log_weight)
+    names = set(best.hypothesis.open_names)
+    return tuple(
+        each
+        for each in placed
+        if best in combined and each.posterior is None and each.hypothesis.open_names
+        and set(each.hypothesis.open_names) < names
+    )  # fmt: skip
 
 
 def _null(study: Study, linear: Weighed, thresholds: Thresholds) -> tuple[Weighed, tuple[str, ...]]:

@@ -51,15 +51,15 @@ class FilmCase(Enum):
     VISCOSITY_PRESSURE = "viscosity_pressure"
     ELASTIC_SLIPPER = "elastic_slipper"
     WARM = "warm"
+    ELASTIC_AND_WARM = "elastic_and_warm"
 
 
 @dataclass(frozen=True)
 class FilmPlant:
-    """One of them: what a verdict is to say (id "" for nothing), at which gap; physics; mesh; points."""
+    """One of them: what a verdict is to say, id and gap if it acts in one; physics; mesh; points."""
 
     case: FilmCase
-    id: str
-    pair: str | None
+    concealed: tuple[tuple[str, str | None], ...]
     physics: GapPhysics
     finer: float
     points: int
@@ -67,13 +67,15 @@ class FilmPlant:
 
 def cases() -> tuple[FilmPlant, ...]:
     """All plants, the one with nothing beyond first."""
-    stiffening = SMOOTH.including(Effect.PRESSURE_VISCOSITY)
-    soft, warm = SMOOTH.including(Effect.ELASTIC_WALLS), SMOOTH.including(Effect.HEAT)
+    stiff, warm = SMOOTH.including(Effect.PRESSURE_VISCOSITY), SMOOTH.including(Effect.HEAT)
+    soft, both = SMOOTH.including(Effect.ELASTIC_WALLS), warm.including(Effect.ELASTIC_WALLS)
+    opens, heats = ("elastic_opening", "slipper"), ("film_heating", None)
     return (
-        FilmPlant(FilmCase.RIGID, "", None, PLAIN, 0.5, 48),
-        FilmPlant(FilmCase.VISCOSITY_PRESSURE, "viscosity_pressure", None, GapPhysics.alike(stiffening), 0.5, 48),
-        FilmPlant(FilmCase.ELASTIC_SLIPPER, "elastic_opening", "slipper", GapPhysics(slipper=soft), 0.5, 44),
-        FilmPlant(FilmCase.WARM, "film_heating", None, GapPhysics.alike(warm), 0.5, 48),
+        FilmPlant(FilmCase.RIGID, (), PLAIN, 0.5, 48),
+        FilmPlant(FilmCase.VISCOSITY_PRESSURE, (("viscosity_pressure", None),), GapPhysics.alike(stiff), 0.5, 48),
+        FilmPlant(FilmCase.ELASTIC_SLIPPER, (opens,), GapPhysics(slipper=soft), 0.5, 44),
+        FilmPlant(FilmCase.WARM, (heats,), GapPhysics.alike(warm), 0.5, 48),
+        FilmPlant(FilmCase.ELASTIC_AND_WARM, (heats, opens), GapPhysics(warm, both, warm), 0.5, 48),
     )
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import tempfile
+from collections.abc import Iterable
 from pathlib import Path
 from time import process_time
 
@@ -15,7 +16,7 @@ from system.physics.catalogue import CATALOGUE, with_films_solved
 from .film_plant import FilmPlant, readings
 from .writing import write_recording
 
-HEAD = ("plant", "said", "status", "size", "held out: before / after, of the noise", "chi2", "s")
+HEAD = ("plant", "concealed", "said", "status", "size", "held out: before / after, of the noise", "chi2", "s")
 SEED = 3  # of calibrations and noise
 
 
@@ -34,13 +35,16 @@ def diagnosed(plant: FilmPlant, seed: int = SEED, film_tables: bool = False) -> 
         catalogue = with_films_solved(known.pump) if film_tables else CATALOGUE
         recording = checked_recording(Path(folder), known)
         found = run_diagnosis(known, recording, Path(folder), silent, catalogue=catalogue)
-    return plant.case.value, *_row(found), f"{process_time() - begun:.0f}"
+    spent = f"{process_time() - begun:.0f}"
+    return plant.case.value, _effects(plant.concealed) or "nothing", *_row(found), spent
+
+
+def _effects(listed: Iterable[tuple[str, str | None]]) -> str:
+    return ", ".join(f"{effect} ({pair})" if pair else effect for effect, pair in listed)
 
 
 def _row(found: Diagnosis) -> tuple[str, ...]:
-    said = ", ".join(
-        f"{one.effect.value} ({one.pair.value})" if one.pair else one.effect.value for one in found.effects
-    )
+    said = _effects((one.effect.value, one.pair.value if one.pair else None) for one in found.effects)
     sizes = "; ".join(
         f"{size.name} {size.value:.3g} +- {size.sigma:.2g}" for one in found.effects for size in one.parameters
     )
