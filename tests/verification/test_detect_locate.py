@@ -19,6 +19,7 @@ from diagnosis.map_axes import axis_values, inside, scaled_axes
 from diagnosis.multiplicity import family_chance, holm, log_chances
 from diagnosis.noise_memory import noise_memory
 from diagnosis.recording import Recording
+from diagnosis.regions import EDGES, strongest_region
 from diagnosis.study import Study, concerned, study_of
 from diagnosis.time_scan import TimeKind
 from system.channels import ChannelName
@@ -259,6 +260,22 @@ def test_a_planted_region_is_found(lower: dict[str, float], upper: dict[str, flo
     assert np.sum(found & within) / np.sum(found | within) >= 0.7
     assert set(region.lower) | set(region.upper) == set(lower) | set(upper)
     assert all(name in region.text for name in (*lower, *upper))
+
+
+@pytest.mark.parametrize("power", [1, 3])
+def test_an_effect_is_strongest_where_it_is_half_its_most(power: int) -> None:
+    """Of p^m the points above 2^(-1/m) of the highest pressure; nowhere more than elsewhere where it is even."""
+    study, axes = _study(seed=4), axis_values(_map())
+    pressure = axes[ChannelName.P_OUT]
+    found = contrasts(study.base, 1)
+    region = strongest_region(ChannelName.Q_CASE, found, -(pressure**power), axes)
+    assert region is not None
+    assert region.lower.keys() == {"p_out"}
+    assert not region.upper
+    strong = pressure >= 0.5 ** (1.0 / power) * pressure.max()
+    within = inside(axes, region.lower, region.upper)
+    assert np.sum(strong & within) / np.sum(strong | within) >= 1.0 - 1.0 / EDGES
+    assert strongest_region(ChannelName.Q_CASE, found, np.ones_like(pressure), axes) is None
 
 
 def test_no_regions_are_flagged_without_a_mismatch(nulls: list[Detection]) -> None:

@@ -318,6 +318,16 @@ def test_several_effects_are_found_together(count: int) -> None:
         assert abs(sizes[law.id].value - size) < 4.0 * sizes[law.id].sigma
 
 
+def test_what_the_likeliest_pair_is_made_of_is_refitted_alone() -> None:
+    """A drain meter's zero of 300 sigma beside churning: neither alone is on the list of those to refit."""
+    limits = replace(LIMITS, name=replace(LIMITS.name, shortlist=1))
+    found = diagnose_study(_study(1, laws=((CHURNING, 0.2),), Q_case__zero=0.3), 0.025 * _axes()[3], limits)
+    alone = [each for each in found.hypotheses if len(each.hypothesis.effects) == 1 and not each.hypothesis.bent]
+    fitted = {each.hypothesis.effects[0] for each in alone if each.posterior is not None}
+    assert {claim.effect for claim in found.effects} == {EffectId.CHURNING, EffectId.Q_CASE_OFFSET}
+    assert {EffectId.CHURNING, EffectId.Q_CASE_OFFSET} <= fitted
+
+
 def test_a_law_of_another_form_is_named_without_stand_ins() -> None:
     """Churning that falls with viscosity too: named, incomplete, without a film that takes up what is left."""
     n, _, _, mu = _axes()
@@ -344,6 +354,16 @@ def test_what_takes_up_less_than_a_laws_form_may_leave_is_told_but_not_claimed()
 def test_what_takes_up_more_than_a_laws_form_may_leave_is_claimed() -> None:
     claimed = {claim.effect for claim in _beside(0.3).effects}
     assert claimed == {EffectId.ELASTIC_OPENING, EffectId.CONTROL_FLOW}
+
+
+def test_what_takes_up_a_tenth_and_more_is_claimed_though_a_law_bent_does_as_well() -> None:
+    """Opening and control flow, and a leak n p^2 that is no law's: the opening bent would take up both."""
+    n, p, _, _ = _axes()
+    leak = 0.4 * n * p**2
+    laws = ((OPENING[Gap.VALVE_PLATE], 0.4), (CONTROL, 0.6))
+    found = _diagnosis(_study(1, laws=laws, added=np.stack([-leak, leak, np.zeros(POINTS)], axis=1)))
+    assert {claim.effect for claim in found.effects} == {EffectId.ELASTIC_OPENING, EffectId.CONTROL_FLOW}
+    assert found.status is Status.INCOMPLETE
 
 
 def test_a_law_of_a_wrong_power_tells_which() -> None:
