@@ -4,23 +4,21 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from diagnosis.thresholds import Thresholds
 from diagnosis.weighed import Weighed
 from system.physics.effects import Kind
 
 NOT_NAMED = (Kind.NO_MISMATCH, Kind.UNKNOWN_PHYSICS)
 
 
-def equivalents(best: Weighed, weighed: Sequence[Weighed], thresholds: Thresholds) -> tuple[Weighed, ...]:
+def equivalents(best: Weighed, weighed: Sequence[Weighed], gap: float) -> tuple[Weighed, ...]:
     """Explanations of as many effects as the best that stand as well after a refit, the best first.
 
-    As well: ln evidence within the class gap; or the same readings foretold (the difference of the refitted
+    As well: ln evidence within the gap (nats); or the same readings foretold (the difference of the refitted
     predictions worth less than the gap, delta^2 / 2 nats) with all else as near its stated value: then only the
     width of the prior of what they set free parts them, however far. Likeness of slopes makes no class: laws of
     one slope part by their curvature.
     """
     rivals = [each for each in weighed if each is not best and _comparable(each, best)]
-    gap = thresholds.name.class_gap
     alike = [
         each
         for each in rivals

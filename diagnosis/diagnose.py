@@ -56,7 +56,7 @@ def diagnose_study(
     ranked = _foretold(study, null, with_probabilities(fits.weighed, thresholds.name.temperature), thresholds)
     verdict = judge(study, detection, ranked, coordinates(study, viscosity), thresholds)
     notes = (*(note.text for note in study.recording.notes), *verdict.reasons, *not_null, *fits.failed)
-    return _finding(study, detection, location, ranked, verdict, viscosity, notes, thresholds)
+    return _finding(study, detection, location, verdict, viscosity, notes, thresholds)
 
 
 @dataclass(frozen=True)
@@ -188,13 +188,13 @@ def _finding(
     study: Study,
     detection: Detection,
     location: Location,
-    ranked: Sequence[Weighed],
     verdict: Verdict,
     viscosity: Array,
     notes: tuple[str, ...],
     thresholds: Thresholds,
 ) -> Diagnosis:
     """All of it put together, the claimed explanation first."""
+    ranked = verdict.ranked
     null = next(each for each in ranked if each.hypothesis.kind is Kind.NO_MISMATCH)
     claimed = verdict.members[0] if verdict.members else None
     shown = claimed or null

@@ -10,6 +10,7 @@ from scipy.special import logsumexp
 from scipy.stats import chi2, norm
 
 from diagnosis.classes import agrees, equivalents
+from diagnosis.coarse import shared_out, widening
 from diagnosis.detect import Detection
 from diagnosis.hypotheses import Hypothesis
 from diagnosis.left_over import left_over
@@ -25,13 +26,17 @@ from system.pump_gap import Gap
 
 @dataclass(frozen=True)
 class Verdict:
-    """What is claimed: kind, status, claims (none where nothing is), its class, and why not more, in words."""
+    """What is claimed: kind, status, claims (none where nothing is), its class, and why not more, in words.
+
+    ranked: all explanations, the likeliest first.
+    """
 
     kind: Kind
     status: Status
     claims: tuple[Claim, ...]
     members: tuple[Weighed, ...]
     reasons: tuple[str, ...]
+    ranked: tuple[Weighed, ...]
 
 
 def judge(
@@ -54,13 +59,15 @@ def judge(
     null = next(each for each in weighed if each.hypothesis.kind is Kind.NO_MISMATCH)
     improbable = null.probability < limits.null_probability
     if not improbable and detection.chance >= limits.suspicion:
-        return Verdict(Kind.NO_MISMATCH, Status.NAMED, (), (), ())
+        return Verdict(Kind.NO_MISMATCH, Status.NAMED, (), (), (), tuple(weighed))
     if not improbable or min(detection.chance, _chance_of_bend(weighed, null)) >= limits.chance:
         return _suspicion(weighed, (_half_seen(detection, null),))
     best = _simplest(max((each for each in weighed if each is not null), key=_weight), weighed, thresholds)
     if best.hypothesis.kind is Kind.UNKNOWN_PHYSICS:
         return _unknown(weighed, thresholds)
-    members = equivalents(best, weighed, thresholds)
+    members = equivalents(best, weighed, widening(weighed, thresholds) * thresholds.name.class_gap)
+    weighed, members = shared_out(weighed, members, thresholds)
+    best = members[0]
     against = _objections(best, members, weighed, thresholds)
     if against:
         return _suspicion(weighed, against)
@@ -68,7 +75,7 @@ def judge(
     claims = _claims(members, weighed, thresholds)
     alike = any(claim.equivalent or claim.elsewhere for claim in claims)
     status = Status.INCOMPLETE if left else Status.CLASS if alike else Status.NAMED
-    return Verdict(best.hypothesis.kind, status, claims, members, left)
+    return Verdict(best.hypothesis.kind, status, claims, members, left, weighed)
 
 
 def _chance_of_bend(weighed: Sequence[Weighed], null: Weighed) -> float:
@@ -113,7 +120,7 @@ def _suspicion(weighed: Sequence[Weighed], reasons: tuple[str, ...]) -> Verdict:
     """Of the likeliest kind of mismatch."""
     kinds = {each.hypothesis.kind for each in weighed} - {Kind.NO_MISMATCH}
     likeliest = max(kinds, key=lambda kind: _probability(weighed, kind))
-    return Verdict(likeliest, Status.SUSPICION, (), (), reasons)
+    return Verdict(likeliest, Status.SUSPICION, (), (), reasons, tuple(weighed))
 
 
 def _probability(weighed: Sequence[Weighed], kind: Kind) -> float:
@@ -125,7 +132,7 @@ def _unknown(weighed: Sequence[Weighed], thresholds: Thresholds) -> Verdict:
     probability = _probability(weighed, Kind.UNKNOWN_PHYSICS)
     if probability < thresholds.name.probability:
         return _suspicion(weighed, (f"unknown physics at a probability of {probability:.2f} only",))
-    return Verdict(Kind.UNKNOWN_PHYSICS, Status.NAMED, (), (), ())
+    return Verdict(Kind.UNKNOWN_PHYSICS, Status.NAMED, (), (), (), tuple(weighed))
 
 
 def _objections(
@@ -210,11 +217,11 @@ def _elsewhere(at: int, members: Sequence[Weighed], thresholds: Thresholds) -> t
     """Other gaps where one effect of the first member may sit, each with its share, where its own is not sure."""
     own = members[0].hypothesis
     same = [each for each in members if each.hypothesis.effects == own.effects]
-    total = logsumexp([each.log_weight for each in same])
+    total = sum(each.probability for each in same)
     share: dict[Gap | None, float] = {}
     for each in same:
         place = each.hypothesis.places[at]
-        share[place] = share.get(place, 0.0) + float(np.exp(each.log_weight - total))
+        share[place] = share.get(place, 0.0) + each.probability / total
     if share[own.places[at]] >= thresholds.name.probability:
         return ()
     return tuple((gap, part) for gap, part in share.items() if gap is not None and gap is not own.places[at])
