@@ -1,0 +1,45 @@
+"""Explanations that part by less than the form of a law can be off by: one class, its probability shared out."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from diagnosis.coarse import TRUE_TO, shared_out, widening
+from diagnosis.thresholds import load_thresholds
+from diagnosis.weighed import Weighed, with_probabilities
+from system.physics.effects import Kind
+
+LIMITS = load_thresholds()
+
+
+def _weighed(gained: float, behind: float) -> tuple[Weighed, ...]:
+    """Nothing, and two explanations that gain so much over it, the second some nats behind the first."""
+    kinds = (Kind.NO_MISMATCH, Kind.MISSING_PHYSICS, Kind.MISSING_PHYSICS)
+    return with_probabilities(
+        [
+            Weighed(SimpleNamespace(kind=kind, log_prior=-1.0), evidence, False, None, 0.0, 0.0, None)  # type: ignore[arg-type]
+            for kind, evidence in zip(kinds, (-gained, 0.0, -behind), strict=True)
+        ],
+        LIMITS.name.temperature,
+    )
+
+
+def test_up_to_three_hundred_nats_noise_alone_makes_a_class() -> None:
+    listed = _weighed(LIMITS.name.class_gap / TRUE_TO, behind=2.0)
+    assert widening(listed, LIMITS) == 1.0
+    found, members = shared_out(listed, listed[:2], LIMITS)
+    assert [each.probability for each in found] == pytest.approx([each.probability for each in listed])
+    assert members == found[:2]
+
+
+def test_beyond_a_class_grows_with_what_is_explained() -> None:
+    """Of 6000 nats 60 are form: 20 times the gap of 3, and 15 nats are odds of e^(15/(20 x .7))."""
+    listed = _weighed(6000.0, behind=15.0)
+    assert widening(listed, LIMITS) == pytest.approx(20.0)
+    found, members = shared_out(listed, listed[:2], LIMITS)
+    odds = members[0].probability / members[1].probability
+    assert np.log(odds) == pytest.approx(15.0 / (20.0 * LIMITS.name.temperature))
+    assert sum(each.probability for each in found) == pytest.approx(1.0)
