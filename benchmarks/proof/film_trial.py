@@ -8,7 +8,7 @@ from pathlib import Path
 from time import process_time
 
 from diagnosis.scant_pump import load_known_pump
-from diagnosis.verdict import Diagnosis
+from diagnosis.verdict import Claim, Diagnosis
 from swashfilm.diagnose_run import checked_recording, run_diagnosis
 from system.gap_cycle import silent
 from system.physics.catalogue import CATALOGUE, with_films_solved
@@ -43,8 +43,15 @@ def _effects(listed: Iterable[tuple[str, str | None]]) -> str:
     return ", ".join(f"{effect} ({pair})" if pair else effect for effect, pair in listed)
 
 
+def _gaps(claim: Claim) -> str | None:
+    """The likeliest gap, and those that cannot be told from it."""
+    if claim.pair is None:
+        return None
+    return " or ".join([claim.pair.value, *(gap.value for gap, _ in claim.elsewhere)])
+
+
 def _row(found: Diagnosis) -> tuple[str, ...]:
-    said = _effects((one.effect.value, one.pair.value if one.pair else None) for one in found.effects)
+    said = _effects((one.effect.value, _gaps(one)) for one in found.effects)
     sizes = "; ".join(
         f"{size.name} {size.value:.3g} +- {size.sigma:.2g}" for one in found.effects for size in one.parameters
     )
