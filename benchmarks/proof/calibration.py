@@ -67,7 +67,7 @@ def wilson(hits: float, cases: int, z: float = 1.96) -> tuple[float, float]:
         return 0.0, 1.0
     share, weight = hits / cases, z * z / cases
     middle, half = share + weight / 2.0, z * np.sqrt(share * (1.0 - share) / cases + weight / (4.0 * cases))
-    return float((middle - half) / (1.0 + weight)), float((middle + half) / (1.0 + weight))
+    return max(0.0, float((middle - half) / (1.0 + weight))), float((middle + half) / (1.0 + weight))
 
 
 def draw(outcomes: Sequence[Outcome], path: Path) -> None:

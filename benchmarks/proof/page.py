@@ -34,16 +34,16 @@ the shift in the readings, in sigma, once all that is uncertain has had its part
 
 """
 GATES = """
-Gates of design/diagnosis.md 4.3, column `outstanding`. A true region is where the channel told first is moved
-by at least half of what it is moved at most; a true window holds four fifths of the square by which chamber
-pressures differ. The truth's own fit has the catalogue's law of what is concealed, which is not the plant's
-law. A pair counts as open where the recording leaves its odds below 20 to 1, one of the two being the truth,
-and as settled from there on, by three readings that the plant's bench takes at the point asked for. A point is
-asked for to settle a pair where that has a chance of 80 % at least, whichever of the two is true; where no point
-within the range recorded or of an ordinary bench has it the verdict says so, and the pair is counted as told to be
-settled by no point. Clearance
-of the piston, eccentricity and sealing length are told apart by no recording of this kind and are not counted
-among the intervals.
+Gates of design/diagnosis.md 4.3, column `outstanding`. A true region is where the channel told first is moved by
+at least half of what it is moved at most; a true window holds four fifths of the square by which chamber pressures
+differ. The truth's own fit has the catalogue's law of what is concealed, which is not the plant's law. Readings
+have tails beyond the noise that they state, which no law removes: what the truth's own fit leaves is the floor
+that the line above it goes by. A pair counts as open where the recording leaves its odds below 20 to 1, one of the
+two being the truth, and as settled from there on, by three readings that the plant's bench takes at the point
+asked for. A point is asked for to settle a pair where that has a chance of 80 % at least, whichever of the two is
+true; where no point within the range recorded or of an ordinary bench has it the verdict says so, and the pair is
+counted as told to be settled by no point. Clearance of the piston, eccentricity and sealing length are told apart
+by no recording of this kind and are not counted among the intervals.
 """
 
 
