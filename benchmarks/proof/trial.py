@@ -27,7 +27,7 @@ from swashfilm.diagnose_run import checked_recording
 from system.description import PumpDescription
 from system.errors import NotConverged
 from system.faults import InputFaults
-from system.physics.effects import Kind
+from system.physics.effects import EffectId, Kind
 from system.tolerances import tolerances
 
 from .campaigns import campaigns
@@ -53,6 +53,8 @@ SAME = {
     "dead_volume": "dead_volume", "displacement": "stroke", "viscosity": "viscosity",
 }  # fmt: skip
 """Parameters that mean the same to the simulation and to the plant."""
+RUBBED = {"piston_cylinder": "piston", "slipper_swash_plate": "slipper", "valve_plate_cylinder": "valve_plate"}
+"""Joints of a coefficient of friction, by their gaps."""
 
 
 @dataclass(frozen=True)
@@ -149,9 +151,17 @@ def _region(study: Study, location: Location) -> tuple[int, ...] | None:
 
 
 def _claimed(one: Claim) -> Claimed:
-    place = one.pair.value if one.pair else None
+    place = one.pair.value if one.pair else _joint(one)
     equivalent, elsewhere = (each.value for each in one.equivalent), (gap.value for gap, _ in one.elsewhere)
     return Claimed(one.effect.value, place, one.probability, tuple(equivalent), tuple(elsewhere))
+
+
+def _joint(one: Claim) -> str | None:
+    """Where a coefficient of friction acts, which its parameter's name tells: a gap, or another joint."""
+    if one.effect is not EffectId.FRICTION_COEFFICIENT:
+        return None
+    joint = one.parameters[0].name.rpartition(".")[2]
+    return RUBBED.get(joint, joint)
 
 
 def _ranked(each: Weighed) -> Ranked:
@@ -164,7 +174,7 @@ def _ranked(each: Weighed) -> Ranked:
 def _covered(case: Case, found: Diagnosis, machine: Machine) -> dict[str, bool]:
     """Whether 90 % intervals of what both know alike hold the truth; only where the explanation is right."""
     told = {one.effect.value for one in found.effects}
-    if told != {one.id for one in case.concealed} or case.part in (Part.UNKNOWN, Part.PAIR, Part.GRADED):
+    if told != {one.id for one in case.concealed} or case.part in (Part.UNKNOWN, Part.PAIR):
         return {}
     fit, drawing, inside = found.after, ref90(), {}
     for name, part in SAME.items():
