@@ -31,7 +31,7 @@ def add_diagnose_options(command: argparse.ArgumentParser) -> None:
         "--apply",
         type=Path,
         metavar="FILE.toml",
-        help="write the pump with what is found switched on, which `swashfilm run` takes",
+        help="write the pump as fitted, with what is found: for `swashfilm run FILE.toml --fidelity lumped`",
     )
     command.add_argument(
         "--workers",
@@ -72,7 +72,7 @@ def run_diagnose_command(options: argparse.Namespace) -> int:
     show_table("Channels", [CHANNEL_HEAD, *channel_rows(record)])
     if apply is not None and found.effects:
         shutil.copyfile(final_folder(folder) / EXTENDED, apply)
-        show(f"the pump with it is {apply}")
+        show(f"the pump as fitted, with it, is {apply}: swashfilm run {apply} --fidelity lumped")
     elif apply is not None:
         show(f"nothing is claimed: {apply} is not written")
     show(f"results in {final_folder(folder)}")

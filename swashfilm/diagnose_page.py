@@ -91,7 +91,7 @@ def place_rows(found: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
 
 
 def claim_rows(found: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:
-    """(effect, pair, probability, what it cannot be told from, parameters with their sigma)."""
+    """(effect, pair, probability, ids and gaps with their shares that it cannot be told from, parameters)."""
     for claim in found["effects"]:
         sizes = (
             f"{one['name'].replace('_', ' ')} {_told(one['unit'], one['value'], one['sigma'])}"
@@ -101,9 +101,14 @@ def claim_rows(found: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:
             claim["id"],
             (claim["pair"] or "").replace("_", " "),
             f"{claim['probability']:.3f}",
-            ", ".join(claim["equivalent"]),
+            ", ".join([*claim["equivalent"], *_other_gaps(claim)]),
             "; ".join(sizes),
         )
+
+
+def _other_gaps(claim: Mapping[str, Any]) -> Iterator[str]:
+    for gap, share in claim["other_pairs"].items():
+        yield f"at the {gap.replace('_', ' ')} ({share:.2f})"
 
 
 def parameter_rows(rows: Sequence[Mapping[str, str]]) -> Iterator[tuple[str, ...]]:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 
 from diagnosis.ask import with_next_point
@@ -12,12 +14,16 @@ from diagnosis.prepare import prepare
 from diagnosis.recording import DataNote, NoteKind, Recording
 from diagnosis.recording_reader import read_recording
 from diagnosis.scant_pump import KnownPump, load_known_pump
-from diagnosis.thresholds import load_thresholds
+from diagnosis.study import Study
+from diagnosis.thresholds import Thresholds, load_thresholds
 from diagnosis.verdict import Diagnosis
+from reynolds.errors import FilmInputError
 from reynolds.oil import walther
 from swashfilm.diagnose_files import point_ranges, write_diagnosis_files
 from swashfilm.diagnose_runs import claimed_pump, run_both
 from swashfilm.progress import Report
+from system.description import PumpDescription
+from system.errors import NotConverged
 from system.faults import Fault, InputFaults
 from system.physics.catalogue import CATALOGUE
 from system.physics.extension import Entry
@@ -37,10 +43,26 @@ def checked_recording(path: Path, known: KnownPump | None = None) -> Recording:
     if known is None and recording.pump in builtin_pumps():
         known = load_known_pump(recording.pump)
     recording = check_recording(recording, None if known is None else known.pump.pump.displacement)
+    recording = replace(recording, notes=(*recording.notes, *_other_pump(recording, known)))
     faults = [note for note in recording.notes if note.kind is NoteKind.FAULT]
     if faults:
         raise InputFaults(str(path), [_fault(note) for note in faults])
     return recording
+
+
+def _other_pump(recording: Recording, known: KnownPump | None) -> Iterator[DataNote]:
+    """Told where a recording names another pump than the one that it is held against."""
+    if known is not None and recording.pump not in ("", known.pump.name):
+        text = f"the recording is of {recording.pump}; it is held against {known.pump.name}"
+        yield DataNote(NoteKind.TOLD, None, (), text)
+
+
+def _with_next_point(study: Study, pump: PumpDescription, found: Diagnosis, thresholds: Thresholds) -> Diagnosis:
+    """With the next point to record; where none can be foretold without it, and why in the notes."""
+    try:
+        return with_next_point(study, pump, found, thresholds)
+    except (NotConverged, FilmInputError) as reason:
+        return replace(found, notes=(*found.notes, f"no next point is foretold: {reason}"))
 
 
 def _fault(note: DataNote) -> Fault:
@@ -75,7 +97,7 @@ def run_diagnosis(
     points, _ = bench_points(study.recording, pump)
     viscosity = walther(points.T_case, pump.oil.fluid) * pump.oil.density
     found = diagnose_study(study, viscosity, thresholds, report, workers)
-    found = with_next_point(study, pump, found, thresholds)
+    found = _with_next_point(study, pump, found, thresholds)
     (folder / "resolved.toml").write_text(resolved_toml(pump), encoding="utf-8")
     if found.effects:
         (folder / EXTENDED).write_text(resolved_toml(claimed_pump(pump, found)), encoding="utf-8")

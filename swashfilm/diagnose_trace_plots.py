@@ -25,7 +25,7 @@ def trace_residuals(rows: Sequence[Row], window: Sequence[float] | None, setting
 
     window: shaft angles in deg between which they stand out; settings: by point, what is written over it.
     """
-    points = _worst(rows)
+    points = worst_points(rows)
     rows = [row for row in rows if row["point"] in points]
     figure = figure_of(10.0, 0.8 + 1.9 * len(points))
     most = max(float(np.max(np.abs(_residual(rows, key)))) for key in FITS)
@@ -67,7 +67,7 @@ def _spans(window: Sequence[float] | None) -> list[tuple[float, float]]:
     return [(start, end)] if start <= end else [(start, 360.0), (0.0, end)]
 
 
-def _worst(rows: Sequence[Row]) -> list[str]:
+def worst_points(rows: Sequence[Row]) -> list[str]:
     """Points of the traces with the largest misfit before, in the order of the recording."""
     misfit: dict[str, float] = {}
     for row in rows:

@@ -16,9 +16,10 @@ from .located import region_overlap, turn_error
 from .outcome import Outcome, Worth
 
 PHYSICS, SENSOR, UNKNOWN, NULL = "missing_physics", "sensor_fault", "unknown_physics", "no_mismatch"
-PLACED = {"elastic_opening", "thermal_clearance", "film_thickness"}  # ids that act in one gap
+FAILED = "none"  # the verdict where no diagnosis came about
 KNOWN = ("graded", "pair", "parameter", "sensor")
 CLEAR = 7.5  # score from which a case counts as z >= 8: sizes are found to 2 %
+LEAST = 0.2  # of the noise's square, over the channels: below it there is nothing to remove
 TRACED = "map"  # the campaign with chamber traces
 Outcomes = Sequence[Outcome]
 T = TypeVar("T")
@@ -48,6 +49,7 @@ def _alarms(outcomes: Outcomes) -> tuple[Gate, ...]:
         _share("false alarm on nulls: something is claimed", nulls, is_named, at_most=0.03),
         _wilson("false alarm on nulls, upper end of Wilson's interval", nulls, is_named, 0.065),
         _share("wrong, P >= 0.9 and unflagged, all cases", outcomes, is_grave, at_most=0.01),
+        _share("no diagnosis came about, all cases", outcomes, _is_failed, at_most=0.0),
     )
 
 
@@ -61,7 +63,10 @@ def _names(outcomes: Outcomes) -> tuple[Gate, ...]:
         _share("truth among the first two at z >= 8", clear, lambda one: (rank(one) or 99) <= 2, at_least=0.99),
         _share("top-1 at z = 5", medium, lambda one: rank(one) == 1, at_least=0.80),
         _share("truth in the 95 % set at z = 5", medium, in_set, at_least=0.95),
-        _share("no claim, or a class, at z = 3", small, _abstains, at_least=0.60),
+        _beside(
+            _share("a suspicion or a class at z = 3", small, _abstains, at_least=0.60),
+            f"{sum(one.verdict == NULL for one in small)} more told as no mismatch",
+        ),
         _share("wrong names at z = 3", small, is_wrong_name, at_most=0.02),
         _share("both of two effects, z = 10 each", pairs, is_right, at_least=0.95),
     )
@@ -73,7 +78,7 @@ def _kinds(outcomes: Outcomes) -> tuple[Gate, ...]:
     unknown = [one for one in outcomes if one.truth == UNKNOWN and one.score >= CLEAR]
     sensor, physics = (_seen([one for one in known if one.truth == kind]) for kind in (SENSOR, PHYSICS))
     return (
-        _share("sensor called physics", sensor, _is(PHYSICS), at_most=0.03),
+        _share("sensor called physics", sensor, _is(PHYSICS, UNKNOWN), at_most=0.03),
         _share("physics called sensor", physics, _is(SENSOR), at_most=0.03),
         _share("unknown physics recognised at z >= 8", unknown, is_right, at_least=0.85),
         _share("unknown physics given a name at z >= 8", unknown, _sure_name, at_most=0.05),
@@ -84,12 +89,12 @@ def _places(outcomes: Outcomes) -> tuple[Gate, ...]:
     """Where: channel, gap, region of the map, shaft angle."""
     clear = _clear(outcomes)
     right = [one for one in clear if is_right(one)]
-    placed = [one for one in right if set(one.effects) & PLACED]
+    placed = [one for one in _seen(clear) if any(one.pairs)]
     traced = [one for one in outcomes if one.part == "trace"]
     sound = [one for one in outcomes if one.truth == NULL and one.campaign == TRACED]
     return (
         _share("channel at z >= 8, of those that see a mismatch", _seen(clear), _channel, at_least=0.99),
-        _share("likeliest gap at z >= 8, of right names that have one", placed, _gap, at_least=0.90),
+        _share("gap claimed at z >= 8, of those that see a mismatch and have one", placed, _gap, at_least=0.90),
         _median("region, points in both over points in one, right names at z >= 8", right, region_overlap,
                 at_least=0.7),
         _median("shaft angle off, deg, of what shows in traces only", traced, turn_error, at_most=4.0),
@@ -101,10 +106,12 @@ def _fits(outcomes: Outcomes) -> tuple[Gate, ...]:
     """What the repaired simulation foretells, intervals, probabilities, and what the next point is worth."""
     clear = _clear(outcomes)
     right = [one for one in clear if is_right(one)]
+    over = _median("held-out residual over that of the truth's own fit, z >= 8", clear, _over_oracle, at_most=1.05)
+    to_remove = [one for one in right if _excess(one)[0] > LEAST]
     return (
         _median("held-out residual over noise, right names at z >= 8", right, _left, at_most=1.1),
-        _median("held-out residual over that of the truth's own fit, z >= 8", clear, _over_oracle, at_most=1.05),
-        _median("removed share of what noise does not explain", right, _removed, at_least=0.90),
+        _beside(over, f"the right name's fit is the truth's own in {sum(map(_is_own, clear))}"),
+        _median("removed share of what noise does not explain", to_remove, _removed, at_least=0.90),
         _coverage(outcomes),
         _number("Brier score of the likeliest, on the declared mix", outcomes, brier, 0.06),
         _number("calibration error (ECE) on the declared mix", outcomes, calibration_error, 0.05),
@@ -140,13 +147,21 @@ def _median(
     at_most: float = np.inf,
     at_least: float = -np.inf,
 ) -> Gate:
-    values = [each for each in map(value, cases) if np.isfinite(each)]
     asked = f"<= {at_most:g}" if np.isfinite(at_most) else f">= {at_least:g}"
-    if not values:
-        return Gate(name, asked, "-", 0, None)
-    middle = float(np.median(values))
-    found = f"{middle:.2f} median, {min(values):.2f} to {max(values):.2f}"
-    return Gate(name, asked, found, len(values), at_least <= middle <= at_most)
+    told = np.array([value(one) for one in cases])
+    known = told[np.isfinite(told)]
+    if not known.size:
+        return Gate(name, asked, "-", len(cases), False if len(cases) else None)
+    worst = np.inf if np.isfinite(at_most) else -np.inf
+    middle = float(np.median(np.where(np.isfinite(told), told, worst)))
+    missing = f"; {told.size - known.size} without, counted as missed" if known.size < told.size else ""
+    found = f"{middle:.2f} median of {told.size}, {known.min():.2f} to {known.max():.2f}{missing}"
+    return Gate(name, asked, found, told.size, at_least <= middle <= at_most)
+
+
+def _beside(gate: Gate, text: str) -> Gate:
+    """The gate with something told beside what was found."""
+    return replace(gate, found=f"{gate.found}; {text}") if gate.cases else gate
 
 
 def _number(name: str, cases: Outcomes, value: Callable[[Outcomes], float], limit: float) -> Gate:
@@ -156,19 +171,31 @@ def _number(name: str, cases: Outcomes, value: Callable[[Outcomes], float], limi
     return Gate(name, f"<= {limit:g}", f"{found:.3f}", len(cases), found <= limit)
 
 
-def _asked(outcomes: Outcomes) -> tuple[Gate, Gate]:
+def _asked(outcomes: Outcomes) -> tuple[Gate, ...]:
     """Of two explanations that the recording leaves open: whether three more readings settle them.
 
-    Where a point is asked for to settle them; the others are told to be beyond the rig, and are counted beside.
+    By the point asked for, by one drawn at random; and by the point where the verdict says that it will.
     """
-    open_still = [one.worth for one in outcomes if one.worth is not None and abs(one.worth.before) < SETTLED]
-    promised = [worth for worth in open_still if worth.promised >= PROMISED]
-    beyond = f"{len(open_still) - len(promised)} more told to be settled by no point"
-    by_asked = _share(
-        "pairs settled by the point asked for, 3 readings", promised, lambda w: _settles(w, w.asked), at_least=0.8
+    left_open = [one.worth for one in outcomes if one.worth is not None and abs(one.worth.before) < SETTLED]
+    promised = [worth for worth in left_open if worth.promised >= PROMISED]
+    return (
+        _share("pairs left open, settled by the point asked for, 3 readings", left_open, _by_asked, at_least=0.8),
+        _share(
+            "pairs left open, settled where the verdict says that the point does",
+            promised,
+            _by_asked,
+            at_least=0.8,
+        ),
+        _share("pairs left open, settled by a point drawn at random", left_open, _by_other, at_most=0.3),
     )
-    by_other = _share("the same by a point drawn at random", promised, lambda w: _settles(w, w.other), at_most=0.3)
-    return replace(by_asked, found=f"{by_asked.found}; {beyond}"), by_other
+
+
+def _by_asked(worth: Worth) -> bool:
+    return _settles(worth, worth.asked)
+
+
+def _by_other(worth: Worth) -> bool:
+    return _settles(worth, worth.other)
 
 
 def _settles(worth: Worth, told: float) -> bool:
@@ -176,25 +203,34 @@ def _settles(worth: Worth, told: float) -> bool:
 
 
 def _coverage(outcomes: Outcomes) -> Gate:
-    inside = [held for one in outcomes for held in one.covered.values()]
     name, asked = "90 % intervals of parameters that hold the truth", "86 % to 94 %"
+    parts = dict.fromkeys(one.part for one in outcomes if one.covered)
+    held = {
+        part: [inside for one in outcomes if one.part == part for inside in one.covered.values()] for part in parts
+    }
+    inside = [one for part in held.values() for one in part]
     if not inside:
         return Gate(name, asked, "-", 0, None)
     share = float(np.mean(inside))
-    return Gate(name, asked, f"{share:.1%} of {len(inside)}", len(inside), 0.86 <= share <= 0.94)
+    by_part = ", ".join(f"{part} {np.mean(own):.0%} of {len(own)}" for part, own in held.items())
+    return Gate(name, asked, f"{share:.1%} of {len(inside)}: {by_part}", len(inside), 0.86 <= share <= 0.94)
 
 
 def _seen(cases: Outcomes) -> list[Outcome]:
-    return [one for one in cases if one.verdict != NULL]
+    return [one for one in cases if one.verdict not in (NULL, FAILED)]
 
 
-def _is(verdict: str) -> Callable[[Outcome], bool]:
-    """Whether a verdict is of a kind, and not by a class that holds the truth."""
-    return lambda one: one.verdict == verdict and is_named(one) and not is_right(one)
+def _is_failed(one: Outcome) -> bool:
+    return one.verdict == FAILED
+
+
+def _is(*verdicts: str) -> Callable[[Outcome], bool]:
+    """Whether a verdict is of some kinds, and not by a class that holds the truth."""
+    return lambda one: one.verdict in verdicts and is_named(one) and not is_right(one)
 
 
 def _abstains(one: Outcome) -> bool:
-    return not is_named(one) or one.status == "class"
+    return one.status in ("suspicion", "class")
 
 
 def _sure_name(one: Outcome) -> bool:
@@ -230,9 +266,18 @@ def _over_oracle(one: Outcome) -> float:
     return float(np.sqrt(np.sum(left) / np.sum(best)))
 
 
-def _removed(one: Outcome) -> float:
-    """1 - (after^2 - noise^2)/(before^2 - noise^2) over all channels in their noise; nan where none was there."""
-    if not one.heldout:
-        return float("nan")
+def _is_own(one: Outcome) -> bool:
+    """Whether the fit shown is that of the truth's own law: what a right name shows is."""
+    return is_right(one) and bool(one.oracle)
+
+
+def _excess(one: Outcome) -> tuple[float, float]:
+    """Mean squares beyond the noise, before and after, summed over the channels, in its square."""
     before, after = (sum((each[k] / each[2]) ** 2 - 1.0 for each in one.heldout.values()) for k in (0, 1))
-    return 1.0 - max(after, 0.0) / before if before > 0.2 else float("nan")
+    return before, after
+
+
+def _removed(one: Outcome) -> float:
+    """1 - (after^2 - noise^2)/(before^2 - noise^2) over all channels in their noise."""
+    before, after = _excess(one)
+    return 1.0 - max(after, 0.0) / before

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from .outcome import Claimed, Outcome
+from .outcome import Claimed, Outcome, Ranked
 
-SURE = 0.9  # probability from which a wrong name is held against it
 FLAGGED = ("suspicion", "incomplete", "failed")
 SET = 0.95
+Place = tuple[tuple[str, str], ...]
 
 
 def truth_of(outcome: Outcome) -> frozenset[str]:
@@ -59,10 +59,11 @@ def is_wrong_name(outcome: Outcome) -> bool:
 
 
 def is_grave(outcome: Outcome) -> bool:
-    """Wrong, sure and unflagged: the error that must not happen."""
-    if not is_wrong_name(outcome) or outcome.status in FLAGGED:
-        return False
-    return min((one.probability for one in outcome.claims), default=1.0) >= SURE
+    """Wrong, sure and unflagged: the error that must not happen.
+
+    A name, and the members of a class together, have a probability of .9 at least: thresholds.toml.
+    """
+    return is_wrong_name(outcome) and outcome.status not in FLAGGED
 
 
 def groups(outcome: Outcome) -> list[tuple[frozenset[str], float]]:
@@ -74,23 +75,42 @@ def groups(outcome: Outcome) -> list[tuple[frozenset[str], float]]:
 
 
 def rank(outcome: Outcome) -> int | None:
-    """The place of the truth among the explanations, from 1; 1 too where it is in the class that is claimed."""
+    """The place of the truth among the explanations, from 1; 1 too where it is in the class that is claimed.
+
+    Not the first where something else is claimed: its effect at another gap.
+    """
     if is_right(outcome):
         return 1
     listed = [ids for ids, _ in groups(outcome)]
-    return listed.index(truth_of(outcome)) + 1 if truth_of(outcome) in listed else None
+    place = listed.index(truth_of(outcome)) + 1 if truth_of(outcome) in listed else None
+    return max(place, 2) if place is not None and is_wrong_name(outcome) else place
 
 
 def in_set(outcome: Outcome) -> bool:
-    """Whether the truth is among the likeliest explanations that hold 95 % together."""
+    """Whether the truth, at its gap, is among the likeliest explanations that hold 95 % together."""
+    found: dict[Place, float] = {}
+    for one in outcome.ranked:
+        found[_place(one)] = found.get(_place(one), 0.0) + one.probability
     held = 0.0
-    for ids, probability in groups(outcome):
-        if ids == truth_of(outcome):
+    for place, probability in sorted(found.items(), key=lambda each: -each[1]):
+        if _is_truth(place, outcome):
             return True
         held += probability
         if held >= SET:
             return False
     return False
+
+
+def _place(one: Ranked) -> Place:
+    return tuple(sorted(((effect, pair or "") for effect, pair in zip(one.effects, one.pairs, strict=True))))
+
+
+def _is_truth(place: Place, outcome: Outcome) -> bool:
+    """Whether effects are the true ones, each at its gap where both have one."""
+    if {effect for effect, _ in place} != truth_of(outcome):
+        return False
+    true = dict(zip(outcome.effects, outcome.pairs, strict=True))
+    return all(not gap or true.get(effect) in (None, gap) for effect, gap in place)
 
 
 def confidence(outcome: Outcome) -> tuple[float, bool]:

@@ -29,6 +29,7 @@ from diagnosis.weighed import HeldOut, Weighed
 from diagnosis.words import next_point_text, paragraphs, statement
 from swashfilm.__main__ import main
 from swashfilm.diagnose_files import read_rows, write_diagnosis_files
+from swashfilm.diagnose_page import claim_rows
 from swashfilm.diagnose_runs import NOTHING, Told, run_both
 from system.channels import ChannelName
 from system.components import Component
@@ -310,6 +311,16 @@ def test_the_file_has_the_form_of_format_1(named: Diagnosis, tmp_path: Path) -> 
     assert record["next_test"]["point"]["p_out_bar"] == pytest.approx(370)
     assert record["next_test"]["point"]["speed_rpm"] == pytest.approx(999.8, abs=0.1)
     assert record["scaling"]["exponents"]["pressure"] == 2.1
+
+
+def test_the_page_tells_gaps_that_cannot_be_told_apart() -> None:
+    """Ids and other gaps with their share stand in the column of what an effect cannot be told from."""
+    claim = {
+        "id": "elastic_opening", "pair": "piston", "probability": 0.97, "equivalent": ["thermal_clearance"],
+        "other_pairs": {"valve_plate": 0.35}, "parameters": [],
+    }  # fmt: skip
+    (row,) = claim_rows({"effects": [claim]})
+    assert row[3] == "thermal_clearance, at the valve plate (0.35)"
 
 
 def test_the_file_has_every_key_of_the_stated_form(named: Diagnosis) -> None:

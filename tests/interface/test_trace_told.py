@@ -10,7 +10,7 @@ from diagnosis.study import TraceMisfit
 from diagnosis.trace_tables import trace_residual_rows
 from swashfilm.diagnose_files import with_stated
 from swashfilm.diagnose_page import strongest_courses
-from swashfilm.diagnose_trace_plots import trace_residuals
+from swashfilm.diagnose_trace_plots import trace_residuals, worst_points
 
 ANGLE = 2.0 * np.pi * np.arange(72) / 72
 SIGMA = 0.4e5  # Pa
@@ -44,9 +44,10 @@ def test_each_sample_stands_in_the_table_with_its_pulls():
 
 def test_the_picture_shows_the_worst_few():
     rows = _rows(tuple(range(7)))
-    png = trace_residuals(rows, (350.0, 5.0), {"3": "point 4: 1000 rpm"})
-    assert png.startswith(b"\x89PNG")
-    assert len(png) > len(trace_residuals(rows[:72], None, {}))
+    misfit = (3.0, 1.0, 6.0, 2.0, 5.0, 0.0, 4.0)
+    rows = [{**row, "pull_before": str(misfit[int(row["point"])])} for row in rows]
+    assert worst_points(rows) == ["0", "2", "4", "6"]
+    assert trace_residuals(rows, (350.0, 5.0), {"4": "point 5: 1000 rpm"}).startswith(b"\x89PNG")
 
 
 def test_what_is_claimed_is_drawn_where_it_adds_most_and_nowhere_of_a_trace_alone():

@@ -10,6 +10,7 @@ from types import ModuleType, SimpleNamespace
 
 import numpy as np
 import pytest
+from scipy import stats
 
 from diagnosis.recording import reading_sigma
 from diagnosis.recording_reader import read_recording
@@ -78,6 +79,8 @@ def test_readings_have_the_noise_they_state(proof: SimpleNamespace) -> None:
     assert noise.var() == pytest.approx(0.97 + 0.03 * 3.0, rel=0.1)
     memory = np.mean(noise[1:] * noise[:-1]) / noise.var()
     assert memory == pytest.approx(0.97**2 * proof.sensors.MEMORY / noise.var(), abs=4.0 / np.sqrt(40000))
+    beyond = 40000 * (0.97 * 2.0 * stats.norm.sf(4.0) + 0.03 * 2.0 * stats.t.sf(4.0, 3))
+    assert np.sum(np.abs(noise) > 4.0) == pytest.approx(beyond, abs=4.0 * np.sqrt(beyond))  # 36; Gaussian: 3
 
 
 def test_a_recording_is_read_as_it_was_written(proof: SimpleNamespace, small: str, tmp_path: Path) -> None:

@@ -55,7 +55,8 @@ def test_a_wrong_verdict(proof: SimpleNamespace, right: object) -> None:
     other = replace(right, claims=(claimed("churning", None, 0.97, ()),))
     assert judged.is_grave(other)
     assert not judged.is_grave(replace(other, status="incomplete"))
-    assert not judged.is_grave(replace(other, claims=(claimed("churning", None, 0.6, ()),)))
+    of_a_class = replace(other, claims=(claimed("churning", None, 0.5, ("seal_drag",)),), status="class")
+    assert judged.is_grave(of_a_class)
     null = replace(other, truth="no_mismatch", effects=(), pairs=())
     assert judged.is_grave(null)
 
@@ -74,6 +75,9 @@ def test_the_truth_has_a_place(proof: SimpleNamespace, right: object) -> None:
     assert proof.judged.in_set(right)
     assert not proof.judged.in_set(second)
     assert proof.judged.rank(replace(right, effects=("churning",), pairs=(None,))) is None
+    elsewhere = replace(right, pairs=("piston",))
+    assert proof.judged.rank(elsewhere) == 2
+    assert not proof.judged.in_set(elsewhere)
 
 
 def test_gates_hold_and_fail(proof: SimpleNamespace, right: object) -> None:
@@ -141,19 +145,20 @@ def test_an_angle_is_off_across_the_dead_centre(proof: SimpleNamespace, right: o
 def test_a_point_is_worth_what_it_settles(proof: SimpleNamespace, right: object) -> None:
     """Left open at 1 nat: the point asked for brings 4, a random one .5; one settled before is not counted.
 
-    One of which the verdict says that no point settles it is counted beside; where a promise fails the gate does.
+    One of which the verdict says that no point settles it is, but not among those that it promises to settle.
     """
     left_open = replace(right, worth=proof.outcome.Worth(1.0, 4.0, 0.5, 0.9))
     settled = replace(right, worth=proof.outcome.Worth(6.0, 0.0, 0.0, 0.9))
     beyond = replace(right, worth=proof.outcome.Worth(1.0, 0.1, 0.0, 0.02))
     found = {gate.name: gate for gate in proof.gates.gates([left_open, settled, beyond])}
-    by_asked = found["pairs settled by the point asked for, 3 readings"]
-    by_other = found["the same by a point drawn at random"]
-    assert (by_asked.passed, by_asked.cases) == (True, 1)
-    assert by_asked.found.endswith("; 1 more told to be settled by no point")
-    assert (by_other.passed, by_other.cases) == (True, 1)
+    by_asked = found["pairs left open, settled by the point asked for, 3 readings"]
+    promised = found["pairs left open, settled where the verdict says that the point does"]
+    by_other = found["pairs left open, settled by a point drawn at random"]
+    assert (by_asked.passed, by_asked.cases) == (False, 2)
+    assert (promised.passed, promised.cases) == (True, 1)
+    assert (by_other.passed, by_other.cases) == (True, 2)
     broken = replace(right, worth=proof.outcome.Worth(1.0, 0.5, 0.5, 0.9))
-    assert next(one for one in proof.gates.gates([broken]) if one.name == by_asked.name).passed is False
+    assert next(one for one in proof.gates.gates([broken]) if one.name == promised.name).passed is False
 
 
 def test_a_fit_is_held_against_the_truths_own(proof: SimpleNamespace, right: object) -> None:
@@ -162,3 +167,68 @@ def test_a_fit_is_held_against_the_truths_own(proof: SimpleNamespace, right: obj
     gate = next(one for one in proof.gates.gates([found]) if "truth's own fit" in one.name)
     assert gate.passed is False
     assert gate.found.startswith("1.20")
+
+
+def test_a_fit_without_the_truths_own_is_missed(proof: SimpleNamespace, right: object) -> None:
+    """A case for which the truth's law could not be fitted counts as missed, and is told."""
+    found = replace(right, oracle={})
+    gate = next(one for one in proof.gates.gates([found]) if "truth's own fit" in one.name)
+    assert gate.passed is False
+
+
+def test_gates_of_small_sizes_and_gaps(proof: SimpleNamespace, right: object) -> None:
+    """At z = 3 no mismatch is no suspicion; a gap claimed wrong is missed though the name is not right."""
+    small = replace(right, score=3.0, claims=(), effects=("elastic_opening",), verdict="no_mismatch")
+    doubted = replace(small, verdict="missing_physics", status="suspicion")
+    gate = next(
+        one for one in proof.gates.gates([small, doubted]) if "at z = 3" in one.name and "class" in one.name
+    )
+    assert gate.found.startswith("50.0% (1 of 2")
+    assert gate.found.endswith("1 more told as no mismatch")
+    elsewhere = replace(right, claims=(proof.outcome.Claimed("elastic_opening", "piston", 0.97, ()),))
+    gap = next(one for one in proof.gates.gates([right, elsewhere]) if one.name.startswith("gap claimed"))
+    assert gap.found.startswith("50.0% (1 of 2")
+
+
+def test_gates_of_kinds(proof: SimpleNamespace, right: object) -> None:
+    """A sensor's fault called physics, named or unknown; a recording that came to no diagnosis."""
+    fault = replace(right, part="sensor", truth="sensor_fault", effects=("Q_case_gain",), pairs=(None,))
+    strange = replace(fault, verdict="unknown_physics", claims=())
+    gates = {gate.name: gate for gate in proof.gates.gates([fault, strange, replace(fault, verdict="none")])}
+    assert gates["sensor called physics"].found.startswith("100.0% (2 of 2")
+    assert gates["no diagnosis came about, all cases"].passed is False
+
+
+def test_coverage_tells_its_parts(proof: SimpleNamespace, right: object) -> None:
+    """Nine of ten intervals of nulls, none of one of a graded case: 82 %, missed."""
+    null = replace(right, part="null", covered={str(k): k > 0 for k in range(10)})
+    gate = next(one for one in proof.gates.gates([null, replace(right, covered={"viscosity": False})])
+                if one.name.startswith("90 % intervals"))  # fmt: skip
+    assert gate.passed is False
+    assert gate.found == "81.8% of 11: null 90% of 10, graded 0% of 1"
+
+
+def test_the_page_tells_every_case(proof: SimpleNamespace, right: object, tmp_path: Path) -> None:
+    """A null and a graded case kept under their names: gates, sizes, rivals, the case's verdict with its gaps."""
+    null, graded = (proof.cases.cases(part, 52)[0] for part in (proof.cases.Part.NULL, proof.cases.Part.GRADED))
+    seen = {"largest residual": proof.outcome.Rival(True, ("elastic_opening",))}
+    claim = proof.outcome.Claimed("elastic_opening", "slipper", 0.97, (), ("valve_plate",))
+    nothing = replace(right, part="null", truth="no_mismatch", effects=(), pairs=(), claims=(), score=0.0,
+                      verdict="no_mismatch", rivals=seen)  # fmt: skip
+    proof.store.keep(tmp_path, proof.store.name_of(null), nothing)
+    proof.store.keep(
+        tmp_path, proof.store.name_of(graded), replace(right, claims=(claim,), status="class", rivals=seen)
+    )
+    proof.page.write_page(tmp_path, tmp_path / "proof.md", 52)
+    text = (tmp_path / "proof.md").read_text("utf-8")
+    assert "2 of 538 cases have been run" in text
+    assert "| right | missing_physics, class: elastic_opening (slipper) 0.97 or at valve_plate |" in text
+    assert "| largest residual, usual suspect | 1 of 1 | 1 of 1 | 1 of 1 | - |" in text
+    assert "| graded | 8 | 1 | 1 | 0 | 1 | 0 | 0 |" in text
+
+
+def test_the_mix_is_the_one_of_the_thresholds(proof: SimpleNamespace) -> None:
+    """Shares of the kinds of truth are the priors that a diagnosis has."""
+    prior = load_thresholds().prior
+    kinds = (prior.none, prior.missing_physics, prior.sensor_fault, prior.wrong_parameter, prior.unknown_physics)
+    assert tuple(proof.calibration.MIX.values()) == pytest.approx(kinds)
