@@ -88,7 +88,7 @@ def _where(diagnosis: Diagnosis) -> dict[str, Any]:
         "region": location.region.text if location.region else None,
         "shaft_angle_deg": [degrees(angle.start), degrees(angle.end)] if angle else None,
         "components": [one.value for one in location.tie],
-        "time": {"kind": location.time.kind.value, "point": location.time.at} if location.time else None,
+        "time": {"kind": location.time.kind.value, "point": location.time.at + 1} if location.time else None,
     }
 
 

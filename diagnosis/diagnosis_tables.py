@@ -14,6 +14,7 @@ from diagnosis.next_point import NextPoint
 from diagnosis.recording import Recording
 from diagnosis.repair import repair
 from diagnosis.study import Study
+from diagnosis.table_rows import table_rows
 from diagnosis.thresholds import Thresholds
 from diagnosis.verdict import Diagnosis
 from system.channels import ChannelName
@@ -27,12 +28,12 @@ Row = Mapping[str, str]
 
 
 def steady_rows(recording: Recording) -> Iterator[Row]:
-    """The steady points as understood: every channel that was measured at all, in its reading unit."""
+    """The steady points as understood: row, from 1, and every channel that was measured, in its reading unit."""
     table = recording.steady
     names = list(ChannelName)
     seen = [name for name in names if np.any(np.isfinite(table.values[:, names.index(name)]))]
-    for point, values in enumerate(table.values):
-        row = {"point": str(point)}
+    for number, values in zip(table_rows(recording), table.values, strict=True):
+        row = {"point": str(number)}
         for name in seen:
             row[f"{name.value} [{channel_unit(name)}]"] = _reading(name, float(values[names.index(name)]))
         yield row
@@ -46,7 +47,7 @@ def added_by_claim(study: Study, diagnosis: Diagnosis, thresholds: Thresholds) -
 
 
 def residual_rows(study: Study, diagnosis: Diagnosis, thresholds: Thresholds) -> Iterator[Row]:
-    """Each reading: where it was taken, measured and simulated by the null and by what is claimed, pulls.
+    """Each reading: row from 1, where it was taken, measured and simulated by the null and by what is claimed.
 
     sigma is that of a reading, the noise of the point's inputs included; pull = (measured - simulated) / sigma;
     added: what the claimed effects have in the reading simulated after.
@@ -54,6 +55,7 @@ def residual_rows(study: Study, diagnosis: Diagnosis, thresholds: Thresholds) ->
     order, added = list(ChannelName), added_by_claim(study, diagnosis, thresholds)
     sigma = diagnosis.before.whitening.sigma
     before, after = diagnosis.before.predictions, diagnosis.after.predictions
+    numbers = table_rows(study.recording)
     for point, at in np.argwhere(study.observations.measured[:, : len(study.channels)]):
         channel = study.channels[at]
         measured, one = study.observations.values[point, at], sigma[point, at]
@@ -64,7 +66,7 @@ def residual_rows(study: Study, diagnosis: Diagnosis, thresholds: Thresholds) ->
             for axis in AXES
         }
         yield {
-            "point": str(point),
+            "point": str(numbers[point]),
             "channel": channel.value,
             "unit": channel_unit(channel),
             **place,

@@ -8,6 +8,7 @@ from diagnosis.bench_units import channel_unit, difference, reading
 from diagnosis.diagnosis_tables import Row
 from diagnosis.hypotheses import simulator_of
 from diagnosis.study import Study
+from diagnosis.table_rows import table_rows
 from diagnosis.thresholds import Thresholds
 from diagnosis.verdict import Diagnosis
 from system.channels import ChannelName
@@ -19,15 +20,16 @@ ANGLE = f"angle [{channel_unit(ChannelName.ANGLE)}]"
 def trace_residual_rows(study: Study, diagnosis: Diagnosis, thresholds: Thresholds) -> Iterator[Row]:
     """Each sample of each trace: measured, simulated by the null's fit and by that of what is claimed, pulls.
 
-    sigma is that of the recorded mean, an angle known to its step; point: row of the steady table, from 0.
+    sigma is that of the recorded mean, an angle known to its step; point: row of the steady table, from 1.
     """
+    numbers = table_rows(study.recording)
     for trace in study.traces:
         point, angle = trace.block.point, trace.block.angle
         before, after = simulated_traces(study, diagnosis, thresholds, (point,), angle)
         for at, measured in enumerate(trace.block.mean):
             one = trace.sigma[at]
             yield {
-                "point": str(point),
+                "point": str(numbers[point]),
                 ANGLE: f"{reading(ChannelName.ANGLE, float(angle[at])):.6g}",
                 "measured [bar]": _bar(float(measured)),
                 "before [bar]": _bar(float(before[0, at])),

@@ -87,7 +87,7 @@ def place_rows(found: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
     if where["shaft_angle_deg"]:
         yield "shaft angle", " to ".join(f"{angle:.3g}" for angle in where["shaft_angle_deg"]) + " deg"
     if where["time"]:
-        yield where["time"]["kind"], f"point {where['time']['point'] + 1}"
+        yield where["time"]["kind"], f"point {where['time']['point']}"
 
 
 def claim_rows(found: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:
@@ -190,7 +190,7 @@ def _settings(residuals: Sequence[Mapping[str, str]]) -> dict[str, str]:
     for row in residuals:
         known = [(row[f"{name} [{unit}]"], words) for name, unit, words in _SET if row[f"{name} [{unit}]"]]
         values = ", ".join(words.format(float(value)) for value, words in known)
-        told[row["point"]] = f"point {int(row['point']) + 1}: {values}"
+        told[row["point"]] = f"point {row['point']}: {values}"
     return told
 
 

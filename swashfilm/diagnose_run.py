@@ -15,6 +15,7 @@ from diagnosis.recording import DataNote, NoteKind, Recording
 from diagnosis.recording_reader import read_recording
 from diagnosis.scant_pump import KnownPump, load_known_pump
 from diagnosis.study import Study
+from diagnosis.table_rows import by_table_rows
 from diagnosis.thresholds import Thresholds, load_thresholds
 from diagnosis.verdict import Diagnosis
 from reynolds.errors import FilmInputError
@@ -97,7 +98,7 @@ def run_diagnosis(
     points, _ = bench_points(study.recording, pump)
     viscosity = walther(points.T_case, pump.oil.fluid) * pump.oil.density
     found = diagnose_study(study, viscosity, thresholds, report, workers)
-    found = _with_next_point(study, pump, found, thresholds)
+    found = by_table_rows(_with_next_point(study, pump, found, thresholds), study.recording)
     (folder / "resolved.toml").write_text(resolved_toml(pump), encoding="utf-8")
     if found.effects:
         (folder / EXTENDED).write_text(resolved_toml(claimed_pump(pump, found)), encoding="utf-8")

@@ -12,6 +12,7 @@ import numpy as np
 from diagnosis.diagnosis_tables import Row, added_by_claim
 from diagnosis.inputs import bench_points
 from diagnosis.study import Study
+from diagnosis.table_rows import table_rows
 from diagnosis.thresholds import Thresholds
 from diagnosis.verdict import Diagnosis
 from swashfilm.fidelity import Fidelity
@@ -69,6 +70,7 @@ def run_both(
         return replace(NOTHING, text="A sensor's fault changes nothing in the pump.")
     own, added = found.hypotheses[0].hypothesis, added_by_claim(study, found, thresholds)
     at = int(np.argmax(np.nansum((added / found.after.whitening.sigma) ** 2, axis=1)))
+    number = table_rows(study.recording)[at]
     point = operating_at(pump, bench_points(study.recording, pump)[0], at)
     closed = np.array([parameter.name in own.open_names for parameter in found.after.parameters])
     stated = values_at(found.after.parameters, np.where(closed, 0.0, found.after.xi))
@@ -79,10 +81,10 @@ def run_both(
     try:
         summaries = [_run(_at(each, point), folder / name, report) for name, each in pumps.items()]
     except NotConverged as reason:
-        return Told((), f"Point {at + 1}, where the finding adds most, could not be run: {reason}")
+        return Told((), f"Point {number}, where the finding adds most, could not be run: {reason}")
     films = NO_FILMS if pumps[WITH].physics.on else FILMS
     return Told(
-        tuple(_changes(*summaries)), f"Point {at + 1}, where the finding adds most: {_setting(point)}.", films
+        tuple(_changes(*summaries)), f"Point {number}, where the finding adds most: {_setting(point)}.", films
     )
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from dataclasses import dataclass, replace
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -21,6 +22,7 @@ from diagnosis.next_point import NextPoint
 from diagnosis.recording import Circuit, DataNote, NoteKind, RecordedChannel, Recording, SteadyTable
 from diagnosis.regions import Region
 from diagnosis.study import Study
+from diagnosis.table_rows import by_table_rows
 from diagnosis.thresholds import load_thresholds
 from diagnosis.time_scan import TimeKind, TimeMark
 from diagnosis.unknown import Scaling
@@ -275,7 +277,10 @@ def test_angles_and_times_are_part_of_where(named: Diagnosis) -> None:
     assert "point 40" in statement(found)
     where = diagnosis_record(found)["where"]
     assert where["shaft_angle_deg"] == pytest.approx([5.7296, 17.1887], rel=1e-4)
-    assert where["time"] == {"kind": "onset", "point": 39}
+    assert where["time"] == {"kind": "onset", "point": 40}
+    lacking = DataNote(NoteKind.REMOVED, None, (1,), "an input of these points is missing")
+    recording = SimpleNamespace(notes=(lacking,), steady=SimpleNamespace(values=np.zeros((60, 0))))
+    assert diagnosis_record(by_table_rows(found, recording))["where"]["time"]["point"] == 41
 
 
 def test_temperatures_off_are_told_as_differences(named: Diagnosis) -> None:

@@ -5,9 +5,11 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from diagnosis.diagnosis_tables import steady_rows
 from diagnosis.inputs import bench_points, complete, measured, taken_parameters
 from diagnosis.readings import observations
 from diagnosis.recording import Circuit, NoteKind, RecordedChannel, Recording, SteadyTable, TraceBlock
+from diagnosis.table_rows import table_rows
 from reynolds.errors import FilmInputError
 from system.channels import INPUTS, ChannelName
 from system.description import PumpDescription
@@ -43,6 +45,14 @@ def test_a_point_without_an_input_is_taken_out_and_told() -> None:
     assert found.notes[-1].kind is NoteKind.REMOVED
     assert found.notes[-1].points == (2,)
     assert complete(found) is found
+
+
+def test_points_are_told_by_the_rows_of_their_own_table() -> None:
+    """The third of six rows lacks an input: the points that are left are rows 1, 2, 4, 5, 6, here and in files."""
+    found = complete(_recording())
+    assert table_rows(_recording()).tolist() == [1, 2, 3, 4, 5, 6]
+    assert table_rows(found).tolist() == [1, 2, 4, 5, 6]
+    assert [row["point"] for row in steady_rows(found)] == ["1", "2", "4", "5", "6"]
 
 
 @pytest.fixture

@@ -24,7 +24,8 @@ def _rows(points=(4, 9)):
         return TraceMisfit(block, block.mean, np.zeros((72, 0)), np.full(72, SIGMA))
 
     flat = SimpleNamespace(traces=lambda values, points, angles: np.zeros((len(points), len(angles))))
-    study = SimpleNamespace(traces=tuple(map(misfit, points)), simulator=flat)
+    recording = SimpleNamespace(notes=(), steady=SimpleNamespace(values=np.zeros((10, 0))))
+    study = SimpleNamespace(traces=tuple(map(misfit, points)), simulator=flat, recording=recording)
     nothing = SimpleNamespace(
         effects=(), hypotheses=(SimpleNamespace(posterior=None),), before=SimpleNamespace(values=np.zeros(0))
     )
@@ -33,7 +34,7 @@ def _rows(points=(4, 9)):
 
 def test_each_sample_stands_in_the_table_with_its_pulls():
     rows = _rows()
-    assert [row["point"] for row in rows] == ["4"] * 72 + ["9"] * 72
+    assert [row["point"] for row in rows] == ["5"] * 72 + ["10"] * 72
     assert float(rows[1]["angle [deg]"]) == pytest.approx(5.0)
     for row in rows:
         assert float(row["measured [bar]"]) == pytest.approx(1.2)
@@ -45,9 +46,9 @@ def test_each_sample_stands_in_the_table_with_its_pulls():
 def test_the_picture_shows_the_worst_few():
     rows = _rows(tuple(range(7)))
     misfit = (3.0, 1.0, 6.0, 2.0, 5.0, 0.0, 4.0)
-    rows = [{**row, "pull_before": str(misfit[int(row["point"])])} for row in rows]
-    assert worst_points(rows) == ["0", "2", "4", "6"]
-    assert trace_residuals(rows, (350.0, 5.0), {"4": "point 5: 1000 rpm"}).startswith(b"\x89PNG")
+    rows = [{**row, "pull_before": str(misfit[int(row["point"]) - 1])} for row in rows]
+    assert worst_points(rows) == ["1", "3", "5", "7"]
+    assert trace_residuals(rows, (350.0, 5.0), {"5": "point 5: 1000 rpm"}).startswith(b"\x89PNG")
 
 
 def test_what_is_claimed_is_drawn_where_it_adds_most_and_nowhere_of_a_trace_alone():
