@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pytest
 
+from diagnosis.recording_reader import read_recording
 from swashfilm.cli import build_parser, run_command
 from swashfilm.fidelity import Fidelity
 from swashfilm.film_case import load_case
@@ -109,6 +110,7 @@ def test_commands_parse(page):
                 known.add(words[-1])
             else:
                 _check_words(words, known)
+                known.update(words[at + 1] for at, word in enumerate(words) if word == "--apply")
 
 
 def _check_words(words: list[str], known: set[str]) -> None:
@@ -134,6 +136,12 @@ def test_documented_cases_load(tmp_path):
     for block in blocks:
         path = tmp_path / block.split()[1].removesuffix(":")
         path.write_text(block, encoding="utf-8")
+        if path.name == "recording.toml":
+            (tmp_path / "steady.csv").write_text(
+                ",".join(re.findall(r'column = "(\w+)"', block)) + "\n" + "1,1,1,1,1\n"
+            )
+            assert read_recording(tmp_path).pump == "ref90"
+            continue
         load = load_gap_table if "[table]" in block else load_film
         assert load(path).name == path.stem
 

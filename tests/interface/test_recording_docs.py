@@ -3,11 +3,15 @@
 import re
 from pathlib import Path
 
+import pytest
+
 from diagnosis.recording_form import read_form
+from swashfilm.__main__ import main
 from system.case_table import Table
 from system.channels import ChannelName
 
-PAGE = Path(__file__).parents[2] / "docs" / "files.md"
+ROOT = Path(__file__).parents[2]
+PAGE = ROOT / "docs" / "files.md"
 NAMED = re.compile(r"^\| `([^`]+)`", re.MULTILINE)
 
 
@@ -65,3 +69,13 @@ def _table_form() -> set[str]:
 def test_the_form_of_a_table_is_on_the_page(monkeypatch):
     asked = {k.removeprefix("steady.") for k in _asked(monkeypatch) if k.startswith("steady.")}
     assert _table_form() <= asked
+
+
+@pytest.mark.parametrize(
+    "folder", sorted((ROOT / "examples" / "recordings").glob("*/")), ids=lambda path: path.name
+)
+def test_recordings_to_begin_from_have_no_fault(folder, capsys):
+    if not (folder / "steady.csv").exists():
+        pytest.skip("its table is written by paper_points.py")
+    assert main(["check", str(folder)]) == 0
+    assert "112 points" in capsys.readouterr().out
