@@ -14,12 +14,12 @@ from .calibration import brier, calibration_error, wilson
 from .judged import in_set, is_grave, is_named, is_right, is_wrong_name, rank
 from .located import region_overlap, turn_error
 from .outcome import Outcome, Worth
+from .removed import LEAST, excess, left_by_nothing, removed, removed_of_all
 
 PHYSICS, SENSOR, UNKNOWN, NULL = "missing_physics", "sensor_fault", "unknown_physics", "no_mismatch"
 FAILED = "none"  # the verdict where no diagnosis came about
 KNOWN = ("graded", "pair", "parameter", "sensor")
 CLEAR = 7.5  # score from which a case counts as z >= 8: sizes are found to 2 %
-LEAST = 0.2  # of the noise's square, over the channels: below it there is nothing to remove
 TRACED = "map"  # the campaign with chamber traces
 Outcomes = Sequence[Outcome]
 T = TypeVar("T")
@@ -107,11 +107,12 @@ def _fits(outcomes: Outcomes) -> tuple[Gate, ...]:
     clear = _clear(outcomes)
     right = [one for one in clear if is_right(one)]
     over = _median("held-out residual over that of the truth's own fit, z >= 8", clear, _over_oracle, at_most=1.05)
-    to_remove = [one for one in right if _excess(one)[0] > LEAST]
+    to_remove = [one for one in right if excess(one)[0] > LEAST]
     return (
         _median("held-out residual over noise, right names at z >= 8", right, _left, at_most=1.1),
         _beside(over, f"the right name's fit is the truth's own in {sum(map(_is_own, clear))}"),
-        _median("removed share of what noise does not explain", to_remove, _removed, at_least=0.90),
+        _median("removed share of what the noise stated does not explain", to_remove, removed, at_least=0.90),
+        _removed_of_all(right, [one for one in outcomes if one.truth == NULL]),
         _coverage(outcomes),
         _number("Brier score of the likeliest, on the declared mix", outcomes, brier, 0.06),
         _number("calibration error (ECE) on the declared mix", outcomes, calibration_error, 0.05),
@@ -202,6 +203,19 @@ def _settles(worth: Worth, told: float) -> bool:
     return worth.before + told >= SETTLED
 
 
+def _removed_of_all(right: Outcomes, nulls: Outcomes) -> Gate:
+    name, asked = (
+        "removed share, all right names together, of what is not left where nothing is concealed",
+        ">= 0.9",
+    )
+    floor = left_by_nothing(nulls)
+    known = [one for one in right if all((one.campaign, channel) in floor for channel in one.heldout)]
+    if not known:
+        return Gate(name, asked, "-", 0, None)
+    share, low, high = removed_of_all(known, floor)
+    return Gate(name, asked, f"{share:.2f} of {len(known)} ({low:.2f} to {high:.2f})", len(known), share >= 0.9)
+
+
 def _coverage(outcomes: Outcomes) -> Gate:
     name, asked = "90 % intervals of parameters that hold the truth", "86 % to 94 %"
     parts = dict.fromkeys(one.part for one in outcomes if one.covered)
@@ -269,15 +283,3 @@ def _over_oracle(one: Outcome) -> float:
 def _is_own(one: Outcome) -> bool:
     """Whether the fit shown is that of the truth's own law: what a right name shows is."""
     return is_right(one) and bool(one.oracle)
-
-
-def _excess(one: Outcome) -> tuple[float, float]:
-    """Mean squares beyond the noise, before and after, summed over the channels, in its square."""
-    before, after = (sum((each[k] / each[2]) ** 2 - 1.0 for each in one.heldout.values()) for k in (0, 1))
-    return before, after
-
-
-def _removed(one: Outcome) -> float:
-    """1 - (after^2 - noise^2)/(before^2 - noise^2) over all channels in their noise."""
-    before, after = _excess(one)
-    return 1.0 - max(after, 0.0) / before

@@ -49,7 +49,9 @@ The gates were set before the program was written. A case without a number where
   window holds four fifths of the square by which chamber pressures differ.
 - The truth's own fit has the catalogue's law of what is concealed, which is not the plant's law. A right name's
   fit is that fit: the line above can be missed by other names only. Readings have tails beyond the noise that they
-  state, which no law removes; of what noise does not explain they are a part.
+  state, which no law removes: of what the noise stated does not explain they are a part, and at z = 8 most. The
+  share of all right names together takes off what nulls of the same campaign leave in the same channel: the excess
+  of one case scatters as much as it is large.
 - A pair is left open where the recording leaves its odds below 20 to 1, one of the two being the truth, and is
   settled from there on, by three readings that the plant's bench takes. The verdict says that a point settles it
   where that has a chance of 80 % at least, whichever of the two is true, and else that no point of an ordinary

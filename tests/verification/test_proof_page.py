@@ -199,6 +199,18 @@ def test_gates_of_kinds(proof: SimpleNamespace, right: object) -> None:
     assert gates["no diagnosis came about, all cases"].passed is False
 
 
+def test_what_nulls_leave_is_no_ones_to_remove(proof: SimpleNamespace, right: object) -> None:
+    """Nulls leave 1.1 of the noise's square; of 4 a fit leaves 1.39: nine tenths of 2.9 with it, .87 without."""
+    null = replace(right, part="null", truth="no_mismatch", effects=(), pairs=(), claims=(), score=0.0,
+                   verdict="no_mismatch", heldout={"Q_case": (1.1**0.5, 1.1**0.5, 1.0)})  # fmt: skip
+    found = replace(right, heldout={"Q_case": (2.0, 1.39**0.5, 1.0)})
+    gates = {gate.name: gate for gate in proof.gates.gates([null, found])}
+    assert gates["removed share of what the noise stated does not explain"].found.startswith("0.87")
+    pooled = gates["removed share, all right names together, of what is not left where nothing is concealed"]
+    assert pooled.found == "0.90 of 1 (0.90 to 0.90)"
+    assert proof.removed.removed_of_all([found], proof.removed.left_by_nothing([null]))[0] == pytest.approx(0.9)
+
+
 def test_coverage_tells_its_parts(proof: SimpleNamespace, right: object) -> None:
     """Nine of ten intervals of nulls, none of one of a graded case: 82 %, missed."""
     null = replace(right, part="null", covered={str(k): k > 0 for k in range(10)})
