@@ -8,9 +8,11 @@ from dataclasses import replace
 import numpy as np
 
 from diagnosis.outliers import outliers
+from diagnosis.reading_checks import impossible
 from diagnosis.recording import DataNote, NoteKind, Recording
 from diagnosis.sensor_checks import copies, noiseless, repeated_rows, stuck, stuck_inputs
-from diagnosis.unit_checks import implausible
+from diagnosis.unit_checks import implausible, trace_sizes
+from system.bench_truth import SIMULATED
 from system.channels import OUTPUTS, ChannelName
 
 VARIED = 2.0
@@ -26,7 +28,10 @@ def check_recording(recording: Recording, displacement: float | None) -> Recordi
     FAULT: nothing can be made of the recording before it is put right (units, a channel that copies another, no
     noise at all). REMOVED: these readings are not used (outliers, a stuck sensor). TOLD: to be borne in mind.
     """
-    recording = _noted(recording, [*implausible(recording, displacement), *_gaps(recording), *_speed(recording)])
+    recording = _noted(recording, [*_gaps(recording), *impossible(recording)])
+    with np.errstate(divide="ignore", invalid="ignore"):
+        recording = _noted(recording, [*implausible(recording, displacement), *trace_sizes(recording)])
+    recording = _noted(recording, _speed(recording))
     for find in (stuck, stuck_inputs, repeated_rows, copies, noiseless, outliers):
         recording = _noted(recording, find(recording))
     return recording
@@ -85,7 +90,12 @@ def _speed(recording: Recording) -> Iterable[DataNote]:
 
 
 def _gaps(recording: Recording) -> Iterable[DataNote]:
-    """Tell of channels with missing readings; a channel without a single one is a fault."""
+    """Tell of channels with missing readings; a channel without a single one is a fault, as is no output."""
+    if not any(recording.channel(name) is not None for name in SIMULATED):
+        names = ", ".join(name.value for name in SIMULATED)
+        yield DataNote(
+            NoteKind.FAULT, None, (), f"none of {names}, which are simulated; record one of them at least"
+        )
     for channel in recording.channels:
         if channel.name in (ChannelName.ANGLE, ChannelName.P_CHAMBER):
             continue

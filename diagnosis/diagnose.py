@@ -15,6 +15,7 @@ from diagnosis.heldout import held_out
 from diagnosis.hypotheses import hypotheses
 from diagnosis.judge import Verdict, judge
 from diagnosis.locate import Location, locate, of_explanation, without_explanation
+from diagnosis.note_words import note_text
 from diagnosis.pairs import combine
 from diagnosis.refit import refit_all, try_refit
 from diagnosis.repair import repair
@@ -55,7 +56,7 @@ def diagnose_study(
         fits = _fits(study, detection, screened, null, thresholds, hands, report)
     ranked = _foretold(study, null, with_probabilities(fits.weighed, thresholds.name.temperature), thresholds)
     verdict = judge(study, detection, ranked, coordinates(study, viscosity), thresholds)
-    notes = (*(note.text for note in study.recording.notes), *verdict.reasons, *not_null, *fits.failed)
+    notes = (*map(note_text, study.recording.notes), *verdict.reasons, *not_null, *fits.failed)
     return _finding(study, detection, location, verdict, viscosity, notes, thresholds)
 
 

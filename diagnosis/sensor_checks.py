@@ -25,11 +25,15 @@ TELLING = 4  # channels that do not repeat themselves together
 def stuck(recording: Recording) -> Iterator[DataNote]:
     """Yield outputs that read the same at `LEAST_RUN` or more points on end while speed or pressure moved.
 
-    Only of a channel that elsewhere changes by more than `ALIVE` of its steps from point to point.
+    Only of a channel that elsewhere changes by more than `ALIVE` of its steps from point to point; one that never
+    changes is a fault.
     """
     moving = [recording.steady.column(name) for name in (ChannelName.SPEED, ChannelName.P_OUT)]
     for name in OUTPUTS:
         channel, values = recording.channel(name), recording.steady.column(name)
+        if channel is not None and _dead(values) and any(_moved(column, column) for column in moving):
+            text = f"{name.value} is stuck: one reading at every point while inputs moved"
+            yield DataNote(NoteKind.FAULT, name, (), text + "; leave it out of [channel]")
         changes = np.abs(np.diff(values))
         known = changes[np.isfinite(changes) & (changes > 0.0)]
         if channel is None or not len(known) or np.median(known) <= ALIVE * channel.quantum:
@@ -75,7 +79,8 @@ def repeated_rows(recording: Recording) -> Iterator[DataNote]:
     if int(np.any(np.isfinite(values), axis=0).sum()) < TELLING:
         return
     _, first = np.unique(np.nan_to_num(values, nan=-1e300), axis=0, return_index=True)
-    points = tuple(int(point) for point in sorted(set(range(len(values))) - set(first.tolist())))
+    read = np.flatnonzero(np.any(np.isfinite(values), axis=1))
+    points = tuple(int(point) for point in sorted(set(read.tolist()) - set(first.tolist())))
     if points:
         kind = NoteKind.FAULT if len(points) >= LEAST_RUN else NoteKind.TOLD
         text = "the same as earlier points in every channel: written twice? Leave them out"
@@ -128,6 +133,12 @@ def noiseless(recording: Recording) -> Iterator[DataNote]:
         if np.sqrt(np.sum(deviation**2) / free) < 0.01 * sigma:
             text = f"{name.value} repeats itself without noise at {free} repeated points: is it measured?"
             yield DataNote(NoteKind.FAULT, name, (), text)
+
+
+def _dead(values: Array) -> bool:
+    """True where a channel has `LEAST_RUN` readings at least, all of them one."""
+    known = values[np.isfinite(values)]
+    return len(known) >= LEAST_RUN and float(np.ptp(known)) == 0.0
 
 
 def _runs(values: Array) -> Iterator[tuple[int, int]]:

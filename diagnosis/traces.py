@@ -11,6 +11,7 @@ from system.kinematics import Array
 TURN = 2.0 * np.pi
 FEWEST_ROWS = 36  # a turn, below which a trace shows no event of the ports
 FEWEST_CYCLES = 3  # from which their scatter is kept
+ROUNDING = 1e-9  # turns
 WIDEST_GAP = TURN / 12
 
 
@@ -18,9 +19,9 @@ def synchronous_mean(point: int, angle: Array, pressure: Array, cycle: Array | N
     """Return the mean over cycles of a trace, on as many even angles as its cycles have rows (median).
 
     angle: (T,) rad, pressure: (T,) Pa gauge, cycle: (T,) number of the cycle of each row; None: a new one begins
-    where the angle falls. Each cycle is interpolated linearly, closed over the turn. covariance_factor F (K, c):
-    deviations of c cycles over sqrt(c (c - 1)), so that F F^T is the covariance of the mean. Raises TableFault
-    for a trace with too few rows a turn or a gap of more than 30 deg.
+    with each turn since the first row. Each cycle is interpolated linearly, closed over the turn.
+    covariance_factor F (K, c): deviations of c cycles over sqrt(c (c - 1)), so that F F^T is the covariance of the
+    mean. Raises TableFault for a trace with too few rows a turn or a gap of more than 30 deg.
     """
     known = np.isfinite(angle) & np.isfinite(pressure)
     angle, pressure = angle[known], pressure[known]
@@ -30,7 +31,7 @@ def synchronous_mean(point: int, angle: Array, pressure: Array, cycle: Array | N
     if not whole:
         raise TableFault(
             f"no whole turn in the trace of point {point + 1} ({len(angle)} rows)",
-            f"at least {FEWEST_ROWS} rows a turn and no gap of more than 30 deg",
+            f"at least {FEWEST_ROWS} rows a turn and no gap of more than 30 deg, angles in the unit stated",
         )
     rows = int(np.median([part.sum() for part in whole]))
     raster = TURN * np.arange(rows) / rows
@@ -44,8 +45,12 @@ def synchronous_mean(point: int, angle: Array, pressure: Array, cycle: Array | N
 
 
 def _cycles(angle: Array) -> Array:
-    """Number of the cycle of each row: one more where the angle falls by more than half a turn."""
-    return np.concatenate([[0.0], np.cumsum(np.diff(angle) < -0.5 * TURN)]) if len(angle) else angle
+    """Number of the cycle of each row: turns since the first, wherever that is; angles wrap or count on."""
+    if not len(angle):
+        return angle
+    course = np.unwrap(angle)
+    turns: Array = np.floor((course - course[0]) / TURN + ROUNDING)
+    return turns
 
 
 def _widest_gap(angle: Array) -> float:

@@ -26,6 +26,7 @@ FLOW_RATIO = (0.4, 1.15)  # Q_out over displacement x speed
 INLET_RATIO = (0.4, 1.5)  # Q_in over the same
 APART = 0.15  # share of a flow by which two groups of points differ that are no one pump at one setting
 TORQUE_RATIO = (0.85, 2.5)  # torque over displacement x pressure difference
+TRACE_RATIO = (0.5, 2.0)  # upper tenth of a chamber's pressure over p_out
 CASE_PRESSURE = (-3e4, 1e6)  # Pa gauge: no vacuum, and less than any shaft seal bears
 HOTTEST = 383.15  # K: beyond, oil ages within hours
 DRAIN_WARMER = (-1.0, 80.0)  # K, T_case less T_in: what leaks has been throttled
@@ -39,6 +40,7 @@ OTHER_UNITS: Mapping[Dimension, tuple[str, ...]] = {
     Dimension.TEMPERATURE: ("degC", "degF", "K"),
 }
 Ratio = Callable[[Recording], float | None]
+_RATIO = ChannelName.DISPLACEMENT_RATIO
 _TENFOLD = (("large", 0.1), ("small", 10.0))
 _DIRECTED = (ChannelName.SPEED, ChannelName.Q_OUT, ChannelName.Q_IN, ChannelName.Q_CASE, ChannelName.TORQUE)
 """Counted in the direction of a pump: from inlet to delivery, out of the case, driven."""
@@ -172,6 +174,9 @@ def _ratio_fault(
         ]
         ways += [f"{name.value} too {word} by a factor of 10" for word, by in _TENFOLD if mends(name, by)]
         ways += [f"{name.value} of the other sign"] * (name in _DIRECTED and mends(name, -1.0))
+    if recording.channel(_RATIO) is not None:
+        shares = (("1", 100.0), ("%", 0.01))
+        ways += [f"displacement_ratio in '{unit}'" for unit, by in shares if mends(_RATIO, by)]
     hint = f"; {' or '.join(ways)}?" if ways else ""
     yield DataNote(NoteKind.FAULT, names[0], (), text.format(found) + hint)
 
@@ -240,6 +245,26 @@ def _case(recording: Recording) -> Iterator[DataNote]:
     if warmer is not None and not DRAIN_WARMER[0] <= warmer <= DRAIN_WARMER[1]:
         text = f"T_case is {warmer:+.3g} K off T_in at half of the points: a unit, or have they changed places?"
         yield DataNote(NoteKind.TOLD, ChannelName.T_CASE, (), text)
+
+
+def trace_sizes(recording: Recording) -> Iterator[DataNote]:
+    """Yield a fault of chamber pressures that in half of the traces stay far below delivery's or pass it far."""
+    channel = recording.channel(ChannelName.P_CHAMBER)
+    delivered = recording.steady.column(ChannelName.P_OUT)
+    tops = np.array([np.quantile(trace.mean, 0.9) for trace in recording.traces])
+    ratio = _median(tops / np.array([delivered[trace.point] for trace in recording.traces]))
+    if channel is None or ratio is None or _Span(*TRACE_RATIO).holds(ratio):
+        return
+    text = f"p_chamber reaches {ratio:.3g} times p_out in half of the traces"
+    ways = [
+        f"unit = '{unit}'"
+        for unit in OTHER_UNITS[Dimension.PRESSURE]
+        if _Span(*TRACE_RATIO).holds(
+            ratio * unit_scale(unit, Dimension.PRESSURE)[0] / unit_scale(channel.unit, Dimension.PRESSURE)[0]
+        )
+    ]
+    hint = f"; {' or '.join(ways)}?" if ways else ""
+    yield DataNote(NoteKind.FAULT, ChannelName.P_CHAMBER, (), text + hint)
 
 
 def _groups(recording: Recording, displacement: float) -> Iterator[DataNote]:

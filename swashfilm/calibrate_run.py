@@ -9,6 +9,7 @@ from time import process_time
 from diagnosis.data_checks import too_few
 from diagnosis.hypotheses import hypotheses
 from diagnosis.inputs import bench_points
+from diagnosis.note_words import note_text
 from diagnosis.prepare import prepare
 from diagnosis.recording import Recording
 from diagnosis.refit import refit
@@ -133,7 +134,7 @@ def _prepared(
     inputs = tuple(ChannelName.named(one) for one in plain.observations.inputs)
     bench = LumpedBench(pump, points, channels, parameters, inputs=inputs)
     study = study_of(plain.recording, bench, plain.observations, plain.axes, catalogue, thresholds)
-    return study, bench, [*(note.text for note in plain.recording.notes), *map(str, taken), *told]
+    return study, bench, [*map(note_text, plain.recording.notes), *map(str, taken), *told]
 
 
 def _hersey(study: Study, null: Weighed, thresholds: Thresholds, notes: list[str]) -> Hersey | None:

@@ -15,7 +15,7 @@ from system.faults import Fault, InputFaults
 def run_check_command(options: argparse.Namespace) -> int:
     """Run `swashfilm check` and return its exit code; raises InputFaults with what is wrong in the file."""
     from system.case_table import read_toml
-    from system.pump_file import builtin_pumps, check_pump, load_pump, resolved_toml
+    from system.pump_file import builtin_pumps, check_pump, resolved_toml
 
     is_pump = options.file in builtin_pumps()
     if not is_pump:
@@ -47,10 +47,15 @@ def run_check_command(options: argparse.Namespace) -> int:
             )
             raise InputFaults(options.file, [fault])
     if is_pump:
-        pump = load_pump(options.file)
-        show(resolved_toml(pump))
-        for warning in check_pump(pump).warnings:
+        from diagnosis.scant_pump import load_known_pump
+
+        known = load_known_pump(options.file)
+        show(resolved_toml(known.pump))
+        for warning in check_pump(known.pump).warnings:
             show(f"warning: {warning}")
+        if known.scant:
+            show("a pump of which little is known: what its file leaves out is that of ref90, scaled, as above;")
+            show("diagnose and calibrate take it, all else needs a complete file")
     else:
         show(_checked_film(Path(options.file), tables))
     show(f"{options.file}: ok")

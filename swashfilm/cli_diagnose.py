@@ -52,6 +52,7 @@ def run_diagnose_command(options: argparse.Namespace) -> int:
     if faults:
         raise InputFaults("command line", faults)
     from diagnosis.diagnosis_file import read_diagnosis
+    from diagnosis.recording import NoteKind
     from diagnosis.scant_pump import load_known_pump
     from diagnosis.words import paragraphs
     from swashfilm.diagnose_page import CHANNEL_HEAD, channel_rows
@@ -70,6 +71,9 @@ def run_diagnose_command(options: argparse.Namespace) -> int:
     for text in paragraphs(found):
         show(text)
     show_table("Channels", [CHANNEL_HEAD, *channel_rows(record)])
+    for note in found.notes:
+        if note.startswith(NoteKind.REMOVED.value):
+            show(note)
     if apply is not None and found.effects:
         shutil.copyfile(final_folder(folder) / EXTENDED, apply)
         show(f"the pump as fitted, with it, is {apply}: swashfilm run {apply} --fidelity lumped")
@@ -86,7 +90,7 @@ def is_recording(path: Path, tables: Sequence[str]) -> bool:
 
 def check_recording_command(path: Path) -> None:
     """Show a recording as understood; raises InputFaults with every fault of its files and readings at once."""
-    from swashfilm.diagnose_files import note_text
+    from diagnosis.note_words import note_text
     from swashfilm.diagnose_run import checked_recording
 
     recording = checked_recording(path)

@@ -10,6 +10,7 @@ from diagnosis.ask import with_next_point
 from diagnosis.data_checks import check_recording, too_few, too_smooth
 from diagnosis.diagnose import diagnose_study
 from diagnosis.inputs import bench_points
+from diagnosis.note_words import point_ranges
 from diagnosis.prepare import prepare
 from diagnosis.recording import DataNote, NoteKind, Recording
 from diagnosis.recording_reader import read_recording
@@ -20,7 +21,7 @@ from diagnosis.thresholds import Thresholds, load_thresholds
 from diagnosis.verdict import Diagnosis
 from reynolds.errors import FilmInputError
 from reynolds.oil import walther
-from swashfilm.diagnose_files import point_ranges, write_diagnosis_files
+from swashfilm.diagnose_files import write_diagnosis_files
 from swashfilm.diagnose_runs import claimed_pump, run_both
 from swashfilm.progress import Report
 from system.description import PumpDescription

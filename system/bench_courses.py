@@ -177,7 +177,7 @@ def _tables(leaks: LeakTable) -> Array:
 def _tell(problem: MapProblem, point: int) -> None:
     chamber = problem.chambers[point]
     raise NotConverged(
-        f"chamber pressure at point {point + 1}: no periodic revolution at "
+        "chamber pressure: no periodic revolution at "
         f"{chamber['delivery_pressure'] / 1e6:.3g} MPa and {chamber['shaft_speed'] * 60 / TURN:.4g} r/min; check "
         "dead volume, bulk modulus and port areas"
     )

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from diagnosis.data_checks import check_recording, too_few
-from diagnosis.recording import Circuit, NoteKind, RecordedChannel, Recording, SteadyTable
+from diagnosis.recording import Circuit, NoteKind, RecordedChannel, Recording, SteadyTable, TraceBlock
 from system.channels import INPUTS, OUTPUTS, ChannelName
 
 DISPLACEMENT = 90e-6  # m3/rev
@@ -249,3 +249,81 @@ def test_one_speed_need_not_be_recorded():
     )
     told = _told(_without_speed(replace(sound, steady=kept)))
     assert not [text for kind, _, text in told if kind is NoteKind.FAULT]
+
+
+@pytest.mark.parametrize(
+    ("name", "value", "told"),
+    [
+        ("T_in", -9999.0 + 273.15, "reads -9999 degC, beyond what a bench reads"),
+        ("Q_case", -9999.0 / 6e4, "reads -9999 L/min, beyond what a bench reads"),
+        ("torque", 9999.0, "reads 9999 N m, nines far from all else"),
+        ("speed", 0.0, "reads 0 rpm, beyond what a bench reads"),
+        ("speed", -105.0, "reads -1002.68 rpm, beyond what a bench reads"),
+        ("p_out", 3.2e8, "reads 3200 bar gauge, beyond what a bench reads"),
+        ("Q_out", 0.0, "reads 0 L/min, where all other readings are far from it: no signal"),
+    ],
+)
+def test_readings_that_no_bench_gives_are_put_aside(name, value, told):
+    """Six of 48, a logger's code or a sensor without a signal; no other reading goes with them."""
+    at = np.arange(3, 48, 8)
+
+    def slip(values):
+        values[at] = value
+        return values
+
+    checked = check_recording(_with(name, slip), DISPLACEMENT)
+    (note,) = checked.notes
+    assert (note.kind, note.channel, note.points) == (NoteKind.REMOVED, ChannelName.named(name), tuple(at))
+    assert told in note.text
+    assert np.isnan(checked.steady.values).sum() == np.isnan(_sound().steady.values).sum() + len(at)
+
+
+def test_nines_among_their_like_are_readings():
+    """99.9 bar among others is a pressure; a flow of 0 at no displacement is a flow."""
+    sound = _sound()
+    values = sound.steady.values.copy()
+    values[0, COLUMNS[ChannelName.P_OUT]] = 99.9e5
+    values[1, [COLUMNS[ChannelName.DISPLACEMENT_RATIO], COLUMNS[ChannelName.Q_OUT]]] = 0.0
+    found = check_recording(replace(sound, steady=replace(sound.steady, values=values)), None)
+    assert not any("nines" in note.text or "no signal" in note.text for note in found.notes)
+
+
+def test_an_output_that_never_changes_is_a_fault():
+    found = _told(_with("Q_case", lambda values: 0 * values + 1e-5))
+    assert (NoteKind.FAULT, ChannelName.Q_CASE) in {
+        (kind, channel) for kind, channel, text in found if "stuck" in text
+    }
+
+
+def test_a_recording_of_inputs_alone_is_a_fault():
+    sound = _sound()
+    bare = replace(sound, channels=tuple(one for one in sound.channels if one.name in INPUTS))
+    assert any("none of Q_out, Q_in, Q_case, torque" in text for _, _, text in _told(bare))
+
+
+def test_rows_without_any_reading_are_not_written_twice():
+    sound = _sound()
+    values = sound.steady.values.copy()
+    values[4:12] = np.nan
+    found = check_recording(replace(sound, steady=replace(sound.steady, values=values)), DISPLACEMENT)
+    assert not any("written twice" in note.text for note in found.notes)
+
+
+def test_a_displacement_ratio_in_percent_is_hinted_at():
+    found = _told(_with("displacement_ratio", lambda values: 0.01 * values))
+    assert any("displacement_ratio in '1'" in text for _, _, text in found)
+
+
+@pytest.mark.parametrize(("factor", "faults"), [(1.0, 0), (10.0, 1), (0.1, 1)])
+def test_traces_are_held_against_delivery_pressure(factor, faults):
+    """A chamber is at delivery pressure for a good part of the turn; bar read as MPa is ten times that."""
+    sound = _sound()
+    angle = np.linspace(0.0, 2.0 * np.pi, 72, endpoint=False)
+    course = np.where(angle > np.pi, sound.steady.column(ChannelName.P_OUT)[5], 2.4e6)
+    traced = replace(
+        sound,
+        traces=(TraceBlock(5, angle, factor * course, None, 1),),
+        channels=(*sound.channels, RecordedChannel(ChannelName.P_CHAMBER, "p", "bar", 4e4, 0, 0, 0, 0, 0, ())),
+    )
+    found = [text for _, channel, text in _told(traced) if channel is ChannelName.P_CHAMBER]
+    assert len(found) == faults

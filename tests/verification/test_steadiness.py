@@ -119,3 +119,18 @@ def test_one_cycle_has_no_covariance_and_part_of_a_turn_no_mean():
     assert np.allclose(block.mean, np.cos(block.angle), atol=1e-12)
     with pytest.raises(TableFault, match="no whole turn"):
         synchronous_mean(0, angle[:500], np.cos(angle[:500]), None)
+
+
+@pytest.mark.parametrize("first", [0.0, 3.0])
+def test_a_turn_may_begin_anywhere_and_angles_may_count_on(first):
+    """Three turns from 0 or 3 rad on, wrapped or counted on: three cycles of the same course."""
+    angle = first + TURN * np.arange(3 * 180) / 180
+    for given in (angle, np.mod(angle, TURN)):
+        block = synchronous_mean(0, given, np.cos(given), None)
+        assert (block.cycles, len(block.angle)) == (3, 180)
+        assert np.allclose(block.mean, np.cos(block.angle), atol=1e-3)
+
+
+def test_degrees_stated_as_radians_are_no_turn():
+    with pytest.raises(TableFault, match="no whole turn"):
+        synchronous_mean(0, np.arange(0.0, 360.0, 0.5), np.zeros(720), None)
