@@ -9,7 +9,7 @@ import numpy as np
 from diagnosis.cells import columns_of
 from diagnosis.tables import Columns, TableFault, TableSource
 
-INSTALL = "pip install 'swashfilm[recordings]'"
+INSTALL = "pip install '.[recordings]' in the checkout"
 
 
 def read_workbook(source: TableSource) -> Columns:

@@ -59,7 +59,8 @@ def complete(recording: Recording) -> Recording:
     if not missing.any():
         return recording
     gone = tuple(int(point) for point in np.flatnonzero(missing))
-    note = DataNote(NoteKind.REMOVED, None, gone, "an input of these points is missing")
+    lost = " (with a trace)" if any(missing[trace.point] for trace in recording.traces) else ""
+    note = DataNote(NoteKind.REMOVED, None, gone, f"an input of these points is missing{lost}")
     place = np.cumsum(~missing) - 1
     steady = replace(
         recording.steady, **{name: values[~missing] for name, values in vars(recording.steady).items()}

@@ -40,6 +40,9 @@ def read_traces(form: TraceForm, reader: ColumnReader, rows: Array | None, count
     if point is None or angle is None or pressure is None or (form.cycles and cycle is None):
         return ReadTraces()
     angle, pressure = form.angle.si(angle), form.pressure.si(pressure)
+    lost = int(np.sum(~np.isfinite(point)))
+    if lost:
+        reader.note(f"traces: {lost} rows without a number in {form.point!r} belong to no point and are left out")
     rows = np.arange(1.0, count + 1.0) if rows is None else rows
     blocks = []
     for mark in np.unique(point[np.isfinite(point)]):

@@ -94,6 +94,7 @@ class QuantityError(ValueError):
 _HABITS = {
     Dimension.TEMPERATURE: {"C": "degC", "c": "degC", "F": "degF", "deg": "degC"},
     Dimension.ANGULAR_SPEED: {"U/min": "rpm", "upm": "rpm", "UpM": "rpm", "1/min": "rpm", "min-1": "rpm"},
+    Dimension.DISPLACEMENT: {"ccm": "cm3/rev", "ccm/U": "cm3/rev", "cm3/U": "cm3/rev"},
     Dimension.VOLUME_FLOW: {"l/m": "L/min", "LPM": "L/min", "l": "L/min"},
 }
 """What benches write, that is no unit or another one, and what is meant."""
@@ -232,7 +233,11 @@ def unit_scale(name: str, dimension: Dimension) -> tuple[float, float]:
 
 
 def _meant(unit_text: str, dimension: Dimension) -> str:
-    return _HABITS.get(dimension, {}).get(unit_text, "")
+    """The unit that a bench means by a text, or the text in small letters where that is one; else empty."""
+    known = _HABITS.get(dimension, {}).get(unit_text, "")
+    lowered = unit_text.lower()
+    unit = None if known or lowered == unit_text else _unit(lowered)
+    return lowered if unit is not None and _measures(unit, dimension) else known
 
 
 def _in_si(number: str, unit: _Unit, dimension: Dimension) -> Fraction:

@@ -168,6 +168,9 @@ p_chamber = { column = "p", unit = "bar", sigma = 0.4 }
     assert recording.channel(ChannelName.ANGLE).zero_sigma == pytest.approx(math.radians(0.5))
     assert recording.channel(ChannelName.P_CHAMBER).sigma == pytest.approx(0.4e5)
     assert set(_paths(tmp_path, form=form.replace('"k"', '"q"'))) == {"traces.point"}
+    (tmp_path / "traces.csv").write_text("k,angle,p\n" + "\n".join([*rows, ",3,100", ",4,100"]), "utf-8")
+    told = [note.text for note in read_recording(_written(tmp_path, form)).notes]
+    assert "traces: 2 rows without a number in 'k' belong to no point and are left out" in told
 
 
 def test_every_fault_at_once_with_its_line_and_the_nearest_choice(tmp_path):
