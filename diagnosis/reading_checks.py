@@ -40,7 +40,7 @@ def impossible(recording: Recording) -> Iterator[DataNote]:
         ):
             if 0 < bad.sum() < MOST * np.isfinite(values).sum():
                 points = tuple(int(point) for point in np.flatnonzero(bad))
-                text = f"{channel.name.value} reads {_shown(channel, values[bad])}, {why}"
+                text = f"reads {_shown(channel, values[bad])}, {why}"
                 yield DataNote(NoteKind.REMOVED, channel.name, points, text)
 
 

@@ -249,22 +249,13 @@ def _case(recording: Recording) -> Iterator[DataNote]:
 
 def trace_sizes(recording: Recording) -> Iterator[DataNote]:
     """Yield a fault of chamber pressures that in half of the traces stay far below delivery's or pass it far."""
-    channel = recording.channel(ChannelName.P_CHAMBER)
+    channel, span = recording.channel(ChannelName.P_CHAMBER), _Span(*TRACE_RATIO)
     delivered = recording.steady.column(ChannelName.P_OUT)
     tops = np.array([np.quantile(trace.mean, 0.9) for trace in recording.traces])
     ratio = _median(tops / np.array([delivered[trace.point] for trace in recording.traces]))
-    if channel is None or ratio is None or _Span(*TRACE_RATIO).holds(ratio):
-        return
-    text = f"p_chamber reaches {ratio:.3g} times p_out in half of the traces"
-    ways = [
-        f"unit = '{unit}'"
-        for unit in OTHER_UNITS[Dimension.PRESSURE]
-        if _Span(*TRACE_RATIO).holds(
-            ratio * unit_scale(unit, Dimension.PRESSURE)[0] / unit_scale(channel.unit, Dimension.PRESSURE)[0]
-        )
-    ]
-    hint = f"; {' or '.join(ways)}?" if ways else ""
-    yield DataNote(NoteKind.FAULT, ChannelName.P_CHAMBER, (), text + hint)
+    if channel is not None and ratio is not None and not span.holds(ratio):
+        text = f"p_chamber reaches {ratio:.3g} times p_out in half of the traces{_meant(channel, ratio, span)}"
+        yield DataNote(NoteKind.FAULT, ChannelName.P_CHAMBER, (), text)
 
 
 def _groups(recording: Recording, displacement: float) -> Iterator[DataNote]:
