@@ -10,19 +10,19 @@ from system.physics.effects import Kind
 NOT_NAMED = (Kind.NO_MISMATCH, Kind.UNKNOWN_PHYSICS)
 
 
-def equivalents(best: Weighed, weighed: Sequence[Weighed], gap: float) -> tuple[Weighed, ...]:
+def equivalents(best: Weighed, weighed: Sequence[Weighed], gap: float, place_gap: float) -> tuple[Weighed, ...]:
     """Explanations of as many effects as the best that stand as well after a refit, the best first.
 
-    As well: ln evidence within the gap (nats); or the same readings foretold (the difference of the refitted
-    predictions worth less than the gap, delta^2 / 2 nats) with all else as near its stated value: then only the
-    width of the prior of what they set free parts them, however far. Likeness of slopes makes no class: laws of
-    one slope part by their curvature.
+    As well: ln evidence within the gap (nats), of the same effects elsewhere within the gap of places; or the same
+    readings foretold (the difference of the refitted predictions worth less than the gap, delta^2 / 2 nats) with
+    all else as near its stated value: then only the width of the prior of what they set free parts them, however
+    far. Likeness of slopes makes no class: laws of one slope part by their curvature.
     """
     rivals = [each for each in weighed if each is not best and _comparable(each, best)]
     alike = [
         each
         for each in rivals
-        if best.log_evidence - each.log_evidence <= gap
+        if best.log_evidence - each.log_evidence <= (place_gap if _elsewhere(each, best) else gap)
         or (parting(best, each) <= gap and _strain(each) - _strain(best) <= gap)
     ]
     return (best, *alike)
@@ -51,6 +51,11 @@ def agrees(each: Weighed, members: Sequence[Weighed]) -> bool:
         set(member.hypothesis.open_names) <= set(each.hypothesis.open_names) and each.hypothesis.effects
         for member in members
     )
+
+
+def _elsewhere(each: Weighed, best: Weighed) -> bool:
+    """Whether an explanation claims the same effects at other places, by a fit of its own."""
+    return each.posterior is not None and each.hypothesis.effects == best.hypothesis.effects
 
 
 def _comparable(each: Weighed, best: Weighed) -> bool:

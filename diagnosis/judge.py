@@ -9,12 +9,14 @@ import numpy as np
 from scipy.special import logsumexp
 from scipy.stats import chi2, norm
 
+from diagnosis.bend_chance import BendChance, chance_of_bend
 from diagnosis.classes import agrees, equivalents
-from diagnosis.coarse import shared_out, widening
+from diagnosis.coarse import class_gap, place_gap, shared_out
 from diagnosis.detect import Detection
 from diagnosis.hypotheses import Hypothesis
 from diagnosis.left_over import left_over
 from diagnosis.study import Study
+from diagnosis.table_rows import table_rows
 from diagnosis.thresholds import Thresholds
 from diagnosis.verdict import Claim, Estimate, Status
 from diagnosis.weighed import Weighed
@@ -60,12 +62,13 @@ def judge(
     improbable = null.probability < limits.null_probability
     if not improbable and detection.chance >= limits.suspicion:
         return Verdict(Kind.NO_MISMATCH, Status.NAMED, (), (), (), tuple(weighed))
-    if not improbable or min(detection.chance, _chance_of_bend(weighed, null)) >= limits.chance:
+    bend = _bend(study, null, weighed, thresholds)
+    if not improbable or min(detection.chance, bend.chance) >= limits.chance:
         return _suspicion(weighed, (_half_seen(detection, null),))
     best = _simplest(max((each for each in weighed if each is not null), key=_weight), weighed, thresholds)
     if best.hypothesis.kind is Kind.UNKNOWN_PHYSICS:
-        return _unknown(weighed, thresholds)
-    members = equivalents(best, weighed, widening(weighed, thresholds) * thresholds.name.class_gap)
+        return _unknown(study, bend, weighed, thresholds)
+    members = equivalents(best, weighed, class_gap(weighed, thresholds), place_gap(weighed, thresholds))
     weighed, members = shared_out(weighed, members, thresholds)
     best = members[0]
     against = _objections(best, members, weighed, thresholds)
@@ -78,18 +81,10 @@ def judge(
     return Verdict(best.hypothesis.kind, status, claims, members, left, weighed)
 
 
-def _chance_of_bend(weighed: Sequence[Weighed], null: Weighed) -> float:
-    """The chance, at most, that unknown physics would stand so far ahead of nothing if nothing were there.
-
-    An evidence over the null's has a mean of 1 under the null: K or more has a chance of 1/K at most (Markov).
-    What no candidate resembles shows here alone.
-    """
-    unknown = [each for each in weighed if each.hypothesis.component is not None]
-    if not unknown:
-        return 1.0
-    prior = logsumexp([each.hypothesis.log_prior for each in unknown])
-    ahead = float(logsumexp([each.log_weight for each in unknown]) - prior) - null.log_evidence
-    return float(np.exp(-max(ahead, 0.0)))
+def _bend(study: Study, null: Weighed, weighed: Sequence[Weighed], thresholds: Thresholds) -> BendChance:
+    """The chance of unknown physics beside a null, seen from the prior mean alone where that has no fit."""
+    unknown = [each.hypothesis for each in weighed if each.hypothesis.component is not None]
+    return chance_of_bend(study, null.posterior or study.base, unknown, thresholds)
 
 
 def _weight(each: Weighed) -> float:
@@ -127,11 +122,20 @@ def _probability(weighed: Sequence[Weighed], kind: Kind) -> float:
     return sum(each.probability for each in weighed if each.hypothesis.kind is kind)
 
 
-def _unknown(weighed: Sequence[Weighed], thresholds: Thresholds) -> Verdict:
-    """Unknown physics is the verdict, without an effect, when all its hypotheses together are sure."""
+def _unknown(study: Study, bend: BendChance, weighed: Sequence[Weighed], thresholds: Thresholds) -> Verdict:
+    """Unknown physics is the verdict, without an effect, when its hypotheses together are sure, and striking."""
     probability = _probability(weighed, Kind.UNKNOWN_PHYSICS)
+    against = []
     if probability < thresholds.name.probability:
-        return _suspicion(weighed, (f"unknown physics at a probability of {probability:.2f} only",))
+        against.append(f"unknown physics at a probability of {probability:.2f} only")
+    if bend.chance >= thresholds.mismatch.chance:
+        row = table_rows(study.recording)[bend.point]
+        against.append(
+            f"without point {row}, on which it rests most, unknown physics as far ahead of nothing has a chance "
+            f"of {bend.chance:.2g} where nothing is there: read that point again"
+        )
+    if against:
+        return _suspicion(weighed, tuple(against))
     return Verdict(Kind.UNKNOWN_PHYSICS, Status.NAMED, (), (), (), tuple(weighed))
 
 

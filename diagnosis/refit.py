@@ -27,11 +27,14 @@ from system.gap_cycle import Report
 from system.side_by_side import Crew
 
 SIZES = (0.1, 0.3, 1.0, 2.0)  # spreads that a start is looked for at
+BESIDE = (0.75, 0.9)  # of the best size: tried too, and their inverses
 ROUGHLY = (0.3, 1.0)  # the same for a first look
 REACH = 3.0  # xi of a nuisance where a fit may start: the linear model knows no bounds
 FARTHER = 10.0  # times the fault factor: the wider prior of what is out of order
 LIMITS = FitLimits(change=0.1)  # of the objective: a twentieth of a nat decides nothing, and costs sixfold less
-GRID_MEMBERS = 2  # of a grid that are refitted: those best in the linear model
+FINE = 3e-3  # of the objective about the prior mean: so much may be promised where a fit stalls at a knee
+GRID_MEMBERS = 2  # of a grid that are refitted: the likeliest
+GROSS = 3.0  # of the objective per reading: from there slopes about the prior mean tell little
 
 
 def refit(study: Study, hypothesis: Hypothesis, thresholds: Thresholds, hopeless: float = inf) -> Weighed:
@@ -66,7 +69,7 @@ def _refitted(study: Study, hypothesis: Hypothesis, thresholds: Thresholds, hope
 
     Members of a grid that are not refitted count as nothing, so that their average is never too high.
     """
-    limits = replace(LIMITS, hopeless=hopeless)
+    limits = replace(LIMITS, hopeless=hopeless, stall=max(LIMITS.stall, FINE * study.base.objective))
     members = _likeliest(study, hypothesis, thresholds)
     found: list[tuple[Hypothesis, Posterior]] = []
     failed: list[NotConverged] = []
@@ -125,9 +128,17 @@ def _numbered(
 
 
 def _likeliest(study: Study, hypothesis: Hypothesis, thresholds: Thresholds) -> list[Hypothesis]:
+    """The members of a grid that are refitted, by the linear model; where it is gross, by sizes tried in full."""
     members = hypothesis.members
     if len(members) <= 1:
         return list(members)
+
+    def promised(member: Hypothesis) -> float:
+        simulator = simulator_of(study.simulator, member, thresholds.name.fault_factor)
+        return _start(study, simulator, member.open_names, SIZES)[0]
+
+    if study.base.objective > GROSS * study.base.residual.size:
+        return sorted(members, key=promised)[:GRID_MEMBERS]
     widths = thresholds.name.mixture_widths
 
     def evidence(member: Hypothesis) -> float:
@@ -181,22 +192,34 @@ def _start(
     """The objective and xi where a fit starts: of the sizes tried what leaves least, the nuisances linear.
 
     What a hypothesis sets free is tried one after the other, in full; its slope at nothing may tell little of it
-    (a threshold, a film twice as thick).
+    (a threshold, a film twice as thick). The best size is tried again a little smaller and larger.
     """
     nuisances = _Nuisances(study, simulator, names)
     least, start = nuisances.settled(np.zeros(len(simulator.parameters)))
     for name in names:
         at = [parameter.name for parameter in simulator.parameters].index(name)
+        rest = np.where(nuisances.free, 0.0, start)
         for size in _signed(sizes, simulator.parameters[at]):
-            trial = np.where(nuisances.free, 0.0, start)
-            trial[at] = size
-            try:
-                objective, settled = nuisances.settled(trial)
-            except NotConverged:
-                continue
-            if objective < least:
-                least, start = objective, settled
+            least, start = _better(nuisances, _with(rest, at, size), least, start)
+        for beside in BESIDE if start[at] != rest[at] else ():
+            for size in (beside * start[at], start[at] / beside):
+                least, start = _better(nuisances, _with(rest, at, size), least, start)
     return least, start
+
+
+def _with(xi: Array, at: int, size: float) -> Array:
+    changed = xi.copy()
+    changed[at] = size
+    return changed
+
+
+def _better(nuisances: _Nuisances, trial: Array, least: float, start: Array) -> tuple[float, Array]:
+    """The trial's objective and xi with the nuisances settled where that is less, else those so far."""
+    try:
+        objective, settled = nuisances.settled(nuisances.bounds.within(trial))
+    except NotConverged:
+        return least, start
+    return (objective, settled) if objective < least else (least, start)
 
 
 def _signed(sizes: tuple[float, ...], parameter: Parameter) -> list[float]:

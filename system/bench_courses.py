@@ -44,7 +44,7 @@ class Courses:
 class MapProblem:
     """The chamber at N points as compiled code reads it.
 
-    chambers (N,) of `chamber_state_kernels.CHAMBER`, ports not yet filled in; leaks (N, 3, M); ports (N, 3):
+    chambers (N,) of `chamber_state_kernels.CHAMBER`, ports not yet filled in; leaks (N, 3, M); ports (N, 4):
     their state for `map_ports`.
     """
 
@@ -80,8 +80,8 @@ def map_problem(
     for name in chamber_state.CHAMBER.names or ():
         if hasattr(problem, name) and not name.endswith("_port"):
             chambers[name] = np.ravel(getattr(problem, name))
-    ports = np.zeros((chambers.size, 3))
-    ports[:, 0], ports[:, 2] = np.ravel(motion.drive.dead_centre_shift), 1.0
+    ports = np.zeros((chambers.size, 4))
+    ports[:, 0], ports[:, 2:] = np.ravel(motion.drive.dead_centre_shift), 1.0
     return MapProblem(chambers, leaks, ports)
 
 

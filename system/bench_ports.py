@@ -11,7 +11,7 @@ from system.chamber_course import turn_nodes
 from system.description import PumpDescription
 from system.kinematics import Array
 from system.lumped import port_openings
-from system.physics.port_laws import eroded
+from system.physics.port_laws import eroded, narrowed
 from system.ports import as_array
 
 
@@ -30,24 +30,24 @@ class MapPorts:
 
 
 def map_ports(pump: PumpDescription, state: Array, samples: int) -> MapPorts:
-    """The ports at N points of which state (N, 3) tells what differs.
+    """The ports at N points of which state (N, 4) tells what differs.
 
     Its columns: by how much the ports lie later (rad, `SwashDrive.dead_centre_shift`), by how much sooner the
-    grooves ahead of the kidneys begin (rad) and by what factor their throats are larger. Nodes are the breaks of
-    the ports and, of an even number of samples, every second: over steps no longer the stages tell the pressure
-    as well as the steps do. Points alike share the work.
+    grooves ahead of the kidneys begin (rad), by what factor their throats are larger, and the suction kidney.
+    Nodes are the breaks of the ports and, of an even number of samples, every second: over steps no longer the
+    stages tell the pressure as well as the steps do. Points alike share the work.
     """
     kinds, of_point = np.unique(state, axis=0, return_inverse=True)
-    found = [_kind(pump, float(shift), float(advance), float(area), samples) for shift, advance, area in kinds]
+    found = [_kind(pump, tuple(map(float, kind)), samples) for kind in kinds]
     by_point = [found[kind] for kind in of_point.ravel()]
     suction, delivery, nodes = zip(*by_point, strict=True)
     firsts = np.cumsum([0, *(own.size for own in nodes)])
     return MapPorts(np.stack(suction), np.stack(delivery), np.concatenate(nodes), firsts)
 
 
-def _kind(
-    pump: PumpDescription, shift: float, advance: float, area: float, samples: int
-) -> tuple[Array, Array, Array]:
+def _kind(pump: PumpDescription, state: tuple[float, ...], samples: int) -> tuple[Array, Array, Array]:
+    shift, advance, area, kidney = state
     suction, delivery = (eroded(port, advance, area) for port in port_openings(pump, shift))
+    suction = narrowed(suction, kidney)
     ends = samples // 2 if samples % 2 == 0 else samples
     return as_array(suction), as_array(delivery), turn_nodes(suction, delivery, ends)[0]

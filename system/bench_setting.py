@@ -54,7 +54,7 @@ def setting(
 
 
 def affected(given: Setting, effects: Effects) -> Setting:
-    """The same with what effects change of displacement, gaps and grooves, at their points and angles."""
+    """The same with what effects change of displacement, gaps and ports, at their points and angles."""
     point, motion = given.point, given.motion
     if np.any(effects.ideal != 1.0):
         ratio = point.displacement_ratio * _column(effects.ideal)
@@ -66,6 +66,7 @@ def affected(given: Setting, effects: Effects) -> Setting:
     ports = problem.ports.copy()
     ports[:, 1] = given.problem.ports[:, 1] + effects.groove_advance
     ports[:, 2] = given.problem.ports[:, 2] * effects.groove_area
+    ports[:, 3] = given.problem.ports[:, 3] * effects.suction_area
     return Setting(given.pump, point, motion, replace(problem, ports=ports))
 
 

@@ -30,7 +30,7 @@ from system.operating import OperatingPoint
 from system.pairs import FrictionPairs, Pair, PairLoss
 from system.physics.effects import Effects
 from system.physics.outside import Outside, outside
-from system.physics.port_laws import eroded
+from system.physics.port_laws import eroded, narrowed
 from system.physics.rubbing import rubbed
 from system.physics.switched import stated_effects, stated_laws
 from system.ports import TURN
@@ -146,7 +146,7 @@ def _slowed(pump: PumpDescription, point: OperatingPoint, creeping: LeakTable, c
 
 
 def _affected(problem: ChamberProblem, effects: Effects | None) -> ChamberProblem:
-    """A chamber whose gaps and grooves effects have changed."""
+    """A chamber whose gaps and ports effects have changed."""
     if effects is None:
         return problem
     conductance = problem.leaks.conductance * effects.conductance[:, 0]
@@ -155,7 +155,7 @@ def _affected(problem: ChamberProblem, effects: Effects | None) -> ChamberProble
         problem,
         leaks=LeakTable(conductance, problem.leaks.carried_flow),
         delivery_port=eroded(problem.delivery_port, *worn),
-        suction_port=eroded(problem.suction_port, *worn),
+        suction_port=narrowed(eroded(problem.suction_port, *worn), float(effects.suction_area[0])),
     )
 
 

@@ -11,7 +11,7 @@ from typing import Annotated, Self
 from pydantic import Field, model_validator
 
 from system.fields import Fraction, NotNegative, Section
-from system.units import STANDARD_ATMOSPHERE, Dimension
+from system.units import Dimension
 
 _WallResistance = Annotated[float, Dimension.THERMAL_RESISTANCE, Field(ge=0.0, le=2e-3)]
 _Boundary = Annotated[float, Field(ge=0.0, le=0.12)]
@@ -41,10 +41,9 @@ class EntrainedAirSection(Section):
 
 
 class IncompleteFillingSection(Section):
-    """[physics.incomplete_filling]: chambers that no longer fill above a speed."""
+    """[physics.incomplete_filling]: an inlet line by which chambers no longer fill above a speed."""
 
-    inlet_loss: Annotated[float, Field(ge=0.0, le=6.0)]  # 1: that of the kidneys
-    gas_pressure: Annotated[float, Dimension.PRESSURE, Field(gt=-STANDARD_ATMOSPHERE)]
+    inlet_loss: Annotated[float, Field(ge=0.0, le=10.0)]  # 1: as much again as the kidneys
 
 
 class ShearThinningSection(Section):

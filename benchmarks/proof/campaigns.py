@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from functools import cache
 from itertools import product
 
@@ -37,7 +37,7 @@ def campaigns() -> dict[str, Campaign]:
         Campaign("ovens", _ovens()),
         Campaign("scattered", _scattered(90, 7)),
         Campaign("short", _charged(_scattered(60, 8)), inputs=tuple(one for one in INPUTS if one != "p_in")),
-        Campaign("open circuit", _drawing(_scattered(100, 10)), circuit="open"),
+        Campaign("open circuit", _open(), circuit="open"),
         Campaign("no inlet meter", _scattered(140, 9), outputs=("Q_out", "Q_case", "torque")),
     )
     return {one.name: one for one in found}
@@ -86,6 +86,20 @@ def _scattered(count: int, seed: int) -> Settings:
 def _charged(points: Settings) -> Settings:
     """The same at one charge pressure."""
     return replace(points, p_in=np.full(points.speed.size, 25.0 * BAR))
+
+
+def _open() -> Settings:
+    """100 points out of a tank: 80 scattered, then the inlet throttled in steps at two speeds."""
+    throttled = [(speed, bar) for speed in (1800.0, 2200.0) for bar in np.linspace(1.15, 0.7, 10)]
+    steps = _settings((1.0, speed, 200.0, 45.0) for speed, _ in throttled)
+    inlet = np.array([bar for _, bar in throttled]) * BAR
+    steps = replace(steps, p_in=inlet, p_case=np.full(inlet.size, 1.1 * BAR))
+    return _joined(_drawing(_scattered(80, 10)), steps)
+
+
+def _joined(first: Settings, second: Settings) -> Settings:
+    pairs = ((one.name, getattr(first, one.name), getattr(second, one.name)) for one in fields(Settings))
+    return Settings(**{name: np.concatenate([one, other]) for name, one, other in pairs})
 
 
 def _drawing(points: Settings) -> Settings:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import Enum
 from itertools import product
 
@@ -67,7 +67,7 @@ class Case:
     def name(self) -> str:
         """What is concealed, how large, where: one line."""
         told = " + ".join(one.label for one in self.concealed) or "nothing"
-        grade = f", z {self.score:g}" if self.concealed else ""
+        grade = f", z {self.score:g}" if self.score else ""
         return f"{told}{grade}, {self.campaign}, seed {self.seed}"
 
 
@@ -92,11 +92,11 @@ PHYSICS = (
     _physics("throttling", "port_throttling", 0.3, most=5.0),
     _physics("opening_piston", "elastic_opening", 2e-9, "piston"),
     _physics("thermal_slipper", "thermal_clearance", 1e-3, "slipper"),
-    _physics("seal", "seal_drag", 0.5),
+    _physics("seal", "seal_drag", 0.5, most=2.0),
     _physics("charge_pump", "charge_pump_drag", 2e-6),
     _physics("air", "entrained_air", 2e-3, most=0.05),
     _physics("resonance", "line_resonance", 1e-3),
-    _physics("suction", "incomplete_filling", 2e4, most=1.2e5),
+    _physics("suction", "incomplete_filling", 2e4),
     _physics("compression", "compression_loss", 0.1, most=1.0),
     _physics("lift", "slipper_lift", 20e-6, most=1e-4),
 )
@@ -137,6 +137,8 @@ NEEDS = {
     "mixed_friction": ("ovens", "scattered", "map"),
 }  # fmt: skip
 """Campaigns that can show what the others cannot."""
+GROSS = {"suction": (5e4, 4e4, 6e4, 2.5e4, 8e4)}
+"""Sizes, SI, of what begins at a knee and is gross at once: scores of 3 to 30 would be one point beyond it."""
 USUAL = ("map", "ovens", "scattered")
 
 
@@ -154,7 +156,13 @@ def _nulls(seed: int) -> Iterator[Case]:
 def _graded(seed: int) -> Iterator[Case]:
     """Effect by effect, each time at its next grade: ten rounds, two recordings of each effect at each grade."""
     for turn, (k, one) in product(range(2 * len(GRADES)), enumerate(PHYSICS)):
-        yield _case(Part.GRADED, one, GRADES[(turn + k) % len(GRADES)], turn + k, seed * 1000 + 100 * turn + k)
+        grade, own_seed = (turn + k) % len(GRADES), seed * 1000 + 100 * turn + k
+        if one.label in GROSS:
+            size = GROSS[one.label][grade]
+            gross = replace(_physics(one.label, one.id, size), label=f"{one.label} {size:g}")
+            yield Case(Part.GRADED, NEEDS[one.label][0], own_seed, (gross,))
+        else:
+            yield _case(Part.GRADED, one, GRADES[grade], turn + k, own_seed)
 
 
 def _pairs(seed: int) -> Iterator[Case]:

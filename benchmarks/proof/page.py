@@ -127,7 +127,7 @@ def _grades(outcomes: Sequence[Outcome]) -> str:
             seen = sum(map(_sees, at))
             told = sum(one.status == "suspicion" for one in at)
             rows.append((
-                part.value, f"{asked:g}", str(len(at)), str(seen), str(told), str(sum(map(is_right, at))),
+                part.value, f"{asked:g}" if asked else "own size", str(len(at)), str(seen), str(told), str(sum(map(is_right, at))),
                 str(sum(map(is_wrong_name, at))), str(sum(map(is_grave, at))),
             ))  # fmt: skip
     head = ("part", "z", "cases", "mismatch seen", "of it suspicion", "right", "wrong name", "wrong and sure")

@@ -14,6 +14,7 @@ from enum import Enum
 from math import inf, log, sqrt
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.linalg import cho_factor, cho_solve
 from scipy.special import log_ndtr, logsumexp
 
@@ -85,8 +86,34 @@ def multiplier_evidence(posterior: Posterior, columns: Array, widths: Sequence[f
 
     For one width g^T (1/w^2 + G)^-1 g / 2 - ln det(1 + w^2 G) / 2 with g = V^T r, G = V^T P V.
     """
-    agreement = columns.T @ posterior.residual
-    content = columns.T @ project(posterior, columns)
+    return _averaged(columns.T @ posterior.residual, columns.T @ project(posterior, columns), widths)
+
+
+def multiplier_evidences_without(
+    posterior: Posterior, columns: Array, parts: NDArray[np.int64], widths: Sequence[float]
+) -> Array:
+    """(P,), `multiplier_evidence` without the readings of one part at a time, in the order of the parts' numbers.
+
+    `parts` (n,) numbers the readings. The fit without a part is repeated in its linear form; it is to stand at
+    the peak of that (`linear_posterior`, `settled`).
+    """
+    count = posterior.xi.size
+    whole = np.column_stack((posterior.slopes, columns, posterior.residual))
+    products = whole.T @ whole
+    products[:count, :count] += np.eye(count)
+    products[:count, -1] -= posterior.xi
+    found = []
+    for part in np.unique(parts):
+        own = whole[parts == part]
+        left = products - own.T @ own
+        taken = cho_solve(cho_factor(left[:count, :count]), left[:count, count:])
+        rest = left[count:, count:] - left[:count, count:].T @ taken
+        found.append(_averaged(rest[:-1, -1], rest[:-1, :-1], widths))
+    return np.array(found)
+
+
+def _averaged(agreement: Array, content: Array, widths: Sequence[float]) -> float:
+    """ln evidence of columns with g = `agreement` (m,) and G = `content` (m, m), averaged over prior widths."""
     level, axes = np.linalg.eigh(0.5 * (content + content.T))
     level = np.maximum(level, 0.0)
     along = (axes.T @ agreement) ** 2

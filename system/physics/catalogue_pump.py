@@ -9,11 +9,10 @@ from system.physics import drag_laws, flow_laws, port_laws
 from system.physics.effects import EffectId, Kind
 from system.physics.extension import Entry, Extension, Law, Values
 from system.physics.priors import half, path_of, signed
-from system.units import STANDARD_ATMOSPHERE, Dimension
+from system.units import Dimension
 
 FLOWS = (ChannelName.Q_OUT, ChannelName.Q_IN)
 RPM = 0.10471975511965977
-GAS_PRESSURES = tuple(pressure - STANDARD_ATMOSPHERE for pressure in (1e3, 2e4, 5e4))
 CASE_SEALS = (0.0, 1.5e-6)
 RESONANCES = tuple(RPM * speed for speed in (600.0, 900.0, 1200.0, 1500.0, 1800.0, 2100.0, 2400.0, 2700.0, 3000.0))
 
@@ -67,8 +66,7 @@ FILLING_ENTRIES = (
     _entry(
         _whole(
             E.INCOMPLETE_FILLING, flow_laws.incomplete_filling,
-            _size(E.INCOMPLETE_FILLING, "inlet_loss", 1.0, 6.0, None, "1: the kidneys' own; more by the line"),
-            grid=tuple({"gas_pressure": pressure} for pressure in GAS_PRESSURES),
+            _size(E.INCOMPLETE_FILLING, "inlet_loss", 1.0, 10.0, None, "1: as much again as the kidneys"),
         ),
         (Component.DISPLACEMENT,), (*FLOWS, ChannelName.TORQUE),
         (E.SLIPPER_LIFT, E.BLOCK_TIPPING, E.ENTRAINED_AIR),

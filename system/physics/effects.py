@@ -112,8 +112,8 @@ class Effects:
     drain_flow (delivery to case), drain_from_inlet; torque in N m on the shaft; ideal: factor on the displacement;
     intake: share of the displaced volume that is filled with oil; delivery_reading: factor on what the delivery's
     meter reads; groove_advance in rad and groove_area, factor: by how much sooner and wider the relief grooves
-    ahead of both kidneys open; carried_off: W, where the power of the flows and the torque goes, a sink of the
-    power balance.
+    ahead of both kidneys open; suction_area: factor on the kidney that chambers draw through; carried_off: W,
+    where the power of the flows and the torque goes, a sink of the power balance.
     """
 
     conductance: Array
@@ -129,11 +129,12 @@ class Effects:
     delivery_reading: Array
     groove_advance: Array
     groove_area: Array
+    suction_area: Array
     carried_off: Array
 
 
 FACTORS = (
-    "conductance", "viscous", "coulomb", "ideal", "intake", "delivery_reading", "groove_area",
+    "conductance", "viscous", "coulomb", "ideal", "intake", "delivery_reading", "groove_area", "suction_area",
 )  # fmt: skip
 """Fields of `Effects` that multiply; the others add."""
 

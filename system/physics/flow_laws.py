@@ -16,9 +16,7 @@ from system.physics.state import (
     dead_volume,
     displaced,
     orifice_flow,
-    piston_area,
     pressure_difference,
-    swash_tangent,
     unchanged,
 )
 from system.pump_gap import Gap
@@ -47,24 +45,16 @@ def entrained_air(values: Values, courses: Courses, state: BenchState) -> Effect
     return replace(unchanged(courses), intake=1.0 - lost * (1.0 + dead_volume(state) / displaced(state)))
 
 
-def suction_loss(state: BenchState) -> Array:
-    """Pressure (N,) Pa that a chamber lacks at its fastest suction: rho/2 (Ap v/(Cd A_k))^2."""
-    ports, part = state.geometry.ports, state.geometry.pump
-    fastest = state.speed * part.pitch_radius * swash_tangent(state) / np.cos(part.bore_cone_angle)
-    through = piston_area(state) * fastest / (ports.flow_coefficient * ports.kidney_area)
-    return np.asarray(0.5 * state.geometry.oil.density * through**2)
-
-
 def incomplete_filling(values: Values, courses: Courses, state: BenchState) -> Effects:
-    """Above the speed at which suction falls to `gas_pressure` (Pa gauge) the flow grows no more.
+    """An inlet line that loses `inlet_loss` times the pressure that the kidney loses at suction.
 
-    `inlet_loss` 1 is the kidney's own loss, which goes with speed squared: the share that fills is n_c/n, n_c/n =
-    sqrt((p_in - p_gas)/loss), and 1 below.
+    Chambers draw through line and kidney as through a kidney (1 + inlet_loss)^(-1/2) as wide, dp = rho/2 (Q/(Cd
+    A))^2. Where that takes all of the inlet's pressure a cavity opens, and above a speed n_c, which goes with the
+    root of that pressure, chambers no longer fill: the share n_c/n. The line's loss counts at each piston's own
+    flow, not at their sum: alike where chambers starve, a little early where they just fill.
     """
-    loss = values["inlet_loss"] * suction_loss(state)
-    left = np.maximum(state.inlet_pressure - values["gas_pressure"], 0.0)
-    filled = np.sqrt(left / np.maximum(np.maximum(loss, left), 1e-9))
-    return replace(unchanged(courses), intake=filled)
+    narrowed = (1.0 + values["inlet_loss"]) ** -0.5
+    return replace(unchanged(courses), suction_area=np.full_like(state.speed, narrowed))
 
 
 def squeeze_pumping(values: Values, courses: Courses, state: BenchState) -> Effects:

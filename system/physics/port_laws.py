@@ -51,6 +51,11 @@ def eroded(port: PortOpening, advance: float, area: float) -> PortOpening:
     return replace(port, grooves=grooves)
 
 
+def narrowed(port: PortOpening, area: float) -> PortOpening:
+    """A port whose kidney is `area` times as wide; grooves stay."""
+    return replace(port, kidney_area=port.kidney_area * area)
+
+
 def lorentz(speed: Array, at: float) -> Array:
     """1/(1 + ((n - n0)/(b n0))^2) (N,): a resonance at the shaft speed n0 = `at` rad/s, b RESONANCE_WIDTH."""
     return np.asarray(1.0 / (1.0 + ((speed - at) / (RESONANCE_WIDTH * at)) ** 2))

@@ -76,5 +76,5 @@ def test_chambers_too_unlike_are_solved_for_themselves():
 
 def test_worn_ports_are_not_gone_along():
     problem = _problem()
-    worn = replace(problem, ports=problem.ports + np.array([0.0, 0.05, 0.0]))
+    worn = replace(problem, ports=problem.ports + np.array([0.0, 0.05, 0.0, 0.0]))
     assert not problem.has_ports_of(worn)

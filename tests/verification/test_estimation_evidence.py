@@ -11,7 +11,13 @@ from scipy.integrate import quad, simpson
 from scipy.special import logsumexp
 
 from system.estimation.determined import undetermined
-from system.estimation.evidence import Sign, mixture_evidence, multiplier_evidence, score
+from system.estimation.evidence import (
+    Sign,
+    mixture_evidence,
+    multiplier_evidence,
+    multiplier_evidences_without,
+    score,
+)
 from system.estimation.fit import maximum_posterior
 from system.estimation.laplace import log_mass
 from system.estimation.observations import Array, Channel, Observations
@@ -158,6 +164,18 @@ def test_multiplier(case) -> None:
     each = [_marginal(base, columns, np.full(15, width), readings) - null for width in (0.01, 0.1, 1.0)]
     found = multiplier_evidence(_fitted(base, readings), columns, (0.01, 0.1, 1.0))
     assert found == pytest.approx(logsumexp(each) - log(3.0), abs=1e-9)
+
+
+def test_multiplier_without_a_part_is_that_of_the_rest(case) -> None:
+    """The fit repeated on what is left, and the columns there."""
+    base, _, readings = case
+    columns, parts, widths = _columns(13, 4), np.arange(POINTS) // 3, (0.01, 0.1, 1.0)
+    found = multiplier_evidences_without(_fitted(base, readings), columns, parts, widths)
+    rest = [
+        multiplier_evidence(_fitted(base[parts != k], readings[parts != k]), columns[parts != k], widths)
+        for k in range(POINTS // 3)
+    ]
+    assert found == pytest.approx(rest, abs=1e-9)
 
 
 def test_score_is_the_refit(case) -> None:

@@ -389,13 +389,13 @@ def test_a_law_of_the_right_power_is_seldom_told_otherwise() -> None:
 
 
 def test_unknown_physics_claims_no_more_than_a_law_bent() -> None:
-    """Churning that grows with the root of pressure, 150 sigma: free components beat it, its own law bent too.
+    """Churning that grows with the cube root of pressure, 300 sigma: free components beat it, its law bent too.
 
     Torque with n p is no law of the toy: unknown, though laws bent take up most of it.
     """
     n, p, _, _ = _axes()
     zero = np.zeros(POINTS)
-    found = _diagnosis(_study(1, added=np.stack([zero, zero, 20.0 * n**2 * np.sqrt(p)], axis=1)))
+    found = _diagnosis(_study(1, added=np.stack([zero, zero, 40.0 * n**2 * np.cbrt(p)], axis=1)))
     assert _told(found) == (Kind.MISSING_PHYSICS, Status.INCOMPLETE, (EffectId.CHURNING,))
     plain = next(each for each in found.hypotheses if each.hypothesis.text == "churning")
     assert found.hypotheses[0].log_evidence - plain.log_evidence > 1000.0
@@ -404,16 +404,39 @@ def test_unknown_physics_claims_no_more_than_a_law_bent() -> None:
     assert _told(found) == (Kind.UNKNOWN_PHYSICS, Status.NAMED, ())
 
 
-def test_what_no_candidate_resembles_is_a_mismatch_all_the_same() -> None:
-    """No score of a candidate is rare, evidence of a free bend is: e^5 and more has a chance of .007 at most."""
-    study = _study(1)
+@pytest.mark.parametrize(
+    ("shape", "status"),
+    [("smooth", Status.NAMED), ("one reading", Status.SUSPICION), ("none", Status.SUSPICION)],
+)
+def test_what_no_candidate_resembles_is_a_mismatch_all_the_same(shape: str, status: Status) -> None:
+    """No score of a candidate is rare, but a free bend is, also without the point on which it rests most."""
+    n, p, _, _ = _axes()
+    zero = np.zeros(POINTS)
+    lone = np.where(np.arange(POINTS) == np.argmax(n * p), 9.0, 0.0)
+    study = _study(
+        1, added=np.stack([zero, zero, {"smooth": 6.0 * n * p, "one reading": lone, "none": zero}[shape]], 1)
+    )
     blind = replace(detect(study, LIMITS), chance=0.5)
-    nothing = Weighed(hypotheses(study, LIMITS)[0], 0.0, True, None, 0.0, 0.01, None)
-    free = next(each for each in hypotheses(study, LIMITS) if each.component is Component.DRAIN_FLOW)
-    for evidence, status in ((6.0, Status.NAMED), (4.0, Status.SUSPICION)):
-        bend = Weighed(free, evidence, True, None, 0.0, 0.99, None)
-        found = judge(study, blind, (bend, nothing), _coordinates(), LIMITS)
-        assert (found.kind, found.status) == (Kind.UNKNOWN_PHYSICS, status)
+    null = refit(study, hypotheses(study, LIMITS)[0], LIMITS)
+    free = next(each for each in hypotheses(study, LIMITS) if each.component is Component.CASE_DRAG)
+    bend = Weighed(free, null.log_evidence + 9.0, True, None, 0.0, 0.99, None)
+    found = judge(study, blind, (bend, replace(null, probability=0.01)), _coordinates(), LIMITS)
+    assert (found.kind, found.status) == (Kind.UNKNOWN_PHYSICS, status)
+
+
+def test_unknown_physics_does_not_hang_on_one_point() -> None:
+    """A candidate is striking, but the bend is gone without one reading: which, and what to do, is told."""
+    n, p, _, _ = _axes()
+    lone, zero = np.zeros(POINTS), np.zeros(POINTS)
+    at = int(np.argmax(n * p))
+    lone[at] = 9.0
+    study = _study(1, added=np.stack([zero, zero, lone], axis=1))
+    null = refit(study, hypotheses(study, LIMITS)[0], LIMITS)
+    free = next(each for each in hypotheses(study, LIMITS) if each.component is Component.CASE_DRAG)
+    bend = Weighed(free, null.log_evidence + 99.0, True, None, 0.0, 1.0, None)
+    found = judge(study, detect(study, LIMITS), (bend, replace(null, probability=0.0)), _coordinates(), LIMITS)
+    assert (found.kind, found.status) == (Kind.UNKNOWN_PHYSICS, Status.SUSPICION)
+    assert any(text.startswith(f"without point {at + 1}, on which it rests most") for text in found.reasons)
 
 
 def test_what_stands_out_of_what_is_left_is_told() -> None:

@@ -263,26 +263,6 @@ def test_air_of_sheet_a5():
         assert flow_laws.free_air(0.01, np.array([pressure]))[0] == pytest.approx(share, rel=0.25)
 
 
-def test_suction_of_sheet_a6(validation):
-    loss = flow_laws.suction_loss(state([1000, 2100, 3000, 3600]))
-    for rpm, found, stated in zip((1000, 2100, 3000, 3600), loss, (10e3, 46e3, 94e3, 135e3), strict=True):
-        validation(
-            case="Suction loss of REF90",
-            source="left_out_physics A6",
-            quantity=f"pressure lost at {rpm} r/min",
-            unit="Pa",
-            expected=stated,
-            obtained=float(found),
-            tolerance=0.75e3,
-        )
-    values = {"inlet_loss": 1.0, "gas_pressure": 21e3 - 101325.0}
-    at = state([2700, 2840, 3400], inlet=0.0)
-    filled = flow_laws.incomplete_filling(values, courses(3), at).intake
-    assert filled[0] == 1.0
-    knee = filled * np.array([2700, 2840, 3400])
-    assert knee[1:] == pytest.approx([2770.0, 2770.0], rel=0.01)
-
-
 def test_outside_keeps_mass_and_work():
     """Oil that leaves one port reaches the other; oil not taken in does no work."""
     at, none = state(2100), neutral(1, 8)

@@ -5,15 +5,17 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from .byways import byways, meter
-from .chamber_kernels import DELIVERY, GAMMA, PISTON, PLATE, SUCTION, VAPOUR, density, turns
+from .chamber_kernels import DELIVERY, GAMMA, PISTON, PLATE, SUCTION, density, turns
 from .gaps import Films, films, sealing_length
 from .hidden import NOTHING, Hidden
 from .losses import Losses, losses
 from .machine import Array, Machine
 from .motion import Motion, full_stroke, motion, swash_at
 from .settings import RATED_SPEED, Settings
+from .suction_line import port_pressure
 
 STEPS = 720
 BEGIN = 0.5 * np.pi  # middle of the suction stroke, the port wide open
@@ -50,6 +52,7 @@ def run(machine: Machine, at: Settings, hidden: Hidden = NOTHING, steps: int = S
     )
     moves = [motion(machine, ratio, stages) for ratio in at.ratio]
     ends = [motion(machine, ratio, angle[1:]) for ratio in at.ratio]
+    at = _behind_its_line(machine, hidden, at, angle, moves)
     warmer = np.zeros((3, at.speed.size))
     for _ in range(1 + WARM_ROUNDS * (hidden.film_heating != 0.0)):
         gaps = films(machine, hidden, at, warmer)
@@ -70,7 +73,7 @@ def _chambers(
     """Chamber pressure (N, M), mean of the pistons, and what leaves a chamber in a turn (N, 5): kg by way, J."""
     kinds, points = len(machine.clearance), len(moves)
     courses = np.stack([_courses(machine, move, gaps.film[0][k]) for k, move in enumerate(moves)])
-    states = np.stack([at.p_case, _at_port(machine, hidden, at), at.p_out, gaps.viscosity[1], gaps.top], axis=1)
+    states = np.stack([at.p_case, at.p_in, at.p_out, gaps.viscosity[1], gaps.top], axis=1)
     reach = (machine.port_angles[0] - hidden.erosion, *machine.port_angles[1:])
     wider = machine.groove * (1.0 + 4.0 * hidden.erosion)
     ports = np.array([*reach, wider, machine.kidney, machine.flow_coefficient, machine.critical_reynolds])
@@ -79,10 +82,26 @@ def _chambers(
     return pressure.mean(axis=1), out.mean(axis=1)
 
 
-def _at_port(machine: Machine, hidden: Hidden, at: Settings) -> Array:
-    """What the inlet line leaves of the pressure at the suction port, Pa: never less than the oil's own vapour."""
-    share = at.speed / RATED_SPEED * at.ratio
-    return np.maximum(at.p_in - hidden.suction * share**2, 1.1 * VAPOUR)
+def _behind_its_line(
+    machine: Machine, hidden: Hidden, at: Settings, angle: Array, moves: list[Motion]
+) -> Settings:
+    """The points with what the inlet line leaves of the pressure at the port."""
+    if hidden.suction == 0.0:
+        return at
+
+    def drawn(points: NDArray[np.int64], pressure: Array) -> Array:
+        own = replace(at.of(points), p_in=pressure)
+        gaps = films(machine, hidden, own, np.zeros((3, points.size)))
+        _, out = _chambers(machine, hidden, own, angle, [moves[k] for k in points], gaps)
+        return _through_inlet(machine, hidden, own, out)
+
+    return replace(at, p_in=port_pressure(hidden.suction, at, drawn))
+
+
+def _through_inlet(machine: Machine, hidden: Hidden, at: Settings, out: Array) -> Array:
+    """m3/s (N,) that chambers draw, at the inlet's pressure."""
+    rate = machine.pistons * at.speed / (2.0 * np.pi) * out[:, SUCTION]
+    return -rate / np.array([density(p, _oil(machine, hidden)) for p in at.p_in])
 
 
 def _oil(machine: Machine, hidden: Hidden) -> tuple[float, float, float, float, float]:
@@ -133,8 +152,8 @@ def _read(
 ) -> Truth:
     oil = _oil(machine, hidden)
     rate = (machine.pistons * at.speed / (2.0 * np.pi))[:, None] * out
-    dense = {name: np.array([density(p, oil) for p in getattr(at, name)]) for name in ("p_out", "p_in", "p_case")}
-    delivered, taken = rate[:, DELIVERY] / dense["p_out"], -rate[:, SUCTION] / dense["p_in"]
+    dense = {name: np.array([density(p, oil) for p in getattr(at, name)]) for name in ("p_out", "p_case")}
+    delivered, taken = rate[:, DELIVERY] / dense["p_out"], _through_inlet(machine, hidden, at, out)
     leaked = (rate[:, PISTON] + rate[:, PLATE]) / machine.density
     past = byways(machine, hidden, at, delivered)
     return Truth(

@@ -12,8 +12,10 @@ from numba import njit
 GAMMA = 1.0 - 1.0 / np.sqrt(2.0)
 ATMOSPHERE = 101325.0
 VAPOUR = 3.0e3  # Pa absolute below which the oil parts
-SOFTNESS = 2.0e4  # Pa by which a parting chamber's density falls by e
+SOFTNESS = 2.0e3  # Pa by which a parting chamber's density falls by e
 TURN = 2.0 * np.pi
+MOST_TURNS = 60
+CLOSED = 1.0e-8  # of the chamber's mass: how far a turn may end from where it began
 SUCTION, DELIVERY, PISTON, PLATE = 0, 1, 2, 3
 
 
@@ -112,17 +114,29 @@ def settle(start, held, step, volume, angle, length, dragged, state, ports, tabl
 
 @njit(cache=True, error_model="numpy")
 def turn(angle, course, speed, state, ports, tables, oil, pressures, out):
-    """March one turn; pressures (M,) at the ends of the steps, out (4,) kg a turn, indicated work (J) in out[4].
+    """March turns until one closes: pressures (M,) at the ends of its steps, out (5,) kg by four ways, work in J.
 
-    angle (M + 1,) from wide-open suction on, where the chamber is at its port's pressure; course (2 M + 1, 4):
-    volume (m3), its slope (m3/rad), sealing length (m), dragged flow (m3/rad) at angle[0] and at the two stages of
-    each step.
+    angle (M + 1,) from wide-open suction on, where the chamber begins at its port's pressure: there it is again
+    after one turn, unless it did not fill. course (2 M + 1, 4): volume (m3), its slope (m3/rad), sealing length
+    (m), dragged flow (m3/rad) at angle[0] and at the two stages of each step.
     """
-    first, second = np.zeros(4), np.zeros(4)
+    found = np.zeros(4)
     taken = density(state[1], oil) * (course[0, 1] - course[0, 3]) * speed
     pressure = settle(state[1], -taken, 1.0, 0.0, angle[0], course[0, 2], course[0, 3] * speed, state, ports,
-                      tables, oil, first)  # fmt: skip
+                      tables, oil, found)  # fmt: skip
     mass = density(pressure, oil) * course[0, 0]
+    for _ in range(MOST_TURNS):
+        begun = mass
+        pressure, mass = march(pressure, mass, angle, course, speed, state, ports, tables, oil, pressures, out)
+        if abs(mass - begun) <= CLOSED * begun:
+            return
+    out[:] = np.nan
+
+
+@njit(cache=True, error_model="numpy")
+def march(pressure, mass, angle, course, speed, state, ports, tables, oil, pressures, out):
+    """One turn from a pressure and a mass: those at its end; fills `pressures` and `out`."""
+    first, second = np.zeros(4), np.zeros(4)
     out[:] = 0.0
     for k in range(pressures.shape[0]):
         h = angle[k + 1] - angle[k]
@@ -139,6 +153,7 @@ def turn(angle, course, speed, state, ports, tables, oil, pressures, out):
         out[:4] += rest * first + share * second
         out[4] -= h * ((1.0 - GAMMA) * middle * one[1] + GAMMA * pressure * two[1])
         pressures[k] = pressure
+    return pressure, mass
 
 
 @njit(cache=True, error_model="numpy")

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
+
+import numpy as np
+from numpy.typing import NDArray
 
 from .machine import Array
 
@@ -26,3 +29,7 @@ class Settings:
     def moved(self, name: str, change: float) -> Settings:
         """The same with one of them changed at every point."""
         return replace(self, **{name: getattr(self, name) + change})
+
+    def of(self, points: NDArray[np.int64]) -> Settings:
+        """Some of the points, by their numbers."""
+        return Settings(**{one.name: getattr(self, one.name)[points] for one in fields(self)})

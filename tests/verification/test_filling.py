@@ -1,0 +1,86 @@
+"""Chambers that no longer fill, behind an inlet line that loses pressure, against the closed form of sheet A6."""
+
+from math import pi, sqrt
+
+import numpy as np
+import pytest
+
+from system.assembly import PumpPoint
+from system.chamber_state_kernels import CAVITY_PRESSURE
+from system.description import PumpDescription
+from system.lumped import port_openings
+from system.lumped_point import lumped_point
+from system.operating import operating_point
+from system.ports import opening_area
+from system.pump_file import load_pump
+
+RPM = pi / 30
+SHEET = {1000.0: 10e3, 2100.0: 46e3, 3000.0: 94e3, 3600.0: 135e3}
+REF90 = load_pump("ref90")
+
+
+def _behind(loss: float) -> PumpDescription:
+    return load_pump("ref90", {"physics.incomplete_filling.inlet_loss": loss})
+
+
+def _point(pump: PumpDescription, rpm: float, inlet: float) -> PumpPoint:
+    at = operating_point(
+        pump, shaft_speed=rpm * RPM, delivery_pressure=10e6, inlet_pressure=inlet, case_pressure=0.0,
+        displacement_ratio=1.0, temperature=323.15,
+    )  # fmt: skip
+    return lumped_point(pump, at)
+
+
+def _lost_at_suction(found: PumpPoint) -> float:
+    """What a chamber lacks of the inlet's pressure about the middle of its suction stroke, Pa."""
+    about = np.abs(found.cycle.shaft_angle - pi / 2.0) < 0.5
+    return found.point.inlet_pressure - float(found.cycle.pressure[about].min())
+
+
+def _filled(loss: float, rpm: float, inlet: float) -> float:
+    """Of what flows in where nothing is lost."""
+    return _point(_behind(loss), rpm, inlet).bench.inlet_flow / _point(REF90, rpm, 2e6).bench.inlet_flow
+
+
+@pytest.mark.parametrize("rpm", list(SHEET))
+def test_suction_of_sheet_a6(validation, rpm):
+    validation(
+        case="Suction loss of REF90",
+        source="left_out_physics A6",
+        quantity=f"pressure lost at {rpm:.0f} r/min",
+        unit="Pa",
+        expected=SHEET[rpm],
+        obtained=_lost_at_suction(_point(REF90, rpm, 5e5)),
+        tolerance=0.75e3,
+    )
+
+
+@pytest.mark.parametrize("loss", [1.0, 4.0])
+def test_a_line_loses_its_share_of_what_the_kidneys_lose(loss):
+    assert _lost_at_suction(_point(_behind(loss), 2100.0, 10e5)) == pytest.approx(
+        (1.0 + loss) * SHEET[2100.0], rel=0.02
+    )
+
+
+@pytest.mark.parametrize(("loss", "rpm", "inlet"), [(5.0, 2100.0, 0.0), (8.0, 1800.0, 0.0), (8.0, 2100.0, 0.5e5)])
+def test_starved_chambers_take_what_the_kidney_lets_through(loss, rpm, inlet):
+    """At a cavity from soon after its beginning to the end of the stroke: n_c/n of half the arc of an open kidney.
+
+    Two parts in a hundred: the sheet's loss is rounded to one, and a cavity opens after the stroke has begun.
+    """
+    suction, _ = port_openings(REF90, 0.0)
+    angle = np.linspace(0.0, pi, 20001)
+    arc = float(np.mean(opening_area(suction, angle))) * pi / suction.kidney_area
+    onset = sqrt((inlet - CAVITY_PRESSURE) / ((1.0 + loss) * SHEET[2100.0] * (rpm / 2100.0) ** 2))
+    assert _filled(loss, rpm, inlet) == pytest.approx(onset * arc / 2.0, rel=0.02)
+
+
+def test_a_line_that_loses_nothing_changes_nothing():
+    plain, behind = (_point(pump, 2100.0, 0.0).bench for pump in (REF90, _behind(0.0)))
+    assert vars(behind) == vars(plain)
+    assert _filled(0.0, 2100.0, 1e5) == pytest.approx(1.0, abs=0.005)
+
+
+def test_flow_grows_no_more_with_speed_once_chambers_starve():
+    flows = [_point(_behind(8.0), rpm, 0.0).bench.inlet_flow for rpm in (1800.0, 2400.0, 3000.0)]
+    assert flows == pytest.approx([flows[0]] * 3, rel=0.01)
