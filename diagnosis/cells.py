@@ -15,7 +15,14 @@ from system.kinematics import Array
 
 GAPS = frozenset({"", "-", "--", "nan", "na", "n/a", "null", "none", "#n/a", "inf", "-inf"})
 """Cells, in small letters, that say that there is no reading."""
+SUMMARIES = frozenset({
+    "mean", "average", "avg", "median", "min", "minimum", "max", "maximum", "std", "stdev", "std dev", "sigma",
+    "rms", "sum", "total", "count", "range", "mittel", "mittelwert", "summe", "streuung", "moyenne", "media",
+    "promedio",
+})  # fmt: skip
+"""What rows below a table that are no readings are called, in small letters."""
 _POINT = re.compile(r"\s*[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?\s*", re.IGNORECASE)
+_IN_BRACKETS = re.compile(r"[\[(]([^\])]+)[\])]\s*$")
 _COMMA = re.compile(r"\s*[+-]?(\d+,?\d*|,\d+)(e[+-]?\d+)?\s*", re.IGNORECASE)
 
 
@@ -23,7 +30,8 @@ def columns_of(rows: Iterable[Sequence[object]], decimal: str) -> Columns:
     """Return the columns of rows of cells: text, numbers, times or None.
 
     The head is the first row as long as most rows are that is text all through; what stands above it is left out,
-    and so is a row below it without any number (units, as loggers write them). A cell that is no number is nan; a
+    and so are a row below it without any number (units, as loggers write them) and rows at the end that begin with
+    the name of a summary (`SUMMARIES`), where no row above does. A cell that is no number is nan; a
     column of times (ISO 8601) becomes seconds from its first. Raises TableFault for no head or a name that stands
     in it twice.
     """
@@ -39,11 +47,17 @@ def columns_of(rows: Iterable[Sequence[object]], decimal: str) -> Columns:
     if twice := [name for name, count in Counter(head).items() if count > 1 and name]:
         raise TableFault(f"the column {twice[0]!r} twice", "every column name once")
     body, told = table[start + 1 :], []
+    units = {name: found[1] for name in head if (found := _IN_BRACKETS.search(name))}
     if start:
         told.append(f"{start} rows above the head left out")
     if body and all(_number(cell, decimal) is None for cell in body[0]) and any(str(c).strip() for c in body[0]):
         told.append(f"the row below the head holds no number and is left out: {', '.join(map(str, body[0]))}")
+        units |= {name: str(cell).strip("[]() ") for name, cell in zip(head, body[0], strict=False) if cell}
         body = body[1:]
+    if below := _summaries(body):
+        names = ", ".join(str(next(filter(None, row))) for row in body[-below:])
+        told.append(f"{below} rows below the readings left out: {names}")
+        body = body[:-below]
     if ragged := [k for k, row in enumerate(body, start=1) if len(row) != width]:
         raise TableFault(f"row {ragged[0]} below the head with {len(body[ragged[0] - 1])} cells", f"{width} cells")
     values = {}
@@ -51,7 +65,14 @@ def columns_of(rows: Iterable[Sequence[object]], decimal: str) -> Columns:
         if name:
             values[name], words = _column([row[place] for row in body], decimal)
             told += [f"column {name!r}: {words}"] if words else []
-    return Columns(values, tuple(told))
+    return Columns(values, tuple(told), units)
+
+
+def _summaries(body: Sequence[Sequence[object]]) -> int:
+    """How many rows at the end are no readings but sums or means of those above."""
+    named = [str(next(filter(None, row), "")).lower().rstrip(":.") in SUMMARIES for row in body]
+    count = next((k for k, one in enumerate(reversed(named)) if not one), len(named))
+    return count if not any(named[: len(named) - count]) and count < len(named) else 0
 
 
 def is_number(cell: str, decimal: str) -> bool:

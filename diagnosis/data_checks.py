@@ -10,7 +10,7 @@ import numpy as np
 from diagnosis.outliers import outliers
 from diagnosis.reading_checks import impossible
 from diagnosis.recording import DataNote, NoteKind, Recording
-from diagnosis.sensor_checks import copies, noiseless, repeated_rows, stuck, stuck_inputs
+from diagnosis.sensor_checks import coarse, copies, noiseless, repeated_rows, stuck, stuck_inputs
 from diagnosis.unit_checks import implausible, trace_sizes
 from system.bench_truth import SIMULATED
 from system.channels import OUTPUTS, ChannelName
@@ -32,7 +32,7 @@ def check_recording(recording: Recording, displacement: float | None) -> Recordi
     with np.errstate(divide="ignore", invalid="ignore"):
         recording = _noted(recording, [*implausible(recording, displacement), *trace_sizes(recording)])
     recording = _noted(recording, _speed(recording))
-    for find in (stuck, stuck_inputs, repeated_rows, copies, noiseless, outliers):
+    for find in (coarse, stuck, stuck_inputs, repeated_rows, copies, noiseless, outliers):
         recording = _noted(recording, find(recording))
     return recording
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -22,7 +23,7 @@ from system.case_table import Table, fault_lines, read_toml
 from system.channels import INPUTS, ChannelName
 from system.faults import Fault, InputFaults, nearest_path
 from system.kinematics import Array
-from system.units import unit_scale
+from system.units import QuantityError, unit_scale
 
 FILE = "recording.toml"
 
@@ -102,6 +103,7 @@ def _points(section: str, form: RecordingForm, columns: Columns, reader: ColumnR
     found = [reader.column(f"channel.{c.name.value}.column", c.column, columns) for c in form.channels]
     timed = form.points.time
     time = None if timed is None else reader.column(f"{section}.time.column", timed.column, columns)
+    _hold_units(form.channels, columns, reader)
     known = [column for column in found if column is not None]
     if len(known) < len(found) or (timed is not None and time is None):
         return None
@@ -110,6 +112,18 @@ def _points(section: str, form: RecordingForm, columns: Columns, reader: ColumnR
     if isinstance(form.points, SteadyForm):
         return _steady_points(form.points, readings, seconds, columns, reader)
     return None if seconds is None else _series_points(form.points, readings, seconds, form.channels, reader)
+
+
+def _hold_units(channels: Sequence[ChannelForm], columns: Columns, reader: ColumnReader) -> None:
+    """Note each channel of which the table itself says another unit than is stated."""
+    for channel in channels:
+        told, dimension = columns.units.get(channel.column, ""), channel.name.dimension
+        try:
+            own = unit_scale(told, dimension) if told and dimension else None
+        except QuantityError:
+            continue
+        if own is not None and dimension and not math.isclose(own[0], unit_scale(channel.unit, dimension)[0]):
+            reader.note(f"{channel.name.value}: read in {channel.unit} as stated; the table says {told}")
 
 
 def _steady_points(

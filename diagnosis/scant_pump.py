@@ -12,7 +12,7 @@ from typing import Any
 from system.assumptions import Assumption
 from system.case_table import Table, fault_lines, read_toml
 from system.description import FORMAT, PumpDescription
-from system.faults import InputFaults
+from system.faults import InputFaults, nearest_choice
 from system.kinematics import SwashDrive, stroke
 from system.pump_file import builtin_pumps, load_pump, pump_of_tables, resolved_toml
 from system.units import Dimension, QuantityError, format_quantity, parse_quantity
@@ -144,6 +144,10 @@ def _facts(top: Table) -> _Facts | None:
         "swash_angle_max": Dimension.ANGLE, "piston_diameter": Dimension.LENGTH, "pitch_radius": Dimension.LENGTH,
     }  # fmt: skip
     sizes = {key: table.positive(key, kind) if key in table.values else None for key, kind in kinds.items()}
+    known = type(load_pump(MODEL).pump).model_fields
+    for key in table.values:
+        if key not in known:
+            table.fault(key, "no key of this table", f"one of {', '.join(known)}", nearest_choice(key, known))
     if displacement is None or top.faults:
         return None
     return _Facts(displacement, pistons, *sizes.values())

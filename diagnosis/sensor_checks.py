@@ -22,6 +22,22 @@ FLOWS = (ChannelName.Q_OUT, ChannelName.Q_IN, ChannelName.Q_CASE)
 TELLING = 4  # channels that do not repeat themselves together
 
 
+def coarse(recording: Recording) -> Iterator[DataNote]:
+    """Yield the fault of channels that by their repeatability are noise alone at half of the points."""
+    for name in (ChannelName.SPEED, ChannelName.P_OUT, *OUTPUTS):
+        channel, values = recording.channel(name), recording.steady.column(name)
+        known = values[np.isfinite(values)]
+        if channel is None or not len(known):
+            continue
+        middle = float(np.median(np.abs(known)))
+        if (noise := float(np.median(reading_sigma(channel, known)))) > middle > 0.0:
+            text = (
+                f"{name.value} has a repeatability of {noise / middle:.3g} times what it reads at half of the "
+                "points: sigma is one standard deviation in the channel's unit, sigma_relative a share (0.01: 1 %)"
+            )
+            yield DataNote(NoteKind.FAULT, name, (), text)
+
+
 def stuck(recording: Recording) -> Iterator[DataNote]:
     """Yield outputs that read the same at `LEAST_RUN` or more points on end while speed or pressure moved.
 

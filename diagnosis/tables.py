@@ -35,10 +35,14 @@ class TableSource:
 
 @dataclass(frozen=True)
 class Columns:
-    """Columns by name, all of one length, nan where a cell holds no number; `told`: what was found, in words."""
+    """Columns by name, all of one length, nan where a cell holds no number; `told`: what was found, in words.
+
+    units: by name of a column what stands in the row below the head, or in brackets in the head.
+    """
 
     values: Mapping[str, Array]
     told: tuple[str, ...] = field(default=())
+    units: Mapping[str, str] = field(default_factory=dict)
 
     @property
     def rows(self) -> int:

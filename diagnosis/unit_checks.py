@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
+from types import MappingProxyType
 
 import numpy as np
 
@@ -27,6 +28,7 @@ INLET_RATIO = (0.4, 1.5)  # Q_in over the same
 APART = 0.15  # share of a flow by which two groups of points differ that are no one pump at one setting
 TORQUE_RATIO = (0.85, 2.5)  # torque over displacement x pressure difference
 TRACE_RATIO = (0.5, 2.0)  # upper tenth of a chamber's pressure over p_out
+CHARGED = 5e5  # Pa gauge: beyond it an inlet is charged
 CASE_PRESSURE = (-3e4, 1e6)  # Pa gauge: no vacuum, and less than any shaft seal bears
 HOTTEST = 383.15  # K: beyond, oil ages within hours
 DRAIN_WARMER = (-1.0, 80.0)  # K, T_case less T_in: what leaks has been throttled
@@ -138,7 +140,9 @@ def _ratios(recording: Recording, displacement: float) -> Iterator[DataNote]:
         yield from _ratio_fault(recording, flow_of(name), text, (name, ChannelName.SPEED), span)
     text = "torque is {:.3g} times displacement x pressure difference / 2 pi at half of the points"
     names = (ChannelName.TORQUE, ChannelName.P_OUT, ChannelName.P_IN)
-    yield from _ratio_fault(recording, torque_of, text, names, _Span(*TORQUE_RATIO))
+    power = _as_power(recording)
+    also = {"torque is the shaft's power in kW": power} if power else {}
+    yield from _ratio_fault(recording, torque_of, text, names, _Span(*TORQUE_RATIO), also)
 
 
 def _swept(recording: Recording, displacement: float) -> Array:
@@ -148,10 +152,33 @@ def _swept(recording: Recording, displacement: float) -> Array:
     return displacement / (2.0 * math.pi) * swept
 
 
+def _as_power(recording: Recording) -> Recording | None:
+    """The recording with the numbers of its torque read as kW; None without a torque."""
+    channel = recording.channel(ChannelName.TORQUE)
+    if channel is None:
+        return None
+    values = recording.steady.values.copy()
+    kilowatts = (
+        values[:, list(ChannelName).index(ChannelName.TORQUE)] / unit_scale(channel.unit, Dimension.TORQUE)[0]
+    )
+    values[:, list(ChannelName).index(ChannelName.TORQUE)] = (
+        1e3 * kilowatts / recording.steady.column(ChannelName.SPEED)
+    )
+    return replace(recording, steady=replace(recording.steady, values=values))
+
+
 def _ratio_fault(
-    recording: Recording, ratio: Ratio, text: str, names: tuple[ChannelName, ...], span: _Span
+    recording: Recording,
+    ratio: Ratio,
+    text: str,
+    names: tuple[ChannelName, ...],
+    span: _Span,
+    also: Mapping[str, Recording] = MappingProxyType({}),
 ) -> Iterator[DataNote]:
-    """A fault of a ratio beyond its span, with each unit, power of ten or sign of a channel that would mend it."""
+    """A fault of a ratio beyond its span, with each unit, power of ten or sign of a channel that would mend it.
+
+    also: other readings of the recording, in words, of which those that mend it are told as well.
+    """
     found = ratio(recording)
     if found is None or span.holds(found):
         return
@@ -177,6 +204,7 @@ def _ratio_fault(
     if recording.channel(_RATIO) is not None:
         shares = (("1", 100.0), ("%", 0.01))
         ways += [f"displacement_ratio in '{unit}'" for unit, by in shares if mends(_RATIO, by)]
+    ways += [words for words, other in also.items() if (mended := ratio(other)) is not None and span.holds(mended)]
     hint = f"; {' or '.join(ways)}?" if ways else ""
     yield DataNote(NoteKind.FAULT, names[0], (), text.format(found) + hint)
 
@@ -197,6 +225,11 @@ def _references(recording: Recording) -> Iterator[DataNote]:
         if middle < -0.9 * STANDARD_ATMOSPHERE:
             text = f"{name.value} is {middle / 1e5:.2f} bar gauge, a vacuum: a gauge pressure taken as absolute?"
             yield DataNote(NoteKind.FAULT, name, (), text)
+        elif name is ChannelName.P_IN and recording.circuit is Circuit.OPEN and middle > CHARGED:
+            text = (
+                f"p_in of an open circuit is {middle / 1e5:.1f} bar gauge, as no tank gives; circuit = 'closed'?"
+            )
+            yield DataNote(NoteKind.TOLD, name, (), text)
         elif name is ChannelName.P_IN and recording.circuit is Circuit.OPEN and abs(middle - 1e5) < 0.15e5:
             text = f"p_in of an open circuit is {middle / 1e5:.2f} bar gauge: an absolute pressure taken as gauge?"
             yield DataNote(NoteKind.TOLD, name, (), text)

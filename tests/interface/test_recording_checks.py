@@ -88,6 +88,33 @@ def test_units_off_by_a_factor_are_faults_with_the_unit_that_mends_them(name, fa
     assert hint in " ".join(text for kind, _, text in notes if kind is NoteKind.FAULT)
 
 
+def test_the_shaft_s_power_in_place_of_its_torque_is_told():
+    speed = _sound().steady.column(ChannelName.SPEED)
+    notes = _told(_with("torque", lambda x: 1e-3 * x * speed))
+    assert "torque is the shaft's power in kW" in " ".join(
+        text for kind, _, text in notes if kind is NoteKind.FAULT
+    )
+
+
+@pytest.mark.parametrize(
+    ("name", "sigma", "share"), [("torque", 0.0, 6.0), ("Q_case", 1.0, 0.0), ("p_out", 1e9, 0.0)]
+)
+def test_a_repeatability_beyond_the_readings_is_a_fault(name, sigma, share):
+    sound, named = _sound(), ChannelName.named(name)
+    channels = [
+        replace(one, sigma=sigma, sigma_relative=share) if one.name is named else one for one in sound.channels
+    ]
+    faults = [note for note in _told(replace(sound, channels=tuple(channels))) if note[0] is NoteKind.FAULT]
+    assert [channel for _, channel, _ in faults] == [named]
+    assert "sigma_relative" in faults[0][2]
+
+
+def test_an_open_circuit_that_is_charged_is_told():
+    notes = _told(replace(_sound(), circuit=Circuit.OPEN))
+    assert [(kind, channel) for kind, channel, _ in notes] == [(NoteKind.TOLD, ChannelName.P_IN)]
+    assert "circuit = 'closed'" in notes[0][2]
+
+
 def test_kelvin_read_as_celsius():
     kind, channel, text = _told(_with("T_case", lambda x: x + 273.15))[0]
     assert (kind, channel) == (NoteKind.FAULT, ChannelName.T_CASE)

@@ -74,6 +74,19 @@ def test_decimal_comma_and_other_units_give_the_same(tmp_path):
     assert any("decimal comma" in note.text for note in other.notes)
 
 
+@pytest.mark.parametrize(
+    ("row", "told"), [(",1/min,MPa,degC,l/min", ["MPa"]), (",rpm,bar,degC,L/min", []), (",a,b,c,d", [])]
+)
+def test_a_unit_that_the_table_contradicts_is_told(tmp_path, row, told):
+    """By the row below the head, or by brackets in it; what is no unit there tells nothing."""
+    head, rest = TABLE.split("\n", 1)
+    notes = [note.text for note in read_recording(_written(tmp_path, table=f"{head}\n{row}\n{rest}")).notes]
+    assert [note.rpartition(" ")[2] for note in notes if "the table says" in note] == told
+    bracketed = CHANNELS.replace('"p"', '"p (kPa)"')
+    notes = read_recording(_written(tmp_path, HEAD + STEADY + bracketed, TABLE.replace(",p,", ",p (kPa),"))).notes
+    assert any(note.text == "p_out: read in bar as stated; the table says kPa" for note in notes)
+
+
 def test_what_is_taken_is_told(tmp_path):
     recording = read_recording(_written(tmp_path, form="format = 1\n" + STEADY + CHANNELS))
     told = " ".join(note.text for note in recording.notes)

@@ -50,6 +50,16 @@ def test_loggers_put_lines_above_and_units_below_the_head(tmp_path):
     assert "over" in told
 
 
+def test_sums_and_means_below_the_readings_are_none(tmp_path):
+    path = tmp_path / "run.csv"
+    path.write_text("point;speed\nP1;1500\nP2;1501\n\nMean:;1500.5\nStd Dev;0.7\n", "utf-8")
+    columns = _read(path)
+    assert np.array_equal(columns.values["speed"], [1500.0, 1501.0])
+    assert any("2 rows below the readings left out: Mean:, Std Dev" in told for told in columns.told)
+    path.write_text("stroke;speed\nmin;1500\nmax;1501\n", "utf-8")
+    assert _read(path).rows == 2
+
+
 def test_times_become_seconds(tmp_path):
     path = tmp_path / "run.csv"
     path.write_text("when;speed\n2026-01-02 10:00:00;1\n2026-01-02 10:00:02.5;2\n", "utf-8")

@@ -103,6 +103,7 @@ def test_complete_pumps_are_as_they_are():
         ("[oil]\n", {"pump", "oil.grade"}),
         (SCANT.format("9 mm", 3), {"pump.displacement", "pump.pistons"}),
         (SCANT.format("60 cm3", 9) + '[slippr]\nfilm_thickness = "9 um"\n', {"slippr"}),
+        (SCANT.format("60 cm3", 9).replace("ement", "ment"), {"pump.displacement", "pump.displacment"}),
         (SCANT.format("-60 cm3", 9), {"pump.displacement"}),
         (SCANT.format("60 cm3", 9).replace("46", "47"), {"oil.grade"}),
     ],
