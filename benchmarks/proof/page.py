@@ -27,6 +27,8 @@ chambers by balance of mass, films integrated along their length, other laws for
 pistons), read by sensors with noise that has memory and tails, with calibrations within what they state, and with
 steps. Each machine is drawn within the stated tolerances. What is concealed is sized by its score z: the length of
 the shift in the readings, in sigma, once all that is uncertain has had its part; z is computed by the plant alone.
+Sizes of their own have a worn groove, which shows in chamber traces alone, and an inlet line by which chambers no
+longer fill: that begins at a knee, beyond which a single point is moved by tens of sigma.
 
     mkdir -p build/proof && tar -xf benchmarks/proof/outcomes.tar.xz -C build/proof    lays out what is behind this
     python benchmarks/proof.py                 runs what is not there yet, then writes this page
@@ -35,8 +37,9 @@ the shift in the readings, in sigma, once all that is uncertain has had its part
 
 Campaigns: `map` has 112 points (4 strokes, 4 speeds, 7 pressures, one temperature, chamber traces at four),
 `ovens` 168 at three inlet temperatures, `scattered` 90 over stroke, speed, pressure, temperature, charge and case
-pressure, `short` 60 such points at one charge pressure that is not measured, `open circuit` 100 out of a tank,
-`no inlet meter` 140 without `Q_in`. Each reads `Q_out`, `Q_in`, `Q_case` and `torque` but where said.
+pressure, `short` 60 such points at one charge pressure that is not measured, `open circuit` 100 out of a tank, the
+last twenty with the inlet throttled step by step, `no inlet meter` 140 without `Q_in`. Each reads `Q_out`, `Q_in`,
+`Q_case` and `torque` but where said.
 
 """
 GATES = """
@@ -122,13 +125,14 @@ def _grades(outcomes: Sequence[Outcome]) -> str:
     rows = []
     for part in Part:
         own = [one for one in outcomes if one.part == part.value]
+        own_size = "-" if part is Part.NULL else "own size"
         for asked in sorted({one.asked for one in own}):
             at = [one for one in own if one.asked == asked]
             seen = sum(map(_sees, at))
             told = sum(one.status == "suspicion" for one in at)
             rows.append((
-                part.value, f"{asked:g}" if asked else "own size", str(len(at)), str(seen), str(told), str(sum(map(is_right, at))),
-                str(sum(map(is_wrong_name, at))), str(sum(map(is_grave, at))),
+                part.value, f"{asked:g}" if asked else own_size, str(len(at)), str(seen), str(told),
+                str(sum(map(is_right, at))), str(sum(map(is_wrong_name, at))), str(sum(map(is_grave, at))),
             ))  # fmt: skip
     head = ("part", "z", "cases", "mismatch seen", "of it suspicion", "right", "wrong name", "wrong and sure")
     return "\n## By size\n\n" + _table(head, rows)

@@ -19,6 +19,17 @@ ASKED = (
     "diagnosis.recording_reader", "diagnosis.scant_pump", "system.tolerances",
 )  # fmt: skip
 """Modules that a diagnosis is made of; all that they import counts, too."""
+TRIERS = (
+    "trial.py",
+    "expected.py",
+    "oracle.py",
+    "worth.py",
+    "rivals.py",
+    "baselines.py",
+    "film_trial.py",
+    "real.py",
+)
+"""What puts a case to it and keeps what came of it."""
 MAKERS = ("plant", "campaigns.py", "sensors.py", "sizing.py", "recordings.py", "writing.py")
 
 
@@ -48,11 +59,12 @@ def counted() -> frozenset[str]:
 
 @cache
 def program() -> str:
-    """Of what a verdict hangs on, thresholds and pump with it: an outcome made by another one is told as such."""
+    """Of what an outcome hangs on, thresholds and pump with it: one made by another program is told as such."""
     root = HERE.parents[1]
     modules = [root.joinpath(*name.split(".")).with_suffix(".py") for name in sorted(counted())]
     data = [path for name in PACKAGES for path in sorted((root / name).rglob("*.toml"))]
-    return _digest([path for path in modules if path.exists()] + data)[:12]
+    tried = [HERE / name for name in TRIERS]
+    return _digest([path for path in modules if path.exists()] + data + tried)[:12]
 
 
 def load(folder: Path, name: str) -> Outcome | None:
