@@ -17,12 +17,17 @@ TRUE_TO = 0.01  # of what an explanation brings: the square of a form that is of
 PLACED_BY = 0.05  # the same of one law at several places, which nothing but its form there tells apart
 
 
-def class_gap(weighed: Sequence[Weighed], thresholds: Thresholds) -> float:
-    """Nats within which refitted explanations are one class: what noise makes, or the error of their forms.
+def by_form(gained: float, thresholds: Thresholds) -> float:
+    """Nats that the form of a law makes of `gained` nats over nothing, over those that noise makes; 1 at least.
 
-    A form off by a tenth leaves TRUE_TO of the ln evidence that the best explanation gains over nothing.
+    A form off by a tenth leaves TRUE_TO of what it gains: up to 300 nats that is less than the gap of a class.
     """
-    return max(thresholds.name.class_gap, TRUE_TO * _gained(weighed))
+    return max(1.0, TRUE_TO * gained / thresholds.name.class_gap)
+
+
+def class_gap(weighed: Sequence[Weighed], thresholds: Thresholds) -> float:
+    """Nats within which refitted explanations are one class: what noise makes, or the error of their forms."""
+    return thresholds.name.class_gap * by_form(_gained(weighed), thresholds)
 
 
 def place_gap(weighed: Sequence[Weighed], thresholds: Thresholds) -> float:

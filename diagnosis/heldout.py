@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import logsumexp
 
+from diagnosis.coarse import by_form
 from diagnosis.study import Study
 from diagnosis.thresholds import HeldOutLimits, Thresholds
 from diagnosis.weighed import HeldOut
@@ -30,11 +31,13 @@ def held_out(study: Study, null: Posterior, own: Posterior, thresholds: Threshol
     """Gains of an explanation over the null in regions left out, and residuals of random fifths left out.
 
     The gain of a fold is the ln ratio of the two joint predictive densities of its readings, each fit repeated
-    without them by one linear step. RMS in SI; `noise` is what repeatability and inputs alone make.
+    without them by one linear step. They veto (`speak_against`) as far as they are more than the law's form makes
+    of what the explanation gains (`by_form`). RMS in SI; `noise` is what repeatability and inputs alone make.
     """
     folds = regions(study, (null, own))
     gains = {name: _density(own, points) - _density(null, points) for name, points in folds.items()}
-    vetoed = speak_against(np.array(list(gains.values())), thresholds.heldout)
+    coarse = by_form(own.log_evidence - null.log_evidence, thresholds)
+    vetoed = speak_against(np.array(list(gains.values())) / coarse, thresholds.heldout)
     fifths = _fifths(len(study.axes), thresholds.seeds.locate)
     measured = study.observations.measured
 

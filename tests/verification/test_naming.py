@@ -550,6 +550,8 @@ def test_regions_held_out_veto_what_foretells_worse() -> None:
     swapped = held_out(_study(1, laws=((CHURNING, 0.2),)), found.after, found.before, LIMITS)
     assert swapped.vetoed
     assert not found.fit.vetoed
+    gross = replace(found.before, log_evidence=found.after.log_evidence + 1e6)  # some nats are its form then
+    assert not held_out(_study(1, laws=((CHURNING, 0.2),)), found.after, gross, LIMITS).vetoed
     for name, gain in swapped.gains.items():
         assert gain == pytest.approx(-found.fit.gains[name])
 
