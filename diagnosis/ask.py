@@ -75,7 +75,7 @@ def contender(study: Study, weighed: Weighed, thresholds: Thresholds) -> Contend
     """A refitted explanation with the simulator of its fit."""
     if weighed.posterior is None:
         raise ValueError(f"{weighed.hypothesis.text}: not refitted")
-    simulator = simulator_of(study.simulator, weighed.hypothesis, thresholds.name.fault_factor)
+    simulator = simulator_of(study, weighed.hypothesis, thresholds.name.fault_factor)
     own = weighed.hypothesis
     text = effect_words(own.effects, own.pair) + (", of another form" if own.bent else "")
     return Contender(own.effects, simulator, weighed.posterior, text, weighed.probability)

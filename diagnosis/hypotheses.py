@@ -10,10 +10,12 @@ from math import log
 from diagnosis.study import Candidate, PumpSimulator, Study
 from diagnosis.thresholds import PriorMasses, Thresholds
 from system.components import Component
-from system.estimation.parameters import Parameter
+from system.estimation.parameters import Parameter, Role
 from system.physics.effects import EffectId, Kind
 from system.physics.extension import Extension
 from system.pump_gap import Gap
+
+TOLERATED = 5.0  # sigma of a stated tolerance: beyond it lies nothing that no hypothesis sets free
 
 
 @dataclass(frozen=True)
@@ -116,13 +118,23 @@ def gap_of(parameter: str) -> Gap | None:
     return next((gap for gap in Gap if gap.value == part), None)
 
 
-def simulator_of(simulator: PumpSimulator, hypothesis: Hypothesis, factor: float) -> PumpSimulator:
-    """The simulator with a hypothesis's laws on (first member of each grid) and its parameters widened."""
+def simulator_of(study: Study, hypothesis: Hypothesis, factor: float) -> PumpSimulator:
+    """The simulator with a hypothesis's laws on (first member of each grid) and its parameters widened.
+
+    What no hypothesis sets free stays within TOLERATED of its stated tolerance: ports whose flow coefficient is
+    nine sigma off would explain a starved pump, but no drawing allows them.
+    """
+    simulator = study.simulator
     if hypothesis.laws:
         simulator = simulator.with_extensions(tuple(law.members[0] for law in hypothesis.laws))
     factor *= hypothesis.reach
-    wider = tuple(each.widened(factor) for each in simulator.parameters if each.name in hypothesis.widened)
-    return simulator.with_parameters(wider) if wider else simulator
+    questioned = {each.parameter for each in study.candidates if each.extension is None}
+    changed = [
+        each.widened(factor) if each.name in hypothesis.widened else each.held(TOLERATED)
+        for each in simulator.parameters
+        if each.name in hypothesis.widened or (each.role is not Role.EXTENSION and each.name not in questioned)
+    ]
+    return simulator.with_parameters(tuple(changed)) if changed else simulator
 
 
 def candidates_of(study: Study, member: Hypothesis) -> tuple[Candidate, ...]:

@@ -74,7 +74,7 @@ def _refitted(study: Study, hypothesis: Hypothesis, thresholds: Thresholds, hope
     found: list[tuple[Hypothesis, Posterior]] = []
     failed: list[NotConverged] = []
     for member in members:
-        simulator = simulator_of(study.simulator, member, thresholds.name.fault_factor)
+        simulator = simulator_of(study, member, thresholds.name.fault_factor)
         try:
             start = _start(study, simulator, member.open_names, SIZES)[1]
             lent = _lent_slopes(study, simulator, member.open_names, start)
@@ -134,7 +134,7 @@ def _likeliest(study: Study, hypothesis: Hypothesis, thresholds: Thresholds) -> 
         return list(members)
 
     def promised(member: Hypothesis) -> float:
-        simulator = simulator_of(study.simulator, member, thresholds.name.fault_factor)
+        simulator = simulator_of(study, member, thresholds.name.fault_factor)
         return _start(study, simulator, member.open_names, SIZES)[0]
 
     if study.base.objective > GROSS * study.base.residual.size:
@@ -160,7 +160,7 @@ def first_look(study: Study, hypothesis: Hypothesis, thresholds: Thresholds) -> 
 
     For parameters whose slope tells little of what a large change does.
     """
-    simulator = simulator_of(study.simulator, hypothesis, thresholds.name.fault_factor)
+    simulator = simulator_of(study, hypothesis, thresholds.name.fault_factor)
     promised, xi = _start(study, simulator, hypothesis.open_names, ROUGHLY)
     predicted = simulator.predict(values_at(simulator.parameters, xi))
     left = study.base.whitening.whiten(study.observations.values - predicted)

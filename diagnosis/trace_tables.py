@@ -51,7 +51,7 @@ def simulated_traces(
     own = diagnosis.hypotheses[0]
     if not diagnosis.effects or own.posterior is None:
         return before, before
-    simulator = simulator_of(study.simulator, own.hypothesis, thresholds.name.fault_factor)
+    simulator = simulator_of(study, own.hypothesis, thresholds.name.fault_factor)
     return before, simulator.traces(own.posterior.values, points, angle)
 
 

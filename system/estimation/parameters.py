@@ -88,3 +88,8 @@ class Parameter:
     def widened(self, factor: float) -> Parameter:
         """The same parameter with a prior `factor` times as wide, between the same bounds."""
         return replace(self, spread=self.spread * factor)
+
+    def held(self, sigmas: float) -> Parameter:
+        """The same parameter, no farther than so many sigma from its centre."""
+        lower, upper = max(self.lower, self.value(-sigmas)), min(self.upper, self.value(sigmas))
+        return replace(self, lower=lower, upper=upper)

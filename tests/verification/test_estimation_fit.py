@@ -243,6 +243,10 @@ def test_scales(scale: Scale) -> None:
     assert parameter.value(parameter.highest) == pytest.approx(9.0)
     assert parameter.lowest == {Scale.HALF: 0.0, Scale.LOG: -np.inf, Scale.NORMAL: -2.0 / 0.3}[scale]
     assert parameter.widened(10.0).spread == 3.0
+    held = parameter.held(2.0)
+    expected = (max(parameter.lowest, -2.0), min(parameter.highest, 2.0))
+    assert (held.lowest, held.highest) == pytest.approx(expected)
+    assert (held.spread, held.centre) == (parameter.spread, parameter.centre)
 
 
 @pytest.mark.parametrize(

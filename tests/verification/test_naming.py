@@ -14,7 +14,7 @@ from diagnosis.detect import confirmed, detect
 from diagnosis.diagnose import diagnose_study
 from diagnosis.growth import misgrown
 from diagnosis.heldout import held_out, regions, speak_against
-from diagnosis.hypotheses import hypotheses
+from diagnosis.hypotheses import TOLERATED, hypotheses, simulator_of
 from diagnosis.judge import judge
 from diagnosis.left_over import left_over
 from diagnosis.map_axes import AXES, scaled_axes
@@ -422,6 +422,20 @@ def test_what_no_candidate_resembles_is_a_mismatch_all_the_same(shape: str, stat
     bend = Weighed(free, null.log_evidence + 9.0, True, None, 0.0, 0.99, None)
     found = judge(study, blind, (bend, replace(null, probability=0.01)), _coordinates(), LIMITS)
     assert (found.kind, found.status) == (Kind.UNKNOWN_PHYSICS, status)
+
+
+def test_what_no_hypothesis_questions_stays_near_its_tolerance() -> None:
+    """Parameters that none sets free are held; those that one may widen are not, and by it they are wide."""
+    study = _study(1)
+    questioned = {each.parameter for each in study.candidates if each.extension is None}
+    wrong = next(each for each in hypotheses(study, LIMITS) if each.widened)
+    for hypothesis in (hypotheses(study, LIMITS)[0], wrong):
+        found = simulator_of(study, hypothesis, LIMITS.name.fault_factor)
+        for one, stated in zip(found.parameters, study.simulator.parameters, strict=True):
+            if one.name in hypothesis.widened:
+                assert one.spread == pytest.approx(LIMITS.name.fault_factor * stated.spread)
+            assert (one.highest <= TOLERATED + 1e-9) == (one.name not in questioned or stated.highest <= TOLERATED)
+    assert questioned < {one.name for one in study.simulator.parameters}
 
 
 def test_unknown_physics_does_not_hang_on_one_point() -> None:

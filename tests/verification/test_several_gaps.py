@@ -1,5 +1,7 @@
 """One law at several gaps at once: an explanation of its own, told, fitted and written back by gap."""
 
+from types import SimpleNamespace
+
 import numpy as np
 
 from diagnosis.hypotheses import Hypothesis, simulator_of, together
@@ -53,7 +55,7 @@ def test_both_gaps_open_in_the_map_and_in_the_pump_file():
     values = {"elastic_opening.slipper.opening": 1e-8, "elastic_opening.piston.opening": 2e-8}
 
     def read(hypothesis):
-        bench = simulator_of(plain, hypothesis, 1.0)
+        bench = simulator_of(SimpleNamespace(simulator=plain, candidates=()), hypothesis, 1.0)
         return bench.predict(np.array([values[one.name] for one in bench.parameters]))[0]
 
     nothing = plain.predict(np.array([]))[0]
