@@ -59,11 +59,12 @@ def judge(
     """
     limits = thresholds.mismatch
     null = next(each for each in weighed if each.hypothesis.kind is Kind.NO_MISMATCH)
-    improbable = null.probability < limits.null_probability
-    if not improbable and detection.chance >= limits.suspicion:
-        return Verdict(Kind.NO_MISMATCH, Status.NAMED, (), (), (), tuple(weighed))
+    if null.probability >= limits.null_probability:
+        if detection.chance >= limits.suspicion:
+            return Verdict(Kind.NO_MISMATCH, Status.NAMED, (), (), (), tuple(weighed))
+        return _suspicion(weighed, (_half_seen(detection, null),))
     bend = _bend(study, null, weighed, thresholds)
-    if not improbable or min(detection.chance, bend.chance) >= limits.chance:
+    if min(detection.chance, bend.chance) >= limits.chance:
         return _suspicion(weighed, (_half_seen(detection, null),))
     best = _simplest(max((each for each in weighed if each is not null), key=_weight), weighed, thresholds)
     if best.hypothesis.kind is Kind.UNKNOWN_PHYSICS:

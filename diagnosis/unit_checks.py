@@ -140,9 +140,10 @@ def _ratios(recording: Recording, displacement: float) -> Iterator[DataNote]:
         yield from _ratio_fault(recording, flow_of(name), text, (name, ChannelName.SPEED), span)
     text = "torque is {:.3g} times displacement x pressure difference / 2 pi at half of the points"
     names = (ChannelName.TORQUE, ChannelName.P_OUT, ChannelName.P_IN)
-    power = _as_power(recording)
-    also = {"torque is the shaft's power in kW": power} if power else {}
-    yield from _ratio_fault(recording, torque_of, text, names, _Span(*TORQUE_RATIO), also)
+    torque = recording.channel(ChannelName.TORQUE)
+    own = 1.0 if torque is None else unit_scale(torque.unit, Dimension.TORQUE)[0]
+    power = {"torque is the shaft's power in kW": 1e3 / own / recording.steady.column(ChannelName.SPEED)}
+    yield from _ratio_fault(recording, torque_of, text, names, _Span(*TORQUE_RATIO), power)
 
 
 def _swept(recording: Recording, displacement: float) -> Array:
@@ -152,38 +153,23 @@ def _swept(recording: Recording, displacement: float) -> Array:
     return displacement / (2.0 * math.pi) * swept
 
 
-def _as_power(recording: Recording) -> Recording | None:
-    """The recording with the numbers of its torque read as kW; None without a torque."""
-    channel = recording.channel(ChannelName.TORQUE)
-    if channel is None:
-        return None
-    values = recording.steady.values.copy()
-    kilowatts = (
-        values[:, list(ChannelName).index(ChannelName.TORQUE)] / unit_scale(channel.unit, Dimension.TORQUE)[0]
-    )
-    values[:, list(ChannelName).index(ChannelName.TORQUE)] = (
-        1e3 * kilowatts / recording.steady.column(ChannelName.SPEED)
-    )
-    return replace(recording, steady=replace(recording.steady, values=values))
-
-
 def _ratio_fault(
     recording: Recording,
     ratio: Ratio,
     text: str,
     names: tuple[ChannelName, ...],
     span: _Span,
-    also: Mapping[str, Recording] = MappingProxyType({}),
+    also: Mapping[str, Array] = MappingProxyType({}),
 ) -> Iterator[DataNote]:
     """A fault of a ratio beyond its span, with each unit, power of ten or sign of a channel that would mend it.
 
-    also: other readings of the recording, in words, of which those that mend it are told as well.
+    also: factors (N,) on the first channel by what they mean, of which those that mend it are told as well.
     """
     found = ratio(recording)
     if found is None or span.holds(found):
         return
 
-    def mends(name: ChannelName, factor: float) -> bool:
+    def mends(name: ChannelName, factor: float | Array) -> bool:
         mended = ratio(_scaled(recording, name, factor))
         return mended is not None and span.holds(mended)
 
@@ -204,13 +190,13 @@ def _ratio_fault(
     if recording.channel(_RATIO) is not None:
         shares = (("1", 100.0), ("%", 0.01))
         ways += [f"displacement_ratio in '{unit}'" for unit, by in shares if mends(_RATIO, by)]
-    ways += [words for words, other in also.items() if (mended := ratio(other)) is not None and span.holds(mended)]
+    ways += [words for words, by in also.items() if mends(names[0], by)]
     hint = f"; {' or '.join(ways)}?" if ways else ""
     yield DataNote(NoteKind.FAULT, names[0], (), text.format(found) + hint)
 
 
-def _scaled(recording: Recording, name: ChannelName, factor: float) -> Recording:
-    """The recording with one channel's readings times a factor."""
+def _scaled(recording: Recording, name: ChannelName, factor: float | Array) -> Recording:
+    """The recording with one channel's readings times a factor, or one a point."""
     values = recording.steady.values.copy()
     values[:, list(ChannelName).index(name)] *= factor
     return replace(recording, steady=replace(recording.steady, values=values))
