@@ -11,6 +11,7 @@ from typing import Any
 from diagnosis.bench_units import difference, difference_unit, reading
 from diagnosis.next_point import READINGS, NextPoint
 from diagnosis.shown import last_word
+from diagnosis.time_scan import TimeKind, TimeMark
 from diagnosis.verdict import Claim, Diagnosis, Estimate
 from diagnosis.weighed import HeldOut, Weighed
 from diagnosis.words import paragraphs, statement
@@ -26,7 +27,7 @@ KEYS = (
 
 
 def write_diagnosis(path: Path, diagnosis: Diagnosis) -> None:
-    """Write a diagnosis as JSON (shared/recordings/README.md, docs/files.md). Raises ValueError for nan or inf."""
+    """Write a diagnosis as JSON (docs/files.md). Raises ValueError for nan or inf."""
     text = json.dumps(diagnosis_record(diagnosis), indent=1, allow_nan=False)
     path.write_text(text + "\n", encoding="utf-8")
 
@@ -79,17 +80,22 @@ def _mismatch(diagnosis: Diagnosis) -> dict[str, Any]:
 
 
 def _where(diagnosis: Diagnosis) -> dict[str, Any]:
-    location = diagnosis.location
+    location, agrees = diagnosis.location, diagnosis.kind is Kind.NO_MISMATCH
     pair = diagnosis.effects[0].pair if diagnosis.effects else None
     angle = location.angle
     return {
-        "channels": [] if diagnosis.kind is Kind.NO_MISMATCH else [one.value for one in location.channels],
+        "channels": [] if agrees else [one.value for one in location.channels],
         "pair": pair.value if pair else None,
-        "region": location.region.text if location.region else None,
+        "region": location.region.text if location.region and not agrees else None,
         "shaft_angle_deg": [degrees(angle.start), degrees(angle.end)] if angle else None,
-        "components": [one.value for one in location.tie],
-        "time": {"kind": location.time.kind.value, "point": location.time.at + 1} if location.time else None,
+        "components": [] if agrees else [one.value for one in location.tie],
+        "time": _time(location.time) if location.time else None,
     }
+
+
+def _time(mark: TimeMark) -> dict[str, Any]:
+    point = mark.at + 1 if mark.kind is TimeKind.ONSET else None
+    return {"kind": mark.kind.value, "channel": mark.channel.value, "point": point}
 
 
 def _claim(claim: Claim) -> dict[str, Any]:

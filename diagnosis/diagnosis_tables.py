@@ -1,6 +1,7 @@
 """The tables of a diagnosis, as rows of text by column: what was measured and simulated, parameters, hypotheses.
 
-Every column that carries a number names its unit in brackets.
+A number's unit stands in brackets in its column's name, or in the row's column `unit` (of differences of degC: K);
+probabilities, scores, pulls and counts have none.
 """
 
 from __future__ import annotations
@@ -100,11 +101,16 @@ def hypothesis_rows(diagnosis: Diagnosis) -> Iterator[Row]:
 
 
 def parameter_rows(diagnosis: Diagnosis) -> Iterator[Row]:
-    """Every parameter of the claimed fit: prior, value and pull by the null's fit and by the claimed one."""
+    """Every parameter of the claimed fit: prior, value and pull by the null's fit and by the claimed one.
+
+    Of what is claimed to be wrong the prior is the stated one, and no pull stands after: it was set free of it.
+    """
     before, after = diagnosis.before, diagnosis.after
     known = {parameter.name for parameter in before.parameters}
-    for at, parameter in enumerate(after.parameters):
-        had = before.index(parameter.name) if parameter.name in known else None
+    free = set(_set_free(before, after))
+    for at, fitted in enumerate(after.parameters):
+        had = before.index(fitted.name) if fitted.name in known else None
+        parameter = fitted if had is None else before.parameters[had]
         yield {
             "name": parameter.name,
             "unit": _unit(parameter),
@@ -115,7 +121,7 @@ def parameter_rows(diagnosis: Diagnosis) -> Iterator[Row]:
             "after": _text(float(after.values[at])),
             "sigma": _text(after.sigma(parameter.name)),
             "pull_before": _text(float(before.pulls[had])) if had is not None else "",
-            "pull_after": _text(float(after.pulls[at])),
+            "pull_after": "" if parameter.name in free else _text(float(after.pulls[at])),
             "source": parameter.source,
         }
 
@@ -135,13 +141,22 @@ def next_point_rows(found: NextPoint | None) -> Iterator[Row]:
 
 
 def pull_sums(before: Posterior, after: Posterior) -> tuple[float, float]:
-    """Sum of the squared pulls of the parameters that both fits have: it falls where a name is right."""
-    names = {parameter.name for parameter in before.parameters} & {one.name for one in after.parameters}
+    """Sum of the squared pulls of what both fits hold to what is stated: it falls where a name is right."""
+    names = {one.name for one in before.parameters} & {one.name for one in after.parameters}
+    names -= set(_set_free(before, after))
 
     def total(fit: Posterior) -> float:
         return float(sum(fit.pulls[fit.index(name)] ** 2 for name in names))
 
     return total(before), total(after)
+
+
+def _set_free(before: Posterior, after: Posterior) -> Iterator[str]:
+    """Names of the parameters whose prior is another after: those that the claim widened."""
+    stated = {one.name: one for one in before.parameters}
+    for one in after.parameters:
+        if one.name in stated and one.spread != stated[one.name].spread:
+            yield one.name
 
 
 def _reading(channel: ChannelName, value: float) -> str:

@@ -3,16 +3,29 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from math import exp
 
 from diagnosis.bench_units import channel_unit, difference, difference_unit, reading
 from diagnosis.growth import FLAT
+from diagnosis.hypotheses import Hypothesis
 from diagnosis.locate import Location
 from diagnosis.next_point import READINGS, NextPoint
-from diagnosis.shown import CHANNELS, PLACES, chance, channel_words, effect_words, estimate_text, listed, odds_text
+from diagnosis.shown import (
+    CHANNELS,
+    PLACES,
+    chance,
+    channel_words,
+    effect_words,
+    estimate_text,
+    last_word,
+    listed,
+    odds_text,
+)
+from diagnosis.study import SUBJECTS
 from diagnosis.time_scan import TimeKind
 from diagnosis.unknown import Scaling
-from diagnosis.verdict import Claim, Diagnosis, Status
+from diagnosis.verdict import Diagnosis, Status
 from diagnosis.weighed import Weighed
 from system.channels import ChannelName
 from system.physics.catalogue import entry_of
@@ -20,11 +33,13 @@ from system.physics.effects import Kind
 
 RIVALS = 3  # told by name at most
 WORTH_TELLING = 0.01  # probability of a rival
+OTHER = 0.05  # share of the probability of an effect's other places, from which they are told
 
 
 def statement(diagnosis: Diagnosis) -> str:
     """One to three sentences: where, what, how much, how sure; and at which shaft angles traces stand out."""
-    return f"{_verdict(diagnosis)}{_angles(diagnosis.location)}"
+    angles = "" if diagnosis.kind is Kind.NO_MISMATCH else _angles(diagnosis.location)
+    return f"{_verdict(diagnosis)}{angles}"
 
 
 def _verdict(diagnosis: Diagnosis) -> str:
@@ -35,13 +50,9 @@ def _verdict(diagnosis: Diagnosis) -> str:
     if diagnosis.kind is Kind.UNKNOWN_PHYSICS:
         unknown = _unknown(diagnosis)
         return f"{_where(diagnosis)}. {unknown[0].upper()}{unknown[1:]}."
-    said = "; besides, ".join(_claim(claim) for claim in diagnosis.effects)
-    ends = {
-        Status.INCOMPLETE: "The name is sure, but a part of the mismatch remains that it does not explain.",
-        Status.CLASS: _class(diagnosis),
-        Status.NAMED: "",
-    }
-    return f"{_where(diagnosis)}. {said[0].upper()}{said[1:]}. {ends[diagnosis.status]}".rstrip()
+    said = "; besides, ".join(_claim(at, diagnosis) for at in range(len(diagnosis.effects)))
+    ends = " ".join(filter(None, (_class(diagnosis), _incomplete(diagnosis))))
+    return f"{_where(diagnosis)}. {said[0].upper()}{said[1:]}. {ends}".rstrip()
 
 
 def paragraphs(diagnosis: Diagnosis) -> tuple[str, ...]:
@@ -73,7 +84,8 @@ def held_out_text(diagnosis: Diagnosis) -> str:
 def next_point_text(found: NextPoint) -> str:
     """What to record next, with units, and what three readings there bring; or that no point settles it."""
     first, second = found.between
-    pair = f"{first} from {second} (odds now {_odds(abs(found.before))})"
+    ahead, behind = (first, second) if found.before >= 0.0 else (second, first)
+    pair = f"{ahead} from {behind} (odds now {_odds(abs(found.before))})"
     times = f"{_point(found)}, {READINGS} times"
     if found.settles:
         beyond = ", outside the range recorded," if found.beyond else ""
@@ -85,7 +97,7 @@ def next_point_text(found: NextPoint) -> str:
     factor = f"multiplies the odds for the true one by {exp(found.gain):.2g} on average"
     if not found.is_open:
         return (
-            f"To be surer of {first} than {_odds(abs(found.before))} against {second}, record {times}: {factor}."
+            f"To be surer of {ahead} than {_odds(abs(found.before))} against {behind}, record {times}: {factor}."
         )
     more = f", and it takes {found.repeats} to be sure" if found.repeats else ""
     return (
@@ -128,9 +140,11 @@ def _where(diagnosis: Diagnosis) -> str:
 def _places(location: Location) -> Iterator[str]:
     if location.region is not None:
         yield location.region.text
-    if location.time is not None:
-        since = "in the course of the recording" if location.time.kind is TimeKind.DRIFT else "from one point on"
-        yield f"{since} (point {location.time.at + 1})"
+    time = location.time
+    if time is not None:
+        drifts = time.kind is TimeKind.DRIFT
+        since = "drifting in the course of the recording" if drifts else f"from point {time.at + 1} on"
+        yield f"{time.channel.value} {since}"
 
 
 def _angles(location: Location) -> str:
@@ -142,18 +156,35 @@ def _angles(location: Location) -> str:
     return f" The chamber's pressure stands out at shaft angle {start:.3g} to {end:.3g} deg{events}."
 
 
-def _claim(claim: Claim) -> str:
+def _claim(at: int, diagnosis: Diagnosis) -> str:
     """What acts, where, how much, how sure."""
+    claim = diagnosis.effects[at]
     sizes = listed(estimate_text(estimate) for estimate in claim.parameters)
     place = f", {'most likely ' if claim.elsewhere else ''}at {PLACES[claim.pair]}" if claim.pair else ""
     return (
         f"{entry_of(claim.effect).sentence} ({claim.effect.value}){place}"
-        f"{': ' if sizes else ''}{sizes}, probability {chance(claim.probability)}"
+        f"{': ' if sizes else ''}{sizes}, probability {chance(claim.probability)}{_of_which(at, diagnosis)}"
     )
 
 
+def _of_which(at: int, diagnosis: Diagnosis) -> str:
+    """Of a value that several pairs have, each its own: which it is, where others of them are as likely."""
+    own = diagnosis.hypotheses[0].hypothesis
+    if at >= len(own.subjects) or not _named_apart(own, at):
+        return ""
+    shares: dict[str, float] = {}
+    for one in diagnosis.hypotheses:
+        if one.hypothesis.effects == own.effects and _named_apart(one.hypothesis, at):
+            which = last_word(str(one.hypothesis.subjects[at]))
+            shares[which] = shares.get(which, 0.0) + one.probability
+    first = last_word(str(own.subjects[at]))
+    parts = {which: share / sum(shares.values()) for which, share in shares.items()}
+    others = [f"{which} ({chance(part)})" for which, part in parts.items() if which != first and part >= OTHER]
+    return f", most likely of {first} ({chance(parts[first])}), else of {listed(others, 'or')}" if others else ""
+
+
 def _class(diagnosis: Diagnosis) -> str:
-    """What the recording cannot tell: ids from each other, a gap from others."""
+    """What the recording cannot tell: ids from each other, a gap from others; empty where it can."""
     alike = [
         f"{claim.effect.value} from {listed((one.value for one in claim.equivalent), 'or')}"
         for claim in diagnosis.effects
@@ -165,12 +196,23 @@ def _class(diagnosis: Diagnosis) -> str:
         for claim in diagnosis.effects
         if claim.pair and claim.elsewhere
     ]
-    return f"This recording cannot tell {listed(alike)}."
+    return f"This recording cannot tell {listed(alike)}." if alike else ""
+
+
+def _incomplete(diagnosis: Diagnosis) -> str:
+    """That a part is left, and whether the names stand beside it."""
+    if diagnosis.status is not Status.INCOMPLETE:
+        return ""
+    if _class(diagnosis):
+        return "A part of the mismatch remains besides that none of them explains."
+    names, they = ("The names are", "they do") if len(diagnosis.effects) > 1 else ("The name is", "it does")
+    return f"{names} sure, but a part of the mismatch remains that {they} not explain."
 
 
 def _suspicion(diagnosis: Diagnosis) -> str:
     likely = _likeliest(diagnosis)
-    thought = f"; likeliest are {listed(likely)}" if likely else ""
+    verb = "are" if len(likely) > 1 else "is"
+    thought = f"; likeliest {verb} {listed(likely)}" if likely else ""
     return f"a mismatch short of proof ({_misfit(diagnosis)}{_striking(diagnosis)}), nothing is claimed{thought}"
 
 
@@ -211,7 +253,8 @@ def _course(scaling: Scaling) -> str:
 
 def _misfit(diagnosis: Diagnosis) -> str:
     found = diagnosis.detection
-    return f"chi2 {found.chi2_per_dof:.3g} per reading, p {found.p_value:.2g}"
+    chance_of_it = f"p {found.p_value:.2g}" if found.p_value > 0.0 else "p too small to be a number"
+    return f"chi2 {found.chi2_per_dof:.3g} per reading, {chance_of_it}"
 
 
 def _likeliest(diagnosis: Diagnosis) -> list[str]:
@@ -224,8 +267,8 @@ def _rivals(diagnosis: Diagnosis) -> str:
     """Which rivals still stand and which are excluded, each with its odds against the first explanation."""
     if diagnosis.status is Status.SUSPICION or not diagnosis.effects:
         return ""
-    first, *others = _explained(diagnosis)
-    told = [(_of(one), one.probability) for one in others if not one.hypothesis.bent][: 2 * RIVALS]
+    first, *others = _explained(diagnosis, bent=False)
+    told = [(_of(one), one.probability) for one in others][: 2 * RIVALS]
     odds = [(words, odds_text(first.probability, each), each >= WORTH_TELLING) for words, each in told]
     standing = [f"{words} ({against})" for words, against, stands in odds if stands]
     excluded = [f"{words} ({against})" for words, against, stands in odds if not stands][:RIVALS]
@@ -234,19 +277,43 @@ def _rivals(diagnosis: Diagnosis) -> str:
     return " ".join(part for part in parts if part)
 
 
-def _explained(diagnosis: Diagnosis) -> list[Weighed]:
-    """Hypotheses of an effect, the claimed first, then by probability; of one effect at one place the best."""
+def _explained(diagnosis: Diagnosis, *, bent: bool = True) -> list[Weighed]:
+    """Hypotheses of an effect, the claimed first, then by probability; of those told by the same words the best.
+
+    Unknown physics, weighed once for each component, counts by all of them; bent: bent laws are told, too.
+    """
     first = diagnosis.hypotheses[:1]
     others = sorted(diagnosis.hypotheses[1:], key=lambda one: -one.probability)
+    others = [one for one in others if bent or not one.hypothesis.bent]
+    unknown = sum(one.probability for one in diagnosis.hypotheses if one.hypothesis.component is not None)
     found: dict[str, Weighed] = {}
     for one in (*first, *others):
+        if one.hypothesis.component is not None:
+            one = replace(one, probability=unknown)
         if one.hypothesis.effects:
             found.setdefault(_of(one), one)
-    return list(found.values())
+    ranked = list(found.values())
+    return [*ranked[:1], *sorted(ranked[1:], key=lambda one: -one.probability)]
 
 
 def _of(one: Weighed) -> str:
-    return effect_words(one.hypothesis.effects, one.hypothesis.pair)
+    """An explanation in words, each of its effects with its own place."""
+    own = one.hypothesis
+    if len(own.effects) == 1:
+        return effect_words(own.effects, own.pair) + _which(own, 0)
+    each = enumerate(zip(own.effects, own.places, strict=True))
+    return listed(effect_words([effect], place) + _which(own, at) for at, (effect, place) in each)
+
+
+def _which(own: Hypothesis, at: int) -> str:
+    """The parameter that an effect is about, where it has several that are not told by gaps."""
+    return f" ({last_word(str(own.subjects[at]))})" if _named_apart(own, at) else ""
+
+
+def _named_apart(own: Hypothesis, at: int) -> bool:
+    """Whether an effect is about one of several values that pairs have, each its own."""
+    subject = own.subjects[at]
+    return isinstance(subject, str) and subject not in ("", SUBJECTS.get(own.effects[at])) and not own.places[at]
 
 
 def _number(channel: ChannelName, value: float) -> str:

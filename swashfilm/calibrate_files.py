@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from diagnosis.bench_units import channel_unit, difference, difference_unit, reading
+from diagnosis.table_rows import table_rows
 from swashfilm.calibrate_run import Calibration
 from swashfilm.diagnose_files import write_rows
 from swashfilm.run_folder import write_json
@@ -146,14 +147,15 @@ def heldout_rows(found: Calibration) -> Iterator[Row]:
 
 
 def residual_rows(found: Calibration) -> Iterator[Row]:
-    """Each reading: where it was taken, measured and fitted."""
+    """Each reading: row of the recording's table from 1, where it was taken, measured and fitted."""
     points, fit, readings = found.points, found.best, found.study.observations
+    numbers = table_rows(found.study.recording)
     sigma = fit.whitening.sigma
     for point, at in np.argwhere(readings.measured):
         channel = ChannelName.named(readings.channels[at].name)
         measured, fitted = float(readings.values[point, at]), float(fit.predictions[point, at])
         yield {
-            "point": str(point),
+            "point": str(numbers[point]),
             "channel": channel.value,
             "unit": channel_unit(channel),
             "speed [rpm]": _text(RPM * points.speed[point]),

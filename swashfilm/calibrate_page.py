@@ -50,7 +50,7 @@ def headline(folder: Path) -> tuple[str, ...]:
     told = [
         f"{own['parameters']} parameters fitted to {own['readings']} readings at {own['points']} points: "
         f"chi-square per reading {own['chi2_per_reading']:.3f}.",
-        f"{own['undetermined']} combinations of parameters are left to their priors (undetermined.csv).",
+        f"combinations of parameters left to their priors: {own['undetermined']} (undetermined.csv).",
     ]
     law = own["hersey"]
     if law is not None:
@@ -60,8 +60,11 @@ def headline(folder: Path) -> tuple[str, ...]:
         if law["carried"]:
             constant = f"{own['chi2_constant_friction']:.3f}"
             told.append(f"with constant coefficients chi-square per reading is {constant}.")
-    for row in (row for row in read_rows(folder / "parameters.csv") if row["at_bound"] == "yes"):
-        told.append(f"{row['name']} is held at its bound, {row['mean']}.")
+    for row in read_rows(folder / "parameters.csv"):
+        if row["at_bound"] == "yes" and float(row["mean"]) != 0.0:  # what may only add is often 0
+            told.append(
+                f"at its bound is held {row['name']}, {row['mean']} {row['unit']}".removesuffix(" 1") + "."
+            )
     return tuple(text[0].upper() + text[1:] for text in told)
 
 
@@ -84,7 +87,7 @@ def pair_table(folder: Path) -> list[tuple[str, ...]]:
 
 
 def equation_table(rows: Sequence[Row]) -> list[tuple[str, ...]]:
-    """(place, points, rank, coefficients, as printed, condition) of each fit of Eq. (21), with a head."""
+    """(place, points, rank, known, chi-square, as printed) of each fit of Eq. (21), with a head."""
     head = ("where", "points", "rank", "known", "chi-square per point", "as printed: condition", "from, to")
     found: list[tuple[str, ...]] = [head]
     for place in dict.fromkeys((row["speed [rpm]"], row["displacement_ratio [1]"]) for row in rows):

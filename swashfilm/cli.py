@@ -15,7 +15,7 @@ from swashfilm.cli_calibrate import CALIBRATE_OPTIONS, add_calibrate_options, ru
 from swashfilm.cli_check import run_check_command
 from swashfilm.cli_coefficients import COEFFICIENT_OPTIONS, add_coefficient_options, run_coefficients_command
 from swashfilm.cli_compare import COMPARE_OPTIONS, add_compare_options, run_compare_command
-from swashfilm.cli_diagnose import add_diagnose_options, run_diagnose_command
+from swashfilm.cli_diagnose import DIAGNOSE_OPTIONS, add_diagnose_options, run_diagnose_command
 from swashfilm.cli_duty import add_duty_options, run_duty_command
 from swashfilm.cli_film import FILM_OPTIONS, add_film_options, run_film
 from swashfilm.cli_map import MAP_OPTIONS, add_map_options, run_map_command
@@ -169,7 +169,7 @@ def _unknown(command: str | None, word: str) -> Fault:
         "map": MAP_OPTIONS,
         "duty": [],
         "compare": COMPARE_OPTIONS,
-        "diagnose": [],
+        "diagnose": DIAGNOSE_OPTIONS,
         "reproduce": REPRODUCE_OPTIONS,
     }
     if command in own:

@@ -58,11 +58,12 @@ def run_calibrate_command(options: argparse.Namespace) -> int:
 
 
 def _calibrate(options: argparse.Namespace, models: Sequence[LossModelName]) -> int:
+    from diagnosis.recording import NoteKind
     from diagnosis.scant_pump import load_known_pump
     from swashfilm.calibrate_files import CALIBRATED, write_calibration_files
     from swashfilm.calibrate_page import headline, held_out_table, pair_table
     from swashfilm.calibrate_run import calibrate
-    from swashfilm.diagnose_run import checked_recording
+    from swashfilm.diagnose_run import checked_recording, other_pump
     from swashfilm.progress import progress
     from swashfilm.run_folder import final_folder, run_folder
 
@@ -77,11 +78,14 @@ def _calibrate(options: argparse.Namespace, models: Sequence[LossModelName]) -> 
         assumptions = tuple(str(one) for one in known.assumptions)
         write_calibration_files(folder, known.pump, found, title, assumptions)
         told, pairs, compared = headline(folder), pair_table(folder), held_out_table(folder)
-    for text in told:
+    for text in (*(note.text for note in other_pump(recording, known)), *told):
         show(text)
     show_table("Friction coefficients: prior, fitted, sigma over the prior's", pairs)
     if len(compared) > 1:
         show_table("What models get wrong at levels left out", compared)
+    for note in found.notes:
+        if note.startswith(NoteKind.REMOVED.value):
+            show(note)
     show(f"the fitted pump is {final_folder(folder) / CALIBRATED}")
     show(f"results in {final_folder(folder)}")
     return 0

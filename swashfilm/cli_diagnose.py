@@ -14,6 +14,7 @@ from system.faults import Fault, InputFaults
 if TYPE_CHECKING:
     from diagnosis.recording import Recording
 
+DIAGNOSE_OPTIONS = ["--apply", "--workers", "--film-tables"]
 MOST_WORKERS = 64
 USUAL_WORKERS = 4  # at most, where not stated: more wait for each other
 
@@ -55,11 +56,12 @@ def run_diagnose_command(options: argparse.Namespace) -> int:
     from diagnosis.recording import NoteKind
     from diagnosis.scant_pump import load_known_pump
     from diagnosis.words import paragraphs
-    from swashfilm.diagnose_page import CHANNEL_HEAD, channel_rows
-    from swashfilm.diagnose_run import EXTENDED, checked_recording, run_diagnosis
+    from swashfilm.diagnose_page import CHANNEL_HEAD, channel_rows, read_summary, remarks
+    from swashfilm.diagnose_run import EXTENDED, checked_recording, other_pump, run_diagnosis
     from swashfilm.progress import progress
     from swashfilm.run_folder import final_folder, run_folder
     from system.physics.catalogue import CATALOGUE, with_films_solved
+    from system.physics.effects import Kind
 
     known = load_known_pump(options.pump)
     recording = checked_recording(options.recording, known)
@@ -67,16 +69,16 @@ def run_diagnose_command(options: argparse.Namespace) -> int:
     with run_folder(name, options.output) as folder, progress(1, "diagnosis") as report:
         catalogue = with_films_solved(known.pump, report) if options.film_tables else CATALOGUE
         found = run_diagnosis(known, recording, folder, report, workers, catalogue)
-        record = read_diagnosis(folder / "diagnosis.json")
-    for text in paragraphs(found):
+        record, summary = read_diagnosis(folder / "diagnosis.json"), read_summary(folder)
+    for text in (*(note.text for note in other_pump(recording, known)), *paragraphs(found)):
         show(text)
     show_table("Channels", [CHANNEL_HEAD, *channel_rows(record)])
-    for note in found.notes:
-        if note.startswith(NoteKind.REMOVED.value):
-            show(note)
+    for note in (*remarks(record, summary), *(n for n in found.notes if n.startswith(NoteKind.REMOVED.value))):
+        show(note)
     if apply is not None and found.effects:
         shutil.copyfile(final_folder(folder) / EXTENDED, apply)
-        show(f"the pump as fitted, with it, is {apply}: swashfilm run {apply} --fidelity lumped")
+        what = "without the sensor's fault" if found.kind is Kind.SENSOR_FAULT else "with it"
+        show(f"the pump as fitted, {what}, is {apply}: swashfilm run {apply} --fidelity lumped")
     elif apply is not None:
         show(f"nothing is claimed: {apply} is not written")
     show(f"results in {final_folder(folder)}")

@@ -31,6 +31,8 @@ from system.channels import ChannelName
 KIND = "diagnosis"
 TRACES = "trace_residuals.csv"
 """In the run folder of a recording with traces: what residuals.csv is of steady readings."""
+NO_NEXT_POINT = "no next point is foretold"
+"""How the note begins that says why."""
 
 
 def write_diagnosis_files(

@@ -11,9 +11,10 @@ from typing import Any
 import numpy as np
 
 from diagnosis.diagnosis_file import read_diagnosis
+from diagnosis.shown import chance
 from reynolds.mesh import Array
 from swashfilm import diagnose_plots
-from swashfilm.diagnose_files import TRACES, read_rows
+from swashfilm.diagnose_files import NO_NEXT_POINT, TRACES, read_rows
 from swashfilm.diagnose_runs import HYDRAULIC, SHAFT, WITH, WITHOUT
 from swashfilm.diagnose_trace_plots import trace_residuals
 from system.faults import Fault, InputFaults
@@ -43,7 +44,7 @@ def write_diagnose_page(folder: Path) -> Path:
     if (folder / TRACES).is_file():
         tables["traces"] = read_rows(folder / TRACES)
     template = Environment(loader=PackageLoader("swashfilm"), autoescape=True).get_template("diagnose.html.jinja")
-    summary = json.loads((folder / "summary.json").read_text("utf-8"))
+    summary = read_summary(folder)
     page = template.render(
         summary=summary,
         found=found,
@@ -56,11 +57,18 @@ def write_diagnose_page(folder: Path) -> Path:
         next_head=tuple(next(iter(tables["next_points"]), {})),
         changes=list(change_rows(tables["changes"])),
         remarks=remarks(found, summary),
+        next_point=next_point_words(found),
         pictures={name: base64.b64encode(png).decode("ascii") for name, png in _pictures(found, tables).items()},
     )
     path = folder / "report.html"
     path.write_text(page, encoding="utf-8")
     return path
+
+
+def read_summary(folder: Path) -> dict[str, Any]:
+    """What stands in summary.json of a run folder."""
+    found: dict[str, Any] = json.loads((folder / "summary.json").read_text("utf-8"))
+    return found
 
 
 def channel_rows(found: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:
@@ -76,18 +84,20 @@ CHANNEL_HEAD = ("channel", "chi2 per reading", "share", "held out, before", "aft
 
 
 def place_rows(found: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
-    """(what, value): where the mismatch sits."""
-    where = found["where"]
-    yield "channels", ", ".join(where["channels"]) or "none"
-    yield "region of the map", where["region"] or "everywhere"
-    if where["components"] and set(where["channels"]) - {"p_chamber"}:  # they are told by steady readings
+    """(what, value): where the mismatch sits; where nothing is claimed to be off, what stands out all the same."""
+    where, steady = found["where"], set(found["where"]["channels"]) - {"p_chamber"}
+    if where["channels"]:
+        yield "channels", ", ".join(where["channels"])
+    if steady:  # a region is of the map, on which traces have no place
+        yield "region of the map", where["region"] or "everywhere"
+    if where["components"] and steady:
         yield "component", " or ".join(where["components"]).replace("_", " ")
     if where["pair"]:
         yield "pair", where["pair"].replace("_", " ")
     if where["shaft_angle_deg"]:
         yield "shaft angle", " to ".join(f"{angle:.3g}" for angle in where["shaft_angle_deg"]) + " deg"
-    if where["time"]:
-        yield where["time"]["kind"], f"point {where['time']['point']}"
+    if time := where["time"]:
+        yield time["kind"], time["channel"] + (f" from point {time['point']} on" if time["point"] else "")
 
 
 def claim_rows(found: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:
@@ -100,7 +110,7 @@ def claim_rows(found: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:
         yield (
             claim["id"],
             (claim["pair"] or "").replace("_", " "),
-            f"{claim['probability']:.3f}",
+            chance(claim["probability"]),
             ", ".join([*claim["equivalent"], *_other_gaps(claim)]),
             "; ".join(sizes),
         )
@@ -112,10 +122,10 @@ def _other_gaps(claim: Mapping[str, Any]) -> Iterator[str]:
 
 
 def parameter_rows(rows: Sequence[Mapping[str, str]]) -> Iterator[tuple[str, ...]]:
-    """(parameter, stated, before, after, pulls), the most pulled first."""
-    ranked = sorted(rows, key=lambda row: -abs(float(row["pull_after"])))
+    """(parameter, stated, before, after, pulls), what was set free and then the most pulled first."""
+    ranked = sorted(rows, key=lambda row: -abs(float(row["pull_after"] or "inf")))
     for row in ranked:
-        unit, pull = row["unit"], f"{float(row['pull_after']):.2f}"
+        unit, pull = row["unit"], f"{float(row['pull_after']):.2f}" if row["pull_after"] else "set free"
         yield (
             row["name"],
             _told(unit, float(row["prior"]), float(row["prior_sigma"])),
@@ -143,6 +153,17 @@ def shaft_power(rows: Sequence[Mapping[str, str]]) -> dict[str, float]:
 def remarks(found: Mapping[str, Any], summary: Mapping[str, Any]) -> list[str]:
     """What else a reader of the verdict must know: the notes that are not about the data."""
     return [note for note in found["notes"] if not any(told.endswith(note) for told in summary["data_notes"])]
+
+
+def next_point_words(found: Mapping[str, Any]) -> str:
+    """What to record next, or why nothing is asked for; empty where nothing is claimed."""
+    if found["next_test"]:
+        return str(found["details"][-1])
+    if not found["effects"]:
+        return ""
+    failed = (note for note in found["notes"] if note.startswith(NO_NEXT_POINT))
+    reason = next(failed, "no rival that could be fitted stands that a point would have to separate")
+    return f"{reason[0].upper()}{reason[1:].rstrip('.')}."
 
 
 def _told(unit: str, value: float, sigma: float | None = None) -> str:
@@ -203,23 +224,24 @@ _SET = (
 def strongest_courses(residuals: Sequence[Mapping[str, str]]) -> list[tuple[str, str]]:
     """Channels in which what is claimed adds most in sigma, each with the axis that its size goes with most.
 
-    None for what sits in the chamber's traces alone.
+    Of axes that all of a channel's points have; empty for what sits in the chamber's traces alone.
     """
     strength, courses = {}, {}
     for channel in dict.fromkeys(row["channel"] for row in residuals):
         own = [row for row in residuals if row["channel"] == channel]
+        known = [axis for axis in AXES if all(row[axis] for row in own)]
+        if not known:
+            continue
         added = np.array([float(row["added"]) for row in own])
         strength[channel] = float(np.sqrt(np.mean((added / [float(row["sigma"]) for row in own]) ** 2)))
-        alike = {axis: _alike(own, axis, added) for axis in AXES}
+        alike = {axis: _alike(own, axis, added) for axis in known}
         courses[channel] = max(alike, key=lambda axis: alike[axis])
     ranked = sorted((name for name, size in strength.items() if size > FAINT), key=lambda name: -strength[name])
     return [(channel, courses[channel]) for channel in ranked[:MOST_COURSES]]
 
 
 def _alike(rows: Sequence[Mapping[str, str]], axis: str, added: Array) -> float:
-    """Size of the correlation of what is added with an axis; 0 where that is not known or does not vary."""
-    if not all(row[axis] for row in rows):
-        return 0.0
+    """Size of the correlation of what is added with an axis; 0 where either does not vary."""
     place = np.array([float(row[axis]) for row in rows])
     if np.ptp(place) == 0.0 or np.ptp(added) == 0.0:
         return 0.0

@@ -88,8 +88,8 @@ def hypothesis_bars(rows: Sequence[Row]) -> bytes:
 
 
 def pull_changes(rows: Sequence[Row]) -> bytes:
-    """Pulls of the parameters that either fit drags the most, from before to after."""
-    common = [row for row in rows if row["pull_before"]]
+    """Pulls of the parameters that either fit drags the most, from before to after, of those that both hold."""
+    common = [row for row in rows if row["pull_before"] and row["pull_after"]]
     ranked = sorted(common, key=lambda row: -max(abs(float(row[key])) for key in ("pull_before", "pull_after")))
     ranked = ranked[:MOST_BARS]
     figure = figure_of(WIDTH, 1.0 + 0.3 * len(ranked))
@@ -151,17 +151,27 @@ def _legend_above(axes: Axes) -> None:
 
 def _map(axes: Axes, rows: Sequence[Row], key: str, most: float) -> Any:
     """One map of pulls; points at one place (of other temperatures) stand side by side."""
-    speed, pressure = _column(rows, "speed [rpm]"), _column(rows, "p_out [bar]")
+    speed, pressure = _place(axes, rows, "speed [rpm]", 0.02), _place(axes, rows, "p_out [bar]", 0.1)
     warm = _column(rows, "T_case [degC]")
     spread = np.ptp(warm[np.isfinite(warm)]) if np.any(np.isfinite(warm)) else 0.0
     shift = np.nan_to_num((warm - np.nanmean(warm)) / spread) if spread > 0 else 0.0
-    width = 0.1 * (float(np.ptp(pressure)) or 1.0)
+    width = 0.1 * (float(np.ptp(pressure)) if pressure.size else 0.0) or 1.0
     axes.tick_params(labelsize=7)
     return axes.scatter(
         speed, pressure + width * shift, c=_column(rows, key), cmap="RdBu_r", vmin=-most, vmax=most,
         s=float(np.clip(1200.0 / max(len(rows), 1), 14.0, 45.0)),
         edgecolors="#6b747a", linewidths=0.3,
     )  # fmt: skip
+
+
+def _place(axes: Axes, rows: Sequence[Row], key: str, height: float) -> Array:
+    """Where points stand along an axis; all at one place of what was not recorded, which is written there."""
+    place = _column(rows, key)
+    if place.size and not np.any(np.isfinite(place)):
+        text = f"{key.partition(' ')[0]} not recorded"
+        axes.text(0.5, height, text, transform=axes.transAxes, fontsize=7, ha="center")
+        return np.zeros_like(place)
+    return place
 
 
 def _levels(ratios: Array) -> list[tuple[float, float]]:

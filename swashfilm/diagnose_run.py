@@ -18,16 +18,17 @@ from diagnosis.scant_pump import KnownPump, load_known_pump
 from diagnosis.study import Study
 from diagnosis.table_rows import by_table_rows
 from diagnosis.thresholds import Thresholds, load_thresholds
-from diagnosis.verdict import Diagnosis
+from diagnosis.verdict import Diagnosis, Status
 from reynolds.errors import FilmInputError
 from reynolds.oil import walther
-from swashfilm.diagnose_files import write_diagnosis_files
+from swashfilm.diagnose_files import NO_NEXT_POINT, write_diagnosis_files
 from swashfilm.diagnose_runs import claimed_pump, run_both
 from swashfilm.progress import Report
 from system.description import PumpDescription
 from system.errors import NotConverged
 from system.faults import Fault, InputFaults
 from system.physics.catalogue import CATALOGUE
+from system.physics.effects import Kind
 from system.physics.extension import Entry
 from system.pump_file import builtin_pumps, resolved_toml
 from system.tolerances import tolerances
@@ -45,14 +46,14 @@ def checked_recording(path: Path, known: KnownPump | None = None) -> Recording:
     if known is None and recording.pump in builtin_pumps():
         known = load_known_pump(recording.pump)
     recording = check_recording(recording, None if known is None else known.pump.pump.displacement)
-    recording = replace(recording, notes=(*recording.notes, *_other_pump(recording, known)))
+    recording = replace(recording, notes=(*recording.notes, *other_pump(recording, known)))
     faults = [note for note in recording.notes if note.kind is NoteKind.FAULT]
     if faults:
         raise InputFaults(str(path), [_fault(note) for note in faults])
     return recording
 
 
-def _other_pump(recording: Recording, known: KnownPump | None) -> Iterator[DataNote]:
+def other_pump(recording: Recording, known: KnownPump | None) -> Iterator[DataNote]:
     """Told where a recording names another pump than the one that it is held against."""
     if known is not None and recording.pump not in ("", known.pump.name):
         text = f"the recording is of {recording.pump}; it is held against {known.pump.name}"
@@ -60,11 +61,16 @@ def _other_pump(recording: Recording, known: KnownPump | None) -> Iterator[DataN
 
 
 def _with_next_point(study: Study, pump: PumpDescription, found: Diagnosis, thresholds: Thresholds) -> Diagnosis:
-    """With the next point to record; where none can be foretold without it, and why in the notes."""
+    """With the next point to record; where none can be foretold without it, and why in the notes.
+
+    Beside unknown physics none is asked for: what could be parted there are effects that explain nothing.
+    """
+    if found.kind is Kind.UNKNOWN_PHYSICS and found.status is Status.NAMED:
+        return found
     try:
         return with_next_point(study, pump, found, thresholds)
     except (NotConverged, FilmInputError) as reason:
-        return replace(found, notes=(*found.notes, f"no next point is foretold: {reason}"))
+        return replace(found, notes=(*found.notes, f"{NO_NEXT_POINT}: {reason}"))
 
 
 def _fault(note: DataNote) -> Fault:
@@ -85,7 +91,7 @@ def run_diagnosis(
 ) -> Diagnosis:
     """Diagnose a checked recording and fill a run folder, fits in `workers` processes side by side.
 
-    Raises NotConverged where no fit comes about.
+    Raises NotConverged where no fit comes about, InputFaults for too few or too smooth readings.
     """
     pump, thresholds = known.pump, load_thresholds()
     allowed, taken = tolerances(pump)

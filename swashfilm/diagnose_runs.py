@@ -5,10 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
+from shutil import rmtree
 from typing import Any
 
 import numpy as np
 
+from diagnosis.bench_units import channel_unit, reading
 from diagnosis.diagnosis_tables import Row, added_by_claim
 from diagnosis.inputs import bench_points
 from diagnosis.study import Study
@@ -19,6 +21,7 @@ from swashfilm.fidelity import Fidelity
 from swashfilm.progress import Report
 from swashfilm.pump_run import run_pump
 from system.bench_points import operating_at
+from system.channels import ChannelName
 from system.description import PumpDescription
 from system.errors import NotConverged
 from system.estimation.observations import Array
@@ -28,7 +31,6 @@ from system.operating import OperatingPoint
 from system.physics.catalogue import entry_of
 from system.physics.effects import Kind
 from system.pump_file import resolved_toml
-from system.units import Dimension, format_quantity
 
 WITHOUT, WITH = "without", "with"
 """Run folders within the diagnosis's own."""
@@ -81,6 +83,8 @@ def run_both(
     try:
         summaries = [_run(_at(each, point), folder / name, report) for name, each in pumps.items()]
     except NotConverged as reason:
+        for name in pumps:
+            rmtree(folder / name, ignore_errors=True)
         return Told((), f"Point {number}, where the finding adds most, could not be run: {reason}")
     films = NO_FILMS if pumps[WITH].physics.on else FILMS
     return Told(
@@ -104,22 +108,29 @@ def _at(pump: PumpDescription, point: OperatingPoint) -> PumpDescription:
 
 
 def _by_name(found: Diagnosis, values: Array) -> dict[str, float]:
-    names = (parameter.name for parameter in found.after.parameters)
-    return dict(zip(names, map(float, values), strict=True))
+    """Values by name, held to their bounds to the last digit: a pump file takes none beyond."""
+    pairs = zip(found.after.parameters, map(float, values), strict=True)
+    return {each.name: min(max(value, each.lower), each.upper) for each, value in pairs}
 
 
 def _setting(point: OperatingPoint) -> str:
+    speed, pressure = (
+        reading(ChannelName.SPEED, point.shaft_speed),
+        reading(ChannelName.P_OUT, point.delivery_pressure),
+    )
+    warm = reading(ChannelName.T_CASE, point.temperature)
     return (
-        f"{format_quantity(point.shaft_speed, Dimension.ANGULAR_SPEED, 4)}, "
-        f"{format_quantity(point.delivery_pressure, Dimension.PRESSURE, 3)}, displacement ratio "
-        f"{point.displacement_ratio:.3g}, case at {format_quantity(point.temperature, Dimension.TEMPERATURE, 3)}"
+        f"{speed:.4g} {channel_unit(ChannelName.SPEED)}, {pressure:.4g} {channel_unit(ChannelName.P_OUT)}, "
+        f"displacement ratio {point.displacement_ratio:.3g}, case at {warm:.3g} {channel_unit(ChannelName.T_CASE)}"
     )
 
 
 def _changes(without: Mapping[str, Any], found: Mapping[str, Any]) -> Iterator[Row]:
-    """Rows of quantity, unit, without, with, change."""
+    """Rows of quantity, unit, without, with, change: of what both have, since efficiencies may not be defined."""
     other = {name: value for name, _, value in _numbers(found)}
     for name, unit, value in _numbers(without):
+        if name not in other:
+            continue
         yield {
             "quantity": name, "unit": unit, WITHOUT: f"{value:.6g}", WITH: f"{other[name]:.6g}",
             "change": f"{other[name] - value:.3g}",

@@ -1,195 +1,43 @@
-"""A diagnosis told: the sentence of every status, diagnosis.json, and the page that is made from its folder."""
+"""A diagnosis told: the sentence of every status, the next point, and diagnosis.json."""
 
 from __future__ import annotations
 
 import json
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
 import pytest
+from made_diagnosis import Q, agreeing, hypothesis, its_study, named_diagnosis
 
 from diagnosis.angle_scan import AngleWindow
-from diagnosis.bench_box import BenchBox
-from diagnosis.detect import ChannelMisfit, Detection
 from diagnosis.diagnosis_file import diagnosis_record, read_diagnosis, write_diagnosis
-from diagnosis.diagnosis_tables import pull_sums
-from diagnosis.hypotheses import Hypothesis
-from diagnosis.locate import Location
-from diagnosis.next_point import NextPoint
-from diagnosis.recording import Circuit, DataNote, NoteKind, RecordedChannel, Recording, SteadyTable
-from diagnosis.regions import Region
+from diagnosis.recording import DataNote, NoteKind
 from diagnosis.study import Study
 from diagnosis.table_rows import by_table_rows
-from diagnosis.thresholds import load_thresholds
 from diagnosis.time_scan import TimeKind, TimeMark
-from diagnosis.unknown import Scaling
 from diagnosis.verdict import Claim, Diagnosis, Estimate, Status
-from diagnosis.weighed import HeldOut, Weighed
 from diagnosis.words import next_point_text, paragraphs, statement
-from swashfilm.__main__ import main
-from swashfilm.diagnose_files import read_rows, write_diagnosis_files
-from swashfilm.diagnose_page import claim_rows
-from swashfilm.diagnose_runs import NOTHING, Told, run_both
 from system.channels import ChannelName
 from system.components import Component
-from system.estimation.fit import maximum_posterior
-from system.estimation.observations import Array, Channel, Observations
-from system.estimation.parameters import Parameter, Role, Scale
-from system.estimation.posterior import Effort, Posterior
 from system.faults import InputFaults
-from system.operating import operating_point
 from system.physics.effects import EffectId, Kind
-from system.pump_file import load_pump
 from system.pump_gap import Gap
 from system.units import Dimension
 
-LPM = 1.0 / 60000.0
-PRESSURE = np.tile(np.linspace(5e6, 35e6, 7), 4)
-SPEED = np.repeat([60.0, 110.0, 160.0, 210.0], 7)
 E = EffectId
-Q, T = ChannelName.Q_CASE, ChannelName.TORQUE
-
-
-@dataclass(frozen=True)
-class Lines:
-    """Case flow ~ p and torque ~ p; the second parameter is a leak ~ p^2."""
-
-    parameters: tuple[Parameter, ...]
-
-    def predict(self, values: Array) -> Array:
-        return np.einsum("nck,k->nc", self._columns(), np.append(values, 0.0)[:3])
-
-    def _columns(self) -> Array:
-        level = PRESSURE / 35e6
-        nothing = np.zeros_like(level)
-        flow = np.stack([5 * LPM * level, nothing, 2 * LPM * level**2], axis=-1)
-        torque = np.stack([nothing, 400 * level + SPEED / 50, nothing], axis=-1)
-        return np.stack([flow, torque], axis=1)
-
-    def slopes(self, values: Array, names: tuple[str, ...]) -> Array:
-        return self._columns()[:, :, [[one.name for one in self.parameters].index(name) for name in names]]
-
-    def input_slopes(self, values: Array) -> Array:
-        return np.zeros((PRESSURE.size, 2, 0))
-
-    def with_parameters(self, parameters: tuple[Parameter, ...]) -> Lines:
-        return replace(self, parameters=parameters)
-
-
-def _readings() -> Observations:
-    rng = np.random.default_rng(5)
-    sigma = np.tile([0.02 * LPM, 0.8], (PRESSURE.size, 1))
-    truth = Lines(()).predict(np.array([1.0, 1.0, 0.4]))
-    return Observations(
-        channels=(Channel("Q_case", Dimension.VOLUME_FLOW), Channel("torque", Dimension.TORQUE)),
-        values=truth + sigma * rng.normal(size=truth.shape),
-        sigma=sigma,
-        inputs=(),
-        input_sigma=np.zeros((PRESSURE.size, 0)),
-        quantum=np.zeros(2),
-        blocks=np.arange(PRESSURE.size),
-    )
-
-
-def _fit(names: tuple[str, ...]) -> Posterior:
-    def prior(name: str) -> Parameter:
-        if name == "opening":
-            return Parameter(name, Role.EXTENSION, Scale.HALF, 0.0, 1.0, 0.0, np.inf, None, "test")
-        return Parameter(name, Role.BASE, Scale.NORMAL, 1.0, 0.05, 0.0, 5.0, None, "test")
-
-    return maximum_posterior(Lines(tuple(prior(name) for name in names)), _readings())
-
-
-def _hypothesis(*effects: EffectId, pair: Gap | None = None, kind: Kind = Kind.MISSING_PHYSICS) -> Hypothesis:
-    return Hypothesis(effects, pair, kind, (), (), -2.0)
 
 
 @pytest.fixture(scope="module")
 def named() -> Diagnosis:
-    """A valve plate that opens under pressure, named."""
-    before, after = _fit(("film", "friction")), _fit(("film", "friction", "opening"))
-    rms = ({Q: 1e-6, T: 0.81}, {Q: 2.6e-7, T: 0.8}, {Q: 2.5e-7, T: 0.8})
-    fit = HeldOut({"high p": 40.0, "low n": 3.0}, *rms, False, "five random fifths")
-    opening = Estimate("elastic_opening.valve_plate.opening", 2.2e-8, 2e-9, Dimension.PRESSURE_COEFFICIENT)
-    weighed = (
-        Weighed(_hypothesis(E.ELASTIC_OPENING, pair=Gap.VALVE_PLATE), -20.0, False, after, 22.0, 0.93, fit),
-        Weighed(_hypothesis(E.FILM_HEATING), -24.0, False, before, 20.0, 0.06, None),
-        Weighed(_hypothesis(kind=Kind.NO_MISMATCH), -400.0, False, before, 0.0, 0.0, None),
-    )
-    point = operating_point(load_pump("ref90"), shaft_speed=104.7, delivery_pressure=37e6)
-    return Diagnosis(
-        kind=Kind.MISSING_PHYSICS,
-        status=Status.NAMED,
-        detection=Detection(
-            1e-30, 9.1, {Q: ChannelMisfit(17.0, 0.97), T: ChannelMisfit(1.1, 0.03)}, 1e-20, (), ()
-        ),
-        location=Location(
-            channels=(Q,),
-            region=Region(Q, {"p_out": 25e6}, {}, 12.0, "p_out above 250 bar"),
-            components=((Component.PLATE_LEAKAGE, 200.0),),
-            groups=(),
-            tie=(Component.PLATE_LEAKAGE,),
-            angle=None,
-            time=None,
-        ),
-        effects=(Claim(E.ELASTIC_OPENING, Gap.VALVE_PLATE, 0.93, (), (opening,)),),
-        hypotheses=weighed,
-        before=before,
-        after=after,
-        fit=fit,
-        scaling=Scaling(
-            Q,
-            True,
-            {"speed": 0.02, "pressure": 2.1, "displacement": 0.0, "viscosity": -1.0},
-            dict.fromkeys(("speed", "pressure", "displacement", "viscosity"), 0.1),
-        ),
-        next_point=NextPoint(
-            box=BenchBox(((104.7, 104.7), (1e6, 37e6), (1.0, 1.0), (343.15, 343.15)), 2e6, 1e5, 0.0, (40.0, 1.0)),
-            point=point,
-            inlet_temperature=343.15,
-            between=("elastic opening at the valve plate", "film heating"),
-            separates=(E.ELASTIC_OPENING, E.FILM_HEATING),
-            before=np.log(15.5),
-            gain=7.0,
-            after=4.3,
-            chance=0.87,
-            repeats=3,
-            why="there Q_case parts",
-        ),
-        not_identifiable=("film_thickness slipper vs film_thickness piston",),
-        notes=("row 3 of Q_case was removed",),
-        effort=Effort(10, 3, 1.0),
-    )
+    return named_diagnosis()
 
 
 @pytest.fixture(scope="module")
 def study(named: Diagnosis) -> Study:
-    """The recording that it was found in."""
-    values = np.full((PRESSURE.size, len(ChannelName)), np.nan)
-    order = list(ChannelName)
-    for name, column in {ChannelName.SPEED: SPEED, ChannelName.P_OUT: PRESSURE}.items():
-        values[:, order.index(name)] = column
-    values[:, [order.index(Q), order.index(T)]] = _readings().values
-    channels = (
-        RecordedChannel(Q, "Q_case", "L/min", 0.02 * LPM, 0.0, 0.0, 0.0, 0.0, 0.0, ("gain_sigma",)),
-        RecordedChannel(T, "M", "N m", 0.8, 0.0, 0.0, 0.0, 0.0, 0.0, ()),
-    )
-    notes = (DataNote(NoteKind.REMOVED, Q, (2,), "far from its neighbours"),)
-    nan, ones = np.full(PRESSURE.size, np.nan), np.ones(PRESSURE.size)
-    steady = SteadyTable(values, np.arange(PRESSURE.size), nan, ones)
-    recording = Recording("Bench <4>", "ref90", "ISO VG 46", Circuit.CLOSED, channels, steady, (), notes)
-    lines: Any = Lines(named.before.parameters)
-    return Study(recording, lines, _readings(), named.before, (), {}, np.zeros((PRESSURE.size, 4)))
-
-
-def _agreeing(diagnosis: Diagnosis) -> Diagnosis:
-    detection = replace(diagnosis.detection, p_value=0.4, chi2_per_dof=1.0)
-    return replace(
-        diagnosis, kind=Kind.NO_MISMATCH, detection=detection, effects=(), scaling=None, next_point=None
-    )
+    return its_study(named)
 
 
 def test_a_named_effect_is_told_with_place_size_and_odds(named: Diagnosis) -> None:
@@ -225,7 +73,8 @@ def test_the_next_point_is_told_with_what_it_promises(named: Diagnosis) -> None:
     assert text.startswith("No point that an ordinary bench runs is likely to separate")
     assert "multiplies the odds for the true one by 2 on average" in text
     assert text.endswith("The leak would.")
-    assert next_point_text(replace(poor, before=-8.0)).startswith("To be surer")
+    behind = next_point_text(replace(poor, before=-8.0))
+    assert behind.startswith("To be surer of film heating than 1:3000 against elastic opening at the valve plate")
     record = diagnosis_record(replace(named, next_point=poor))["next_test"]
     assert (record["settles"], record["chance"], record["readings"]) == (False, 0.1, 3)
     assert record["log_odds"] == {"now": pytest.approx(np.log(15.5)), "foretold": 4.3}
@@ -243,8 +92,49 @@ def test_every_kind_and_status_has_a_sentence(named: Diagnosis, kind: Kind, stat
     assert "None" not in text
     if status is Status.SUSPICION:
         assert "nothing is claimed" in text
-    elif claims and status is Status.CLASS:
+    elif claims and status in (Status.CLASS, Status.INCOMPLETE):
         assert "cannot tell elastic_opening from film_heating" in text
+        assert ("A part of the mismatch remains besides" in text) == (status is Status.INCOMPLETE)
+        assert "is sure" not in text
+
+
+def test_an_incomplete_name_is_told_as_sure_where_it_is(named: Diagnosis) -> None:
+    one = replace(named, status=Status.INCOMPLETE)
+    assert "The name is sure, but a part of the mismatch remains that it does not explain." in statement(one)
+    two = replace(one, effects=(*one.effects, Claim(E.CHURNING, None, 0.99, (), ())))
+    assert "The names are sure, but a part of the mismatch remains that they do not explain." in statement(two)
+
+
+def test_of_which_pair_a_coefficient_is_is_told(named: Diagnosis) -> None:
+    """Coefficients of friction have no gap: a rival of the same id at another pair stands beside the claim."""
+    own = replace(hypothesis(E.FRICTION_COEFFICIENT), widened=("friction.piston_cylinder",))
+    other = replace(own, widened=("friction.front_bearing",))
+    first, *_ = named.hypotheses
+    weighed = (replace(first, hypothesis=own, probability=0.6), replace(first, hypothesis=other, probability=0.4))
+    claim = Claim(E.FRICTION_COEFFICIENT, None, 0.99, (), ())
+    found = replace(named, kind=Kind.WRONG_PARAMETER, effects=(claim,), hypotheses=weighed)
+    assert "most likely of piston cylinder (0.6), else of front bearing (0.4)" in statement(found)
+    assert "friction coefficient (front bearing) (1:1.5)" in " ".join(paragraphs(found))
+    sure = replace(found, hypotheses=weighed[:1])
+    assert "most likely" not in statement(sure)
+
+
+def test_rivals_that_act_together_stand_each_at_its_place(named: Diagnosis) -> None:
+    """Of an opening at the slippers beside churning, churning is at no gap."""
+    both = replace(hypothesis(E.FILM_THICKNESS, E.CHURNING, pair=Gap.SLIPPER), widened=("film_thickness.slipper",))
+    first, second, *_ = named.hypotheses
+    found = replace(named, hypotheses=(first, replace(second, hypothesis=both)))
+    assert "film thickness at the slippers and churning (1:16)" in " ".join(paragraphs(found))
+
+
+def test_unknown_physics_counts_by_all_its_components(named: Diagnosis) -> None:
+    first, second, *_ = named.hypotheses
+    unknown = [
+        replace(second, hypothesis=replace(hypothesis(E.UNKNOWN_PHYSICS), component=one), probability=0.2)
+        for one in (Component.PLATE_LEAKAGE, Component.DISPLACEMENT)
+    ]
+    found = replace(named, status=Status.SUSPICION, effects=(), hypotheses=(first, *unknown))
+    assert "unknown physics (0.4)" in statement(found)
 
 
 @pytest.mark.parametrize("effect", [effect for effect in E if effect is not E.UNKNOWN_PHYSICS])
@@ -274,10 +164,14 @@ def test_angles_and_times_are_part_of_where(named: Diagnosis) -> None:
     time = TimeMark(TimeKind.ONSET, Q, 39, 1e-4, None)
     found = replace(named, location=replace(named.location, angle=angle, time=time))
     assert "shaft angle 5.73 to 17.2 deg (delivery groove opens)" in statement(found)
-    assert "point 40" in statement(found)
     where = diagnosis_record(found)["where"]
     assert where["shaft_angle_deg"] == pytest.approx([5.7296, 17.1887], rel=1e-4)
-    assert where["time"] == {"kind": "onset", "point": 40}
+    assert where["time"] == {"kind": "onset", "channel": "Q_case", "point": 40}
+    assert "Q_case from point 40 on" in statement(found)
+    drift = replace(found, location=replace(found.location, time=replace(time, kind=TimeKind.DRIFT)))
+    assert "Q_case drifting in the course of the recording" in statement(drift)
+    assert diagnosis_record(drift)["where"]["time"] == {"kind": "drift", "channel": "Q_case", "point": None}
+    assert "shaft angle" not in statement(agreeing(found))
     lacking = DataNote(NoteKind.REMOVED, None, (1,), "an input of these points is missing")
     recording = SimpleNamespace(notes=(lacking,), steady=SimpleNamespace(values=np.zeros((60, 0))))
     assert diagnosis_record(by_table_rows(found, recording))["where"]["time"]["point"] == 41
@@ -318,16 +212,6 @@ def test_the_file_has_the_form_of_format_1(named: Diagnosis, tmp_path: Path) -> 
     assert record["scaling"]["exponents"]["pressure"] == 2.1
 
 
-def test_the_page_tells_gaps_that_cannot_be_told_apart() -> None:
-    """Ids and other gaps with their share stand in the column of what an effect cannot be told from."""
-    claim = {
-        "id": "elastic_opening", "pair": "piston", "probability": 0.97, "equivalent": ["thermal_clearance"],
-        "other_pairs": {"valve_plate": 0.35}, "parameters": [],
-    }  # fmt: skip
-    (row,) = claim_rows({"effects": [claim]})
-    assert row[3] == "thermal_clearance, at the valve plate (0.35)"
-
-
 def test_the_file_has_every_key_of_the_stated_form(named: Diagnosis) -> None:
     """The example of recordings/README.md: its keys at every level, values of its kinds."""
     form = Path(__file__).parents[3] / "shared" / "recordings" / "README.md"
@@ -354,86 +238,10 @@ def _same_form(example: Any, record: Any, where: str = "diagnosis") -> None:
 
 
 def test_agreement_claims_nothing(named: Diagnosis, tmp_path: Path) -> None:
-    found = _agreeing(named)
+    found = agreeing(named)
     assert "agree within noise and tolerance" in statement(found)
     record = diagnosis_record(found)
     assert (record["effects"], record["next_test"], record["where"]["channels"]) == ([], None, [])
-
-
-def test_the_folder_holds_tables_and_a_page(study: Study, named: Diagnosis, tmp_path: Path) -> None:
-    """Pulls in residuals.csv are of the fit they name; the page is made anew from the folder alone."""
-    write_diagnosis_files(tmp_path, study, named, load_thresholds())
-    rows = read_rows(tmp_path / "residuals.csv")
-    assert len(rows) == 2 * PRESSURE.size
-    flow = [row for row in rows if row["channel"] == "Q_case"]
-    before, after = (
-        np.sqrt(np.mean([float(row[key]) ** 2 for row in flow])) for key in ("pull_before", "pull_after")
-    )
-    assert after < 1.3 < 2.0 < before
-    assert float(flow[0]["p_out [bar]"]) == pytest.approx(50)
-    assert float(flow[0]["measured"]) == pytest.approx(float(study.observations.values[0, 0]) / LPM, rel=1e-5)
-    assert [row["behind [nats]"] for row in read_rows(tmp_path / "hypotheses.csv")] == ["0", "4", "380"]
-    opening = next(row for row in read_rows(tmp_path / "parameters.csv") if row["name"] == "opening")
-    assert opening["before"] == ""
-    assert float(opening["after"]) == pytest.approx(0.4, abs=4 * float(opening["sigma"]))
-    page = (tmp_path / "report.html").read_text("utf-8")
-    for part in (
-        "Bench &lt;4&gt;",
-        "film opens under pressure",
-        "point 3: far from its neighbours",
-    ):
-        assert part in page
-    (tmp_path / "report.html").unlink()
-    assert main(["report", str(tmp_path)]) == 0
-    assert (tmp_path / "report.html").read_text("utf-8") == page
-
-
-def test_a_page_says_what_changes_in_the_pump(study: Study, named: Diagnosis, tmp_path: Path) -> None:
-    """A point run without and with the finding: links to both, each number with its unit; films told."""
-    row = {"quantity": "case drain", "unit": "L/min", "without": "1.2", "with": "1.9", "change": "0.7"}
-    told = Told((row,), "Point 7, where the finding adds most: 2100 rpm.", "No film fields.")
-    write_diagnosis_files(tmp_path, study, named, load_thresholds(), told=told)
-    page = (tmp_path / "report.html").read_text("utf-8")
-    for part in (
-        "Point 7",
-        'href="without/report.html"',
-        'href="with/report.html"',
-        "1.9 L/min",
-        "No film fields.",
-    ):
-        assert part in page
-    assert read_rows(tmp_path / "changes.csv") == [row]
-
-
-def test_a_meters_fault_is_no_change_of_the_pump(study: Study, named: Diagnosis, tmp_path: Path) -> None:
-    """Nothing is run, and why is told; nothing is told where nothing is claimed."""
-    fault = replace(named, effects=(Claim(E.TORQUE_OFFSET, None, 0.99, (), ()),))
-    pump = load_pump("ref90")
-    told = run_both(tmp_path, pump, study, fault, load_thresholds(), lambda *_: None)
-    assert told.text == "A sensor's fault changes nothing in the pump."
-    assert not list(tmp_path.iterdir())
-    assert run_both(tmp_path, pump, study, _agreeing(named), load_thresholds(), lambda *_: None) == NOTHING
-
-
-def test_numbers_are_told_in_the_units_people_read(study: Study, named: Diagnosis, tmp_path: Path) -> None:
-    """An opening in 1/GPa and not 1/Pa, in the table of what is claimed."""
-    write_diagnosis_files(tmp_path, study, named, load_thresholds())
-    assert "opening 22 +- 2 1/GPa</td>" in (tmp_path / "report.html").read_text("utf-8")
-
-
-def test_a_right_name_lets_the_pulls_fall(named: Diagnosis) -> None:
-    before, after = pull_sums(named.before, named.after)
-    assert after < 0.5 * before
-
-
-@pytest.mark.parametrize("kind", [Kind.NO_MISMATCH, Kind.UNKNOWN_PHYSICS])
-def test_a_page_without_a_claim(study: Study, named: Diagnosis, tmp_path: Path, kind: Kind) -> None:
-    found = replace(
-        _agreeing(named), kind=kind, after=named.before, fit=HeldOut({}, {}, {}, {}, False, "not split")
-    )
-    write_diagnosis_files(tmp_path, study, found, load_thresholds())
-    page = (tmp_path / "report.html").read_text("utf-8")
-    assert "<h2>What</h2>" not in page
 
 
 @pytest.mark.parametrize(

@@ -1,0 +1,189 @@
+"""The run folder of a diagnosis: its tables, and the page that is made of them alone."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from made_diagnosis import LPM, PRESSURE, Q, agreeing, its_study, named_diagnosis
+
+from diagnosis.diagnosis_file import diagnosis_record
+from diagnosis.diagnosis_tables import pull_sums
+from diagnosis.study import Study
+from diagnosis.thresholds import load_thresholds
+from diagnosis.time_scan import TimeKind, TimeMark
+from diagnosis.verdict import Claim, Diagnosis
+from diagnosis.weighed import HeldOut
+from swashfilm.__main__ import main
+from swashfilm.diagnose_files import read_rows, write_diagnosis_files
+from swashfilm.diagnose_page import AXES, claim_rows, next_point_words, place_rows, strongest_courses
+from swashfilm.diagnose_plots import effect_courses, residual_maps
+from swashfilm.diagnose_runs import NOTHING, Told, run_both
+from system.channels import ChannelName
+from system.physics.effects import EffectId, Kind
+from system.pump_file import load_pump
+
+PNG = b"\x89PNG"
+E = EffectId
+
+
+@pytest.fixture(scope="module")
+def named() -> Diagnosis:
+    return named_diagnosis()
+
+
+@pytest.fixture(scope="module")
+def study(named: Diagnosis) -> Study:
+    return its_study(named)
+
+
+def test_the_page_tells_gaps_that_cannot_be_told_apart() -> None:
+    """Ids and other gaps with their share stand in the column of what an effect cannot be told from."""
+    claim = {
+        "id": "elastic_opening", "pair": "piston", "probability": 0.97, "equivalent": ["thermal_clearance"],
+        "other_pairs": {"valve_plate": 0.35}, "parameters": [],
+    }  # fmt: skip
+    (row,) = claim_rows({"effects": [claim]})
+    assert row[3] == "thermal_clearance, at the valve plate (0.35)"
+
+
+def test_the_folder_holds_tables_and_a_page(study: Study, named: Diagnosis, tmp_path: Path) -> None:
+    """Pulls in residuals.csv are of the fit they name; the page is made anew from the folder alone."""
+    write_diagnosis_files(tmp_path, study, named, load_thresholds())
+    rows = read_rows(tmp_path / "residuals.csv")
+    assert len(rows) == 2 * PRESSURE.size
+    flow = [row for row in rows if row["channel"] == "Q_case"]
+    before, after = (
+        np.sqrt(np.mean([float(row[key]) ** 2 for row in flow])) for key in ("pull_before", "pull_after")
+    )
+    assert after < 1.3 < 2.0 < before
+    assert float(flow[0]["p_out [bar]"]) == pytest.approx(50)
+    assert float(flow[0]["measured"]) == pytest.approx(float(study.observations.values[0, 0]) / LPM, rel=1e-5)
+    assert [row["behind [nats]"] for row in read_rows(tmp_path / "hypotheses.csv")] == ["0", "4", "380"]
+    opening = next(row for row in read_rows(tmp_path / "parameters.csv") if row["name"] == "opening")
+    assert opening["before"] == ""
+    assert float(opening["after"]) == pytest.approx(0.4, abs=4 * float(opening["sigma"]))
+    page = (tmp_path / "report.html").read_text("utf-8")
+    for part in (
+        "Bench &lt;4&gt;",
+        "film opens under pressure",
+        "point 3: far from its neighbours",
+    ):
+        assert part in page
+    (tmp_path / "report.html").unlink()
+    assert main(["report", str(tmp_path)]) == 0
+    assert (tmp_path / "report.html").read_text("utf-8") == page
+
+
+def test_a_page_says_what_changes_in_the_pump(study: Study, named: Diagnosis, tmp_path: Path) -> None:
+    """A point run without and with the finding: links to both, each number with its unit; films told."""
+    row = {"quantity": "case drain", "unit": "L/min", "without": "1.2", "with": "1.9", "change": "0.7"}
+    told = Told((row,), "Point 7, where the finding adds most: 2100 rpm.", "No film fields.")
+    write_diagnosis_files(tmp_path, study, named, load_thresholds(), told=told)
+    page = (tmp_path / "report.html").read_text("utf-8")
+    for part in (
+        "Point 7",
+        'href="without/report.html"',
+        'href="with/report.html"',
+        "1.9 L/min",
+        "No film fields.",
+    ):
+        assert part in page
+    assert read_rows(tmp_path / "changes.csv") == [row]
+
+
+def test_a_meters_fault_is_no_change_of_the_pump(study: Study, named: Diagnosis, tmp_path: Path) -> None:
+    """Nothing is run, and why is told; nothing is told where nothing is claimed."""
+    fault = replace(named, effects=(Claim(E.TORQUE_OFFSET, None, 0.99, (), ()),))
+    pump = load_pump("ref90")
+    told = run_both(tmp_path, pump, study, fault, load_thresholds(), lambda *_: None)
+    assert told.text == "A sensor's fault changes nothing in the pump."
+    assert not list(tmp_path.iterdir())
+    assert run_both(tmp_path, pump, study, agreeing(named), load_thresholds(), lambda *_: None) == NOTHING
+
+
+def test_numbers_are_told_in_the_units_people_read(study: Study, named: Diagnosis, tmp_path: Path) -> None:
+    """An opening in 1/GPa and not 1/Pa, in the table of what is claimed."""
+    write_diagnosis_files(tmp_path, study, named, load_thresholds())
+    assert "opening 22 +- 2 1/GPa</td>" in (tmp_path / "report.html").read_text("utf-8")
+
+
+def test_a_right_name_lets_the_pulls_fall(named: Diagnosis) -> None:
+    before, after = pull_sums(named.before, named.after)
+    assert after < 0.5 * before
+
+
+@pytest.mark.parametrize("kind", [Kind.NO_MISMATCH, Kind.UNKNOWN_PHYSICS])
+def test_a_page_without_a_claim(study: Study, named: Diagnosis, tmp_path: Path, kind: Kind) -> None:
+    found = replace(
+        agreeing(named), kind=kind, after=named.before, fit=HeldOut({}, {}, {}, {}, False, "not split")
+    )
+    write_diagnosis_files(tmp_path, study, found, load_thresholds())
+    page = (tmp_path / "report.html").read_text("utf-8")
+    assert "<h2>What</h2>" not in page
+
+
+def test_a_value_claimed_to_be_wrong_is_shown_as_stated(study: Study, named: Diagnosis, tmp_path: Path) -> None:
+    """Its prior is the stated one and not the tenfold of the hypothesis; no pull of a prior that was set free."""
+    free = tuple(one.widened(10.0) if one.name == "film" else one for one in named.after.parameters)
+    found = replace(named, after=replace(named.after, parameters=free))
+    write_diagnosis_files(tmp_path, study, found, load_thresholds())
+    row = next(row for row in read_rows(tmp_path / "parameters.csv") if row["name"] == "film")
+    assert (row["prior"], row["prior_sigma"], row["pull_after"]) == ("1", "0.05", "")
+    kept = ("friction",)
+    sums = tuple(sum(fit.pulls[fit.index(name)] ** 2 for name in kept) for fit in (named.before, named.after))
+    assert pull_sums(found.before, found.after) == pytest.approx(sums)
+    assert "set free" in (tmp_path / "report.html").read_text("utf-8")
+
+
+@pytest.mark.parametrize("gone", ["speed [rpm]", "p_out [bar]", "both"])
+def test_maps_are_drawn_without_an_axis(study: Study, named: Diagnosis, tmp_path: Path, gone: str) -> None:
+    """An axis that no reading has, and a channel that was read at one displacement only."""
+    write_diagnosis_files(tmp_path, study, named, load_thresholds())
+    rows = read_rows(tmp_path / "residuals.csv")
+    for row in rows:
+        row |= dict.fromkeys(("speed [rpm]", "p_out [bar]") if gone == "both" else (gone,), "")
+    assert residual_maps(rows).startswith(PNG)
+    for at, row in enumerate(rows):
+        row["displacement_ratio [1]"] = "1" if row["channel"] == "Q_case" else ("1", "0.3")[at % 2]
+    assert residual_maps(rows).startswith(PNG)
+
+
+def test_what_is_added_is_drawn_over_an_axis_that_is_there(study: Study, named: Diagnosis, tmp_path: Path) -> None:
+    """A constant goes with no axis, a delivery pressure that was not recorded is none."""
+    write_diagnosis_files(tmp_path, study, named, load_thresholds())
+    rows = read_rows(tmp_path / "residuals.csv")
+    for row in rows:
+        row |= {"p_out [bar]": "", "added": "0.5"}
+    courses = strongest_courses(rows)
+    assert courses
+    assert {axis for _, axis in courses} == {"speed [rpm]"}
+    assert effect_courses(rows, courses).startswith(PNG)
+    assert strongest_courses([row | dict.fromkeys(AXES, "") for row in rows]) == []
+
+
+def test_where_is_told_by_what_shows_there(named: Diagnosis) -> None:
+    """Traces have no place on the map; a drift has no point; with no mismatch no region stands."""
+    onset, drift = (TimeMark(kind, Q, 39, 1e-4, None) for kind in (TimeKind.ONSET, TimeKind.DRIFT))
+    rows = dict(place_rows(diagnosis_record(replace(named, location=replace(named.location, time=onset)))))
+    assert rows["region of the map"] == "p_out above 250 bar"
+    assert rows["onset"] == "Q_case from point 40 on"
+    rows = dict(place_rows(diagnosis_record(replace(named, location=replace(named.location, time=drift)))))
+    assert rows["drift"] == "Q_case"
+    traces = replace(named.location, channels=(ChannelName.P_CHAMBER,), region=None)
+    rows = dict(place_rows(diagnosis_record(replace(named, location=traces))))
+    assert "region of the map" not in rows
+    agreed = agreeing(replace(named, location=replace(named.location, time=drift)))
+    assert dict(place_rows(diagnosis_record(agreed))) == {"drift": "Q_case"}
+
+
+def test_a_page_says_why_no_point_is_asked_for(named: Diagnosis) -> None:
+    """That none could be foretold, or that no rival stands; nothing where nothing is claimed."""
+    alone = replace(named, next_point=None)
+    assert next_point_words(diagnosis_record(alone)).startswith("No rival that could be fitted stands")
+    failed = replace(alone, notes=("no next point is foretold: fit of the leak: it stalled",))
+    assert next_point_words(diagnosis_record(failed)) == "No next point is foretold: fit of the leak: it stalled."
+    assert next_point_words(diagnosis_record(agreeing(named))) == ""
+    assert next_point_words(diagnosis_record(named)).startswith("To separate")
