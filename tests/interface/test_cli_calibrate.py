@@ -91,6 +91,8 @@ def test_from_files_to_files(tmp_path: Path, capsys: pytest.CaptureFixture[str])
     rows = _table(out, "heldout.csv")
     rms = {(row["model"], row["left_out"]): float(row["rms"]) for row in rows if row["channel"] == "torque"}
     assert rms["physics", "speed"] < rms["wilson", "speed"]
+    points = [int(row["point"]) for row in _table(out, "residuals.csv")]
+    assert (min(points), max(points)) == (1, len(_table(recording, "steady.csv")))
     assert {row["rank"] for row in _table(out, "equation_21.csv") if row["speed [rpm]"]} == {"2"}
     calibrated = load_pump(str(out / "pump_calibrated.toml"))
     mean = float(found["friction.slipper_swash_plate"]["mean"])

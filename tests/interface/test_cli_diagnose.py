@@ -40,6 +40,11 @@ def test_words_that_are_wrong_or_missing_are_told(words: list[str], capsys: pyte
     assert "RECORDING" in error or "--quick" in error
 
 
+def test_the_nearest_option_is_told(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["diagnose", "ref90", "x", "--aply", "found.toml"]) == 2
+    assert "--apply" in capsys.readouterr().err.partition("--aply")[2]
+
+
 def test_an_unknown_pump_is_told(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     folder = _folder(tmp_path, "1000,100.1,1.02\n")
     assert main(["diagnose", "ref91", str(folder)]) == 2
