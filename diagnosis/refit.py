@@ -32,9 +32,10 @@ ROUGHLY = (0.3, 1.0)  # the same for a first look
 REACH = 3.0  # xi of a nuisance where a fit may start: the linear model knows no bounds
 FARTHER = 10.0  # times the fault factor: the wider prior of what is out of order
 LIMITS = FitLimits(change=0.1)  # of the objective: a twentieth of a nat decides nothing, and costs sixfold less
-FINE = 3e-3  # of the objective about the prior mean: so much may be promised where a fit stalls at a knee
 GRID_MEMBERS = 2  # of a grid that are refitted: the likeliest
-GROSS = 3.0  # of the objective per reading: from there slopes about the prior mean tell little
+GROSS = (
+    3.0  # of the objective per reading: from there slopes about the prior mean, and what they promise, tell little
+)
 
 
 def refit(study: Study, hypothesis: Hypothesis, thresholds: Thresholds, hopeless: float = inf) -> Weighed:
@@ -69,7 +70,7 @@ def _refitted(study: Study, hypothesis: Hypothesis, thresholds: Thresholds, hope
 
     Members of a grid that are not refitted count as nothing, so that their average is never too high.
     """
-    limits = replace(LIMITS, hopeless=hopeless, stall=max(LIMITS.stall, FINE * study.base.objective))
+    limits = replace(LIMITS, hopeless=inf if _gross(study) else hopeless)
     members = _likeliest(study, hypothesis, thresholds)
     found: list[tuple[Hypothesis, Posterior]] = []
     failed: list[NotConverged] = []
@@ -86,6 +87,10 @@ def _refitted(study: Study, hypothesis: Hypothesis, thresholds: Thresholds, hope
     best, posterior = max(found, key=lambda each: each[1].log_evidence)
     evidence = float(logsumexp([each.log_evidence for _, each in found])) - log(len(hypothesis.members))
     return Weighed(best, evidence, False, posterior, _size_over_sigma(posterior, best), 0.0, None)
+
+
+def _gross(study: Study) -> bool:
+    return study.base.objective > GROSS * study.base.residual.size
 
 
 def try_refit(
@@ -137,7 +142,7 @@ def _likeliest(study: Study, hypothesis: Hypothesis, thresholds: Thresholds) -> 
         simulator = simulator_of(study, member, thresholds.name.fault_factor)
         return _start(study, simulator, member.open_names, SIZES)[0]
 
-    if study.base.objective > GROSS * study.base.residual.size:
+    if _gross(study):
         return sorted(members, key=promised)[:GRID_MEMBERS]
     widths = thresholds.name.mixture_widths
 

@@ -34,7 +34,7 @@ SAMPLES_PER_PITCH = 10
 """Shaft angles a piston pitch: torque within .07 sigma of a class A bench, flows within 5e-4."""
 TOLERANCE = 1e-5
 TRACE_SAMPLES_PER_PITCH = 80
-STEP = 0.1
+STEP = 0.03
 """Of slopes by difference, in spreads of the parameter."""
 LOG_STEP = 0.01
 """The largest, of the value, on a logarithmic scale: leakage goes with the cube of a film."""

@@ -24,7 +24,7 @@ from system.ports import TURN
 TOLERANCE = 1e-6
 """Largest local error of a step, of the port pressure difference; the closed revolution is good to about this."""
 PERIODICITY = 1e-8
-"""Largest change of the pressure at shaft angle 0 from one revolution to the next, of the pressure difference."""
+"""Largest change of the oil held from one revolution to the next, as `oil_change`, of the pressure difference."""
 REVOLUTION_LIMIT = 60
 
 
@@ -102,8 +102,8 @@ def solve_cycle(problem: ChamberProblem, samples: int, tolerance: float = TOLERA
     """The periodic revolution of a chamber, sampled at `samples` equidistant shaft angles.
 
     Integrates Eq. (14) in its conservative form (see `chamber_state_kernels`) from break to break of the ports,
-    turn by turn, until the pressure at shaft angle 0 repeats to PERIODICITY. Raises NotConverged when it does not
-    within REVOLUTION_LIMIT turns or when a step fails. Where the pressure falls to
+    turn by turn, until the oil in the chamber where a turn begins repeats to PERIODICITY. Raises NotConverged when
+    it does not within REVOLUTION_LIMIT turns or when a step fails. Where the pressure falls to
     `chamber_state_kernels.CAVITY_PRESSURE` a cavity opens and fills again; the ports' and case's oil is always
     liquid.
     """
@@ -116,14 +116,14 @@ def solve_cycle(problem: ChamberProblem, samples: int, tolerance: float = TOLERA
     while abs(change) > limit:
         if turns == REVOLUTION_LIMIT:
             raise NotConverged(
-                f"chamber pressure: after {turns} revolutions it still changes by {abs(change):.3g} Pa per "
+                f"chamber pressure: after {turns} revolutions its oil still changes as by {abs(change):.3g} Pa a "
                 f"revolution, expected at most {limit:.3g} Pa; check that both ports open"
             )
         drift, steps, refused, status = course.run(given, nodes, start, tolerance)
         if status != kernel.OK:
             raise NotConverged(_step_message(status, problem))
         turns += 1
-        change = float(course.pressures[-1] - start)
+        change = chamber_state.oil_change(start, course.pressures[-1], problem.bulk_modulus)
         start = float(course.pressures[-1])
     checks = _checks(problem, course.totals, drift, change)
     effort = Effort(turns, steps, refused)

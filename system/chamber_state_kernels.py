@@ -72,6 +72,16 @@ def oil_volume(pressure, bulk_modulus):
     return liquid + compressibility * (CAVITY_PRESSURE - pressure), liquid, compressibility
 
 
+@numba.njit(f8(f8, f8, f8), cache=True, error_model="numpy")
+def oil_change(start, end, bulk_modulus):
+    """Change of a chamber's oil over a turn that leads from one pressure to another, in Pa.
+
+    Of liquid that of its pressure. Beside a cavity the pressure hardly knows how much oil there is, so that it
+    counts as the change of pressure by which liquid would hold as much more: K dM/M.
+    """
+    return bulk_modulus * (oil_volume(start, bulk_modulus)[0] / oil_volume(end, bulk_modulus)[0] - 1.0)
+
+
 @numba.njit(f8(f8, f8, f8, f8), cache=True, error_model="numpy")
 def oil_energy(pressure, specific, liquid, bulk_modulus):
     """Flow energy h = integral of s dp in Pa from zero gauge pressure, of oil of these specific volumes."""

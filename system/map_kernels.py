@@ -6,7 +6,7 @@ import numba
 import numpy as np
 
 from system.chamber_kernel import OK, TRAIL, revolution, slaved_pressure
-from system.chamber_state_kernels import INTEGRALS, PATHS
+from system.chamber_state_kernels import INTEGRALS, PATHS, oil_change
 from system.trail_kernels import NOT_PERIODIC, RUN_IN, follow_turn, sample
 
 ROOM = 256
@@ -19,8 +19,8 @@ def chamber_map(constants, tables, ports, nodes, firsts, control, pressures, tot
 
     constants (P,) of CHAMBER, tables (P, N, 7, 4), ports (P, M, 2, 4): the points' constants; nodes: their nodes
     end to end, those of point i from firsts[i] to firsts[i + 1]; control: tolerance, periodicity, turns. A point
-    is periodic when its pressure changes over a turn by no more than `periodicity` times its port pressure
-    difference, within `turns`. Filled: pressures (P, samples) Pa at equidistant angles from 0, totals (P, 2
+    is periodic when `oil_change` over a turn is no more than `periodicity` times its port pressure difference,
+    within `turns`. Filled: pressures (P, samples) Pa at equidistant angles from 0, totals (P, 2
     INTEGRALS), statuses (P,). Returned: the steps of all points end to end, (T, TRAIL), and where each one's
     begin, (P + 1,).
     """
@@ -68,7 +68,7 @@ def beside_map(constants, tables, ports, nodes, firsts, control, trail, begins, 
 
 @numba.njit(cache=True, error_model="numpy")
 def turn_limit(chamber, periodicity):
-    """Change of the pressure over a turn (Pa) of one that is periodic."""
+    """`oil_change` over a turn (Pa) of one that is periodic."""
     return periodicity * (abs(chamber.delivery_pressure - chamber.inlet_pressure) + 1e5)
 
 
@@ -85,7 +85,7 @@ def periodic(given, nodes, control, totals, trail):
         _, steps, _, status = revolution(*given, nodes, start, tolerance, *filled)
         if status != OK:
             return steps, status
-        change = filled[0][count - 1] - start
+        change = oil_change(start, filled[0][count - 1], given[0][0].bulk_modulus)
         start = filled[0][count - 1]
         if abs(change) <= limit:
             return steps, OK

@@ -28,7 +28,7 @@ from system.chamber_kernel import (
     stage_pressure,
     step_size,
 )
-from system.chamber_state_kernels import INTEGRALS, PATHS, WAYS, oil_volume, outflows, volume, ways_out
+from system.chamber_state_kernels import INTEGRALS, PATHS, WAYS, oil_change, oil_volume, outflows, volume, ways_out
 
 NOT_PERIODIC, TOO_ROUGH = 3, 4
 """Statuses beside those of `chamber_kernel`."""
@@ -107,7 +107,7 @@ def follow(chamber, table, ports, trail, pressure, tolerance, along, totals):
 def follow_turn(given, trail, tolerance, limit, turns, along, totals):
     """The periodic turn of a chamber beside that whose turn `trail` is, as `follow`: its status.
 
-    Periodic when the pressure changes by no more than `limit` over it; the first is run in where the other's ends.
+    Periodic when `oil_change` over it is no more than `limit`; the first is run in where the other's ends.
     """
     last = trail.shape[0] - 1
     while last > 0 and trail[last, 0] > trail[-1, 0] + trail[-1, 1] - RUN_IN:
@@ -117,7 +117,7 @@ def follow_turn(given, trail, tolerance, limit, turns, along, totals):
         if status != OK:
             return status
         end, status = follow(*given, trail, start, tolerance, along, totals)
-        change, start = end - start, end
+        change, start = oil_change(start, end, given[0][0].bulk_modulus), end
         if abs(change) <= limit:
             return status
     return NOT_PERIODIC

@@ -26,6 +26,7 @@ from system.estimation.whitening import Whitening, whitener
 HARDER, EASIER = 4.0, 1.0 / 3.0  # the damping after a trial that failed, that kept its promise
 LEAST_DAMPING, FIRST_DAMPING, MOST_DAMPING = 1e-6, 1e-2, 1e6
 LOCAL = 1e2  # damping from which a trial that fails tells of the slopes here, not of the curve on the way
+SHORT = 1e-3  # in xi: over shorter steps the solvers' own error outweighs what the readings change by
 GOOD = 0.5  # share of the promised fall: below it the slopes are asked for anew
 NEAR = 0.02  # in xi: slopes taken no farther away tell of a peak and of its covariance
 PATIENCE = 4  # trials that a fit is given before it may be hopeless
@@ -245,8 +246,8 @@ def _tried(fit: _Fit, walk: _Walk, whitening: Whitening) -> _Walk:
         if bent is not None and bent.objective < trial.objective:
             trial, kept = bent, (place.objective - bent.objective) / promised
     slopes = walk.slopes
-    if kept > 0 or walk.damping > LOCAL:
-        went = trial.xi - place.xi
+    went = trial.xi - place.xi
+    if (kept > 0 or walk.damping > LOCAL) and np.abs(went).max() > SHORT:
         missed = place.residual - trial.residual - slopes @ went
         slopes = slopes + np.outer(missed, went) / (went @ went)
     here = _Walk(trial if kept > 0 else place, slopes, walk.taken, _damping(walk.damping, kept))
