@@ -10,11 +10,11 @@ from diagnosis.forecast import Contender
 from diagnosis.hypotheses import simulator_of
 from diagnosis.next_point import NextPoint, next_point
 from diagnosis.own_leak import own_leak
-from diagnosis.shown import effect_words
 from diagnosis.study import Study
 from diagnosis.thresholds import Thresholds
 from diagnosis.verdict import Diagnosis
 from diagnosis.weighed import Weighed
+from diagnosis.words import explanation_words
 from reynolds.errors import FilmInputError
 from system.description import PumpDescription
 from system.errors import NotConverged
@@ -77,5 +77,5 @@ def contender(study: Study, weighed: Weighed, thresholds: Thresholds) -> Contend
         raise ValueError(f"{weighed.hypothesis.text}: not refitted")
     simulator = simulator_of(study, weighed.hypothesis, thresholds.name.fault_factor)
     own = weighed.hypothesis
-    text = effect_words(own.effects, own.pair) + (", of another form" if own.bent else "")
+    text = explanation_words(own) + (", of another form" if own.bent else "")
     return Contender(own.effects, simulator, weighed.posterior, text, weighed.probability)

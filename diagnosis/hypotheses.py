@@ -15,6 +15,12 @@ from system.physics.effects import EffectId, Kind
 from system.physics.extension import Extension
 from system.pump_gap import Gap
 
+RUBBED = {
+    "piston_cylinder": Gap.PISTON,
+    "slipper_swash_plate": Gap.SLIPPER,
+    "valve_plate_cylinder": Gap.VALVE_PLATE,
+}
+"""Gaps by the names of their friction pairs; the other pairs rub in none."""
 TOLERATED = 5.0  # sigma of a stated tolerance: beyond it lies nothing that no hypothesis sets free
 
 
@@ -113,9 +119,9 @@ def together(first: Hypothesis, second: Hypothesis, penalty: float) -> Hypothesi
 
 
 def gap_of(parameter: str) -> Gap | None:
-    """The gap that a parameter's name ends with: "film_thickness.slipper"."""
+    """The gap that a parameter is of: its name ends with it, or with a friction pair that rubs in it."""
     part = parameter.rpartition(".")[2]
-    return next((gap for gap in Gap if gap.value == part), None)
+    return RUBBED.get(part) or next((gap for gap in Gap if gap.value == part), None)
 
 
 def simulator_of(study: Study, hypothesis: Hypothesis, factor: float) -> PumpSimulator:

@@ -65,7 +65,7 @@ def odds_text(first: float, other: float) -> str:
     if other * MOST_ODDS < first:
         return f"below 1:{MOST_ODDS}"
     against = first / other
-    return f"1:{against:.2g}" if against < 100.0 else f"1:{round(against, 1 - len(str(int(against)))):.0f}"
+    return f"1:{against:.2g}" if against < 99.5 else f"1:{round(against, 1 - len(str(int(against)))):.0f}"
 
 
 def chance(probability: float) -> str:

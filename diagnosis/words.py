@@ -168,17 +168,17 @@ def _claim(at: int, diagnosis: Diagnosis) -> str:
 
 
 def _of_which(at: int, diagnosis: Diagnosis) -> str:
-    """Of a value that several pairs have, each its own: which it is, where others of them are as likely."""
+    """Of a value that several pairs have, each its own: which of those without a gap it may be as well."""
     own = diagnosis.hypotheses[0].hypothesis
-    if at >= len(own.subjects) or not _named_apart(own, at):
+    if at >= len(own.subjects) or not isinstance(own.subjects[at], str):
         return ""
-    shares: dict[str, float] = {}
-    for one in diagnosis.hypotheses:
-        if one.hypothesis.effects == own.effects and _named_apart(one.hypothesis, at):
-            which = last_word(str(one.hypothesis.subjects[at]))
-            shares[which] = shares.get(which, 0.0) + one.probability
     first = last_word(str(own.subjects[at]))
-    parts = {which: share / sum(shares.values()) for which, share in shares.items()}
+    shares = {first: 0.0}
+    for one in diagnosis.hypotheses:
+        which = last_word(str(one.hypothesis.subjects[at])) if one.hypothesis.effects == own.effects else ""
+        if which == first or (which and _named_apart(one.hypothesis, at)):
+            shares[which] = shares.get(which, 0.0) + one.probability
+    parts = {which: share / (sum(shares.values()) or 1.0) for which, share in shares.items()}
     others = [f"{which} ({chance(part)})" for which, part in parts.items() if which != first and part >= OTHER]
     return f", most likely of {first} ({chance(parts[first])}), else of {listed(others, 'or')}" if others else ""
 
@@ -260,7 +260,7 @@ def _misfit(diagnosis: Diagnosis) -> str:
 def _likeliest(diagnosis: Diagnosis) -> list[str]:
     """The likeliest hypotheses with an effect, with their probabilities."""
     listed_so = [one for one in _explained(diagnosis) if one.probability >= WORTH_TELLING][:RIVALS]
-    return [f"{_of(one)} ({chance(one.probability)})" for one in listed_so]
+    return [f"{explanation_words(one.hypothesis)} ({chance(one.probability)})" for one in listed_so]
 
 
 def _rivals(diagnosis: Diagnosis) -> str:
@@ -268,7 +268,7 @@ def _rivals(diagnosis: Diagnosis) -> str:
     if diagnosis.status is Status.SUSPICION or not diagnosis.effects:
         return ""
     first, *others = _explained(diagnosis, bent=False)
-    told = [(_of(one), one.probability) for one in others][: 2 * RIVALS]
+    told = [(explanation_words(one.hypothesis), one.probability) for one in others][: 2 * RIVALS]
     odds = [(words, odds_text(first.probability, each), each >= WORTH_TELLING) for words, each in told]
     standing = [f"{words} ({against})" for words, against, stands in odds if stands]
     excluded = [f"{words} ({against})" for words, against, stands in odds if not stands][:RIVALS]
@@ -291,14 +291,13 @@ def _explained(diagnosis: Diagnosis, *, bent: bool = True) -> list[Weighed]:
         if one.hypothesis.component is not None:
             one = replace(one, probability=unknown)
         if one.hypothesis.effects:
-            found.setdefault(_of(one), one)
+            found.setdefault(explanation_words(one.hypothesis), one)
     ranked = list(found.values())
     return [*ranked[:1], *sorted(ranked[1:], key=lambda one: -one.probability)]
 
 
-def _of(one: Weighed) -> str:
-    """An explanation in words, each of its effects with its own place."""
-    own = one.hypothesis
+def explanation_words(own: Hypothesis) -> str:
+    """An explanation in words, each effect with its own place: "churning and film thickness at the slippers"."""
     if len(own.effects) == 1:
         return effect_words(own.effects, own.pair) + _which(own, 0)
     each = enumerate(zip(own.effects, own.places, strict=True))

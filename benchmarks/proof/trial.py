@@ -53,8 +53,6 @@ SAME = {
     "dead_volume": "dead_volume", "displacement": "stroke", "viscosity": "viscosity",
 }  # fmt: skip
 """Parameters that mean the same to the simulation and to the plant."""
-RUBBED = {"piston_cylinder": "piston", "slipper_swash_plate": "slipper", "valve_plate_cylinder": "valve_plate"}
-"""Joints of a coefficient of friction, by their gaps."""
 
 
 @dataclass(frozen=True)
@@ -157,11 +155,8 @@ def _claimed(one: Claim) -> Claimed:
 
 
 def _joint(one: Claim) -> str | None:
-    """Where a coefficient of friction acts, which its parameter's name tells: a gap, or another joint."""
-    if one.effect is not EffectId.FRICTION_COEFFICIENT:
-        return None
-    joint = one.parameters[0].name.rpartition(".")[2]
-    return RUBBED.get(joint, joint)
+    """Where a coefficient of friction acts that is of no gap, which its parameter's name tells."""
+    return one.parameters[0].name.rpartition(".")[2] if one.effect is EffectId.FRICTION_COEFFICIENT else None
 
 
 def _ranked(each: Weighed) -> Ranked:

@@ -107,13 +107,13 @@ def test_an_incomplete_name_is_told_as_sure_where_it_is(named: Diagnosis) -> Non
 
 def test_of_which_pair_a_coefficient_is_is_told(named: Diagnosis) -> None:
     """Coefficients of friction have no gap: a rival of the same id at another pair stands beside the claim."""
-    own = replace(hypothesis(E.FRICTION_COEFFICIENT), widened=("friction.piston_cylinder",))
+    own = replace(hypothesis(E.FRICTION_COEFFICIENT), widened=("friction.rear_bearing",))
     other = replace(own, widened=("friction.front_bearing",))
     first, *_ = named.hypotheses
     weighed = (replace(first, hypothesis=own, probability=0.6), replace(first, hypothesis=other, probability=0.4))
     claim = Claim(E.FRICTION_COEFFICIENT, None, 0.99, (), ())
     found = replace(named, kind=Kind.WRONG_PARAMETER, effects=(claim,), hypotheses=weighed)
-    assert "most likely of piston cylinder (0.6), else of front bearing (0.4)" in statement(found)
+    assert "most likely of rear bearing (0.6), else of front bearing (0.4)" in statement(found)
     assert "friction coefficient (front bearing) (1:1.5)" in " ".join(paragraphs(found))
     sure = replace(found, hypotheses=weighed[:1])
     assert "most likely" not in statement(sure)
