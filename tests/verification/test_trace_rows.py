@@ -134,7 +134,7 @@ def test_slopes_of_traces_are_those_of_their_predictions():
 def test_grooves_that_begin_sooner_are_found_in_traces():
     """A bench's own readings, encoder off by .4 deg, grooves begun .8 deg sooner: each back within 3 sigma.
 
-    And told by them: less than half of its prior variance is left (of the encoder .28 in the limit of small steps).
+    And told by them: less than half of its prior variance is left (of the encoder .28, by small enough steps).
     """
     traced = _traced()
     true = {"encoder_offset": np.radians(0.4), "groove_advance": np.radians(0.8)}
