@@ -26,7 +26,7 @@ from system.description import PumpDescription
 from system.errors import NotConverged
 from system.estimation.observations import Array
 from system.estimation.posterior import values_at
-from system.extended_pump import extended_pump
+from system.extended_pump import extended_pump, values_by_name
 from system.operating import OperatingPoint
 from system.physics.catalogue import entry_of
 from system.physics.effects import Kind
@@ -55,7 +55,9 @@ NO_FILMS = "The film solver reads no [physics] table: of this finding there are 
 
 def claimed_pump(pump: PumpDescription, found: Diagnosis) -> PumpDescription:
     """The pump as the claimed explanation has it: its fit's parameters, its effects switched on."""
-    return extended_pump(pump, _by_name(found, found.after.values), found.hypotheses[0].hypothesis.laws)
+    return extended_pump(
+        pump, values_by_name(found.after.parameters, found.after.values), found.hypotheses[0].hypothesis.laws
+    )
 
 
 def run_both(
@@ -77,7 +79,7 @@ def run_both(
     closed = np.array([parameter.name in own.open_names for parameter in found.after.parameters])
     stated = values_at(found.after.parameters, np.where(closed, 0.0, found.after.xi))
     pumps = {
-        WITHOUT: extended_pump(pump, _by_name(found, stated), ()),
+        WITHOUT: extended_pump(pump, values_by_name(found.after.parameters, stated), ()),
         WITH: claimed_pump(pump, found),
     }
     try:
@@ -107,17 +109,9 @@ def _at(pump: PumpDescription, point: OperatingPoint) -> PumpDescription:
     return pump.model_copy(update={"operating": pump.operating.model_copy(update=stated)})
 
 
-def _by_name(found: Diagnosis, values: Array) -> dict[str, float]:
-    """Values by name, held to their bounds to the last digit: a pump file takes none beyond."""
-    pairs = zip(found.after.parameters, map(float, values), strict=True)
-    return {each.name: min(max(value, each.lower), each.upper) for each, value in pairs}
-
-
 def _setting(point: OperatingPoint) -> str:
-    speed, pressure = (
-        reading(ChannelName.SPEED, point.shaft_speed),
-        reading(ChannelName.P_OUT, point.delivery_pressure),
-    )
+    speed = reading(ChannelName.SPEED, point.shaft_speed)
+    pressure = reading(ChannelName.P_OUT, point.delivery_pressure)
     warm = reading(ChannelName.T_CASE, point.temperature)
     return (
         f"{speed:.4g} {channel_unit(ChannelName.SPEED)}, {pressure:.4g} {channel_unit(ChannelName.P_OUT)}, "

@@ -9,7 +9,7 @@ import numpy as np
 from system.bench_parameters import BEARINGS, GUIDE
 from system.description import PumpDescription
 from system.estimation.posterior import Posterior
-from system.extended_pump import extended_pump
+from system.extended_pump import extended_pump, values_by_name
 from system.physics.extension import Extension
 
 _OF_FRICTION: Mapping[str, str] = {
@@ -24,8 +24,7 @@ def calibrated_pump(pump: PumpDescription, fit: Posterior, laws: Sequence[Extens
     A key of [tolerance] that stands for several parameters takes the widest of them. What the fit did not have
     keeps its tolerance. Raises pydantic's ValidationError for values outside an effect's bounds.
     """
-    values = {one.name: float(value) for one, value in zip(fit.parameters, fit.values, strict=True)}
-    own = extended_pump(pump, values, laws)
+    own = extended_pump(pump, values_by_name(fit.parameters, fit.values), laws)
     sigma = np.sqrt(np.diag(fit.covariance))
     known: dict[str, float] = {}
     for parameter, width in zip(fit.parameters, sigma, strict=True):

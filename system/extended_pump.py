@@ -7,8 +7,16 @@ from typing import Any
 
 from system.bench_parameters import pump_with
 from system.description import PumpDescription
+from system.estimation.observations import Array
+from system.estimation.parameters import Parameter
 from system.physics.extension import Extension
 from system.physics_description import PhysicsSection
+
+
+def values_by_name(parameters: Sequence[Parameter], values: Array) -> dict[str, float]:
+    """Values (k,) by the names of their parameters, held to the bounds to the last digit: files take none beyond."""
+    pairs = zip(parameters, map(float, values), strict=True)
+    return {one.name: min(max(value, one.lower), one.upper) for one, value in pairs}
 
 
 def extended_pump(

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from made_diagnosis import LPM, PRESSURE, Q, agreeing, its_study, named_diagnosis
+from made_diagnosis import LPM, PRESSURE, Q, agreeing
 
 from diagnosis.diagnosis_file import diagnosis_record
 from diagnosis.diagnosis_tables import pull_sums
@@ -27,16 +27,6 @@ from system.pump_file import load_pump
 
 PNG = b"\x89PNG"
 E = EffectId
-
-
-@pytest.fixture(scope="module")
-def named() -> Diagnosis:
-    return named_diagnosis()
-
-
-@pytest.fixture(scope="module")
-def study(named: Diagnosis) -> Study:
-    return its_study(named)
 
 
 def test_the_page_tells_gaps_that_cannot_be_told_apart() -> None:

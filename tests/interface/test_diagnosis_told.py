@@ -10,12 +10,11 @@ from typing import Any
 
 import numpy as np
 import pytest
-from made_diagnosis import Q, agreeing, hypothesis, its_study, named_diagnosis
+from made_diagnosis import Q, agreeing, hypothesis
 
 from diagnosis.angle_scan import AngleWindow
 from diagnosis.diagnosis_file import diagnosis_record, read_diagnosis, write_diagnosis
 from diagnosis.recording import DataNote, NoteKind
-from diagnosis.study import Study
 from diagnosis.table_rows import by_table_rows
 from diagnosis.time_scan import TimeKind, TimeMark
 from diagnosis.verdict import Claim, Diagnosis, Estimate, Status
@@ -28,16 +27,6 @@ from system.pump_gap import Gap
 from system.units import Dimension
 
 E = EffectId
-
-
-@pytest.fixture(scope="module")
-def named() -> Diagnosis:
-    return named_diagnosis()
-
-
-@pytest.fixture(scope="module")
-def study(named: Diagnosis) -> Study:
-    return its_study(named)
 
 
 def test_a_named_effect_is_told_with_place_size_and_odds(named: Diagnosis) -> None:
