@@ -24,7 +24,6 @@ from system.bench_points import operating_at
 from system.channels import ChannelName
 from system.description import PumpDescription
 from system.errors import NotConverged
-from system.estimation.observations import Array
 from system.estimation.posterior import values_at
 from system.extended_pump import extended_pump, values_by_name
 from system.operating import OperatingPoint

@@ -14,7 +14,7 @@ from system.physics_description import PhysicsSection
 
 
 def values_by_name(parameters: Sequence[Parameter], values: Array) -> dict[str, float]:
-    """Values (k,) by the names of their parameters, held to the bounds to the last digit: files take none beyond."""
+    """Values (k,) by the names of their parameters, held to the bounds to the last digit, as a file wants them."""
     pairs = zip(parameters, map(float, values), strict=True)
     return {one.name: min(max(value, one.lower), one.upper) for one, value in pairs}
 
