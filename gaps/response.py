@@ -82,12 +82,20 @@ class Output:
     least: float = 0.0
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Samples:
-    """n points (n, d) of the inputs, SI, and the outputs (n, m) found there."""
+    """n points (n, d) of the inputs, SI, and the outputs (n, m) found there; equal where their numbers are."""
 
     points: Array
     values: Array
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Samples):
+            return NotImplemented
+        return np.array_equal(self.points, other.points) and np.array_equal(self.values, other.values)
+
+    def __hash__(self) -> int:
+        return hash((self.points.tobytes(), self.values.tobytes()))
 
 
 @dataclass(frozen=True)

@@ -1,5 +1,6 @@
 """Films at given positions with elastic or warm walls, and the law that a table of them makes."""
 
+import pickle
 from dataclasses import replace
 
 import numpy as np
@@ -88,6 +89,17 @@ def test_a_ring_shears_under_the_delivery_pressure_at_every_angle():
     found = SolvedOpening(made_up(Gap.VALVE_PLATE))({COMPLIANCE: 1.0}, courses(0.0), state(20e6))
     np.testing.assert_allclose(found.conductance, 1.0, rtol=ROUNDED)
     assert found.viscous[2] == pytest.approx(1.0 / 1.6, rel=1e-3)
+
+
+def test_a_table_that_comes_back_from_another_process_is_the_same_law():
+    """Hypotheses fitted side by side come back as copies, and are looked up among the candidates."""
+    law = SolvedOpening(made_up(Gap.PISTON))
+    copied = pickle.loads(pickle.dumps(law))
+    assert copied == law
+    assert hash(copied) == hash(law)
+    samples = law.table.response.learnt
+    steeper = replace(samples, values=1.1 * samples.values)
+    assert law != SolvedOpening(replace(law.table, response=replace(law.table.response, learnt=steeper)))
 
 
 @pytest.mark.slow
