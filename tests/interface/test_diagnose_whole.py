@@ -30,6 +30,7 @@ from system.physics.effects import EffectId
 from system.pump_file import load_pump
 
 PUMP = load_pump("ref90")
+EXAMPLES = Path(__file__).resolve().parents[2] / "examples" / "recordings"
 READ = (ChannelName.Q_OUT, ChannelName.Q_CASE, ChannelName.TORQUE)
 NOISE = np.array([0.1, 0.015, 0.3])  # L/min, L/min, N m
 CHURNING = entry_of(EffectId.CHURNING).extensions[0]
@@ -196,3 +197,20 @@ def test_the_nearest_recording_is_told(tmp_path: Path, capsys: pytest.CaptureFix
     error = capsys.readouterr().err
     assert "no such file" in error
     assert "bench_map" in error
+
+
+@pytest.mark.long
+def test_walls_as_the_film_solver_has_them_are_found_by_two_processes(tmp_path: Path) -> None:
+    """The finding is a share of the computed compliance, in a pump that runs to it."""
+    out = tmp_path / "out"
+    words = ["diagnose", "ref90", str(EXAMPLES / "open-04"), "--film-tables", "--workers", "2", "-o", str(out)]
+    assert main(words) == 0
+    (told,) = json.loads((out / "diagnosis.json").read_text("utf-8"))["effects"]
+    assert (told["id"], told["pair"]) == ("elastic_opening", "slipper")
+    (parameter,) = told["parameters"]
+    assert (parameter["name"], parameter["unit"]) == ("compliance", "1")
+    opening = load_pump(out / "pump_extended.toml").physics.elastic_opening
+    assert opening is not None
+    assert opening.slipper is not None
+    assert opening.slipper.compliance == pytest.approx(parameter["value"], rel=1e-12)
+    assert main(["run", str(out / "pump_extended.toml"), "--fidelity", "lumped", "-o", str(tmp_path / "run")]) == 0
