@@ -5,11 +5,13 @@ from __future__ import annotations
 import json
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from itertools import chain
 from pathlib import Path
 from typing import Any
 
 from system.case_table import Table, quoted
 from system.faults import Fault, InputFaults
+from system.film_effects import effects_in_films
 from system.instants import Rotor, rotor
 from system.operating import OperatingPoint, operating_point
 from system.pump_file import builtin_pumps, load_pump
@@ -50,6 +52,11 @@ def read_case_pump(top: Table, film: Table, folder: Path) -> CasePump | None:
         pump = load_pump(place, stated | at_point)
     except InputFaults as reason:
         top.faults += [_at_case(fault, stated, film.name("pump")) for fault in reason.faults]
+        return None
+    if pump.physics.on:
+        effects = ", ".join(one.value for one in chain(*effects_in_films(pump)))
+        expected = "none: what a case solves it states itself; swashfilm run --fidelity lumped or films reads them"
+        film.fault("pump", f"effects of [physics], {effects}", expected)
         return None
     return CasePump(rotor(pump, operating_point(pump)), place, stated)
 

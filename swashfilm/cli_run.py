@@ -90,6 +90,7 @@ def run_pump_command(options: argparse.Namespace) -> int:
 def _pump(options: argparse.Namespace) -> PumpDescription:
     """The pump that a command line means; raises InputFaults with what is wrong in file and options together."""
     from swashfilm.cli_floating import alike_faults, floating_faults
+    from system.given_thickness import moved_to
     from system.pump_file import load_pump
 
     stated, faults = _overrides(options)
@@ -103,6 +104,8 @@ def _pump(options: argparse.Namespace) -> PumpDescription:
         pump = load_pump(options.pump, stated)
     except InputFaults as reason:
         raise _at_options(reason, stated, faults) from None
+    if pump.physics.thermal_clearance is not None:
+        pump = moved_to(load_pump(options.pump), pump.operating)
     faults += floating_faults(options, pump, options.fidelity)
     if options.fidelity in (Fidelity.FILMS.value, Fidelity.TABLE.value):
         faults += alike_faults(pump)

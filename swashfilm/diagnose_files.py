@@ -43,7 +43,7 @@ def write_diagnosis_files(
     assumptions: Sequence[str] = (),
     told: Told = NOTHING,
 ) -> None:
-    """Write diagnosis.json, summary.json, six tables (of traces a seventh) and report.html into a run folder.
+    """Write diagnosis.json, summary.json, seven tables (of traces an eighth) and report.html into a run folder.
 
     assumptions: what was taken of the pump; told: of the pump run without and with the finding.
     """
@@ -55,9 +55,10 @@ def write_diagnosis_files(
     write_rows(folder / "parameters.csv", parameter_rows(diagnosis))
     write_rows(folder / "next_points.csv", next_point_rows(diagnosis.next_point))
     write_rows(folder / "changes.csv", told.rows)
+    write_rows(folder / "films.csv", told.films.rows)
     write_diagnosis(folder / "diagnosis.json", diagnosis)
     summary = diagnosis_summary(study, diagnosis, thresholds, assumptions)
-    write_json(folder / "summary.json", summary | {"runs": told.text, "films": told.films})
+    write_json(folder / "summary.json", summary | {"runs": told.text, "films": told.films.text})
     from swashfilm.diagnose_page import write_diagnose_page
 
     write_diagnose_page(folder)

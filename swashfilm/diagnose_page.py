@@ -15,6 +15,7 @@ from diagnosis.shown import chance
 from reynolds.mesh import Array
 from swashfilm import diagnose_plots
 from swashfilm.diagnose_files import NO_NEXT_POINT, TRACES, read_rows
+from swashfilm.diagnose_films import film_pictures
 from swashfilm.diagnose_runs import HYDRAULIC, SHAFT, WITH, WITHOUT
 from swashfilm.diagnose_trace_plots import trace_residuals
 from system.faults import Fault, InputFaults
@@ -22,9 +23,9 @@ from system.units import Dimension, in_unit, reading_unit
 
 FILES = (
     "summary.json", "diagnosis.json", "residuals.csv", "hypotheses.csv", "parameters.csv", "next_points.csv",
-    "changes.csv",
+    "changes.csv", "films.csv",
 )  # fmt: skip
-TABLES = ("residuals", "hypotheses", "parameters", "next_points", "changes")
+TABLES = ("residuals", "hypotheses", "parameters", "next_points", "changes", "films")
 MOST_POINTS = 8
 AXES = ("p_out [bar]", "speed [rpm]", "displacement_ratio [1]", "T_case [degC]")
 FAINT = 0.3  # sigma, rms: what adds less to a channel is not drawn there
@@ -56,9 +57,11 @@ def write_diagnose_page(folder: Path) -> Path:
         next_points=[tuple(row.values()) for row in tables["next_points"][:MOST_POINTS]],
         next_head=tuple(next(iter(tables["next_points"]), {})),
         changes=list(change_rows(tables["changes"])),
+        films=list(film_rows(tables["films"])),
+        film_pictures={name: _inline(png) for name, png in film_pictures(folder, (WITHOUT, WITH), found).items()},
         remarks=remarks(found, summary),
         next_point=next_point_words(found),
-        pictures={name: base64.b64encode(png).decode("ascii") for name, png in _pictures(found, tables).items()},
+        pictures={name: _inline(png) for name, png in _pictures(found, tables).items()},
     )
     path = folder / "report.html"
     path.write_text(page, encoding="utf-8")
@@ -145,6 +148,17 @@ def change_rows(rows: Sequence[Mapping[str, str]]) -> Iterator[tuple[str, ...]]:
         yield row["quantity"], *told, moved, " -> ".join(shares)
 
 
+def film_rows(rows: Sequence[Mapping[str, str]]) -> Iterator[tuple[str, ...]]:
+    """(quantity, by closed laws, by films): without -> with the finding, and by what factor."""
+    for row in rows:
+        told = []
+        for kind in ("lumped", "films"):
+            one, other = (float(row[f"{kind}_{name}"]) for name in (WITHOUT, WITH))
+            times = f" (x {other / one:.3g})" if one else ""
+            told.append(f"{_plain(one, 4)} -> {_plain(other, 4)} {row['unit']}{times}")
+        yield row["quantity"], *told
+
+
 def shaft_power(rows: Sequence[Mapping[str, str]]) -> dict[str, float]:
     """Shaft power in W without and with the finding; empty where nothing was run."""
     return {key: float(row[key]) for row in rows if row["quantity"] == SHAFT for key in (WITHOUT, WITH)}
@@ -164,6 +178,10 @@ def next_point_words(found: Mapping[str, Any]) -> str:
     failed = (note for note in found["notes"] if note.startswith(NO_NEXT_POINT))
     reason = next(failed, "no rival that could be fitted stands that a point would have to separate")
     return f"{reason[0].upper()}{reason[1:].rstrip('.')}."
+
+
+def _inline(png: bytes) -> str:
+    return base64.b64encode(png).decode("ascii")
 
 
 def _told(unit: str, value: float, sigma: float | None = None) -> str:

@@ -17,6 +17,7 @@ from diagnosis.study import Study
 from diagnosis.table_rows import table_rows
 from diagnosis.thresholds import Thresholds
 from diagnosis.verdict import Diagnosis
+from swashfilm.diagnose_films import FilmsTold, films_of_both
 from swashfilm.fidelity import Fidelity
 from swashfilm.progress import Report
 from swashfilm.pump_run import run_pump
@@ -26,6 +27,7 @@ from system.description import PumpDescription
 from system.errors import NotConverged
 from system.estimation.posterior import values_at
 from system.extended_pump import extended_pump, values_by_name
+from system.given_thickness import moved_to
 from system.operating import OperatingPoint
 from system.physics.catalogue import entry_of
 from system.physics.effects import Kind
@@ -38,18 +40,19 @@ LPM = 60000.0  # L/min in a m3/s
 PERCENT = 100.0
 
 
+NO_FILMS = FilmsTold((), "")
+
+
 @dataclass(frozen=True)
 class Told:
-    """What the two runs came to: rows of changes.csv; where they stand, or why there are none; what of films."""
+    """What the two runs came to: rows of changes.csv; where they stand, or why there are none; their films."""
 
     rows: tuple[Row, ...]
     text: str
-    films: str = ""
+    films: FilmsTold = NO_FILMS
 
 
 NOTHING = Told((), "")
-FILMS = "Film fields of either: swashfilm run with/resolved.toml --fidelity films (or without/)."
-NO_FILMS = "The film solver reads no [physics] table: of this finding there are no film fields."
 
 
 def claimed_pump(pump: PumpDescription, found: Diagnosis) -> PumpDescription:
@@ -78,19 +81,18 @@ def run_both(
     closed = np.array([parameter.name in own.open_names for parameter in found.after.parameters])
     stated = values_at(found.after.parameters, np.where(closed, 0.0, found.after.xi))
     pumps = {
-        WITHOUT: extended_pump(pump, values_by_name(found.after.parameters, stated), ()),
-        WITH: claimed_pump(pump, found),
+        WITHOUT: _at(extended_pump(pump, values_by_name(found.after.parameters, stated), ()), point),
+        WITH: _at(claimed_pump(pump, found), point),
     }
     try:
-        summaries = [_run(_at(each, point), folder / name, report) for name, each in pumps.items()]
+        summaries = {name: _run(each, folder / name, report) for name, each in pumps.items()}
     except NotConverged as reason:
         for name in pumps:
             rmtree(folder / name, ignore_errors=True)
         return Told((), f"Point {number}, where the finding adds most, could not be run: {reason}")
-    films = NO_FILMS if pumps[WITH].physics.on else FILMS
-    return Told(
-        tuple(_changes(*summaries)), f"Point {number}, where the finding adds most: {_setting(point)}.", films
-    )
+    films = films_of_both(folder, pumps, summaries, {claim.effect for claim in found.effects}, report)
+    where = f"Point {number}, where the finding adds most: {_setting(point)}."
+    return Told(tuple(_changes(*summaries.values())), where, films)
 
 
 def _run(pump: PumpDescription, folder: Path, report: Report) -> dict[str, Any]:
@@ -99,13 +101,13 @@ def _run(pump: PumpDescription, folder: Path, report: Report) -> dict[str, Any]:
 
 
 def _at(pump: PumpDescription, point: OperatingPoint) -> PumpDescription:
-    """The pump with the point as its own."""
+    """The pump with the point as its own, its films as thick as they are there."""
     stated = {
         "speed": point.shaft_speed, "pressure": point.delivery_pressure, "temperature": point.temperature,
         "displacement_ratio": point.displacement_ratio, "inlet_pressure": point.inlet_pressure,
         "case_pressure": point.case_pressure,
     }  # fmt: skip
-    return pump.model_copy(update={"operating": pump.operating.model_copy(update=stated)})
+    return moved_to(pump, pump.operating.model_copy(update=stated))
 
 
 def _setting(point: OperatingPoint) -> str:

@@ -7,7 +7,6 @@ import csv
 import io
 import json
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -16,21 +15,8 @@ import numpy as np
 from swashfilm.film_in_time import last_of
 from swashfilm.film_refine import refinement_head, refinement_rows
 from swashfilm.headline import named
-from swashfilm.maps import draw_map
+from swashfilm.maps import MapField, draw_map
 from system.faults import Fault, InputFaults
-
-
-@dataclass(frozen=True)
-class MapField:
-    """A field as the page shows it: (value - zero) x scale, under its title."""
-
-    name: str
-    title: str
-    scale: float = 1.0
-    zero: float = 0.0
-    colours: str = "viridis"
-    always: bool = False
-
 
 FIELDS = (
     MapField("film_pressure", "film pressure / MPa", 1e-6, always=True),
@@ -111,7 +97,7 @@ def film_picture(results: Path) -> bytes:
     figure = Figure(figsize=(8.0, 3.5 * rows) if wide else (10.0, 4.2 * rows), layout="constrained")
     for number, field in enumerate(shown, start=1):
         axes = figure.add_subplot(rows, columns, number)
-        values = (fields[field.name].values - field.zero) * field.scale
+        values = field.shown(fields[field.name].values)
         draw_map(axes, place, fields["cells"].values, values, field.title, colours=field.colours)
     return _png(figure)
 

@@ -2,9 +2,26 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+
+
+@dataclass(frozen=True)
+class MapField:
+    """A field as a page shows it: (value - zero) x scale, under its title; `always`, or only where it varies."""
+
+    name: str
+    title: str
+    scale: float = 1.0
+    zero: float = 0.0
+    colours: str = "viridis"
+    always: bool = False
+
+    def shown(self, values: np.ndarray) -> np.ndarray:
+        """Values as the title's unit has them."""
+        return np.asarray((values - self.zero) * self.scale)
 
 
 def draw_map(

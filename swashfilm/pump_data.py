@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from gaps.result import GapFilm
+from swashfilm.film_oil_state import UNITS, oil_state
 from system.assembly import PumpPoint
 from system.films import FilmsPoint
 from system.pairs import Pair
@@ -93,7 +94,7 @@ def films_dataset(films: FilmsPoint) -> xarray.Dataset:
         coords[angle] = (angle, films.gaps.shaft_angle[: len(series)], {"units": "rad"})
         for name, (unit, value) in _GAP_SERIES.items():
             data[f"{gap}_{name}"] = (angle, np.array([value(film) for film in series]), {"units": unit})
-        data |= _fields(gap, angle, series)
+        data |= _fields(gap, angle, series) | _oil_fields(gap, angle, films, series)
     return xarray.Dataset(data, coords=coords)
 
 
@@ -111,6 +112,16 @@ def _fields(gap: str, angle: str, series: Sequence[GapFilm]) -> dict[str, tuple[
         f"{gap}_film_thickness": (nodes, np.array(thickness), {"units": "m"}),
         f"{gap}_cells": ((f"{gap}_cell", f"{gap}_corner"), spaces[0].cells),
     }
+
+
+def _oil_fields(
+    gap: str, angle: str, films: FilmsPoint, series: Sequence[GapFilm]
+) -> dict[str, tuple[object, ...]]:
+    physics = getattr(films.physics, gap)
+    states = [oil_state(films.rotor.pump, physics, film.solution) for film in series]
+    nodes = (angle, f"{gap}_vertex")
+    fields = {name: np.array([state[name] for state in states]) for name in states[0]}
+    return {f"{gap}_{name}": (nodes, values, {"units": UNITS[name]}) for name, values in fields.items()}
 
 
 def write_tables(folder: Path, data: xarray.Dataset) -> None:

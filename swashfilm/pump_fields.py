@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from reynolds.export import write_pvd, write_vtu
+from swashfilm.film_oil_state import oil_state
 from swashfilm.pump_data import GAPS
 from system.films import FilmsPoint
 from system.places import place_of
@@ -28,7 +29,8 @@ def write_fields(folder: Path, films: FilmsPoint) -> None:
     for gap, told in series.items():
         for k, film in enumerate(told):
             at = place_of(gap, films.rotor, films.parts, films.gaps.shaft_angle[k])
-            write_vtu(place / vtu_name(gap.value, k), film.solution, at)
+            oil = oil_state(films.rotor.pump, getattr(films.physics, gap.value), film.solution)
+            write_vtu(place / vtu_name(gap.value, k), film.solution, at, oil)
     _write_series(folder, films)
 
 

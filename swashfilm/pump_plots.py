@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from reynolds.mesh import Array
 from swashfilm.figure_png import figure_of, png_of
-from swashfilm.maps import draw_map
+from swashfilm.maps import MapField, draw_map
 from swashfilm.pump_data import GAPS, PICTURED_TURN
 from swashfilm.pump_summary import ABBREVIATION
 from system.pairs import Pair
@@ -18,6 +19,13 @@ if TYPE_CHECKING:
 
 LPM = 6e4
 """L/min for one m3/s."""
+GAP_FIELDS = (
+    MapField("film_pressure", "film pressure / MPa", 1e-6),
+    MapField("film_thickness", "film thickness / um", 1e6, colours="cividis"),
+    MapField("film_viscosity", "viscosity of the oil / mPa s", 1e3, colours="YlGnBu"),
+    MapField("film_temperature", "film temperature, mean across / degC", zero=273.15, colours="inferno"),
+)
+"""Fields of a gap that a page draws where results.nc has them."""
 TITLES = {"piston": "piston-cylinder", "slipper": "slipper-swash plate", "valve_plate": "valve plate-cylinder"}
 
 
@@ -100,7 +108,7 @@ def ripple_plot(data: xarray.Dataset) -> bytes:
 
 
 def gap_maps(data: xarray.Dataset) -> dict[str, bytes]:
-    """Film pressure (MPa) and film thickness (um) of each gap at the pictured angle, by the gap's name."""
+    """Film pressure, film thickness and what is known of the oil, of each gap at the pictured angle, by gap."""
     return {gap: _gap_map(data, gap) for gap in GAPS if f"{gap}_film_pressure" in data}
 
 
@@ -131,20 +139,24 @@ def pictured(data: xarray.Dataset, gap: str) -> int:
     return round(PICTURED_TURN * data.sizes["piston_angle"]) % data.sizes[f"{gap}_angle"]
 
 
+def gap_place(data: xarray.Dataset, gap: str, k: int) -> tuple[tuple[Array, Array], tuple[str, str]]:
+    """Vertices of a gap's k-th film as a page draws them, and what its axes are called."""
+    x, y = (data[f"{gap}_{axis}"].values[k] * 1e3 for axis in ("x", "y"))
+    if gap != "piston":
+        return (x, y), ("x / mm", "y / mm")
+    # Unrolled by the angle: cells across the seam would be drawn around the whole film.
+    named = ("angle from the inner dead centre's side / deg", "from the guide's inner end / mm")
+    return (360.0 * x / x.max(), y), named
+
+
 def _gap_map(data: xarray.Dataset, gap: str) -> bytes:
     k = pictured(data, gap)
-    x, y = (data[f"{gap}_{axis}"].values[k] * 1e3 for axis in ("x", "y"))
-    labels = ("x / mm", "y / mm")
-    if gap == "piston":
-        # Cells across the seam would be drawn around the whole film.
-        x, labels = (
-            360.0 * x / x.max(),
-            ("angle from the inner dead centre's side / deg", "from the guide's inner end / mm"),
-        )
+    place, labels = gap_place(data, gap, k)
     cells = data[f"{gap}_cells"].values
-    figure = figure_of(10.0, 3.9)
-    left, right = figure.subplots(1, 2)
-    pressure, thickness = (data[f"{gap}_{name}"].values[k] for name in ("film_pressure", "film_thickness"))
-    draw_map(left, (x, y), cells, pressure * 1e-6, "film pressure / MPa", labels)
-    draw_map(right, (x, y), cells, thickness * 1e6, "film thickness / um", labels, "cividis")
+    known = [field for field in GAP_FIELDS if f"{gap}_{field.name}" in data]
+    rows = (len(known) + 1) // 2
+    figure = figure_of(10.0, 3.9 * rows)
+    for axes, field in zip(figure.subplots(rows, 2).ravel(), known, strict=False):
+        values = field.shown(data[f"{gap}_{field.name}"].values[k])
+        draw_map(axes, place, cells, values, field.title, labels, field.colours)
     return png_of(figure)

@@ -16,6 +16,7 @@ from swashfilm.pump_data import gap_films
 from system.assembly import PumpPoint
 from system.bench import Efficiency, energy_split, ideal_flow, ideal_torque, paper_losses
 from system.description import PumpDescription
+from system.film_effects import effects_in_films
 from system.films import FilmsPoint
 from system.pairs import Pair
 
@@ -72,12 +73,21 @@ def pump_summary(
         "bench_split": {f"{name}_W": value for name, value in asdict(split).items()},
         "pair_loss": {pair.value: _pair(point, pair) for pair in Pair},
         "power_balance": _power(point),
+        "physics": _physics(pump, films),
         "gaps": {gap: gap_report(series) for gap, series in gap_films(films).items()} if films else {},
         "checks": _checks(point, films),
         "coefficients": [*coefficient_records(pump), *loss_records(pump)],
         "assumptions": [str(taken) for taken in films.parts.taken] if films else [],
         "warnings": list(warnings),
     }
+
+
+def _physics(pump: PumpDescription, films: FilmsPoint | None) -> dict[str, list[str]]:
+    """Effects of [physics] by how the fidelity has them: films that solve them, or closed laws."""
+    solved, laws = effects_in_films(pump)
+    if films is None:
+        solved, laws = (), (*solved, *laws)
+    return {"films_solve": [one.value for one in solved], "closed_laws": [one.value for one in laws]}
 
 
 def gap_report(series: Sequence[GapFilm]) -> dict[str, Any]:

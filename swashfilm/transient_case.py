@@ -91,8 +91,6 @@ def _hold_pump(table: Table, pump: CasePump, end: float | None, schedule: Schedu
     whole, point = pump.rotor.pump, pump.rotor.point
     if not kinds(whole).alike:
         table.fault("pump", "chambers that differ", "chambers that are alike")
-    if whole.physics.on:
-        table.fault("pump", "effects of [physics]", "none: a transient does not read them")
     stop = whole.swash_plate.angle_min or 0.0
     start = swash_angle(drive_at_ratio(full_drive(whole), point.displacement_ratio))
     if start < stop:

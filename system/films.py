@@ -1,12 +1,13 @@
 """The films fidelity: leakage and viscous friction of the three gaps from films at given positions.
 
 Parts stand where the pump's description puts them; chamber pressure and films are solved in turn until the
-pressure of the whole revolution repeats. Coulomb losses are those of the lumped fidelity: a smooth rigid film
-knows no contact.
+pressure of the whole revolution repeats. Coulomb losses are those of the lumped fidelity: a smooth film knows no
+contact. Of [physics] films solve what is theirs (`film_effects`); the rest acts as at the lumped fidelity.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -16,13 +17,16 @@ from system.chamber import ChamberCycle, solve_cycle
 from system.chamber_problem import ChamberProblem, LeakTable
 from system.description import PumpDescription
 from system.errors import NotConverged
+from system.film_effects import FilmEffects, closed_laws, film_effects
 from system.floating_parts import FloatingParts, floating_parts
 from system.gap_cycle import PLAIN, GapCycle, GapPhysics, Report, gap_cycle, silent
+from system.given_thickness import at_temperature, unpressed
 from system.instants import Rotor, rotor
 from system.kinematics import Array
 from system.land_losses import creeping_film_leaks, land_losses, with_inertia
 from system.lumped import (
     SAMPLES_PER_PITCH,
+    PistonMotion,
     chamber_problem,
     group_masses,
     lumped_pairs,
@@ -33,9 +37,11 @@ from system.lumped import (
 from system.lumped_point import lumped_point
 from system.operating import OperatingPoint
 from system.pairs import FrictionPairs
-from system.physics.switched import hold_plain
+from system.physics.effects import Effects
+from system.physics_description import PhysicsSection
+from system.point_effects import affected, affected_leaks, displaced, point_effects, rubbed_pairs, with_outside
 from system.ports import TURN
-from system.ports_coupling import ported_cycle
+from system.ports_coupling import PortedCycle, ported_cycle
 from system.power import GapExchange, Gaps
 from system.unlike import kinds
 
@@ -51,12 +57,15 @@ ROUND_LIMIT = 12
 class FilmsPoint:
     """One coupled operating point: the pump, its films over the revolution, and the evidence of convergence.
 
-    parts: with every value taken; rounds of films and chamber; pressure_change: the last round's largest, Pa;
-    sampling_error: change of the leakage (relative) when the chamber knows only every second film angle.
+    rotor: of the pump with its films as they stand; parts: with every value taken, physics of their films; rounds
+    of films and chamber;
+    pressure_change: the last round's largest, Pa; sampling_error: relative change of the leakage when the chamber
+    knows only every second film angle.
     """
 
     rotor: Rotor
     parts: FloatingParts
+    physics: GapPhysics
     pump_point: PumpPoint
     gaps: GapCycle
     rounds: int
@@ -76,34 +85,29 @@ def films_point(
 ) -> FilmsPoint:
     """One periodic operating point with films solved over the revolution, on meshes `finer` times the usual.
 
-    Chamber pressure repeats to `tolerance` of the ports' difference. With heat in the physics the lumped Coulomb
-    loss of the pairs warms their walls too.
+    Chamber pressure repeats to `tolerance` of the ports' difference. What the pump's [physics] has films solve is
+    on beside `physics`. With heat the pairs' Coulomb loss warms their walls too.
 
     Raises NotConverged when chamber pressure and films do not settle within ROUND_LIMIT rounds, ValueError when
     `positions_per_pitch` is no even divisor of SAMPLES_PER_PITCH or chambers differ, FilmInputError where parts
-    touch at a given position. Films have no history; smooth, rigid and isothermal where the physics is as given.
+    touch at a given position. Films have no history; smooth, and rigid and isothermal but for [physics].
     """
     kinds(pump).hold_alike()
-    hold_plain(pump)
     if positions_per_pitch % 2 or SAMPLES_PER_PITCH % positions_per_pitch:
         raise ValueError(
             f"positions per pitch: found {positions_per_pitch}, expected an even divisor of {SAMPLES_PER_PITCH}"
         )
-    motion, lines = piston_motion(pump, point), port_lines(pump, point)
-    every = SAMPLES_PER_PITCH // positions_per_pitch
-    lumped = lumped_point(pump, point)
-    at, parts, rounds, cycle = rotor(pump, lumped.point), floating_parts(pump), 0, lumped.cycle
+    every, work = SAMPLES_PER_PITCH // positions_per_pitch, _work(pump, point, physics)
+    at, cycle, rounds = work.rotor, work.cycle, 0
     limit = tolerance * (abs(point.delivery_pressure - point.inlet_pressure) + 1e5)
     while rounds < ROUND_LIMIT:
         rounds += 1
         gaps = gap_cycle(
-            at, parts, cycle.shaft_angle[::every], cycle.pressure[::every], report, physics=physics,
-            rubbing=_rubbing(lumped_pairs(pump, point, motion, cycle)), finer=finer,
+            at, work.films.parts, cycle.shaft_angle[::every], cycle.pressure[::every], report,
+            physics=work.films.physics, rubbing=_rubbing(work.losses(cycle)), finer=finer,
         )  # fmt: skip
-        problem = chamber_problem(pump, point, motion, edged_leaks(pump, point, gaps))
-        draws = port_draws(gaps, at.point, pump.oil.bulk_modulus)
-        ported = ported_cycle((problem,), lines, pump.pump.pistons, motion.shaft_angle.size, draws=draws)
-        at = rotor(pump, met_point(point, ported))
+        ported, leaks = _ported(work, gaps, at.point)
+        at = rotor(at.pump, met_point(work.point, ported))
         before, cycle = cycle, ported.cycle
         change = float(np.max(np.abs(cycle.pressure - before.pressure)))
         if change <= limit:
@@ -113,11 +117,64 @@ def films_point(
             f"films and chamber pressure: after {ROUND_LIMIT} rounds the pressure still changes by {change:.3g} "
             f"Pa, expected at most {limit:.3g} Pa; try the lumped fidelity, or more film angles"
         )
-    exchange = gap_exchange(gaps, cycle, pump.pump.pistons, point)
-    losses = with_film_shear(lumped_pairs(pump, point, motion, cycle), gaps, point.case_pressure)
-    derived = swept_displacement(pump, motion.drive)
-    pump_point = assemble(point, ported, (losses,), pump.pump.pistons, derived, exchange, (group_masses(pump),))
-    return FilmsPoint(at, parts, pump_point, gaps, rounds, change, _sampling_error(ported.problem, cycle))
+    sampled = _sampling_error(ported.problem, leaks, work.effects, cycle)
+    told, films = _told(work, point, gaps, ported), work.films
+    return FilmsPoint(at, films.parts, films.physics, told, gaps, rounds, change, sampled)
+
+
+@dataclass(frozen=True)
+class _Work:
+    """What stays through the rounds, and where they start: rotor and cycle of the lumped pump without effects.
+
+    pump: with only those effects that films do not solve; point: with the stroke that effects leave.
+    """
+
+    pump: PumpDescription
+    point: OperatingPoint
+    motion: PistonMotion
+    effects: tuple[Effects, ...]
+    films: FilmEffects
+    rotor: Rotor
+    cycle: ChamberCycle
+
+    def losses(self, cycle: ChamberCycle, gaps: GapCycle | None = None) -> FrictionPairs:
+        """The pairs' losses at a cycle's pressures, shear of films as these tell it, with what effects add."""
+        found = lumped_pairs(self.pump, self.point, self.motion, cycle)
+        if gaps is not None:
+            found = with_film_shear(found, gaps, self.point.case_pressure)
+        for one in self.effects:
+            found = rubbed_pairs(found, one)
+        return found
+
+
+def _work(pump: PumpDescription, point: OperatingPoint, physics: GapPhysics) -> _Work:
+    warm = at_temperature(pump, point.temperature)
+    own, stands = closed_laws(warm), unpressed(warm, point.case_pressure)
+    plain = lumped_point(own.model_copy(update={"physics": PhysicsSection()}), point)
+    effects = (point_effects(own, plain.point, plain.cycle),) if own.physics.on else ()
+    asked, at = displaced(point, effects), rotor(stands, displaced(plain.point, effects))
+    films = film_effects(at, floating_parts(stands), warm, physics)
+    return _Work(own, asked, piston_motion(own, asked), effects, films, at, plain.cycle)
+
+
+def _ported(work: _Work, gaps: GapCycle, met: OperatingPoint) -> tuple[PortedCycle, LeakTable]:
+    """Chambers and ports with the films' leaks, ports as `met` before; and these leaks without closed laws."""
+    leaks = edged_leaks(work.pump, work.point, gaps)
+    problem = chamber_problem(work.pump, work.point, work.motion, leaks)
+    for one in work.effects:
+        problem = affected(problem, one)
+    lines, draws = port_lines(work.pump, work.point), port_draws(gaps, met, work.pump.oil.bulk_modulus)
+    samples = work.motion.shaft_angle.size
+    return ported_cycle((problem,), lines, work.pump.pump.pistons, samples, draws=draws), leaks
+
+
+def _told(work: _Work, asked: OperatingPoint, gaps: GapCycle, ported: PortedCycle) -> PumpPoint:
+    """The pump whose films and chambers agree."""
+    pump, pistons = work.pump, work.pump.pump.pistons
+    exchange = gap_exchange(gaps, ported.cycle, pistons, work.point)
+    losses, derived = work.losses(ported.cycle, gaps), swept_displacement(pump, work.motion.drive)
+    found = assemble(asked, ported, (losses,), pistons, derived, exchange, (group_masses(pump),))
+    return with_outside(found, pump, work.effects) if work.effects else found
 
 
 def _rubbing(losses: FrictionPairs) -> tuple[float, float, float]:
@@ -195,10 +252,13 @@ def _refine(periodic: Array, samples: int) -> Array:
     return np.interp(turns, np.arange(periodic.size) / periodic.size, periodic, period=1.0)
 
 
-def _sampling_error(problem: ChamberProblem, cycle: ChamberCycle) -> float:
-    """Relative change of the leakage when the chamber knows only every second film angle."""
-    leaks = problem.leaks
+def _sampling_error(
+    problem: ChamberProblem, leaks: LeakTable, effects: Sequence[Effects], cycle: ChamberCycle
+) -> float:
+    """Relative change of the leakage when the chamber knows only every second angle of the films' leaks."""
     halved = LeakTable(leaks.conductance[:, ::2].copy(), leaks.carried_flow[:, ::2].copy())
+    for one in effects:
+        halved = affected_leaks(halved, one)
     coarse = solve_cycle(replace(problem, leaks=halved), cycle.shaft_angle.size)
     fine, rough = (float(c.outflow.piston + c.outflow.slipper + c.outflow.valve_plate) for c in (cycle, coarse))
     return abs(rough - fine) / abs(fine)

@@ -17,6 +17,7 @@ from reynolds.oil import dynamic_viscosity, temperature_of
 from system.description import PumpDescription
 from system.gap_cycle import Report, silent
 from system.operating import OperatingPoint, operating_point
+from system.physics.switched import hold_plain
 from system.response_tables import (
     INPUTS,
     PRESSURE,
@@ -126,8 +127,9 @@ def build_table(
     """The table of a case, kept in the cache; its points as `solved_points`.
 
     Held-out points are run by the table, too, for what it misses of the pump's numbers. Raises NotConverged where
-    too few points have a result, and as `table_point`.
+    too few points have a result, FilmInputError for a pump with effects of [physics], and as `table_point`.
     """
+    hold_plain(case.pump)
     found = solved_points(case, hands=hands, report=report, folder=folder)
     (learnt, _), (held_out, numbers) = (_parted(samples) for samples in samples_of(case, found))
     outputs = measured_outputs(np.concatenate([learnt.values, held_out.values]))

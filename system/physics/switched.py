@@ -40,7 +40,7 @@ def hold_plain(pump: PumpDescription) -> None:
     """Raise FilmInputError where a pump has effects switched on that a fidelity does not read."""
     if pump.physics.on:
         found = ", ".join(dict.fromkeys(extension.id.value for extension, _ in switched_on(pump)))
-        raise FilmInputError("physics", found, "no effects, or the lumped fidelity, which alone reads them")
+        raise FilmInputError("physics", found, "no effects, or the lumped or the films fidelity, which read them")
 
 
 def stated_effects(

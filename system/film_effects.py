@@ -1,0 +1,181 @@
+"""[physics] as films have it: what heats, stiffens or opens a film is solved in it, not put on as a factor.
+
+    film_heating        films warm, between walls whose way to the case has the stated resistance
+    viscosity_pressure  Barus' law at every place of the films
+    elastic_opening     by compliance: the parts' own bodies, so many times as soft; by opening: a wall on springs
+    thermal_clearance   films as thick as their walls leave them at the point's temperature (`given_thickness`)
+
+All other effects stay the closed laws that they are at the lumped fidelity, beside the films.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from typing import Any
+
+from gaps.film_heat import GapHeat
+from gaps.physics import Effect, FilmLaws, Physics
+from gaps.springs import SpringBore, SpringPlates
+from gaps.walls import BoreWalls, GapWalls, PlateWalls
+from reynolds.bodies.elasticity import Elastic
+from reynolds.fluid import Fluid
+from reynolds.viscosity import Barus
+from system.assumptions import Assumption, Taken
+from system.description import PumpDescription
+from system.floating_heat import all_taken, block_heat, piston_heat, slipper_heat
+from system.floating_parts import FloatingParts
+from system.gap_cycle import GapPhysics
+from system.given_thickness import opening_share
+from system.instants import Rotor
+from system.physics.effects import EffectId
+from system.physics.switched import switched_on
+from system.physics_description import FilmHeatingSection, OpeningSection
+from system.pump_gap import Gap
+from system.table_means import given_films
+from system.units import Dimension, format_quantity
+
+SOLVED = (
+    EffectId.FILM_HEATING,
+    EffectId.VISCOSITY_PRESSURE,
+    EffectId.ELASTIC_OPENING,
+    EffectId.THERMAL_CLEARANCE,
+)
+"""What films solve; a table of any other effect acts by its closed law."""
+_SOLVED_SHARES = (0.0, 1.0, 0.0)
+"""carried_share, throttled_share and carry_over by which the closed law comes nearest to films that solve them."""
+_PART = {Gap.PISTON: "piston", Gap.SLIPPER: "slipper", Gap.VALVE_PLATE: "block"}
+_FACES = {
+    Gap.PISTON: ("bushing", "piston"),
+    Gap.SLIPPER: ("swash_plate", "slipper"),
+    Gap.VALVE_PLATE: ("valve_plate", "block"),
+}
+_HEAT: Mapping[Gap, Callable[[Rotor, FloatingParts], GapHeat]] = {
+    Gap.PISTON: piston_heat,
+    Gap.SLIPPER: slipper_heat,
+    Gap.VALVE_PLATE: block_heat,
+}
+
+
+@dataclass(frozen=True)
+class FilmEffects:
+    """Films with the physics that [physics] has them solve: their parts, and what is on in each gap."""
+
+    parts: FloatingParts
+    physics: GapPhysics
+
+
+def effects_in_films(pump: PumpDescription) -> tuple[tuple[EffectId, ...], tuple[EffectId, ...]]:
+    """Effects of [physics] that films solve, and those that stay closed laws beside them."""
+    on = dict.fromkeys(extension.id for extension, _ in switched_on(pump))
+    return tuple(one for one in on if one in SOLVED), tuple(one for one in on if one not in SOLVED)
+
+
+def closed_laws(pump: PumpDescription) -> PumpDescription:
+    """The pump with only those effects that no film solves."""
+    off = dict.fromkeys(one.value for one in SOLVED)
+    return pump.model_copy(update={"physics": pump.physics.model_copy(update=off)})
+
+
+def film_effects(rotor: Rotor, parts: FloatingParts, pump: PumpDescription, physics: GapPhysics) -> FilmEffects:
+    """Parts and physics of the films with what the pump's [physics] has them solve, beside `physics`.
+
+    rotor, parts: of the pump as its films stand (`given_thickness`). What films take otherwise than the closed
+    laws is told among the parts' assumptions.
+    """
+    stated, taken = pump.physics, list(parts.taken)
+    on: dict[Gap, Physics] = {gap: getattr(physics, gap.value) for gap in Gap}
+    if stated.viscosity_pressure is not None:
+        fluid = Fluid(viscosity=Barus(stated.viscosity_pressure.coefficient))
+        parts = _with_laws(parts, lambda gap, laws: replace(laws, fluid=fluid))
+        on = {gap: own.including(Effect.PRESSURE_VISCOSITY) for gap, own in on.items()}
+        taken = [one for one in taken if one.path != "oil.pressure_viscosity"]
+    if stated.elastic_opening is not None:
+        soft = {gap: softened(pump, gap, _laws(parts, gap).walls) for gap in Gap}
+        parts = _with_laws(parts, lambda gap, laws: replace(laws, walls=soft[gap] or laws.walls))
+        on = {gap: own.including(Effect.ELASTIC_WALLS) if soft[gap] else own for gap, own in on.items()}
+    if stated.film_heating is not None:
+        parts, told = _between_walls(rotor, parts, stated.film_heating)
+        on = {gap: own.including(Effect.HEAT) for gap, own in on.items()}
+        taken += told
+    parts = replace(parts, taken=tuple(taken))
+    return FilmEffects(
+        replace(parts, taken=all_taken(rotor, parts, on[Gap.PISTON])), GapPhysics(*(on[gap] for gap in Gap))
+    )
+
+
+def softened(pump: PumpDescription, gap: Gap, walls: GapWalls | None) -> GapWalls | None:
+    """The walls that [physics.elastic_opening.GAP] gives a film; None for rigid ones, and where it has no table.
+
+    compliance C: the parts' own bodies with moduli E/C, since displacement is proportional to 1/E. opening s, a
+    share of the film per pressure: a wall on springs that a pressure p lifts by s p h0.
+    """
+    stated: OpeningSection | None = getattr(pump.physics.elastic_opening, gap.value)
+    if stated is None or walls is None:
+        return None
+    if stated.compliance is not None:
+        return _softer(walls, stated.compliance) if stated.compliance > 0.0 else None
+    springs = opening_share(pump, gap) * float(getattr(given_films(pump), gap.value))
+    if springs == 0.0:
+        return None
+    if isinstance(walls, BoreWalls):
+        return SpringBore(walls.piston, walls.bushing, compliance=springs)
+    assert isinstance(walls, PlateWalls)
+    return SpringPlates(walls.parts, compliance=springs)
+
+
+def _softer(walls: GapWalls, times: float) -> GapWalls:
+    """The same bodies, so many times as soft."""
+
+    def softer(part: Any) -> Any:
+        return replace(part, elastic=Elastic(part.elastic.youngs_modulus / times, part.elastic.poisson_ratio))
+
+    if isinstance(walls, BoreWalls):
+        return BoreWalls(softer(walls.piston), softer(walls.bushing))
+    assert isinstance(walls, PlateWalls)
+    one, two = walls.parts
+    return PlateWalls((softer(one), softer(two)))
+
+
+def _between_walls(
+    rotor: Rotor, parts: FloatingParts, stated: FilmHeatingSection
+) -> tuple[FloatingParts, tuple[Assumption, ...]]:
+    """Parts through both of which together a film's heat has the stated resistance; their ratio stays."""
+    materials, taken = dict(parts.materials), Taken()
+    for gap in Gap:
+        own, wanted = _both_ways(_HEAT[gap](rotor, parts)), float(getattr(stated, gap.value))
+        times = own / wanted if wanted > 0.0 else math.inf
+        for name in _FACES[gap]:
+            conductivity = materials[name].thermal_conductivity * times
+            materials[name] = replace(materials[name], thermal_conductivity=conductivity)
+        drawn = format_quantity(own, Dimension.THERMAL_RESISTANCE, digits=3)
+        taken.note(
+            f"walls of the {gap.value.replace('_', ' ')} film", f"{wanted / own:.3g} times as resistant to heat",
+            f"as [physics.film_heating] states; by drawing and material {drawn}",
+        )  # fmt: skip
+    shares = stated.carried_share, stated.throttled_share, stated.carry_over
+    if shares != _SOLVED_SHARES:
+        told = "carried_share {:.3g}, throttled_share {:.3g} and carry_over {:.3g}".format(*shares)
+        taken.note("heat of the oil", "as the films carry it", f"{told} are of the closed law alone")
+    return replace(parts, materials=materials), tuple(taken.assumptions)
+
+
+def _both_ways(heat: GapHeat) -> float:
+    """Resistance (m2 K/W) of the ways through both walls side by side."""
+    one, two = heat.fixed.resistance, heat.moving.resistance
+    return one * two / (one + two)
+
+
+def _laws(parts: FloatingParts, gap: Gap) -> FilmLaws:
+    found: FilmLaws = getattr(parts, _PART[gap]).laws
+    return found
+
+
+def _with_laws(parts: FloatingParts, changed: Callable[[Gap, FilmLaws], FilmLaws]) -> FloatingParts:
+    """The parts with the laws of each gap's film changed."""
+    found = {name: getattr(parts, name) for name in _PART.values()}
+    return replace(
+        parts,
+        **{name: replace(found[name], laws=changed(gap, found[name].laws)) for gap, name in _PART.items()},
+    )
