@@ -18,6 +18,7 @@ from diagnosis.verdict import Claim, Diagnosis
 from diagnosis.weighed import HeldOut
 from swashfilm.__main__ import main
 from swashfilm.diagnose_files import read_rows, write_diagnosis_files
+from swashfilm.diagnose_films import FilmsTold
 from swashfilm.diagnose_page import AXES, claim_rows, next_point_words, place_rows, strongest_courses
 from swashfilm.diagnose_plots import effect_courses, residual_maps
 from swashfilm.diagnose_runs import NOTHING, Told, run_both
@@ -70,7 +71,12 @@ def test_the_folder_holds_tables_and_a_page(study: Study, named: Diagnosis, tmp_
 def test_a_page_says_what_changes_in_the_pump(study: Study, named: Diagnosis, tmp_path: Path) -> None:
     """A point run without and with the finding: links to both, each number with its unit; films told."""
     row = {"quantity": "case drain", "unit": "L/min", "without": "1.2", "with": "1.9", "change": "0.7"}
-    told = Told((row,), "Point 7, where the finding adds most: 2100 rpm.", "No film fields.")
+    film = {
+        "quantity": "leakage, slipper", "unit": "L/min", "lumped_without": "0.4", "lumped_with": "1",
+        "films_without": "0.4", "films_with": "1.1",
+    }  # fmt: skip
+    films = FilmsTold((film,), "Films as they stand.")
+    told = Told((row,), "Point 7, where the finding adds most: 2100 rpm.", films)
     write_diagnosis_files(tmp_path, study, named, load_thresholds(), told=told)
     page = (tmp_path / "report.html").read_text("utf-8")
     for part in (
@@ -78,10 +84,13 @@ def test_a_page_says_what_changes_in_the_pump(study: Study, named: Diagnosis, tm
         'href="without/report.html"',
         'href="with/report.html"',
         "1.9 L/min",
-        "No film fields.",
+        "Films as they stand.",
+        "<td>0.4 -&gt; 1 L/min (x 2.5)</td><td>0.4 -&gt; 1.1 L/min (x 2.75)</td>",
+        "with/pump.pvd",
     ):
         assert part in page
     assert read_rows(tmp_path / "changes.csv") == [row]
+    assert read_rows(tmp_path / "films.csv") == [film]
 
 
 def test_a_meters_fault_is_no_change_of_the_pump(study: Study, named: Diagnosis, tmp_path: Path) -> None:

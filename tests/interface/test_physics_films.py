@@ -1,0 +1,196 @@
+"""[physics] in runs of the films fidelity: what a folder tells, a finding's films, and what refuses such pumps."""
+
+import json
+
+import numpy as np
+import pytest
+import pyvista
+import xarray
+
+from gaps.physics import Effect, Physics
+from swashfilm.__main__ import main
+from swashfilm.diagnose_films import FIELDS_FILE, OF_FILMS, film_pictures, films_of_both
+from swashfilm.film_oil_state import oil_state
+from swashfilm.pump_data import PICTURED_TURN
+from swashfilm.pump_summary import pump_summary
+from system.film_effects import SOLVED
+from system.films import films_point
+from system.gap_cycle import SMOOTH
+from system.lumped_point import lumped_point
+from system.operating import operating_point
+from system.physics.effects import EffectId
+from system.physics_description import PhysicsSection
+from system.pump_file import load_pump, resolved_toml
+
+PNG = b"\x89PNG"
+REF90 = load_pump("ref90")
+BARUS = 1.5e-8
+FOUND = {"viscosity_pressure": {"coefficient": BARUS}, "churning": {"factor": 1.0}}
+NAMES = ("without", "with")
+
+
+def extended(tables, pump=REF90):
+    return pump.model_copy(update={"physics": PhysicsSection.model_validate(tables)})
+
+
+def silent(done, total, what):
+    """Report to nobody."""
+
+
+@pytest.fixture(scope="module")
+def pump_file(tmp_path_factory):
+    path = tmp_path_factory.mktemp("pump") / "found.toml"
+    path.write_text(resolved_toml(extended(FOUND)), encoding="utf-8")
+    return path
+
+
+@pytest.fixture(scope="module")
+def run(pump_file, tmp_path_factory):
+    folder = tmp_path_factory.mktemp("films") / "run"
+    assert main(["run", str(pump_file), "-o", str(folder)]) == 0
+    return folder
+
+
+def test_the_summary_tells_what_the_films_solve(run):
+    summary = json.loads((run / "summary.json").read_text("utf-8"))
+    assert summary["physics"] == {"films_solve": ["viscosity_pressure"], "closed_laws": ["churning"]}
+    page = (run / "report.html").read_text("utf-8")
+    assert "the films solve viscosity pressure; by closed laws: churning." in page
+
+
+def test_results_and_fields_for_paraview_hold_the_oils_state(run):
+    """Barus' law at every vertex; no temperature of films that have the case's."""
+    with xarray.open_dataset(run / "results.nc", engine="h5netcdf") as data:
+        pressure, viscosity = (data[f"slipper_{name}"].values for name in ("film_pressure", "film_viscosity"))
+        assert data["slipper_film_viscosity"].attrs["units"] == "Pa s"
+        assert "slipper_film_temperature" not in data
+    resting = json.loads((run / "summary.json").read_text("utf-8"))["operating_point"]["viscosity_Pa_s"]
+    np.testing.assert_allclose(viscosity, resting * np.exp(BARUS * pressure), rtol=0.02)  # between a cell's points
+    mesh = pyvista.read(next((run / "fields").glob("slipper_*.vtu")))
+    assert {"film_pressure", "film_thickness", "film_viscosity"} <= set(mesh.point_data)
+
+
+def test_oil_of_a_cold_film_has_the_cases_state():
+    """A film that is warm by name only: its viscosity and temperature are those of the case."""
+    point = operating_point(REF90)
+    films = films_point(REF90, point, positions_per_pitch=2, finer=0.25, tolerance=1.0)
+    solution = films.gaps.slipper[0].solution
+    assert oil_state(REF90, Physics(heat=False, pressure_viscosity=False), solution) == {}
+    found = oil_state(REF90, SMOOTH.including(Effect.HEAT), solution)
+    np.testing.assert_allclose(found["film_viscosity"], point.viscosity)
+    np.testing.assert_allclose(found["film_temperature"], point.temperature)
+
+
+def test_a_lumped_run_has_every_effect_by_its_closed_law(pump_file, tmp_path):
+    assert main(["run", str(pump_file), "--fidelity", "lumped", "-o", str(tmp_path / "run")]) == 0
+    summary = json.loads((tmp_path / "run" / "summary.json").read_text("utf-8"))
+    assert summary["physics"] == {"films_solve": [], "closed_laws": ["viscosity_pressure", "churning"]}
+
+
+def test_a_run_at_another_temperature_has_the_films_of_that_temperature(tmp_path):
+    """The clearance's law starts from the pump's own temperature, also where the command line gives another."""
+    path = tmp_path / "pump.toml"
+    path.write_text(resolved_toml(extended({"thermal_clearance": {"slipper": {"rate": 0.01}}})), encoding="utf-8")
+    plain, found = tmp_path / "plain", tmp_path / "found"
+    for name, folder in (("ref90", plain), (str(path), found)):
+        assert main(["run", name, "--temperature", "70degC", "--fidelity", "lumped", "-o", str(folder)]) == 0
+    one, other = (json.loads((folder / "summary.json").read_text("utf-8")) for folder in (plain, found))
+    times = other["leakage"]["slipper_m3_per_s"] / one["leakage"]["slipper_m3_per_s"]
+    assert 1.4 < times < 1.2**3  # its orifice takes a part of the pressure
+    again = load_pump(str(found / "resolved.toml"))
+    assert again.slipper.film_thickness == pytest.approx(1.2 * REF90.slipper.film_thickness)
+
+
+@pytest.fixture(scope="module")
+def both(tmp_path_factory):
+    """Run folders' films without and with a slipper that opens, and what is told of them."""
+    folder = tmp_path_factory.mktemp("both")
+    pumps = {"without": REF90, "with": extended({"elastic_opening": {"slipper": {"opening": 2e-8}}})}
+    summaries = {
+        name: pump_summary(pump, lumped_point(pump, operating_point(pump)), None, [])
+        for name, pump in pumps.items()
+    }
+    for name in pumps:
+        (folder / name).mkdir()
+    return folder, films_of_both(folder, pumps, summaries, {EffectId.ELASTIC_OPENING}, silent)
+
+
+def test_a_finding_is_followed_into_the_films(both):
+    """Fields of both pumps for ParaView; leakage by closed law and by films, by nearly the same factor."""
+    folder, told = both
+    for name in NAMES:
+        assert (folder / name / "pump.pvd").is_file()
+        assert (folder / name / FIELDS_FILE).is_file()
+    rows = {row["quantity"]: row for row in told.rows}
+    assert list(rows) == [
+        f"{what}, {gap}" for gap in ("piston", "slipper", "valve plate") for what in ("leakage", "shear")
+    ]
+    opened = rows["leakage, slipper"]
+    law, films = (float(opened[f"{kind}_with"]) / float(opened[f"{kind}_without"]) for kind in ("lumped", "films"))
+    assert law > 2.0
+    assert films == pytest.approx(law, rel=0.05)
+    same = rows["leakage, valve plate"]
+    assert float(same["films_with"]) == pytest.approx(float(same["films_without"]), rel=0.01)
+    assert "at 18 shaft angles" in told.text
+
+
+def test_the_gap_that_opens_is_drawn_without_beside_with(both):
+    folder, _ = both
+    found = {"effects": [{"id": "elastic_opening", "pair": "slipper"}, {"id": "churning", "pair": None}]}
+    pictures = film_pictures(folder, NAMES, found)
+    ((caption, png),) = pictures.items()
+    assert f"slipper at {20 * round(18 * PICTURED_TURN)} deg of the shaft, without and with" in caption
+    assert png.startswith(PNG)
+    everywhere = film_pictures(folder, NAMES, {"effects": [{"id": "film_heating", "pair": None}]})
+    assert len(everywhere) == 3
+    assert film_pictures(folder / "with", NAMES, found) == {}
+
+
+def test_a_finding_beside_the_films_solves_none(tmp_path):
+    told = films_of_both(tmp_path, {"without": REF90}, {}, {EffectId.CHURNING}, silent)
+    assert told.rows == ()
+    assert "beside the films" in told.text
+    assert set(SOLVED) < set(OF_FILMS)
+
+
+def test_films_that_cannot_be_solved_tell_why(tmp_path):
+    """Single parts, and a part that stands in a wall."""
+    single = load_pump("ref90", {"piston.3.radial_clearance": "25 um"})
+    told = films_of_both(tmp_path, {"without": single}, {}, {EffectId.FILM_HEATING}, silent)
+    assert told.text.startswith("Chambers differ")
+    touching = REF90.model_copy(update={"slipper": REF90.slipper.model_copy(update={"tilt_radial": 2e-3})})
+    told = films_of_both(tmp_path, {"without": touching}, {}, {EffectId.FILM_HEATING}, silent)
+    assert told.text.startswith("The films could not be solved: ")
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        (["run", "PUMP", "--fidelity", "floating"], "the lumped or the films fidelity"),
+        (["map", "PUMP", "--plan", "point"], "--fidelity lumped, or --fidelity films --direct"),
+        (["table", "PUMP", "--points", "32"], "the lumped or the films fidelity"),
+        (["film", "CASE"], "swashfilm run --fidelity lumped or films reads them"),
+        (["transient", "TRANSIENT"], "swashfilm run --fidelity lumped or films reads them"),
+    ],
+)
+def test_what_does_not_read_them_says_so(pump_file, tmp_path, monkeypatch, capsys, words, told):
+    monkeypatch.chdir(tmp_path)
+    case, transient = tmp_path / "case.toml", tmp_path / "transient.toml"
+    case.write_text(f'format = 1\n[film]\ngap = "slipper"\npump = "{pump_file}"\n', encoding="utf-8")
+    transient.write_text(f'format = 1\n[transient]\npump = "{pump_file}"\n', encoding="utf-8")
+    given = {"PUMP": pump_file, "CASE": case, "TRANSIENT": transient}
+    assert main([str(given.get(word, word)) for word in words]) == 2
+    said = capsys.readouterr().err
+    assert told in said
+    assert "viscosity_pressure" in said or "effects that a response table" in said
+    assert not list(tmp_path.glob("runs/*"))
+
+
+def test_a_map_of_films_solved_point_by_point_reads_them(pump_file, tmp_path):
+    words = ["map", str(pump_file), "--plan", "point", "--direct", "--check", "0", "-o", str(tmp_path / "map")]
+    assert main(words) == 0
+    with xarray.open_dataset(tmp_path / "map" / "map.nc", engine="h5netcdf") as data:
+        drain = float(data["drain_flow"].values.ravel()[0])
+    point = films_point(load_pump(str(pump_file)), operating_point(REF90)).pump_point
+    assert drain == pytest.approx(point.bench.drain_flow, rel=1e-9)

@@ -1,0 +1,255 @@
+"""[physics] at the films fidelity: closed forms that films must meet, two ways to state one thing, all effects."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from gaps.physics import Effect
+from gaps.springs import SpringBore, SpringPlates
+from gaps.stand import Stand
+from gaps.walls import BoreWalls, PlateWalls
+from reynolds.errors import FilmInputError
+from system.film_effects import SOLVED, effects_in_films, film_effects
+from system.films import films_point
+from system.floating_parts import floating_parts
+from system.gap_cycle import PLAIN, SMOOTH, GapPhysics, gap_cycle
+from system.given_thickness import at_temperature, moved_to, unpressed
+from system.instants import rotor
+from system.lumped_point import lumped_point
+from system.operating import operating_point
+from system.physics.catalogue import EXTENSIONS
+from system.physics.effects import EffectId
+from system.physics.film_laws import barus_flow, opening_flow
+from system.physics.rubbing import OF_GAP
+from system.physics_description import PhysicsSection
+from system.pump_file import load_pump
+from system.pump_gap import Gap
+
+REF90 = load_pump("ref90")
+COARSE = {"positions_per_pitch": 2, "finer": 0.5}
+OPENING, COEFFICIENT = 2e-8, 2e-8
+ROUNDED = 1e-9
+CLOSED = 2e-3
+"""Largest error of the power balance with an effect on, of the shaft power: that of the lumped fidelity twice."""
+
+
+def extended(tables, pump=REF90):
+    return pump.model_copy(update={"physics": PhysicsSection.model_validate(tables)})
+
+
+def coarse(pump, **options):
+    return films_point(pump, operating_point(pump), **COARSE | options)
+
+
+def leaks(films):
+    return np.array([getattr(films.pump_point.leakage_flow, gap.value) for gap in Gap])
+
+
+def slow_flow(tables, case_pressure):
+    """Flow (N,) m3/s past pistons in the middle of their bores that hardly slide, under one pressure."""
+    centred = {"piston.eccentricity_ratio": 0.0, "operating.case_pressure": f"{case_pressure} Pa"}
+    pump = extended(tables, load_pump("ref90", centred))
+    point, stands = replace(operating_point(pump), shaft_speed=SLOW), unpressed(pump, case_pressure)
+    at = rotor(stands, point)
+    films = film_effects(at, floating_parts(stands), pump, PLAIN)
+    angles = 2.0 * np.pi * np.arange(18) / 18
+    return gap_cycle(at, films.parts, angles, np.full(18, FULL), physics=films.physics, finer=0.5).flow[0]
+
+
+SLOW, FULL = 1e-3, 30e6  # rad/s, Pa
+SLID = 1e-5
+"""Of the flow: what is carried by that sliding."""
+
+
+@pytest.fixture(scope="module")
+def plain():
+    return coarse(REF90)
+
+
+@pytest.mark.parametrize("case_pressure", [0.0, 1e6])
+def test_springs_let_through_what_the_closed_law_says(case_pressure):
+    """int h^3 dp over h = h0 (1 + s (p - pc)): the law's very integral."""
+    stated = {"elastic_opening": {"piston": {"opening": OPENING}}}
+    ratio = slow_flow(stated, case_pressure) / slow_flow({}, case_pressure)
+    np.testing.assert_allclose(ratio, opening_flow(np.array(OPENING * (FULL - case_pressure))), rtol=SLID)
+
+
+def test_oil_that_stiffens_lets_through_what_barus_says():
+    """(1 - exp(-a p))/(a p), exact for a film of one thickness; at no case pressure, from which the law counts."""
+    ratio = slow_flow({"viscosity_pressure": {"coefficient": COEFFICIENT}}, 0.0) / slow_flow({}, 0.0)
+    np.testing.assert_allclose(ratio, barus_flow(np.array(COEFFICIENT * FULL)), rtol=SLID)
+
+
+@pytest.mark.parametrize("gap", list(Gap))
+def test_compliance_one_is_the_pumps_own_bodies_and_none_is_rigid(gap, plain):
+    few = {"finer": 0.25, "tolerance": 1.0}
+    soft = {gap.value: SMOOTH.including(Effect.ELASTIC_WALLS)}
+    own = coarse(REF90, physics=GapPhysics(**soft), **few)
+    stated = coarse(extended({"elastic_opening": {gap.value: {"compliance": 1.0}}}), **few)
+    np.testing.assert_allclose(leaks(stated), leaks(own), rtol=ROUNDED)
+    rigid = coarse(extended({"elastic_opening": {gap.value: {"compliance": 0.0}}}))
+    np.testing.assert_allclose(leaks(rigid), leaks(plain), rtol=ROUNDED)
+
+
+def test_compliance_is_a_softer_material():
+    softer = {f"materials.{name}.youngs_modulus": f"{value / 1.5} GPa" for name, value in SLIDES.items()}
+    pump = load_pump("ref90", softer | {f"materials.{name}.poissons_ratio": r for name, r in RATIOS.items()})
+    own = coarse(pump, physics=GapPhysics(slipper=SMOOTH.including(Effect.ELASTIC_WALLS)))
+    stated = coarse(extended({"elastic_opening": {"slipper": {"compliance": 1.5}}}))
+    np.testing.assert_allclose(leaks(stated), leaks(own), rtol=1e-6)
+
+
+SLIDES, RATIOS = {"slipper": 110.0, "swash_plate": 210.0}, {"slipper": 0.34, "swash_plate": 0.3}
+"""GPa, and Poisson's ratios, as `floating_parts` takes them of ref90."""
+
+
+def test_springs_open_by_their_own_pressure_alone():
+    parts = floating_parts(REF90)
+    space = films_point(REF90, operating_point(REF90), **COARSE).gaps.piston[0].solution.problem.space
+    bore, plates = parts.piston.laws.walls, parts.slipper.laws.walls
+    assert isinstance(bore, BoreWalls)
+    assert isinstance(plates, PlateWalls)
+    pressure = np.arange(float(space.size))
+    on = SpringBore(bore.piston, bore.bushing, compliance=1e-13)
+    np.testing.assert_allclose(on.at(space, Stand()).matrix @ pressure, 1e-13 * pressure[space.vertex_dofs])
+    assert not (on.piston_at(space, Stand()).matrix @ pressure).any()
+    bare = on.by_chamber(space, Stand())
+    assert bare.swollen == 0.0
+    assert not bare.opened.any()
+    also = SpringPlates(plates.parts, compliance=2e-13)
+    np.testing.assert_allclose(also.at(space, Stand()).matrix @ pressure, 2e-13 * pressure[space.vertex_dofs])
+
+
+def test_heat_between_the_pumps_own_walls_is_heat():
+    """The resistance by drawing and material, stated, changes nothing; a lesser one cools the film."""
+    point = operating_point(REF90)
+    own = film_effects(rotor(REF90, point), floating_parts(REF90), extended({"film_heating": {}}), PLAIN)
+    told = [one for one in own.parts.taken if one.path.startswith("walls of the")]
+    assert [one.path for one in told] == [f"walls of the {name} film" for name in NAMES]
+    stated = {gap.value: in_unit_of(one.reason) for gap, one in zip(Gap, told, strict=True)}
+    heated = extended({"film_heating": stated})
+    few = {"positions_per_pitch": 2, "finer": 0.25, "tolerance": 1.0}
+    hot = films_point(REF90, point, physics=GapPhysics.alike(SMOOTH.including(Effect.HEAT)), **few)
+    same, cooled = (films_point(pump, point, **few) for pump in (heated, extended({"film_heating": {}})))
+    np.testing.assert_allclose(leaks(same), leaks(hot), rtol=5e-3)  # the stated ones are of three digits
+    assert np.all(leaks(cooled) < leaks(hot))
+    assert [one.value for one in same.parts.taken if one.path == told[0].path] == ["1 times as resistant to heat"]
+
+
+NAMES = ("piston", "slipper", "valve plate")
+
+
+def in_unit_of(reason):
+    """m2 K/W at the end of what is told of a wall."""
+    return float(reason.rpartition("material ")[2].partition(" ")[0])
+
+
+def test_shares_that_films_do_not_read_are_told():
+    at, parts = rotor(REF90, operating_point(REF90)), floating_parts(REF90)
+    usual, other = (
+        film_effects(at, parts, extended({"film_heating": table}), PLAIN) for table in ({}, {"carry_over": 0.4})
+    )
+    assert not any(one.path == "heat of the oil" for one in usual.parts.taken)
+    (told,) = (one for one in other.parts.taken if one.path == "heat of the oil")
+    assert "carry_over 0.4" in told.reason
+
+
+def test_barus_coefficient_takes_the_place_of_the_usual_one():
+    at, parts = rotor(REF90, operating_point(REF90)), floating_parts(REF90)
+    assert any(one.path == "oil.pressure_viscosity" for one in parts.taken)
+    found = film_effects(at, parts, extended({"viscosity_pressure": {"coefficient": 1e-8}}), PLAIN).parts
+    assert not any(one.path == "oil.pressure_viscosity" for one in found.taken)
+    for part in (found.piston, found.slipper, found.block):
+        assert part.laws.fluid.viscosity(1e8, 0.03)[0] == pytest.approx(0.03 * np.e)
+
+
+WARMER = 20.0
+RATES = {
+    "thermal_clearance": {"piston": {"rate": 8e-3}, "slipper": {"rate": -4e-3}, "valve_plate": {"rate": 5e-3}}
+}
+CARRIED = 3e-3
+"""Of a leakage: what the piston carries along, in proportion to its film, which the closed law leaves as it is."""
+
+
+def test_a_clearance_that_warmth_changes_is_a_film_thickness():
+    """By the closed law, as the pump there, and in films: the same pump."""
+    pump = extended(RATES)
+    warm = replace(operating_point(REF90), temperature=REF90.operating.temperature + WARMER)
+    there = at_temperature(pump, warm.temperature)
+    assert not there.physics.on
+    assert there.slipper.film_thickness == pytest.approx((1.0 - 4e-3 * WARMER) * REF90.slipper.film_thickness)
+    by_law, as_pump = lumped_point(pump, warm), lumped_point(there, warm)
+    for one in ("piston", "slipper", "valve_plate"):
+        assert getattr(by_law.leakage_flow, one) == pytest.approx(getattr(as_pump.leakage_flow, one), rel=CARRIED)
+        loss = OF_GAP[Gap(one)]
+        viscous = by_law.pairs.loss(loss).mean_viscous
+        assert viscous == pytest.approx(as_pump.pairs.loss(loss).mean_viscous, rel=1e-9)
+    np.testing.assert_array_equal(
+        leaks(films_point(pump, warm, **COARSE)), leaks(films_point(there, warm, **COARSE))
+    )
+
+
+def test_a_pump_moved_to_another_temperature_keeps_its_films_there():
+    pump = extended(RATES)
+    warm = pump.operating.temperature + WARMER
+    moved = moved_to(pump, pump.operating.model_copy(update={"temperature": warm}))
+    assert moved.operating.temperature == warm
+    assert moved.piston.radial_clearance == pytest.approx((1.0 + 8e-3 * WARMER) * REF90.piston.radial_clearance)
+    one, other = (lumped_point(each, operating_point(moved)).bench.drain_flow for each in (pump, moved))
+    assert one == pytest.approx(other, rel=CARRIED)
+
+
+def test_single_parts_expand_too():
+    pump = extended(RATES, load_pump("ref90", {"piston.3.radial_clearance": "25 um"}))
+    there = at_temperature(pump, pump.operating.temperature + WARMER)
+    ((chamber, part),) = there.single_pistons
+    assert chamber == 3
+    assert part.radial_clearance == pytest.approx(1.16 * 25e-6)
+
+
+def test_a_film_that_warmth_closes_is_refused():
+    pump = extended({"thermal_clearance": {"slipper": {"rate": -0.02}}})
+    with pytest.raises(FilmInputError, match=r"thermal_clearance.slipper.rate: -0.02 1/K.*expected above -0.0167"):
+        at_temperature(pump, pump.operating.temperature + 60.0)
+
+
+@pytest.mark.parametrize(
+    "extension", [pytest.param(one, id=one.parameters[0].name) for one in EXTENSIONS if one.id not in SOLVED]
+)
+def test_what_no_film_solves_adds_what_it_adds_at_the_lumped_fidelity(extension, plain):
+    """Flows past the chambers and drag are the same; factors on gaps and ports as nearly as gaps and shear are."""
+    values = {one.name.rpartition(".")[2]: one.value(1.0) for one in extension.parameters}
+    table = {**extension.members[-1].grid[0], **values}
+    pump = extended({extension.id.value: {extension.pair.value: table} if extension.pair else table})
+    films, lumped = coarse(pump).pump_point, lumped_point(pump, operating_point(pump))
+    bare, before = plain.pump_point, lumped_point(REF90, operating_point(REF90))
+    for name in ("delivery_flow", "inlet_flow", "drain_flow", "shaft_torque"):
+        one, other = (
+            getattr(with_it.bench, name) - getattr(without.bench, name)
+            for with_it, without in ((films, bare), (lumped, before))
+        )
+        assert one == pytest.approx(other, rel=0.1, abs=2e-3 * abs(getattr(before.bench, name)))
+    assert films.checks.energy_balance_error < CLOSED
+    assert effects_in_films(pump) == ((), (extension.id,))
+
+
+def test_several_effects_at_once_keep_energy():
+    pump = extended(
+        {
+            "viscosity_pressure": {"coefficient": 1.5e-8},
+            "elastic_opening": {"slipper": {"opening": 1e-8}, "valve_plate": {"opening": 5e-9}},
+            "swash_droop": {"rate": 1e-10},
+            "churning": {"factor": 1.0},
+            "control_flow": {"area": 2e-7, "laminar": 0.5},
+        }
+    )
+    films = coarse(pump)
+    assert films.pump_point.checks.energy_balance_error < CLOSED
+    assert films.physics.slipper.elastic_walls
+    assert films.physics.valve_plate.elastic_walls
+    assert not films.physics.piston.elastic_walls
+    assert films.physics.piston.pressure_viscosity
+    solved, laws = effects_in_films(pump)
+    assert solved == (EffectId.VISCOSITY_PRESSURE, EffectId.ELASTIC_OPENING)
+    assert set(laws) == {EffectId.SWASH_DROOP, EffectId.CHURNING, EffectId.CONTROL_FLOW}
