@@ -1,6 +1,6 @@
 """[physics] as films have it: what heats, stiffens or opens a film is solved in it, not put on as a factor.
 
-    film_heating        films warm, between walls whose way to the case has the stated resistance
+    film_heating        films warm, between walls by which their heat has the stated resistance to the case
     viscosity_pressure  Barus' law at every place of the films
     elastic_opening     by compliance: the parts' own bodies, so many times as soft; by opening: a wall on springs
     thermal_clearance   films as thick as their walls leave them at the point's temperature (`given_thickness`)
@@ -141,10 +141,16 @@ def _softer(walls: GapWalls, times: float) -> GapWalls:
 def _between_walls(
     rotor: Rotor, parts: FloatingParts, stated: FilmHeatingSection
 ) -> tuple[FloatingParts, tuple[Assumption, ...]]:
-    """Parts through both of which together a film's heat has the stated resistance; their ratio stays."""
+    """Parts by which a film's mean temperature has the stated resistance R to the case; their ratio stays.
+
+    Both walls together have R - h/(12 k), none below zero: the mean of a film that heat made evenly across it
+    leaves by both walls lies q h/(12 k) above them.
+    """
     materials, taken = dict(parts.materials), Taken()
     for gap in Gap:
-        own, wanted = _both_ways(_HEAT[gap](rotor, parts)), float(getattr(stated, gap.value))
+        heat = _HEAT[gap](rotor, parts)
+        inside = float(getattr(given_films(rotor.pump), gap.value)) / (12.0 * heat.conductivity)
+        own, wanted = _both_ways(heat), max(float(getattr(stated, gap.value)) - inside, 0.0)
         times = own / wanted if wanted > 0.0 else math.inf
         for name in _FACES[gap]:
             conductivity = materials[name].thermal_conductivity * times
@@ -152,7 +158,7 @@ def _between_walls(
         drawn = format_quantity(own, Dimension.THERMAL_RESISTANCE, digits=3)
         taken.note(
             f"walls of the {gap.value.replace('_', ' ')} film", f"{wanted / own:.3g} times as resistant to heat",
-            f"as [physics.film_heating] states; by drawing and material {drawn}",
+            f"as [physics.film_heating] states, less the film's own; by drawing and material {drawn}",
         )  # fmt: skip
     shares = stated.carried_share, stated.throttled_share, stated.carry_over
     if shares != _SOLVED_SHARES:

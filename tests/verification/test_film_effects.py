@@ -122,12 +122,12 @@ def test_springs_open_by_their_own_pressure_alone():
 
 
 def test_heat_between_the_pumps_own_walls_is_heat():
-    """The resistance by drawing and material, stated, changes nothing; a lesser one cools the film."""
+    """The resistance by drawing and material, stated with the film's own, changes nothing; a lesser one cools."""
     point = operating_point(REF90)
     own = film_effects(rotor(REF90, point), floating_parts(REF90), extended({"film_heating": {}}), PLAIN)
     told = [one for one in own.parts.taken if one.path.startswith("walls of the")]
     assert [one.path for one in told] == [f"walls of the {name} film" for name in NAMES]
-    stated = {gap.value: in_unit_of(one.reason) for gap, one in zip(Gap, told, strict=True)}
+    stated = {gap.value: in_unit_of(one.reason) + WITHIN[gap] for gap, one in zip(Gap, told, strict=True)}
     heated = extended({"film_heating": stated})
     few = {"positions_per_pitch": 2, "finer": 0.25, "tolerance": 1.0}
     hot = films_point(REF90, point, physics=GapPhysics.alike(SMOOTH.including(Effect.HEAT)), **few)
@@ -138,6 +138,8 @@ def test_heat_between_the_pumps_own_walls_is_heat():
 
 
 NAMES = ("piston", "slipper", "valve plate")
+WITHIN = dict(zip(Gap, np.array([15e-6, 10e-6, 8e-6]) / (12.0 * 0.13), strict=True))
+"""h/(12 k) of ref90's films, m2 K/W."""
 
 
 def in_unit_of(reason):

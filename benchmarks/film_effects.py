@@ -1,0 +1,73 @@
+"""[physics] by closed laws and by films that solve it: by what factor leakage and shear of a gap change.
+
+    python benchmarks/film_effects.py
+
+REF90 at its own point; films as a diagnosis solves them (half the usual cells, 18 shaft angles). Two minutes; the
+first time some more, for the bodies of the parts.
+"""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from time import perf_counter
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+
+from system.assembly import PumpPoint
+from system.films import films_point
+from system.lumped_point import lumped_point
+from system.operating import operating_point
+from system.physics.rubbing import OF_GAP
+from system.physics_description import PhysicsSection
+from system.pump_file import load_pump
+from system.pump_gap import Gap
+
+COARSE = {"positions_per_pitch": 2, "finer": 0.5, "tolerance": 0.05}
+CASES = {
+    "viscosity_pressure 20 1/GPa": {"viscosity_pressure": {"coefficient": 2e-8}},
+    **{
+        f"elastic_opening.{gap.value} opening 20 1/GPa": {"elastic_opening": {gap.value: {"opening": 2e-8}}}
+        for gap in Gap
+    },
+    **{
+        f"elastic_opening.{gap.value} compliance 1": {"elastic_opening": {gap.value: {"compliance": 1.0}}}
+        for gap in Gap
+    },
+    "film_heating 6.6e-05 m2 K/W": {"film_heating": dict.fromkeys((gap.value for gap in Gap), 6.6e-5)},
+}
+
+
+def numbers(point: PumpPoint) -> dict[Gap, tuple[float, float]]:
+    """Leakage (m3/s) and shear (W) of each gap."""
+    return {
+        gap: (getattr(point.leakage_flow, gap.value), point.pairs.loss(pair).mean_viscous)
+        for gap, pair in OF_GAP.items()
+    }
+
+
+def main() -> None:
+    """Print the table, gaps that an effect leaves as they are left out."""
+    pump = load_pump("ref90")
+    at = operating_point(pump)
+    plain = numbers(lumped_point(pump, at)), numbers(films_point(pump, at, **COARSE).pump_point)
+    print("| effect | gap | leakage, law | films | shear, law | films | films took s |\n" + "|---" * 7 + "|")
+    for name, stated in CASES.items():
+        extended = pump.model_copy(update={"physics": PhysicsSection.model_validate(stated)})
+        law = numbers(lumped_point(extended, at))
+        began = perf_counter()
+        films = numbers(films_point(extended, at, **COARSE).pump_point)
+        took = perf_counter() - began
+        for gap in Gap:
+            told = [
+                f"{found[gap][k] / before[gap][k]:.3f}"
+                for k in (0, 1)
+                for found, before in zip((law, films), plain, strict=True)
+            ]
+            if abs(float(told[0]) - 1.0) > 0.01:
+                shown = gap.value.replace("_", " ")
+                print(f"| {name} | {shown} | {' | '.join(told)} | {took:.1f} |", flush=True)
+
+
+if __name__ == "__main__":
+    main()
