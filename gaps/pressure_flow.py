@@ -1,6 +1,7 @@
 """What pressure alone drives through the film of a standing part: its walls at rest, nothing torn.
 
-Films of constant viscosity between rigid walls; then flows are linear in the pressures.
+The film stays as it is, as thick as its walls are open and its oil as stiff as under the film's pressure: then
+flows are linear in the pressures.
 """
 
 from __future__ import annotations
@@ -20,17 +21,21 @@ from reynolds.solve import FilmSolver
 
 
 def walls_at_rest(
-    problem: FilmProblem, boundary: Mapping[str, Boundary], held_nodes: Array | None = None
+    solution: FilmSolution, boundary: Mapping[str, Boundary], held_nodes: Array | None = None
 ) -> FilmProblem:
-    """The film between walls that stand, with other pressures at its edges and held nodes."""
-    still = replace(problem.film, velocity_moving=(ZERO, ZERO), velocity_fixed=(ZERO, ZERO), squeeze=ZERO)
+    """A film as it is, between walls that stand, with other pressures at its edges and held nodes."""
+    problem = solution.problem
+    still = replace(
+        problem.film, viscosity=solution.film.viscosity, velocity_moving=(ZERO, ZERO), velocity_fixed=(ZERO, ZERO),
+        squeeze=ZERO,
+    )  # fmt: skip
     return FilmProblem(problem.space, still, boundary, Cavitation.NONE, held_nodes=held_nodes)
 
 
 def piston_conductance(solver: FilmSolver, stage: Stage) -> float:
     """Flow from chamber to case per pressure difference, m3/(s Pa)."""
     edges: dict[str, Boundary] = {"chamber": Held(1.0), "case": Held(0.0)}
-    return boundary_flows(solver.solve(walls_at_rest(stage.solution.problem, edges)))["case"]
+    return boundary_flows(solver.solve(walls_at_rest(stage.solution, edges)))["case"]
 
 
 def slipper_conductance(solver: FilmSolver, film: SlipperFilm, stage: Stage) -> float:
@@ -44,7 +49,7 @@ def slipper_land_conductance(solver: FilmSolver, film: SlipperFilm, stage: Stage
     lands = film.shape.lands
     edges: dict[str, Boundary] = {name: Pocket(no_feed) for name in lands.closed}
     edges |= {"pocket": Held(1.0)} | dict.fromkeys(lands.open, Held(0.0))
-    flows = boundary_flows(solver.solve(walls_at_rest(stage.solution.problem, edges)))
+    flows = boundary_flows(solver.solve(walls_at_rest(stage.solution, edges)))
     return sum(flows[name] for name in lands.open)
 
 
@@ -55,7 +60,7 @@ def kidney_conductances(solver: FilmSolver, film: BlockFilm, stage: Stage) -> Ar
     found = []
     for name in film.geometry.kidneys:
         edges: dict[str, Boundary] = {edge: Held(float(edge == name)) for edge in problem.boundary}
-        found.append(-boundary_flows(solver.solve(walls_at_rest(problem, edges, ports)))[name])
+        found.append(-boundary_flows(solver.solve(walls_at_rest(stage.solution, edges, ports)))[name])
     return np.array(found)
 
 
@@ -65,7 +70,7 @@ def carried_power(solver: FilmSolver, film: BlockFilm, stage: Stage) -> float:
     (flow - pressure flow) x (pressure - case pressure).
     """
     drive, problem = film.drive, stage.solution.problem
-    still = solver.solve(walls_at_rest(problem, problem.boundary, problem.held_nodes))
+    still = solver.solve(walls_at_rest(stage.solution, problem.boundary, problem.held_nodes))
     above = film.chamber_pressures(drive.shaft_speed * stage.time)
     pressures = np.array([*above, drive.suction_pressure, drive.delivery_pressure]) - drive.case_pressure
     return float((_inflows(film, stage.solution) - _inflows(film, still)) @ pressures)

@@ -11,7 +11,7 @@ from gaps.stand import Stand
 from gaps.walls import BoreWalls, PlateWalls
 from reynolds.errors import FilmInputError
 from system.film_effects import SOLVED, effects_in_films, film_effects
-from system.films import films_point
+from system.films import films_point, leak_table
 from system.floating_parts import floating_parts
 from system.gap_cycle import PLAIN, SMOOTH, GapPhysics, gap_cycle
 from system.given_thickness import at_temperature, moved_to, unpressed
@@ -79,6 +79,24 @@ def test_oil_that_stiffens_lets_through_what_barus_says():
     """(1 - exp(-a p))/(a p), exact for a film of one thickness; at no case pressure, from which the law counts."""
     ratio = slow_flow({"viscosity_pressure": {"coefficient": COEFFICIENT}}, 0.0) / slow_flow({}, 0.0)
     np.testing.assert_allclose(ratio, barus_flow(np.array(COEFFICIENT * FULL)), rtol=SLID)
+
+
+def test_a_slipper_that_lies_flat_carries_no_oil_however_its_oil_stiffens():
+    """All its flow is driven by pressure, all its walls' power is shear: by Barus' mean over its lands.
+
+    exp(-a p) falls in proportion to ln r over the lands, of which the mean of exp(a p) is an integral.
+    """
+    stiff = coarse(extended({"viscosity_pressure": {"coefficient": COEFFICIENT}}), tolerance=1.0)
+    carried = leak_table(stiff.gaps, stiff.pump_point.point.case_pressure).carried_flow[1]
+    assert np.abs(carried).max() < 1e-3 * stiff.gaps.flow[1].max()
+    k = int(0.75 * len(stiff.gaps.slipper))
+    one, other = stiff.gaps.slipper[k], coarse(REF90, tolerance=1.0).gaps.slipper[k]
+    inside, outside = np.exp(-COEFFICIENT * np.array([one.loads.pressure_max, REF90.operating.case_pressure]))
+    edges = REF90.slipper.land_inner_radius, REF90.slipper.land_outer_radius
+    radius = np.linspace(*edges, 2001)
+    way = np.log(radius / edges[0]) / np.log(edges[1] / edges[0])
+    mean = np.trapezoid(radius / (inside + (outside - inside) * way), radius) / np.trapezoid(radius, radius)
+    assert one.friction_power / other.friction_power == pytest.approx(mean, rel=0.01)  # six cells across
 
 
 @pytest.mark.parametrize("gap", list(Gap))
