@@ -33,9 +33,7 @@ REACH = 3.0  # xi of a nuisance where a fit may start: the linear model knows no
 FARTHER = 10.0  # times the fault factor: the wider prior of what is out of order
 LIMITS = FitLimits(change=0.1)  # of the objective: a twentieth of a nat decides nothing, and costs sixfold less
 GRID_MEMBERS = 2  # of a grid that are refitted: the likeliest
-GROSS = (
-    3.0  # of the objective per reading: from there slopes about the prior mean, and what they promise, tell little
-)
+GROSS = 3.0  # of the objective per reading, from which on slopes about the prior mean tell little
 
 
 def refit(study: Study, hypothesis: Hypothesis, thresholds: Thresholds, hopeless: float = inf) -> Weighed:

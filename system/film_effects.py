@@ -27,13 +27,12 @@ from system.description import PumpDescription
 from system.floating_heat import all_taken, block_heat, piston_heat, slipper_heat
 from system.floating_parts import FloatingParts
 from system.gap_cycle import GapPhysics
-from system.given_thickness import opening_share
+from system.given_thickness import given_film, opening_share
 from system.instants import Rotor
 from system.physics.effects import EffectId
 from system.physics.switched import switched_on
 from system.physics_description import FilmHeatingSection, OpeningSection
 from system.pump_gap import Gap
-from system.table_means import given_films
 from system.units import Dimension, format_quantity
 
 SOLVED = (
@@ -116,7 +115,7 @@ def softened(pump: PumpDescription, gap: Gap, walls: GapWalls | None) -> GapWall
         return None
     if stated.compliance is not None:
         return _softer(walls, stated.compliance) if stated.compliance > 0.0 else None
-    springs = opening_share(pump, gap) * float(getattr(given_films(pump), gap.value))
+    springs = opening_share(pump, gap) * given_film(pump, gap)
     if springs == 0.0:
         return None
     if isinstance(walls, BoreWalls):
@@ -149,7 +148,7 @@ def _between_walls(
     materials, taken = dict(parts.materials), Taken()
     for gap in Gap:
         heat = _HEAT[gap](rotor, parts)
-        inside = float(getattr(given_films(rotor.pump), gap.value)) / (12.0 * heat.conductivity)
+        inside = given_film(rotor.pump, gap) / (12.0 * heat.conductivity)
         own, wanted = _both_ways(heat), max(float(getattr(stated, gap.value)) - inside, 0.0)
         times = own / wanted if wanted > 0.0 else math.inf
         for name in _FACES[gap]:

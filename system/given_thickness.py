@@ -11,6 +11,15 @@ from system.physics_description import OpeningSection
 from system.pump_gap import Gap
 
 
+def given_film(pump: PumpDescription, gap: Gap) -> float:
+    """The film (m) that the description gives a gap: the piston's radial clearance, the others' film thickness."""
+    return {
+        Gap.PISTON: pump.piston.radial_clearance,
+        Gap.SLIPPER: pump.slipper.film_thickness,
+        Gap.VALVE_PLATE: pump.valve_plate.film_thickness,
+    }[gap]
+
+
 def at_temperature(pump: PumpDescription, temperature: float) -> PumpDescription:
     """The pump with films as [physics.thermal_clearance] leaves them at a temperature (K), without such a table.
 

@@ -15,11 +15,13 @@ from system.assembly import PumpPoint
 from system.chamber_course import periodic_values
 from system.chamber_problem import LeakTable
 from system.description import PumpDescription
+from system.given_thickness import given_film
 from system.kinematics import Array
 from system.lumped import lumped_leaks, lumped_pairs, piston_motion
 from system.operating import OperatingPoint
 from system.pairs import Pair
 from system.power import Gaps
+from system.pump_gap import Gap
 
 TABLE_FORMAT = 3
 """Raised when solved points give other numbers in a table: by what is kept of them, or by the laws behind it."""
@@ -135,8 +137,8 @@ def mean_ratios(pump: PumpDescription, solved: SolvedPoint) -> Array:
 
 
 def given_films(pump: PumpDescription) -> Gaps:
-    """The films that the description gives, m: the piston's radial clearance, the others' film thickness."""
-    return Gaps(pump.piston.radial_clearance, pump.slipper.film_thickness, pump.valve_plate.film_thickness)
+    """The films (m) that the description gives."""
+    return Gaps(*(given_film(pump, gap) for gap in Gap))
 
 
 def plate_flow(pump: PumpDescription, point: OperatingPoint) -> float:

@@ -20,6 +20,7 @@ from reynolds.bodies.cache import content_key
 from system.description import PumpDescription
 from system.floating_parts import floating_parts
 from system.gap_cycle import SMOOTH, Report, silent
+from system.given_thickness import given_film
 from system.instants import rotor
 from system.kinematics import Array
 from system.operating import operating_point
@@ -123,7 +124,7 @@ def opening_table(pump: PumpDescription, gap: Gap, report: Report = silent) -> O
     """
     case = OpeningCase(pump, gap)
     learnt, held_out = samples_of(case, solved_points(case, report=report))
-    return OpeningTable(gap, _film(pump, gap), Response(case.axes, OUTPUTS, learnt, held_out))
+    return OpeningTable(gap, given_film(pump, gap), Response(case.axes, OUTPUTS, learnt, held_out))
 
 
 @dataclass(frozen=True)
@@ -141,11 +142,3 @@ class SolvedOpening:
             delivery = (state.delivery_pressure - state.case_pressure)[:, None]
             shear = table.factors(opened * delivery)[1]
         return in_one_film(table.gap, courses, state, leakage, shear)
-
-
-def _film(pump: PumpDescription, gap: Gap) -> float:
-    return {
-        Gap.PISTON: pump.piston.radial_clearance,
-        Gap.SLIPPER: pump.slipper.film_thickness,
-        Gap.VALVE_PLATE: pump.valve_plate.film_thickness,
-    }[gap]
