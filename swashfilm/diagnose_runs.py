@@ -17,6 +17,7 @@ from diagnosis.study import Study
 from diagnosis.table_rows import table_rows
 from diagnosis.thresholds import Thresholds
 from diagnosis.verdict import Diagnosis
+from reynolds.errors import FilmInputError
 from swashfilm.diagnose_films import FilmsTold, films_of_both
 from swashfilm.fidelity import Fidelity
 from swashfilm.progress import Report
@@ -80,14 +81,15 @@ def run_both(
     point = operating_at(pump, bench_points(study.recording, pump)[0], at)
     closed = np.array([parameter.name in own.open_names for parameter in found.after.parameters])
     stated = values_at(found.after.parameters, np.where(closed, 0.0, found.after.xi))
-    pumps = {
-        WITHOUT: _at(extended_pump(pump, values_by_name(found.after.parameters, stated), ()), point),
-        WITH: _at(claimed_pump(pump, found), point),
+    fitted = {
+        WITHOUT: extended_pump(pump, values_by_name(found.after.parameters, stated), ()),
+        WITH: claimed_pump(pump, found),
     }
     try:
+        pumps = {name: _at(each, point) for name, each in fitted.items()}
         summaries = {name: _run(each, folder / name, report) for name, each in pumps.items()}
-    except NotConverged as reason:
-        for name in pumps:
+    except (NotConverged, FilmInputError) as reason:
+        for name in fitted:
             rmtree(folder / name, ignore_errors=True)
         return Told((), f"Point {number}, where the finding adds most, could not be run: {reason}")
     films = films_of_both(folder, pumps, summaries, {claim.effect for claim in found.effects}, report)

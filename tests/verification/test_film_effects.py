@@ -57,6 +57,11 @@ def slow_flow(tables, case_pressure):
     return gap_cycle(at, films.parts, angles, np.full(18, FULL), physics=films.physics, finer=0.5).flow[0]
 
 
+def worst(found, expected):
+    """Of an array the entry farthest from a number."""
+    return float(found[np.argmax(np.abs(found - expected))])
+
+
 SLOW, FULL = 1e-3, 30e6  # rad/s, Pa
 SLID = 1e-5
 """Of the flow: what is carried by that sliding."""
@@ -68,20 +73,36 @@ def plain():
 
 
 @pytest.mark.parametrize("case_pressure", [0.0, 1e6])
-def test_springs_let_through_what_the_closed_law_says(case_pressure):
+def test_springs_let_through_what_the_closed_law_says(case_pressure, validation):
     """int h^3 dp over h = h0 (1 + s (p - pc)): the law's very integral."""
     stated = {"elastic_opening": {"piston": {"opening": OPENING}}}
     ratio = slow_flow(stated, case_pressure) / slow_flow({}, case_pressure)
-    np.testing.assert_allclose(ratio, opening_flow(np.array(OPENING * (FULL - case_pressure))), rtol=SLID)
+    validation(
+        case="[physics.elastic_opening] solved: a bore on springs, 20 1/GPa, 30 MPa",
+        source="((1 + c)^4 - 1)/(4 c), plane films",
+        quantity=f"leakage over that of rigid walls, case at {case_pressure * 1e-6:g} MPa",
+        unit="1",
+        expected=float(opening_flow(np.array(OPENING * (FULL - case_pressure)))),
+        obtained=worst(ratio, opening_flow(np.array(OPENING * (FULL - case_pressure)))),
+        relative_tolerance=SLID,
+    )
 
 
-def test_oil_that_stiffens_lets_through_what_barus_says():
+def test_oil_that_stiffens_lets_through_what_barus_says(validation):
     """(1 - exp(-a p))/(a p), exact for a film of one thickness; at no case pressure, from which the law counts."""
     ratio = slow_flow({"viscosity_pressure": {"coefficient": COEFFICIENT}}, 0.0) / slow_flow({}, 0.0)
-    np.testing.assert_allclose(ratio, barus_flow(np.array(COEFFICIENT * FULL)), rtol=SLID)
+    validation(
+        case="[physics.viscosity_pressure] solved: a bore, 20 1/GPa, 30 MPa",
+        source="(1 - exp(-a p))/(a p), Barus 1893",
+        quantity="leakage over that of oil that does not stiffen",
+        unit="1",
+        expected=float(barus_flow(np.array(COEFFICIENT * FULL))),
+        obtained=worst(ratio, barus_flow(np.array(COEFFICIENT * FULL))),
+        relative_tolerance=SLID,
+    )
 
 
-def test_a_slipper_that_lies_flat_carries_no_oil_however_its_oil_stiffens():
+def test_a_slipper_that_lies_flat_carries_no_oil_however_its_oil_stiffens(validation):
     """All its flow is driven by pressure, all its walls' power is shear: by Barus' mean over its lands.
 
     exp(-a p) falls in proportion to ln r over the lands, of which the mean of exp(a p) is an integral.
@@ -96,7 +117,15 @@ def test_a_slipper_that_lies_flat_carries_no_oil_however_its_oil_stiffens():
     radius = np.linspace(*edges, 2001)
     way = np.log(radius / edges[0]) / np.log(edges[1] / edges[0])
     mean = np.trapezoid(radius / (inside + (outside - inside) * way), radius) / np.trapezoid(radius, radius)
-    assert one.friction_power / other.friction_power == pytest.approx(mean, rel=0.01)  # six cells across
+    validation(
+        case="[physics.viscosity_pressure] solved: a flat slipper, 20 1/GPa, 35 MPa, six cells across its land",
+        source="mean of exp(a p) over a ring, by quadrature",
+        quantity="power of its walls over that in oil that does not stiffen",
+        unit="1",
+        expected=float(mean),
+        obtained=one.friction_power / other.friction_power,
+        relative_tolerance=0.01,
+    )
 
 
 @pytest.mark.parametrize("gap", list(Gap))
