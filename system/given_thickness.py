@@ -7,6 +7,7 @@ from typing import Any
 
 from reynolds.errors import FilmInputError
 from system.description import OperatingSection, PumpDescription
+from system.physics.film_laws import LEAST_FILM
 from system.physics_description import OpeningSection
 from system.pump_gap import Gap
 
@@ -23,21 +24,29 @@ def given_film(pump: PumpDescription, gap: Gap) -> float:
 def at_temperature(pump: PumpDescription, temperature: float) -> PumpDescription:
     """The pump with films as [physics.thermal_clearance] leaves them at a temperature (K), without such a table.
 
-    h = h0 (1 + rate (T - T0)), T0 the pump's own of [operating]. Raises FilmInputError where a film would close.
+    Raises FilmInputError as `expansion`.
     """
-    stated = pump.physics.thermal_clearance
-    if stated is None:
+    if pump.physics.thermal_clearance is None:
         return pump
-    warmer, times = temperature - pump.operating.temperature, {}
-    for gap in Gap:
-        own = getattr(stated, gap.value)
-        times[gap] = 1.0 if own is None else 1.0 + own.rate * warmer
-        if times[gap] <= 0.0:
-            where = f"physics.thermal_clearance.{gap.value}.rate"
-            found = f"{own.rate:g} 1/K, a film that is closed at {warmer:+.3g} K"
-            raise FilmInputError(where, found, f"{'above' if warmer > 0.0 else 'below'} {-1.0 / warmer:.3g} 1/K")
+    times = expansion(pump, temperature)
     bare = pump.physics.model_copy(update={"thermal_clearance": None})
     return _thicker(pump, times).model_copy(update={"physics": bare})
+
+
+def expansion(pump: PumpDescription, temperature: float) -> dict[Gap, float]:
+    """Films at a temperature (K) over those stated: 1 + rate (T - T0), T0 the pump's own of [operating].
+
+    Raises FilmInputError where a film would close, to less than LEAST_FILM of itself.
+    """
+    warmer, times = temperature - pump.operating.temperature, {}
+    for gap in Gap:
+        own = getattr(pump.physics.thermal_clearance, gap.value, None)
+        times[gap] = 1.0 if own is None else 1.0 + own.rate * warmer
+        if times[gap] < LEAST_FILM:
+            where, limit = f"physics.thermal_clearance.{gap.value}.rate", (LEAST_FILM - 1.0) / warmer
+            found = f"{own.rate:g} 1/K, a film that is closed at {warmer:+.3g} K"
+            raise FilmInputError(where, found, f"{'above' if warmer > 0.0 else 'below'} {limit:.3g} 1/K")
+    return times
 
 
 def moved_to(pump: PumpDescription, operating: OperatingSection) -> PumpDescription:

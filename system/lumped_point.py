@@ -11,6 +11,7 @@ from system.chamber import TOLERANCE, ChamberCycle
 from system.chamber_problem import LeakTable
 from system.description import PumpDescription
 from system.errors import NotConverged
+from system.given_thickness import expansion
 from system.land_losses import land_losses, with_inertia
 from system.lumped import (
     PistonMotion,
@@ -40,10 +41,12 @@ def lumped_point(pump: PumpDescription, point: OperatingPoint, tolerance: float 
 
     Chambers that differ have each its own cycle; what rubs about the shaft takes the mean of pumps with chambers
     like each. Effects of [physics] see the gaps as they are without any; then chambers are solved once more.
-    Raises NotConverged when the chamber pressure does not become periodic. Valid for films thick against their
+    Raises NotConverged when the chamber pressure does not become periodic, FilmInputError for a film that warmth
+    closes. Valid for films thick against their
     roughness at the viscosity of the case; what it leaves out is in `left_out_physics.md`.
     """
     found = kinds(pump)
+    expansion(pump, point.temperature)
     plain = _solved(found, pump, point, (), tolerance)
     if not pump.physics.on:
         return plain

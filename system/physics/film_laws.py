@@ -20,6 +20,8 @@ WARM_PASSES = 8
 THINNING = 0.04
 """1/K, of viscosity: mineral oils at 20 to 80 degC have .03 to .06."""
 SMALL = 1e-9
+LEAST_FILM = 0.05
+"""Of a film's thickness: to less warmth does not close it. What a fit tries there is no film any more."""
 
 Courses = Mapping[Gap, GapCourse]
 
@@ -83,7 +85,9 @@ class ThermalClearance:
     def __call__(self, values: Values, courses: Courses, state: BenchState) -> Effects:
         """The effects with these values."""
         warmer = state.temperature - state.geometry.operating.temperature
-        film = (1.0 + values["rate"] * warmer)[:, None] * np.ones_like(courses[self.gap].film)
+        film = np.maximum(1.0 + values["rate"] * warmer, LEAST_FILM)[:, None] * np.ones_like(
+            courses[self.gap].film
+        )
         return in_one_film(self.gap, courses, state, film**3, 1.0 / film)
 
 

@@ -259,8 +259,15 @@ def test_single_parts_expand_too():
 
 def test_a_film_that_warmth_closes_is_refused():
     pump = extended({"thermal_clearance": {"slipper": {"rate": -0.02}}})
-    with pytest.raises(FilmInputError, match=r"thermal_clearance.slipper.rate: -0.02 1/K.*expected above -0.0167"):
+    with pytest.raises(FilmInputError, match=r"thermal_clearance.slipper.rate: -0.02 1/K.*expected above -0.0158"):
         at_temperature(pump, pump.operating.temperature + 60.0)
+    with pytest.raises(FilmInputError, match=r"expected below 0\.0158"):
+        at_temperature(
+            extended({"thermal_clearance": {"piston": {"rate": 0.02}}}), pump.operating.temperature - 60.0
+        )
+    warm = replace(operating_point(pump), temperature=pump.operating.temperature + 60.0)
+    with pytest.raises(FilmInputError, match="closed at"):
+        lumped_point(pump, warm)
 
 
 @pytest.mark.parametrize(
