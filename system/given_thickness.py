@@ -41,10 +41,11 @@ def expansion(pump: PumpDescription, temperature: float) -> dict[Gap, float]:
     warmer, times = temperature - pump.operating.temperature, {}
     for gap in Gap:
         own = getattr(pump.physics.thermal_clearance, gap.value, None)
-        times[gap] = 1.0 if own is None else 1.0 + own.rate * warmer
+        rate = 0.0 if own is None else own.rate
+        times[gap] = 1.0 + rate * warmer
         if times[gap] < LEAST_FILM:
             where, limit = f"physics.thermal_clearance.{gap.value}.rate", (LEAST_FILM - 1.0) / warmer
-            found = f"{own.rate:g} 1/K, a film that is closed at {warmer:+.3g} K"
+            found = f"{rate:g} 1/K, a film that is closed at {warmer:+.3g} K"
             raise FilmInputError(where, found, f"{'above' if warmer > 0.0 else 'below'} {limit:.3g} 1/K")
     return times
 
