@@ -17,11 +17,12 @@ if TYPE_CHECKING:
     from system.description import PumpDescription
 
 COMMAND_LINE = "command line"
+_TEMPERATURE = "operating.temperature"
 _OVERRIDES = {
     "--speed": ("operating.speed", "2100rpm", "shaft speed"),
     "--pressure": ("operating.pressure", "350bar", "delivery pressure, gauge"),
     "--displacement": ("operating.displacement_ratio", "1.0", "share of the full displacement"),
-    "--temperature": ("operating.temperature", "50degC", "temperature of the oil in the case"),
+    "--temperature": (_TEMPERATURE, "50degC", "temperature of the oil in the case"),
     "--inlet-pressure": ("operating.inlet_pressure", "25bar", "pressure at the inlet, gauge"),
     "--case-pressure": ("operating.case_pressure", "1.5bar", "pressure in the case, gauge"),
 }
@@ -104,7 +105,8 @@ def _pump(options: argparse.Namespace) -> PumpDescription:
         pump = load_pump(options.pump, stated)
     except InputFaults as reason:
         raise _at_options(reason, stated, faults) from None
-    if pump.physics.thermal_clearance is not None:
+    reads = options.fidelity in (Fidelity.LUMPED.value, Fidelity.FILMS.value)
+    if reads and _TEMPERATURE in stated and pump.physics.thermal_clearance is not None:
         pump = moved_to(load_pump(options.pump), pump.operating)
     faults += floating_faults(options, pump, options.fidelity)
     if options.fidelity in (Fidelity.FILMS.value, Fidelity.TABLE.value):

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from gaps.physics import Physics
+from gaps.ring import SEALED
 from reynolds.film import FilmSolution
 from reynolds.loads import evaluate
 from reynolds.mesh import Array
@@ -16,20 +17,23 @@ from system.description import PumpDescription
 UNITS: Mapping[str, str] = {"film_viscosity": "Pa s", "film_temperature": "K"}
 
 
-def oil_state(pump: PumpDescription, physics: Physics, solution: FilmSolution) -> dict[str, Array]:
+def oil_state(pump: PumpDescription, physics: Physics, solution: FilmSolution, resting: float) -> dict[str, Array]:
     """Fields of a film's oil at its vertices (vertices,), by name and in `UNITS`; none where it is as in the case.
 
     film_viscosity: by which the film flows, with what pressure and heat make of it; film_temperature: at which the
-    oil under no pressure has what heat makes of it, a mean across the film (Walther's law).
+    oil under no pressure has what heat makes of it, a mean across the film (Walther's law). Webs over a port are
+    no film: they have the case's oil, of viscosity `resting` (Pa s).
     """
     if not (physics.heat or physics.pressure_viscosity):
         return {}
     space, film = solution.problem.space, solution.problem.film
     under = evaluate(solution, solution.pressure)[0]
-    viscosity = np.asarray(solution.problem.fluid.viscosity(under, film.viscosity)[0])
-    found = {"film_viscosity": space.to_vertices(viscosity)}
+    own = np.broadcast_to(film.viscosity, under.shape)
+    web = own > np.sqrt(SEALED) * resting
+    viscosity = np.asarray(solution.problem.fluid.viscosity(under, own)[0])
+    found = {"film_viscosity": space.to_vertices(np.where(web, resting, viscosity))}
     if physics.heat:
-        unpressed = space.to_vertices(film.viscosity)
+        unpressed = space.to_vertices(np.where(web, resting, own))
         intercept, slope = walther_coefficients(pump.oil.fluid)
         shifted = np.log10(np.log10(unpressed / pump.oil.density * 1e6 + WALTHER_SHIFT))
         found["film_temperature"] = 10.0 ** ((intercept - shifted) / slope)

@@ -117,8 +117,8 @@ def _fields(gap: str, angle: str, series: Sequence[GapFilm]) -> dict[str, tuple[
 def _oil_fields(
     gap: str, angle: str, films: FilmsPoint, series: Sequence[GapFilm]
 ) -> dict[str, tuple[object, ...]]:
-    physics = getattr(films.physics, gap)
-    states = [oil_state(films.rotor.pump, physics, film.solution) for film in series]
+    physics, at = getattr(films.physics, gap), films.rotor
+    states = [oil_state(at.pump, physics, film.solution, at.point.viscosity) for film in series]
     nodes = (angle, f"{gap}_vertex")
     fields = {name: np.array([state[name] for state in states]) for name in states[0]}
     return {f"{gap}_{name}": (nodes, values, {"units": UNITS[name]}) for name, values in fields.items()}

@@ -24,12 +24,13 @@ def write_fields(folder: Path, films: FilmsPoint) -> None:
     """
     place = folder / FIELDS
     place.mkdir()
+    viscosity = films.rotor.point.viscosity
     series = {Gap.PISTON: films.gaps.piston, Gap.SLIPPER: films.gaps.slipper}
     series[Gap.VALVE_PLATE] = tuple(ring.gap for ring in films.gaps.valve_plate)
     for gap, told in series.items():
         for k, film in enumerate(told):
             at = place_of(gap, films.rotor, films.parts, films.gaps.shaft_angle[k])
-            oil = oil_state(films.rotor.pump, getattr(films.physics, gap.value), film.solution)
+            oil = oil_state(films.rotor.pump, getattr(films.physics, gap.value), film.solution, viscosity)
             write_vtu(place / vtu_name(gap.value, k), film.solution, at, oil)
     _write_series(folder, films)
 

@@ -31,9 +31,12 @@ def uncarried_loads(films: FilmsPoint) -> list[str]:
 
 
 def impossible_pressures(films: FilmsPoint) -> list[str]:
-    """A warning for each gap whose film pressure lies beyond what a rigid isoviscous film may claim."""
+    """A warning for each gap whose film pressure lies beyond what its rigid walls or plain oil may claim."""
     found = []
     for gap, series in gap_films(films).items():
+        physics = getattr(films.physics, gap)
+        if physics.elastic_walls and physics.pressure_viscosity:
+            continue
         peak = max(film.loads.pressure_max for film in series)
         if peak > LARGEST_RIGID_PRESSURE:
             found.append(

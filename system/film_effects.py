@@ -15,13 +15,18 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
+import numpy as np
+from numpy.typing import ArrayLike
+from scipy.optimize import brentq
+
 from gaps.film_heat import GapHeat
 from gaps.physics import Effect, FilmLaws, Physics
 from gaps.springs import SpringBore, SpringPlates
 from gaps.walls import BoreWalls, GapWalls, PlateWalls
 from reynolds.bodies.elasticity import Elastic
 from reynolds.fluid import Fluid
-from reynolds.viscosity import Barus
+from reynolds.laws import Tangent
+from reynolds.viscosity import barus
 from system.assumptions import Assumption, Taken
 from system.description import PumpDescription
 from system.floating_heat import all_taken, block_heat, piston_heat, slipper_heat
@@ -65,6 +70,19 @@ class FilmEffects:
     physics: GapPhysics
 
 
+@dataclass(frozen=True)
+class BarusAboveCase:
+    """Barus' law from the case's pressure (Pa) on, at which a point's viscosity stands; coefficient 1/Pa."""
+
+    coefficient: float
+    case_pressure: float
+
+    def __call__(self, pressure: ArrayLike, viscosity_at_case: ArrayLike) -> Tangent:
+        """Viscosity (Pa s) and its slope; raises as `barus`."""
+        resting = np.asarray(viscosity_at_case) * math.exp(-self.coefficient * self.case_pressure)
+        return barus(pressure, resting, self.coefficient)
+
+
 def effects_in_films(pump: PumpDescription) -> tuple[tuple[EffectId, ...], tuple[EffectId, ...]]:
     """Effects of [physics] that films solve, and those that stay closed laws beside them."""
     on = dict.fromkeys(extension.id for extension, _ in switched_on(pump))
@@ -86,7 +104,8 @@ def film_effects(rotor: Rotor, parts: FloatingParts, pump: PumpDescription, phys
     stated, taken = pump.physics, list(parts.taken)
     on: dict[Gap, Physics] = {gap: getattr(physics, gap.value) for gap in Gap}
     if stated.viscosity_pressure is not None:
-        fluid = Fluid(viscosity=Barus(stated.viscosity_pressure.coefficient))
+        law = BarusAboveCase(stated.viscosity_pressure.coefficient, rotor.point.case_pressure)
+        fluid = Fluid(viscosity=law)
         parts = _with_laws(parts, lambda gap, laws: replace(laws, fluid=fluid))
         on = {gap: own.including(Effect.PRESSURE_VISCOSITY) for gap, own in on.items()}
         taken = [one for one in taken if one.path != "oil.pressure_viscosity"]
@@ -140,24 +159,23 @@ def _softer(walls: GapWalls, times: float) -> GapWalls:
 def _between_walls(
     rotor: Rotor, parts: FloatingParts, stated: FilmHeatingSection
 ) -> tuple[FloatingParts, tuple[Assumption, ...]]:
-    """Parts by which a film's mean temperature has the stated resistance R to the case; their ratio stays.
+    """Parts by which a film's mean temperature has the stated resistance to the case (`even_rise`); ratios stay.
 
-    Both walls together have R - h/(12 k), none below zero: the mean of a film that heat made evenly across it
-    leaves by both walls lies q h/(12 k) above them.
+    No wall resists where the film alone resists more than is stated.
     """
     materials, taken = dict(parts.materials), Taken()
     for gap in Gap:
         heat = _HEAT[gap](rotor, parts)
-        inside = given_film(rotor.pump, gap) / (12.0 * heat.conductivity)
-        own, wanted = _both_ways(heat), max(float(getattr(stated, gap.value)) - inside, 0.0)
-        times = own / wanted if wanted > 0.0 else math.inf
+        across = given_film(rotor.pump, gap) / heat.conductivity
+        walls = heat.fixed.resistance, heat.moving.resistance
+        times = resisting(float(getattr(stated, gap.value)), across, *walls)
         for name in _FACES[gap]:
-            conductivity = materials[name].thermal_conductivity * times
+            conductivity = materials[name].thermal_conductivity / times if times > 0.0 else math.inf
             materials[name] = replace(materials[name], thermal_conductivity=conductivity)
-        drawn = format_quantity(own, Dimension.THERMAL_RESISTANCE, digits=3)
+        drawn = format_quantity(even_rise(across, *walls), Dimension.THERMAL_RESISTANCE, digits=5)
         taken.note(
-            f"walls of the {gap.value.replace('_', ' ')} film", f"{wanted / own:.3g} times as resistant to heat",
-            f"as [physics.film_heating] states, less the film's own; by drawing and material {drawn}",
+            f"walls of the {gap.value.replace('_', ' ')} film", f"{times:.3g} times as resistant to heat",
+            f"as [physics.film_heating] states; by drawing and material {drawn}",
         )  # fmt: skip
     shares = stated.carried_share, stated.throttled_share, stated.carry_over
     if shares != _SOLVED_SHARES:
@@ -166,10 +184,26 @@ def _between_walls(
     return replace(parts, materials=materials), tuple(taken.assumptions)
 
 
-def _both_ways(heat: GapHeat) -> float:
-    """Resistance (m2 K/W) of the ways through both walls side by side."""
-    one, two = heat.fixed.resistance, heat.moving.resistance
-    return one * two / (one + two)
+def even_rise(across: float, one: float, two: float) -> float:
+    """Mean rise of a film over the case per heat that is made evenly across it, m2 K/W.
+
+    across: h/k of the film, between walls that resist by one and two (m2 K/W). T'' = -q/(h k) between walls at
+    R1 q1 and R2 q2: q1/q = (h/(2 k) + R2)/(R1 + R2 + h/k), mean/q = (R1 q1 + R2 q2)/(2 q) + h/(12 k).
+    """
+    share = (0.5 * across + two) / (one + two + across)
+    return 0.5 * (one * share + two * (1.0 - share)) + across / 12.0
+
+
+def resisting(wanted: float, across: float, one: float, two: float) -> float:
+    """How many times as resistant walls give a film the wanted `even_rise` (m2 K/W); 0 where it has more alone."""
+    if wanted <= across / 12.0:
+        return 0.0
+    most = 2.0 * wanted / min(one, two) + 2.0  # there even the better wall alone would let it rise more
+
+    def missing(times: float) -> float:
+        return even_rise(across, times * one, times * two) - wanted
+
+    return float(brentq(missing, 0.0, most))
 
 
 def _laws(parts: FloatingParts, gap: Gap) -> FilmLaws:

@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from reynolds.errors import FilmInputError
 from system.assembly import PumpPoint, assemble, met_point
 from system.chamber import ChamberCycle, solve_cycle
 from system.chamber_problem import ChamberProblem, LeakTable
@@ -50,7 +51,8 @@ POSITIONS_PER_PITCH = 4
 SAMPLES_PER_PITCH. Five times as many move REF90's leakage by 0.1 % (benchmarks/pump.py has the cost)."""
 TOLERANCE = 1e-6
 """Largest change of the chamber pressure between two rounds, of delivery minus inlet pressure."""
-ROUND_LIMIT = 12
+ROUND_LIMIT = 40
+"""Rigid films of plain oil take two or three; walls that open a film to three times its thickness some twenty."""
 
 
 @dataclass(frozen=True)
@@ -88,7 +90,8 @@ def films_point(
     Chamber pressure repeats to `tolerance` of the ports' difference. What the pump's [physics] has films solve is
     on beside `physics`. With heat the pairs' Coulomb loss warms their walls too.
 
-    Raises NotConverged when chamber pressure and films do not settle within ROUND_LIMIT rounds, ValueError when
+    Raises NotConverged when chamber pressure and films do not settle within ROUND_LIMIT rounds, or oil stiffens
+    without bound, ValueError when
     `positions_per_pitch` is no even divisor of SAMPLES_PER_PITCH or chambers differ, FilmInputError where parts
     touch at a given position. Films have no history; smooth, and rigid and isothermal but for [physics].
     """
@@ -102,10 +105,13 @@ def films_point(
     limit = tolerance * (abs(point.delivery_pressure - point.inlet_pressure) + 1e5)
     while rounds < ROUND_LIMIT:
         rounds += 1
-        gaps = gap_cycle(
-            at, work.films.parts, cycle.shaft_angle[::every], cycle.pressure[::every], report,
-            physics=work.films.physics, rubbing=_rubbing(work.losses(cycle)), finer=finer,
-        )  # fmt: skip
+        try:
+            gaps = gap_cycle(
+                at, work.films.parts, cycle.shaft_angle[::every], cycle.pressure[::every], report,
+                physics=work.films.physics, rubbing=_rubbing(work.losses(cycle)), finer=finer,
+            )  # fmt: skip
+        except FilmInputError as reason:
+            raise _run_away(pump, reason) from None
         ported, leaks = _ported(work, gaps, at.point)
         at = rotor(at.pump, met_point(work.point, ported))
         before, cycle = cycle, ported.cycle
@@ -115,11 +121,27 @@ def films_point(
     else:
         raise NotConverged(
             f"films and chamber pressure: after {ROUND_LIMIT} rounds the pressure still changes by {change:.3g} "
-            f"Pa, expected at most {limit:.3g} Pa; try the lumped fidelity, or more film angles"
+            f"Pa, expected at most {limit:.3g} Pa; try the lumped fidelity, more film angles, stiffer walls"
         )
     sampled = _sampling_error(ported.problem, leaks, work.effects, cycle)
     told, films = _told(work, point, gaps, ported), work.films
     return FilmsPoint(at, films.parts, films.physics, told, gaps, rounds, change, sampled)
+
+
+def _run_away(pump: PumpDescription, reason: FilmInputError) -> FilmInputError | NotConverged:
+    """The reason itself, or in the pump's words that its oil stiffens without bound, beyond Barus' law.
+
+    Where plain oil would come to 1/a, (1 - exp(-a p))/a of the stiffening oil does at no pressure.
+    """
+    stated = pump.physics.viscosity_pressure
+    if stated is None or not reason.where.startswith("Barus"):
+        return reason
+    return NotConverged(
+        f"physics.viscosity_pressure: between rigid walls a film has no solution where plain oil would come to "
+        f"{1e-6 / stated.coefficient:.3g} MPa, one over the coefficient; a part stands too near its wall: give a "
+        "smaller piston.eccentricity_ratio or tilt, [physics.elastic_opening] for that gap, warmer oil or the "
+        "lumped fidelity"
+    )
 
 
 @dataclass(frozen=True)

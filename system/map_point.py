@@ -279,10 +279,13 @@ class MapWork:
 
     @cached_property
     def _read(self) -> str:
-        """What is read of the pump, as its file says it: no name, no operating point, no tolerances."""
-        stated = self.pump.operating.model_copy(
-            update=dict.fromkeys(("speed", "pressure", "temperature", "inlet_pressure", "case_pressure"), 0.0)
-            | {"displacement_ratio": 1.0}
-        )
+        """What is read of the pump, as its file says it: no name, no operating point, no tolerances.
+
+        Of that point the temperature is read where clearances change from there on.
+        """
+        unread = ["speed", "pressure", "inlet_pressure", "case_pressure"]
+        if self.pump.physics.thermal_clearance is None:
+            unread.append("temperature")
+        stated = self.pump.operating.model_copy(update=dict.fromkeys(unread, 0.0) | {"displacement_ratio": 1.0})
         bare = {"name": "", "operating": stated, "tolerance": ToleranceSection()}
         return resolved_toml(self.solver.reads(self.pump).model_copy(update=bare))

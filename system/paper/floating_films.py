@@ -28,6 +28,7 @@ from system.paper.films import FILM, SHOWN_ANGLE, film_field, film_panel
 from system.paper.judge import FigureResult, Range, judge, range_of
 from system.paper.points import KEY_LENGTH, PRESSURES, RATED, RATIOS, PaperWork, Place, PointFidelity
 from system.paper.statements import CLAIMS
+from system.physics.switched import hold_plain
 from system.pump_file import resolved_toml
 from system.work import Hands, Record, Status
 
@@ -63,7 +64,11 @@ class FloatingWork:
         return content_key("floating films 2", resolved_toml(self.pump), self.stated, part)[:KEY_LENGTH]
 
     def solve(self, part: Place) -> Record:
-        """Films of both gaps, as `_films_told` and `_piston_told` have them; raises FilmNotConverged."""
+        """Films of both gaps, as `_films_told` and `_piston_told` have them.
+
+        Raises FilmNotConverged, and FilmInputError for a pump with effects of [physics].
+        """
+        hold_plain(self.pump)
         lumped = lumped_point(self.pump, PaperWork(self.pump, PointFidelity.LUMPED).at(part))
         at, parts = rotor(self.pump, lumped.point), floating_parts(self.pump)
         angle, pressure = lumped.cycle.shaft_angle, lumped.cycle.pressure

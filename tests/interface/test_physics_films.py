@@ -25,6 +25,7 @@ from system.pump_file import load_pump, resolved_toml
 PNG = b"\x89PNG"
 REF90 = load_pump("ref90")
 BARUS = 1.5e-8
+CASE = 0.15e6
 FOUND = {"viscosity_pressure": {"coefficient": BARUS}, "churning": {"factor": 1.0}}
 NAMES = ("without", "with")
 
@@ -65,7 +66,9 @@ def test_results_and_fields_for_paraview_hold_the_oils_state(run):
         assert data["slipper_film_viscosity"].attrs["units"] == "Pa s"
         assert "slipper_film_temperature" not in data
     resting = json.loads((run / "summary.json").read_text("utf-8"))["operating_point"]["viscosity_Pa_s"]
-    np.testing.assert_allclose(viscosity, resting * np.exp(BARUS * pressure), rtol=0.02)  # between a cell's points
+    np.testing.assert_allclose(
+        viscosity, resting * np.exp(BARUS * (pressure - CASE)), rtol=0.02
+    )  # between a cell's points
     mesh = pyvista.read(next((run / "fields").glob("slipper_*.vtu")))
     assert {"film_pressure", "film_thickness", "film_viscosity"} <= set(mesh.point_data)
 
@@ -75,8 +78,8 @@ def test_oil_of_a_cold_film_has_the_cases_state():
     point = operating_point(REF90)
     films = films_point(REF90, point, positions_per_pitch=2, finer=0.25, tolerance=1.0)
     solution = films.gaps.slipper[0].solution
-    assert oil_state(REF90, Physics(heat=False, pressure_viscosity=False), solution) == {}
-    found = oil_state(REF90, SMOOTH.including(Effect.HEAT), solution)
+    assert oil_state(REF90, Physics(heat=False, pressure_viscosity=False), solution, point.viscosity) == {}
+    found = oil_state(REF90, SMOOTH.including(Effect.HEAT), solution, point.viscosity)
     np.testing.assert_allclose(found["film_viscosity"], point.viscosity)
     np.testing.assert_allclose(found["film_temperature"], point.temperature)
 
@@ -99,6 +102,16 @@ def test_a_run_at_another_temperature_has_the_films_of_that_temperature(tmp_path
     assert 1.4 < times < 1.2**3  # its orifice takes a part of the pressure
     again = load_pump(str(found / "resolved.toml"))
     assert again.slipper.film_thickness == pytest.approx(1.2 * REF90.slipper.film_thickness)
+    assert not again.physics.on
+
+
+def test_a_run_at_the_pumps_own_temperature_keeps_the_law(tmp_path):
+    path = tmp_path / "pump.toml"
+    path.write_text(resolved_toml(extended({"thermal_clearance": {"slipper": {"rate": 0.01}}})), encoding="utf-8")
+    found = tmp_path / "found"
+    assert main(["run", str(path), "--speed", "1500rpm", "--fidelity", "lumped", "-o", str(found)]) == 0
+    assert load_pump(str(found / "resolved.toml")).physics.thermal_clearance is not None
+    assert main(["run", str(path), "--temperature", "70degC", "--fidelity", "floating"]) == 2
 
 
 @pytest.fixture(scope="module")
