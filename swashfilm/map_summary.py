@@ -8,13 +8,17 @@ from typing import Any
 import numpy as np
 
 from system.description import PumpDescription
+from system.film_effects import effects_in_films, film_effects
 from system.floating_parts import floating_parts
+from system.gap_cycle import PLAIN
+from system.instants import rotor
 from system.kept_points import Kept
 from system.kinematics import Array
 from system.map_data import Best, MapData, best_points, toet_notes, told_warnings
 from system.map_interpolation import MapError
 from system.map_plan import MapAxis, MapInput, MapPlan, point_words, reading_levels
 from system.map_point import LumpedSolver, MapWork, TableSolver
+from system.operating import operating_point
 from system.pump_file import check_pump
 from system.work import Status
 
@@ -126,7 +130,15 @@ def _table_error(work: MapWork) -> Mapping[str, float] | None:
 def _assumptions(work: MapWork) -> list[str]:
     if isinstance(work.solver, LumpedSolver):
         return []
-    return [str(taken) for taken in floating_parts(work.pump).taken]
+    pump, parts = work.pump, floating_parts(work.pump)
+    if not pump.physics.on:
+        return [str(taken) for taken in parts.taken]
+    solved, laws = (", ".join(one.value for one in ids) or "none" for ids in effects_in_films(pump))
+    films = film_effects(rotor(pump, operating_point(pump)), parts, pump, PLAIN)
+    return [
+        f"[physics]: solved in the films: {solved}; by closed laws: {laws}",
+        *(str(taken) for taken in films.parts.taken),
+    ]
 
 
 def _warnings(pump: PumpDescription, plan: MapPlan, data: MapData) -> Iterator[str]:

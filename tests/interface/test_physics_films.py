@@ -203,6 +203,9 @@ def test_what_does_not_read_them_says_so(pump_file, tmp_path, monkeypatch, capsy
 def test_a_map_of_films_solved_point_by_point_reads_them(pump_file, tmp_path):
     words = ["map", str(pump_file), "--plan", "point", "--direct", "--check", "0", "-o", str(tmp_path / "map")]
     assert main(words) == 0
+    told = json.loads((tmp_path / "map" / "summary.json").read_text("utf-8"))["assumptions"]
+    assert told[0] == "[physics]: solved in the films: viscosity_pressure; by closed laws: churning"
+    assert not any("oil.pressure_viscosity" in one for one in told)
     with xarray.open_dataset(tmp_path / "map" / "map.nc", engine="h5netcdf") as data:
         drain = float(data["drain_flow"].values.ravel()[0])
     point = films_point(load_pump(str(pump_file)), operating_point(REF90)).pump_point
