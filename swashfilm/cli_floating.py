@@ -8,6 +8,7 @@ from dataclasses import replace
 from typing import Any
 
 from gaps.physics import Effect
+from reynolds.errors import FilmInputError
 from swashfilm.fidelity import Fidelity
 from swashfilm.physics_switches import SWITCHES
 from swashfilm.revolution_case import FINER
@@ -15,6 +16,7 @@ from swashfilm.terminal import show_table
 from system.description import SINGLE_PARTS, PumpDescription
 from system.faults import Fault
 from system.floating_gaps import FloatingOptions, usual_finer
+from system.physics.switched import hold_plain
 from system.unlike import kinds
 
 ALIKE = "chambers that are alike; where they differ: swashfilm run with --fidelity lumped or floating"
@@ -54,13 +56,24 @@ def show_floating(summary: Mapping[str, Any]) -> None:
 def floating_faults(
     options: argparse.Namespace, pump: PumpDescription, chosen: str, by: str = "--fidelity"
 ) -> list[Fault]:
-    """What is wrong with the options that only floating gaps have; option `by` has chosen a fidelity."""
+    """What is wrong with the options that only floating gaps have, and with what they do not read of the pump.
+
+    Option `by` has chosen a fidelity.
+    """
     numbers = {"--steps": options.steps, "--finer": options.finer}
     stated = [option for option, text in numbers.items() if text is not None] + _switched(options)
     if chosen != Fidelity.FLOATING.value:
         wanted = f"{by} {Fidelity.FLOATING.value} beside it"
         return [Fault(option, f"{by} {chosen}", wanted) for option in stated]
-    return _steps_faults(options, pump) + _finer_faults(options)
+    return _steps_faults(options, pump) + _finer_faults(options) + _physics_faults(pump)
+
+
+def _physics_faults(pump: PumpDescription) -> list[Fault]:
+    try:
+        hold_plain(pump)
+    except FilmInputError as reason:
+        return [Fault(reason.where, reason.found, reason.expected)]
+    return []
 
 
 def alike_faults(pump: PumpDescription) -> list[Fault]:

@@ -17,6 +17,7 @@ from system.film_effects import SOLVED
 from system.films import films_point
 from system.gap_cycle import SMOOTH
 from system.lumped_point import lumped_point
+from system.map_point import LumpedSolver, MapWork
 from system.operating import operating_point
 from system.physics.effects import EffectId
 from system.physics_description import PhysicsSection
@@ -183,6 +184,10 @@ def test_films_that_cannot_be_solved_tell_why(tmp_path):
         (["run", "PUMP", "--fidelity", "floating"], "the lumped or the films fidelity"),
         (["map", "PUMP", "--plan", "point"], "--fidelity lumped, or --fidelity films --direct"),
         (["table", "PUMP", "--points", "32"], "the lumped or the films fidelity"),
+        (
+            ["reproduce", "fig8", "--fidelity", "floating", "--pump", "PUMP"],
+            "the lumped or the films fidelity",
+        ),
         (["film", "CASE"], "swashfilm run --fidelity lumped or films reads them"),
         (["transient", "TRANSIENT"], "swashfilm run --fidelity lumped or films reads them"),
     ],
@@ -198,6 +203,16 @@ def test_what_does_not_read_them_says_so(pump_file, tmp_path, monkeypatch, capsy
     assert told in said
     assert "viscosity_pressure" in said or "effects that a response table" in said
     assert not list(tmp_path.glob("runs/*"))
+
+
+def test_a_maps_points_are_kept_by_the_temperature_that_clearances_change_from():
+    """Two pumps that are alike but for it have other points; without the law it is no part of a point."""
+    stated = {"thermal_clearance": {"slipper": {"rate": 0.01}}}
+    for tables, same in ((stated, False), (FOUND, True)):
+        one = extended(tables)
+        other = one.model_copy(update={"operating": one.operating.model_copy(update={"temperature": 343.15})})
+        keys = {MapWork(pump, LumpedSolver()).key(operating_point(REF90)) for pump in (one, other)}
+        assert (len(keys) == 1) == same
 
 
 def test_a_map_of_films_solved_point_by_point_reads_them(pump_file, tmp_path):
