@@ -156,7 +156,8 @@ def _gap_map(data: xarray.Dataset, gap: str) -> bytes:
     known = [field for field in GAP_FIELDS if f"{gap}_{field.name}" in data]
     rows = (len(known) + 1) // 2
     figure = figure_of(10.0, 3.9 * rows)
-    for axes, field in zip(figure.subplots(rows, 2).ravel(), known, strict=False):
+    for number, field in enumerate(known, start=1):
+        axes = figure.add_subplot(rows, 2, number)
         values = field.shown(data[f"{gap}_{field.name}"].values[k])
         draw_map(axes, place, cells, values, field.title, labels, field.colours)
     return png_of(figure)
