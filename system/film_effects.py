@@ -103,7 +103,7 @@ def film_effects(rotor: Rotor, parts: FloatingParts, pump: PumpDescription, phys
     """
     stated, taken = pump.physics, list(parts.taken)
     on: dict[Gap, Physics] = {gap: getattr(physics, gap.value) for gap in Gap}
-    if stated.viscosity_pressure is not None:
+    if stated.viscosity_pressure is not None and stated.viscosity_pressure.coefficient > 0.0:
         law = BarusAboveCase(stated.viscosity_pressure.coefficient, rotor.point.case_pressure)
         fluid = Fluid(viscosity=law)
         parts = _with_laws(parts, lambda gap, laws: replace(laws, fluid=fluid))

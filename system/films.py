@@ -60,9 +60,8 @@ class FilmsPoint:
     """One coupled operating point: the pump, its films over the revolution, and the evidence of convergence.
 
     rotor: of the pump with its films as they stand; parts: with every value taken, physics of their films; rounds
-    of films and chamber;
-    pressure_change: the last round's largest, Pa; sampling_error: relative change of the leakage when the chamber
-    knows only every second film angle.
+    of films and chamber; pressure_change: the last round's largest, Pa; sampling_error: relative change of the
+    leakage when the chamber knows only every second film angle.
     """
 
     rotor: Rotor
@@ -137,7 +136,7 @@ def _run_away(pump: PumpDescription, reason: FilmInputError) -> FilmInputError |
     if stated is None or not reason.where.startswith("Barus"):
         return reason
     return NotConverged(
-        f"physics.viscosity_pressure: between rigid walls a film has no solution where plain oil would come to "
+        "physics.viscosity_pressure: between rigid walls a film has no solution where plain oil would come to "
         f"{1e-6 / stated.coefficient:.3g} MPa, one over the coefficient; a part stands too near its wall: give a "
         "smaller piston.eccentricity_ratio or tilt, [physics.elastic_opening] for that gap, warmer oil or the "
         "lumped fidelity"

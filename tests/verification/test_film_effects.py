@@ -223,6 +223,11 @@ def test_oil_that_stiffens_without_bound_is_told_in_the_pumps_words():
         films_point(pump, cold, **COARSE)
 
 
+def test_oil_that_is_said_not_to_stiffen_does_not(plain):
+    found = coarse(extended({"viscosity_pressure": {"coefficient": 0.0}}))
+    np.testing.assert_array_equal(leaks(found), leaks(plain))
+
+
 def test_webs_over_a_port_have_the_cases_oil():
     """They are sealed by a viscosity that is no oil's."""
     point = operating_point(REF90)
