@@ -42,7 +42,8 @@ def impossible_pressures(films: FilmsPoint) -> list[str]:
             found.append(
                 f"film_pressure_beyond_rigid: {gap.replace('_', ' ')}: film pressure up to {peak * 1e-6:.0f} MPa "
                 f"(limit {LARGEST_RIGID_PRESSURE * 1e-6:.0f} MPa: walls give way and oil thickens before); give a "
-                "smaller eccentricity or tilt, or a larger clearance"
+                "smaller eccentricity or tilt, a larger clearance, or both effects in [physics]: "
+                f"compliance in [physics.elastic_opening.{gap}] and [physics.viscosity_pressure]"
             )
     return found
 

@@ -6,11 +6,13 @@ import numpy as np
 import pytest
 
 from gaps.course import constant
+from gaps.physics import Effect
 from gaps.piston_motion import PistonDrive, PistonFilm, PistonShape, standing_piston
 from gaps.standing import piston_told
 from reynolds.rest import held_at
 from reynolds.solve import FilmSolver
 from swashfilm.pump_warnings import coarse_angles, impossible_pressures, uncarried_loads
+from system.gap_cycle import PLAIN, SMOOTH, GapPhysics
 
 
 def film(pressure, load=0.0):
@@ -25,10 +27,11 @@ def film(pressure, load=0.0):
     return piston_told(posed, held_at(FilmSolver(posed.space_at(0.0)), standing_piston(posed), 0.0, position))
 
 
-def films(piston, other):
+def films(piston, other, physics=PLAIN):
     """The part of a FilmsPoint that is looked at: `piston` in the piston gap, `other` in the two others."""
     ring = SimpleNamespace(gap=other)
-    return SimpleNamespace(gaps=SimpleNamespace(piston=(piston,), slipper=(other,), valve_plate=(ring,)))
+    gaps = SimpleNamespace(piston=(piston,), slipper=(other,), valve_plate=(ring,))
+    return SimpleNamespace(gaps=gaps, physics=physics)
 
 
 @pytest.mark.parametrize(("share", "count"), [(0.5, 1), (1.0, 0), (2.0, 1)])
@@ -43,6 +46,19 @@ def test_pressures_that_no_wall_would_stand_are_told():
     assert len(told) == 1
     assert told[0].startswith("film_pressure_beyond_rigid: piston: film pressure up to 1")
     assert "limit 100 MPa" in told[0]
+
+
+@pytest.mark.parametrize(
+    ("effects", "count"),
+    [
+        ((Effect.ELASTIC_WALLS, Effect.PRESSURE_VISCOSITY), 0),
+        ((Effect.ELASTIC_WALLS,), 1),
+        ((Effect.PRESSURE_VISCOSITY,), 1),
+    ],
+)
+def test_walls_that_give_way_and_oil_that_thickens_may_bear_such_pressures(effects, count):
+    physics = GapPhysics.alike(SMOOTH.without(Effect.PRESSURE_VISCOSITY).including(*effects))
+    assert len(impossible_pressures(films(film(150e6), film(50e6), physics))) == count
 
 
 @pytest.mark.parametrize(("error", "count"), [(0.005, 0), (0.3, 1)])
