@@ -90,9 +90,9 @@ def films_point(
     on beside `physics`. With heat the pairs' Coulomb loss warms their walls too.
 
     Raises NotConverged when chamber pressure and films do not settle within ROUND_LIMIT rounds, or oil stiffens
-    without bound, ValueError when `positions_per_pitch` is no even divisor of SAMPLES_PER_PITCH or chambers differ,
-    FilmInputError where parts touch at a given position. Films have no history; smooth, and rigid and isothermal
-    but for [physics].
+    without bound, ValueError when `positions_per_pitch` is no even divisor of SAMPLES_PER_PITCH or chambers
+    differ, FilmInputError where parts touch at a given position. Films have no history; smooth, and rigid and
+    isothermal but for [physics].
     """
     kinds(pump).hold_alike()
     if positions_per_pitch % 2 or SAMPLES_PER_PITCH % positions_per_pitch:
