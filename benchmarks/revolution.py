@@ -29,7 +29,7 @@ from gaps.seen import GapSeen, block_seen, piston_seen, slipper_seen
 from gaps.slipper_motion import SlipperFilm, floating_slipper
 from reynolds.floating import Floating
 from reynolds.floating_stage import Stage
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 from reynolds.solve import FilmSolver
 from system.floating_drives import drives, no_rubbing, piston_shape, slipper_shape
 from system.floating_gaps import MARCHED

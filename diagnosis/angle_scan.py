@@ -12,7 +12,7 @@ from scipy.signal import lfilter
 
 from diagnosis.study import PortEvent, TraceMisfit
 from diagnosis.thresholds import LocateLimits
-from system.estimation.observations import Array
+from reynolds.numerics.arrays import Array
 
 TURN = 2.0 * np.pi
 SIGMA_OF_MEDIAN = 1.4826  # of a normal distribution, over its median deviation

@@ -13,8 +13,8 @@ from diagnosis.detect import holds
 from diagnosis.hypotheses import Hypothesis
 from diagnosis.study import Study
 from diagnosis.thresholds import Thresholds
+from reynolds.numerics.arrays import Array
 from system.estimation.evidence import multiplier_evidences_without
-from system.estimation.observations import Array
 from system.estimation.posterior import Posterior, settled
 
 

@@ -20,9 +20,9 @@ from diagnosis.repair import repair
 from diagnosis.study import Study
 from diagnosis.thresholds import Thresholds
 from diagnosis.weighed import Weighed
+from reynolds.numerics.arrays import Array
 from system.errors import NotConverged
 from system.estimation.evidence import multiplier_evidence
-from system.estimation.observations import Array
 from system.estimation.posterior import Posterior, settled
 from system.physics.effects import EffectId, Kind
 

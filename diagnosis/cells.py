@@ -11,7 +11,7 @@ from datetime import datetime
 import numpy as np
 
 from diagnosis.tables import Columns, TableFault
-from system.kinematics import Array
+from reynolds.numerics.arrays import Array
 
 GAPS = frozenset({"", "-", "--", "nan", "na", "n/a", "null", "none", "#n/a", "inf", "-inf"})
 """Cells, in small letters, that say that there is no reading."""

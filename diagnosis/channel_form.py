@@ -6,9 +6,9 @@ import math
 from dataclasses import dataclass
 from enum import Enum
 
+from reynolds.numerics.arrays import Array
 from system.case_table import Table
 from system.channels import ChannelName
-from system.kinematics import Array
 from system.units import STANDARD_ATMOSPHERE, Dimension, QuantityError, unit_scale
 
 

@@ -8,8 +8,8 @@ import numpy as np
 
 from diagnosis.channel_form import AccuracyClass, ChannelForm
 from diagnosis.recording import RecordedChannel
+from reynolds.numerics.arrays import Array
 from system.channels import ChannelName
-from system.kinematics import Array
 from system.units import Dimension
 
 LEAST_GAIN = 1e-3

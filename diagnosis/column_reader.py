@@ -6,8 +6,8 @@ from dataclasses import dataclass, field
 
 from diagnosis.recording import DataNote, NoteKind
 from diagnosis.tables import Columns, TableFault, TableSource, read_columns
+from reynolds.numerics.arrays import Array
 from system.faults import Fault, nearest_choice
-from system.kinematics import Array
 
 
 @dataclass

@@ -16,9 +16,9 @@ from scipy.special import logsumexp
 from diagnosis.map_axes import smooth_shapes
 from diagnosis.study import Study
 from diagnosis.thresholds import Thresholds
+from reynolds.numerics.arrays import Array
 from system.components import Component
 from system.estimation.evidence import multiplier_evidence, project
-from system.estimation.observations import Array
 from system.estimation.posterior import Posterior
 
 Ranking = tuple[tuple[Component, float], ...]

@@ -11,8 +11,8 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.linalg import cho_factor, cho_solve
 
+from reynolds.numerics.arrays import Array
 from system.estimation.evidence import NOTHING_LEFT
-from system.estimation.observations import Array
 from system.estimation.posterior import Posterior
 
 

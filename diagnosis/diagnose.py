@@ -26,8 +26,8 @@ from diagnosis.thresholds import Thresholds
 from diagnosis.unknown import Scaling, scaling
 from diagnosis.verdict import Diagnosis, Status
 from diagnosis.weighed import Weighed, with_probabilities
+from reynolds.numerics.arrays import Array
 from system.channels import ChannelName
-from system.estimation.observations import Array
 from system.estimation.posterior import Effort, Posterior, settled
 from system.gap_cycle import Report, silent
 from system.physics.effects import Kind

@@ -18,8 +18,8 @@ from diagnosis.study import Study
 from diagnosis.table_rows import table_rows
 from diagnosis.thresholds import Thresholds
 from diagnosis.verdict import Diagnosis
+from reynolds.numerics.arrays import Array
 from system.channels import ChannelName
-from system.estimation.observations import Array
 from system.estimation.parameters import Parameter
 from system.estimation.posterior import Posterior
 from system.units import Dimension

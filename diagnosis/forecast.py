@@ -14,8 +14,9 @@ from scipy.linalg import cho_factor, cho_solve, toeplitz
 from scipy.special import ndtr
 
 from diagnosis.study import PumpSimulator, Study
+from reynolds.numerics.arrays import Array
 from system.bench_points import BenchPoints
-from system.estimation.observations import Array, Observations
+from system.estimation.observations import Observations
 from system.estimation.posterior import Posterior, standard_slopes
 from system.estimation.whitening import Whitening, autocorrelation, whitener
 from system.physics.effects import EffectId

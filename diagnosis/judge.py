@@ -20,7 +20,7 @@ from diagnosis.table_rows import table_rows
 from diagnosis.thresholds import Thresholds
 from diagnosis.verdict import Claim, Estimate, Status
 from diagnosis.weighed import Weighed
-from system.estimation.observations import Array
+from reynolds.numerics.arrays import Array
 from system.estimation.posterior import Posterior
 from system.physics.effects import Kind
 from system.pump_gap import Gap

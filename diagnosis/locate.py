@@ -24,9 +24,9 @@ from diagnosis.study import Study
 from diagnosis.thresholds import Thresholds
 from diagnosis.time_scan import TimeMark, scan_time
 from diagnosis.weighed import Weighed
+from reynolds.numerics.arrays import Array
 from system.channels import ChannelName
 from system.components import Component
-from system.estimation.observations import Array
 
 _Box = Callable[[ChannelName, Contrasts, Array, Mapping[ChannelName, Array]], Region | None]
 

@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from diagnosis.recording import Recording
+from reynolds.numerics.arrays import Array
 from system.channels import ChannelName
-from system.kinematics import Array
 from system.units import Dimension, in_unit
 
 AXES = (ChannelName.SPEED, ChannelName.P_OUT, ChannelName.DISPLACEMENT_RATIO, ChannelName.T_CASE)

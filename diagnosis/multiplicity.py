@@ -8,8 +8,8 @@ import numpy as np
 from scipy.stats import norm
 
 from diagnosis.study import Candidate
+from reynolds.numerics.arrays import Array
 from system.estimation.evidence import NOTHING_LEFT, Sign, project
-from system.estimation.observations import Array
 from system.estimation.posterior import Posterior
 
 

@@ -14,9 +14,9 @@ import numpy as np
 from diagnosis.bench_box import BenchBox, rows
 from diagnosis.forecast import Contender, Forecast, forecasts, foretold, readings
 from diagnosis.study import Study
+from reynolds.numerics.arrays import Array
 from system.bench_points import BenchPoints, operating_at
 from system.description import PumpDescription
-from system.estimation.observations import Array
 from system.operating import OperatingPoint
 from system.physics.effects import EffectId
 from system.units import Dimension, format_quantity

@@ -7,7 +7,7 @@ from scipy.linalg import cho_factor, cho_solve
 
 from diagnosis.map_axes import smooth_shapes
 from diagnosis.study import Study
-from system.estimation.observations import Array
+from reynolds.numerics.arrays import Array
 
 SMOOTH = 30.0  # sigma: prior width of a smooth mismatch over the map, which is no memory
 APART = 0.5  # on the map's axes, scaled to -1 .. 1: points nearer to each other share their mismatch

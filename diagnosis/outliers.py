@@ -8,8 +8,8 @@ from itertools import combinations_with_replacement
 import numpy as np
 
 from diagnosis.recording import DataNote, NoteKind, Recording, reading_sigma
+from reynolds.numerics.arrays import Array
 from system.channels import OUTPUTS, ChannelName
-from system.kinematics import Array
 
 FAR = 6.0  # robust standard deviations
 ROUNDS = 12

@@ -17,10 +17,10 @@ from diagnosis.forecast import Contender, Forecast
 from diagnosis.next_point import READINGS, SETTLED
 from diagnosis.shown import PLACES
 from diagnosis.study import Study
+from reynolds.numerics.arrays import Array
 from system.bench_points import BenchPoints
 from system.channels import ChannelName
 from system.components import Component
-from system.estimation.observations import Array
 from system.estimation.posterior import values_at
 from system.pump_gap import Gap
 

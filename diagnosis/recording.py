@@ -8,8 +8,8 @@ from enum import Enum
 import numpy as np
 from numpy.typing import NDArray
 
+from reynolds.numerics.arrays import Array
 from system.channels import ChannelName
-from system.kinematics import Array
 
 
 class Circuit(Enum):

@@ -19,10 +19,10 @@ from diagnosis.replicates import repeatability, set_points
 from diagnosis.series_points import series_points
 from diagnosis.tables import Columns, TableFault
 from diagnosis.trace_reader import ReadTraces, read_traces
+from reynolds.numerics.arrays import Array
 from system.case_table import Table, fault_lines, read_toml
 from system.channels import INPUTS, ChannelName
 from system.faults import Fault, InputFaults, nearest_path
-from system.kinematics import Array
 from system.units import QuantityError, unit_scale
 
 FILE = "recording.toml"

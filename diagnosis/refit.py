@@ -16,9 +16,9 @@ from diagnosis.screen import joint_evidence
 from diagnosis.study import Study
 from diagnosis.thresholds import Thresholds
 from diagnosis.weighed import Weighed
+from reynolds.numerics.arrays import Array
 from system.errors import NotConverged
 from system.estimation.fit import FitLimits, maximum_posterior
-from system.estimation.observations import Array
 from system.estimation.parameters import Parameter
 from system.estimation.posterior import Posterior, values_at
 from system.estimation.simulator import Simulator

@@ -13,9 +13,9 @@ from diagnosis.recording import TraceBlock
 from diagnosis.study import Study, TraceMisfit
 from diagnosis.thresholds import Thresholds
 from diagnosis.weighed import Weighed
+from reynolds.numerics.arrays import Array
 from system.components import Component
 from system.estimation.evidence import project
-from system.estimation.observations import Array
 from system.estimation.posterior import Posterior, values_at
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from system.kinematics import Array
+from reynolds.numerics.arrays import Array
 
 Numbers = NDArray[np.int64]
 FEWEST = 5  # degrees of freedom below which a scatter is no estimate

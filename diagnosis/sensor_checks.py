@@ -8,8 +8,8 @@ from itertools import combinations
 import numpy as np
 
 from diagnosis.recording import DataNote, NoteKind, RecordedChannel, Recording, reading_sigma
+from reynolds.numerics.arrays import Array
 from system.channels import INPUTS, OUTPUTS, ChannelName
-from system.kinematics import Array
 from system.units import Dimension
 
 LEAST_RUN = 5  # readings alike from which a sensor may be stuck

@@ -11,8 +11,8 @@ from diagnosis.channel_form import ChannelForm
 from diagnosis.recording_form import SeriesForm
 from diagnosis.steadiness import SteadyRule, effective_number, steady_stretches
 from diagnosis.tables import TableFault
+from reynolds.numerics.arrays import Array
 from system.channels import INPUTS
-from system.kinematics import Array
 
 SETTLING = 3.0  # lags of a channel left out at the beginning of a stretch
 

@@ -9,7 +9,7 @@ from itertools import islice
 import numpy as np
 from numpy.typing import NDArray
 
-from system.kinematics import Array
+from reynolds.numerics.arrays import Array
 
 Flags = NDArray[np.bool_]
 LONGEST_MEMORY = 0.99  # lag-one correlation beyond which a window counts as one sample

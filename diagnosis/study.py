@@ -10,11 +10,12 @@ import numpy as np
 
 from diagnosis.recording import Recording, TraceBlock
 from diagnosis.thresholds import Thresholds
+from reynolds.numerics.arrays import Array
 from system.bench_points import BenchPoints
 from system.channels import ChannelName
 from system.components import Component
 from system.estimation.evidence import Sign
-from system.estimation.observations import Array, Observations
+from system.estimation.observations import Observations
 from system.estimation.parameters import Parameter, Scale
 from system.estimation.posterior import Posterior, linear_posterior, values_at
 from system.estimation.simulator import Simulator

@@ -6,8 +6,8 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from reynolds.numerics.arrays import Array
 from system.faults import nearest_path
-from system.kinematics import Array
 
 
 class TableFault(Exception):

@@ -7,10 +7,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from diagnosis.traced_bench import TracedBench
+from reynolds.numerics.arrays import Array
 from system.bench_parameters import GROOVE_NAMES
 from system.errors import NotConverged
 from system.estimation.fit import FitLimits, maximum_posterior
-from system.estimation.observations import Array
 from system.estimation.parameters import Parameter
 from system.sensors import TRACE_NAMES
 

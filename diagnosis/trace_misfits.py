@@ -10,11 +10,11 @@ from diagnosis.recording import RecordedChannel, Recording, TraceBlock, reading_
 from diagnosis.study import PortEvent, TraceMisfit
 from diagnosis.trace_fit import MOVING, settled_traces
 from diagnosis.traced_bench import TracedBench
+from reynolds.numerics.arrays import Array
 from system.bench_map import LumpedBench
 from system.bench_parameters import groove_parameters
 from system.channels import ChannelName
 from system.description import PumpDescription
-from system.estimation.observations import Array
 from system.estimation.parameters import Parameter
 from system.estimation.posterior import values_at
 from system.lumped import port_openings

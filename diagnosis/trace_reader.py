@@ -13,7 +13,7 @@ from diagnosis.recording import RecordedChannel, TraceBlock
 from diagnosis.recording_form import TraceForm
 from diagnosis.tables import TableFault
 from diagnosis.traces import synchronous_mean
-from system.kinematics import Array
+from reynolds.numerics.arrays import Array
 
 
 @dataclass(frozen=True)

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from diagnosis.recording import RecordedChannel, TraceBlock, reading_sigma
-from system.estimation.observations import Array
+from reynolds.numerics.arrays import Array
 
 WINDOWS = 24  # of a turn: the numbers that are kept of a trace
 

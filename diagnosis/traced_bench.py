@@ -9,11 +9,12 @@ import numpy as np
 
 from diagnosis.recording import RecordedChannel, TraceBlock
 from diagnosis.trace_rows import TraceRows, trace_rows
+from reynolds.numerics.arrays import Array
 from system.bench_map import INPUT_STEPS, LumpedBench
 from system.bench_points import BenchPoints
 from system.channels import ChannelName
 from system.components import Component
-from system.estimation.observations import Array, Channel, Observations
+from system.estimation.observations import Channel, Observations
 from system.estimation.parameters import Parameter
 from system.estimation.posterior import values_at
 from system.physics.extension import Extension

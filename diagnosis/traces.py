@@ -6,7 +6,7 @@ import numpy as np
 
 from diagnosis.recording import TraceBlock
 from diagnosis.tables import TableFault
-from system.kinematics import Array
+from reynolds.numerics.arrays import Array
 
 TURN = 2.0 * np.pi
 FEWEST_ROWS = 36  # a turn, below which a trace shows no event of the ports

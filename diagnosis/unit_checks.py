@@ -10,8 +10,8 @@ from types import MappingProxyType
 import numpy as np
 
 from diagnosis.recording import Circuit, DataNote, NoteKind, RecordedChannel, Recording
+from reynolds.numerics.arrays import Array
 from system.channels import ChannelName
-from system.kinematics import Array
 from system.units import STANDARD_ATMOSPHERE, Dimension, unit_scale
 
 LIKELY = {

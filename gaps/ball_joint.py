@@ -17,7 +17,7 @@ import numpy as np
 
 from reynolds.errors import FilmInputError, FilmNotConverged
 from reynolds.laws import require_positive
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 
 LEAST_FACING = 0.1  # cosine between bore and plate normal: a plate steeper than 84 deg pushes no piston
 CREEP = 0.01  # of the shaft's speed: spin at which the joint's friction has reached 1/sqrt 2 of its size

@@ -14,7 +14,8 @@ import skfem
 from numpy.typing import NDArray
 
 from reynolds.errors import FilmInputError
-from reynolds.mesh import Array, FilmMesh
+from reynolds.mesh import FilmMesh
+from reynolds.numerics.arrays import Array
 
 EDGE = "pads"
 """Name of the pads' edges in a mesh."""

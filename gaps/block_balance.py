@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 from reynolds.sphere import PLANE, Sphere
 
 LandRadii = tuple[float, float, float, float]

@@ -39,7 +39,7 @@ from reynolds.film import ZERO, Film, FilmProblem, FilmSolution, Held
 from reynolds.floating import Floating, Outer
 from reynolds.floating_stage import Stage
 from reynolds.generalised import Modes, contact_force, modes_on
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 from reynolds.space import FilmSpace
 from reynolds.sphere import Sphere
 from reynolds.walls import Walls

@@ -30,7 +30,7 @@ from reynolds.bodies.supports import Supports
 from reynolds.bodies.wall import Body, body_wall, face_wall
 from reynolds.errors import FilmInputError
 from reynolds.laws import require_positive
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 from reynolds.space import FilmSpace
 from reynolds.sphere import PLANE, Sphere
 from reynolds.walls import Walls

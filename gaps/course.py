@@ -10,7 +10,7 @@ import numpy as np
 from scipy.interpolate import PchipInterpolator
 
 from reynolds.errors import FilmInputError
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 
 TURN = 2.0 * np.pi
 WRAPPED = 3  # knots repeated beyond either end, so that slopes there are those of a closed curve

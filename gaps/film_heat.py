@@ -30,7 +30,7 @@ from reynolds.floating import Floating
 from reynolds.floating_stage import Stage
 from reynolds.floating_start import seats_of
 from reynolds.fluid import Fluid, isoviscous
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 from reynolds.solve import FilmSolver
 from reynolds.transport import at_points
 from reynolds.wall_heat import GivenTemperature

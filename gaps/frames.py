@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 
 
 @dataclass(frozen=True)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 
 
 def lateral_force(guide_length: float, depth: float, force: Array) -> Array:

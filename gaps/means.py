@@ -8,7 +8,7 @@ from typing import Generic, TypeVar, cast
 
 import numpy as np
 
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 
 Told = TypeVar("Told")
 

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from reynolds.laws import Tangent
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 
 
 @dataclass(frozen=True)

@@ -35,7 +35,8 @@ from reynolds.floating import Floating, Outer, steady
 from reynolds.floating_stage import Stage
 from reynolds.laws import require_positive
 from reynolds.loads import evaluate
-from reynolds.mesh import Array, Cell, rectangle, rename
+from reynolds.mesh import Cell, rectangle, rename
+from reynolds.numerics.arrays import Array
 from reynolds.overlap import vertex_thickness
 from reynolds.space import FilmSpace, film_space
 

@@ -24,7 +24,8 @@ from gaps.stand import Stand
 from reynolds.bodies.foundation import Compliance
 from reynolds.bodies.wall import Body, FacePressure, body_wall, load_opening
 from reynolds.errors import FilmInputError
-from reynolds.mesh import Array, Cell, rectangle
+from reynolds.mesh import Cell, rectangle
+from reynolds.numerics.arrays import Array
 from reynolds.space import FilmSpace, film_space
 
 ALIKE = 1e-9  # of the largest influence: round-off of a part that is the same all around

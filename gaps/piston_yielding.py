@@ -20,7 +20,7 @@ from gaps.walls import BoreWalls
 from reynolds.film import FilmSolution
 from reynolds.floating_stage import Stage
 from reynolds.loads import evaluate
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 from reynolds.walls import full
 
 

@@ -16,7 +16,7 @@ from gaps.slipper_motion import SlipperFilm
 from reynolds.film import ZERO, Boundary, Cavitation, FilmProblem, FilmSolution, Held, Pocket, no_feed
 from reynolds.floating_stage import Stage
 from reynolds.loads import boundary_flows
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 from reynolds.solve import FilmSolver
 
 

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from reynolds.errors import FilmInputError
 from reynolds.laws import require_positive, within
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 
 
 class Relief(NamedTuple):

@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 
 from reynolds.errors import FilmInputError
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 
 ROUND_OFF = 1e-9
 """Of an axis' length: what a point may lie outside its ends, as a unit turned forth and back leaves it."""

@@ -9,7 +9,7 @@ import numpy as np
 from gaps.seen import Active
 from reynolds.film import FilmSolution
 from reynolds.loads import Loads
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 
 LOAD_TOLERANCE = 1e-3
 """Of the required load: what a film at a given position may miss of it and still count as holding it."""

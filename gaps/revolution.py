@@ -17,7 +17,7 @@ from reynolds.dirk import ALEXANDER_2, Tableau
 from reynolds.errors import FilmInputError
 from reynolds.floating import Floating
 from reynolds.floating_stage import Stage
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 from reynolds.periodic import Periodic, approached, periodic
 from reynolds.solve import FilmSolver
 

@@ -14,7 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gaps.bearing_pads import EDGE, BearingPads, with_pads
-from reynolds.mesh import Array, FilmMesh, rename, ring
+from reynolds.mesh import FilmMesh, rename, ring
+from reynolds.numerics.arrays import Array
 from reynolds.space import FilmSpace, film_space
 from reynolds.sphere import PLANE, Sphere
 

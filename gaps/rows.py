@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 
 EDGES = 0.8  # of a row's length is taken off at an edge, and put on where rows are widest
 

@@ -13,7 +13,7 @@ import numpy as np
 from reynolds.contact import Asperities, boundary_shear, contact_pressure
 from reynolds.film import FilmSolution
 from reynolds.loads import dissipated, point_fields
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 
 Vector = tuple[Array, Array]
 

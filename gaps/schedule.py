@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from reynolds.floating_stage import Closeness
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 
 MORE_EXACT = 10.0  # times, at most, are the steps of the first turns
 FEWEST = 24  # nodes of a whole turn with steps as wide as their error allows

@@ -17,7 +17,7 @@ from gaps.slipper_motion import SlipperFilm, SlipperFriction
 from reynolds.contact import Asperities
 from reynolds.floating_stage import Stage
 from reynolds.loads import boundary_flows, cavitated_fraction
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 
 SHARE = 0.01  # of the load or of the film's area, from which contact or cavities count
 

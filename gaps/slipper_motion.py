@@ -29,7 +29,7 @@ from reynolds.film import ZERO, Boundary, Film, FilmProblem, Held, Pocket, no_fe
 from reynolds.floating import Floating, Outer
 from reynolds.floating_stage import Stage
 from reynolds.laws import Tangent, require_positive
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 from reynolds.space import FilmSpace, film_space
 from reynolds.walls import Walls
 

@@ -15,7 +15,7 @@ from reynolds.floating import Floating
 from reynolds.floating_stage import Stage, solve_stage
 from reynolds.floating_start import pressed, started
 from reynolds.loads import boundary_flows, loads
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 from reynolds.rest import come_to_rest
 from reynolds.solve import FilmSolver
 

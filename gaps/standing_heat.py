@@ -19,7 +19,7 @@ from reynolds.energy import FilmTemperature
 from reynolds.errors import FilmNotConverged
 from reynolds.floating import Floating
 from reynolds.floating_stage import Stage
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 from reynolds.rest import held_at
 from reynolds.solve import FilmSolver
 

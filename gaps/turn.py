@@ -18,7 +18,7 @@ from reynolds.floating import Floating
 from reynolds.floating_stage import Stage, solve_stage
 from reynolds.floating_start import pressed, restarted, seats_of, started
 from reynolds.loads import cavitated_fraction
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 from reynolds.overlap import vertex_thickness
 from reynolds.solve import FilmSolver
 from reynolds.space import FilmSpace

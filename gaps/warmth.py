@@ -9,7 +9,7 @@ import numpy as np
 from reynolds.across import dowson, levels
 from reynolds.coupling import bent
 from reynolds.floating import Floating
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 
 
 @dataclass(frozen=True)

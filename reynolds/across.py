@@ -22,7 +22,7 @@ from numpy.polynomial import legendre
 from reynolds.errors import FilmInputError
 from reynolds.film import Film, FilmSolution
 from reynolds.loads import evaluate
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 from reynolds.space import FilmSpace
 
 DEFAULT_LEVELS = 6

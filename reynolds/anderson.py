@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 
 REMEMBERED = 5  # rounds that the extrapolation looks back on
 

@@ -24,7 +24,7 @@ from reynolds import kernels, opening_kernels, twist_kernels
 from reynolds.array_kernels import all_equal
 from reynolds.film import Cavitation, FilmProblem, Held, contents
 from reynolds.fluid import CONSTANT
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 from reynolds.opening_pattern import Openings
 from reynolds.space import FilmSpace
 from reynolds.transport import Tensor, Transport, along, at_points, times, transport

@@ -15,7 +15,7 @@ from scipy.sparse import csc_array, csr_array
 from reynolds import band_kernels as kernels
 from reynolds.band_order import line_order
 from reynolds.lanes import WIDTH
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 from reynolds.triangles import BothTriangles, both_triangles
 
 MOST_WORK = 1e7  # unknowns times the square of half the band: beyond, iterations are faster

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from scipy.sparse import csr_array
 from scipy.sparse.csgraph import connected_components, dijkstra
 
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 
 Numbers = NDArray[np.intp]
 

@@ -16,8 +16,8 @@ from scipy.sparse import csc_array
 from reynolds import carried_kernels as kernels
 from reynolds.array_kernels import norm
 from reynolds.grid import Grid
-from reynolds.mesh import Array
 from reynolds.multigrid import Effort, Multigrid, Precision
+from reynolds.numerics.arrays import Array
 from reynolds.triangles import both_triangles
 
 DIRECTIONS = 30  # of GMRES, kept between restarts

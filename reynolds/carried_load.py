@@ -14,7 +14,7 @@ from reynolds.contact import contact_pressure
 from reynolds.errors import FilmInputError, FilmNotConverged
 from reynolds.film import FilmProblem, FilmSolution
 from reynolds.loads import pressure_integrals
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 from reynolds.solve import FilmSolver
 
 TOLERANCE = 1e-6  # of the load, and of the load at the film's edge for moments

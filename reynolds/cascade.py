@@ -18,7 +18,7 @@ from scipy.sparse import coo_array, csc_array
 from reynolds import kernels
 from reynolds.grid import Grid
 from reynolds.linear import Factor
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 
 COARSEST = 200  # unknowns: below this a cold start takes no more than a few steps
 FINEST = 20_000  # unknowns: above this a coarse problem costs more than the steps that it saves

@@ -21,7 +21,7 @@ from scipy.sparse.linalg import SuperLU, splu
 
 from reynolds.errors import FilmNotConverged
 from reynolds.krylov import gmres
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 from reynolds.walls import Opens, columns_of, compliance_of, contact_of
 
 DENSE_LIMIT = 1500  # free pressures up to which a dense factor is as fast as GMRES on two loads

@@ -14,7 +14,7 @@ from reynolds import contact_kernels
 from reynolds.errors import FilmInputError
 from reynolds.lanes import WIDTH
 from reynolds.laws import Tangent, require_positive, within
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 
 # Walls pressed together by more than six standard deviations beyond the mean planes of their summits: solid.
 LOWEST_RATIO = -6.0

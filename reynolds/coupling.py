@@ -20,7 +20,7 @@ from reynolds.energy import FilmTemperature, Heat, solve_energy
 from reynolds.errors import FilmInputError, FilmNotConverged
 from reynolds.film import FilmProblem, FilmSolution
 from reynolds.fluid import Fluid, ViscosityLaw, isoviscous
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 from reynolds.solve import FilmSolver
 from reynolds.wall_heat import opening_by_heat
 

@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike
 from reynolds.errors import FilmInputError
 from reynolds.fluid import DensityLaw
 from reynolds.laws import Tangent, require_positive, within
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 
 ATMOSPHERE = 101325.0  # Pa absolute at zero gauge
 MINERAL_OIL_BUNSEN = 0.09  # volume of air (0 gauge) that a volume of mineral oil dissolves per atmosphere

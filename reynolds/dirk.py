@@ -16,7 +16,7 @@ from typing import Any, Generic, Protocol, TypeVar
 import numpy as np
 
 from reynolds.errors import FilmInputError, FilmNotConverged
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 
 MOST_REFUSALS = 25  # of one step, each at least halving it
 LEAST_CHANGE, MOST_CHANGE = 0.2, 5.0  # of the step from one to the next

@@ -19,7 +19,7 @@ from reynolds.across import Profile
 from reynolds.balance import State, cavity_density, density, operators
 from reynolds.errors import FilmInputError
 from reynolds.film import FilmSolution, Pocket
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 from reynolds.space import FilmSpace
 
 

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from reynolds.laws import within
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 
 
 def hamrock_dowson_minimum(

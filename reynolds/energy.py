@@ -33,7 +33,7 @@ from reynolds.energy_solve import HeatMatrix, solve_heat
 from reynolds.errors import FilmInputError, FilmNotConverged
 from reynolds.film import FilmSolution
 from reynolds.loads import dissipated
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 from reynolds.transport import at_points
 from reynolds.wall_heat import Body, Convecting, GivenTemperature, Wall, wall_rows
 

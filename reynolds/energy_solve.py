@@ -13,7 +13,7 @@ from reynolds import energy_kernels
 from reynolds.across import Levels
 from reynolds.edge_flow import EdgeFlow
 from reynolds.errors import FilmNotConverged
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 from reynolds.wall_heat import WallRows
 
 TOLERANCE = 1e-12  # of the rise of temperature

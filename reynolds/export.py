@@ -10,7 +10,7 @@ import numpy as np
 
 from reynolds.film import FilmSolution
 from reynolds.loads import point_fields
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 from reynolds.overlap import vertex_thickness
 from reynolds.space import FilmSpace
 

@@ -19,7 +19,7 @@ from reynolds.array_kernels import all_finite
 from reynolds.contact import Asperities
 from reynolds.errors import FilmInputError
 from reynolds.fluid import CONSTANT, Fluid
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 from reynolds.roughness import Surface
 from reynolds.space import FilmSpace
 from reynolds.walls import Walls

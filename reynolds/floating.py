@@ -17,7 +17,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from reynolds.film import FilmProblem
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 
 
 @dataclass(frozen=True)

@@ -22,7 +22,7 @@ from reynolds.generalised import (
     soft_contact,
 )
 from reynolds.linear import ITERATIVE_TOLERANCE
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 from reynolds.opening import touch_at
 from reynolds.sensitivity import Response, oil_slopes, response, thickness_load
 from reynolds.solve import FilmSolver, as_given

@@ -15,7 +15,7 @@ from reynolds.errors import FilmInputError
 from reynolds.film import Boundary, FilmProblem, FilmSolution, Pocket
 from reynolds.floating import Floating
 from reynolds.generalised import Modes
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 
 DEPTH = 5e-5  # m, at q = 0: what a pocket holds must stay above zero; how far above is of no matter
 

@@ -9,7 +9,7 @@ import numpy as np
 from reynolds.contact import LOWEST_RATIO, Asperities
 from reynolds.film import Film, FilmProblem, FilmSolution
 from reynolds.generalised import ContactForce, Modes, SoftContact
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 from reynolds.overlap import film_between
 
 THINNEST = 1e-9  # m: of a film between walls without asperities, some molecules of oil

@@ -25,7 +25,7 @@ from reynolds.floating_instant import (
 from reynolds.floating_posed import lowest_gap, posed
 from reynolds.generalised import SoftContact, modes_on
 from reynolds.iterate import is_linear
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 from reynolds.overlap import as_shaped
 from reynolds.sensitivity import Response
 from reynolds.solve import FilmSolver

@@ -13,7 +13,7 @@ from reynolds.errors import FilmInputError
 from reynolds.floating import Floating
 from reynolds.floating_pockets import pockets_grown
 from reynolds.floating_stage import Stage, solve_stage, standing
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 from reynolds.sensitivity import Response, oil_slopes
 from reynolds.solve import FilmSolver
 from reynolds.space import FilmSpace

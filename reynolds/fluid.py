@@ -8,7 +8,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 
 ViscosityLaw = Callable[[Array, Array], tuple[Array, Array]]
 """(pressure Pa, viscosity Pa s at the reference pressure) -> viscosity Pa s and its slope by pressure, Pa s/Pa."""

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from reynolds import generalised_kernels as kernels
 from reynolds.contact import Asperities, contact_pressure
 from reynolds.errors import FilmInputError
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 from reynolds.opening import Touch
 from reynolds.space import FilmSpace
 

@@ -13,7 +13,7 @@ from reynolds.balance import Balance, Operators, State, flow_balance, operators
 from reynolds.errors import FilmInputError, FilmNotConverged
 from reynolds.film import Cavitation, FilmProblem
 from reynolds.fluid import CONSTANT
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 from reynolds.opening import opening
 from reynolds.setting import Setting
 

@@ -7,7 +7,7 @@ from collections.abc import Callable
 import numpy as np
 
 from reynolds.array_kernels import norm
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 
 NOTHING = 1e-14  # of an image: what orthogonalisation leaves of one that lies in the basis
 

@@ -22,8 +22,8 @@ from reynolds.band import BandedFactor, banded
 from reynolds.carried import CarriedFilm
 from reynolds.errors import FilmNotConverged
 from reynolds.grid import Grid
-from reynolds.mesh import Array
 from reynolds.multigrid import Multigrid
+from reynolds.numerics.arrays import Array
 from reynolds.triangles import BothTriangles, both_triangles
 
 DIRECT_LIMIT = 60_000

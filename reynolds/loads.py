@@ -11,7 +11,7 @@ from reynolds import kernels
 from reynolds.balance import steep_gradient
 from reynolds.contact import boundary_shear, contact_pressure
 from reynolds.film import Cavitation, FilmSolution, Pocket
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 from reynolds.overlap import vertex_thickness
 from reynolds.roughness import Directional, pressure_factors, shear_factors, sliding_factor
 from reynolds.transport import along, at_points, isotropic

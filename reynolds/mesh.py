@@ -25,8 +25,7 @@ from scipy.sparse.csgraph import connected_components
 
 from reynolds.errors import FilmInputError
 from reynolds.mesh_check import mesh_faults
-
-Array = NDArray[np.float64]
+from reynolds.numerics.arrays import Array
 
 
 class Cell(Enum):

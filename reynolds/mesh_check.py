@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from reynolds.numerics.arrays import Array
+
 Cells = NDArray[np.int64]
 
 FLATTEST = 1e-12  # least corner area of a cell / square of its longest edge: below it round-off decides the sign

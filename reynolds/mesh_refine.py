@@ -8,7 +8,8 @@ import numpy as np
 import skfem
 from numpy.typing import NDArray
 
-from reynolds.mesh import Array, FilmMesh
+from reynolds.mesh import FilmMesh
+from reynolds.numerics.arrays import Array
 
 
 @dataclass(frozen=True)

@@ -26,7 +26,7 @@ from reynolds.errors import FilmInputError
 from reynolds.grid import Grid
 from reynolds.lanes import WIDTH
 from reynolds.line_kernels import Levels
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 
 MAX_STEPS = 60  # some 10 are usual: beyond these the operator is not one for multigrid
 IN_CACHE = 200_000  # unknowns: above, the finest level is kept once, in double precision, to hold less memory

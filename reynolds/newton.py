@@ -14,7 +14,7 @@ from reynolds.balance import NOTHING, by_opening, flow_balance, slopes
 from reynolds.compliant import Answer, Balance, NearFactor, compliant_answer
 from reynolds.film import Cavitation, FilmProblem
 from reynolds.iterate import Iterate, fixed_in, with_pockets
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 from reynolds.opening import opening_slope
 from reynolds.opening_pattern import SoftPatterns
 from reynolds.setting import Setting

@@ -21,7 +21,7 @@ from reynolds.contact import LOWEST_RATIO, Asperities, contact_pressure
 from reynolds.errors import FilmInputError, FilmNotConverged
 from reynolds.film import FilmProblem, Pocket
 from reynolds.laws import Tangent
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 from reynolds.walls import LowRank, Opens, WallMatrix, columns_of, full
 
 MAX_STEPS = 15

@@ -12,7 +12,7 @@ import numpy as np
 
 from reynolds.film import FilmProblem, FilmSolution
 from reynolds.laws import Tangent
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 from reynolds.roughness import mean_thickness
 
 

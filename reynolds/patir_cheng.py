@@ -18,7 +18,7 @@ from numpy.typing import ArrayLike
 from reynolds import roughness_kernels
 from reynolds.errors import FilmInputError
 from reynolds.laws import Tangent
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 
 LOWEST_PEKLENIK, HIGHEST_PEKLENIK = 1.0 / 9.0, 9.0
 

@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from reynolds.errors import FilmNotConverged
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 
 MOST_TURNS = 30
 MOST_DOUBLINGS = 40  # of the linearised turns run at once: 1e12 of them

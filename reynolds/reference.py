@@ -8,7 +8,7 @@ from functools import cached_property
 import numpy as np
 import skfem
 
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 
 # Quadrature exact enough that h^3 of a linear film costs no order of convergence: degree of the film
 # conductance (3) is not needed in full, the classical rule 2 k - 1 plus one is (Strang and Fix 1973).

@@ -16,7 +16,7 @@ from reynolds.film import FilmSolution
 from reynolds.floating import Floating
 from reynolds.floating_instant import instant_of
 from reynolds.floating_stage import Stage, standing
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 from reynolds.solve import FilmSolver
 
 GROWTH = 4.0  # of a step after one that was solved

@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike
 
 from reynolds.errors import FilmInputError
 from reynolds.laws import require_positive
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 
 
 def carreau_yasuda(

@@ -23,7 +23,7 @@ from numpy.typing import ArrayLike
 from reynolds import roughness_kernels
 from reynolds.errors import FilmInputError
 from reynolds.laws import Tangent, require_positive
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 from reynolds.patir_cheng import phi_f, phi_fp, phi_fs, phi_s, phi_x, require_peklenik
 
 NOTHING = np.zeros(())

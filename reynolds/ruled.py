@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from reynolds.errors import FilmInputError
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 
 SAME = 1e-9  # of the film's length: coordinates nearer than this are one
 

@@ -22,7 +22,7 @@ from reynolds.balance import (
 )
 from reynolds.film import Cavitation, FilmSolution
 from reynolds.linear import ITERATIVE_TOLERANCE
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 from reynolds.opening import opening_slope
 from reynolds.solve import FilmSolver
 from reynolds.transport import along, at_points

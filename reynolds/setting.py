@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from reynolds.array_kernels import all_finite
 from reynolds.errors import FilmInputError
 from reynolds.film import Cavitation, FilmProblem, Held, Pocket
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 
 
 @dataclass(frozen=True)

@@ -14,7 +14,7 @@ import numpy as np
 from reynolds.across import DEFAULT_LEVELS, levels
 from reynolds.coupling import Coupled, Posed, agree, resting_viscosity
 from reynolds.film import FilmProblem
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 from reynolds.solve import FilmSolver
 
 TOLERANCE = 1e-8

@@ -31,8 +31,8 @@ from reynolds.iterate import (
     with_pockets,
 )
 from reynolds.linear import ITERATIVE_TOLERANCE, Factor, GeneralFactor, Solve, row_by_row
-from reynolds.mesh import Array
 from reynolds.newton import compliant, general_step, signed_after, symmetric_step
+from reynolds.numerics.arrays import Array
 from reynolds.opening_pattern import SoftPatterns
 from reynolds.setting import Setting, spread
 from reynolds.space import FilmSpace

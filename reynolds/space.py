@@ -18,7 +18,8 @@ from scipy.spatial import cKDTree
 
 from reynolds import kernels
 from reynolds.errors import FilmInputError
-from reynolds.mesh import Array, FilmMesh
+from reynolds.mesh import FilmMesh
+from reynolds.numerics.arrays import Array
 from reynolds.pattern import Pattern, pattern_of
 from reynolds.reference import ELEMENTS, Reference, reference
 from reynolds.ruled import Ruling, ruling_of

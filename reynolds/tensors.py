@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from reynolds import tensor_kernels as kernels
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 
 PARALLEL = 1e-6  # of a cell's size, by which opposite sides may differ
 SAME = 1e-10  # of a cell's size: corners nearer than this are at the same place of its shape

@@ -14,7 +14,7 @@ from reynolds.energy import FilmTemperature, Heat
 from reynolds.errors import FilmInputError
 from reynolds.film import FilmProblem
 from reynolds.fluid import Fluid, ViscosityLaw, isoviscous
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 from reynolds.shear import ShearLaw, newtonian
 from reynolds.solve import FilmSolver
 from reynolds.transient import Instant, from_last_or_anew, march_with

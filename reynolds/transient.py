@@ -14,7 +14,7 @@ import numpy as np
 from reynolds.balance import State, density, operators
 from reynolds.errors import FilmInputError, FilmNotConverged
 from reynolds.film import ZERO, FilmProblem, FilmSolution, Storage
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 from reynolds.opening import opening
 from reynolds.setting import spread
 from reynolds.solve import FilmSolver

@@ -16,7 +16,7 @@ from reynolds.errors import FilmInputError, FilmNotConverged
 from reynolds.film import ZERO, Film, FilmProblem
 from reynolds.fluid import CONSTANT
 from reynolds.laws import Tangent
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 from reynolds.overlap import film_between
 from reynolds.roughness import FlowFactors, Surface, flow_factors
 from reynolds.space import FilmSpace

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import coo_array, csc_array
 
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 
 
 @dataclass(frozen=True)

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from reynolds import twist_kernels as kernels
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 from reynolds.space import FilmSpace
 from reynolds.transport import Tensor
 

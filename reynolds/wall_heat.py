@@ -13,7 +13,7 @@ from typing import Protocol
 import numpy as np
 
 from reynolds.errors import FilmInputError
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 from reynolds.space import FilmSpace
 
 

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import csr_array, issparse, vstack
 
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 
 
 @dataclass(frozen=True)

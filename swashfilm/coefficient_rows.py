@@ -7,12 +7,12 @@ from pathlib import Path
 
 import numpy as np
 
+from reynolds.numerics.arrays import Array
 from swashfilm.terminal import show
 from system.coefficient_files import PORT_HEADS, SOURCE
 from system.csv_table import Heads, read_table
 from system.faults import Fault, InputFaults
 from system.film_passages import FilmLoss, FilmPassage
-from system.kinematics import Array
 from system.loss_files import GROOVE_HEADS, STEP_HEADS
 from system.units import Dimension
 

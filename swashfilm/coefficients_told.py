@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 from system.assembly import PumpPoint
 from system.coefficient_files import FlowCoefficients
 from system.description import PumpDescription

@@ -11,9 +11,9 @@ from pathlib import Path
 import numpy as np
 
 from reynolds.errors import FilmInputError
+from reynolds.numerics.arrays import Array
 from system.duty import Cycle
 from system.faults import Fault, InputFaults, nearest_choice, nearest_path
-from system.kinematics import Array
 from system.map_plan import MapAxis, MapInput
 from system.units import Dimension, QuantityError, unit_scale, with_point
 

@@ -12,7 +12,7 @@ import numpy as np
 
 from diagnosis.diagnosis_file import read_diagnosis
 from diagnosis.shown import chance
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 from swashfilm import diagnose_plots
 from swashfilm.diagnose_files import NO_NEXT_POINT, TRACES, read_rows
 from swashfilm.diagnose_films import film_pictures

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 from swashfilm.figure_png import figure_of, png_of
 
 Row = Mapping[str, str]

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 from swashfilm.figure_png import figure_of, png_of
 from swashfilm.map_plots import COLOURS
 

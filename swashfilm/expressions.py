@@ -15,11 +15,10 @@ from dataclasses import dataclass, field
 from types import MappingProxyType
 
 import numpy as np
-from numpy.typing import NDArray
 
+from reynolds.numerics.arrays import Array
 from system.faults import nearest_choice
 
-Array = NDArray[np.float64]
 _Evaluate = Callable[[Mapping[str, Array]], Array]
 
 LONGEST = 2000  # characters

@@ -9,8 +9,9 @@ from pathlib import Path
 
 import numpy as np
 
-from reynolds.mesh import Array, FilmMesh, read_mesh_file
+from reynolds.mesh import FilmMesh, read_mesh_file
 from reynolds.mesh_refine import RefinedMesh
+from reynolds.numerics.arrays import Array
 from reynolds.space import FilmSpace
 from swashfilm.expressions import (
     CONSTANTS,

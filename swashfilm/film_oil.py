@@ -12,7 +12,7 @@ from reynolds.coupling import Coupled
 from reynolds.energy import FilmTemperature, Heat
 from reynolds.errors import FilmInputError, FilmNotConverged
 from reynolds.film import FilmProblem, FilmSolution
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 from reynolds.shear import newtonian, solve_shear
 from reynolds.solve import FilmSolver
 from reynolds.space import FilmSpace

@@ -10,7 +10,7 @@ from gaps.physics import Physics
 from gaps.ring import SEALED
 from reynolds.film import FilmSolution
 from reynolds.loads import evaluate
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 from reynolds.oil import WALTHER_SHIFT, walther_coefficients
 from system.description import PumpDescription
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from reynolds.errors import FilmInputError
 from reynolds.film import Film, FilmProblem, Held
 from reynolds.fluid import CONSTANT, Fluid
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 from reynolds.space import FilmSpace, film_space
 from swashfilm.field_reader import field_fault
 from swashfilm.fields import Field

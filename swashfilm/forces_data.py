@@ -8,9 +8,9 @@ from typing import Any
 
 import numpy as np
 
+from reynolds.numerics.arrays import Array
 from system import pairs
 from system.assembly import PumpPoint
-from system.kinematics import Array
 from system.lumped import piston_forces, piston_motion
 from system.multibody.closure import closure
 from system.multibody.group_kinematics import SHAFT

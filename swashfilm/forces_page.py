@@ -10,9 +10,9 @@ from typing import Any
 
 import numpy as np
 
+from reynolds.numerics.arrays import Array
 from swashfilm.figure_png import figure_of, png_of
 from swashfilm.forces_data import TABLE, read_forces
-from system.kinematics import Array
 
 Rows = Sequence[tuple[str, ...]]
 

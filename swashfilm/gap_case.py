@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from gaps.physics import Physics
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 from swashfilm.case_pump import CasePump, operating_rows, own_rows, read_case_pump
 from swashfilm.gap_position import Load, load_rows, position_rows, read_load, read_position, touching
 from swashfilm.physics_case import physics_rows, read_physics

@@ -18,7 +18,7 @@ from gaps.slipper_motion import SlipperDrive, face_force, floating_slipper
 from gaps.standing import block_told, piston_told, rest_from, slipper_told
 from reynolds.floating import Floating
 from reynolds.floating_stage import Stage
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 from reynolds.rest import held_at
 from reynolds.solve import FilmSolver
 from reynolds.space import FilmSpace

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from gaps.response import Axis, Measure, Output, Response
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 from swashfilm.gap_case import GapCase
 from swashfilm.gap_table_case import FORMAT, GapTableCase
 from swashfilm.headline import named

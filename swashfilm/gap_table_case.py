@@ -12,7 +12,7 @@ import numpy as np
 from gaps.response import Axis
 from gaps.response import Spacing as Scale
 from reynolds.bodies.cache import content_key
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 from swashfilm.film_case import Case, FilmCase
 from swashfilm.film_series import digest, solved_summary
 from swashfilm.headline import headline_numbers

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 from system.assembly import PumpPoint
 from system.description import PumpDescription, SlipperSection
 from system.edge_losses import LandPath

@@ -7,13 +7,13 @@ from typing import Any
 
 import numpy as np
 
+from reynolds.numerics.arrays import Array
 from system.description import PumpDescription
 from system.film_effects import effects_in_films, film_effects
 from system.floating_parts import floating_parts
 from system.gap_cycle import PLAIN
 from system.instants import rotor
 from system.kept_points import Kept
-from system.kinematics import Array
 from system.map_data import Best, MapData, best_points, toet_notes, told_warnings
 from system.map_interpolation import MapError
 from system.map_plan import MapAxis, MapInput, MapPlan, point_words, reading_levels

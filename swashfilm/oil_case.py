@@ -10,7 +10,7 @@ import numpy as np
 from reynolds.density import DOWSON_HIGGINSON, BulkModulus, RationalDensity, Tait, tait_modulus
 from reynolds.errors import FilmInputError
 from reynolds.fluid import DensityLaw, Fluid, ViscosityLaw, incompressible, isoviscous
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 from reynolds.oil import ISO_GRADES, Oil, dynamic_viscosity, walther
 from reynolds.rheology import Carreau, Cross, Eyring
 from reynolds.shear import ShearLaw

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 from swashfilm.progress import Report
 from swashfilm.reference_case import FEWEST_CELLS, ReferenceCase, ReferenceKind
 from swashfilm.reference_passages import Passage

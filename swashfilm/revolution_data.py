@@ -12,7 +12,7 @@ import numpy as np
 
 from gaps.seen import Active
 from gaps.turn import GapInstant
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 from reynolds.overlap import vertex_thickness
 from swashfilm.revolution_study import RevolutionStudy, friction_power, tilt
 from system.instants import engaged_share

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from gaps.course import TURN, Course
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 from system.case_table import Table, quoted
 from system.chamber_state_kernels import CAVITY_PRESSURE
 from system.faults import nearest_choice

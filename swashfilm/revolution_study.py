@@ -11,7 +11,7 @@ import numpy as np
 from gaps.revolution import GapRevolution
 from gaps.seen import Active, BlockSeen, GapSeen, PistonSeen, SlipperSeen, mass_balance_error
 from gaps.warmth import Warmth
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 from swashfilm.progress import Report
 from swashfilm.revolution_case import GapCase, RevolutionCase
 from swashfilm.revolution_warnings import revolution_warnings

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from gaps.response import Axis, Response, Spacing
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 from swashfilm.figure_png import figure_of, png_of
 from swashfilm.headline import named
 from swashfilm.revolution_data import SHOWN

@@ -10,8 +10,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from reynolds.numerics.arrays import Array
 from system.chamber_state_kernels import CAVITY_PRESSURE
-from system.kinematics import Array, SwashDrive, stroke
+from system.kinematics import SwashDrive, stroke
 from system.lumped import full_drive
 from system.multibody import transient_kernels as kernel
 from system.multibody.transient import Transient

@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from reynolds.numerics.arrays import Array
 from swashfilm.figure_png import figure_of, png_of
-from system.kinematics import Array
 
 if TYPE_CHECKING:
     import xarray

@@ -8,11 +8,12 @@ from enum import Enum
 
 import numpy as np
 
+from reynolds.numerics.arrays import Array
 from system.bench import BenchReading, Efficiency, iso_efficiency, paper_efficiency
 from system.chamber import ChamberCycle, Paths
 from system.chamber_problem import ChamberProblem, LeakTable
 from system.chamber_state_kernels import CAVITY_PRESSURE
-from system.kinematics import Array, stroke
+from system.kinematics import stroke
 from system.operating import OperatingPoint
 from system.pairs import FrictionPairs, Pair, over_chambers
 from system.ports import TURN, opening_area

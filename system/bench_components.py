@@ -7,13 +7,13 @@ from dataclasses import replace
 
 import numpy as np
 
+from reynolds.numerics.arrays import Array
 from system.bench_courses import other_gaps
 from system.bench_truth import SIMULATED, Solved, losses, pair_torque, throttling_torque, truth
 from system.chamber_problem import LeakTable
 from system.channels import ChannelName
 from system.components import Component
 from system.gap_courses import bench_state
-from system.kinematics import Array
 from system.pairs import FrictionPairs, Pair
 from system.physics.state import ideal_flow
 

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from reynolds.numerics.arrays import Array
 from system import chamber_kernel as kernel
 from system import chamber_state_kernels as chamber_state
 from system.bench_ports import map_ports
@@ -15,7 +16,6 @@ from system.chamber_course import periodic_cubics
 from system.chamber_problem import LeakTable
 from system.description import PumpDescription
 from system.errors import NotConverged
-from system.kinematics import Array
 from system.lumped import PistonMotion, chamber_problem
 from system.map_kernels import beside_map, chamber_map
 from system.operating import OperatingPoint

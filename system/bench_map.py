@@ -10,6 +10,7 @@ from hashlib import blake2b
 import numpy as np
 
 from reynolds.errors import FilmInputError
+from reynolds.numerics.arrays import Array
 from system.bench_components import WARMER, components
 from system.bench_courses import Courses, beside, other_gaps, solve_map
 from system.bench_parameters import BASE_NAMES
@@ -22,7 +23,6 @@ from system.description import PumpDescription
 from system.errors import NotConverged
 from system.estimation.parameters import Parameter, Scale
 from system.gap_courses import bench_state, gap_courses
-from system.kinematics import Array
 from system.lumped import lumped_pairs
 from system.physics.effects import both
 from system.physics.extension import Extension

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from reynolds.numerics.arrays import Array
 from system.description import PumpDescription
-from system.kinematics import Array
 from system.operating import OperatingPoint, operating_point
 
 

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from reynolds.numerics.arrays import Array
 from system.chamber_course import turn_nodes
 from system.description import PumpDescription
-from system.kinematics import Array
 from system.lumped import port_openings
 from system.physics.port_laws import eroded, narrowed
 from system.ports import as_array

@@ -7,13 +7,13 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from reynolds.numerics.arrays import Array
 from reynolds.oil import walther
 from system.bench_courses import MapProblem, map_problem
 from system.bench_parameters import GROOVE_ADVANCE, GROOVE_AREA, pump_with
 from system.bench_points import BenchPoints
 from system.chamber_problem import LeakTable
 from system.description import PumpDescription
-from system.kinematics import Array
 from system.lumped import PistonMotion, lumped_leaks, piston_motion
 from system.operating import OperatingPoint
 from system.physics.effects import Effects

@@ -6,10 +6,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from reynolds.numerics.arrays import Array
 from system.bench_courses import Courses
 from system.bench_setting import Setting
 from system.channels import ChannelName
-from system.kinematics import Array
 from system.lumped import lumped_pairs
 from system.pairs import FrictionPairs, Pair, PairLoss
 from system.physics.effects import BenchState, Effects

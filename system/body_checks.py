@@ -16,7 +16,8 @@ from reynolds.bodies.body_space import BodySpace, Face, body_space
 from reynolds.bodies.chart import Chart, Cylinder, OnSphere, Side
 from reynolds.bodies.transfer import transfer
 from reynolds.errors import FilmInputError
-from reynolds.mesh import Array, Cell, annulus, rectangle
+from reynolds.mesh import Cell, annulus, rectangle
+from reynolds.numerics.arrays import Array
 from reynolds.space import FilmSpace, film_space
 from reynolds.sphere import PLANE, Sphere
 from system.checks import CheckWarning, Finding, length, needs

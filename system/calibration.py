@@ -9,12 +9,13 @@ from enum import Enum
 import numpy as np
 from numpy.typing import NDArray
 
+from reynolds.numerics.arrays import Array
 from system.bench_points import BenchPoints
 from system.channels import ChannelName
 from system.description import PumpDescription
 from system.estimation.fit import maximum_posterior
 from system.estimation.folds import left_out, levels
-from system.estimation.observations import Array, Observations
+from system.estimation.observations import Observations
 from system.estimation.posterior import Posterior
 from system.loss_models.bench import MODELLED, loss_model_bench, modelled
 from system.loss_models.catalogue import LOSS_MODELS

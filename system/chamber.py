@@ -12,12 +12,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from reynolds.numerics.arrays import Array
 from system import chamber_kernel as kernel
 from system import chamber_state_kernels as chamber_state
 from system.chamber_course import Course, constants, periodic_values, turn_nodes
 from system.chamber_problem import ChamberProblem
 from system.errors import NotConverged
-from system.kinematics import Array, piston_displacement, stroke
+from system.kinematics import piston_displacement, stroke
 from system.map_kernels import run_in
 from system.ports import TURN
 

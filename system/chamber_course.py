@@ -6,10 +6,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from reynolds.numerics.arrays import Array
 from system import chamber_kernel as kernel
 from system import chamber_state_kernels as chamber_state
 from system.chamber_problem import ChamberProblem
-from system.kinematics import Array
 from system.ports import TURN, PortOpening, as_array, break_angles
 
 Constants = tuple[np.ndarray, Array, Array]

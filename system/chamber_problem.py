@@ -7,8 +7,9 @@ from typing import Generic
 
 import numpy as np
 
+from reynolds.numerics.arrays import Array
 from system import chamber_state_kernels as chamber_state
-from system.kinematics import Array, Number, SwashDrive
+from system.kinematics import Number, SwashDrive
 from system.ports import PortOpening
 
 

@@ -13,9 +13,9 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from reynolds.numerics.arrays import Array
 from system.csv_table import CsvTable, read_table
 from system.faults import Fault, InputFaults
-from system.kinematics import Array
 from system.units import Dimension
 
 PORT_HEADS = {"opening": Dimension.AREA, "reynolds": None, "flow_coefficient": None}

@@ -10,8 +10,8 @@ from pathlib import Path
 
 import numpy as np
 
+from reynolds.numerics.arrays import Array
 from system.faults import Fault, InputFaults, nearest_choice, nearest_path
-from system.kinematics import Array
 from system.units import Dimension, QuantityError, parse_quantity
 
 Heads = Mapping[str, Dimension | None]

@@ -7,7 +7,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from system.kinematics import Array, SwashDrive
+from reynolds.numerics.arrays import Array
+from system.kinematics import SwashDrive
 
 
 def bore_axis(drive: SwashDrive, shaft_angle: float) -> Array:

@@ -8,8 +8,8 @@ from math import nan
 import numpy as np
 
 from reynolds.errors import FilmInputError
+from reynolds.numerics.arrays import Array
 from system.estimation.folds import levels
-from system.kinematics import Array
 
 TURN = 2.0 * np.pi
 LEAST_LEVELS = 5  # speeds, and pressure differences, that ISO 8426-1:2025 asks for

@@ -8,9 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from reynolds.errors import FilmInputError
+from reynolds.numerics.arrays import Array
 from system.efficiencies import EfficiencyDefinition
 from system.faults import Fault, InputFaults
-from system.kinematics import Array
 from system.map_data import LOSSES, MapData
 from system.map_interpolation import MapError, MapInterpolant, inside
 from system.map_plan import MapAxis, MapInput

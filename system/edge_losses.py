@@ -16,7 +16,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from reynolds.errors import FilmInputError
-from system.kinematics import Array
+from reynolds.numerics.arrays import Array
 
 KINETIC = 54.0 / 35.0
 """Flow of kinetic energy of a parabola over that of its mean velocity."""

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from reynolds.numerics.arrays import Array
 from system.bench_parameters import pump_with
 from system.description import PumpDescription
-from system.estimation.observations import Array
 from system.estimation.parameters import Parameter
 from system.physics.extension import Extension
 from system.physics_description import PhysicsSection

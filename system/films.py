@@ -13,6 +13,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from reynolds.errors import FilmInputError
+from reynolds.numerics.arrays import Array
 from system.assembly import PumpPoint, assemble, met_point
 from system.chamber import ChamberCycle, solve_cycle
 from system.chamber_problem import ChamberProblem, LeakTable
@@ -23,7 +24,6 @@ from system.floating_parts import FloatingParts, floating_parts
 from system.gap_cycle import PLAIN, GapCycle, GapPhysics, Report, gap_cycle, silent
 from system.given_thickness import at_temperature, unpressed
 from system.instants import Rotor, rotor
-from system.kinematics import Array
 from system.land_losses import creeping_film_leaks, land_losses, with_inertia
 from system.lumped import (
     SAMPLES_PER_PITCH,

@@ -15,13 +15,13 @@ from multiprocessing.connection import Connection
 
 from gaps.revolution import GapRevolution
 from gaps.seen import PistonSeen
+from reynolds.numerics.arrays import Array
 from system.errors import NotConverged
 from system.floating_drives import Rubbing, drives
 from system.floating_gaps import FloatingOptions, piston_revolution
 from system.floating_parts import FloatingParts
 from system.gap_cycle import Report
 from system.instants import Rotor
-from system.kinematics import Array
 
 Found = GapRevolution[PistonSeen]
 TOLD_A_TURN = 12

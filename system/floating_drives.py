@@ -18,12 +18,12 @@ from gaps.course import Course, OverTurn
 from gaps.lateral import lateral_force, lateral_moment
 from gaps.piston_motion import PistonDrive, PistonShape
 from gaps.slipper_motion import Orifice, Retainer, SlipperDrive, SlipperShape, face_force, face_inertia, pressed_by
+from reynolds.numerics.arrays import Array
 from system.chamber_state_kernels import CAVITY_PRESSURE
 from system.directions import bore_axis, bore_sides, plate_axes
 from system.floating_parts import FloatingParts
 from system.instants import Rotor, travel
 from system.kinematics import (
-    Array,
     piston_acceleration,
     piston_velocity,
     slipper_acceleration,

@@ -13,13 +13,13 @@ import numpy as np
 
 from gaps.revolution import GapRevolution
 from gaps.seen import BlockSeen, GapSeen, PistonSeen, Seen, SlipperSeen
+from reynolds.numerics.arrays import Array
 from system.chamber_course import periodic_values
 from system.chamber_problem import LeakTable
 from system.directions import bore_axis, bore_sides, plate_axes
 from system.floating_drives import GroupInstant, Rubbing
 from system.floating_parts import FloatingParts
 from system.instants import Rotor, travel, valve_plate_geometry
-from system.kinematics import Array
 from system.lumped import piston_area
 from system.pairs import FrictionPairs, PairLoss
 from system.ports import TURN

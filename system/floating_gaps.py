@@ -19,7 +19,7 @@ from gaps.slipper_motion import SlipperDrive, floating_slipper
 from reynolds.errors import FilmNotConverged
 from reynolds.floating import Floating
 from reynolds.floating_stage import Stage
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 from reynolds.solve import FilmSolver
 from reynolds.space import FilmSpace
 from system.checks import run_checks

@@ -13,6 +13,7 @@ import numpy as np
 
 from gaps.revolution import GapRevolution
 from gaps.seen import PistonSeen
+from reynolds.numerics.arrays import Array
 from system.chamber_problem import ChamberProblem
 from system.description import PumpDescription
 from system.floating_beside import Driven, PistonBeside
@@ -22,7 +23,6 @@ from system.floating_gaps import FloatingOptions, block_revolution, piston_revol
 from system.floating_parts import FloatingParts, floating_parts
 from system.gap_cycle import Report
 from system.instants import Rotor
-from system.kinematics import Array
 from system.lumped import PistonMotion, chamber_problem
 from system.operating import OperatingPoint
 from system.spins import SpinTorques

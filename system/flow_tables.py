@@ -15,8 +15,8 @@ from pathlib import Path
 import numba
 import numpy as np
 
+from reynolds.numerics.arrays import Array
 from system.coefficient_files import FlowCoefficients, read_flow_coefficients, seen
-from system.kinematics import Array
 
 MOST_OPENINGS = 12
 NODES = 40

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from reynolds.numerics.arrays import Array
 from system import pairs
 from system.description import PumpDescription
-from system.kinematics import Array
 from system.lumped import PistonMotion, Pressed, block_clamping, lumped_leaks, piston_forces
 from system.operating import OperatingPoint
 from system.pairs import FrictionPairs

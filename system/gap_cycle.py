@@ -19,6 +19,7 @@ from gaps.standing_heat import warm_turn
 from reynolds.floating import Floating
 from reynolds.floating_stage import Stage
 from reynolds.fluid import isoviscous
+from reynolds.numerics.arrays import Array
 from reynolds.rest import held_at
 from reynolds.solve import FilmSolver
 from system.floating_drives import drives, no_rubbing
@@ -27,7 +28,6 @@ from system.floating_parts import FloatingParts
 from system.gap_films import RIGID, Cells, block_film, piston_film, slipper_film
 from system.given_positions import given_block, given_piston, given_slipper
 from system.instants import Rotor
-from system.kinematics import Array
 
 PISTON_CELLS, SLIPPER_CELLS, RING_CELLS = (48, 16), (12, 48), (8, 32)
 """Of the ring so many around that mesh lines meet REF90's port edges at the film angles."""

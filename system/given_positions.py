@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
+from reynolds.numerics.arrays import Array
 from system.description import PumpDescription
 from system.instants import Rotor
-from system.kinematics import Array, slipper_sliding_velocity
+from system.kinematics import slipper_sliding_velocity
 
 
 def eccentric(clearance: float, ratio: float, outer: Array) -> Array:

@@ -7,10 +7,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from reynolds.numerics.arrays import Array
 from system.bench_map import LumpedBench
 from system.estimation.posterior import Posterior
 from system.gap_courses import bench_state, gap_courses
-from system.kinematics import Array
 from system.lumped import lumped_pairs
 from system.pairs import Pair
 from system.physics.contact_laws import hersey, stribeck_share

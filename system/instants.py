@@ -9,8 +9,9 @@ import numpy as np
 
 from gaps.ball_joint import Spins
 from gaps.ring import ValvePlateGeometry
+from reynolds.numerics.arrays import Array
 from system.description import PumpDescription
-from system.kinematics import Array, SwashDrive, drive_at_ratio, piston_displacement
+from system.kinematics import SwashDrive, drive_at_ratio, piston_displacement
 from system.lumped import full_drive, piston_stand_out
 from system.operating import OperatingPoint
 from system.spins import SpinTorques, estimated_torques, spins

@@ -11,10 +11,9 @@ from dataclasses import dataclass
 from typing import Generic
 
 import numpy as np
-from numpy.typing import NDArray
 from typing_extensions import TypeVar
 
-Array = NDArray[np.float64]
+from reynolds.numerics.arrays import Array
 
 Number = TypeVar("Number", float, Array, default=float)
 """What belongs to one operating point, or for N points at once a column (N, 1), shaft angles being the rows."""

@@ -14,12 +14,12 @@ from pathlib import Path
 import numpy as np
 
 from gaps.orifice_table import OrificeTable
+from reynolds.numerics.arrays import Array
 from system.chamber_problem import LeakTable
 from system.coefficient_files import FlowCoefficients, seen
 from system.description import PumpDescription, SlipperSection
 from system.edge_losses import Edge, Excess, LandPath, LossCourse, secant_conductance
 from system.flow_tables import coefficients_of, log_reynolds_over
-from system.kinematics import Array
 from system.loss_files import LossFactors, groove_losses, step_losses
 
 TURN = 2.0 * np.pi

@@ -8,7 +8,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from system.kinematics import Array, Number
+from reynolds.numerics.arrays import Array
+from system.kinematics import Number
 
 
 def piston_conductance(

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from system.kinematics import Array
+from reynolds.numerics.arrays import Array
 
 
 @dataclass(frozen=True)

@@ -12,10 +12,10 @@ from pathlib import Path
 
 import numpy as np
 
+from reynolds.numerics.arrays import Array
 from system.coefficient_files import SOURCE, range_faults, seen, source_faults
 from system.csv_table import CsvTable, read_table
 from system.faults import Fault, InputFaults
-from system.kinematics import Array
 
 STEP_HEADS = {"film_ratio": None, "reynolds": None, "extra_length": None, "loss_factor": None}
 GROOVE_HEADS = {

@@ -7,12 +7,12 @@ from typing import Generic, Protocol
 
 import numpy as np
 
+from reynolds.numerics.arrays import Array
 from system import pairs
 from system.chamber_problem import ChamberProblem, LeakTable
 from system.description import PortsSection, PumpDescription
 from system.flow_tables import FlowTable, port_table
 from system.kinematics import (
-    Array,
     Number,
     SwashDrive,
     ball_acceleration_along_bore,

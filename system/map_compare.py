@@ -7,9 +7,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from reynolds.numerics.arrays import Array
 from system.efficiencies import EfficiencyDefinition
 from system.faults import Fault, InputFaults
-from system.kinematics import Array
 from system.map_data import LOSSES, MapData, objects
 from system.map_interpolation import MapError, MapInterpolant, inside
 from system.map_plan import MapAxis, MapInput

@@ -10,11 +10,11 @@ from math import nan
 import numpy as np
 
 from reynolds.errors import FilmInputError
+from reynolds.numerics.arrays import Array
 from system.assembly import PointWarning
 from system.bench import BenchReading
 from system.displacement import Derived, toet_displacement
 from system.efficiencies import EfficiencyBasis, EfficiencyDefinition, efficiency
-from system.kinematics import Array
 from system.map_plan import MapAxis, MapInput, MapPlan
 from system.map_point import MapWork, columns
 from system.pairs import Pair

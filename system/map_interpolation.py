@@ -9,9 +9,9 @@ from functools import cached_property
 import numpy as np
 
 from reynolds.errors import FilmInputError
+from reynolds.numerics.arrays import Array
 from system.bench import ideal_flow, ideal_torque
 from system.faults import Fault, InputFaults
-from system.kinematics import Array
 from system.map_data import MapData
 from system.map_plan import MapAxis, MapInput, MapPlan
 from system.map_point import columns

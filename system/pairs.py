@@ -12,7 +12,8 @@ from enum import Enum
 
 import numpy as np
 
-from system.kinematics import Array, Number
+from reynolds.numerics.arrays import Array
+from system.kinematics import Number
 
 
 class Pair(Enum):

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from reynolds.errors import FilmInputError
+from reynolds.numerics.arrays import Array
 from system.bench import BenchReading, paper_losses
 from system.bench_map import LumpedBench
 from system.bench_points import BenchPoints
@@ -21,7 +22,6 @@ from system.estimation.folds import levels
 from system.estimation.observations import Channel, Observations
 from system.estimation.parameters import Parameter, Role, Scale
 from system.estimation.posterior import Posterior
-from system.kinematics import Array
 from system.pairs import Pair
 from system.units import Dimension
 

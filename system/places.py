@@ -14,10 +14,11 @@ from typing import assert_never
 import numpy as np
 
 from gaps.frames import Frame
+from reynolds.numerics.arrays import Array
 from system.directions import bore_axis, bore_sides, plate_axes
 from system.floating_parts import FloatingParts
 from system.instants import Rotor, travel
-from system.kinematics import Array, ball_radius
+from system.kinematics import ball_radius
 from system.lumped import piston_area
 from system.pump_gap import Gap
 

@@ -8,13 +8,13 @@ from dataclasses import dataclass, fields, replace
 import numpy as np
 from scipy.interpolate import CubicSpline
 
+from reynolds.numerics.arrays import Array
 from system.assembly import PumpPoint
 from system.bench import elastic_energy
 from system.chamber import ChamberCycle
 from system.chamber_problem import ChamberProblem, LeakTable
 from system.description import PumpDescription
 from system.gap_courses import bench_state, gap_courses
-from system.kinematics import Array
 from system.lumped import lumped_pairs, piston_motion
 from system.operating import OperatingPoint
 from system.pairs import FrictionPairs, Pair, PairLoss

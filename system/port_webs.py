@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numba
 import numpy as np
 
-from system.kinematics import Array
+from reynolds.numerics.arrays import Array
 
 MOST_WEBS = 8
 WEBS_SIZE = 2 + 2 * MOST_WEBS

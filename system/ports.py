@@ -13,8 +13,9 @@ from typing import Generic
 import numba
 import numpy as np
 
+from reynolds.numerics.arrays import Array
 from system.flow_tables import FLOW_SIZE, FlowTable
-from system.kinematics import Array, Number
+from system.kinematics import Number
 from system.port_webs import WEBS_SIZE, PortWebs, covered_share
 from system.relief_grooves import SIZE, ReliefGroove, throat_area
 

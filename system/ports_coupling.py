@@ -14,11 +14,11 @@ from functools import cached_property
 import numpy as np
 
 from reynolds.anderson import History
+from reynolds.numerics.arrays import Array
 from system.chamber import TOLERANCE, ChamberCycle, flow_energy, solve_cycle
 from system.chamber_problem import ChamberProblem, PortPressure
 from system.chamber_state_kernels import CAVITY_PRESSURE
 from system.errors import NotConverged
-from system.kinematics import Array
 from system.lines import HeldPressure, Line, Lines, OrificeLine
 from system.pairs import over_chambers
 from system.ports import TURN, PortOpening, opening_area

@@ -16,10 +16,10 @@ from typing import assert_never
 import numpy as np
 from numpy.typing import NDArray
 
+from reynolds.numerics.arrays import Array
 from system.chamber import flow_energy
 from system.chamber_problem import ChamberProblem
 from system.errors import NotConverged
-from system.kinematics import Array
 from system.lines import ImpedanceLine, OrificeLine
 from system.ports import TURN, orifice, orifice_coefficients
 

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numba
 import numpy as np
 
-from system.kinematics import Array
+from reynolds.numerics.arrays import Array
 
 SIZE = 4
 """Numbers of a groove as compiled code reads it: begins, deep, scale, roundness."""

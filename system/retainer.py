@@ -12,7 +12,8 @@ from enum import Enum
 
 import numpy as np
 
-from system.kinematics import Array, Number
+from reynolds.numerics.arrays import Array
+from system.kinematics import Number
 
 QUADRATURE_POINTS = 256
 """Points of the periodic rule round the contact circle: exact to round-off for the smooth speeds met here."""

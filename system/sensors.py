@@ -9,10 +9,10 @@ from typing import Protocol
 
 import numpy as np
 
+from reynolds.numerics.arrays import Array
 from system.bench_points import BenchPoints
 from system.channels import INPUTS, OUTPUTS, ChannelName
 from system.estimation.parameters import Parameter, Role, Scale
-from system.kinematics import Array
 from system.ports import TURN
 from system.units import Dimension
 

@@ -18,12 +18,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from reynolds.numerics.arrays import Array
 from system.chamber import ChamberCycle
 from system.chamber_course import periodic_values
 from system.chamber_problem import ChamberProblem
 from system.directions import plate_axes
 from system.kinematics import (
-    Array,
     SwashDrive,
     ball_radius,
     piston_acceleration,

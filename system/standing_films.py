@@ -12,6 +12,7 @@ from gaps.physics import Physics
 from gaps.piston_motion import standing_piston
 from gaps.pressure_flow import kidney_conductances, piston_conductance, slipper_land_conductance
 from gaps.slipper_motion import floating_slipper
+from reynolds.numerics.arrays import Array
 from reynolds.rest import held_at
 from reynolds.solve import FilmSolver
 from system.floating_parts import FloatingParts
@@ -19,7 +20,6 @@ from system.gap_cycle import PISTON_CELLS, RING_CELLS, SLIPPER_CELLS
 from system.gap_films import Cells, block_film, piston_film, slipper_film
 from system.given_positions import given_block, given_piston, given_slipper
 from system.instants import Rotor
-from system.kinematics import Array
 from system.pump_gap import Gap
 from system.standing_gaps import instant_drives
 

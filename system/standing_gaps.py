@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
+from reynolds.numerics.arrays import Array
 from system.floating_drives import Drives, drives, no_rubbing
 from system.floating_parts import FloatingParts
 from system.instants import Rotor
-from system.kinematics import Array
 
 NO_RUBBING = "friction of the films on the parts: left out of the forces between them (one gap alone)"
 

@@ -12,7 +12,7 @@ import numpy as np
 from gaps.response import Axis, Response, Samples, Spacing
 from reynolds.bodies.cache import content_key
 from reynolds.errors import FilmInputError
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 from reynolds.oil import dynamic_viscosity, temperature_of
 from system.description import PumpDescription
 from system.gap_cycle import Report, silent

@@ -11,12 +11,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from gaps.response import Measure, Output
+from reynolds.numerics.arrays import Array
 from system.assembly import PumpPoint
 from system.chamber_course import periodic_values
 from system.chamber_problem import LeakTable
 from system.description import PumpDescription
 from system.given_thickness import given_film
-from system.kinematics import Array
 from system.lumped import lumped_leaks, lumped_pairs, piston_motion
 from system.operating import OperatingPoint
 from system.pairs import Pair

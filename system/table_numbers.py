@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from gaps.response import HeldOutError, Measure
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 from system.assembly import PumpPoint
 from system.pairs import Pair
 from system.table_means import GAP_PAIRS

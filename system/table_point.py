@@ -7,12 +7,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from reynolds.numerics.arrays import Array
 from system.assembly import PumpPoint, assemble, met_point
 from system.chamber import solve_cycle
 from system.chamber_problem import LeakTable
 from system.description import PumpDescription
 from system.errors import NotConverged
-from system.kinematics import Array
 from system.lumped import (
     PistonMotion,
     chamber_problem,

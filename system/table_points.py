@@ -11,7 +11,7 @@ import numpy as np
 
 from gaps.response import Axis, Samples, fewest_learnt, held_out_points, learnt_points
 from reynolds.bodies.cache import cache_folder
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 from system.errors import NotConverged
 from system.gap_cycle import Report, silent
 from system.kept_points import POINTS, KeptPoints, run_kept

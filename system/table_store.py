@@ -12,7 +12,7 @@ import numpy as np
 
 from gaps.response import Axis, HeldOutError, Measure, Output, Response, Samples, Spacing
 from reynolds.bodies.cache import content_key
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 from system.description import PumpDescription
 from system.faults import Fault, InputFaults, nearest_path
 from system.operating import OperatingPoint

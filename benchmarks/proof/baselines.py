@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from diagnosis.study import Study
+from reynolds.numerics.arrays import Array
 from system.channels import ChannelName
-from system.estimation.observations import Array
 
 from .outcome import Rival
 

@@ -17,9 +17,9 @@ from diagnosis.multiplicity import family_chance, log_chances
 from diagnosis.screen import screen
 from diagnosis.study import Study
 from diagnosis.thresholds import Thresholds
+from reynolds.numerics.arrays import Array
 from system.estimation.evidence import Sign, project, score
 from system.estimation.laplace import laplace
-from system.estimation.observations import Array
 from system.estimation.parameters import Role
 from system.estimation.posterior import Posterior
 from system.estimation.whitening import Whitening, whitener

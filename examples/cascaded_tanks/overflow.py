@@ -22,8 +22,9 @@ from pathlib import Path
 import numpy as np
 from tanks import BASE, EXTENSIONS, Tanks
 
+from reynolds.numerics.arrays import Array
 from system.estimation.fit import FitLimits, best_posterior
-from system.estimation.observations import Array, Channel, Observations
+from system.estimation.observations import Channel, Observations
 from system.estimation.parameters import Parameter
 from system.estimation.posterior import Posterior
 

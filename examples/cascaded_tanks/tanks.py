@@ -15,7 +15,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numba import njit
 
-from system.estimation.observations import Array
+from reynolds.numerics.arrays import Array
 from system.estimation.parameters import Parameter, Role, Scale
 
 SAMPLE = 4.0  # s

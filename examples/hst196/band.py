@@ -19,7 +19,7 @@ from pathlib import Path
 import numpy as np
 from scipy.stats import qmc
 
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 from system.operating import operating_point
 from system.pump_file import load_pump
 from system.transmission import transmission

@@ -13,8 +13,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from reynolds.numerics.arrays import Array
 from system.estimation.fit import maximum_posterior
-from system.estimation.observations import Array, Channel, Observations
+from system.estimation.observations import Channel, Observations
 from system.estimation.parameters import Parameter, Role, Scale
 
 DROP = np.linspace(1e5, 40e5, 30)  # Pa, at which the flow was read

@@ -20,9 +20,10 @@ from pathlib import Path
 import numpy as np
 from rig import cycle_means
 
+from reynolds.numerics.arrays import Array
 from reynolds.oil import ISO_GRADES, Oil, walther
 from system.estimation.fit import maximum_posterior
-from system.estimation.observations import Array, Channel, Observations
+from system.estimation.observations import Channel, Observations
 from system.estimation.parameters import Parameter, Role, Scale
 from system.estimation.posterior import Posterior
 from system.units import Dimension

@@ -17,7 +17,7 @@ from pathlib import Path
 
 import numpy as np
 
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 
 STEADY = slice(30, 58)  # s of a cycle
 WORKING = 7.0  # L/min: below it the circuit, not the pump, decides the flow

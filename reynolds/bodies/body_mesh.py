@@ -14,7 +14,7 @@ import skfem
 from numpy.typing import NDArray
 
 from reynolds.errors import FilmInputError
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 
 FULL_TURN = (0.0, 2.0 * np.pi)
 NEAR = 1e-9  # of the body's size: on a face or not

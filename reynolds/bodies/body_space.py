@@ -20,7 +20,7 @@ from skfem.quadrature import get_quadrature
 
 from reynolds.bodies.body_mesh import BodyMesh
 from reynolds.errors import FilmInputError
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 
 Nodes = NDArray[np.int64]
 

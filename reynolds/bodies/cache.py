@@ -18,7 +18,7 @@ from pathlib import Path
 import numpy as np
 
 from reynolds.errors import FilmInputError
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 
 FORMAT = "swashfilm bodies 1"  # raised when the same input gives other arrays
 LOG = logging.getLogger(__name__)

@@ -9,7 +9,7 @@ from typing import Protocol
 import numpy as np
 
 from reynolds.errors import FilmInputError
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 from reynolds.sphere import Sphere
 
 Vector = tuple[float, float, float]

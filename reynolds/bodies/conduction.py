@@ -20,7 +20,7 @@ from scipy.sparse.linalg import splu
 from reynolds.bodies.body_space import BodySpace, Face, assembled
 from reynolds.bodies.elasticity import BLOCK, Structure, divergence, normal_forces
 from reynolds.errors import FilmInputError
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 
 
 @dataclass(frozen=True)

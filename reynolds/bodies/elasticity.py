@@ -21,7 +21,7 @@ from scipy.sparse.linalg import splu
 from reynolds.bodies.body_space import BodySpace, Face, assembled
 from reynolds.bodies.supports import SINGULAR, Supports, constraints, rigid_motions
 from reynolds.errors import FilmInputError
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 
 BLOCK = 64  # right-hand sides at a time: bounds the memory of a compliance beside its result
 

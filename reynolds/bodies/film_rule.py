@@ -18,7 +18,7 @@ from scipy.sparse.linalg import splu
 from skfem.quadrature import get_quadrature
 
 from reynolds.bodies.body_space import tabulated
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 from reynolds.space import FilmSpace, film_space
 
 ORDER = 6  # 12 points in a triangle, 16 in a quadrilateral

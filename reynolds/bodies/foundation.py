@@ -9,7 +9,7 @@ from scipy.sparse import coo_array, csr_array
 
 from reynolds.bodies.elasticity import Elastic
 from reynolds.errors import FilmInputError
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 from reynolds.space import FilmSpace
 from reynolds.walls import LowRank, WallMatrix, Walls, full
 

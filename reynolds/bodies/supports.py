@@ -9,7 +9,7 @@ from scipy.sparse import coo_array, csc_array
 
 from reynolds.bodies.body_space import BodySpace, Nodes
 from reynolds.errors import FilmInputError
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 
 SINGULAR = 1e-8  # of the largest singular value: supports that hold a motion no better do not hold it
 FAR = 0.1  # of the body's size: a held point no farther than this from a node means that node

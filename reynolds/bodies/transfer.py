@@ -26,7 +26,7 @@ from reynolds.bodies.body_space import Face, tabulated
 from reynolds.bodies.chart import Chart, face_normals, on_section
 from reynolds.bodies.film_rule import FilmRule, film_rule
 from reynolds.errors import FilmInputError
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 from reynolds.space import FilmSpace
 
 INSIDE = 1e-6  # of a facet: how far outside its edges a point still belongs to it

@@ -29,7 +29,7 @@ from reynolds.bodies.elasticity import (
 from reynolds.bodies.supports import Supports
 from reynolds.bodies.transfer import Transfer, transfer
 from reynolds.errors import FilmInputError
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 from reynolds.space import FilmSpace
 from reynolds.walls import LowRank
 

@@ -16,7 +16,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 from reynolds.stokes.flow import (
     Flow,
     FlowProblem,

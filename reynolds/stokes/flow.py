@@ -14,7 +14,7 @@ from scipy.sparse import bmat
 from scipy.sparse.linalg import splu
 
 from reynolds.errors import FilmInputError, FilmNotConverged
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 from reynolds.stokes.space import Sparse, StokesSpace, convection, divergence, viscous
 
 TOLERANCE = 1e-10

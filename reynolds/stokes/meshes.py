@@ -11,7 +11,7 @@ import numpy as np
 import skfem
 
 from reynolds.errors import FilmInputError
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 
 GROWTH = 1.25
 """Length of a cell over that of its neighbour nearer to an edge, at most."""

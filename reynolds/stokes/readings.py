@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import skfem
 
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 from reynolds.stokes.flow import Flow
 from reynolds.stokes.space import Symmetry
 

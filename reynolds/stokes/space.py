@@ -16,7 +16,7 @@ import numpy as np
 import skfem
 from skfem.helpers import ddot, div, dot, sym_grad
 
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 
 Sparse = Any
 """A scipy sparse matrix."""

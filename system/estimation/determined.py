@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from system.estimation.observations import Array
+from reynolds.numerics.arrays import Array
 from system.estimation.posterior import Posterior
 
 SHOWN = 0.1  # weight below which a parameter is left out of a combination

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from scipy.linalg import cho_factor, cho_solve
 from scipy.special import log_ndtr, logsumexp
 
-from system.estimation.observations import Array
+from reynolds.numerics.arrays import Array
 from system.estimation.posterior import Posterior
 
 NOTHING_LEFT = 1e-12  # of a column's square: less is round-off of taking the fitted parameters out

@@ -15,9 +15,10 @@ from time import process_time
 
 import numpy as np
 
+from reynolds.numerics.arrays import Array
 from system.errors import NotConverged
 from system.estimation.laplace import laplace, log_mass
-from system.estimation.observations import Array, Observations
+from system.estimation.observations import Observations
 from system.estimation.posterior import Effort, Posterior, standard_slopes, values_at
 from system.estimation.simulator import Simulator
 from system.estimation.trust import Bounds, Quadratic, bounded_step

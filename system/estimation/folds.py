@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from system.estimation.observations import Array
+from reynolds.numerics.arrays import Array
 from system.estimation.posterior import Posterior
 from system.estimation.predictive import predictive
 

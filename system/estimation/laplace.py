@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from scipy.special import log_ndtr
 
-from system.estimation.observations import Array
+from reynolds.numerics.arrays import Array
 
 
 def laplace(objective: float, precision: Array) -> float:

@@ -8,9 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from reynolds.errors import FilmInputError
+from reynolds.numerics.arrays import Array
 from system.units import Dimension
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

@@ -10,8 +10,9 @@ import numpy as np
 from scipy.linalg import cho_factor, cho_solve
 
 from reynolds.errors import FilmInputError
+from reynolds.numerics.arrays import Array
 from system.estimation.laplace import laplace
-from system.estimation.observations import Array, Observations
+from system.estimation.observations import Observations
 from system.estimation.parameters import Parameter
 from system.estimation.simulator import Simulator
 from system.estimation.trust import Bounds

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import cho_factor, cho_solve
 
-from system.estimation.observations import Array
+from reynolds.numerics.arrays import Array
 from system.estimation.posterior import Posterior
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Protocol
 
-from system.estimation.observations import Array
+from reynolds.numerics.arrays import Array
 from system.estimation.parameters import Parameter
 
 

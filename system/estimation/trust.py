@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import solve_triangular
 
+from reynolds.numerics.arrays import Array
 from system.errors import NotConverged
-from system.estimation.observations import Array
 from system.estimation.parameters import Parameter
 
 

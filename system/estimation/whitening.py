@@ -8,7 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import solve_triangular, toeplitz
 
-from system.estimation.observations import Array, Observations
+from reynolds.numerics.arrays import Array
+from system.estimation.observations import Observations
 
 
 @dataclass(frozen=True)

@@ -8,13 +8,13 @@ from math import inf
 import numpy as np
 
 from reynolds.errors import FilmInputError
+from reynolds.numerics.arrays import Array
 from system.bench_map import INPUT_STEPS
 from system.bench_points import BenchPoints
 from system.channels import ChannelName
 from system.description import PumpDescription
 from system.estimation.observations import Observations
 from system.estimation.parameters import Parameter, Role, Scale
-from system.kinematics import Array
 from system.loss_models.model import LossModel, Term, columns
 from system.loss_models.points import LossPoints, loss_points
 

@@ -4,7 +4,7 @@ That slip, viscous and Coulomb coefficient vary with pressure, speed and displac
 linearly is taken here, "after" them.
 """
 
-from system.kinematics import Array
+from reynolds.numerics.arrays import Array
 from system.loss_models.model import (
     LossModel,
     LossModelName,

@@ -8,7 +8,7 @@ from enum import Enum
 
 import numpy as np
 
-from system.kinematics import Array
+from reynolds.numerics.arrays import Array
 from system.loss_models.points import LossPoints
 
 

@@ -8,11 +8,12 @@ from itertools import product
 import numpy as np
 from numpy.typing import NDArray
 
+from reynolds.numerics.arrays import Array
 from system.bench_points import BenchPoints
 from system.channels import ChannelName
 from system.description import PumpDescription
 from system.estimation.folds import left_out, levels
-from system.estimation.observations import Array, Observations
+from system.estimation.observations import Observations
 from system.estimation.posterior import linear_posterior
 from system.loss_models.bench import loss_model_bench
 from system.loss_models.model import LossModel

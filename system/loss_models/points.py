@@ -6,10 +6,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from reynolds.numerics.arrays import Array
 from reynolds.oil import walther
 from system.bench_points import BenchPoints
 from system.description import PumpDescription
-from system.kinematics import Array
 from system.lumped import full_drive, swept_displacement
 
 TURN = 2.0 * np.pi

@@ -12,7 +12,7 @@ from itertools import product
 
 from numpy.polynomial.legendre import legval
 
-from system.kinematics import Array
+from reynolds.numerics.arrays import Array
 from system.loss_models.model import LossModel, LossModelName, Term
 from system.loss_models.points import LossPoints
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from system.kinematics import Array
+from reynolds.numerics.arrays import Array
 from system.loss_models.model import (
     LossModel,
     LossModelName,

@@ -5,7 +5,7 @@ The regressors are as later authors cite them; the original was not at hand.
 
 from collections.abc import Callable
 
-from system.kinematics import Array
+from reynolds.numerics.arrays import Array
 from system.loss_models.model import LossModel, LossModelName, Term, constant
 from system.loss_models.points import LossPoints
 

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from system.kinematics import Array
+from reynolds.numerics.arrays import Array
 from system.multibody.group_kinematics import dot
 from system.multibody.joints import wrench
 from system.multibody.rotating_group import JointForces

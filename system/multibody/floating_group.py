@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from reynolds.numerics.arrays import Array
 from system.floating import FloatingKind, FloatingPoint
-from system.kinematics import Array
 from system.multibody.joints import SetLoads
 from system.multibody.rotating_group import ChamberLoads, JointForces, joined, levers, turning_group
 from system.shaft_torque import GroupMasses

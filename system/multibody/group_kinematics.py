@@ -10,7 +10,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from system.kinematics import Array, SwashDrive
+from reynolds.numerics.arrays import Array
+from system.kinematics import SwashDrive
 from system.multibody.plate_kernels import axial
 
 SHAFT = np.array([[0.0], [0.0], [1.0]])

@@ -18,7 +18,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from system.kinematics import Array
+from reynolds.numerics.arrays import Array
 from system.multibody.group_kinematics import SHAFT, BallMotion, cross, dot, swept
 from system.multibody.retainer_body import Hold
 from system.shaft_torque import GroupMasses

@@ -14,10 +14,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from reynolds.numerics.arrays import Array
 from system.assembly import PumpPoint
 from system.description import PumpDescription
 from system.directions import plate_axes
-from system.kinematics import Array, SwashDrive, displacement, drive_at_ratio, piston_acceleration, stroke
+from system.kinematics import SwashDrive, displacement, drive_at_ratio, piston_acceleration, stroke
 from system.lumped import (
     block_spring,
     chamber_problem,

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from system.kinematics import Array
+from reynolds.numerics.arrays import Array
 from system.multibody.group_kinematics import SHAFT
 from system.multibody.group_places import GroupPlaces
 from system.multibody.joints import wrench

@@ -7,13 +7,14 @@ from enum import Enum
 
 import numpy as np
 
+from reynolds.numerics.arrays import Array
 from system.chamber import flow_energy
 from system.chamber_course import constants
 from system.chamber_problem import ChamberProblem
 from system.chamber_state_kernels import INTEGRALS, PATHS
 from system.description import PumpDescription
 from system.errors import NotConverged
-from system.kinematics import Array, drive_at_ratio
+from system.kinematics import drive_at_ratio
 from system.lumped import full_drive
 from system.lumped_point import lumped_point
 from system.multibody import transient_kernels as kernel

@@ -7,11 +7,11 @@ from dataclasses import replace
 import numpy as np
 
 from reynolds.errors import FilmInputError
+from reynolds.numerics.arrays import Array
 from system import pairs
 from system.chamber_problem import ChamberProblem
 from system.chamber_state_kernels import CAVITY_PRESSURE, WAYS, oil_volume
 from system.description import PumpDescription
-from system.kinematics import Array
 from system.leakage import piston_carried_flow, piston_conductance
 from system.lumped import chamber_problem, full_drive, lumped_leaks, piston_area, piston_motion, port_openings
 from system.multibody.group_kinematics import BoreCircle, Plate, axial_rates

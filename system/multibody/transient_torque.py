@@ -13,7 +13,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from system.kinematics import Array, SwashDrive
+from reynolds.numerics.arrays import Array
+from system.kinematics import SwashDrive
 from system.leakage import piston_carried_flow
 from system.lumped import PistonMotion, lumped_pairs, piston_area
 from system.multibody import transient_kernels as kernel

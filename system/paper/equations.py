@@ -6,8 +6,8 @@ from collections.abc import Callable
 
 import numpy as np
 
+from reynolds.numerics.arrays import Array
 from system.kinematics import (
-    Array,
     SwashDrive,
     piston_acceleration,
     piston_displacement,

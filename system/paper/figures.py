@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from enum import Enum
 
-from system.kinematics import Array
+from reynolds.numerics.arrays import Array
 
 
 class Figure(Enum):

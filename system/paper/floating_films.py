@@ -12,6 +12,7 @@ import numpy as np
 from gaps.revolution import GapRevolution
 from reynolds.bodies.cache import content_key
 from reynolds.errors import FilmInputError
+from reynolds.numerics.arrays import Array
 from system.checks import run_checks
 from system.description import PumpDescription
 from system.floating_checks import slipper_has_a_wedge
@@ -21,7 +22,6 @@ from system.floating_parts import floating_parts
 from system.gap_cycle import Report, silent
 from system.instants import engaged_share, rotor
 from system.kept_points import KeptPoints, run_kept
-from system.kinematics import Array
 from system.lumped_point import lumped_point
 from system.paper.figures import Axis, Curve, Field, Figure, Panel, PanelKind, Unit
 from system.paper.films import FILM, SHOWN_ANGLE, film_field, film_panel

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
+from reynolds.numerics.arrays import Array
 from system.description import PumpDescription
 from system.directions import plate_axes
-from system.kinematics import Array, SwashDrive, drive_at_ratio
+from system.kinematics import SwashDrive, drive_at_ratio
 from system.lumped import block_spring, full_drive
 from system.multibody.retainer_body import contact_circle, guide_loss
 from system.pairs import Pair, ball_guide_coulomb

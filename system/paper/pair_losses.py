@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from system.kinematics import Array
+from reynolds.numerics.arrays import Array
 from system.pairs import Pair
 from system.paper.figures import Axis, Curve, Figure, Panel, PanelKind, Unit
 from system.paper.judge import FigureResult, Impossibility, Judged, Range, judge, range_of

@@ -12,13 +12,13 @@ import numpy as np
 
 from reynolds.bodies.cache import content_key
 from reynolds.errors import FilmInputError
+from reynolds.numerics.arrays import Array
 from system.assembly import PumpPoint
 from system.bench import BenchReading, LossSplit, paper_efficiency, paper_losses
 from system.description import PumpDescription
 from system.films import films_point
 from system.gap_cycle import Report, silent
 from system.kept_points import KeptPoints, run_kept
-from system.kinematics import Array
 from system.lumped_point import lumped_point
 from system.operating import OperatingPoint, operating_point
 from system.pairs import Pair

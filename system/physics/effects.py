@@ -7,8 +7,8 @@ from enum import Enum
 
 import numpy as np
 
+from reynolds.numerics.arrays import Array
 from system.description import PumpDescription
-from system.kinematics import Array
 
 
 class Kind(Enum):

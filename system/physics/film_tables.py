@@ -17,12 +17,12 @@ import numpy as np
 from gaps.physics import Effect
 from gaps.response import Axis, Measure, Output, Response
 from reynolds.bodies.cache import content_key
+from reynolds.numerics.arrays import Array
 from system.description import PumpDescription
 from system.floating_parts import floating_parts
 from system.gap_cycle import SMOOTH, Report, silent
 from system.given_thickness import given_film
 from system.instants import rotor
-from system.kinematics import Array
 from system.operating import operating_point
 from system.physics.effects import BenchState, Effects, GapCourse
 from system.physics.extension import Values

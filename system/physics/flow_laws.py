@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from system.kinematics import Array
+from reynolds.numerics.arrays import Array
 from system.physics.effects import BenchState, Effects, GapCourse
 from system.physics.extension import Values
 from system.physics.state import (

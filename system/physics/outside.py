@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from system.kinematics import Array
+from reynolds.numerics.arrays import Array
 from system.physics.effects import BenchState, Effects
 from system.physics.state import ideal_flow
 

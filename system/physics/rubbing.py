@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from system.kinematics import Array
+from reynolds.numerics.arrays import Array
 from system.pairs import FrictionPairs, Pair, PairLoss
 from system.physics.effects import Effects
 from system.physics.state import GAPS

@@ -15,6 +15,7 @@ import numpy as np
 import pytest
 from recording_heads import HEAD
 
+from reynolds.numerics.arrays import Array
 from swashfilm import diagnose_run
 from swashfilm.__main__ import main
 from swashfilm.diagnose_files import read_rows
@@ -22,7 +23,6 @@ from system.bench_map import LumpedBench
 from system.bench_points import BenchPoints
 from system.channels import ChannelName
 from system.errors import NotConverged
-from system.estimation.observations import Array
 from system.lumped_point import lumped_point
 from system.operating import operating_point
 from system.physics.catalogue import entry_of

@@ -18,10 +18,11 @@ from diagnosis.study import Study
 from diagnosis.unknown import Scaling
 from diagnosis.verdict import Claim, Diagnosis, Estimate, Status
 from diagnosis.weighed import HeldOut, Weighed
+from reynolds.numerics.arrays import Array
 from system.channels import ChannelName
 from system.components import Component
 from system.estimation.fit import maximum_posterior
-from system.estimation.observations import Array, Channel, Observations
+from system.estimation.observations import Channel, Observations
 from system.estimation.parameters import Parameter, Role, Scale
 from system.estimation.posterior import Effort, Posterior
 from system.operating import operating_point

@@ -9,9 +9,10 @@ import numpy as np
 from diagnosis.map_axes import AXES
 from diagnosis.recording import Circuit, Recording, SteadyTable
 from diagnosis.thresholds import load_thresholds
+from reynolds.numerics.arrays import Array
 from system.bench_points import BenchPoints
 from system.channels import ChannelName
-from system.estimation.observations import Array, Channel, Observations
+from system.estimation.observations import Channel, Observations
 
 CHANNELS = (ChannelName.Q_OUT, ChannelName.Q_CASE, ChannelName.TORQUE)
 SIGMA = np.array([0.1, 0.02, 0.3])  # of the channels: L/min, L/min, N m

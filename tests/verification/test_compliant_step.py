@@ -25,7 +25,8 @@ from reynolds.errors import FilmNotConverged
 from reynolds.film import ZERO, Cavitation, FilmProblem, FilmSolution, Held, film
 from reynolds.krylov import gmres
 from reynolds.loads import loads
-from reynolds.mesh import Array, Cell, rectangle
+from reynolds.mesh import Cell, rectangle
+from reynolds.numerics.arrays import Array
 from reynolds.solve import FilmSolver
 from reynolds.space import FilmSpace, film_space
 from reynolds.transient import march

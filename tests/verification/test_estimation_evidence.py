@@ -10,6 +10,7 @@ import pytest
 from scipy.integrate import quad, simpson
 from scipy.special import logsumexp
 
+from reynolds.numerics.arrays import Array
 from system.estimation.determined import undetermined
 from system.estimation.evidence import (
     Sign,
@@ -20,7 +21,7 @@ from system.estimation.evidence import (
 )
 from system.estimation.fit import maximum_posterior
 from system.estimation.laplace import log_mass
-from system.estimation.observations import Array, Channel, Observations
+from system.estimation.observations import Channel, Observations
 from system.estimation.parameters import Parameter, Role, Scale
 from system.estimation.posterior import linear_posterior, settled
 

@@ -10,8 +10,9 @@ import pytest
 from scipy.linalg import toeplitz
 from scipy.stats import kstest
 
+from reynolds.numerics.arrays import Array
 from system.estimation.fit import FitLimits, maximum_posterior
-from system.estimation.observations import Array, Channel, Observations
+from system.estimation.observations import Channel, Observations
 from system.estimation.parameters import Parameter, Role, Scale
 from system.estimation.posterior import Posterior, linear_posterior
 from system.estimation.predictive import log_predictive, predictive

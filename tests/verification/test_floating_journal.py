@@ -19,7 +19,8 @@ from reynolds.floating import Floating, steady
 from reynolds.floating_stage import Stage, solve_stage
 from reynolds.floating_start import started
 from reynolds.loads import loads
-from reynolds.mesh import Array, Cell, rectangle
+from reynolds.mesh import Cell, rectangle
+from reynolds.numerics.arrays import Array
 from reynolds.solve import FilmSolver
 from reynolds.space import FilmSpace, film_space
 

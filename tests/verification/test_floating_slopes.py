@@ -19,7 +19,8 @@ from reynolds.floating import Floating, Outer
 from reynolds.floating_stage import Stage, solve_stage, standing
 from reynolds.fluid import Fluid
 from reynolds.generalised import contact_force, generalised_force, modes_on
-from reynolds.mesh import Array, Cell, rectangle
+from reynolds.mesh import Cell, rectangle
+from reynolds.numerics.arrays import Array
 from reynolds.overlap import film_between
 from reynolds.roughness import Surface, mean_thickness
 from reynolds.sensitivity import oil_slopes, response, thickness_load

@@ -21,7 +21,8 @@ from reynolds.contact import Asperities, contact_pressure
 from reynolds.film import ZERO, Film, FilmProblem, Held
 from reynolds.floating import Floating, steady
 from reynolds.floating_stage import Stage, solve_stage, standing
-from reynolds.mesh import Array, Cell, rectangle
+from reynolds.mesh import Cell, rectangle
+from reynolds.numerics.arrays import Array
 from reynolds.overlap import as_shaped
 from reynolds.roughness import Surface
 from reynolds.solve import FilmSolver

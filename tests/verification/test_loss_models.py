@@ -9,11 +9,12 @@ import numpy as np
 import pytest
 
 from reynolds.errors import FilmInputError
+from reynolds.numerics.arrays import Array
 from system.bench_points import BenchPoints
 from system.calibration import Split, model_rows, split_levels
 from system.channels import INPUTS, ChannelName
 from system.estimation.fit import maximum_posterior
-from system.estimation.observations import Array, Channel, Observations
+from system.estimation.observations import Channel, Observations
 from system.loss_models.bench import LossModelBench, loss_model_bench
 from system.loss_models.catalogue import LOSS_MODELS
 from system.loss_models.model import LossModel, LossModelName

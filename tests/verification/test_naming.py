@@ -25,11 +25,11 @@ from diagnosis.study import Candidate, Study, study_of
 from diagnosis.unknown import scaling
 from diagnosis.verdict import Diagnosis, Status
 from diagnosis.weighed import Weighed, with_probabilities
+from reynolds.numerics.arrays import Array
 from system.channels import ChannelName
 from system.components import Component
 from system.errors import NotConverged
 from system.estimation.evidence import mixture_evidence, score
-from system.estimation.observations import Array
 from system.estimation.parameters import Parameter, Role, Scale
 from system.physics.effects import EffectId, Kind
 from system.physics.extension import Entry, Extension

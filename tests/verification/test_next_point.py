@@ -16,12 +16,13 @@ from diagnosis.forecast import Contender, brought, forecasts, independent, log_d
 from diagnosis.next_point import READINGS, SETTLED, NextPoint, gains_at, next_point
 from diagnosis.recording import Circuit, RecordedChannel, Recording, SteadyTable
 from diagnosis.study import Study
+from reynolds.numerics.arrays import Array
 from system.bench_map import LumpedBench
 from system.bench_parameters import base_parameters
 from system.bench_points import BenchPoints
 from system.channels import ChannelName
 from system.estimation.fit import maximum_posterior
-from system.estimation.observations import Array, Channel, Observations
+from system.estimation.observations import Channel, Observations
 from system.estimation.parameters import Parameter, Role, Scale
 from system.estimation.posterior import standard_slopes
 from system.physics.catalogue import entry_of

@@ -14,11 +14,11 @@ from diagnosis.bench_box import BenchBox, ordinary_box, rig_box
 from diagnosis.forecast import Contender
 from diagnosis.own_leak import LEAKS, own_leak
 from diagnosis.recording import Circuit, RecordedChannel, Recording, SteadyTable
+from reynolds.numerics.arrays import Array
 from system.bench_points import BenchPoints
 from system.channels import ChannelName
 from system.components import Component
 from system.errors import NotConverged
-from system.estimation.observations import Array
 from system.estimation.parameters import Parameter, Role, Scale
 from system.physics.effects import EffectId
 from system.pump_file import load_pump

@@ -37,7 +37,8 @@ from reynolds.bodies.body_mesh import BodyMesh, ring
 from reynolds.bodies.body_space import body_space
 from reynolds.bodies.elasticity import Elastic
 from reynolds.errors import FilmInputError
-from reynolds.mesh import Array, Cell, annulus, rectangle
+from reynolds.mesh import Cell, annulus, rectangle
+from reynolds.numerics.arrays import Array
 from reynolds.space import FilmSpace, film_space
 from system.description import PumpDescription
 from system.floating_drives import drives, no_rubbing

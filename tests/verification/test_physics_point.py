@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from reynolds.errors import FilmInputError
+from reynolds.numerics.arrays import Array
 from system.bench_map import LumpedBench
 from system.bench_parameters import base_parameters
 from system.bench_points import BenchPoints
@@ -13,7 +14,6 @@ from system.bench_truth import SIMULATED
 from system.description import PumpDescription
 from system.extended_pump import extended_pump
 from system.floating import floating_point
-from system.kinematics import Array
 from system.lumped import SAMPLES_PER_PITCH
 from system.lumped_point import lumped_point
 from system.operating import operating_point

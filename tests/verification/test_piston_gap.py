@@ -19,7 +19,7 @@ from gaps.result import GapFilm
 from gaps.standing import piston_told, rest_from
 from reynolds.errors import FilmNotConverged
 from reynolds.floating_stage import Stage
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 from reynolds.rest import held_at
 from reynolds.solve import FilmSolver
 from system.given_positions import eccentric

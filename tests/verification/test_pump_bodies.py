@@ -31,7 +31,8 @@ from reynolds.bodies.cache import Origin
 from reynolds.bodies.elasticity import Elastic, pressure_forces, structure
 from reynolds.bodies.wall import BodyWall, FacePressure, FaceWall, load_opening
 from reynolds.errors import FilmInputError
-from reynolds.mesh import Array, Cell, annulus, rectangle
+from reynolds.mesh import Cell, annulus, rectangle
+from reynolds.numerics.arrays import Array
 from reynolds.space import FilmSpace, film_space
 from reynolds.transport import at_points
 

@@ -21,7 +21,8 @@ from reynolds.floating import Floating, Outer, steady
 from reynolds.floating_stage import Stage, solve_stage
 from reynolds.floating_start import restarted, seats_of, started
 from reynolds.loads import boundary_flows
-from reynolds.mesh import Array, Cell, rectangle, ring
+from reynolds.mesh import Cell, rectangle, ring
+from reynolds.numerics.arrays import Array
 from reynolds.solve import FilmSolver
 from reynolds.space import FilmSpace, film_space
 

@@ -26,7 +26,7 @@ from gaps.slipper_motion import (
 from gaps.standing import rest_from, slipper_told
 from reynolds.errors import FilmNotConverged
 from reynolds.floating_stage import Stage
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 from reynolds.rest import held_at
 from reynolds.solve import FilmSolver
 from system.floating_parts import floating_parts

@@ -24,7 +24,8 @@ from reynolds.errors import FilmInputError
 from reynolds.film import ZERO, Cavitation, FilmProblem, Held, film
 from reynolds.fluid import Fluid
 from reynolds.loads import loads
-from reynolds.mesh import Array, Cell, rectangle
+from reynolds.mesh import Cell, rectangle
+from reynolds.numerics.arrays import Array
 from reynolds.oil import ISO_GRADES, Oil, walther
 from reynolds.rheology import Carreau
 from reynolds.roughness import Surface

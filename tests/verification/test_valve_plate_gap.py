@@ -18,7 +18,7 @@ from gaps.result import ValvePlateFilm
 from gaps.ring import ValvePlateGeometry
 from gaps.standing import block_told
 from reynolds.floating_stage import Stage
-from reynolds.mesh import Array
+from reynolds.numerics.arrays import Array
 from reynolds.rest import held_at
 from reynolds.solve import FilmSolver
 from system.leakage import valve_plate_conductance

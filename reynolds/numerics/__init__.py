@@ -1,0 +1,1 @@
+"""General methods that know no film."""

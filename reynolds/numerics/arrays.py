@@ -1,0 +1,9 @@
+"""Array types of the program."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+"""Floating-point numbers, of any shape."""
