@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from diagnosis.cells import columns_of
-from diagnosis.tables import Columns, TableFault, TableSource
+from diagnosis.table import Columns, TableFault, TableSource
 
 INSTALL = "pip install '.[recordings]' in the checkout"
 

@@ -10,7 +10,7 @@ from datetime import datetime
 
 import numpy as np
 
-from diagnosis.tables import Columns, TableFault
+from diagnosis.table import Columns, TableFault
 from reynolds.numerics.arrays import Array
 
 GAPS = frozenset({"", "-", "--", "nan", "na", "n/a", "null", "none", "#n/a", "inf", "-inf"})

@@ -5,7 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from diagnosis.recording import DataNote, NoteKind
-from diagnosis.tables import Columns, TableFault, TableSource, read_columns
+from diagnosis.table import Columns, TableFault, TableSource
+from diagnosis.tables import read_columns
 from reynolds.numerics.arrays import Array
 from system.faults import Fault, nearest_choice
 

@@ -29,8 +29,8 @@ from diagnosis.weighed import Weighed, with_probabilities
 from reynolds.numerics.arrays import Array
 from system.channels import ChannelName
 from system.estimation.posterior import Effort, Posterior, settled
-from system.gap_cycle import Report, silent
 from system.physics.effects import Kind
+from system.progress import Report, silent
 from system.side_by_side import Crew, crew
 
 FORETOLD = 6  # explanations, the likeliest, whose held-out points are looked at

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from diagnosis.book_tables import missing
-from diagnosis.tables import Columns, TableFault, TableSource
+from diagnosis.table import Columns, TableFault, TableSource
 
 TIME = "time"
 """Column of time in s that a logger's file holds without naming it."""

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from diagnosis.tables import Columns, TableFault, TableSource
+from diagnosis.table import Columns, TableFault, TableSource
 
 _PLAIN = "s = table2struct(T, 'ToScalar', true); save('recording.mat', '-struct', 's')"
 

@@ -12,8 +12,8 @@ from diagnosis.study import Study
 from diagnosis.thresholds import Thresholds
 from diagnosis.weighed import Weighed
 from system.estimation.posterior import Posterior, settled
-from system.gap_cycle import Report
 from system.physics.effects import EffectId
+from system.progress import Report
 from system.pump_gap import Gap
 from system.side_by_side import Crew
 

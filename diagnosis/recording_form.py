@@ -8,7 +8,7 @@ from typing import Any
 
 from diagnosis.channel_form import ChannelForm, Reference, TimeForm, read_channel, read_time
 from diagnosis.recording import Circuit
-from diagnosis.tables import TableSource
+from diagnosis.table import TableSource
 from system.case_table import Table
 from system.channels import ChannelName
 from system.units import Dimension

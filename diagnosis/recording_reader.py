@@ -17,7 +17,7 @@ from diagnosis.recording import RecordedChannel, Recording, SteadyTable
 from diagnosis.recording_form import RecordingForm, SeriesForm, SteadyForm, read_form
 from diagnosis.replicates import repeatability, set_points
 from diagnosis.series_points import series_points
-from diagnosis.tables import Columns, TableFault
+from diagnosis.table import Columns, TableFault
 from diagnosis.trace_reader import ReadTraces, read_traces
 from reynolds.numerics.arrays import Array
 from system.case_table import Table, fault_lines, read_toml

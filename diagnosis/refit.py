@@ -23,7 +23,7 @@ from system.estimation.parameters import Parameter
 from system.estimation.posterior import Posterior, values_at
 from system.estimation.simulator import Simulator
 from system.estimation.trust import Bounds
-from system.gap_cycle import Report
+from system.progress import Report
 from system.side_by_side import Crew
 
 SIZES = (0.1, 0.3, 1.0, 2.0)  # spreads that a start is looked for at

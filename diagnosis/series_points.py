@@ -10,7 +10,7 @@ import numpy as np
 from diagnosis.channel_form import ChannelForm
 from diagnosis.recording_form import SeriesForm
 from diagnosis.steadiness import SteadyRule, effective_number, steady_stretches
-from diagnosis.tables import TableFault
+from diagnosis.table import TableFault
 from reynolds.numerics.arrays import Array
 from system.channels import INPUTS
 

@@ -7,7 +7,7 @@ from collections import Counter
 from dataclasses import replace
 
 from diagnosis.cells import columns_of, is_number
-from diagnosis.tables import Columns, TableFault, TableSource
+from diagnosis.table import Columns, TableFault, TableSource
 
 SEPARATORS = {";": "semicolon", "\t": "tab", ",": "comma", "|": "bar"}
 _SIGNS = {".": "point", ",": "comma"}

@@ -18,8 +18,9 @@ from system.description import PumpDescription
 from system.estimation.parameters import Parameter
 from system.estimation.posterior import values_at
 from system.lumped import port_openings
-from system.ports import TURN, PortOpening
+from system.ports import PortOpening
 from system.sensors import encoder_parameter, transducer_parameters
+from system.units import TURN
 
 LINE_LAG = 1e-4  # s, one sigma: a transducer behind a bore follows within a degree at 1500 r/min
 NO_ENCODER = 1e-6  # rad: one sigma of an encoder that is stated to be without offset

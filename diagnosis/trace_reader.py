@@ -11,7 +11,7 @@ from diagnosis.channel_noise import recorded_channel
 from diagnosis.column_reader import ColumnReader
 from diagnosis.recording import RecordedChannel, TraceBlock
 from diagnosis.recording_form import TraceForm
-from diagnosis.tables import TableFault
+from diagnosis.table import TableFault
 from diagnosis.traces import synchronous_mean
 from reynolds.numerics.arrays import Array
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from diagnosis.recording import TraceBlock
-from diagnosis.tables import TableFault
+from diagnosis.table import TableFault
 from reynolds.numerics.arrays import Array
+from system.units import TURN
 
-TURN = 2.0 * np.pi
 FEWEST_ROWS = 36  # a turn, below which a trace shows no event of the ports
 FEWEST_CYCLES = 3  # from which their scatter is kept
 ROUNDING = 1e-9  # turns

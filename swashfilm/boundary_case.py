@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 from itertools import combinations
 
 import numpy as np
@@ -10,10 +11,22 @@ import numpy as np
 from reynolds.film import Cavitation
 from swashfilm.field_reader import FieldReader
 from swashfilm.fields import CellData, InTime, MeshData, PointData, Uniform, read_field
-from swashfilm.film_statement import BoundaryStatement
 from system.case_table import Table
 from system.faults import nearest_choice
 from system.units import Dimension, QuantityError, format_quantity
+
+
+@dataclass(frozen=True)
+class BoundaryStatement:
+    """What a case states of one boundary: pressure (Pa), film fraction and temperature (K) of what it may send in.
+
+    The temperature is None where the inlet temperature of [thermal] holds.
+    """
+
+    pressure: InTime
+    film_fraction: float = 1.0
+    temperature: float | None = None
+
 
 Boundaries = Mapping[str, BoundaryStatement]
 

@@ -19,13 +19,12 @@ from system.channels import ChannelName
 from system.description import PumpDescription
 from system.estimation.posterior import Posterior
 from system.pump_file import resolved_toml
-from system.units import Dimension
+from system.units import RPM, Dimension
 
 KIND = "calibration"
 CALIBRATED = "pump_calibrated.toml"
 """In the run folder: the pump as fitted."""
 Row = Mapping[str, str]
-RPM = 30.0 / np.pi
 
 
 def write_calibration_files(
@@ -104,7 +103,7 @@ def equation_rows(found: Calibration) -> Iterator[Row]:
         chi2 = float(fit.posterior.residual @ fit.posterior.residual) / fit.points
         for at, parameter in enumerate(fit.posterior.parameters):
             yield {
-                "speed [rpm]": "" if whole else _text(RPM * float(fit.speed or 0.0)),
+                "speed [rpm]": "" if whole else _text(float(fit.speed or 0.0) / RPM),
                 "displacement_ratio [1]": "" if whole else _text(float(fit.ratio or 0.0)),
                 "points": str(fit.points),
                 "coefficient": parameter.name.rpartition(".")[2],
@@ -158,7 +157,7 @@ def residual_rows(found: Calibration) -> Iterator[Row]:
             "point": str(numbers[point]),
             "channel": channel.value,
             "unit": channel_unit(channel),
-            "speed [rpm]": _text(RPM * points.speed[point]),
+            "speed [rpm]": _text(points.speed[point] / RPM),
             "p_out [bar]": _text(points.p_out[point] * 1e-5),
             "displacement_ratio [1]": _text(points.displacement_ratio[point]),
             "measured": _text(reading(channel, measured)),

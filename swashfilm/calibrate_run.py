@@ -17,7 +17,6 @@ from diagnosis.study import Study, study_of
 from diagnosis.thresholds import Thresholds, load_thresholds
 from diagnosis.weighed import Weighed
 from reynolds.errors import FilmInputError
-from swashfilm.progress import Report
 from system.bench_map import LumpedBench
 from system.bench_points import BenchPoints
 from system.calibration import HeldOutRow, model_rows, physics_rows
@@ -33,6 +32,7 @@ from system.paper_fit import EqFit, eq_fits, eq_twenty_one, measured_losses, pap
 from system.physics.catalogue import entry_of
 from system.physics.effects import EffectId
 from system.physics.extension import Extension
+from system.progress import Report
 from system.tolerances import tolerances
 
 

@@ -25,10 +25,9 @@ from swashfilm.cli_reproduce import REPRODUCE_OPTIONS, add_reproduce_options, ru
 from swashfilm.cli_run import RUN_OPTIONS, add_run_options, pump_faults, run_pump_command
 from swashfilm.cli_table import TABLE_OPTIONS, add_table_options, run_table_command
 from swashfilm.cli_transient import add_transient_options, run_transient_command
+from swashfilm.command_inputs import COMMAND_LINE
 from swashfilm.terminal import show, show_table
 from system.faults import Fault, InputFaults, nearest_choice
-
-COMMAND_LINE = "command line"
 
 
 def run_command(words: Sequence[str]) -> int:

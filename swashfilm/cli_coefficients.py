@@ -6,6 +6,7 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from swashfilm.command_inputs import COMMAND_LINE
 from swashfilm.terminal import show_table
 from system.faults import Fault, InputFaults
 from system.units import Dimension, QuantityError, parse_quantity
@@ -14,7 +15,6 @@ if TYPE_CHECKING:
     from system.film_passages import FilmPassage
     from system.openfoam_case import CaseFlow
 
-COMMAND_LINE = "command line"
 SIZES = {
     "--throat-area": (Dimension.AREA, "narrowest section of the flow; of a film, that of the thinner one"),
     "--density": (Dimension.DENSITY, "density of the liquid"),

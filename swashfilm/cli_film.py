@@ -6,7 +6,7 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from swashfilm.cli_run import expect
+from swashfilm.command_inputs import COMMAND_LINE, expect
 from swashfilm.physics_switches import SWITCHES, add_switches, switched_keys
 from swashfilm.terminal import show, show_table
 from system.faults import Fault, InputFaults
@@ -16,7 +16,6 @@ if TYPE_CHECKING:
     from swashfilm.revolution_case import RevolutionCase
     from swashfilm.study_case import StudyCase
 
-COMMAND_LINE = "command line"
 FILM_OPTIONS = ["--refine", "--csv", "--resume", "--workers", "--animate", *SWITCHES]
 SOFT_PRICE = (
     "walls that give way take some ten times as long as with --rigid --isoviscous; a smaller 'finer' costs less"

@@ -3,16 +3,13 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Mapping
 from dataclasses import replace
-from typing import Any
 
 from gaps.physics import Effect
 from reynolds.errors import FilmInputError
 from swashfilm.fidelity import Fidelity
 from swashfilm.physics_switches import SWITCHES
 from swashfilm.revolution_case import FINER
-from swashfilm.terminal import show_table
 from system.description import SINGLE_PARTS, PumpDescription
 from system.faults import Fault
 from system.floating_gaps import FloatingOptions, usual_finer
@@ -41,16 +38,6 @@ def floating_options(options: argparse.Namespace) -> FloatingOptions:
     return replace(
         usual, steps=steps, physics=physics, finer=finer, keep=max(1, usual.keep * steps // usual.steps)
     )
-
-
-def show_floating(summary: Mapping[str, Any]) -> None:
-    """Print what a run's gaps did, with what physics and what that took."""
-    from swashfilm.floating_page import HEAD, floating_rows
-    from swashfilm.physics_told import PHYSICS_HEAD, physics_told
-
-    show_table("Gaps that float: of one piston, one slipper, the block", [HEAD, *floating_rows(summary)])
-    told = physics_told(summary["physics_left_out"], summary["cost"]["physics_seconds"])
-    show_table("Their physics", [PHYSICS_HEAD, *told])
 
 
 def floating_faults(

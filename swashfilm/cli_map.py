@@ -8,7 +8,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from swashfilm.cli_run import expect, given_text
+from swashfilm.command_inputs import COMMAND_LINE, expect, given_text
 from swashfilm.fidelity import Fidelity
 from swashfilm.terminal import show, show_table
 from system.faults import Fault, InputFaults, nearest_choice
@@ -18,7 +18,6 @@ if TYPE_CHECKING:
     from system.map_plan import MapAxis, MapPlan
     from system.work import Hands
 
-COMMAND_LINE = "command line"
 LEVELS = {
     "--speeds": ("SPEED", "1000,1300,1700,2100rpm", "shaft speeds"),
     "--pressures": ("PRESSURE", "5..35MPa:7", "delivery pressures, gauge"),

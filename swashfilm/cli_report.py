@@ -8,10 +8,10 @@ from collections.abc import Callable
 from importlib import import_module
 from pathlib import Path
 
+from swashfilm.command_inputs import COMMAND_LINE
 from swashfilm.terminal import show
 from system.faults import Fault, InputFaults, nearest_path
 
-COMMAND_LINE = "command line"
 PAGES = {
     "calibration": "calibrate_page.write_calibrate_page",
     "diagnosis": "diagnose_page.write_diagnose_page",

@@ -7,6 +7,7 @@ import json
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from swashfilm.command_inputs import COMMAND_LINE
 from swashfilm.physics_switches import SWITCHES, add_switches
 from swashfilm.terminal import show, show_table
 from system.faults import Fault, InputFaults, nearest_choice
@@ -15,7 +16,6 @@ if TYPE_CHECKING:
     from diagnosis.recording import Recording
     from swashfilm.reproduce_run import ReproduceAsked
 
-COMMAND_LINE = "command line"
 REPRODUCE_OPTIONS = ["--fidelity", "--pump", "--recording", "--page", "--workers", "--steps", "--finer", *SWITCHES]
 ALL, LIST = "all", "list"
 _LUMPED, _FLOATING = "lumped", "floating"

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from swashfilm.command_inputs import COMMAND_LINE, expect, given_text
 from swashfilm.fidelity import Fidelity
 from swashfilm.physics_switches import SWITCHES, add_switches
 from swashfilm.terminal import show, show_table
@@ -16,7 +17,6 @@ from system.units import with_point
 if TYPE_CHECKING:
     from system.description import PumpDescription
 
-COMMAND_LINE = "command line"
 _TEMPERATURE = "operating.temperature"
 _OVERRIDES = {
     "--speed": ("operating.speed", "2100rpm", "shaft speed"),
@@ -57,7 +57,8 @@ def run_pump_command(options: argparse.Namespace) -> int:
     """Run `swashfilm run` and return its exit code; raises InputFaults with what is wrong in pump and options."""
     pump = _pump(options)
     stated, _ = _overrides(options)
-    from swashfilm.cli_floating import floating_options, show_floating
+    from swashfilm.cli_floating import floating_options
+    from swashfilm.floating_run import show_floating
     from swashfilm.progress import progress
     from swashfilm.pump_page import efficiency_rows, headline_rows, pair_rows
     from swashfilm.pump_run import run_pump
@@ -128,17 +129,6 @@ def pump_faults(options: argparse.Namespace, words: Sequence[str]) -> list[Fault
     return []
 
 
-def given_text(pump: str, stated: Mapping[str, object]) -> str:
-    """The pump file as given, under comments that tell what the command line put in place of its entries."""
-    from importlib.resources import files
-
-    from system.pump_file import builtin_pumps
-
-    built_in = files("system").joinpath("pumps", f"{pump}.toml")
-    text = built_in.read_text("utf-8") if pump in builtin_pumps() else Path(pump).read_text("utf-8")
-    return "".join(f"# command line: {path} = {value}\n" for path, value in stated.items()) + text
-
-
 def _overrides(options: argparse.Namespace) -> tuple[dict[str, object], list[Fault]]:
     """What the options put in place of the pump's own operating point, as a pump file would have it."""
     stated: dict[str, object] = {}
@@ -164,16 +154,3 @@ def _at_options(reason: InputFaults, stated: dict[str, object], faults: list[Fau
     moved = [Fault(option_of.get(f.path, f.path), f.found, f.expected, f.nearest) for f in reason.faults]
     all_ours = all(fault.path in _OVERRIDES for fault in moved)
     return InputFaults(COMMAND_LINE if all_ours else reason.source, [*faults, *moved], reason.lines)
-
-
-def expect(path: str | Path, wanted: str, command: str) -> None:
-    """Raise InputFaults for a file of the other kind ("pump" or "film"), with the command that takes it."""
-    from system.case_table import read_toml
-
-    if not Path(path).is_file():
-        return
-    _, tables = read_toml(Path(path))
-    found = next((kind for kind in ("film", "pump") if isinstance(tables.get(kind), dict)), wanted)
-    if found != wanted and "gap" not in tables:
-        fault = Fault("file", f"a file with [{found}]", f"a file with [{wanted}]", f"swashfilm {command} {path}")
-        raise InputFaults(str(path), [fault])

@@ -9,6 +9,7 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from swashfilm.command_inputs import COMMAND_LINE
 from swashfilm.physics_switches import SWITCHES, add_switches, switched_keys
 from swashfilm.terminal import show, show_table
 from system.faults import Fault, InputFaults, nearest_choice
@@ -16,12 +17,11 @@ from system.units import with_point
 
 if TYPE_CHECKING:
     from swashfilm.gap_table_case import GapTableCase
-    from swashfilm.progress import Report
     from system.description import PumpDescription
+    from system.progress import Report
     from system.table_build import Range, TableCase
     from system.table_points import Asked
 
-COMMAND_LINE = "command line"
 _SOURCE = "films"
 RANGES = {
     "--speed": ("operating.speed", "500rpm..2500rpm", "shaft speeds (0.2 .. 1.2 of the rated one)"),

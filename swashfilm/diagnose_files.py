@@ -43,7 +43,7 @@ def write_diagnosis_files(
     assumptions: Sequence[str] = (),
     told: Told = NOTHING,
 ) -> None:
-    """Write diagnosis.json, summary.json, seven tables (of traces an eighth) and report.html into a run folder.
+    """Write diagnosis.json, summary.json, and seven tables (of traces an eighth) into a run folder.
 
     assumptions: what was taken of the pump; told: of the pump run without and with the finding.
     """
@@ -59,9 +59,6 @@ def write_diagnosis_files(
     write_diagnosis(folder / "diagnosis.json", diagnosis)
     summary = diagnosis_summary(study, diagnosis, thresholds, assumptions)
     write_json(folder / "summary.json", summary | {"runs": told.text, "films": told.films.text})
-    from swashfilm.diagnose_page import write_diagnose_page
-
-    write_diagnose_page(folder)
 
 
 def with_stated(study: Study, rows: Iterable[Mapping[str, str]]) -> Iterator[Mapping[str, str]]:

@@ -13,7 +13,6 @@ from diagnosis.diagnosis_tables import Row
 from reynolds.errors import FilmInputError, FilmNotConverged
 from swashfilm.figure_png import figure_of, png_of
 from swashfilm.maps import MapField, draw_map
-from swashfilm.progress import Report
 from swashfilm.pump_data import GAPS, films_dataset
 from swashfilm.pump_fields import write_fields
 from swashfilm.pump_plots import GAP_FIELDS, gap_place, pictured
@@ -24,6 +23,8 @@ from system.films import FilmsPoint, films_point
 from system.operating import operating_point
 from system.physics.effects import EffectId
 from system.physics.rubbing import OF_GAP
+from system.progress import Report
+from system.units import LPM
 from system.unlike import kinds
 
 if TYPE_CHECKING:
@@ -36,7 +37,6 @@ POSITIONS, FINER, AGREED = 2, 0.5, 0.05
 """Film angles a piston pitch, times the usual cells, part of the pressure difference to which chambers agree.
 
 To look at fields: of closer agreement leakage moves by a thousandth."""
-LPM = 60000.0  # L/min in a m3/s
 _TELLS = {
     EffectId.FILM_HEATING: "film_temperature",
     EffectId.VISCOSITY_PRESSURE: "film_viscosity",

@@ -22,14 +22,15 @@ from diagnosis.verdict import Diagnosis, Status
 from reynolds.errors import FilmInputError
 from reynolds.oil import walther
 from swashfilm.diagnose_files import NO_NEXT_POINT, write_diagnosis_files
+from swashfilm.diagnose_page import write_diagnose_page
 from swashfilm.diagnose_runs import claimed_pump, run_both
-from swashfilm.progress import Report
 from system.description import PumpDescription
 from system.errors import NotConverged
 from system.faults import Fault, InputFaults
 from system.physics.catalogue import CATALOGUE
 from system.physics.effects import Kind
 from system.physics.extension import Entry
+from system.progress import Report
 from system.pump_file import builtin_pumps, resolved_toml
 from system.tolerances import tolerances
 
@@ -112,4 +113,5 @@ def run_diagnosis(
     assumptions = [str(one) for one in (*known.assumptions, *taken)]
     told = run_both(folder, pump, study, found, thresholds, report)
     write_diagnosis_files(folder, study, found, thresholds, assumptions, told)
+    write_diagnose_page(folder)
     return found

@@ -20,7 +20,6 @@ from diagnosis.verdict import Diagnosis
 from reynolds.errors import FilmInputError
 from swashfilm.diagnose_films import FilmsTold, films_of_both
 from swashfilm.fidelity import Fidelity
-from swashfilm.progress import Report
 from swashfilm.pump_run import run_pump
 from system.bench_points import operating_at
 from system.channels import ChannelName
@@ -32,12 +31,13 @@ from system.given_thickness import moved_to
 from system.operating import OperatingPoint
 from system.physics.catalogue import entry_of
 from system.physics.effects import Kind
+from system.progress import Report
 from system.pump_file import resolved_toml
+from system.units import LPM
 
 WITHOUT, WITH = "without", "with"
 """Run folders within the diagnosis's own."""
 SHAFT, HYDRAULIC = "shaft power", "hydraulic power"
-LPM = 60000.0  # L/min in a m3/s
 PERCENT = 100.0
 
 

@@ -5,7 +5,8 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from swashfilm.film_study import FilmStudy, film_dataset
+from swashfilm.film_study import FilmStudy
+from swashfilm.film_summary import film_dataset
 from swashfilm.film_transient import Moment
 from swashfilm.film_warnings import thinned_by
 

@@ -14,12 +14,13 @@ from reynolds.film import FilmSolution
 from reynolds.loads import point_fields
 from swashfilm.convergence import Convergence, convergence
 from swashfilm.film_case import FilmCase
-from swashfilm.film_study import FilmStudy, film_summary, solve_case
+from swashfilm.film_study import FilmStudy, solve_case
+from swashfilm.film_summary import film_summary
 from swashfilm.gap_case import GapCase
 from swashfilm.headline import headline_numbers, named, sizes
 from swashfilm.mesh_case import MOST_CELLS
-from swashfilm.progress import Report
 from system.faults import Fault, InputFaults
+from system.progress import Report
 
 
 @dataclass(frozen=True)

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from swashfilm.boundary_case import BoundaryStatement
 from swashfilm.constants_case import constant_rows
 from swashfilm.elastic_case import elastic_rows
-from swashfilm.film_statement import BoundaryStatement, FilmStatement, Velocity
+from swashfilm.film_statement import FilmStatement, Velocity
 from swashfilm.gap_case import FORMAT
 from swashfilm.load_case import load_rows
 from swashfilm.thermal_case import thermal_rows

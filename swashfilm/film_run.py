@@ -12,11 +12,12 @@ from swashfilm.film_case import FilmCase
 from swashfilm.film_in_time import at_moment, fields_over_time, last_of, written
 from swashfilm.film_physics import vertex_fields, write_history
 from swashfilm.film_refine import check_refinement, refine_study, refinement_summary, write_refinement
-from swashfilm.film_study import FilmStudy, film_summary, solve_case
+from swashfilm.film_study import FilmStudy, solve_case
+from swashfilm.film_summary import film_summary
 from swashfilm.gap_case import GapCase
 from swashfilm.gap_study import true_place
-from swashfilm.progress import Report
 from swashfilm.run_folder import write_json
+from system.progress import Report
 
 if TYPE_CHECKING:
     import xarray

@@ -9,13 +9,14 @@ from pathlib import Path
 from typing import Any
 
 from swashfilm.film_case import Case
-from swashfilm.film_study import film_summary, solve_case
+from swashfilm.film_study import solve_case
+from swashfilm.film_summary import film_summary
 from swashfilm.gap_case import GapCase
-from swashfilm.progress import Report
 from swashfilm.revolution_case import RevolutionCase
 from swashfilm.revolution_study import revolution_course, revolution_summary, solve_revolution
 from swashfilm.study_case import Point, StudyCase
 from system.kept_points import POINTS, KeptPoints, points_of_run, run_kept
+from system.progress import Report
 from system.side_by_side import crew
 from system.work import Outcome as WorkOutcome
 from system.work import Status

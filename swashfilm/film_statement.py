@@ -8,8 +8,9 @@ from typing import Any
 
 from reynolds.carried_load import RigidLoad
 from reynolds.film import Cavitation
+from swashfilm.boundary_case import BoundaryStatement
 from swashfilm.elastic_case import ElasticStatement
-from swashfilm.fields import CellData, Field, Formula, InTime, MeshData, PointData, Uniform
+from swashfilm.fields import CellData, Field, Formula, MeshData, PointData, Uniform
 from swashfilm.mesh_case import CaseMesh
 from swashfilm.oil_case import OilStatement
 from swashfilm.roughness_case import RoughWalls
@@ -17,18 +18,6 @@ from swashfilm.thermal_case import ThermalStatement
 from swashfilm.time_case import TimeStatement
 
 Velocity = tuple[Field, Field]
-
-
-@dataclass(frozen=True)
-class BoundaryStatement:
-    """What a case states of one boundary: pressure (Pa), film fraction and temperature (K) of what it may send in.
-
-    The temperature is None where the inlet temperature of [thermal] holds.
-    """
-
-    pressure: InTime
-    film_fraction: float = 1.0
-    temperature: float | None = None
 
 
 @dataclass(frozen=True)

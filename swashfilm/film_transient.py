@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
@@ -15,11 +14,10 @@ from reynolds.loads import Loads, loads
 from reynolds.transient import oil_held
 from swashfilm.film_oil import film_of, heat_of, oil_solver
 from swashfilm.film_problem import film_problem
+from system.progress import Report
 
 if TYPE_CHECKING:
     from swashfilm.film_statement import FilmStatement
-
-StepReport = Callable[[int, int, str], None]
 
 
 @dataclass(frozen=True)
@@ -33,7 +31,7 @@ class Moment:
     loads: Loads
 
 
-def transient(stated: FilmStatement, report: StepReport) -> list[Moment]:
+def transient(stated: FilmStatement, report: Report) -> list[Moment]:
     """Every step of a transient, in time; the last one has its solution.
 
     Each step meets d(oil held)/dt + outflow = 0 with the film and the boundaries at its end (implicit Euler, first

@@ -8,10 +8,11 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+from swashfilm.gap_names import TITLES
 from swashfilm.physics_told import PHYSICS_HEAD, physics_told
 from swashfilm.pump_data import GAPS
-from swashfilm.pump_plots import LPM, TITLES
 from swashfilm.revolution_plots import film_text, revolution_plots
+from system.units import LPM
 
 SHOWN = ("film", "path", "temperature", "contact", "maps")
 SHOWN_UNLIKE = ("film", "path")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
@@ -11,12 +12,13 @@ import numpy as np
 from gaps.revolution import GapRevolution, Leg
 from reynolds.export import write_pvd
 from swashfilm.fidelity import Fidelity
+from swashfilm.gap_names import FIELDS, vtu_name
 from swashfilm.pump_data import PICTURED_TURN
-from swashfilm.pump_fields import FIELDS, vtu_name
 from swashfilm.pump_summary import pump_summary
 from swashfilm.revolution_data import revolution_dataset, write_convergence, write_series
 from swashfilm.revolution_fields import write_revolution_fields
 from swashfilm.revolution_study import RevolutionStudy, revolution_summary
+from swashfilm.terminal import show_table
 from system.floating import FloatingKind, FloatingPoint
 from system.floating_gaps import FloatingOptions
 from system.floating_heat import all_taken
@@ -190,3 +192,13 @@ def _nearest(kept: Kept, place: str, gap: str, angle: float) -> str:
     angles = kept[place, gap]
     away = (angles - angle + 0.5 * angles[-1]) % angles[-1] - 0.5 * angles[-1]
     return (Path(place) / FIELDS / vtu_name(gap, int(np.argmin(np.abs(away))))).as_posix()
+
+
+def show_floating(summary: Mapping[str, Any]) -> None:
+    """Print what a run's gaps did, with what physics and what that took."""
+    from swashfilm.floating_page import HEAD, floating_rows
+    from swashfilm.physics_told import PHYSICS_HEAD, physics_told
+
+    show_table("Gaps that float: of one piston, one slipper, the block", [HEAD, *floating_rows(summary)])
+    told = physics_told(summary["physics_left_out"], summary["cost"]["physics_seconds"])
+    show_table("Their physics", [PHYSICS_HEAD, *told])

@@ -15,11 +15,11 @@ from reynolds.numerics.arrays import Array
 from swashfilm.gap_case import GapCase
 from swashfilm.gap_table_case import FORMAT, GapTableCase
 from swashfilm.headline import named
-from swashfilm.progress import Report
 from swashfilm.revolution_case import RevolutionCase
 from swashfilm.revolution_study import NO_RUBBING
 from swashfilm.table_run import TABLE, table_warnings, write_table_files
 from system.floating_parts import floating_parts
+from system.progress import Report
 from system.response_tables import PRESSURE, RATIO, SPEED, axis_value
 from system.side_by_side import crew
 from system.table_points import Solved, points_of, samples_of, solved_points

@@ -15,7 +15,6 @@ import numpy as np
 from swashfilm.fidelity import Fidelity
 from swashfilm.map_files import write_map, write_tables
 from swashfilm.map_summary import map_summary
-from swashfilm.progress import Report
 from swashfilm.run_folder import write_json
 from system.description import PumpDescription
 from system.faults import Fault, InputFaults
@@ -32,6 +31,7 @@ from system.map_interpolation import (
 from system.map_plan import MapInput, MapPlan, point_words
 from system.map_point import DirectSolver, LumpedSolver, MapSolver, MapWork, TableSolver, columns
 from system.operating import OperatingPoint
+from system.progress import Report
 from system.pump_file import resolved_toml
 from system.response_tables import PRESSURE, RATIO, SPEED, VISCOSITY, ResponseTable, point_text
 from system.table_build import TableCase, build_table, table_axes

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import sys
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import TextIO
 
-Report = Callable[[int, int, str], None]
-"""What a computation calls as it goes: (steps done, steps in all, what it is at)."""
+from system.progress import Report
 
 LINE_EVERY = 5.0  # s between two lines in a log
 

@@ -8,12 +8,11 @@ import numpy as np
 
 from reynolds.export import write_pvd, write_vtu
 from swashfilm.film_oil_state import oil_state
+from swashfilm.gap_names import FIELDS, vtu_name
 from swashfilm.pump_data import GAPS
 from system.films import FilmsPoint
 from system.places import place_of
 from system.pump_gap import Gap
-
-FIELDS = "fields"
 
 
 def write_fields(folder: Path, films: FilmsPoint) -> None:
@@ -33,11 +32,6 @@ def write_fields(folder: Path, films: FilmsPoint) -> None:
             oil = oil_state(films.rotor.pump, getattr(films.physics, gap.value), film.solution, viscosity)
             write_vtu(place / vtu_name(gap.value, k), film.solution, at, oil)
     _write_series(folder, films)
-
-
-def vtu_name(gap: str, k: int) -> str:
-    """File name of a gap's film at its k-th angle."""
-    return f"{gap}_{k:03d}.vtu"
 
 
 def _write_series(folder: Path, films: FilmsPoint) -> None:

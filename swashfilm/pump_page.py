@@ -14,12 +14,13 @@ from swashfilm import pump_plots
 from swashfilm.fidelity import Fidelity
 from swashfilm.floating_page import floating_view
 from swashfilm.forces_page import forces_view
+from swashfilm.gap_names import TITLES
 from swashfilm.pump_data import GAPS
-from swashfilm.pump_plots import LPM, TITLES
 from swashfilm.pump_summary import ABBREVIATION
 from swashfilm.table_told import TOLD_HEAD, told_rows
 from system.faults import Fault, InputFaults
 from system.pairs import Pair
+from system.units import LPM
 
 PICTURES = (*GAPS, "pump")
 Rows = list[tuple[str, ...]]

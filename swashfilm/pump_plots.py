@@ -9,16 +9,16 @@ import numpy as np
 
 from reynolds.numerics.arrays import Array
 from swashfilm.figure_png import figure_of, png_of
+from swashfilm.gap_names import TITLES
 from swashfilm.maps import MapField, draw_map
 from swashfilm.pump_data import GAPS, PICTURED_TURN
 from swashfilm.pump_summary import ABBREVIATION
 from system.pairs import Pair
+from system.units import LPM
 
 if TYPE_CHECKING:
     import xarray
 
-LPM = 6e4
-"""L/min for one m3/s."""
 GAP_FIELDS = (
     MapField("film_pressure", "film pressure / MPa", 1e-6),
     MapField("film_thickness", "film thickness / um", 1e6, colours="cividis"),
@@ -26,7 +26,6 @@ GAP_FIELDS = (
     MapField("film_temperature", "film temperature, mean across / degC", zero=273.15, colours="inferno"),
 )
 """Fields of a gap that a page draws where results.nc has them."""
-TITLES = {"piston": "piston-cylinder", "slipper": "slipper-swash plate", "valve_plate": "valve plate-cylinder"}
 
 
 def loss_bar(summary: Mapping[str, Any]) -> bytes:

@@ -9,11 +9,11 @@ from swashfilm.coefficients_told import coefficient_warnings
 from swashfilm.fidelity import Fidelity
 from swashfilm.floating_run import floating_summary, write_floating
 from swashfilm.forces_data import force_warnings, forces_summary, write_forces
+from swashfilm.gap_names import FIELDS, vtu_name
 from swashfilm.losses_told import loss_warnings, losses_left_out
 from swashfilm.picture3d import draw
-from swashfilm.progress import Report
 from swashfilm.pump_data import GAPS, PICTURED_TURN, films_dataset, point_dataset, write_tables
-from swashfilm.pump_fields import FIELDS, vtu_name, write_fields
+from swashfilm.pump_fields import write_fields
 from swashfilm.pump_summary import pump_summary
 from swashfilm.pump_warnings import films_warnings
 from swashfilm.run_folder import write_json
@@ -27,6 +27,7 @@ from system.lumped_point import lumped_point
 from system.multibody.floating_group import floating_joint_forces
 from system.multibody.rotating_group import JointForces, joint_forces
 from system.operating import operating_point
+from system.progress import Report
 from system.pump_file import check_pump, resolved_toml
 from system.table_sources import Source
 

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
+from swashfilm.gap_names import LARGEST_RIGID_PRESSURE
 from swashfilm.pump_data import gap_films
 from swashfilm.pump_summary import gap_statement
 from system.films import FilmsPoint
 
-LARGEST_RIGID_PRESSURE = 100e6
-"""Pa. There the viscosity of mineral oil is several times that of the film, and steel gives by micrometres."""
 LARGEST_SAMPLING_ERROR = 0.02
 
 

@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 
+from reynolds.numerics.arrays import Array
+
 if TYPE_CHECKING:
     from reynolds.stokes.corrections import Correction
 
@@ -151,3 +153,15 @@ class Slot:
 
         ratio = self.length / self.height
         return orifice_correction(ratio, self.pipe_ratio, reynolds, Symmetry.PLANE, -(-cells // 2))
+
+
+@dataclass(frozen=True)
+class Solved:
+    """A passage, its correction, and how far the pressure drops (K,) of half the cells are from its own.
+
+    mesh_error: over friction and inertia added up, which may cancel in a drop.
+    """
+
+    passage: Passage
+    correction: Correction
+    mesh_error: Array

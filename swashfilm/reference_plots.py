@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from matplotlib.tri import Triangulation
 
     from reynolds.stokes.flow import Flow
-    from swashfilm.reference_run import Solved
+    from swashfilm.reference_passages import Solved
 
 MOST_PICTURES = 4
 NEAR = 5.0

@@ -3,22 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from importlib.metadata import version
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from reynolds.numerics.arrays import Array
-from swashfilm.progress import Report
 from swashfilm.reference_case import FEWEST_CELLS, ReferenceCase, ReferenceKind
-from swashfilm.reference_passages import Passage
+from swashfilm.reference_passages import Passage, Solved
 from swashfilm.run_folder import write_json
 from system.csv_table import write_table
+from system.progress import Report
 
 if TYPE_CHECKING:
-    from reynolds.stokes.corrections import Correction
+    pass
 
 OF_PORTS = (ReferenceKind.ORIFICE, ReferenceKind.SLOT)
 FILES = {kind: "port_coefficient.csv" if kind in OF_PORTS else "loss_factor.csv" for kind in ReferenceKind}
@@ -30,18 +28,6 @@ LIMITS = {
     ReferenceKind.SLOT: "plane, laminar, steady, even flow (jets lean from Re of some tens); sharp edges",
 }
 """For what flow the numbers hold."""
-
-
-@dataclass(frozen=True)
-class Solved:
-    """A passage, its correction, and how far the pressure drops (K,) of half the cells are from its own.
-
-    mesh_error: over friction and inertia added up, which may cancel in a drop.
-    """
-
-    passage: Passage
-    correction: Correction
-    mesh_error: Array
 
 
 def run_reference(case: ReferenceCase, folder: Path, report: Report) -> dict[str, Any]:

@@ -10,7 +10,6 @@ from typing import Any
 
 from diagnosis.recording import Recording
 from reynolds.bodies.cache import cache_folder
-from swashfilm.progress import Report
 from swashfilm.recorded_coefficients import recorded_fig13
 from swashfilm.reproduce_files import claim_rows, figure_row, write_reproduction
 from system.description import PumpDescription
@@ -19,6 +18,7 @@ from system.kept_points import KeptPoints
 from system.paper.figures import DRAWINGS, Figure
 from system.paper.judge import FigureResult
 from system.paper.reproduce import Means, PaperFidelity, reproduce
+from system.progress import Report
 from system.pump_file import load_pump, resolved_toml
 from system.work import Hands
 

@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from swashfilm.maps import draw_map, paint
-from swashfilm.progress import Report
 from swashfilm.revolution_data import SHOWN
 from swashfilm.revolution_plots import FILM, INK, degrees, shown, span
+from system.progress import Report
 
 if TYPE_CHECKING:
     import xarray

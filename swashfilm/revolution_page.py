@@ -11,8 +11,8 @@ from typing import Any
 
 from swashfilm.film_page import summary_rows
 from swashfilm.film_refine import refinement_head, refinement_rows
+from swashfilm.gap_names import TITLES
 from swashfilm.physics_told import PHYSICS_HEAD, physics_told
-from swashfilm.pump_plots import TITLES
 from swashfilm.revolution_plots import revolution_plots
 from system.faults import Fault, InputFaults
 from system.pump_gap import Gap

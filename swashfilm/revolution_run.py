@@ -6,13 +6,13 @@ from pathlib import Path
 from typing import Any
 
 from swashfilm.film_refine import refinement_summary, write_refinement
-from swashfilm.progress import Report
 from swashfilm.revolution_case import RevolutionCase
 from swashfilm.revolution_data import revolution_dataset, write_convergence, write_series
 from swashfilm.revolution_fields import write_revolution_fields
 from swashfilm.revolution_refine import refine_revolution
 from swashfilm.revolution_study import revolution_summary, solve_revolution
 from swashfilm.run_folder import write_json
+from system.progress import Report
 
 
 def run_revolution_case(

@@ -12,7 +12,6 @@ from gaps.revolution import GapRevolution
 from gaps.seen import Active, BlockSeen, GapSeen, PistonSeen, SlipperSeen, mass_balance_error
 from gaps.warmth import Warmth
 from reynolds.numerics.arrays import Array
-from swashfilm.progress import Report
 from swashfilm.revolution_case import GapCase, RevolutionCase
 from swashfilm.revolution_warnings import revolution_warnings
 from system.floating_drives import Drives, drives, no_rubbing, slipper_shape
@@ -20,13 +19,10 @@ from system.floating_gaps import block_revolution, piston_revolution, slipper_re
 from system.floating_heat import all_taken
 from system.floating_parts import FloatingParts, floating_parts
 from system.instants import valve_plate_geometry
+from system.progress import Report, silent
 from system.pump_gap import Gap
 
 NO_RUBBING = "friction of the films on the parts: left out of the forces between them (one gap alone)"
-
-
-def silent(done: int, steps: int, what: str) -> None:
-    """A report that tells nobody."""
 
 
 @dataclass(frozen=True)

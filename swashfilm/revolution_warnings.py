@@ -10,7 +10,7 @@ import numpy as np
 from gaps.physics import Effect
 from gaps.revolution import GapRevolution
 from gaps.slipper_motion import retainer_force
-from swashfilm.pump_warnings import LARGEST_RIGID_PRESSURE
+from swashfilm.gap_names import LARGEST_RIGID_PRESSURE
 from swashfilm.revolution_case import GapCase
 from system.checks import run_checks
 from system.floating_checks import block_tips, slipper_has_a_wedge

@@ -10,13 +10,13 @@ from typing import Any
 
 from swashfilm.film_series import run_points
 from swashfilm.headline import named
-from swashfilm.progress import Report
 from swashfilm.run_folder import write_json
 from swashfilm.series_courses import course_plots
 from swashfilm.series_data import study_dataset, study_summary, write_study_table
 from swashfilm.series_plots import study_plots
 from swashfilm.study_case import StudyCase
 from system.faults import Fault, InputFaults
+from system.progress import Report
 
 
 def run_study(

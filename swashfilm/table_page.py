@@ -4,16 +4,16 @@ from __future__ import annotations
 
 import base64
 import json
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 from gaps.response import Measure
 from swashfilm.headline import named
 from swashfilm.table_plots import table_plots
-from swashfilm.table_run import input_text, place_text
 from system.faults import Fault, InputFaults
 from system.table_store import read_response
+from system.units import Dimension, format_quantity
 
 KINDS = NUMBERS, OUTPUTS = "numbers", "outputs"
 """Of the rows of a summary: what a run of a pump's table tells, and what its response is learnt of."""
@@ -88,3 +88,17 @@ def _error_text(measure: str, error: float) -> str:
             return f"{100.0 * error:.2f} % of the largest"
         case Measure.ABSOLUTE:
             return f"{error:.4f}"
+
+
+def input_text(axis: Mapping[str, Any], value: float) -> str:
+    """A value of an axis (a row of the record's) as people read it."""
+    if axis["dimension"] is None:
+        return f"{value:.4g}"
+    return format_quantity(float(value), Dimension[axis["dimension"]], digits=4)
+
+
+def place_text(axes: Sequence[Mapping[str, Any]], at: Sequence[float]) -> str:
+    """A place in the box as people read it."""
+    return ", ".join(
+        f"{axis['name'].replace('_', ' ')} {input_text(axis, value)}" for axis, value in zip(axes, at, strict=True)
+    )

@@ -9,9 +9,10 @@ from typing import Any
 import numpy as np
 
 from gaps.response import Region, Response
-from swashfilm.progress import Report
 from swashfilm.run_folder import write_json
+from swashfilm.table_page import input_text, place_text
 from system.floating_parts import floating_parts
+from system.progress import Report
 from system.pump_file import resolved_toml
 from system.response_tables import LARGE_ERROR, ResponseTable, axis_value
 from system.side_by_side import crew
@@ -19,7 +20,7 @@ from system.table_build import TableCase, build_table
 from system.table_means import MEANINGS
 from system.table_numbers import NUMBERS
 from system.table_store import keep_table, table_record
-from system.units import Dimension, format_quantity
+from system.units import Dimension
 
 TABLE = "table"
 NARROW = 0.7
@@ -116,20 +117,6 @@ def _failures(record: Mapping[str, Any]) -> Iterator[str]:
             f"points_failed: {len(failed)} points have no result and are not learnt from, such as "
             f"{place_text(record['axes'], failed[0]['at'])}: {failed[0]['reason']}"
         )
-
-
-def input_text(axis: Mapping[str, Any], value: float) -> str:
-    """A value of an axis (a row of the record's) as people read it."""
-    if axis["dimension"] is None:
-        return f"{value:.4g}"
-    return format_quantity(float(value), Dimension[axis["dimension"]], digits=4)
-
-
-def place_text(axes: Sequence[Mapping[str, Any]], at: Sequence[float]) -> str:
-    """A place in the box as people read it."""
-    return ", ".join(
-        f"{axis['name'].replace('_', ' ')} {input_text(axis, value)}" for axis, value in zip(axes, at, strict=True)
-    )
 
 
 def write_points(path: Path, response: Response, summary: Mapping[str, Any]) -> None:

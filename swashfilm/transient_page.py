@@ -12,8 +12,8 @@ import numpy as np
 
 from swashfilm import transient_plots
 from system.faults import Fault, InputFaults
+from system.units import LPM
 
-LPM = 6e4
 FILES = ("summary.json", "resolved.toml", "results.nc")
 
 

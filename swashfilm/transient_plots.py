@@ -8,11 +8,11 @@ import numpy as np
 
 from reynolds.numerics.arrays import Array
 from swashfilm.figure_png import figure_of, png_of
+from system.units import LPM
 
 if TYPE_CHECKING:
     import xarray
 
-LPM = 6e4
 NAMES = {
     "pressure_moment": "pressure",
     "inertia_moment": "inertia",

@@ -14,14 +14,14 @@ from system.chamber import ChamberCycle, Paths
 from system.chamber_problem import ChamberProblem, LeakTable
 from system.chamber_state_kernels import CAVITY_PRESSURE
 from system.kinematics import stroke
+from system.means import mean_of
 from system.operating import OperatingPoint
 from system.pairs import FrictionPairs, Pair, over_chambers
-from system.ports import TURN, opening_area
+from system.ports import opening_area
 from system.ports_coupling import Port, PortedCycle
 from system.power import GapExchange, Gaps, PowerBalance, leakage_by_flow, port_draw, power_balance, shaft_work
 from system.shaft_torque import GroupMasses, shaft_torque
-from system.units import STANDARD_ATMOSPHERE
-from system.unlike import mean_of
+from system.units import STANDARD_ATMOSPHERE, TURN
 
 
 class PointWarning(Enum):

@@ -19,7 +19,7 @@ from system.errors import NotConverged
 from system.lumped import PistonMotion, chamber_problem
 from system.map_kernels import beside_map, chamber_map
 from system.operating import OperatingPoint
-from system.ports import TURN
+from system.units import TURN
 
 OF_GAPS = ("case_pressure", "kinematic_viscosity")
 """Constants of a chamber that act by its gaps alone; ports turn from laminar to turbulent at a few kPa."""

@@ -15,7 +15,7 @@ from system.pairs import FrictionPairs, Pair, PairLoss
 from system.physics.effects import BenchState, Effects
 from system.physics.outside import outside
 from system.physics.rubbing import rubbed
-from system.ports import TURN
+from system.units import TURN
 
 SIMULATED = (ChannelName.Q_OUT, ChannelName.Q_IN, ChannelName.Q_CASE, ChannelName.TORQUE)
 """Outputs that the lumped bench knows, in the order of `truth`."""

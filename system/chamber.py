@@ -20,7 +20,7 @@ from system.chamber_problem import ChamberProblem
 from system.errors import NotConverged
 from system.kinematics import piston_displacement, stroke
 from system.map_kernels import run_in
-from system.ports import TURN
+from system.units import TURN
 
 TOLERANCE = 1e-6
 """Largest local error of a step, of the port pressure difference; the closed revolution is good to about this."""

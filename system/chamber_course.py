@@ -10,7 +10,8 @@ from reynolds.numerics.arrays import Array
 from system import chamber_kernel as kernel
 from system import chamber_state_kernels as chamber_state
 from system.chamber_problem import ChamberProblem
-from system.ports import TURN, PortOpening, as_array, break_angles
+from system.ports import PortOpening, as_array, break_angles
+from system.units import TURN
 
 Constants = tuple[np.ndarray, Array, Array]
 """The record of the chamber's constants, the table of its gaps and that of its ports."""

@@ -10,8 +10,8 @@ import numpy as np
 from reynolds.errors import FilmInputError
 from reynolds.numerics.arrays import Array
 from system.estimation.folds import levels
+from system.units import TURN
 
-TURN = 2.0 * np.pi
 LEAST_LEVELS = 5  # speeds, and pressure differences, that ISO 8426-1:2025 asks for
 
 

@@ -21,7 +21,7 @@ from system.description import PumpDescription
 from system.errors import NotConverged
 from system.film_effects import FilmEffects, closed_laws, film_effects
 from system.floating_parts import FloatingParts, floating_parts
-from system.gap_cycle import PLAIN, GapCycle, GapPhysics, Report, gap_cycle, silent
+from system.gap_cycle import PLAIN, GapCycle, GapPhysics, gap_cycle
 from system.given_thickness import at_temperature, unpressed
 from system.instants import Rotor, rotor
 from system.land_losses import creeping_film_leaks, land_losses, with_inertia
@@ -41,9 +41,10 @@ from system.pairs import FrictionPairs
 from system.physics.effects import Effects
 from system.physics_description import PhysicsSection
 from system.point_effects import affected, affected_leaks, displaced, point_effects, rubbed_pairs, with_outside
-from system.ports import TURN
 from system.ports_coupling import PortedCycle, ported_cycle
 from system.power import GapExchange, Gaps
+from system.progress import Report, silent
+from system.units import TURN
 from system.unlike import kinds
 
 POSITIONS_PER_PITCH = 4

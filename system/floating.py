@@ -36,16 +36,16 @@ from system.floating_exchange import (
 from system.floating_gaps import FloatingOptions
 from system.floating_kinds import Asked, Group, by_chamber, chamber_problems, drives_of, gap_revolutions, group_of
 from system.floating_parts import FloatingParts
-from system.gap_cycle import Report, silent
 from system.instants import Rotor, rotor
 from system.lumped import lumped_pairs, piston_motion, port_lines, swept_displacement
 from system.lumped_point import lumped_point
+from system.means import mean_of
 from system.operating import OperatingPoint
 from system.pairs import over_chambers
 from system.physics.switched import hold_plain
 from system.ports_coupling import PortedCycle, ported_cycle
 from system.power import Gaps
-from system.unlike import mean_of
+from system.progress import Report, silent
 
 PRESSURE_TOLERANCE = 1e-4
 """Largest change of the chamber pressure between two rounds, of delivery minus inlet pressure."""

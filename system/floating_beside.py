@@ -20,8 +20,8 @@ from system.errors import NotConverged
 from system.floating_drives import Rubbing, drives
 from system.floating_gaps import FloatingOptions, piston_revolution
 from system.floating_parts import FloatingParts
-from system.gap_cycle import Report
 from system.instants import Rotor
+from system.progress import Report
 
 Found = GapRevolution[PistonSeen]
 TOLD_A_TURN = 12

@@ -22,9 +22,9 @@ from system.floating_parts import FloatingParts
 from system.instants import Rotor, travel, valve_plate_geometry
 from system.lumped import piston_area
 from system.pairs import FrictionPairs, PairLoss
-from system.ports import TURN
 from system.power import GapExchange, Gaps
 from system.spins import SpinTorques, torques_of_films
+from system.units import TURN
 
 
 @dataclass(frozen=True)

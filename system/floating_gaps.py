@@ -27,9 +27,9 @@ from system.description import PumpDescription
 from system.floating_checks import block_tips
 from system.floating_heat import block_heat, piston_heat, slipper_heat
 from system.floating_parts import FloatingParts
-from system.gap_cycle import Report, silent
 from system.gap_films import block_film, piston_film, slipper_film
 from system.instants import Rotor
+from system.progress import Report, silent
 from system.unlike import kinds
 
 MARCHED = Accuracy(step=1e-2, balance=0.1)

@@ -21,10 +21,10 @@ from system.floating_drives import Drives, Rubbing, block_drive, drives
 from system.floating_exchange import FloatingGaps, growth, leak_table
 from system.floating_gaps import FloatingOptions, block_revolution, piston_revolution, slipper_revolution
 from system.floating_parts import FloatingParts, floating_parts
-from system.gap_cycle import Report
 from system.instants import Rotor
 from system.lumped import PistonMotion, chamber_problem
 from system.operating import OperatingPoint
+from system.progress import Report
 from system.spins import SpinTorques
 from system.unlike import Kinds, kinds
 

@@ -28,12 +28,12 @@ from system.floating_parts import FloatingParts
 from system.gap_films import RIGID, Cells, block_film, piston_film, slipper_film
 from system.given_positions import given_block, given_piston, given_slipper
 from system.instants import Rotor
+from system.progress import Report, silent
 
 PISTON_CELLS, SLIPPER_CELLS, RING_CELLS = (48, 16), (12, 48), (8, 32)
 """Of the ring so many around that mesh lines meet REF90's port edges at the film angles."""
 SMOOTH = RIGID.without(Effect.ROUGHNESS)
 """At a given position nothing touches: what asperities would bear and rub stands in the pairs' coefficients."""
-Report = Callable[[int, int, str], None]
 
 
 @dataclass(frozen=True)
@@ -51,10 +51,6 @@ class GapPhysics:
 
 
 PLAIN = GapPhysics()
-
-
-def silent(done: int, total: int, what: str) -> None:
-    """Report progress to nobody."""
 
 
 @dataclass(frozen=True)

@@ -7,9 +7,11 @@ from typing import Any
 
 from reynolds.errors import FilmInputError
 from system.description import OperatingSection, PumpDescription
-from system.physics.film_laws import LEAST_FILM
 from system.physics_description import OpeningSection
 from system.pump_gap import Gap
+
+LEAST_FILM = 0.05
+"""Of a film's thickness: to less warmth does not close it. What a fit tries there is no film any more."""
 
 
 def given_film(pump: PumpDescription, gap: Gap) -> float:

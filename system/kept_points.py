@@ -14,7 +14,7 @@ from typing import TypeVar
 
 from reynolds.errors import FilmInputError
 from system.faults import Fault, InputFaults, nearest_path
-from system.gap_cycle import Report, silent
+from system.progress import Report, silent
 from system.side_by_side import WorkerDied
 from system.work import Hands, Outcome, Status, Work, done_part, internal_reason
 

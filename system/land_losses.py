@@ -21,8 +21,8 @@ from system.description import PumpDescription, SlipperSection
 from system.edge_losses import Edge, Excess, LandPath, LossCourse, secant_conductance
 from system.flow_tables import coefficients_of, log_reynolds_over
 from system.loss_files import LossFactors, groove_losses, step_losses
+from system.units import TURN
 
-TURN = 2.0 * np.pi
 NODES = 200
 """Of a bore's table, over the range of its file."""
 

@@ -5,13 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 from enum import Enum
 from itertools import pairwise
-from typing import assert_never
-
-import numpy as np
 
 from system.faults import Fault
 from system.fields import Area, ImpedanceRows, Pressure, Section, Volume
-from system.lines import HeldPressure, Impedance, ImpedanceLine, Line, OrificeLine
 from system.units import Dimension, format_quantity
 
 
@@ -40,21 +36,6 @@ _KEYS = {
     LineKind.IMPEDANCE: ("volume", "impedance"),
 }
 """The keys that belong to a kind."""
-
-
-def line_of(stated: LineSection, tank_pressure: float) -> Line:
-    """What hangs on a port; `tank_pressure` Pa where none is stated. The section is one without faults."""
-    match stated.kind:
-        case None | LineKind.HELD:
-            return HeldPressure()
-        case LineKind.ORIFICE:
-            tank = tank_pressure if stated.tank_pressure is None else stated.tank_pressure
-            return OrificeLine(stated.volume or 0.0, tank, stated.orifice_area)
-        case LineKind.IMPEDANCE:
-            frequency, real, imaginary = np.array(stated.impedance or (), dtype=float).reshape(-1, 3).T
-            return ImpedanceLine(stated.volume or 0.0, Impedance(frequency, real + 1j * imaginary))
-        case _:
-            assert_never(stated.kind)
 
 
 def line_faults(path: str, stated: LineSection) -> Iterator[Fault]:

@@ -30,15 +30,15 @@ from system.leakage import (
     slipper_conductance,
     valve_plate_conductance,
 )
-from system.line_description import line_of
 from system.lines import Lines
 from system.operating import OperatingPoint
 from system.pairs import FrictionPairs, PairLoss
-from system.port_description import relief_groove
+from system.port_description import line_of, relief_groove
 from system.port_webs import PortWebs
-from system.ports import TURN, PortOpening
+from system.ports import PortOpening
 from system.retainer import BallGuide, mean_sliding_speed, spring_force
 from system.shaft_torque import GroupMasses
+from system.units import TURN
 
 SAMPLES_PER_PITCH = 40
 """Sampled shaft angles for each piston pitch: 1 deg on nine pistons; even, so the quadrature can be halved."""

@@ -26,9 +26,9 @@ from system.lumped import (
 from system.operating import OperatingPoint
 from system.physics.effects import Effects
 from system.point_effects import affected, displaced, point_effects, rubbed_pairs, with_outside
-from system.ports import TURN
 from system.ports_coupling import PortedCycle, ported_cycle
 from system.power import chamber_exchange
+from system.units import TURN
 from system.unlike import Kinds, kinds
 
 ROUND_LIMIT = 20

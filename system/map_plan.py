@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -16,9 +15,8 @@ from system.description import PumpDescription
 from system.faults import Fault
 from system.operating import OperatingPoint, operating_point
 from system.operating_checks import check_operating_point
-from system.units import Dimension, format_quantity, in_unit, reading_unit
+from system.units import RPM, Dimension, format_quantity, in_unit, reading_unit
 
-RPM = math.pi / 30.0
 PAPER_SPEEDS = tuple(RPM * speed for speed in (1000.0, 1300.0, 1700.0, 2100.0))
 PAPER_PRESSURES = tuple(1e6 * pressure for pressure in (5.0, 10.0, 15.0, 20.0, 25.0, 30.0, 35.0))
 PAPER_RATIOS = (0.28, 0.51, 0.77, 1.0)

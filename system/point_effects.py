@@ -16,6 +16,7 @@ from system.chamber_problem import ChamberProblem, LeakTable
 from system.description import PumpDescription
 from system.gap_courses import bench_state, gap_courses
 from system.lumped import lumped_pairs, piston_motion
+from system.means import mean_of
 from system.operating import OperatingPoint
 from system.pairs import FrictionPairs, Pair, PairLoss
 from system.physics.effects import Effects
@@ -23,7 +24,6 @@ from system.physics.outside import Outside, outside
 from system.physics.port_laws import eroded, narrowed
 from system.physics.rubbing import rubbed
 from system.physics.switched import stated_effects, stated_laws
-from system.unlike import mean_of
 
 
 def point_effects(pump: PumpDescription, point: OperatingPoint, cycle: ChamberCycle) -> Effects:

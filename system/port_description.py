@@ -6,8 +6,12 @@ import math
 from collections.abc import Iterator
 from typing import assert_never
 
+import numpy as np
+
 from system.description import PortsSection
 from system.faults import Fault
+from system.line_description import LineKind, LineSection
+from system.lines import HeldPressure, Impedance, ImpedanceLine, Line, OrificeLine
 from system.parts_description import GrooveSection, GrooveShape
 from system.ports import MOST_GROOVES
 from system.relief_grooves import ReliefGroove, round_groove, v_groove
@@ -92,3 +96,18 @@ def throats(ports: PortsSection, radius: float) -> tuple[float, float]:
     found = [relief_groove(groove, ports.kidney_full_end, radius) for groove in ports.relief_grooves]
     ahead = math.fsum(groove.largest for groove in found if groove.begins < groove.deep)
     return ahead, math.fsum(groove.largest for groove in found) - ahead
+
+
+def line_of(stated: LineSection, tank_pressure: float) -> Line:
+    """What hangs on a port; `tank_pressure` Pa where none is stated. The section is one without faults."""
+    match stated.kind:
+        case None | LineKind.HELD:
+            return HeldPressure()
+        case LineKind.ORIFICE:
+            tank = tank_pressure if stated.tank_pressure is None else stated.tank_pressure
+            return OrificeLine(stated.volume or 0.0, tank, stated.orifice_area)
+        case LineKind.IMPEDANCE:
+            frequency, real, imaginary = np.array(stated.impedance or (), dtype=float).reshape(-1, 3).T
+            return ImpedanceLine(stated.volume or 0.0, Impedance(frequency, real + 1j * imaginary))
+        case _:
+            assert_never(stated.kind)

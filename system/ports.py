@@ -18,8 +18,8 @@ from system.flow_tables import FLOW_SIZE, FlowTable
 from system.kinematics import Number
 from system.port_webs import WEBS_SIZE, PortWebs, covered_share
 from system.relief_grooves import SIZE, ReliefGroove, throat_area
+from system.units import TURN
 
-TURN = 2.0 * np.pi
 SAME_ANGLE = 1e-9  # rad
 MOST_GROOVES = 8
 NUMBERS = 9

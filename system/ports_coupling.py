@@ -20,10 +20,11 @@ from system.chamber_problem import ChamberProblem, PortPressure
 from system.chamber_state_kernels import CAVITY_PRESSURE
 from system.errors import NotConverged
 from system.lines import HeldPressure, Line, Lines, OrificeLine
+from system.means import mean_of
 from system.pairs import over_chambers
-from system.ports import TURN, PortOpening, opening_area
+from system.ports import PortOpening, opening_area
 from system.ports_volume import Supply, line_power, port_balance
-from system.unlike import mean_of
+from system.units import TURN
 
 ROUND_LIMIT = 60
 SETTLED = 10.0

@@ -21,7 +21,8 @@ from system.chamber import flow_energy
 from system.chamber_problem import ChamberProblem
 from system.errors import NotConverged
 from system.lines import ImpedanceLine, OrificeLine
-from system.ports import TURN, orifice, orifice_coefficients
+from system.ports import orifice, orifice_coefficients
+from system.units import TURN
 
 AREA_LIMIT = 50
 AREA_TOLERANCE = 1e-13

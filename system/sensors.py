@@ -13,8 +13,7 @@ from reynolds.numerics.arrays import Array
 from system.bench_points import BenchPoints
 from system.channels import INPUTS, OUTPUTS, ChannelName
 from system.estimation.parameters import Parameter, Role, Scale
-from system.ports import TURN
-from system.units import Dimension
+from system.units import TURN, Dimension
 
 BIASED_INPUTS = (ChannelName.P_OUT, ChannelName.T_CASE, ChannelName.DISPLACEMENT_RATIO)
 """Inputs of which a calibration's bias is told apart from others'."""

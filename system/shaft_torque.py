@@ -30,8 +30,8 @@ from system.kinematics import (
     piston_velocity,
     slipper_sliding_velocity,
 )
+from system.means import mean_of
 from system.pairs import FrictionPairs, Pair, PairLoss, over_chambers
-from system.unlike import mean_of
 
 AT_REST = 1e-9
 """Part of the largest speed below which a part is at rest and its loss tells of no force."""

@@ -15,9 +15,9 @@ from reynolds.errors import FilmInputError
 from reynolds.numerics.arrays import Array
 from reynolds.oil import dynamic_viscosity, temperature_of
 from system.description import PumpDescription
-from system.gap_cycle import Report, silent
 from system.operating import OperatingPoint, operating_point
 from system.physics.switched import hold_plain
+from system.progress import Report, silent
 from system.response_tables import (
     INPUTS,
     PRESSURE,

@@ -26,11 +26,11 @@ from system.lumped import (
 from system.operating import OperatingPoint
 from system.pairs import FrictionPairs, Pair, PairLoss
 from system.physics.switched import hold_plain
-from system.ports import TURN
 from system.ports_coupling import ported_cycle
 from system.power import GapExchange, Gaps, chamber_exchange, port_draw
 from system.response_tables import ResponseTable
 from system.table_means import GAP_PAIRS, given_films, law_moments, plate_flow
+from system.units import TURN
 from system.unlike import kinds
 
 ROUND_LIMIT = 12

@@ -13,8 +13,8 @@ from gaps.response import Axis, Samples, fewest_learnt, held_out_points, learnt_
 from reynolds.bodies.cache import cache_folder
 from reynolds.numerics.arrays import Array
 from system.errors import NotConverged
-from system.gap_cycle import Report, silent
 from system.kept_points import POINTS, KeptPoints, run_kept
+from system.progress import Report, silent
 from system.side_by_side import HERE
 from system.work import Hands, Outcome, Status
 

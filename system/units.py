@@ -18,6 +18,10 @@ if TYPE_CHECKING:
 
 STANDARD_ATMOSPHERE = 101325.0  # Pa; gauge pressure = absolute pressure - this
 
+TURN = 2.0 * math.pi  # rad
+RPM = math.pi / 30.0  # rad/s in an r/min
+LPM = 6e4  # L/min in a m3/s
+
 LARGEST = Fraction(10) ** 30  # in SI; with its inverse the range of sizes that machines have
 
 

@@ -11,8 +11,7 @@ from reynolds.oil import walther
 from system.bench_points import BenchPoints
 from system.description import PumpDescription
 from system.lumped import full_drive, swept_displacement
-
-TURN = 2.0 * np.pi
+from system.units import TURN
 
 
 @dataclass(frozen=True)

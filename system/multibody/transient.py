@@ -29,7 +29,7 @@ from system.multibody.transient_setup import (
 )
 from system.operating import OperatingPoint
 from system.physics.switched import hold_plain
-from system.ports import TURN
+from system.units import TURN
 from system.unlike import kinds
 
 HELD_TURNS = 2

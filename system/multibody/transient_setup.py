@@ -18,8 +18,7 @@ from system.multibody.group_kinematics import BoreCircle, Plate, axial_rates
 from system.multibody.plate_motion import Actuator, Mechanism
 from system.multibody.transient_kernels import PLATE, actuator_at
 from system.operating import OperatingPoint
-from system.ports import TURN
-from system.units import Dimension, format_quantity
+from system.units import TURN, Dimension, format_quantity
 
 USUAL_STEP = np.radians(0.5)
 SHARE_OF_SWING = 0.5

@@ -23,7 +23,7 @@ from system.multibody.transient import Transient
 from system.multibody.transient_setup import bore_circle, inner_place
 from system.operating import OperatingPoint
 from system.pairs import FrictionPairs, Pair
-from system.ports import TURN
+from system.units import TURN
 
 INSTANTS = 1000  # at once, so that long courses fit in memory
 

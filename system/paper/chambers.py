@@ -12,7 +12,8 @@ from system.paper.figures import Axis, Curve, Figure, Panel, PanelKind, Unit
 from system.paper.judge import FigureResult, Judged, Range, judge
 from system.paper.points import FULL, PRESSURES, RATED, PaperPoint, PaperPoints
 from system.paper.statements import CLAIMS
-from system.ports import TURN, PortOpening, break_angles, opening_area
+from system.ports import PortOpening, break_angles, opening_area
+from system.units import TURN
 
 ANGLES = np.linspace(0.0, TURN, 1441)
 BEFORE, AFTER = pi - pi / 6.0, pi + 5.0 * pi / 18.0

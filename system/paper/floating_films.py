@@ -19,7 +19,6 @@ from system.floating_checks import slipper_has_a_wedge
 from system.floating_drives import drives, no_rubbing
 from system.floating_gaps import FloatingOptions, piston_revolution, slipper_revolution
 from system.floating_parts import floating_parts
-from system.gap_cycle import Report, silent
 from system.instants import engaged_share, rotor
 from system.kept_points import KeptPoints, run_kept
 from system.lumped_point import lumped_point
@@ -29,6 +28,7 @@ from system.paper.judge import FigureResult, Range, judge, range_of
 from system.paper.points import KEY_LENGTH, PRESSURES, RATED, RATIOS, PaperWork, Place, PointFidelity
 from system.paper.statements import CLAIMS
 from system.physics.switched import hold_plain
+from system.progress import Report, silent
 from system.pump_file import resolved_toml
 from system.work import Hands, Record, Status
 

@@ -13,9 +13,10 @@ from system.multibody.retainer_body import contact_circle, guide_loss
 from system.pairs import Pair, ball_guide_coulomb
 from system.paper.figures import Axis, Curve, Figure, Panel, PanelKind, Unit
 from system.paper.judge import FigureResult, Range, judge, range_of
-from system.paper.points import FULL, PRESSURES, RATED, RPM, SPEEDS, PaperPoints, Reading
+from system.paper.points import FULL, PRESSURES, RATED, SPEEDS, PaperPoints, Reading
 from system.paper.statements import CLAIMS
 from system.retainer import BallGuide, RetainerMotion, mean_sliding_speed, relative_locus
+from system.units import RPM
 
 AZIMUTHS = 2.0 * np.pi * np.arange(361) / 360
 

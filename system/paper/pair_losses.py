@@ -10,8 +10,18 @@ from reynolds.numerics.arrays import Array
 from system.pairs import Pair
 from system.paper.figures import Axis, Curve, Figure, Panel, PanelKind, Unit
 from system.paper.judge import FigureResult, Impossibility, Judged, Range, judge, range_of
-from system.paper.points import FULL, PRESSURES, RATED, RATIOS, RPM, SPEEDS, PaperPoint, PaperPoints, Reading
+from system.paper.points import (
+    FULL,
+    PRESSURES,
+    RATED,
+    RATIOS,
+    SPEEDS,
+    PaperPoint,
+    PaperPoints,
+    Reading,
+)
 from system.paper.statements import CLAIMS
+from system.units import RPM
 
 MAIN = (Pair.PISTON_CYLINDER, Pair.SLIPPER_SWASH_PLATE, Pair.VALVE_PLATE_CYLINDER)
 PISTON, SLIPPER, PLATE = MAIN

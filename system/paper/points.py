@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
 from enum import Enum
-from math import pi
 from typing import Any
 
 import numpy as np
@@ -17,19 +16,19 @@ from system.assembly import PumpPoint
 from system.bench import BenchReading, LossSplit, paper_efficiency, paper_losses
 from system.description import PumpDescription
 from system.films import films_point
-from system.gap_cycle import Report, silent
 from system.kept_points import KeptPoints, run_kept
 from system.lumped_point import lumped_point
 from system.operating import OperatingPoint, operating_point
 from system.pairs import Pair
 from system.paper.figures import Figure
+from system.progress import Report, silent
 from system.pump_file import resolved_toml
+from system.units import RPM
 from system.work import Hands, Record, Status
 
 POINT_FORMAT = 1
 """Raised when the same point gives other numbers: by the laws behind it, or by what is kept."""
 KEY_LENGTH = 24
-RPM = pi / 30.0
 SPEEDS = tuple(RPM * speed for speed in (1000.0, 1300.0, 1700.0, 2100.0))
 PRESSURES = tuple(1e6 * pressure for pressure in (5.0, 10.0, 15.0, 20.0, 25.0, 30.0, 35.0))
 RATIOS = (0.13, 0.28, 0.51, 0.77, 1.0)

@@ -8,7 +8,6 @@ from enum import Enum
 
 from system.description import PumpDescription
 from system.floating_gaps import FloatingOptions
-from system.gap_cycle import Report, silent
 from system.kept_points import KeptPoints
 from system.paper.chambers import fig10, fig11
 from system.paper.coefficients import fig13
@@ -22,6 +21,7 @@ from system.paper.judge import FigureResult
 from system.paper.pair_losses import fig16, fig17, fig18, fig20, fig21, fig22
 from system.paper.points import PaperPoints, PointFidelity, places_of, solve_points
 from system.paper.table_one import table1
+from system.progress import Report, silent
 from system.work import Hands
 
 OF_POINTS: Mapping[Figure, Callable[[PaperPoints], FigureResult]] = {

@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import replace
 
 from system.description import PumpDescription
-from system.gap_cycle import Report, silent
 from system.physics.catalogue_films import FILM_ENTRIES
 from system.physics.catalogue_pump import PUMP_ENTRIES
 from system.physics.catalogue_readings import PARAMETER_ENTRIES, SENSOR_ENTRIES
@@ -13,6 +12,7 @@ from system.physics.effects import EffectId
 from system.physics.extension import Entry, Extension
 from system.physics.film_tables import COMPLIANCE, OpeningTable, SolvedOpening, opening_table
 from system.physics.priors import half, path_of
+from system.progress import Report, silent
 from system.pump_gap import Gap
 
 CATALOGUE: tuple[Entry, ...] = (*FILM_ENTRIES, *PUMP_ENTRIES, *SENSOR_ENTRIES, *PARAMETER_ENTRIES)

@@ -9,10 +9,9 @@ from system.physics import drag_laws, flow_laws, port_laws
 from system.physics.effects import EffectId, Kind
 from system.physics.extension import Entry, Extension, Law, Values
 from system.physics.priors import half, path_of, signed
-from system.units import Dimension
+from system.units import RPM, Dimension
 
 FLOWS = (ChannelName.Q_OUT, ChannelName.Q_IN)
-RPM = 0.10471975511965977
 CASE_SEALS = (0.0, 1.5e-6)
 RESONANCES = tuple(RPM * speed for speed in (600.0, 900.0, 1200.0, 1500.0, 1800.0, 2100.0, 2400.0, 2700.0, 3000.0))
 

@@ -11,7 +11,6 @@ from reynolds.numerics.arrays import Array
 from system.physics.effects import BenchState, Effects, GapCourse
 from system.physics.extension import Values
 from system.physics.state import (
-    TURN,
     dead_volume,
     displaced,
     full_stroke,
@@ -20,6 +19,7 @@ from system.physics.state import (
     unchanged,
 )
 from system.pump_gap import Gap
+from system.units import TURN
 
 BARREL_WALL = 0.2
 """Wall outside the bores, of the piston diameter (usual; no drawing of ours states it)."""

@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from reynolds.numerics.arrays import Array
+from system.given_thickness import LEAST_FILM
 from system.physics.effects import BenchState, Effects, GapCourse
 from system.physics.extension import Values
 from system.physics.state import GAPS, unchanged, warmed
@@ -20,8 +21,6 @@ WARM_PASSES = 8
 THINNING = 0.04
 """1/K, of viscosity: mineral oils at 20 to 80 degC have .03 to .06."""
 SMALL = 1e-9
-LEAST_FILM = 0.05
-"""Of a film's thickness: to less warmth does not close it. What a fit tries there is no film any more."""
 
 Courses = Mapping[Gap, GapCourse]
 

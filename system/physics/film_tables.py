@@ -20,7 +20,7 @@ from reynolds.bodies.cache import content_key
 from reynolds.numerics.arrays import Array
 from system.description import PumpDescription
 from system.floating_parts import floating_parts
-from system.gap_cycle import SMOOTH, Report, silent
+from system.gap_cycle import SMOOTH
 from system.given_thickness import given_film
 from system.instants import rotor
 from system.operating import operating_point
@@ -28,6 +28,7 @@ from system.physics.effects import BenchState, Effects, GapCourse
 from system.physics.extension import Values
 from system.physics.film_laws import in_one_film
 from system.physics_description import PhysicsSection
+from system.progress import Report, silent
 from system.pump_file import resolved_toml
 from system.pump_gap import Gap
 from system.standing_films import film_numbers

@@ -11,7 +11,6 @@ from reynolds.numerics.arrays import Array
 from system.physics.effects import BenchState, Effects, GapCourse
 from system.physics.extension import Values
 from system.physics.state import (
-    TURN,
     absolute,
     dead_volume,
     displaced,
@@ -20,7 +19,7 @@ from system.physics.state import (
     unchanged,
 )
 from system.pump_gap import Gap
-from system.units import STANDARD_ATMOSPHERE
+from system.units import STANDARD_ATMOSPHERE, TURN
 
 POLYTROPIC = 1.2
 """Exponent of air bubbles in oil, between slow (1) and fast (1.4) changes."""

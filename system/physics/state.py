@@ -11,11 +11,10 @@ from reynolds.oil import WALTHER_SHIFT, walther_coefficients
 from system.kinematics import crossed_drive, stroke
 from system.physics.effects import BenchState, Effects, GapCourse, neutral
 from system.pump_gap import Gap
-from system.units import STANDARD_ATMOSPHERE
+from system.units import STANDARD_ATMOSPHERE, TURN
 
 GAPS = tuple(Gap)
 """The gaps in the order of the first axis of `Effects.conductance`."""
-TURN = 2.0 * np.pi
 
 
 def unchanged(courses: Mapping[Gap, GapCourse]) -> Effects:

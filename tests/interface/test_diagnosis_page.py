@@ -19,7 +19,14 @@ from diagnosis.weighed import HeldOut
 from swashfilm.__main__ import main
 from swashfilm.diagnose_files import read_rows, write_diagnosis_files
 from swashfilm.diagnose_films import FilmsTold
-from swashfilm.diagnose_page import AXES, claim_rows, next_point_words, place_rows, strongest_courses
+from swashfilm.diagnose_page import (
+    AXES,
+    claim_rows,
+    next_point_words,
+    place_rows,
+    strongest_courses,
+    write_diagnose_page,
+)
 from swashfilm.diagnose_plots import effect_courses, residual_maps
 from swashfilm.diagnose_runs import NOTHING, Told, run_both
 from system.channels import ChannelName
@@ -43,6 +50,7 @@ def test_the_page_tells_gaps_that_cannot_be_told_apart() -> None:
 def test_the_folder_holds_tables_and_a_page(study: Study, named: Diagnosis, tmp_path: Path) -> None:
     """Pulls in residuals.csv are of the fit they name; the page is made anew from the folder alone."""
     write_diagnosis_files(tmp_path, study, named, load_thresholds())
+    write_diagnose_page(tmp_path)
     rows = read_rows(tmp_path / "residuals.csv")
     assert len(rows) == 2 * PRESSURE.size
     flow = [row for row in rows if row["channel"] == "Q_case"]
@@ -78,6 +86,7 @@ def test_a_page_says_what_changes_in_the_pump(study: Study, named: Diagnosis, tm
     films = FilmsTold((film,), "Films as they stand.")
     told = Told((row,), "Point 7, where the finding adds most: 2100 rpm.", films)
     write_diagnosis_files(tmp_path, study, named, load_thresholds(), told=told)
+    write_diagnose_page(tmp_path)
     page = (tmp_path / "report.html").read_text("utf-8")
     for part in (
         "Point 7",
@@ -106,6 +115,7 @@ def test_a_meters_fault_is_no_change_of_the_pump(study: Study, named: Diagnosis,
 def test_numbers_are_told_in_the_units_people_read(study: Study, named: Diagnosis, tmp_path: Path) -> None:
     """An opening in 1/GPa and not 1/Pa, in the table of what is claimed."""
     write_diagnosis_files(tmp_path, study, named, load_thresholds())
+    write_diagnose_page(tmp_path)
     assert "opening 22 +- 2 1/GPa</td>" in (tmp_path / "report.html").read_text("utf-8")
 
 
@@ -120,6 +130,7 @@ def test_a_page_without_a_claim(study: Study, named: Diagnosis, tmp_path: Path, 
         agreeing(named), kind=kind, after=named.before, fit=HeldOut({}, {}, {}, {}, False, "not split")
     )
     write_diagnosis_files(tmp_path, study, found, load_thresholds())
+    write_diagnose_page(tmp_path)
     page = (tmp_path / "report.html").read_text("utf-8")
     assert "<h2>What</h2>" not in page
 
@@ -129,6 +140,7 @@ def test_a_value_claimed_to_be_wrong_is_shown_as_stated(study: Study, named: Dia
     free = tuple(one.widened(10.0) if one.name == "film" else one for one in named.after.parameters)
     found = replace(named, after=replace(named.after, parameters=free))
     write_diagnosis_files(tmp_path, study, found, load_thresholds())
+    write_diagnose_page(tmp_path)
     row = next(row for row in read_rows(tmp_path / "parameters.csv") if row["name"] == "film")
     assert (row["prior"], row["prior_sigma"], row["pull_after"]) == ("1", "0.05", "")
     kept = ("friction",)
@@ -141,6 +153,7 @@ def test_a_value_claimed_to_be_wrong_is_shown_as_stated(study: Study, named: Dia
 def test_maps_are_drawn_without_an_axis(study: Study, named: Diagnosis, tmp_path: Path, gone: str) -> None:
     """An axis that no reading has, and a channel that was read at one displacement only."""
     write_diagnosis_files(tmp_path, study, named, load_thresholds())
+    write_diagnose_page(tmp_path)
     rows = read_rows(tmp_path / "residuals.csv")
     for row in rows:
         row |= dict.fromkeys(("speed [rpm]", "p_out [bar]") if gone == "both" else (gone,), "")
@@ -153,6 +166,7 @@ def test_maps_are_drawn_without_an_axis(study: Study, named: Diagnosis, tmp_path
 def test_what_is_added_is_drawn_over_an_axis_that_is_there(study: Study, named: Diagnosis, tmp_path: Path) -> None:
     """A constant goes with no axis, a delivery pressure that was not recorded is none."""
     write_diagnosis_files(tmp_path, study, named, load_thresholds())
+    write_diagnose_page(tmp_path)
     rows = read_rows(tmp_path / "residuals.csv")
     for row in rows:
         row |= {"p_out [bar]": "", "added": "0.5"}

@@ -14,7 +14,8 @@ from swashfilm.cli import build_parser, run_command
 from swashfilm.fidelity import Fidelity
 from swashfilm.film_case import load_case
 from swashfilm.film_run import run_case
-from swashfilm.film_study import film_dataset, film_summary, solve_case
+from swashfilm.film_study import solve_case
+from swashfilm.film_summary import film_dataset, film_summary
 from swashfilm.gap_study import GapStudy, PositionSource, gap_warnings
 from swashfilm.gap_table_case import load_gap_table
 from swashfilm.pump_data import films_dataset, point_dataset

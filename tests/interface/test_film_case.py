@@ -9,7 +9,8 @@ import pytest
 from reynolds.film import Cavitation
 from swashfilm.__main__ import main
 from swashfilm.film_case import FilmCase, load_case
-from swashfilm.film_study import film_summary, solve_case
+from swashfilm.film_study import solve_case
+from swashfilm.film_summary import film_summary
 from swashfilm.gap_case import GapCase
 from system.faults import InputFaults
 

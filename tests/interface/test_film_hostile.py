@@ -9,7 +9,8 @@ import pytest
 
 from swashfilm.__main__ import main
 from swashfilm.film_case import load_case
-from swashfilm.film_study import film_summary, solve_case
+from swashfilm.film_study import solve_case
+from swashfilm.film_summary import film_summary
 
 CASE = """format = 1
 [film]

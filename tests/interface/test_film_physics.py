@@ -15,7 +15,8 @@ from reynolds.viscosity import Barus, Roelands
 from swashfilm.__main__ import main
 from swashfilm.film_case import FilmCase, load_case
 from swashfilm.film_in_time import fields_over_time
-from swashfilm.film_study import film_summary, solve_case
+from swashfilm.film_study import solve_case
+from swashfilm.film_summary import film_summary
 from system.faults import InputFaults
 
 ROOT = Path(__file__).resolve().parents[2]

@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 
 from swashfilm.film_case import load_case
-from swashfilm.film_study import film_summary, solve_case
+from swashfilm.film_study import solve_case
+from swashfilm.film_summary import film_summary
 from system.faults import Fault, InputFaults
 from system.floating_parts import floating_parts
 from system.pump_file import check_pump, load_pump, resolved_toml

@@ -6,8 +6,9 @@ import pytest
 from diagnosis.replicates import repeatability, set_points
 from diagnosis.series_points import on_raster
 from diagnosis.steadiness import SteadyRule, effective_number, is_steady, steady_stretches
-from diagnosis.tables import TableFault
-from diagnosis.traces import TURN, synchronous_mean
+from diagnosis.table import TableFault
+from diagnosis.traces import synchronous_mean
+from system.units import TURN
 
 RULE = SteadyRule(samples=100, limit=3.0)
 

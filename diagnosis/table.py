@@ -1,0 +1,49 @@
+"""A table of numbers: its source, its named columns, its faults."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from reynolds.numerics.arrays import Array
+
+
+class TableFault(Exception):
+    """A file that cannot be read as a table: what was found, what was expected, what to do."""
+
+    def __init__(self, found: str, expected: str, nearest: str = "") -> None:
+        super().__init__(f"found {found}, expected {expected}")
+        self.found, self.expected, self.nearest = found, expected, nearest
+
+
+@dataclass(frozen=True)
+class TableSource:
+    """Where a table stands: its file, and what a recording states of the file's form (empty: to be found).
+
+    sheet: of a workbook; decimal, separator: of text; group: of TDMS; variable: of a MAT file, struct or matrix.
+    """
+
+    path: Path
+    sheet: str = ""
+    decimal: str = ""
+    separator: str = ""
+    group: str = ""
+    variable: str = ""
+
+
+@dataclass(frozen=True)
+class Columns:
+    """Columns by name, all of one length, nan where a cell holds no number; `told`: what was found, in words.
+
+    units: by name of a column what stands in the row below the head, or in brackets in the head.
+    """
+
+    values: Mapping[str, Array]
+    told: tuple[str, ...] = field(default=())
+    units: Mapping[str, str] = field(default_factory=dict)
+
+    @property
+    def rows(self) -> int:
+        """Number of rows."""
+        return next((len(column) for column in self.values.values()), 0)

@@ -1,0 +1,17 @@
+"""Names of a gap's pictures, files and limits."""
+
+from __future__ import annotations
+
+FIELDS = "fields"
+
+
+TITLES = {"piston": "piston-cylinder", "slipper": "slipper-swash plate", "valve_plate": "valve plate-cylinder"}
+
+
+LARGEST_RIGID_PRESSURE = 100e6
+"""Pa. There the viscosity of mineral oil is several times that of the film, and steel gives by micrometres."""
+
+
+def vtu_name(gap: str, k: int) -> str:
+    """File name of a gap's film at its k-th angle."""
+    return f"{gap}_{k:03d}.vtu"
