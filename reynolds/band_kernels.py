@@ -6,6 +6,8 @@ stands at i * width + j - i + half, width = 2 half + 1. Some last unknowns, coup
 `half` zeros before and after their n numbers, so that eights may be read beyond their ends.
 """
 
+# mypy: allow-untyped-defs, allow-incomplete-defs, no-check-untyped-defs
+
 from typing import NamedTuple
 
 import numpy as np

@@ -3,6 +3,8 @@
 The matrix stands in columns, both triangles: indptr, indices, entries.
 """
 
+# mypy: allow-untyped-defs, allow-incomplete-defs, no-check-untyped-defs
+
 from typing import NamedTuple
 
 import numpy as np

@@ -4,6 +4,8 @@ Every second line stays. Interpolation follows the operator (Schaffer 1998): T w
 coupling to a neighbour. Coarse operators have nine-point stencils again. The layout is that of `line_kernels`.
 """
 
+# mypy: allow-untyped-defs, allow-incomplete-defs, no-check-untyped-defs
+
 import numpy as np
 from numba import njit
 

@@ -4,6 +4,8 @@ Unknowns i of all lines are one block of eight, coupled to the next one only: bl
 With D_i the coupling within block i and B_i that to block i + 1: S_i = D_i - B_(i-1)^T W_(i-1), W_i = S_i^-1 B_i.
 """
 
+# mypy: allow-untyped-defs, allow-incomplete-defs, no-check-untyped-defs
+
 from typing import Any, NamedTuple
 
 import numpy as np

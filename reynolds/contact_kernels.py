@@ -1,5 +1,7 @@
 """Chebyshev series at many points, compiled once by numba: eight points at a time."""
 
+# mypy: allow-untyped-defs, allow-incomplete-defs, no-check-untyped-defs
+
 from numba import njit
 
 from reynolds.lanes import WIDTH, all_lanes, lanes, put_lanes

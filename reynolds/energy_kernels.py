@@ -5,6 +5,8 @@ moving wall. Neighbours exchange heat at the Gauss points alone, so that the mat
 node and a diagonal for each pair of neighbours.
 """
 
+# mypy: allow-untyped-defs, allow-incomplete-defs, no-check-untyped-defs
+
 import numpy as np
 from numba import njit
 

@@ -3,6 +3,8 @@
 `basis` and `points` are tuples as in `kernels`; modes (cells, points, k) stand at the quadrature points.
 """
 
+# mypy: allow-untyped-defs, allow-incomplete-defs, no-check-untyped-defs
+
 import numpy as np
 from numba import njit
 

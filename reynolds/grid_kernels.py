@@ -4,6 +4,8 @@ A cell is held by its number, the local number p of its south-west corner and th
 the south-east one: corners SW, SE, NE, NW are p, p + s, p + 2 s, p - s, all modulo 4.
 """
 
+# mypy: allow-untyped-defs, allow-incomplete-defs, no-check-untyped-defs
+
 import numpy as np
 from numba import njit
 

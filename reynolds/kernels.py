@@ -13,6 +13,8 @@ Geometry enters by the tensors of the cells' shapes (`tensors`), or is recompute
 of a tuple and unrolls the loops over it.
 """
 
+# mypy: allow-untyped-defs, allow-incomplete-defs, no-check-untyped-defs
+
 import numpy as np
 from numba import njit
 

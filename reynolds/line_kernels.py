@@ -10,6 +10,8 @@ the line at the other end where the last line is next to the first.
 Numba's cache watches a function's own file only: after a change here, touch the kernels that import it.
 """
 
+# mypy: allow-untyped-defs, allow-incomplete-defs, no-check-untyped-defs
+
 from typing import Any, NamedTuple
 
 import numpy as np

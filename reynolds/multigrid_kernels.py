@@ -7,6 +7,8 @@ The layout is that of `line_kernels`. Cycles only precondition, in any precision
 in double precision: `top` itself, or what that is rounded from.
 """
 
+# mypy: allow-untyped-defs, allow-incomplete-defs, no-check-untyped-defs
+
 import numpy as np
 from numba import njit
 

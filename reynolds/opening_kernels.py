@@ -3,6 +3,8 @@
 `basis` and `points` are tuples as in `kernels`.
 """
 
+# mypy: allow-untyped-defs, allow-incomplete-defs, no-check-untyped-defs
+
 from numba import njit
 
 _FAST = {"cache": True, "fastmath": {"contract"}, "error_model": "numpy"}

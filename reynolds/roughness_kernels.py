@@ -1,5 +1,7 @@
 """What rough walls leave open, point by point, compiled once by numba."""
 
+# mypy: allow-untyped-defs, allow-incomplete-defs, no-check-untyped-defs
+
 from math import erfc, exp, log, pi, sqrt
 
 import numpy as np

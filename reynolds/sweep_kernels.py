@@ -5,6 +5,8 @@ colour's substitution and what comes next run through the rows the same way, in 
 the passes through memory, and two chains of operations where one would wait for itself.
 """
 
+# mypy: allow-untyped-defs, allow-incomplete-defs, no-check-untyped-defs
+
 from numba import njit
 
 from reynolds.lanes import WIDTH, all_lanes, apart, lanes, lanes_like, put_lanes, together

@@ -1,5 +1,7 @@
 """Loops over the shapes of cells that make the element tensors, compiled once by numba."""
 
+# mypy: allow-untyped-defs, allow-incomplete-defs, no-check-untyped-defs
+
 from numba import njit
 
 from reynolds.kernels import _inverse_map

@@ -5,6 +5,8 @@ pairs[shape, pair, q] as `ElementTensors`; parallel (shapes,) is 1 for parallelo
 not twisted, and 0 for other shapes.
 """
 
+# mypy: allow-untyped-defs, allow-incomplete-defs, no-check-untyped-defs
+
 from numba import njit
 
 from reynolds.kernels import _any_couples, _at

@@ -7,6 +7,8 @@ so what enters the chamber leaves it to round-off whatever the step. Steps are f
 ACM Transactions on Mathematical Software 20, p. 496: from how the error has grown over the last two.
 """
 
+# mypy: allow-untyped-defs, allow-incomplete-defs, no-check-untyped-defs
+
 from __future__ import annotations
 
 import numba

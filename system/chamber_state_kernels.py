@@ -10,6 +10,8 @@ What varies over the turn comes as periodic cubics on equal intervals of shaft a
 (6, m3); `ports` (M, 2, 4) the pressures of delivery and suction port, M = 1 where held.
 """
 
+# mypy: allow-untyped-defs, allow-incomplete-defs, no-check-untyped-defs
+
 from __future__ import annotations
 
 import numba

@@ -1,5 +1,7 @@
 """Compiled periodic revolutions of one chamber at many operating points, one after the other."""
 
+# mypy: allow-untyped-defs, allow-incomplete-defs, no-check-untyped-defs
+
 from __future__ import annotations
 
 import numba

@@ -5,6 +5,8 @@ known, every stage knows nearly its pressure. What it changes is a difference at
 cancel (internal numerical differentiation; Bock 1981, Springer Series in Chemical Physics 18, p. 102).
 """
 
+# mypy: allow-untyped-defs, allow-incomplete-defs, no-check-untyped-defs
+
 from __future__ import annotations
 
 import numba

@@ -10,6 +10,8 @@ bore's axis at C + s a, C = R (cos phi, sin phi, 0), and in the plane through th
 Numbers and arrays alike.
 """
 
+# mypy: allow-untyped-defs, allow-incomplete-defs, no-check-untyped-defs
+
 from __future__ import annotations
 
 import numba

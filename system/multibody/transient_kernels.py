@@ -12,6 +12,8 @@ by velocity Verlet, order 2. f is the nominal friction of a piston in its bore. 
 presses the plate on one, it rests, and the moment on the stop is told.
 """
 
+# mypy: allow-untyped-defs, allow-incomplete-defs, no-check-untyped-defs
+
 from __future__ import annotations
 
 import numba
