@@ -25,13 +25,13 @@ from rich.table import Table
 from scipy.sparse.linalg import spsolve
 from skfem.helpers import dot, grad
 
-from reynolds.balance import stiffness
+from reynolds.equation.balance import stiffness
+from reynolds.equation.coefficients import isotropic
+from reynolds.fem.mesh import Cell, FilmMesh, rectangle
+from reynolds.fem.space import FilmSpace, film_space
 from reynolds.film import ZERO, Cavitation, FilmProblem, Held, film
-from reynolds.loads import point_fields
-from reynolds.mesh import Cell, FilmMesh, rectangle
-from reynolds.solve import FilmSolver
-from reynolds.space import FilmSpace, film_space
-from reynolds.transport import isotropic
+from reynolds.solve.loads import point_fields
+from reynolds.solve.solver import FilmSolver
 
 CELLS = (250, 790, 2530)  # round the bearing
 SPSOLVE_LIMIT = 300_000

@@ -28,13 +28,14 @@ from numpy.typing import NDArray
 from rich.console import Console
 from rich.table import Table
 
-from reynolds import kernels, multigrid_kernels
-from reynolds.balance import stiffness
-from reynolds.grid import grid_of
-from reynolds.mesh import Cell, rectangle
-from reynolds.multigrid import Multigrid
-from reynolds.space import FilmSpace, film_space
-from reynolds.transport import isotropic
+from reynolds.equation.balance import stiffness
+from reynolds.equation.coefficients import isotropic
+from reynolds.fem import kernels
+from reynolds.fem.mesh import Cell, rectangle
+from reynolds.fem.space import FilmSpace, film_space
+from reynolds.linear.multigrid import cycle_kernels as multigrid_kernels
+from reynolds.linear.multigrid.grid import grid_of
+from reynolds.linear.multigrid.solver import Multigrid
 
 Array = NDArray[np.float64]
 CELLS = (72, 160, 500, 1600)  # round the bearing; 0.4 of it over the width

@@ -27,10 +27,10 @@ from gaps.revolution import GapRevolution, run_revolution
 from gaps.schedule import evenly
 from gaps.seen import GapSeen, block_seen, piston_seen, slipper_seen
 from gaps.slipper_motion import SlipperFilm, floating_slipper
-from reynolds.floating import Floating
-from reynolds.floating_stage import Stage
+from reynolds.floating.problem import Floating
+from reynolds.floating.step import Stage
 from reynolds.numerics.arrays import Array
-from reynolds.solve import FilmSolver
+from reynolds.solve.solver import FilmSolver
 from system.floating_drives import drives, no_rubbing, piston_shape, slipper_shape
 from system.floating_gaps import MARCHED
 from system.floating_parts import floating_parts

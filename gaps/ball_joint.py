@@ -16,7 +16,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from reynolds.errors import FilmInputError, FilmNotConverged
-from reynolds.laws import require_positive
+from reynolds.laws.law import require_positive
 from reynolds.numerics.arrays import Array
 
 LEAST_FACING = 0.1  # cosine between bore and plate normal: a plate steeper than 84 deg pushes no piston

@@ -14,7 +14,7 @@ import skfem
 from numpy.typing import NDArray
 
 from reynolds.errors import FilmInputError
-from reynolds.mesh import FilmMesh
+from reynolds.fem.mesh import FilmMesh
 from reynolds.numerics.arrays import Array
 
 EDGE = "pads"

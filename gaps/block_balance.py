@@ -12,8 +12,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from reynolds.fem.sphere import PLANE, Sphere
 from reynolds.numerics.arrays import Array
-from reynolds.sphere import PLANE, Sphere
 
 LandRadii = tuple[float, float, float, float]
 

@@ -5,8 +5,8 @@ and turns with the block. Coordinates q = (h on the shaft axis, rise along x, ri
 
     h = face(r, angle) + q0 + q1 x/R4 + q2 y/R4.
 
-On a spherical face the film plane is the sphere's map (`reynolds.sphere`) and the film opens along its normals n
-by n . (lift + W x (r - S)), W the block's turning about the spline S at height s:
+On a spherical face the film plane is the sphere's map (`reynolds.fem.sphere`) and the film opens along its normals
+n by n . (lift + W x (r - S)), W the block's turning about the spline S at height s:
 
     h = face(r, angle) + q0 n_z + (1 + s/R) (q1 x + q2 y)/R4, x, y distances from the axes:
 
@@ -33,16 +33,16 @@ from gaps.ring import SEALED, Ring, ValvePlateGeometry
 from gaps.rubbing import Rubbed, rubbed
 from gaps.stand import Stand
 from gaps.walls import while_turning
-from reynolds.contact import Asperities
+from reynolds.bodies.compliance import Walls
 from reynolds.errors import FilmInputError
+from reynolds.fem.space import FilmSpace
+from reynolds.fem.sphere import Sphere
 from reynolds.film import ZERO, Film, FilmProblem, FilmSolution, Held
-from reynolds.floating import Floating, Outer
-from reynolds.floating_stage import Stage
-from reynolds.generalised import Modes, contact_force, modes_on
+from reynolds.floating.coordinates import Modes, contact_force, modes_on
+from reynolds.floating.problem import Floating, Outer
+from reynolds.floating.step import Stage
+from reynolds.laws.contact import Asperities
 from reynolds.numerics.arrays import Array
-from reynolds.space import FilmSpace
-from reynolds.sphere import Sphere
-from reynolds.walls import Walls
 
 LEAST_LEVERAGE = 1e-3  # 1 + s/R: below, what a tilt opens is lost in round-off and shape
 
@@ -234,7 +234,7 @@ class BlockFilm:
     def inflows(self, solution: FilmSolution, flows: Mapping[str, float]) -> tuple[Array, float, float]:
         """Flow into the film from each kidney (z,), and from suction and delivery port at their edges, m3/s.
 
-        `flows` out of the film as `reynolds.loads.boundary_flows` has them.
+        `flows` out of the film as `reynolds.solve.loads.boundary_flows` has them.
         """
         space = solution.problem.space
         suction, delivery = (
@@ -286,7 +286,7 @@ def _leverage(sphere: Sphere, spline_height: float) -> float:
 
 
 def floating_block(film: BlockFilm) -> Floating:
-    """The block as `reynolds.floating` takes it: coordinates (h, rise x, rise y) m, massless.
+    """The block as `reynolds.floating.problem` takes it: coordinates (h, rise x, rise y) m, massless.
 
     Validity: small tilts; a plane or spherical valve plate but for its face and ports; a spline without friction.
     """

@@ -22,18 +22,18 @@ from numpy.typing import NDArray
 from gaps.own_body import CHAMBER, FILM, HELD, POCKET, OwnMesh, own_body, with_faces
 from gaps.rows import closer_at_end, closer_at_start
 from gaps.slipper_lands import Land
-from reynolds.bodies.body_mesh import BodyMesh, disc, ring
 from reynolds.bodies.chart import Cylinder, OnSphere, Plane, Side
+from reynolds.bodies.compliance import Walls
 from reynolds.bodies.elasticity import Elastic
 from reynolds.bodies.foundation import both
+from reynolds.bodies.mesh import BodyMesh, disc, ring
 from reynolds.bodies.supports import Supports
 from reynolds.bodies.wall import Body, body_wall, face_wall
 from reynolds.errors import FilmInputError
-from reynolds.laws import require_positive
+from reynolds.fem.space import FilmSpace
+from reynolds.fem.sphere import PLANE, Sphere
+from reynolds.laws.law import require_positive
 from reynolds.numerics.arrays import Array
-from reynolds.space import FilmSpace
-from reynolds.sphere import PLANE, Sphere
-from reynolds.walls import Walls
 
 TOWARDS_FILM = Plane((0.0, 0.0, 1.0))
 PINHOLE = 0.05  # of a pocket's radius

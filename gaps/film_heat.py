@@ -20,20 +20,20 @@ from gaps.revolution import GapRevolution, Leg, TurnReport, run_revolution, unhe
 from gaps.schedule import Accuracy, Schedule
 from gaps.seen import GapSeen
 from gaps.warmth import HeatFlows, ThinnedOver, Warmth, thinned
-from reynolds.across import levels
-from reynolds.anderson import History
-from reynolds.coupling import Coupled, LocalLaw, Posed, agree, resting_viscosity
-from reynolds.energy import FilmTemperature, Heat
+from reynolds.equation.coefficients import at_points
 from reynolds.errors import FilmInputError, FilmNotConverged
 from reynolds.film import HALF, FilmProblem, FilmSolution
-from reynolds.floating import Floating
-from reynolds.floating_stage import Stage
-from reynolds.floating_start import seats_of
-from reynolds.fluid import Fluid, isoviscous
+from reynolds.floating.problem import Floating
+from reynolds.floating.start import seats_of
+from reynolds.floating.step import Stage
+from reynolds.laws.fluid import Fluid, isoviscous
+from reynolds.numerics.anderson import History
 from reynolds.numerics.arrays import Array
-from reynolds.solve import FilmSolver
-from reynolds.transport import at_points
-from reynolds.wall_heat import GivenTemperature
+from reynolds.solve.solver import FilmSolver
+from reynolds.thermal.coupling import Coupled, LocalLaw, Posed, agree, resting_viscosity
+from reynolds.thermal.energy import FilmTemperature, Heat
+from reynolds.thermal.film_profile import levels
+from reynolds.thermal.walls import GivenTemperature
 
 WARMED, FEWEST = 24, 4  # angles of a turn with their own temperatures, and of a pitch at least
 CLOSE = 0.01  # relative change of viscosity by one more round, root mean square

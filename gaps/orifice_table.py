@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from reynolds.laws import Tangent
+from reynolds.laws.law import Tangent
 from reynolds.numerics.arrays import Array
 
 

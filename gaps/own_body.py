@@ -14,10 +14,10 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from reynolds.bodies.body_file import body_from_file
-from reynolds.bodies.body_mesh import BodyMesh
 from reynolds.bodies.chart import Chart
 from reynolds.bodies.elasticity import Elastic
+from reynolds.bodies.mesh import BodyMesh
+from reynolds.bodies.mesh_file import body_from_file
 from reynolds.bodies.supports import Supports
 from reynolds.bodies.wall import Body
 from reynolds.errors import FilmInputError

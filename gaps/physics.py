@@ -6,10 +6,10 @@ from dataclasses import dataclass, replace
 from enum import Enum
 
 from gaps.walls import GapWalls
-from reynolds.contact import Asperities
 from reynolds.film import Cavitation
-from reynolds.fluid import CONSTANT, Fluid
-from reynolds.roughness import Surface
+from reynolds.laws.contact import Asperities
+from reynolds.laws.fluid import CONSTANT, Fluid
+from reynolds.laws.roughness import Surface
 
 
 class Effect(Enum):

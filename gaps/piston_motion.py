@@ -28,17 +28,17 @@ from gaps.rows import closer_at_both
 from gaps.rubbing import Rubbed, rubbed
 from gaps.stand import Stand
 from gaps.walls import BoreWalls
-from reynolds.contact import Asperities
+from reynolds.equation.rough_overlap import vertex_thickness
 from reynolds.errors import FilmInputError
+from reynolds.fem.mesh import Cell, rectangle, rename
+from reynolds.fem.space import FilmSpace, film_space
 from reynolds.film import ZERO, Film, FilmProblem, Held
-from reynolds.floating import Floating, Outer, steady
-from reynolds.floating_stage import Stage
-from reynolds.laws import require_positive
-from reynolds.loads import evaluate
-from reynolds.mesh import Cell, rectangle, rename
+from reynolds.floating.problem import Floating, Outer, steady
+from reynolds.floating.step import Stage
+from reynolds.laws.contact import Asperities
+from reynolds.laws.law import require_positive
 from reynolds.numerics.arrays import Array
-from reynolds.overlap import vertex_thickness
-from reynolds.space import FilmSpace, film_space
+from reynolds.solve.loads import evaluate
 
 
 @dataclass(frozen=True)
@@ -257,7 +257,7 @@ class PistonFilm:
     def chamber_flow(self, stage: Stage, flows: Mapping[str, float], given: Yielding | None) -> float:
         """Flow (m3/s) out of the chamber, which grows by the piston's nominal section and by what `given` swells.
 
-        `flows` out of the film as `reynolds.loads.boundary_flows` has them. The film's edge moves with the
+        `flows` out of the film as `reynolds.solve.loads.boundary_flows` has them. The film's edge moves with the
         piston's end and sweeps the clearance there, which flows out besides; what is taken off the piston never
         was part of the section.
         """
@@ -338,7 +338,8 @@ def widened(space: FilmSpace, film: Film, opened: Array) -> Film:
 
 
 def floating_piston(film: PistonFilm) -> Floating:
-    """A piston as `reynolds.floating` takes it: coordinates (ex0, ey0, ex1, ey1) m, massless across the bore.
+    """A piston as `reynolds.floating.problem` takes it: coordinates (ex0, ey0, ex1, ey1) m, massless across the
+    bore.
 
     Validity: eccentricities and clearance small beside the radius; forces above case pressure.
     """

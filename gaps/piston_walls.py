@@ -24,9 +24,9 @@ from gaps.stand import Stand
 from reynolds.bodies.foundation import Compliance
 from reynolds.bodies.wall import Body, FacePressure, body_wall, load_opening
 from reynolds.errors import FilmInputError
-from reynolds.mesh import Cell, rectangle
+from reynolds.fem.mesh import Cell, rectangle
+from reynolds.fem.space import FilmSpace, film_space
 from reynolds.numerics.arrays import Array
-from reynolds.space import FilmSpace, film_space
 
 ALIKE = 1e-9  # of the largest influence: round-off of a part that is the same all around
 POINTS, WEIGHTS = np.polynomial.legendre.leggauss(2)  # exact for the product of two hats

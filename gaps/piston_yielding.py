@@ -17,11 +17,11 @@ import numpy as np
 
 from gaps.stand import Stand
 from gaps.walls import BoreWalls
+from reynolds.bodies.compliance import full
 from reynolds.film import FilmSolution
-from reynolds.floating_stage import Stage
-from reynolds.loads import evaluate
+from reynolds.floating.step import Stage
 from reynolds.numerics.arrays import Array
-from reynolds.walls import full
+from reynolds.solve.loads import evaluate
 
 
 @dataclass(frozen=True)

@@ -14,10 +14,10 @@ import numpy as np
 from gaps.block_motion import BlockFilm
 from gaps.slipper_motion import SlipperFilm
 from reynolds.film import ZERO, Boundary, Cavitation, FilmProblem, FilmSolution, Held, Pocket, no_feed
-from reynolds.floating_stage import Stage
-from reynolds.loads import boundary_flows
+from reynolds.floating.step import Stage
 from reynolds.numerics.arrays import Array
-from reynolds.solve import FilmSolver
+from reynolds.solve.loads import boundary_flows
+from reynolds.solve.solver import FilmSolver
 
 
 def walls_at_rest(

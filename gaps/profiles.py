@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from reynolds.errors import FilmInputError
-from reynolds.laws import require_positive, within
+from reynolds.laws.law import require_positive, within
 from reynolds.numerics.arrays import Array
 
 

@@ -8,8 +8,8 @@ import numpy as np
 
 from gaps.seen import Active
 from reynolds.film import FilmSolution
-from reynolds.loads import Loads
 from reynolds.numerics.arrays import Array
+from reynolds.solve.loads import Loads
 
 LOAD_TOLERANCE = 1e-3
 """Of the required load: what a film at a given position may miss of it and still count as holding it."""

@@ -13,13 +13,13 @@ import numpy as np
 from gaps.schedule import Accuracy, Schedule
 from gaps.turn import GapInstant, GapTurn, Seen, Turns
 from gaps.warmth import Warmth
-from reynolds.dirk import ALEXANDER_2, Tableau
 from reynolds.errors import FilmInputError
-from reynolds.floating import Floating
-from reynolds.floating_stage import Stage
+from reynolds.floating.problem import Floating
+from reynolds.floating.step import Stage
 from reynolds.numerics.arrays import Array
-from reynolds.periodic import Periodic, approached, periodic
-from reynolds.solve import FilmSolver
+from reynolds.numerics.dirk import ALEXANDER_2, Tableau
+from reynolds.numerics.shooting import Periodic, approached, periodic
+from reynolds.solve.solver import FilmSolver
 
 TurnReport = Callable[[str, float], None]
 """Hears of each step: which turn it is in, and the share of that turn that is done."""

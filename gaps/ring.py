@@ -14,10 +14,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gaps.bearing_pads import EDGE, BearingPads, with_pads
-from reynolds.mesh import FilmMesh, rename, ring
+from reynolds.fem.mesh import FilmMesh, rename, ring
+from reynolds.fem.space import FilmSpace, film_space
+from reynolds.fem.sphere import PLANE, Sphere
 from reynolds.numerics.arrays import Array
-from reynolds.space import FilmSpace, film_space
-from reynolds.sphere import PLANE, Sphere
 
 SEALED = 1e6  # viscosity of a web over a port, in oil's: the film passes nothing there; laws of oil reach that far
 

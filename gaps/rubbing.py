@@ -1,7 +1,8 @@
 """Shear of oil and of touching asperities on the walls of a floating film, and the heat of both.
 
 A floating film keeps contact apart from its oil: asperities bear by the gap between mean planes, which may
-overlap, while the thickness of the oil stays positive (`reynolds.overlap`). Rubbing follows the same two.
+overlap, while the thickness of the oil stays positive (`reynolds.equation.rough_overlap`). Rubbing follows the
+same two.
 """
 
 from __future__ import annotations
@@ -10,10 +11,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from reynolds.contact import Asperities, boundary_shear, contact_pressure
 from reynolds.film import FilmSolution
-from reynolds.loads import dissipated, point_fields
+from reynolds.laws.contact import Asperities, boundary_shear, contact_pressure
 from reynolds.numerics.arrays import Array
+from reynolds.solve.loads import dissipated, point_fields
 
 Vector = tuple[Array, Array]
 

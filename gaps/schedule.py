@@ -6,7 +6,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from reynolds.floating_stage import Closeness
+from reynolds.floating.step import Closeness
 from reynolds.numerics.arrays import Array
 
 MORE_EXACT = 10.0  # times, at most, are the steps of the first turns

@@ -14,10 +14,10 @@ from gaps.piston_motion import PistonFilm, PistonFriction
 from gaps.revolution import GapRevolution
 from gaps.rubbing import Heat
 from gaps.slipper_motion import SlipperFilm, SlipperFriction
-from reynolds.contact import Asperities
-from reynolds.floating_stage import Stage
-from reynolds.loads import boundary_flows, cavitated_fraction
+from reynolds.floating.step import Stage
+from reynolds.laws.contact import Asperities
 from reynolds.numerics.arrays import Array
+from reynolds.solve.loads import boundary_flows, cavitated_fraction
 
 SHARE = 0.01  # of the load or of the film's area, from which contact or cavities count
 

@@ -24,14 +24,14 @@ from gaps.rubbing import Rubbed, rubbed
 from gaps.slipper_lands import SlipperLands, slipper_mesh
 from gaps.stand import Stand
 from gaps.walls import while_turning
-from reynolds.contact import Asperities
+from reynolds.bodies.compliance import Walls
+from reynolds.fem.space import FilmSpace, film_space
 from reynolds.film import ZERO, Boundary, Film, FilmProblem, Held, Pocket, no_feed
-from reynolds.floating import Floating, Outer
-from reynolds.floating_stage import Stage
-from reynolds.laws import Tangent, require_positive
+from reynolds.floating.problem import Floating, Outer
+from reynolds.floating.step import Stage
+from reynolds.laws.contact import Asperities
+from reynolds.laws.law import Tangent, require_positive
 from reynolds.numerics.arrays import Array
-from reynolds.space import FilmSpace, film_space
-from reynolds.walls import Walls
 
 RIM_PLACES = 48  # around a slipper, at which its retainer presses
 ROUND_OFF = 1e-13  # of a retainer's force
@@ -357,7 +357,7 @@ class SlipperFilm:
 
 
 def floating_slipper(film: SlipperFilm) -> Floating:
-    """A slipper as `reynolds.floating` takes it: coordinates (h, rise x, rise y) m.
+    """A slipper as `reynolds.floating.problem` takes it: coordinates (h, rise x, rise y) m.
 
     Validity: film thin beside the land's width; forces above case pressure.
     """

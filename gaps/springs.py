@@ -14,7 +14,7 @@ from gaps.piston_walls import ByChamber
 from gaps.stand import Stand
 from gaps.walls import BoreWalls, PlateWalls
 from reynolds.bodies.foundation import Compliance, winkler
-from reynolds.space import FilmSpace
+from reynolds.fem.space import FilmSpace
 
 
 @dataclass(frozen=True)

@@ -11,13 +11,13 @@ from gaps.piston_motion import PistonFilm
 from gaps.result import GapFilm, ValvePlateFilm
 from gaps.seen import active
 from gaps.slipper_motion import SlipperFilm
-from reynolds.floating import Floating
-from reynolds.floating_stage import Stage, solve_stage
-from reynolds.floating_start import pressed, started
-from reynolds.loads import boundary_flows, loads
+from reynolds.floating.problem import Floating
+from reynolds.floating.rest import come_to_rest
+from reynolds.floating.start import pressed, started
+from reynolds.floating.step import Stage, solve_stage
 from reynolds.numerics.arrays import Array
-from reynolds.rest import come_to_rest
-from reynolds.solve import FilmSolver
+from reynolds.solve.loads import boundary_flows, loads
+from reynolds.solve.solver import FilmSolver
 
 FIRST_STEP = 1e-3  # s, in which parts of a pump answer to their load through films of a micrometre
 SOFTENING = 1e-2  # of it, in which elastic walls give way to their first load

@@ -12,16 +12,16 @@ from dataclasses import replace
 import numpy as np
 
 from gaps.film_heat import AGREED, MOST_WALL_ROUNDS, WALL_SETTLED, GapHeat, local_law, wall_image
-from reynolds.across import dowson, levels
-from reynolds.anderson import History
-from reynolds.coupling import Coupled, Posed, agree, bent
-from reynolds.energy import FilmTemperature
 from reynolds.errors import FilmNotConverged
-from reynolds.floating import Floating
-from reynolds.floating_stage import Stage
+from reynolds.floating.problem import Floating
+from reynolds.floating.rest import held_at
+from reynolds.floating.step import Stage
+from reynolds.numerics.anderson import History
 from reynolds.numerics.arrays import Array
-from reynolds.rest import held_at
-from reynolds.solve import FilmSolver
+from reynolds.solve.solver import FilmSolver
+from reynolds.thermal.coupling import Coupled, Posed, agree, bent
+from reynolds.thermal.energy import FilmTemperature
+from reynolds.thermal.film_profile import dowson, levels
 
 Warm = Coupled[FilmTemperature | None]
 

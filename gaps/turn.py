@@ -11,17 +11,17 @@ import numpy as np
 
 from gaps.means import Passed
 from gaps.schedule import Accuracy, Schedule
-from reynolds.dirk import State, Tableau, Taken, march, nodes_only
+from reynolds.equation.rough_overlap import vertex_thickness
 from reynolds.errors import FilmNotConverged
+from reynolds.fem.space import FilmSpace
 from reynolds.film import FilmSolution
-from reynolds.floating import Floating
-from reynolds.floating_stage import Stage, solve_stage
-from reynolds.floating_start import pressed, restarted, seats_of, started
-from reynolds.loads import cavitated_fraction
+from reynolds.floating.problem import Floating
+from reynolds.floating.start import pressed, restarted, seats_of, started
+from reynolds.floating.step import Stage, solve_stage
 from reynolds.numerics.arrays import Array
-from reynolds.overlap import vertex_thickness
-from reynolds.solve import FilmSolver
-from reynolds.space import FilmSpace
+from reynolds.numerics.dirk import State, Tableau, Taken, march, nodes_only
+from reynolds.solve.loads import cavitated_fraction
+from reynolds.solve.solver import FilmSolver
 
 MET = 0.1  # of the distance at which a turn counts as closed: near enough to join the turn before
 SHORT = 1e-2  # of the first way to a node: a step in which elastic walls give way to their first load
@@ -65,7 +65,7 @@ class GapTurn(Generic[Seen]):
     """One turn: its start q, its instants, kept films by angle, its end, and what it cost.
 
     oil: (size,) m3 of each unknown at each reported angle; times (s) of its steps; step_error: largest error of a
-    step over what was allowed; allowed, reach, repeats: as `reynolds.periodic.Turn` has them.
+    step over what was allowed; allowed, reach, repeats: as `reynolds.numerics.shooting.Turn` has them.
     """
 
     start: Array

@@ -23,10 +23,10 @@ from gaps.bodies import (
 from gaps.piston_walls import ByChamber, PistonWalls, face_grid
 from gaps.rows import closer_at_end, closer_at_start
 from gaps.stand import Stand
+from reynolds.bodies.compliance import Walls, full
 from reynolds.bodies.foundation import Compliance, both
 from reynolds.bodies.wall import Body
-from reynolds.space import FilmSpace
-from reynolds.walls import Walls, full
+from reynolds.fem.space import FilmSpace
 
 KEPT = 2.5e8  # bytes of walls that are kept as parts turn
 ROWS = 36  # along a part's face, as many as its body's quadratic cells have nodes

@@ -6,10 +6,10 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from reynolds.across import dowson, levels
-from reynolds.coupling import bent
-from reynolds.floating import Floating
+from reynolds.floating.problem import Floating
 from reynolds.numerics.arrays import Array
+from reynolds.thermal.coupling import bent
+from reynolds.thermal.film_profile import dowson, levels
 
 
 @dataclass(frozen=True)
@@ -17,7 +17,7 @@ class ThinnedOver:
     """Viscosity over that of oil at the case's temperature, between shaft angles interpolated.
 
     angles (n,) rad from 0 to where the turn or pitch closes; logs (n, size, m): logarithm of the share at each
-    unknown and level across the film (`reynolds.across`).
+    unknown and level across the film (`reynolds.thermal.film_profile`).
     """
 
     angles: Array

@@ -12,7 +12,7 @@ import numpy as np
 import skfem
 from skfem.io.meshio import to_meshio
 
-from reynolds.mesh import Cell, annulus, rectangle
+from reynolds.fem.mesh import Cell, annulus, rectangle
 
 HERE = Path(__file__).parent
 

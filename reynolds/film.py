@@ -15,14 +15,14 @@ from math import isfinite
 import numpy as np
 from numpy.typing import NDArray
 
-from reynolds.array_kernels import all_finite
-from reynolds.contact import Asperities
+from reynolds.bodies.compliance import Walls
 from reynolds.errors import FilmInputError
-from reynolds.fluid import CONSTANT, Fluid
+from reynolds.fem.space import FilmSpace
+from reynolds.laws.contact import Asperities
+from reynolds.laws.fluid import CONSTANT, Fluid
+from reynolds.laws.roughness import Surface
+from reynolds.numerics.array_kernels import all_finite
 from reynolds.numerics.arrays import Array
-from reynolds.roughness import Surface
-from reynolds.space import FilmSpace
-from reynolds.walls import Walls
 
 
 class Cavitation(Enum):

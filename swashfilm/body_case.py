@@ -8,10 +8,10 @@ from pathlib import Path
 
 import numpy as np
 
-from reynolds.bodies.body_file import body_from_file
-from reynolds.bodies.body_mesh import BodyMesh, block, disc, ring
 from reynolds.bodies.chart import Chart, Cylinder, Plane, Side
 from reynolds.bodies.elasticity import Elastic
+from reynolds.bodies.mesh import BodyMesh, block, disc, ring
+from reynolds.bodies.mesh_file import body_from_file
 from reynolds.bodies.supports import Supports
 from reynolds.bodies.wall import Body
 from reynolds.errors import FilmInputError

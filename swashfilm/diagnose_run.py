@@ -20,7 +20,7 @@ from diagnosis.table_rows import by_table_rows
 from diagnosis.thresholds import Thresholds, load_thresholds
 from diagnosis.verdict import Diagnosis, Status
 from reynolds.errors import FilmInputError
-from reynolds.oil import walther
+from reynolds.laws.oil import walther
 from swashfilm.diagnose_files import NO_NEXT_POINT, write_diagnosis_files
 from swashfilm.diagnose_page import write_diagnose_page
 from swashfilm.diagnose_runs import claimed_pump, run_both

@@ -6,12 +6,12 @@ from dataclasses import dataclass
 from functools import reduce
 from pathlib import Path
 
+from reynolds.bodies.compliance import Walls
 from reynolds.bodies.elasticity import Elastic
 from reynolds.bodies.foundation import both, half_space, winkler
 from reynolds.bodies.wall import Body, body_wall
 from reynolds.errors import FilmInputError
-from reynolds.space import FilmSpace
-from reynolds.walls import Walls
+from reynolds.fem.space import FilmSpace
 from swashfilm.body_case import BodyKind, built_body, file_body
 from swashfilm.mesh_case import CaseMesh
 from system.case_table import Table, quoted

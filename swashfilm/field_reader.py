@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from reynolds.space import FilmSpace
+from reynolds.fem.space import FilmSpace
 from swashfilm.expressions import PLACE
 from swashfilm.fields import Field, MeshData, may_be_data, read_field
 from swashfilm.mesh_case import CaseMesh

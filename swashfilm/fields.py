@@ -9,10 +9,10 @@ from pathlib import Path
 
 import numpy as np
 
-from reynolds.mesh import FilmMesh, read_mesh_file
-from reynolds.mesh_refine import RefinedMesh
+from reynolds.fem.mesh import FilmMesh, read_mesh_file
+from reynolds.fem.refine import RefinedMesh
+from reynolds.fem.space import FilmSpace
 from reynolds.numerics.arrays import Array
-from reynolds.space import FilmSpace
 from swashfilm.expressions import (
     CONSTANTS,
     IN_TIME,
@@ -209,7 +209,7 @@ def may_be_data(raw: object) -> bool:
 
 
 def mesh_data(path: Path, film_mesh: FilmMesh) -> MeshData:
-    """The scalar data of a mesh file that `reynolds.mesh.mesh_from_file` has read."""
+    """The scalar data of a mesh file that `reynolds.fem.mesh.mesh_from_file` has read."""
     raw = read_mesh_file(path)
     mesh = film_mesh.mesh
     kind = "triangle" if mesh.t.shape[0] == 3 else "quad"

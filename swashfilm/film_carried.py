@@ -5,9 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from reynolds.carried_load import Carried, carry
 from reynolds.errors import FilmNotConverged
 from reynolds.film import FilmProblem, FilmSolution
+from reynolds.floating.load_search import Carried, carry
 from swashfilm.film_oil import Found, OilSolver, film_of, oil_solver
 
 if TYPE_CHECKING:

@@ -8,9 +8,9 @@ from pathlib import Path
 from typing import Any
 
 from reynolds.errors import FilmInputError
+from reynolds.fem.space import film_space
 from reynolds.film import Cavitation, FilmProblem
-from reynolds.setting import check_pressures
-from reynolds.space import film_space
+from reynolds.solve.setting import check_pressures
 from swashfilm.boundary_case import check_boundaries, read_boundaries
 from swashfilm.constants_case import read_constants
 from swashfilm.elastic_case import read_elastic

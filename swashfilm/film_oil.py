@@ -8,16 +8,16 @@ from typing import TYPE_CHECKING, cast
 
 import numpy as np
 
-from reynolds.coupling import Coupled
-from reynolds.energy import FilmTemperature, Heat
 from reynolds.errors import FilmInputError, FilmNotConverged
+from reynolds.fem.space import FilmSpace
 from reynolds.film import FilmProblem, FilmSolution
 from reynolds.numerics.arrays import Array
-from reynolds.shear import newtonian, solve_shear
-from reynolds.solve import FilmSolver
-from reynolds.space import FilmSpace
-from reynolds.thermal import ThermalViscosity, march_thermal, solve_thermal
-from reynolds.transient import Instant, march_with
+from reynolds.solve.solver import FilmSolver
+from reynolds.solve.transient import Instant, march_with
+from reynolds.thermal.coupling import Coupled
+from reynolds.thermal.energy import FilmTemperature, Heat
+from reynolds.thermal.film import ThermalViscosity, march_thermal, solve_thermal
+from reynolds.thermal.shear_thinning import newtonian, solve_shear
 from swashfilm.fields import Uniform
 
 if TYPE_CHECKING:
@@ -65,7 +65,9 @@ class OilSolver:
     def march(
         self, problem_at: Callable[[float], FilmProblem], end: float, step: float, held: Array
     ) -> Iterator[Instant[Found]]:
-        """The film in time, as `reynolds.transient.march_with`; its temperature begins as what flows in has it."""
+        """The film in time, as `reynolds.solve.transient.march_with`; its temperature begins as what flows in has
+        it.
+        """
         if self.heat is None:
             return march_with(self._step, problem_at, end, step, held=held)
         stated = self.stated

@@ -9,9 +9,9 @@ import numpy as np
 from gaps.physics import Physics
 from gaps.ring import SEALED
 from reynolds.film import FilmSolution
-from reynolds.loads import evaluate
+from reynolds.laws.oil import WALTHER_SHIFT, walther_coefficients
 from reynolds.numerics.arrays import Array
-from reynolds.oil import WALTHER_SHIFT, walther_coefficients
+from reynolds.solve.loads import evaluate
 from system.description import PumpDescription
 
 UNITS: Mapping[str, str] = {"film_viscosity": "Pa s", "film_temperature": "K"}

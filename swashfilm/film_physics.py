@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from reynolds.contact import boundary_shear, contact_area, contact_pressure, lambda_ratio
-from reynolds.overlap import vertex_thickness
-from reynolds.roughness import beyond_range
+from reynolds.equation.rough_overlap import vertex_thickness
+from reynolds.laws.contact import boundary_shear, contact_area, contact_pressure, lambda_ratio
+from reynolds.laws.roughness import beyond_range
 from swashfilm.film_transient import Moment
 from swashfilm.headline import titled
 

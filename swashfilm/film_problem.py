@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from reynolds.errors import FilmInputError
+from reynolds.fem.space import FilmSpace, film_space
 from reynolds.film import Film, FilmProblem, Held
-from reynolds.fluid import CONSTANT, Fluid
+from reynolds.laws.fluid import CONSTANT, Fluid
 from reynolds.numerics.arrays import Array
-from reynolds.space import FilmSpace, film_space
 from swashfilm.field_reader import field_fault
 from swashfilm.fields import Field
 from swashfilm.film_statement import FilmStatement

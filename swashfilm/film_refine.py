@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from reynolds.film import FilmSolution
-from reynolds.loads import point_fields
+from reynolds.solve.loads import point_fields
 from swashfilm.convergence import Convergence, convergence
 from swashfilm.film_case import FilmCase
 from swashfilm.film_study import FilmStudy, solve_case

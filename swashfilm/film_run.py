@@ -6,8 +6,8 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from reynolds.export import write_pvd, write_vtu
 from reynolds.numerics.arrays import Array
+from reynolds.solve.export import write_pvd, write_vtu
 from swashfilm.film_case import FilmCase
 from swashfilm.film_in_time import at_moment, fields_over_time, last_of, written
 from swashfilm.film_physics import vertex_fields, write_history

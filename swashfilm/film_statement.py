@@ -6,8 +6,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, fields, replace
 from typing import Any
 
-from reynolds.carried_load import RigidLoad
 from reynolds.film import Cavitation
+from reynolds.floating.load_search import RigidLoad
 from swashfilm.boundary_case import BoundaryStatement
 from swashfilm.elastic_case import ElasticStatement
 from swashfilm.fields import CellData, Field, Formula, MeshData, PointData, Uniform

@@ -6,10 +6,10 @@ import time
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from reynolds.carried_load import Carried
-from reynolds.energy import FilmTemperature
 from reynolds.film import FilmSolution
-from reynolds.loads import Loads, loads
+from reynolds.floating.load_search import Carried
+from reynolds.solve.loads import Loads, loads
+from reynolds.thermal.energy import FilmTemperature
 from swashfilm.film_carried import solve_carried
 from swashfilm.film_case import FilmCase
 from swashfilm.film_oil import film_of, heat_of, oil_solver

@@ -6,9 +6,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from reynolds.equation.rough_overlap import vertex_thickness
 from reynolds.film import FilmSolution
-from reynolds.loads import Loads, point_fields
-from reynolds.overlap import vertex_thickness
+from reynolds.solve.loads import Loads, point_fields
 from swashfilm.film_carried import carried_summary
 from swashfilm.film_physics import physics_summary, vertex_fields
 from swashfilm.film_study import FilmStudy
@@ -24,7 +24,7 @@ LARGEST_COEFFICIENT = 1e6  # of friction; beyond, what is carried is the solver'
 def film_summary(study: FilmStudy) -> dict[str, Any]:
     """Every headline number of a film in SI, the unit in the key, and the solver's own checks.
 
-    Forces and moments as `reynolds.loads.Loads` has them; leakage_flow is all that leaves the film.
+    Forces and moments as `reynolds.solve.loads.Loads` has them; leakage_flow is all that leaves the film.
     """
     solution, integrals = study.solution, study.loads
     return {

@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from reynolds.energy import FilmTemperature
 from reynolds.errors import FilmInputError, FilmNotConverged
 from reynolds.film import FilmProblem, FilmSolution
-from reynolds.loads import Loads, loads
-from reynolds.transient import oil_held
+from reynolds.solve.loads import Loads, loads
+from reynolds.solve.transient import oil_held
+from reynolds.thermal.energy import FilmTemperature
 from swashfilm.film_oil import film_of, heat_of, oil_solver
 from swashfilm.film_problem import film_problem
 from system.progress import Report

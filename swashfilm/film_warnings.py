@@ -6,11 +6,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from reynolds.contact import boundary_shear, contact_pressure, lambda_ratio
 from reynolds.film import Cavitation, FilmProblem, FilmSolution
-from reynolds.fluid import isoviscous
-from reynolds.loads import dissipated
-from reynolds.roughness import beyond_range
+from reynolds.laws.contact import boundary_shear, contact_pressure, lambda_ratio
+from reynolds.laws.fluid import isoviscous
+from reynolds.laws.roughness import beyond_range
+from reynolds.solve.loads import dissipated
 from swashfilm.gap_study import gap_warnings
 
 if TYPE_CHECKING:

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from gaps.revolution import GapRevolution, Leg
-from reynolds.export import write_pvd
+from reynolds.solve.export import write_pvd
 from swashfilm.fidelity import Fidelity
 from swashfilm.gap_names import FIELDS, vtu_name
 from swashfilm.pump_data import PICTURED_TURN

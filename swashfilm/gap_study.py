@@ -16,12 +16,12 @@ from gaps.piston_motion import PistonDrive, standing_piston
 from gaps.result import GapFilm
 from gaps.slipper_motion import SlipperDrive, face_force, floating_slipper
 from gaps.standing import block_told, piston_told, rest_from, slipper_told
-from reynolds.floating import Floating
-from reynolds.floating_stage import Stage
+from reynolds.fem.space import FilmSpace
+from reynolds.floating.problem import Floating
+from reynolds.floating.rest import held_at
+from reynolds.floating.step import Stage
 from reynolds.numerics.arrays import Array
-from reynolds.rest import held_at
-from reynolds.solve import FilmSolver
-from reynolds.space import FilmSpace
+from reynolds.solve.solver import FilmSolver
 from swashfilm.gap_case import GapCase
 from swashfilm.gap_position import FaceLoad, PistonLoad, rim
 from system.floating_gaps import BLOCK_START, SLIPPER_START

@@ -11,8 +11,8 @@ import numpy as np
 
 from gaps.response import Axis
 from gaps.response import Spacing as Scale
-from reynolds.bodies.cache import content_key
 from reynolds.numerics.arrays import Array
+from reynolds.numerics.cache import content_key
 from swashfilm.film_case import Case, FilmCase
 from swashfilm.film_series import digest, solved_summary
 from swashfilm.headline import headline_numbers

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from reynolds.carried_load import RigidLoad
+from reynolds.floating.load_search import RigidLoad
 from system.case_table import Table
 from system.units import Dimension, format_quantity
 

@@ -8,8 +8,8 @@ from enum import Enum
 from pathlib import Path
 
 from reynolds.errors import FilmInputError
-from reynolds.mesh import Cell, FilmMesh, annulus, mesh_from_file, rectangle
-from reynolds.mesh_refine import refine_mesh
+from reynolds.fem.mesh import Cell, FilmMesh, annulus, mesh_from_file, rectangle
+from reynolds.fem.refine import refine_mesh
 from swashfilm.fields import MeshData, mesh_data
 from system.case_table import Table, quoted
 from system.units import Dimension, format_quantity

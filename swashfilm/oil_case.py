@@ -7,14 +7,14 @@ from enum import Enum
 
 import numpy as np
 
-from reynolds.density import DOWSON_HIGGINSON, BulkModulus, RationalDensity, Tait, tait_modulus
 from reynolds.errors import FilmInputError
-from reynolds.fluid import DensityLaw, Fluid, ViscosityLaw, incompressible, isoviscous
+from reynolds.laws.density import DOWSON_HIGGINSON, BulkModulus, RationalDensity, Tait, tait_modulus
+from reynolds.laws.fluid import DensityLaw, Fluid, ViscosityLaw, incompressible, isoviscous
+from reynolds.laws.oil import ISO_GRADES, Oil, dynamic_viscosity, walther
+from reynolds.laws.rheology import Carreau, Cross, Eyring
+from reynolds.laws.viscosity import Barus, Roelands
 from reynolds.numerics.arrays import Array
-from reynolds.oil import ISO_GRADES, Oil, dynamic_viscosity, walther
-from reynolds.rheology import Carreau, Cross, Eyring
-from reynolds.shear import ShearLaw
-from reynolds.viscosity import Barus, Roelands
+from reynolds.thermal.shear_thinning import ShearLaw
 from system.case_table import Table
 from system.faults import nearest_choice
 from system.units import Dimension, format_quantity

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from reynolds.export import write_pvd, write_vtu
+from reynolds.solve.export import write_pvd, write_vtu
 from swashfilm.film_oil_state import oil_state
 from swashfilm.gap_names import FIELDS, vtu_name
 from swashfilm.pump_data import GAPS

@@ -9,7 +9,7 @@ from time import process_time
 from typing import Any
 
 from diagnosis.recording import Recording
-from reynolds.bodies.cache import cache_folder
+from reynolds.numerics.cache import cache_folder
 from swashfilm.recorded_coefficients import recorded_fig13
 from swashfilm.reproduce_files import claim_rows, figure_row, write_reproduction
 from system.description import PumpDescription

@@ -12,8 +12,8 @@ import numpy as np
 
 from gaps.seen import Active
 from gaps.turn import GapInstant
+from reynolds.equation.rough_overlap import vertex_thickness
 from reynolds.numerics.arrays import Array
-from reynolds.overlap import vertex_thickness
 from swashfilm.revolution_study import RevolutionStudy, friction_power, tilt
 from system.instants import engaged_share
 from system.pump_gap import Gap

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from reynolds.export import write_pvd, write_vtu
+from reynolds.solve.export import write_pvd, write_vtu
 from swashfilm.gap_names import FIELDS, vtu_name
 from swashfilm.revolution_data import film_temperatures
 from swashfilm.revolution_study import RevolutionStudy

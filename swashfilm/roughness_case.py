@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from reynolds.contact import Asperities, composite_modulus
 from reynolds.errors import FilmInputError
-from reynolds.roughness import Surface
+from reynolds.laws.contact import Asperities, composite_modulus
+from reynolds.laws.roughness import Surface
 from system.case_table import Table
 from system.units import Dimension, format_quantity
 

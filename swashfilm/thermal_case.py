@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from reynolds.across import DEFAULT_LEVELS
-from reynolds.energy import Heat
-from reynolds.space import FilmSpace
-from reynolds.wall_heat import Adiabatic, Convecting, GivenTemperature, Turning, Wall
+from reynolds.fem.space import FilmSpace
+from reynolds.thermal.energy import Heat
+from reynolds.thermal.film_profile import DEFAULT_LEVELS
+from reynolds.thermal.walls import Adiabatic, Convecting, GivenTemperature, Turning, Wall
 from swashfilm.elastic_case import ElasticStatement
 from swashfilm.oil_case import OilStatement
 from swashfilm.warm_body_case import WarmBody, read_warm_body

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from reynolds.bodies.conduction import Convection, HeldTemperature, Surroundings, Thermal
 from reynolds.bodies.wall import Body, heated_wall
 from reynolds.errors import FilmInputError
-from reynolds.space import FilmSpace
-from reynolds.wall_heat import Body as HeatedBody
+from reynolds.fem.space import FilmSpace
+from reynolds.thermal.walls import Body as HeatedBody
 from system.case_table import Table, quoted
 from system.units import Dimension
 

@@ -7,8 +7,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from reynolds.laws.oil import walther
 from reynolds.numerics.arrays import Array
-from reynolds.oil import walther
 from system.bench_courses import MapProblem, map_problem
 from system.bench_parameters import GROOVE_ADVANCE, GROOVE_AREA, pump_with
 from system.bench_points import BenchPoints

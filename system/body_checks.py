@@ -12,14 +12,14 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from gaps.own_body import OwnMesh
-from reynolds.bodies.body_space import BodySpace, Face, body_space
 from reynolds.bodies.chart import Chart, Cylinder, OnSphere, Side
+from reynolds.bodies.space import BodySpace, Face, body_space
 from reynolds.bodies.transfer import transfer
 from reynolds.errors import FilmInputError
-from reynolds.mesh import Cell, annulus, rectangle
+from reynolds.fem.mesh import Cell, annulus, rectangle
+from reynolds.fem.space import FilmSpace, film_space
+from reynolds.fem.sphere import PLANE, Sphere
 from reynolds.numerics.arrays import Array
-from reynolds.space import FilmSpace, film_space
-from reynolds.sphere import PLANE, Sphere
 from system.checks import CheckWarning, Finding, length, needs
 from system.description import PumpDescription
 from system.faults import Fault, nearest_choice

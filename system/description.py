@@ -15,8 +15,8 @@ from pydantic import Field, computed_field
 
 from gaps.bearing_pads import BearingPads
 from gaps.slipper_lands import SlipperLands, lands_between
-from reynolds.oil import Oil
-from reynolds.sphere import PLANE, Sphere
+from reynolds.fem.sphere import PLANE, Sphere
+from reynolds.laws.oil import Oil
 from system.fields import (
     AcuteAngle,
     Angle,
@@ -345,7 +345,7 @@ class OilSection(Section):
 
     @property
     def fluid(self) -> Oil:
-        """The oil as `reynolds.oil` knows it; raises ValueError where Walther's law is void."""
+        """The oil as `reynolds.laws.oil` knows it; raises ValueError where Walther's law is void."""
         return Oil(**{name: getattr(self, name) for name in Oil.__dataclass_fields__})
 
 

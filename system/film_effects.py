@@ -24,9 +24,9 @@ from gaps.physics import Effect, FilmLaws, Physics
 from gaps.springs import SpringBore, SpringPlates
 from gaps.walls import BoreWalls, GapWalls, PlateWalls
 from reynolds.bodies.elasticity import Elastic
-from reynolds.fluid import Fluid
-from reynolds.laws import Tangent
-from reynolds.viscosity import barus
+from reynolds.laws.fluid import Fluid
+from reynolds.laws.law import Tangent
+from reynolds.laws.viscosity import barus
 from system.assumptions import Assumption, Taken
 from system.description import PumpDescription
 from system.floating_heat import all_taken, block_heat, piston_heat, slipper_heat

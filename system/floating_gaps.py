@@ -17,11 +17,11 @@ from gaps.schedule import Accuracy, Schedule, evenly
 from gaps.seen import BlockSeen, PistonSeen, Seen, SlipperSeen, block_seen, piston_seen, slipper_seen
 from gaps.slipper_motion import SlipperDrive, floating_slipper
 from reynolds.errors import FilmNotConverged
-from reynolds.floating import Floating
-from reynolds.floating_stage import Stage
+from reynolds.fem.space import FilmSpace
+from reynolds.floating.problem import Floating
+from reynolds.floating.step import Stage
 from reynolds.numerics.arrays import Array
-from reynolds.solve import FilmSolver
-from reynolds.space import FilmSpace
+from reynolds.solve.solver import FilmSolver
 from system.checks import run_checks
 from system.description import PumpDescription
 from system.floating_checks import block_tips

@@ -14,8 +14,8 @@ from gaps.bodies import PistonPart
 from gaps.film_heat import GapHeat, Sink
 from gaps.physics import FilmLaws, Physics
 from gaps.walls import BoreWalls, PlateWalls
+from reynolds.laws.oil import walther
 from reynolds.numerics.arrays import Array
-from reynolds.oil import walther
 from system.assumptions import Assumption, Taken
 from system.description import PumpDescription
 from system.floating_parts import FloatingParts

@@ -12,10 +12,10 @@ from dataclasses import dataclass, replace
 from gaps.physics import FilmLaws
 from gaps.profiles import Barrel, Crown, EdgeRelief, Profile, Shape, Waviness, measured, ring_grooves
 from reynolds.bodies.elasticity import Elastic
-from reynolds.contact import Asperities, composite_modulus
-from reynolds.fluid import CONSTANT, Fluid
-from reynolds.roughness import Surface
-from reynolds.viscosity import Roelands
+from reynolds.laws.contact import Asperities, composite_modulus
+from reynolds.laws.fluid import CONSTANT, Fluid
+from reynolds.laws.roughness import Surface
+from reynolds.laws.viscosity import Roelands
 from system.assumptions import Assumption, Taken
 from system.description import PumpDescription
 from system.floating_walls import block_walls, bore_walls, slipper_walls

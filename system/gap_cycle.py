@@ -16,12 +16,12 @@ from gaps.result import GapFilm, ValvePlateFilm
 from gaps.slipper_motion import SlipperFilm, floating_slipper
 from gaps.standing import block_told, piston_told, slipper_told
 from gaps.standing_heat import warm_turn
-from reynolds.floating import Floating
-from reynolds.floating_stage import Stage
-from reynolds.fluid import isoviscous
+from reynolds.floating.problem import Floating
+from reynolds.floating.rest import held_at
+from reynolds.floating.step import Stage
+from reynolds.laws.fluid import isoviscous
 from reynolds.numerics.arrays import Array
-from reynolds.rest import held_at
-from reynolds.solve import FilmSolver
+from reynolds.solve.solver import FilmSolver
 from system.floating_drives import drives, no_rubbing
 from system.floating_heat import block_heat, piston_heat, slipper_heat
 from system.floating_parts import FloatingParts

@@ -11,7 +11,7 @@ from typing import Protocol
 
 import numpy as np
 
-from reynolds.bodies.cache import content_key
+from reynolds.numerics.cache import content_key
 from system.description import PumpDescription
 from system.lumped_point import lumped_point
 from system.operating import OperatingPoint

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Generic
 
-from reynolds.oil import dynamic_viscosity
+from reynolds.laws.oil import dynamic_viscosity
 from system.description import PumpDescription
 from system.kinematics import Number
 

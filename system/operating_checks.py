@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator
 
 from reynolds.errors import FilmInputError
-from reynolds.oil import walther
+from reynolds.laws.oil import walther
 from system.checks import CheckReport, CheckWarning, Finding, angle, needs, pressure, run_checks
 from system.description import OperatingSection, PumpDescription
 from system.faults import Fault

@@ -180,7 +180,9 @@ class MaterialsSection(Section):
 
 
 class SurfaceSection(Section):
-    """[surfaces.PAIR]: both faces of a gap together, as `reynolds.roughness` and `reynolds.contact` take them."""
+    """[surfaces.PAIR]: both faces of a gap together, as `reynolds.laws.roughness` and `reynolds.laws.contact` take
+    them.
+    """
 
     composite_roughness: Length | None = None
     asperity_density: ArealDensity | None = None

@@ -13,7 +13,7 @@ from functools import cached_property
 
 import numpy as np
 
-from reynolds.anderson import History
+from reynolds.numerics.anderson import History
 from reynolds.numerics.arrays import Array
 from system.chamber import TOLERANCE, ChamberCycle, flow_energy, solve_cycle
 from system.chamber_problem import ChamberProblem, PortPressure

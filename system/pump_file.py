@@ -11,7 +11,7 @@ from typing import Any
 
 from pydantic import ValidationError
 
-from reynolds.oil import ISO_GRADES
+from reynolds.laws.oil import ISO_GRADES
 from system.body_checks import BODY_CHECKS
 from system.case_table import toml_tables
 from system.checks import CheckReport, run_checks

@@ -12,9 +12,9 @@ from gaps.physics import Physics
 from gaps.piston_motion import standing_piston
 from gaps.pressure_flow import kidney_conductances, piston_conductance, slipper_land_conductance
 from gaps.slipper_motion import floating_slipper
+from reynolds.floating.rest import held_at
 from reynolds.numerics.arrays import Array
-from reynolds.rest import held_at
-from reynolds.solve import FilmSolver
+from reynolds.solve.solver import FilmSolver
 from system.floating_parts import FloatingParts
 from system.gap_cycle import PISTON_CELLS, RING_CELLS, SLIPPER_CELLS
 from system.gap_films import Cells, block_film, piston_film, slipper_film
@@ -47,7 +47,7 @@ def film_numbers(
     """What a gap's film tells with its chamber, or the chambers over the delivery side, at a pressure (Pa).
 
     The other chambers of the ring are at the inlet's. `shaft_angle` (rad): of that chamber, or of the first.
-    Raises as `reynolds.rest.held_at`.
+    Raises as `reynolds.floating.rest.held_at`.
     """
     match gap:
         case Gap.PISTON:

@@ -10,10 +10,10 @@ from pathlib import Path
 import numpy as np
 
 from gaps.response import Axis, Response, Samples, Spacing
-from reynolds.bodies.cache import content_key
 from reynolds.errors import FilmInputError
+from reynolds.laws.oil import dynamic_viscosity, temperature_of
 from reynolds.numerics.arrays import Array
-from reynolds.oil import dynamic_viscosity, temperature_of
+from reynolds.numerics.cache import content_key
 from system.description import PumpDescription
 from system.operating import OperatingPoint, operating_point
 from system.physics.switched import hold_plain

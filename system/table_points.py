@@ -10,8 +10,8 @@ from typing import Protocol
 import numpy as np
 
 from gaps.response import Axis, Samples, fewest_learnt, held_out_points, learnt_points
-from reynolds.bodies.cache import cache_folder
 from reynolds.numerics.arrays import Array
+from reynolds.numerics.cache import cache_folder
 from system.errors import NotConverged
 from system.kept_points import POINTS, KeptPoints, run_kept
 from system.progress import Report, silent

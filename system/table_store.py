@@ -11,8 +11,8 @@ from typing import Any, TypeVar
 import numpy as np
 
 from gaps.response import Axis, HeldOutError, Measure, Output, Response, Samples, Spacing
-from reynolds.bodies.cache import content_key
 from reynolds.numerics.arrays import Array
+from reynolds.numerics.cache import content_key
 from system.description import PumpDescription
 from system.faults import Fault, InputFaults, nearest_path
 from system.operating import OperatingPoint

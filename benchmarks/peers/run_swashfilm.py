@@ -8,10 +8,10 @@ import numpy as np
 from film import journal, journal_mesh
 from peer import asked, least, report
 
+from reynolds.fem.space import film_space
 from reynolds.film import Cavitation
-from reynolds.loads import point_fields
-from reynolds.solve import FilmSolver
-from reynolds.space import film_space
+from reynolds.solve.loads import point_fields
+from reynolds.solve.solver import FilmSolver
 
 case = asked()
 space = film_space(journal_mesh(case.cells), degree=case.degree)

@@ -19,7 +19,7 @@ import numpy as np
 
 from gaps.physics import Effect
 from reynolds.errors import FilmInputError, FilmNotConverged
-from reynolds.oil import walther
+from reynolds.laws.oil import walther
 from system.films import films_point
 from system.gap_cycle import PLAIN, SMOOTH, GapPhysics
 from system.operating import operating_point

@@ -22,7 +22,7 @@ from diagnosis.thresholds import load_thresholds
 from diagnosis.verdict import Claim, Diagnosis
 from diagnosis.weighed import Weighed
 from reynolds.errors import FilmInputError
-from reynolds.oil import walther
+from reynolds.laws.oil import walther
 from swashfilm.diagnose_run import checked_recording
 from system.description import PumpDescription
 from system.errors import NotConverged

@@ -20,8 +20,8 @@ from pathlib import Path
 import numpy as np
 from rig import cycle_means
 
+from reynolds.laws.oil import ISO_GRADES, Oil, walther
 from reynolds.numerics.arrays import Array
-from reynolds.oil import ISO_GRADES, Oil, walther
 from system.estimation.fit import maximum_posterior
 from system.estimation.observations import Channel, Observations
 from system.estimation.parameters import Parameter, Role, Scale

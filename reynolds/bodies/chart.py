@@ -9,8 +9,8 @@ from typing import Protocol
 import numpy as np
 
 from reynolds.errors import FilmInputError
+from reynolds.fem.sphere import Sphere
 from reynolds.numerics.arrays import Array
-from reynolds.sphere import Sphere
 
 Vector = tuple[float, float, float]
 
@@ -83,7 +83,8 @@ class Cylinder:
 
 @dataclass(frozen=True)
 class OnSphere:
-    """A film on a sphere through the origin, as its space has it (`reynolds.sphere`); a plane where it is none.
+    """A film on a sphere through the origin, as its space has it (`reynolds.fem.sphere`); a plane where it is
+    none.
 
     The body lies under it, at z < 0, or over it.
     """

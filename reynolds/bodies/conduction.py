@@ -17,8 +17,8 @@ import numpy as np
 from scipy.sparse import csc_array
 from scipy.sparse.linalg import splu
 
-from reynolds.bodies.body_space import BodySpace, Face, assembled
 from reynolds.bodies.elasticity import BLOCK, Structure, divergence, normal_forces
+from reynolds.bodies.space import BodySpace, Face, assembled
 from reynolds.errors import FilmInputError
 from reynolds.numerics.arrays import Array
 

@@ -18,7 +18,7 @@ import scipy.linalg
 from scipy.sparse import coo_array, csc_array
 from scipy.sparse.linalg import splu
 
-from reynolds.bodies.body_space import BodySpace, Face, assembled
+from reynolds.bodies.space import BodySpace, Face, assembled
 from reynolds.bodies.supports import SINGULAR, Supports, constraints, rigid_motions
 from reynolds.errors import FilmInputError
 from reynolds.numerics.arrays import Array

@@ -7,11 +7,11 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.sparse import coo_array, csr_array
 
+from reynolds.bodies.compliance import LowRank, WallMatrix, Walls, full
 from reynolds.bodies.elasticity import Elastic
 from reynolds.errors import FilmInputError
+from reynolds.fem.space import FilmSpace
 from reynolds.numerics.arrays import Array
-from reynolds.space import FilmSpace
-from reynolds.walls import LowRank, WallMatrix, Walls, full
 
 BLOCK = 128  # points at a time: bounds the memory beside the result
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.sparse import coo_array, csc_array
 
-from reynolds.bodies.body_space import BodySpace, Nodes
+from reynolds.bodies.space import BodySpace, Nodes
 from reynolds.errors import FilmInputError
 from reynolds.numerics.arrays import Array
 

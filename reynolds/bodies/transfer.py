@@ -22,12 +22,12 @@ from numpy.typing import NDArray
 from scipy.sparse import coo_array, csr_array
 from scipy.spatial import cKDTree
 
-from reynolds.bodies.body_space import Face, tabulated
 from reynolds.bodies.chart import Chart, face_normals, on_section
-from reynolds.bodies.film_rule import FilmRule, film_rule
+from reynolds.bodies.film_quadrature import FilmRule, film_rule
+from reynolds.bodies.space import Face, tabulated
 from reynolds.errors import FilmInputError
+from reynolds.fem.space import FilmSpace
 from reynolds.numerics.arrays import Array
-from reynolds.space import FilmSpace
 
 INSIDE = 1e-6  # of a facet: how far outside its edges a point still belongs to it
 OFF_FACE = 0.1  # of a facet's size: how far off the face along the normal the film may lie

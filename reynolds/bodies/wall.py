@@ -13,10 +13,8 @@ from pathlib import Path
 import numpy as np
 from scipy.sparse import csr_array, vstack
 
-from reynolds.bodies.body_mesh import BodyMesh
-from reynolds.bodies.body_space import BodySpace, Face, body_space
-from reynolds.bodies.cache import Origin, content_key, kept
 from reynolds.bodies.chart import Chart, face_normals
+from reynolds.bodies.compliance import LowRank
 from reynolds.bodies.conduction import Surroundings, Thermal, face_expansion, face_temperature, heated_body
 from reynolds.bodies.elasticity import (
     Elastic,
@@ -26,12 +24,14 @@ from reynolds.bodies.elasticity import (
     pressure_forces,
     structure,
 )
+from reynolds.bodies.mesh import BodyMesh
+from reynolds.bodies.space import BodySpace, Face, body_space
 from reynolds.bodies.supports import Supports
 from reynolds.bodies.transfer import Transfer, transfer
 from reynolds.errors import FilmInputError
+from reynolds.fem.space import FilmSpace
 from reynolds.numerics.arrays import Array
-from reynolds.space import FilmSpace
-from reynolds.walls import LowRank
+from reynolds.numerics.cache import Origin, content_key, kept
 
 
 @dataclass(frozen=True)

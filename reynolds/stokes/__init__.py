@@ -1,1 +1,1 @@
-"""Stokes and Navier-Stokes flow in a section of a gap: the reference by which the film equation is judged."""
+"""Stokes and Navier-Stokes flow in a section of a gap: the reference for the film equation."""

@@ -28,7 +28,7 @@ from reynolds.stokes.flow import (
     together,
 )
 from reynolds.stokes.meshes import groove_mesh, orifice_mesh, step_mesh
-from reynolds.stokes.readings import mean_pressure
+from reynolds.stokes.results import mean_pressure
 from reynolds.stokes.space import StokesSpace, Symmetry, taylor_hood
 
 FILM, BORE = 12.0, 32.0

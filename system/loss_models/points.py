@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from reynolds.laws.oil import walther
 from reynolds.numerics.arrays import Array
-from reynolds.oil import walther
 from system.bench_points import BenchPoints
 from system.description import PumpDescription
 from system.lumped import full_drive, swept_displacement

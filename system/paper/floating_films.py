@@ -10,9 +10,9 @@ from typing import Any
 import numpy as np
 
 from gaps.revolution import GapRevolution
-from reynolds.bodies.cache import content_key
 from reynolds.errors import FilmInputError
 from reynolds.numerics.arrays import Array
+from reynolds.numerics.cache import content_key
 from system.checks import run_checks
 from system.description import PumpDescription
 from system.floating_checks import slipper_has_a_wedge

@@ -9,9 +9,9 @@ from typing import Any
 
 import numpy as np
 
-from reynolds.bodies.cache import content_key
 from reynolds.errors import FilmInputError
 from reynolds.numerics.arrays import Array
+from reynolds.numerics.cache import content_key
 from system.assembly import PumpPoint
 from system.bench import BenchReading, LossSplit, paper_efficiency, paper_losses
 from system.description import PumpDescription

@@ -16,8 +16,8 @@ import numpy as np
 
 from gaps.physics import Effect
 from gaps.response import Axis, Measure, Output, Response
-from reynolds.bodies.cache import content_key
 from reynolds.numerics.arrays import Array
+from reynolds.numerics.cache import content_key
 from system.description import PumpDescription
 from system.floating_parts import floating_parts
 from system.gap_cycle import SMOOTH

@@ -6,8 +6,8 @@ from collections.abc import Mapping
 
 import numpy as np
 
+from reynolds.laws.oil import WALTHER_SHIFT, walther_coefficients
 from reynolds.numerics.arrays import Array
-from reynolds.oil import WALTHER_SHIFT, walther_coefficients
 from system.kinematics import crossed_drive, stroke
 from system.physics.effects import BenchState, Effects, GapCourse, neutral
 from system.pump_gap import Gap

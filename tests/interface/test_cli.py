@@ -13,7 +13,7 @@ import pytest
 import xarray
 
 from reynolds.errors import FilmNotConverged
-from reynolds.linear import ITERATIVE_TOLERANCE
+from reynolds.linear.factor import ITERATIVE_TOLERANCE
 from swashfilm import film_run
 from swashfilm.__main__ import main
 from system.pump_file import load_pump, resolved_toml

@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 import xarray
 
-from reynolds.density import DOWSON_HIGGINSON, BulkModulus, RationalDensity, Tait
 from reynolds.film import Cavitation
-from reynolds.viscosity import Barus, Roelands
+from reynolds.laws.density import DOWSON_HIGGINSON, BulkModulus, RationalDensity, Tait
+from reynolds.laws.viscosity import Barus, Roelands
 from swashfilm.__main__ import main
 from swashfilm.film_case import FilmCase, load_case
 from swashfilm.film_in_time import fields_over_time

@@ -8,9 +8,9 @@ import meshio
 import numpy as np
 import pytest
 
-from reynolds.mesh import Cell, annulus, mesh_from_file, rectangle
-from reynolds.mesh_check import mesh_faults
-from reynolds.mesh_refine import refine_mesh
+from reynolds.fem.mesh import Cell, annulus, mesh_from_file, rectangle
+from reynolds.fem.mesh_check import mesh_faults
+from reynolds.fem.refine import refine_mesh
 from swashfilm.__main__ import main
 from swashfilm.convergence import Verdict, convergence
 

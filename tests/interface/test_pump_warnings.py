@@ -9,8 +9,8 @@ from gaps.course import constant
 from gaps.physics import Effect
 from gaps.piston_motion import PistonDrive, PistonFilm, PistonShape, standing_piston
 from gaps.standing import piston_told
-from reynolds.rest import held_at
-from reynolds.solve import FilmSolver
+from reynolds.floating.rest import held_at
+from reynolds.solve.solver import FilmSolver
 from swashfilm.pump_warnings import coarse_angles, impossible_pressures, uncarried_loads
 from system.gap_cycle import PLAIN, SMOOTH, GapPhysics
 

@@ -12,10 +12,10 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 
+from reynolds.fem.mesh import Cell, rectangle
+from reynolds.fem.space import FilmSpace, film_space
 from reynolds.film import ZERO, FilmProblem, Held, film
-from reynolds.mesh import Cell, rectangle
-from reynolds.solve import FilmSolver
-from reynolds.space import FilmSpace, film_space
+from reynolds.solve.solver import FilmSolver
 
 CELLS = 144, 8  # around, over half of the length
 STEP = 1e-4  # of displacement and velocity for the coefficients, in clearances (per radian)

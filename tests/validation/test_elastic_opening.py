@@ -15,11 +15,11 @@ from gaps.piston_walls import PistonWalls, face_grid
 from gaps.stand import Stand
 from reynolds.bodies.elasticity import Elastic
 from reynolds.bodies.foundation import Compliance
+from reynolds.fem.mesh import Cell, rectangle
+from reynolds.fem.space import FilmSpace, film_space
 from reynolds.film import Cavitation, FilmProblem, Held, film
-from reynolds.loads import loads
-from reynolds.mesh import Cell, rectangle
-from reynolds.solve import FilmSolver
-from reynolds.space import FilmSpace, film_space
+from reynolds.solve.loads import loads
+from reynolds.solve.solver import FilmSolver
 
 RADIUS, LENGTH, CLEARANCE, RATED = 11e-3, 45e-3, 15e-6, 35e6
 STEEL, BRASS = Elastic(210e9, 0.3), Elastic(110e9, 0.34)

@@ -16,20 +16,20 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from reynolds.bodies.body_mesh import disc, ring
 from reynolds.bodies.chart import Cylinder, Side
 from reynolds.bodies.elasticity import Elastic
 from reynolds.bodies.foundation import both
+from reynolds.bodies.mesh import disc, ring
 from reynolds.bodies.supports import Supports
 from reynolds.bodies.wall import Body, body_wall
-from reynolds.contact import asperities_of
+from reynolds.equation.coefficients import at_points
+from reynolds.fem.mesh import Cell, rectangle
+from reynolds.fem.space import FilmSpace, film_space
 from reynolds.film import ZERO, FilmProblem, FilmSolution, Held, film
-from reynolds.fluid import Fluid
-from reynolds.loads import loads, point_fields
-from reynolds.mesh import Cell, rectangle
-from reynolds.solve import FilmSolver
-from reynolds.space import FilmSpace, film_space
-from reynolds.transport import at_points
+from reynolds.laws.contact import asperities_of
+from reynolds.laws.fluid import Fluid
+from reynolds.solve.loads import loads, point_fields
+from reynolds.solve.solver import FilmSolver
 
 VISCOSITY, PRESSURE_COEFFICIENT, AMBIENT, VAPOUR = 6.8e-3, 9.5e-9, 1e5, 100.0
 SUMMITS = asperities_of(

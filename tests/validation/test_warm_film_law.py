@@ -12,12 +12,12 @@ from gaps.block_motion import standing_block
 from gaps.film_heat import GapHeat, local_law, wall_image
 from gaps.pressure_flow import kidney_conductances, slipper_land_conductance
 from gaps.slipper_motion import floating_slipper
-from reynolds.across import levels
-from reynolds.coupling import Posed, agree
 from reynolds.film import HALF
-from reynolds.oil import dynamic_viscosity
-from reynolds.rest import held_at
-from reynolds.solve import FilmSolver
+from reynolds.floating.rest import held_at
+from reynolds.laws.oil import dynamic_viscosity
+from reynolds.solve.solver import FilmSolver
+from reynolds.thermal.coupling import Posed, agree
+from reynolds.thermal.film_profile import levels
 from system.floating_heat import block_heat, slipper_heat
 from system.floating_parts import floating_parts
 from system.gap_cycle import SMOOTH

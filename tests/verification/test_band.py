@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 from scipy.sparse import csr_array
 
-from reynolds.band import BandedFactor, banded
-from reynolds.band_order import line_order
-from reynolds.linear import GeneralFactor
-from reynolds.mesh import Cell, rectangle, ring
-from reynolds.space import FilmSpace, film_space
+from reynolds.fem.mesh import Cell, rectangle, ring
+from reynolds.fem.space import FilmSpace, film_space
+from reynolds.linear.band import BandedFactor, banded
+from reynolds.linear.band_ordering import line_order
+from reynolds.linear.factor import GeneralFactor
 
 
 def strip() -> FilmSpace:

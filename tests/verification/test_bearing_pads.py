@@ -13,9 +13,9 @@ from gaps.ring import Ring, ValvePlateGeometry
 from gaps.rubbing import rubbed
 from reynolds.errors import FilmInputError
 from reynolds.film import FilmSolution
-from reynolds.generalised import generalised_force, modes_on
-from reynolds.loads import loads
-from reynolds.solve import FilmSolver
+from reynolds.floating.coordinates import generalised_force, modes_on
+from reynolds.solve.loads import loads
+from reynolds.solve.solver import FilmSolver
 from system.faults import InputFaults
 from system.floating_checks import check_floating
 from system.instants import valve_plate_geometry

@@ -28,13 +28,13 @@ from gaps.physics import FilmLaws
 from gaps.profiles import Profile, Waviness
 from gaps.ring import ValvePlateGeometry
 from gaps.rubbing import rubbed
-from reynolds.contact import Asperities
 from reynolds.film import FilmProblem, Storage
-from reynolds.floating_stage import solve_stage, standing
-from reynolds.floating_start import seats_of
-from reynolds.generalised import contact_force, generalised_force, modes_on
-from reynolds.rest import held_at
-from reynolds.solve import FilmSolver
+from reynolds.floating.coordinates import contact_force, generalised_force, modes_on
+from reynolds.floating.rest import held_at
+from reynolds.floating.start import seats_of
+from reynolds.floating.step import solve_stage, standing
+from reynolds.laws.contact import Asperities
+from reynolds.solve.solver import FilmSolver
 
 RADII = (26.5e-3, 31.5e-3, 40.5e-3, 45.7e-3)
 ARC, PISTONS, PITCH = np.radians(30.0), 9, np.radians(40.0)

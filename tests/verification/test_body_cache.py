@@ -8,15 +8,15 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from reynolds.bodies.body_mesh import block
-from reynolds.bodies.cache import Origin, cache_folder, content_key, kept
 from reynolds.bodies.chart import Plane
 from reynolds.bodies.elasticity import Elastic
+from reynolds.bodies.mesh import block
 from reynolds.bodies.supports import Supports
 from reynolds.bodies.wall import Body, body_wall
 from reynolds.errors import FilmInputError
-from reynolds.mesh import rectangle
-from reynolds.space import film_space
+from reynolds.fem.mesh import rectangle
+from reynolds.fem.space import film_space
+from reynolds.numerics.cache import Origin, cache_folder, content_key, kept
 
 BODY = Body(block((1.0, 1.0, 0.5), (1, 1, 1)), Elastic(210e9, 0.3), Supports(), "top",
             Plane((0.0, 0.0, 1.0), (0.0, 0.0, 0.5)))  # fmt: skip

@@ -8,8 +8,6 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from reynolds.bodies.body_mesh import BodyMesh, block, disc, ring, section
-from reynolds.bodies.body_space import BodySpace, body_space
 from reynolds.bodies.elasticity import (
     Elastic,
     centrifugal_forces,
@@ -18,6 +16,8 @@ from reynolds.bodies.elasticity import (
     stiffness,
     structure,
 )
+from reynolds.bodies.mesh import BodyMesh, block, disc, ring, section
+from reynolds.bodies.space import BodySpace, body_space
 from reynolds.bodies.supports import Supports, rigid_motions
 from reynolds.errors import FilmInputError
 

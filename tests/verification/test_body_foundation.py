@@ -11,8 +11,8 @@ import pytest
 from reynolds.bodies.elasticity import Elastic
 from reynolds.bodies.foundation import both, half_space, winkler
 from reynolds.errors import FilmInputError
-from reynolds.mesh import Cell, annulus, rectangle
-from reynolds.space import film_space
+from reynolds.fem.mesh import Cell, annulus, rectangle
+from reynolds.fem.space import film_space
 
 STEEL = Elastic(210e9, 0.3)
 PRESSURE = 30e6

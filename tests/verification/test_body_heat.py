@@ -8,8 +8,6 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from reynolds.bodies.body_mesh import block, ring, section
-from reynolds.bodies.body_space import body_space
 from reynolds.bodies.chart import Cylinder, Plane, Side, face_normals
 from reynolds.bodies.conduction import (
     Convection,
@@ -21,11 +19,13 @@ from reynolds.bodies.conduction import (
     temperature_opening,
 )
 from reynolds.bodies.elasticity import Elastic, structure
+from reynolds.bodies.mesh import block, ring, section
+from reynolds.bodies.space import body_space
 from reynolds.bodies.supports import Supports
 from reynolds.bodies.wall import Body, heated_wall
 from reynolds.errors import FilmInputError
-from reynolds.mesh import rectangle
-from reynolds.space import film_space
+from reynolds.fem.mesh import rectangle
+from reynolds.fem.space import film_space
 
 STEEL = Elastic(210e9, 0.3)
 WARM = Thermal(conductivity=45.0, expansion=12e-6, unstrained_temperature=20.0)

@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 import skfem
 
-from reynolds.bodies.body_file import body_from_file
-from reynolds.bodies.body_mesh import BodyMesh, block, disc, ring, section
-from reynolds.bodies.body_space import body_space
+from reynolds.bodies.mesh import BodyMesh, block, disc, ring, section
+from reynolds.bodies.mesh_file import body_from_file
+from reynolds.bodies.space import body_space
 from reynolds.errors import FilmInputError
 
 SHAPES = {

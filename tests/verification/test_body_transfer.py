@@ -11,16 +11,16 @@ import numpy as np
 import pytest
 import skfem
 
-from reynolds.bodies.body_mesh import BodyMesh, block, disc, ring, section
-from reynolds.bodies.body_space import body_space
 from reynolds.bodies.chart import Cylinder, Plane, Side, face_normals
 from reynolds.bodies.elasticity import Elastic
+from reynolds.bodies.mesh import BodyMesh, block, disc, ring, section
+from reynolds.bodies.space import body_space
 from reynolds.bodies.supports import Supports
 from reynolds.bodies.transfer import transfer
 from reynolds.bodies.wall import Body, FacePressure, Spin, body_wall, load_opening
 from reynolds.errors import FilmInputError
-from reynolds.mesh import Cell, annulus, rectangle
-from reynolds.space import FilmSpace, film_space
+from reynolds.fem.mesh import Cell, annulus, rectangle
+from reynolds.fem.space import FilmSpace, film_space
 
 STEEL = Elastic(210e9, 0.3)
 BORE, OUTSIDE, LENGTH = 10e-3, 16e-3, 12e-3

@@ -5,14 +5,14 @@ import pytest
 from scipy.sparse import csc_array, diags_array
 from scipy.sparse.linalg import spsolve
 
-from reynolds.balance import stiffness
-from reynolds.carried import CarriedFilm
-from reynolds.grid import grid_of
-from reynolds.linear import GeneralFactor
-from reynolds.mesh import Cell, rectangle
-from reynolds.space import FilmSpace, film_space
-from reynolds.transport import isotropic
-from reynolds.triangles import both_triangles
+from reynolds.equation.balance import stiffness
+from reynolds.equation.coefficients import isotropic
+from reynolds.fem.mesh import Cell, rectangle
+from reynolds.fem.space import FilmSpace, film_space
+from reynolds.linear.cavitated import CarriedFilm
+from reynolds.linear.factor import GeneralFactor
+from reynolds.linear.multigrid.grid import grid_of
+from reynolds.linear.triangles import both_triangles
 
 
 def carried(
@@ -103,10 +103,12 @@ def test_a_cavity_all_round_is_entered_somewhere():
 
 @pytest.mark.parametrize("tolerance", [1e-11, 1e-30])
 def test_the_general_factor_takes_it_and_leaves_it_where_it_stalls(tolerance, monkeypatch):
-    monkeypatch.setattr("reynolds.linear.ITERATIVE_TOLERANCE", tolerance)
-    monkeypatch.setattr("reynolds.linear.GENERAL_TOLERANCE", max(tolerance, 1e-10) if tolerance > 1e-20 else 1e-13)
-    monkeypatch.setattr("reynolds.band.MOST_WORK", 0.0)  # else a film as small as this one is eliminated
-    monkeypatch.setattr("reynolds.carried.ROUNDS", 3 if tolerance > 1e-20 else 0)
+    monkeypatch.setattr("reynolds.linear.factor.ITERATIVE_TOLERANCE", tolerance)
+    monkeypatch.setattr(
+        "reynolds.linear.factor.GENERAL_TOLERANCE", max(tolerance, 1e-10) if tolerance > 1e-20 else 1e-13
+    )
+    monkeypatch.setattr("reynolds.linear.band.MOST_WORK", 0.0)  # else a film as small as this one is eliminated
+    monkeypatch.setattr("reynolds.linear.cavitated.ROUNDS", 3 if tolerance > 1e-20 else 0)
     space = film_space(rectangle((1.0, 1.0), (31, 24), cell=Cell.QUADRILATERAL))
     cavity = _band(space)
     upper, lower, matrix = carried(space, cavity, (1.0, 0.2))

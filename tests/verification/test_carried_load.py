@@ -8,15 +8,15 @@ import numpy as np
 import pytest
 
 from reynolds.bodies.foundation import winkler
-from reynolds.carried_load import RigidLoad, carry
-from reynolds.contact import Asperities, contact_pressure
+from reynolds.equation.rough_overlap import film_between
 from reynolds.errors import FilmInputError, FilmNotConverged
+from reynolds.fem.mesh import rectangle
+from reynolds.fem.space import film_space
 from reynolds.film import ZERO, Cavitation, FilmProblem, Held, film
-from reynolds.loads import loads
-from reynolds.mesh import rectangle
-from reynolds.overlap import film_between
-from reynolds.roughness import Surface
-from reynolds.space import film_space
+from reynolds.floating.load_search import RigidLoad, carry
+from reynolds.laws.contact import Asperities, contact_pressure
+from reynolds.laws.roughness import Surface
+from reynolds.solve.loads import loads
 
 LENGTH, WIDTH, VISCOSITY, SPEED = 0.01, 0.002, 0.03, 1.0
 SLIDING = (np.full((1, 1), SPEED), ZERO)

@@ -12,25 +12,26 @@ import numpy as np
 import pytest
 from scipy.sparse import csc_array, csr_array
 
-from reynolds import compliant, solve
-from reynolds.bodies.body_mesh import block
 from reynolds.bodies.chart import Plane
+from reynolds.bodies.compliance import LowRank
 from reynolds.bodies.elasticity import Elastic
 from reynolds.bodies.foundation import Compliance, both, half_space, winkler
+from reynolds.bodies.mesh import block
 from reynolds.bodies.supports import Supports
 from reynolds.bodies.wall import Body, body_wall, face_wall
-from reynolds.compliant import Balance, compliant_answer
-from reynolds.contact import Asperities
 from reynolds.errors import FilmNotConverged
+from reynolds.fem.mesh import Cell, rectangle
+from reynolds.fem.space import FilmSpace, film_space
 from reynolds.film import ZERO, Cavitation, FilmProblem, FilmSolution, Held, film
-from reynolds.krylov import gmres
-from reynolds.loads import loads
-from reynolds.mesh import Cell, rectangle
+from reynolds.laws.contact import Asperities
+from reynolds.linear import elastic as compliant
+from reynolds.linear.elastic import Balance, compliant_answer
 from reynolds.numerics.arrays import Array
-from reynolds.solve import FilmSolver
-from reynolds.space import FilmSpace, film_space
-from reynolds.transient import march
-from reynolds.walls import LowRank
+from reynolds.numerics.gmres import gmres
+from reynolds.solve import solver as solve
+from reynolds.solve.loads import loads
+from reynolds.solve.solver import FilmSolver
+from reynolds.solve.transient import march
 
 LENGTH, WIDE, GAP, VISCOSITY = 10e-3, 2.5e-3, 5e-6, 0.03
 STIFFNESS, HIGH = 1e13, 30e6

@@ -11,7 +11,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.integrate import quad
 
-from reynolds.contact import (
+from reynolds.errors import FilmInputError
+from reynolds.laws.contact import (
     Asperities,
     asperities_of,
     boundary_shear,
@@ -21,7 +22,6 @@ from reynolds.contact import (
     gaussian_moment,
     lambda_ratio,
 )
-from reynolds.errors import FilmInputError
 
 EXAMPLES = settings(max_examples=60, deadline=None, derandomize=True)
 HEIGHT = 0.4e-6

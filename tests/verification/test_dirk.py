@@ -11,8 +11,18 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 
-from reynolds.dirk import ALEXANDER_2, BACKWARD_EULER, State, Tableau, Tangent, advance, march, nodes_only, within
 from reynolds.errors import FilmInputError, FilmNotConverged
+from reynolds.numerics.dirk import (
+    ALEXANDER_2,
+    BACKWARD_EULER,
+    State,
+    Tableau,
+    Tangent,
+    advance,
+    march,
+    nodes_only,
+    within,
+)
 
 METHODS = pytest.mark.parametrize("tableau", [BACKWARD_EULER, ALEXANDER_2], ids=["euler", "alexander"])
 Rate = Callable[[float, np.ndarray], tuple[np.ndarray, np.ndarray]]

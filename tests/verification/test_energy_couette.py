@@ -11,15 +11,15 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from reynolds.across import dowson, film_with, levels, shear_stress, velocity
-from reynolds.energy import Heat, solve_energy
 from reynolds.errors import FilmInputError
+from reynolds.fem.mesh import Cell, rectangle
+from reynolds.fem.space import FilmSpace, film_space
 from reynolds.film import ZERO, Cavitation, Film, FilmProblem, Held, film
-from reynolds.mesh import Cell, rectangle
-from reynolds.solve import FilmSolver
-from reynolds.space import FilmSpace, film_space
-from reynolds.thermal import ThermalSolution, solve_thermal
-from reynolds.wall_heat import Adiabatic, GivenTemperature, Wall
+from reynolds.solve.solver import FilmSolver
+from reynolds.thermal.energy import Heat, solve_energy
+from reynolds.thermal.film import ThermalSolution, solve_thermal
+from reynolds.thermal.film_profile import dowson, film_with, levels, shear_stress, velocity
+from reynolds.thermal.walls import Adiabatic, GivenTemperature, Wall
 
 DENSITY, SPECIFIC_HEAT, CONDUCTIVITY = 860.0, 2000.0, 0.14
 LENGTH, THICKNESS, SPEED, VISCOSITY, THINNING = 0.02, 1e-5, 10.0, 0.03, 0.03

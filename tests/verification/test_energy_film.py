@@ -11,16 +11,16 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from reynolds.across import dowson, levels
-from reynolds.energy import FilmTemperature, Heat, solve_energy
 from reynolds.errors import FilmInputError, FilmNotConverged
+from reynolds.fem.mesh import Cell, rectangle
+from reynolds.fem.space import FilmSpace, film_space
 from reynolds.film import ZERO, Cavitation, FilmProblem, Held, Storage, film
-from reynolds.loads import loads
-from reynolds.mesh import Cell, rectangle
-from reynolds.solve import FilmSolver
-from reynolds.space import FilmSpace, film_space
-from reynolds.thermal import ThermalSolution, solve_thermal
-from reynolds.wall_heat import Adiabatic, Body, Convecting, GivenTemperature, Turning, Wall
+from reynolds.solve.loads import loads
+from reynolds.solve.solver import FilmSolver
+from reynolds.thermal.energy import FilmTemperature, Heat, solve_energy
+from reynolds.thermal.film import ThermalSolution, solve_thermal
+from reynolds.thermal.film_profile import dowson, levels
+from reynolds.thermal.walls import Adiabatic, Body, Convecting, GivenTemperature, Turning, Wall
 
 DENSITY, SPECIFIC_HEAT, CONDUCTIVITY = 860.0, 2000.0, 0.13
 LENGTH, OUTLET, SPEED, VISCOSITY, INLET = 0.02, 1e-5, 10.0, 0.03, 313.15

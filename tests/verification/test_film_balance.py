@@ -11,11 +11,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from reynolds.fem.mesh import Cell, annulus, rectangle
+from reynolds.fem.space import FilmSpace, film_space
 from reynolds.film import Cavitation, Film, FilmProblem, FilmSolution, Held, film
-from reynolds.loads import Loads, loads
-from reynolds.mesh import Cell, annulus, rectangle
-from reynolds.solve import FilmSolver
-from reynolds.space import FilmSpace, film_space
+from reynolds.solve.loads import Loads, loads
+from reynolds.solve.solver import FilmSolver
 
 SIZE = (0.02, 0.013)
 HELD = {"left": Held(3e6), "right": Held(1e6), "top": Held(2e6)}  # the bottom is closed

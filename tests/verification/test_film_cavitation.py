@@ -5,12 +5,12 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from reynolds.cascade import COARSEST, Cascade, Obstacle
+from reynolds.fem.mesh import Cell, rectangle
+from reynolds.fem.space import FilmSpace, film_space
 from reynolds.film import ZERO, Cavitation, FilmProblem, FilmSolution, Held, Pocket, film, no_feed
-from reynolds.loads import loads
-from reynolds.mesh import Cell, rectangle
-from reynolds.solve import FilmSolver
-from reynolds.space import FilmSpace, film_space
+from reynolds.solve.cavity_guess import COARSEST, Cascade, Obstacle
+from reynolds.solve.loads import loads
+from reynolds.solve.solver import FilmSolver
 
 LEVEL = 1e4  # cavitation pressure, Pa
 

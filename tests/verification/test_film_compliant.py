@@ -13,20 +13,20 @@ import pytest
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
-from reynolds.bodies.body_mesh import block
 from reynolds.bodies.chart import Plane
+from reynolds.bodies.compliance import Walls
 from reynolds.bodies.elasticity import Elastic
 from reynolds.bodies.foundation import Compliance, both, winkler
+from reynolds.bodies.mesh import block
 from reynolds.bodies.supports import Supports
 from reynolds.bodies.wall import Body, body_wall
 from reynolds.errors import FilmNotConverged
+from reynolds.fem.mesh import Cell, rectangle
+from reynolds.fem.space import FilmSpace, film_space
 from reynolds.film import ZERO, Cavitation, FilmProblem, FilmSolution, Held, Pocket, film
-from reynolds.loads import loads
-from reynolds.mesh import Cell, rectangle
-from reynolds.solve import FilmSolver
-from reynolds.space import FilmSpace, film_space
-from reynolds.transient import march
-from reynolds.walls import Walls
+from reynolds.solve.loads import loads
+from reynolds.solve.solver import FilmSolver
+from reynolds.solve.transient import march
 
 LENGTH, WIDE, GAP, VISCOSITY = 10e-3, 2.5e-3, 5e-6, 0.03
 STIFFNESS, HIGH = 1e13, 30e6

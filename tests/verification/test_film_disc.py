@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 import skfem
 
+from reynolds.fem.mesh import Cell, FilmMesh, annulus, loop_names
+from reynolds.fem.space import FilmSpace, film_space
 from reynolds.film import FilmProblem, Held, film
-from reynolds.loads import Loads, loads
-from reynolds.mesh import Cell, FilmMesh, annulus, loop_names
-from reynolds.solve import FilmSolver
-from reynolds.space import FilmSpace, film_space
+from reynolds.solve.loads import Loads, loads
+from reynolds.solve.solver import FilmSolver
 
 VISCOSITY, THICKNESS = 0.03, 1e-5
 INNER, OUTER = 5e-3, 10e-3

@@ -5,12 +5,12 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from reynolds import solve
 from reynolds.errors import FilmInputError, FilmNotConverged
+from reynolds.fem.mesh import Cell, rectangle
+from reynolds.fem.space import FilmSpace, film_space
 from reynolds.film import ZERO, Cavitation, Film, FilmProblem, Held, Pocket, film, no_feed
-from reynolds.mesh import Cell, rectangle
-from reynolds.solve import FilmSolver
-from reynolds.space import FilmSpace, film_space
+from reynolds.solve import solver as solve
+from reynolds.solve.solver import FilmSolver
 
 
 @pytest.fixture(scope="module")

@@ -11,11 +11,11 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 
+from reynolds.fem.mesh import Cell, rectangle
+from reynolds.fem.space import FilmSpace, film_space
 from reynolds.film import ZERO, Cavitation, FilmProblem, FilmSolution, Held, film
-from reynolds.loads import loads, point_fields
-from reynolds.mesh import Cell, rectangle
-from reynolds.solve import FilmSolver
-from reynolds.space import FilmSpace, film_space
+from reynolds.solve.loads import loads, point_fields
+from reynolds.solve.solver import FilmSolver
 
 ROUND = 2.0 * np.pi
 MESHES = (60, 120, 240)  # cells round the bearing; a quarter of that over its half-width

@@ -18,7 +18,7 @@ from gaps.seen import PistonSeen, piston_seen
 from gaps.warmth import ThinnedOver
 from reynolds.bodies.elasticity import Elastic
 from reynolds.errors import FilmInputError, FilmNotConverged
-from reynolds.solve import FilmSolver
+from reynolds.solve.solver import FilmSolver
 from system.floating_heat import rod, slab, tube
 
 DIAMETER, CLEARANCE, LENGTH, VISCOSITY = 22e-3, 15e-6, 40e-3, 0.03

@@ -9,11 +9,11 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from reynolds.fem.mesh import Cell, rectangle
+from reynolds.fem.space import FilmSpace, film_space
 from reynolds.film import ZERO, Cavitation, FilmProblem, FilmSolution, Held, film
-from reynolds.loads import Loads, loads, point_fields
-from reynolds.mesh import Cell, rectangle
-from reynolds.solve import FilmSolver
-from reynolds.space import FilmSpace, film_space
+from reynolds.solve.loads import Loads, loads, point_fields
+from reynolds.solve.solver import FilmSolver
 
 WIDTH = 0.1
 ROUND = 2.0 * np.pi

@@ -8,11 +8,11 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 
+from reynolds.fem.mesh import Cell, rectangle
+from reynolds.fem.space import FilmSpace, film_space
 from reynolds.film import FilmProblem, Held, film
-from reynolds.loads import evaluate
-from reynolds.mesh import Cell, rectangle
-from reynolds.solve import FilmSolver
-from reynolds.space import FilmSpace, film_space
+from reynolds.solve.loads import evaluate
+from reynolds.solve.solver import FilmSolver
 
 WIDTH = 0.7  # of the film across y; its length along x is 1
 COMPLEX_STEP = 1e-30

@@ -8,11 +8,11 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from reynolds.balance import Operators, State, operators, steep_gradient
+from reynolds.equation.balance import Operators, State, operators, steep_gradient
+from reynolds.equation.hourglass import spared
+from reynolds.fem.mesh import Cell, annulus, rectangle
+from reynolds.fem.space import FilmSpace, film_space
 from reynolds.film import Cavitation, FilmProblem, Held, film
-from reynolds.mesh import Cell, annulus, rectangle
-from reynolds.space import FilmSpace, film_space
-from reynolds.twist import spared
 
 SIZE = (0.02, 0.013)
 SPACES = {

@@ -9,11 +9,11 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from reynolds.fem.mesh import Cell, rectangle
+from reynolds.fem.space import film_space
 from reynolds.film import Cavitation, FilmProblem, Held, film
-from reynolds.loads import loads, point_fields
-from reynolds.mesh import Cell, rectangle
-from reynolds.solve import FilmSolver
-from reynolds.space import film_space
+from reynolds.solve.loads import loads, point_fields
+from reynolds.solve.solver import FilmSolver
 
 DIAMETER, LENGTH, CLEARANCE, PRESSURE, VISCOSITY = 20e-3, 30e-3, 10e-6, 30e6, 0.02
 RADIUS = DIAMETER / 2

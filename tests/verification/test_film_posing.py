@@ -7,12 +7,12 @@ import pytest
 import skfem
 
 from reynolds.errors import FilmInputError
+from reynolds.fem.mesh import Cell, FilmMesh, rectangle
+from reynolds.fem.space import film_space
 from reynolds.film import ZERO, Cavitation, Film, FilmProblem, Held, film
-from reynolds.loads import loads
-from reynolds.mesh import Cell, FilmMesh, rectangle
-from reynolds.setting import check_pressures
-from reynolds.solve import FilmSolver
-from reynolds.space import film_space
+from reynolds.solve.loads import loads
+from reynolds.solve.setting import check_pressures
+from reynolds.solve.solver import FilmSolver
 
 SPACE = film_space(rectangle((0.01, 0.01), (6, 6)))
 ENDS = {"left": Held(1e5), "right": Held(0.0)}

@@ -8,13 +8,13 @@ import numpy as np
 import pytest
 
 from reynolds.errors import FilmInputError, FilmNotConverged
+from reynolds.fem.mesh import annulus, rectangle
+from reynolds.fem.space import film_space
 from reynolds.film import ZERO, Cavitation, FilmProblem, Held, Pocket, Storage, film
-from reynolds.loads import loads
-from reynolds.mesh import annulus, rectangle
-from reynolds.setting import check_pressures
-from reynolds.solve import FilmSolver
-from reynolds.space import film_space
-from reynolds.transient import march, oil_held
+from reynolds.solve.loads import loads
+from reynolds.solve.setting import check_pressures
+from reynolds.solve.solver import FilmSolver
+from reynolds.solve.transient import march, oil_held
 
 SPACE = film_space(rectangle((0.01, 0.01), (8, 8)))
 FED = film_space(rectangle((0.01, 0.01), (8, 8)), pockets=["bottom"])

@@ -16,11 +16,11 @@ from hypothesis import strategies as st
 from scipy.spatial import Delaunay
 
 from reynolds.errors import FilmInputError, FilmNotConverged
+from reynolds.fem.mesh import Cell, FilmMesh, annulus, box_names, rectangle
+from reynolds.fem.space import FilmSpace, film_space
 from reynolds.film import Cavitation, FilmProblem, FilmSolution, Held, Storage, film
-from reynolds.loads import loads
-from reynolds.mesh import Cell, FilmMesh, annulus, box_names, rectangle
-from reynolds.solve import FilmSolver
-from reynolds.space import FilmSpace, film_space
+from reynolds.solve.loads import loads
+from reynolds.solve.solver import FilmSolver
 
 SIZE, THICKNESS, VISCOSITY = 0.01, 1e-5, 0.03
 JUMP = 1e4 ** (1.0 / 3.0)
@@ -136,7 +136,7 @@ def test_all_settle_on_monotone_meshes():
 
 def test_meshes_that_overshoot_are_named(monkeypatch):
     """Where a film does not settle on obtuse angles, the error says so and names the remedy."""
-    monkeypatch.setattr("reynolds.solve.MAX_ITERATIONS", 2)
+    monkeypatch.setattr("reynolds.solve.solver.MAX_ITERATIONS", 2)
     space = SPACES["slivers"]
     with pytest.raises(FilmNotConverged, match=r"couplings are positive.*Delaunay triangles"):
         FilmSolver(space).solve(_problem(space, 1142, JUMP, True, True))

@@ -14,14 +14,14 @@ from scipy.integrate import quad
 from scipy.optimize import brentq
 from scipy.stats import norm
 
-from reynolds.contact import Asperities
+from reynolds.fem.mesh import Cell, rectangle
+from reynolds.fem.space import FilmSpace, film_space
 from reynolds.film import ZERO, Cavitation, FilmProblem, FilmSolution, Held, film
-from reynolds.loads import Loads, loads
-from reynolds.mesh import Cell, rectangle
-from reynolds.roughness import Surface
-from reynolds.solve import FilmSolver
-from reynolds.space import FilmSpace, film_space
-from reynolds.transient import march
+from reynolds.laws.contact import Asperities
+from reynolds.laws.roughness import Surface
+from reynolds.solve.loads import Loads, loads
+from reynolds.solve.solver import FilmSolver
+from reynolds.solve.transient import march
 
 LENGTH, WIDE, VISCOSITY, SPEED = 10e-3, 2.5e-3, 0.03, 2.0
 SIGMA = 0.5e-6

@@ -8,11 +8,11 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from reynolds.fem.mesh import Cell, rectangle
+from reynolds.fem.space import FilmSpace, film_space
 from reynolds.film import ZERO, FilmProblem, FilmSolution, Held, film
-from reynolds.loads import Loads, loads
-from reynolds.mesh import Cell, rectangle
-from reynolds.solve import FilmSolver
-from reynolds.space import FilmSpace, film_space
+from reynolds.solve.loads import Loads, loads
+from reynolds.solve.solver import FilmSolver
 
 LENGTH, OUTLET, VISCOSITY, SPEED = 0.01, 1e-5, 0.03, 1.0
 PRESSURE_SCALE = VISCOSITY * SPEED * LENGTH / OUTLET**2

@@ -11,12 +11,12 @@ import pytest
 from scipy.integrate import quad
 
 from reynolds.errors import FilmInputError
+from reynolds.fem.mesh import annulus
+from reynolds.fem.space import FilmSpace, film_space
+from reynolds.fem.sphere import PLANE, Sphere
 from reynolds.film import Cavitation, FilmProblem, FilmSolution, Held, film
-from reynolds.loads import loads, pressure_integrals
-from reynolds.mesh import annulus
-from reynolds.solve import FilmSolver
-from reynolds.space import FilmSpace, film_space
-from reynolds.sphere import PLANE, Sphere
+from reynolds.solve.loads import loads, pressure_integrals
+from reynolds.solve.solver import FilmSolver
 
 RADIUS, FROM, TO = 40e-3, 0.5, 1.2  # m, rad
 SPHERE = Sphere(RADIUS)

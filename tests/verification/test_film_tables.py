@@ -10,10 +10,10 @@ from gaps.film_heat import Sink
 from gaps.response import Axis, Response, Samples
 from gaps.slipper_motion import floating_slipper
 from gaps.standing_heat import warm_turn
-from reynolds.loads import boundary_flows
-from reynolds.oil import dynamic_viscosity
-from reynolds.rest import held_at
-from reynolds.solve import FilmSolver
+from reynolds.floating.rest import held_at
+from reynolds.laws.oil import dynamic_viscosity
+from reynolds.solve.loads import boundary_flows
+from reynolds.solve.solver import FilmSolver
 from system.bench_map import LumpedBench
 from system.bench_points import BenchPoints
 from system.bench_truth import SIMULATED

@@ -14,19 +14,19 @@ import pytest
 from scipy.integrate import quad
 from scipy.optimize import brentq
 
-from reynolds import solve
 from reynolds.bodies.elasticity import Elastic
 from reynolds.bodies.foundation import Compliance, half_space, winkler
-from reynolds.contact import Asperities
 from reynolds.errors import FilmInputError
+from reynolds.fem.mesh import Cell, rectangle
+from reynolds.fem.space import film_space
 from reynolds.film import ZERO, Cavitation, FilmProblem, Held, film
-from reynolds.fluid import Fluid
-from reynolds.loads import loads
-from reynolds.mesh import Cell, rectangle
-from reynolds.roughness import Surface
-from reynolds.solve import FilmSolver
-from reynolds.space import film_space
-from reynolds.transient import march
+from reynolds.laws.contact import Asperities
+from reynolds.laws.fluid import Fluid
+from reynolds.laws.roughness import Surface
+from reynolds.solve import solver as solve
+from reynolds.solve.loads import loads
+from reynolds.solve.solver import FilmSolver
+from reynolds.solve.transient import march
 
 LENGTH, WIDE, VISCOSITY = 10e-3, 2.5e-3, 0.03
 SLIDING = (np.full((1, 1), 5.0), ZERO)

@@ -12,18 +12,18 @@ import pytest
 import skfem
 from skfem.models.poisson import laplace
 
-from reynolds.balance import State, by_opening, flow_balance, operators, slopes, stiffness
 from reynolds.bodies.foundation import winkler
+from reynolds.equation.balance import State, by_opening, flow_balance, operators, slopes, stiffness
+from reynolds.equation.coefficients import isotropic
+from reynolds.equation.deformation_sparsity import openings
+from reynolds.fem.mesh import Cell, annulus, rectangle
+from reynolds.fem.space import FilmSpace, film_space
 from reynolds.film import Cavitation, FilmProblem, Held, film
-from reynolds.fluid import Fluid
-from reynolds.loads import loads
-from reynolds.mesh import Cell, annulus, rectangle
-from reynolds.opening_pattern import openings
-from reynolds.roughness import Surface
-from reynolds.sensitivity import thickness_load
-from reynolds.solve import FilmSolver
-from reynolds.space import FilmSpace, film_space
-from reynolds.transport import isotropic
+from reynolds.floating.sensitivity import thickness_load
+from reynolds.laws.fluid import Fluid
+from reynolds.laws.roughness import Surface
+from reynolds.solve.loads import loads
+from reynolds.solve.solver import FilmSolver
 
 JUMPS = 5.0  # decades of the conductance within a cell
 ASPECTS = (0.02, 0.4, 1.0, 2.0, 7.0, 300.0)

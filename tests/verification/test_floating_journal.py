@@ -13,16 +13,24 @@ from functools import partial
 import numpy as np
 import pytest
 
-from reynolds.dirk import ALEXANDER_2, BACKWARD_EULER, Tableau, Taken, march, nodes_only, within
+from reynolds.fem.mesh import Cell, rectangle
+from reynolds.fem.space import FilmSpace, film_space
 from reynolds.film import ZERO, Cavitation, FilmProblem, Held, film
-from reynolds.floating import Floating, steady
-from reynolds.floating_stage import Stage, solve_stage
-from reynolds.floating_start import started
-from reynolds.loads import loads
-from reynolds.mesh import Cell, rectangle
+from reynolds.floating.problem import Floating, steady
+from reynolds.floating.start import started
+from reynolds.floating.step import Stage, solve_stage
 from reynolds.numerics.arrays import Array
-from reynolds.solve import FilmSolver
-from reynolds.space import FilmSpace, film_space
+from reynolds.numerics.dirk import (
+    ALEXANDER_2,
+    BACKWARD_EULER,
+    Tableau,
+    Taken,
+    march,
+    nodes_only,
+    within,
+)
+from reynolds.solve.loads import loads
+from reynolds.solve.solver import FilmSolver
 
 RADIUS, CLEARANCE, VISCOSITY = 0.01, 1e-5, 0.03
 

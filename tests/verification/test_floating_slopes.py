@@ -13,19 +13,19 @@ import numpy as np
 import pytest
 from scipy.sparse import csr_array
 
-from reynolds.contact import Asperities
+from reynolds.equation.rough_overlap import film_between
+from reynolds.fem.mesh import Cell, rectangle
+from reynolds.fem.space import FilmSpace, film_space
 from reynolds.film import ZERO, Film, FilmProblem, Held
-from reynolds.floating import Floating, Outer
-from reynolds.floating_stage import Stage, solve_stage, standing
-from reynolds.fluid import Fluid
-from reynolds.generalised import contact_force, generalised_force, modes_on
-from reynolds.mesh import Cell, rectangle
+from reynolds.floating.coordinates import contact_force, generalised_force, modes_on
+from reynolds.floating.problem import Floating, Outer
+from reynolds.floating.sensitivity import oil_slopes, response, thickness_load
+from reynolds.floating.step import Stage, solve_stage, standing
+from reynolds.laws.contact import Asperities
+from reynolds.laws.fluid import Fluid
+from reynolds.laws.roughness import Surface, mean_thickness
 from reynolds.numerics.arrays import Array
-from reynolds.overlap import film_between
-from reynolds.roughness import Surface, mean_thickness
-from reynolds.sensitivity import oil_slopes, response, thickness_load
-from reynolds.solve import FilmSolver
-from reynolds.space import FilmSpace, film_space
+from reynolds.solve.solver import FilmSolver
 
 RADIUS, WIDTH, CLEARANCE, SPEED, VISCOSITY = 0.02, 0.02, 20e-6, 5.0, 0.03
 STEP, STEPS = 2e-4, 12

@@ -15,19 +15,19 @@ from scipy.optimize import brentq
 
 from gaps.revolution import run_revolution
 from gaps.schedule import Accuracy, evenly
+from reynolds.bodies.compliance import Walls
 from reynolds.bodies.elasticity import Elastic
 from reynolds.bodies.foundation import Compliance, half_space, winkler
-from reynolds.contact import Asperities, contact_pressure
+from reynolds.equation.rough_overlap import as_shaped
+from reynolds.fem.mesh import Cell, rectangle
+from reynolds.fem.space import FilmSpace, film_space
 from reynolds.film import ZERO, Film, FilmProblem, Held
-from reynolds.floating import Floating, steady
-from reynolds.floating_stage import Stage, solve_stage, standing
-from reynolds.mesh import Cell, rectangle
+from reynolds.floating.problem import Floating, steady
+from reynolds.floating.step import Stage, solve_stage, standing
+from reynolds.laws.contact import Asperities, contact_pressure
+from reynolds.laws.roughness import Surface
 from reynolds.numerics.arrays import Array
-from reynolds.overlap import as_shaped
-from reynolds.roughness import Surface
-from reynolds.solve import FilmSolver
-from reynolds.space import FilmSpace, film_space
-from reynolds.walls import Walls
+from reynolds.solve.solver import FilmSolver
 
 LENGTH, WIDE, VISCOSITY, STIFFNESS = 10e-3, 2.5e-3, 0.03, 1e13
 HIGH, LOW = 30e6, 5e6

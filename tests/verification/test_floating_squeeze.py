@@ -13,17 +13,17 @@ import pytest
 import skfem
 from scipy.optimize import brentq
 
-from reynolds.contact import Asperities, contact_pressure
-from reynolds.dirk import ALEXANDER_2, BACKWARD_EULER, Tableau, advance
 from reynolds.errors import FilmInputError, FilmNotConverged
+from reynolds.fem.mesh import Cell, FilmMesh, annulus, loop_names, rectangle
+from reynolds.fem.space import FilmSpace, film_space
 from reynolds.film import ZERO, Boundary, Film, FilmProblem, Held, Pocket, film
-from reynolds.floating import Floating, Outer, steady
-from reynolds.floating_stage import Stage, solve_stage, standing
-from reynolds.floating_start import started
-from reynolds.generalised import generalised_force, modes_on
-from reynolds.mesh import Cell, FilmMesh, annulus, loop_names, rectangle
-from reynolds.solve import FilmSolver
-from reynolds.space import FilmSpace, film_space
+from reynolds.floating.coordinates import generalised_force, modes_on
+from reynolds.floating.problem import Floating, Outer, steady
+from reynolds.floating.start import started
+from reynolds.floating.step import Stage, solve_stage, standing
+from reynolds.laws.contact import Asperities, contact_pressure
+from reynolds.numerics.dirk import ALEXANDER_2, BACKWARD_EULER, Tableau, advance
+from reynolds.solve.solver import FilmSolver
 
 VISCOSITY, LOAD, START, END = 0.03, 100.0, 20e-6, 10e-3
 OUTER, INNER = 10e-3, 5e-3

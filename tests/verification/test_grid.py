@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 import skfem
 
-from reynolds.grid import grid_of
-from reynolds.mesh import Cell, FilmMesh, annulus, rectangle, ring
-from reynolds.space import film_space
+from reynolds.fem.mesh import Cell, FilmMesh, annulus, rectangle, ring
+from reynolds.fem.space import film_space
+from reynolds.linear.multigrid.grid import grid_of
 
 
 @pytest.mark.parametrize("cell", list(Cell))

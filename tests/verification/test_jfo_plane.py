@@ -17,14 +17,14 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 from scipy.spatial import Delaunay
 
-from reynolds.density import RationalDensity
+from reynolds.fem.mesh import Cell, FilmMesh, box_names, rectangle
+from reynolds.fem.space import FilmSpace, film_space
 from reynolds.film import ZERO, Cavitation, FilmProblem, FilmSolution, Held, film
-from reynolds.fluid import CONSTANT, Fluid
-from reynolds.loads import evaluate, loads
-from reynolds.mesh import Cell, FilmMesh, box_names, rectangle
-from reynolds.solve import FilmSolver
-from reynolds.space import FilmSpace, film_space
-from reynolds.viscosity import Barus
+from reynolds.laws.density import RationalDensity
+from reynolds.laws.fluid import CONSTANT, Fluid
+from reynolds.laws.viscosity import Barus
+from reynolds.solve.loads import evaluate, loads
+from reynolds.solve.solver import FilmSolver
 
 
 def _place(space: FilmSpace) -> np.ndarray:

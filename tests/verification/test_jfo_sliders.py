@@ -15,12 +15,12 @@ import pytest
 import skfem
 from scipy.spatial import Delaunay
 
+from reynolds.equation.coefficients import at_points
+from reynolds.fem.mesh import Cell, FilmMesh, box_names, rectangle
+from reynolds.fem.space import FilmSpace, film_space
 from reynolds.film import ZERO, FilmProblem, FilmSolution, Held, film
-from reynolds.loads import Loads, loads
-from reynolds.mesh import Cell, FilmMesh, box_names, rectangle
-from reynolds.solve import FilmSolver
-from reynolds.space import FilmSpace, film_space
-from reynolds.transport import at_points
+from reynolds.solve.loads import Loads, loads
+from reynolds.solve.solver import FilmSolver
 
 MESHES = (400, 800, 1600)  # cells along the film, two across
 Profile = Callable[[np.ndarray], np.ndarray]

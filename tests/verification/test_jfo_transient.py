@@ -12,10 +12,10 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 
+from reynolds.fem.mesh import Cell, rectangle
+from reynolds.fem.space import FilmSpace, film_space
 from reynolds.film import Cavitation, FilmProblem, FilmSolution, Held, Storage, film
-from reynolds.mesh import Cell, rectangle
-from reynolds.solve import FilmSolver
-from reynolds.space import FilmSpace, film_space
+from reynolds.solve.solver import FilmSolver
 
 SUPPLY = 0.025  # pressure at the ends
 UNIT = 1.0 / 6.0  # viscosity with which the equation reads d/dx(h^3 dp/dx) = 2 d(theta h)/dt

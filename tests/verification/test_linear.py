@@ -4,15 +4,16 @@ import numpy as np
 import pytest
 from scipy.sparse import csc_array, triu
 
-from reynolds import kernels, linear
-from reynolds.balance import stiffness
+from reynolds.equation.balance import stiffness
+from reynolds.equation.coefficients import isotropic
+from reynolds.fem import kernels
+from reynolds.fem.mesh import Cell, rectangle
+from reynolds.fem.space import film_space
 from reynolds.film import ZERO, Cavitation, FilmProblem, Held, film
-from reynolds.grid import grid_of
-from reynolds.loads import loads
-from reynolds.mesh import Cell, rectangle
-from reynolds.solve import FilmSolver
-from reynolds.space import film_space
-from reynolds.transport import isotropic
+from reynolds.linear import factor as linear
+from reynolds.linear.multigrid.grid import grid_of
+from reynolds.solve.loads import loads
+from reynolds.solve.solver import FilmSolver
 
 
 def laplacian(n: int) -> csc_array:

@@ -11,11 +11,11 @@ import pytest
 import skfem
 
 from reynolds.errors import FilmInputError
+from reynolds.fem.mesh import Cell, FilmMesh, annulus, mesh_from_file, rectangle, rename, ring
+from reynolds.fem.space import film_space
 from reynolds.film import ZERO, FilmProblem, Held, film
-from reynolds.loads import loads
-from reynolds.mesh import Cell, FilmMesh, annulus, mesh_from_file, rectangle, rename, ring
-from reynolds.solve import FilmSolver
-from reynolds.space import film_space
+from reynolds.solve.loads import loads
+from reynolds.solve.solver import FilmSolver
 
 MESHES = Path(__file__).resolve().parents[2] / "meshes"
 

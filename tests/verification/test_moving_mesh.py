@@ -17,9 +17,9 @@ from gaps.piston_motion import PistonDrive, PistonFilm, PistonShape
 from gaps.profiles import Points, Profile, Waviness
 from reynolds.errors import FilmInputError
 from reynolds.film import FilmSolution, Held, Storage
-from reynolds.loads import boundary_flows
-from reynolds.solve import FilmSolver
-from reynolds.transient import oil_held
+from reynolds.solve.loads import boundary_flows
+from reynolds.solve.solver import FilmSolver
+from reynolds.solve.transient import oil_held
 
 DIAMETER, CLEARANCE, GUIDE, VISCOSITY = 22e-3, 15e-6, 45e-3, 0.0258
 FLOOD, OUTWARDS, SHAFT = 10e6, 2.89, 220.0

@@ -5,15 +5,15 @@ import pytest
 from scipy.sparse import csc_array, triu
 from scipy.sparse.linalg import spsolve
 
-from reynolds import kernels
-from reynolds import multigrid as multigrid_module
-from reynolds.balance import stiffness
+from reynolds.equation.balance import stiffness
+from reynolds.equation.coefficients import isotropic
 from reynolds.errors import FilmInputError
-from reynolds.grid import Grid, grid_of
-from reynolds.mesh import Cell, annulus, rectangle
-from reynolds.multigrid import MAX_STEPS, Multigrid, Precision
-from reynolds.space import FilmSpace, film_space
-from reynolds.transport import isotropic
+from reynolds.fem import kernels
+from reynolds.fem.mesh import Cell, annulus, rectangle
+from reynolds.fem.space import FilmSpace, film_space
+from reynolds.linear.multigrid import solver as multigrid_module
+from reynolds.linear.multigrid.grid import Grid, grid_of
+from reynolds.linear.multigrid.solver import MAX_STEPS, Multigrid, Precision
 
 ROUND = 2.0 * np.pi
 TOLERANCE = 1e-8

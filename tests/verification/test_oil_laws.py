@@ -10,7 +10,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from reynolds.density import (
+from reynolds.errors import FilmInputError
+from reynolds.laws.density import (
     DOWSON_HIGGINSON,
     MINERAL_OIL_BUNSEN,
     Aerated,
@@ -22,11 +23,10 @@ from reynolds.density import (
     tait_modulus,
     thermal_expansion,
 )
-from reynolds.ehl import hamrock_dowson_central, hamrock_dowson_minimum, moes
-from reynolds.errors import FilmInputError
-from reynolds.oil import ISO_GRADES, Oil, walther, walther_coefficients
-from reynolds.rheology import Carreau, Cross, Eyring, carreau_yasuda
-from reynolds.viscosity import (
+from reynolds.laws.ehl import hamrock_dowson_central, hamrock_dowson_minimum, moes
+from reynolds.laws.oil import ISO_GRADES, Oil, walther, walther_coefficients
+from reynolds.laws.rheology import Carreau, Cross, Eyring, carreau_yasuda
+from reynolds.laws.viscosity import (
     BARUS_HIGHEST_PRESSURE,
     Barus,
     Roelands,

@@ -32,14 +32,14 @@ from gaps.schedule import Accuracy
 from gaps.slipper_lands import slipper_mesh
 from gaps.stand import Stand
 from gaps.walls import PlateWalls, seen_from, while_turning
-from reynolds.bodies.body_file import body_from_file
-from reynolds.bodies.body_mesh import BodyMesh, ring
-from reynolds.bodies.body_space import body_space
 from reynolds.bodies.elasticity import Elastic
+from reynolds.bodies.mesh import BodyMesh, ring
+from reynolds.bodies.mesh_file import body_from_file
+from reynolds.bodies.space import body_space
 from reynolds.errors import FilmInputError
-from reynolds.mesh import Cell, annulus, rectangle
+from reynolds.fem.mesh import Cell, annulus, rectangle
+from reynolds.fem.space import FilmSpace, film_space
 from reynolds.numerics.arrays import Array
-from reynolds.space import FilmSpace, film_space
 from system.description import PumpDescription
 from system.floating_drives import drives, no_rubbing
 from system.floating_gaps import FloatingOptions, slipper_revolution

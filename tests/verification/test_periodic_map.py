@@ -11,9 +11,9 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 
-from reynolds.dirk import ALEXANDER_2, State, Tangent, march, nodes_only
 from reynolds.errors import FilmNotConverged
-from reynolds.periodic import approached, periodic
+from reynolds.numerics.dirk import ALEXANDER_2, State, Tangent, march, nodes_only
+from reynolds.numerics.shooting import approached, periodic
 
 DAMPING, LOAD, TURN = 3.0e5, 40.0, 2.0 * np.pi / 220.0  # N s/m, N, s: REF90's slipper at 10 um and 2100 1/min
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from reynolds.oil import dynamic_viscosity
+from reynolds.laws.oil import dynamic_viscosity
 from system.physics.catalogue import CATALOGUE, EXTENSIONS, entry_of
 from system.physics.effects import BenchState, EffectId, GapCourse, Kind, both, neutral
 from system.pump_file import load_pump

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from reynolds.contact import gaussian_moment
-from reynolds.oil import dynamic_viscosity
+from reynolds.laws.contact import gaussian_moment
+from reynolds.laws.oil import dynamic_viscosity
 from system.physics import contact_laws, drag_laws, film_laws, flow_laws, port_laws, tipping_laws
 from system.physics.catalogue import CATALOGUE
 from system.physics.effects import BenchState, GapCourse, neutral

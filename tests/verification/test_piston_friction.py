@@ -9,11 +9,11 @@ from gaps.course import constant
 from gaps.physics import Effect, FilmLaws, Physics
 from gaps.piston_motion import PistonDrive, PistonFilm, PistonFriction, PistonShape, floating_piston
 from gaps.piston_yielding import Yielding
-from reynolds.contact import Asperities, contact_pressure
-from reynolds.floating_stage import Stage, solve_stage
-from reynolds.floating_start import started
-from reynolds.loads import boundary_flows, loads
-from reynolds.solve import FilmSolver
+from reynolds.floating.start import started
+from reynolds.floating.step import Stage, solve_stage
+from reynolds.laws.contact import Asperities, contact_pressure
+from reynolds.solve.loads import boundary_flows, loads
+from reynolds.solve.solver import FilmSolver
 
 DIAMETER, CLEARANCE, LENGTH, VISCOSITY = 22e-3, 15e-6, 40e-3, 0.0258
 PRESSURE, CASE, OUTWARDS, PISTON, BORE = 20e6, 1e6, 2.89, 300.0, 220.0
@@ -144,7 +144,7 @@ def _pressed(stage: Stage, rough: Asperities) -> float:
 
 
 def _film_alone(stage: Stage) -> tuple[float, float, np.ndarray, float]:
-    """Force, torque, moment and power of the oil, by `reynolds.loads`."""
+    """Force, torque, moment and power of the oil, by `reynolds.solve.loads`."""
     found = loads(stage.solution)
     around, along = found.friction_moving
     fixed = found.friction_fixed[0]

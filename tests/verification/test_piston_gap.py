@@ -18,10 +18,10 @@ from gaps.profiles import Barrel, Profile
 from gaps.result import GapFilm
 from gaps.standing import piston_told, rest_from
 from reynolds.errors import FilmNotConverged
-from reynolds.floating_stage import Stage
+from reynolds.floating.rest import held_at
+from reynolds.floating.step import Stage
 from reynolds.numerics.arrays import Array
-from reynolds.rest import held_at
-from reynolds.solve import FilmSolver
+from reynolds.solve.solver import FilmSolver
 from system.given_positions import eccentric
 
 RADIUS, CLEARANCE = 11e-3, 15e-6

@@ -23,14 +23,14 @@ from gaps.course import constant
 from gaps.physics import Effect, FilmLaws, Physics
 from gaps.piston_motion import PistonDrive, PistonFilm, PistonShape, floating_piston
 from gaps.profiles import EdgeRelief, Points, Profile
-from reynolds.contact import Asperities
-from reynolds.dirk import ALEXANDER_2, Taken, march, nodes_only
-from reynolds.floating import Floating
-from reynolds.floating_stage import Stage, solve_stage
-from reynolds.floating_start import started
-from reynolds.generalised import generalised_force, modes_on
-from reynolds.loads import loads
-from reynolds.solve import FilmSolver
+from reynolds.floating.coordinates import generalised_force, modes_on
+from reynolds.floating.problem import Floating
+from reynolds.floating.start import started
+from reynolds.floating.step import Stage, solve_stage
+from reynolds.laws.contact import Asperities
+from reynolds.numerics.dirk import ALEXANDER_2, Taken, march, nodes_only
+from reynolds.solve.loads import loads
+from reynolds.solve.solver import FilmSolver
 
 DIAMETER, LENGTH, CLEARANCE, PRESSURE, VISCOSITY, TAPER = 20e-3, 30e-3, 10e-6, 30e6, 0.02, 5e-6
 RADIUS = DIAMETER / 2

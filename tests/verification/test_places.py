@@ -9,8 +9,8 @@ import pytest
 
 from gaps.frames import Frame
 from gaps.slipper_lands import slipper_mesh
-from reynolds.space import film_space
-from reynolds.sphere import PLANE
+from reynolds.fem.space import film_space
+from reynolds.fem.sphere import PLANE
 from system.floating_parts import floating_parts
 from system.gap_films import RIGID, piston_film
 from system.instants import Rotor, rotor, travel

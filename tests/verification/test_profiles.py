@@ -19,11 +19,11 @@ from gaps.profiles import (
     Waviness,
     ring_grooves,
 )
-from reynolds.contact import Asperities
 from reynolds.errors import FilmInputError
 from reynolds.film import Cavitation
-from reynolds.fluid import CONSTANT
-from reynolds.roughness import Surface
+from reynolds.laws.contact import Asperities
+from reynolds.laws.fluid import CONSTANT
+from reynolds.laws.roughness import Surface
 
 LENGTH = 40e-3
 WORN = PointsAround(

@@ -33,7 +33,12 @@ def test_an_outcome_is_of_another_program_once_anything_that_made_it_changes(pro
     tree = ast.parse(Path(proof.trial.__file__).read_text("utf-8"))
     taken = {node.module for node in ast.walk(tree) if isinstance(node, ast.ImportFrom) and not node.level}
     assert {name for name in taken if name and name.split(".")[0] in proof.store.PACKAGES} <= counted
-    assert {"diagnosis.data_checks", "system.physics.film_laws", "system.bench_map", "reynolds.oil"} <= counted
+    assert {
+        "diagnosis.data_checks",
+        "system.physics.film_laws",
+        "system.bench_map",
+        "reynolds.laws.oil",
+    } <= counted
 
 
 def test_every_part_has_its_cases(proof: SimpleNamespace) -> None:

@@ -26,15 +26,15 @@ from gaps.own_body import CHAMBER, FILM
 from gaps.piston_walls import FaceGrid, PistonWalls, face_grid
 from gaps.rows import closer_at_end, closer_at_start
 from gaps.stand import Stand
-from reynolds.bodies.body_space import body_space
-from reynolds.bodies.cache import Origin
 from reynolds.bodies.elasticity import Elastic, pressure_forces, structure
+from reynolds.bodies.space import body_space
 from reynolds.bodies.wall import BodyWall, FacePressure, FaceWall, load_opening
+from reynolds.equation.coefficients import at_points
 from reynolds.errors import FilmInputError
-from reynolds.mesh import Cell, annulus, rectangle
+from reynolds.fem.mesh import Cell, annulus, rectangle
+from reynolds.fem.space import FilmSpace, film_space
 from reynolds.numerics.arrays import Array
-from reynolds.space import FilmSpace, film_space
-from reynolds.transport import at_points
+from reynolds.numerics.cache import Origin
 
 STEEL, BRONZE = Elastic(210e9, 0.3), Elastic(110e9, 0.34)
 PRESSURE, MICRON = 30e6, 1e6

@@ -8,14 +8,14 @@ import numpy as np
 import pytest
 
 from reynolds.errors import FilmInputError, FilmNotConverged
+from reynolds.fem.mesh import Cell, rectangle
+from reynolds.fem.space import FilmSpace, film_space
 from reynolds.film import ZERO, Cavitation, Film, FilmProblem, Held, film
-from reynolds.floating import Floating, steady
-from reynolds.floating_stage import solve_stage
-from reynolds.floating_start import started
-from reynolds.mesh import Cell, rectangle
-from reynolds.rest import come_to_rest
-from reynolds.solve import FilmSolver
-from reynolds.space import FilmSpace, film_space
+from reynolds.floating.problem import Floating, steady
+from reynolds.floating.rest import come_to_rest
+from reynolds.floating.start import started
+from reynolds.floating.step import solve_stage
+from reynolds.solve.solver import FilmSolver
 
 LENGTH, WIDTH, TAPER, SPEED, VISCOSITY = 0.01, 0.002, 1e-5, 2.0, 0.03
 

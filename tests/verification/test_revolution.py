@@ -14,17 +14,17 @@ import pytest
 
 from gaps.revolution import GapRevolution, run_revolution
 from gaps.schedule import Accuracy, Schedule, evenly
-from reynolds.dirk import ALEXANDER_2, march, nodes_only, within
 from reynolds.errors import FilmInputError, FilmNotConverged
+from reynolds.fem.mesh import Cell, rectangle, ring
+from reynolds.fem.space import FilmSpace, film_space
 from reynolds.film import ZERO, Cavitation, FilmProblem, Held, film
-from reynolds.floating import Floating, Outer, steady
-from reynolds.floating_stage import Stage, solve_stage
-from reynolds.floating_start import restarted, seats_of, started
-from reynolds.loads import boundary_flows
-from reynolds.mesh import Cell, rectangle, ring
+from reynolds.floating.problem import Floating, Outer, steady
+from reynolds.floating.start import restarted, seats_of, started
+from reynolds.floating.step import Stage, solve_stage
 from reynolds.numerics.arrays import Array
-from reynolds.solve import FilmSolver
-from reynolds.space import FilmSpace, film_space
+from reynolds.numerics.dirk import ALEXANDER_2, march, nodes_only, within
+from reynolds.solve.loads import boundary_flows
+from reynolds.solve.solver import FilmSolver
 
 LENGTH, WIDTH, THICKNESS, VISCOSITY, SPEED = 0.01, 0.002, 1e-5, 0.03, 220.0
 DAMPING = VISCOSITY * LENGTH**3 * WIDTH / THICKNESS**3  # N s/m, of a strip open at both ends

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from reynolds.errors import FilmInputError
-from reynolds.mesh import Cell, annulus, rectangle
-from reynolds.space import film_space
+from reynolds.fem.mesh import Cell, annulus, rectangle
+from reynolds.fem.space import film_space
 
 FORMULAS = {
     "x alone": lambda x, y: 1.0 + 0.6 * np.cos(x),

@@ -15,15 +15,15 @@ from scipy.integrate import quad
 from scipy.optimize import brentq, fsolve
 
 from reynolds.errors import FilmInputError
+from reynolds.fem.mesh import Cell, rectangle
+from reynolds.fem.space import FilmSpace, film_space
 from reynolds.film import ZERO, Cavitation, FilmProblem, Held, film
-from reynolds.fluid import Fluid
-from reynolds.loads import loads
-from reynolds.mesh import Cell, rectangle
-from reynolds.rheology import Carreau, Cross, Eyring
-from reynolds.shear import newtonian, solve_shear
-from reynolds.solve import FilmSolver
-from reynolds.space import FilmSpace, film_space
-from reynolds.viscosity import Barus
+from reynolds.laws.fluid import Fluid
+from reynolds.laws.rheology import Carreau, Cross, Eyring
+from reynolds.laws.viscosity import Barus
+from reynolds.solve.loads import loads
+from reynolds.solve.solver import FilmSolver
+from reynolds.thermal.shear_thinning import newtonian, solve_shear
 
 LENGTH, WIDE, GAP, VISCOSITY, SPEED = 10e-3, 2.5e-3, 1e-5, 0.03, 10.0
 SLIDING = (np.full((1, 1), SPEED), ZERO)

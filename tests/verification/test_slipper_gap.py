@@ -25,10 +25,10 @@ from gaps.slipper_motion import (
 )
 from gaps.standing import rest_from, slipper_told
 from reynolds.errors import FilmNotConverged
-from reynolds.floating_stage import Stage
+from reynolds.floating.rest import held_at
+from reynolds.floating.step import Stage
 from reynolds.numerics.arrays import Array
-from reynolds.rest import held_at
-from reynolds.solve import FilmSolver
+from reynolds.solve.solver import FilmSolver
 from system.floating_parts import floating_parts
 from system.instants import rotor
 from system.leakage import slipper_conductance

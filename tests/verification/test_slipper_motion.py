@@ -24,14 +24,14 @@ from gaps.slipper_motion import (
     retainer_force,
     supply,
 )
-from reynolds.contact import Asperities
 from reynolds.errors import FilmInputError
 from reynolds.film import FilmSolution, Held
-from reynolds.floating_stage import Stage, solve_stage
-from reynolds.floating_start import started
-from reynolds.generalised import generalised_force, modes_on
-from reynolds.loads import loads
-from reynolds.solve import FilmSolver
+from reynolds.floating.coordinates import generalised_force, modes_on
+from reynolds.floating.start import started
+from reynolds.floating.step import Stage, solve_stage
+from reynolds.laws.contact import Asperities
+from reynolds.solve.loads import loads
+from reynolds.solve.solver import FilmSolver
 
 INNER, OUTER, VISCOSITY, PRESSURE, HEIGHT = 5e-3, 10e-3, 0.03, 20e6, 10e-6
 FULL = Physics().without(Effect.CAVITATION)

@@ -18,8 +18,8 @@ from gaps.slipper_motion import (
     face_force,
     floating_slipper,
 )
-from reynolds.floating_stage import Stage
-from reynolds.solve import FilmSolver
+from reynolds.floating.step import Stage
+from reynolds.solve.solver import FilmSolver
 
 INNER, OUTER, VISCOSITY, PRESSURE, LOAD = 5e-3, 10e-3, 0.03, 20e6, 2800.0
 ORIFICE, SWAY = Orifice(0.4e-3, 20e-3), 1e-3

@@ -9,7 +9,7 @@ import skfem
 from reynolds.errors import FilmInputError, FilmNotConverged
 from reynolds.stokes.flow import FlowProblem, held, solve_navier_stokes, solve_stokes, straight, together
 from reynolds.stokes.meshes import channel_mesh, graded, step_mesh
-from reynolds.stokes.readings import flux, mean_pressure, turning_places, wall_shear
+from reynolds.stokes.results import flux, mean_pressure, turning_places, wall_shear
 from reynolds.stokes.space import Symmetry, body_force, taylor_hood
 
 

@@ -5,11 +5,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from reynolds.fem.mesh import ring
+from reynolds.fem.space import film_space
 from reynolds.film import FilmProblem, Held, Pocket, film
-from reynolds.mesh import ring
-from reynolds.solve import FilmSolver
-from reynolds.space import film_space
-from reynolds.supply import Feed, pressure_sending
+from reynolds.solve.solver import FilmSolver
+from reynolds.solve.supply import Feed, pressure_sending
 
 FLOW = 1e-9  # m3/s by the root of a Pa
 

@@ -10,31 +10,31 @@ import pytest
 from scipy.integrate import solve_bvp
 from scipy.optimize import brentq
 
-from reynolds.bodies.body_mesh import block
 from reynolds.bodies.chart import Plane
 from reynolds.bodies.conduction import Convection, Thermal
 from reynolds.bodies.elasticity import Elastic
 from reynolds.bodies.foundation import winkler
+from reynolds.bodies.mesh import block
 from reynolds.bodies.supports import Supports
 from reynolds.bodies.wall import Body as SolidBody
 from reynolds.bodies.wall import body_wall, heated_wall
-from reynolds.contact import Asperities, boundary_shear, contact_pressure
-from reynolds.energy import Heat
 from reynolds.errors import FilmInputError
+from reynolds.fem.mesh import Cell, rectangle
+from reynolds.fem.space import FilmSpace, film_space
 from reynolds.film import ZERO, Cavitation, FilmProblem, Held, film
-from reynolds.fluid import Fluid
-from reynolds.loads import loads
-from reynolds.mesh import Cell, rectangle
+from reynolds.laws.contact import Asperities, boundary_shear, contact_pressure
+from reynolds.laws.fluid import Fluid
+from reynolds.laws.oil import ISO_GRADES, Oil, walther
+from reynolds.laws.rheology import Carreau
+from reynolds.laws.roughness import Surface
+from reynolds.laws.viscosity import Barus, RoelandsIndex, barus
 from reynolds.numerics.arrays import Array
-from reynolds.oil import ISO_GRADES, Oil, walther
-from reynolds.rheology import Carreau
-from reynolds.roughness import Surface
-from reynolds.shear import newtonian
-from reynolds.solve import FilmSolver
-from reynolds.space import FilmSpace, film_space
-from reynolds.thermal import march_thermal, solve_thermal
-from reynolds.viscosity import Barus, RoelandsIndex, barus
-from reynolds.wall_heat import Adiabatic, Body, Convecting, GivenTemperature, Wall
+from reynolds.solve.loads import loads
+from reynolds.solve.solver import FilmSolver
+from reynolds.thermal.energy import Heat
+from reynolds.thermal.film import march_thermal, solve_thermal
+from reynolds.thermal.shear_thinning import newtonian
+from reynolds.thermal.walls import Adiabatic, Body, Convecting, GivenTemperature, Wall
 
 DENSITY, SPECIFIC_HEAT, CONDUCTIVITY = 860.0, 2000.0, 0.13
 LENGTH, GAP, SPEED, VISCOSITY, INLET = 0.02, 1e-5, 10.0, 0.03, 313.15

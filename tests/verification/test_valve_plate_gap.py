@@ -17,10 +17,10 @@ from gaps.pressure_flow import kidney_conductances
 from gaps.result import ValvePlateFilm
 from gaps.ring import ValvePlateGeometry
 from gaps.standing import block_told
-from reynolds.floating_stage import Stage
+from reynolds.floating.rest import held_at
+from reynolds.floating.step import Stage
 from reynolds.numerics.arrays import Array
-from reynolds.rest import held_at
-from reynolds.solve import FilmSolver
+from reynolds.solve.solver import FilmSolver
 from system.leakage import valve_plate_conductance
 
 RADII = (26.5e-3, 31.5e-3, 40.5e-3, 45.7e-3)

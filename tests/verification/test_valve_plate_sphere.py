@@ -20,21 +20,21 @@ from gaps.physics import FilmLaws
 from gaps.ring import ValvePlateGeometry
 from gaps.rubbing import rubbed
 from gaps.standing import block_told
-from reynolds.bodies.body_space import body_space
 from reynolds.bodies.chart import face_normals
 from reynolds.bodies.elasticity import Elastic
+from reynolds.bodies.space import body_space
 from reynolds.bodies.transfer import transfer
-from reynolds.contact import Asperities
 from reynolds.errors import FilmInputError
+from reynolds.fem.mesh import annulus
+from reynolds.fem.space import film_space
+from reynolds.fem.sphere import Sphere
 from reynolds.film import FilmSolution
-from reynolds.floating_stage import solve_stage, standing
-from reynolds.generalised import generalised_force, modes_on
-from reynolds.loads import loads
-from reynolds.mesh import annulus
-from reynolds.rest import held_at
-from reynolds.solve import FilmSolver
-from reynolds.space import film_space
-from reynolds.sphere import Sphere
+from reynolds.floating.coordinates import generalised_force, modes_on
+from reynolds.floating.rest import held_at
+from reynolds.floating.step import solve_stage, standing
+from reynolds.laws.contact import Asperities
+from reynolds.solve.loads import loads
+from reynolds.solve.solver import FilmSolver
 from system.faults import InputFaults
 from system.instants import valve_plate_geometry
 from system.lumped import lumped_leaks, piston_motion

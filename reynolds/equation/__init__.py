@@ -1,0 +1,1 @@
+"""The discrete Reynolds equation: coefficients, flow balance and its slopes, wall deformation."""

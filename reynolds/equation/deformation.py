@@ -1,0 +1,238 @@
+"""How far walls that give way open under a film's pressure and, where they touch, under their contact.
+
+g = C (p + p_c(h + g)): contact presses on the walls as the film does, p_c the mean of the vertices that share an
+unknown. Where a pocket or a port is, at a pocket's unknown and at held nodes inside, one wall is missing: nothing
+touches.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.sparse import csc_array, csr_array, eye_array, issparse
+from scipy.sparse.linalg import splu
+
+from reynolds.bodies.compliance import LowRank, Opens, WallMatrix, columns_of, full
+from reynolds.errors import FilmInputError, FilmNotConverged
+from reynolds.film import FilmProblem, Pocket
+from reynolds.laws.contact import LOWEST_RATIO, Asperities, contact_pressure
+from reynolds.laws.law import Tangent
+from reynolds.linear.elastic import Answer, dense_answer, singular
+from reynolds.numerics.array_kernels import norm
+from reynolds.numerics.arrays import Array
+
+MAX_STEPS = 15
+TOLERANCE = 1e-12  # of film thickness and asperities' height
+DEEPEST = 5.0  # standard deviations of the summits by which they may be in each other at first
+ROOM = 0.9  # of the way to where the law of contact ends
+MOST_HALVINGS, LEAST_GAIN = 8, 1e-4  # of a step; of what is missing, by a full step
+FELT = 1e-6  # of the stiffness K E'/sigma where mean planes meet: less resists nothing
+
+
+def opening(problem: FilmProblem, pressure: Array, start: Array | None = None) -> Array:
+    """Opening of the film at the vertices (vertices,) m under nodal pressures (size,) Pa.
+
+    Solves g = C (p + p_c(h + g)) by Newton's method from `start`: contact closes as the film opens. Raises
+    FilmNotConverged where that does not settle, and FilmInputError as the contact's law does.
+    """
+    if problem.walls is None:
+        return np.zeros(len(problem.space.vertices))
+    compliance = problem.walls.matrix
+    alone = np.asarray(compliance @ pressure)
+    if not np.isfinite(alone).all():
+        raise FilmInputError("walls", "a compliance that is not finite", "numbers, m/Pa")
+    if problem.asperities is None:
+        return alone
+    return _balanced(problem, alone, alone if start is None else start)
+
+
+def _balanced(problem: FilmProblem, alone: Array, start: Array) -> Array:
+    """The opening at which walls that would open by `alone` (vertices,) m under the oil and contact agree.
+
+    Each step brings the two nearer, and leaves a tenth of what is left to the end of the law of contact.
+    """
+    assert problem.asperities is not None
+    meeting, given = meeting_of(problem), _given_gap(problem)
+    summits, height = problem.asperities.summit_height, problem.asperities.height
+    enough = TOLERANCE * (np.max(np.abs(given)) + height)
+
+    def left(found: Array) -> tuple[Touch, Array]:
+        touch = meeting.at(given + found)
+        return touch, found - alone - meeting.compliance @ touch.on_unknowns
+
+    found = np.maximum(start, summits - DEEPEST * height - given)
+    touch, rest = left(found)
+    for _ in range(MAX_STEPS):
+        if np.max(np.abs(rest)) < enough:
+            return found
+        change = touch.settled(rest)
+        beyond = found + given - (summits + LOWEST_RATIO * height)
+        closing = change > ROOM * beyond
+        share = float(np.min(ROOM * beyond[closing] / change[closing], initial=1.0))
+        for _ in range(MOST_HALVINGS):
+            new, after = left(found - share * change)
+            if norm(after) < (1.0 - LEAST_GAIN * share) * norm(rest):
+                break
+            share *= 0.5
+        found, touch, rest = found - share * change, new, after
+    raise FilmNotConverged(
+        f"the opening of walls in contact not settled after {MAX_STEPS} steps", "a thicker film, or stiffer walls"
+    )
+
+
+def opening_slope(problem: FilmProblem, found: Array) -> Opens:
+    """dg/dp at an opening (vertices,) m: (vertices, size) m/Pa, the compliance where nothing touches."""
+    assert problem.walls is not None
+    compliance = problem.walls.matrix
+    if problem.asperities is None:
+        return compliance
+    touch = touch_at(problem, found)
+    if not touch.felt.size:
+        return compliance
+    if isinstance(compliance, csr_array):
+        return csr_array(touch.settled(compliance.toarray()))
+    return Resisted(touch)
+
+
+@dataclass(frozen=True)
+class Touch:
+    """Contact of walls that give way, at one opening.
+
+    bears: pressure (vertices,) Pa and its slope by the gap, Pa/m; felt: vertices at which it resists.
+    """
+
+    meeting: Meeting
+    bears: Tangent
+    felt: NDArray[np.intp]
+
+    @property
+    def compliance(self) -> WallMatrix:
+        """C."""
+        return self.meeting.compliance
+
+    @property
+    def on_unknowns(self) -> Array:
+        """Its pressure on the unknowns, (size,) Pa."""
+        return self.meeting.on_unknowns(self.bears.value)
+
+    def settled(self, displaced: Array) -> Array:
+        """x with x - C dp_c/dh x = displaced, (vertices, ...) m: a displacement that contact resists."""
+        if not self.felt.size:
+            return displaced
+        here = self._within(np.ascontiguousarray(displaced[self.felt]), 0.0)
+        return np.asarray(displaced + self._columns @ here)
+
+    @property
+    def weights(self) -> Array:
+        """Pressure of contact on its unknown by the gap of each vertex where it is felt, (felt,) Pa/m."""
+        return np.asarray(self.meeting.shares[self.felt] * self.bears.slope[self.felt])
+
+    @cached_property
+    def _columns(self) -> WallMatrix:
+        """C dp_c/dh where contact is felt, (vertices, felt)."""
+        unknown, weight = self.meeting.seats[self.felt], self.weights
+        if isinstance(self.compliance, LowRank):
+            return LowRank(self.compliance.left, self.compliance.right[:, unknown] * weight[None, :])
+        columns = self.compliance[:, unknown]
+        return csr_array(columns * weight[None, :]) if issparse(columns) else columns * weight
+
+    @cached_property
+    def _within(self) -> Answer:
+        """The same where contact is felt: elsewhere it follows."""
+        here = _rows(self._columns, self.felt)
+        if not isinstance(here, csr_array):
+            return dense_answer(np.eye(self.felt.size) - full(here))
+        try:
+            factor = splu(csc_array(eye_array(self.felt.size) - here))
+        except RuntimeError as reason:  # SuperLU: "Factor is exactly singular"
+            raise singular(str(reason)) from None
+        return lambda load, _: np.asarray(factor.solve(load))
+
+
+@dataclass(frozen=True)
+class Resisted:
+    """(I - C dp_c/dh)^-1 C, (vertices, size) m/Pa: a compliance that contact resists, never multiplied out."""
+
+    touch: Touch
+
+    def __matmul__(self, pressure: Array) -> Array:
+        """Opening (vertices, ...) m by pressures (size, ...) Pa."""
+        return self.touch.settled(np.asarray(self.touch.compliance @ pressure))
+
+    @property
+    def compliance(self) -> WallMatrix:
+        """C."""
+        return self.touch.compliance
+
+    @property
+    def contact(self) -> csr_array:
+        """dp_c/dh on the unknowns, (size, vertices) Pa/m."""
+        felt, shape = self.touch.felt, self.touch.compliance.shape
+        entries = self.touch.weights, (self.touch.meeting.seats[felt], felt)
+        return csr_array(entries, shape=(shape[1], shape[0]))
+
+    def columns(self, unknowns: NDArray[np.intp]) -> Array:
+        """Those of the matrix for some unknowns."""
+        return self.touch.settled(columns_of(self.touch.compliance, unknowns))
+
+
+@dataclass(frozen=True)
+class Meeting:
+    """Where rough walls that give way can touch.
+
+    oil (vertices,): where nothing touches; seats (vertices,): unknown of each vertex; shares (vertices,): of its
+    pressure in that of the unknown.
+    """
+
+    compliance: WallMatrix
+    asperities: Asperities
+    oil: NDArray[np.bool_]
+    seats: NDArray[np.signedinteger]
+    shares: Array
+
+    def on_unknowns(self, bears: Array) -> Array:
+        """Pressure on the unknowns (size,) Pa by that of the vertices."""
+        return np.bincount(self.seats, self.shares * bears, self.compliance.shape[1]).astype(float)
+
+    def at(self, gap: Array) -> Touch:
+        """Contact at a gap between the mean planes (vertices,) m; raises as the law of contact does."""
+        found = contact_pressure(self.asperities, gap[~self.oil])
+        value, slope = np.zeros(len(gap)), np.zeros(len(gap))
+        value[~self.oil], slope[~self.oil] = found
+        law = self.asperities
+        stiff = FELT * law.elastic_factor * law.modulus / law.height
+        return Touch(self, Tangent(value, slope), np.flatnonzero(-slope > stiff))
+
+
+def meeting_of(problem: FilmProblem) -> Meeting:
+    """Where the walls of a problem with walls that give way and asperities can touch."""
+    assert problem.walls is not None
+    assert problem.asperities is not None
+    space, compliance = problem.space, problem.walls.matrix
+    closed = np.zeros(space.size, dtype=bool) if problem.held_nodes is None else ~np.isnan(problem.held_nodes)
+    for name, condition in problem.boundary.items():
+        if isinstance(condition, Pocket):
+            closed[space.edge_dofs[name]] = True
+    seats, oil = space.vertex_dofs, closed[space.vertex_dofs]
+    shares = np.where(oil, 0.0, 1.0 / np.bincount(seats)[seats])
+    return Meeting(compliance, problem.asperities, oil, seats, shares)
+
+
+def touch_at(problem: FilmProblem, found: Array) -> Touch:
+    """Contact of rough walls that give way, open by (vertices,) m; raises as the law of contact does."""
+    return meeting_of(problem).at(_given_gap(problem) + found)
+
+
+def _given_gap(problem: FilmProblem) -> Array:
+    if problem.space.degree != 1:
+        raise FilmInputError("film_space", "quadratic pressure between walls that touch", "degree 1")
+    known = problem.film.thickness_at_vertices
+    return problem.space.to_vertices(problem.film.thickness) if known is None else known
+
+
+def _rows(matrix: WallMatrix, rows: NDArray[np.intp]) -> WallMatrix:
+    """Some rows of a compliance."""
+    return LowRank(matrix.left[rows], matrix.right) if isinstance(matrix, LowRank) else matrix[rows]

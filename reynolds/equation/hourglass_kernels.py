@@ -1,0 +1,131 @@
+"""Bilinear quadrilaterals relieved of their resistance to twisting, compiled once by numba: see `twist`.
+
+A cell's unknowns stand in a ring, 0 to 3; w = p_0 - p_1 + p_2 - p_3 is how far their pressures are twisted.
+pairs[shape, pair, q] as `ElementTensors`; parallel (shapes,) is 1 for parallelograms, whose linear pressures are
+not twisted, and 0 for other shapes.
+"""
+
+# mypy: allow-untyped-defs, allow-incomplete-defs, no-check-untyped-defs
+
+from numba import njit
+
+from reynolds.fem.kernels import _any_couples, _at
+
+_FAST = {"cache": True, "fastmath": {"contract"}, "error_model": "numpy"}
+SIDES = (0, 2, 3, 5)  # pairs of neighbours among (0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3)
+
+
+@njit(inline="always")
+def _coupled(conductance, pairs, e, s, pair, points):
+    """What gradients at its corners couple two of a cell's unknowns with: int k grad f_i . grad f_j."""
+    total = 0.0
+    for q in range(len(points)):
+        total += conductance[e, q] * pairs[s, pair, q]
+    return total
+
+
+@njit(inline="always")
+def _sides(conductance, pairs, e, s, points):
+    """The same of its four sides, below zero where they conduct."""
+    return (
+        _coupled(conductance, pairs, e, s, SIDES[0], points),
+        _coupled(conductance, pairs, e, s, SIDES[1], points),
+        _coupled(conductance, pairs, e, s, SIDES[2], points),
+        _coupled(conductance, pairs, e, s, SIDES[3], points),
+    )
+
+
+@njit(inline="always")
+def _relief(sides):
+    """Resistance to twisting that is taken off a cell, by what its sides couple.
+
+    A sixth of their sum makes gradients at the corners those at Gauss's points, for a uniform film between
+    parallel sides; the least of them is what may go without a positive coupling.
+    """
+    south, west, east, north = sides
+    whole = -(south + west + east + north) / 6.0
+    return max(0.0, min(whole, -max(max(south, west), max(east, north))))
+
+
+@njit(**_FAST)
+def stiffness(slots, shape, pairs, parallel, conductance, points, data):
+    """data += int k grad f_i . grad f_j, i < j, in the fixed pattern, less the relief times 1, -1, 1, -1 squared.
+
+    The diagonal is left to `kernels.close_rows`. Gradients at the corners of rectangles do not couple opposite
+    corners: such sums are passed over.
+    """
+    crossed = _any_couples(pairs, 1) or _any_couples(pairs, 4)
+    for e in range(slots.shape[0]):
+        s = _at(shape[e])
+        south, west, east, north = sides = _sides(conductance, pairs, e, s, points)
+        less = parallel[s] * _relief(sides)
+        rising = falling = -less
+        if crossed:
+            rising += _coupled(conductance, pairs, e, s, 1, points)
+            falling += _coupled(conductance, pairs, e, s, 4, points)
+        data[_at(slots[e, 1])] += south + less
+        data[_at(slots[e, 2])] += rising
+        data[_at(slots[e, 3])] += west + less
+        data[_at(slots[e, 5])] += east + less
+        data[_at(slots[e, 6])] += falling
+        data[_at(slots[e, 8])] += north + less
+
+
+@njit(inline="always")
+def _twisted(dofs, pressure, e):
+    return pressure[dofs[e, 0]] - pressure[dofs[e, 1]] + pressure[dofs[e, 2]] - pressure[dofs[e, 3]]
+
+
+@njit(**_FAST)
+def changed(dofs, shape, pairs, parallel, conductance, slope, pressure, points, out):
+    """out[e, q] = - w d(relief)/dk_q slope_q: what a change of the conductance sends into corners 0 and 2."""
+    for e in range(dofs.shape[0]):
+        s = shape[e]
+        sides = _sides(conductance, pairs, e, s, points)
+        less, w = _relief(sides), _twisted(dofs, pressure, e)
+        weakest = 0
+        for k in range(4):
+            if sides[k] > sides[weakest]:
+                weakest = k
+        limited = less == -sides[weakest]
+        for q in range(len(points)):
+            total = 0.0
+            for k in range(4):
+                if less > 0.0 and (k == weakest or not limited):
+                    total += pairs[s, SIDES[k], q] * (1.0 if limited else 1.0 / 6.0)
+            out[e, q] = parallel[s] * w * total * slope[e, q]
+
+
+@njit(**_FAST)
+def saved(dofs, shape, pairs, parallel, conductance, pressure, points, out):
+    """out[e] = relief w^2, the heat that the cell is spared, W."""
+    for e in range(dofs.shape[0]):
+        s = shape[e]
+        less = _relief(_sides(conductance, pairs, e, s, points))
+        out[e] = parallel[s] * less * _twisted(dofs, pressure, e) ** 2
+
+
+@njit(**_FAST)
+def convected(dofs, slots, value, flow, points, upper, lower):
+    """upper += int f_j flow times corner i's sign, i <= j, lower the mirror: slots as in `kernels.convection`."""
+    for e in range(dofs.shape[0]):
+        k = 0
+        for i in range(4):
+            for j in range(i, 4):
+                ij = ji = 0.0
+                for q in range(len(points)):
+                    ij += value[q, j] * flow[e, q]
+                    ji += value[q, i] * flow[e, q]
+                ij, ji = ij * (1.0 - 2.0 * (i % 2)), ji * (1.0 - 2.0 * (j % 2))
+                slot, one, two = slots[e, k], dofs[e, i], dofs[e, j]
+                if i == j:
+                    upper[slot] += ij
+                elif one == two:
+                    upper[slot] += ij + ji
+                elif one < two:
+                    upper[slot] += ij
+                    lower[slot] += ji
+                else:
+                    upper[slot] += ji
+                    lower[slot] += ij
+                k += 1

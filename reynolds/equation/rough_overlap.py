@@ -1,0 +1,57 @@
+"""The film between rough walls whose mean planes touch or overlap: thin, yet a film.
+
+A position that presses asperities together is a gap between mean planes of either sign; what flows, shears and is
+stored there is oil between the summits.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from reynolds.film import FilmProblem, FilmSolution
+from reynolds.laws.law import Tangent
+from reynolds.laws.roughness import mean_thickness
+from reynolds.numerics.arrays import Array
+
+
+def film_between(problem: FilmProblem, gap: Array) -> Tangent:
+    """Film thickness (m) at a gap between mean planes (m), of any shape, and its slope by the gap.
+
+    The gap itself where nothing touches (no asperities). With asperities alone: hT = sigma [H N(H) + n(H)], the
+    mean of what is left open by walls of Gaussian height, H = gap/sigma, with the summits' sigma; but the gap
+    itself between walls that give way, which keep it open. With a `Surface`, whose flow factors are functions of
+    the gap: the gap down to the range of Patir and Cheng (half a standard deviation or one), from there on an
+    exponential with the same value and slope. That continuation is ours: it keeps the film positive and is no
+    measurement.
+    """
+    if problem.asperities is None or (problem.surface is None and problem.walls is not None):
+        return Tangent(gap, np.ones((1,) * gap.ndim))
+    if problem.surface is None:
+        return mean_thickness(problem.asperities.height, gap)
+    least = problem.surface.lowest_ratio * problem.surface.composite_roughness
+    below = least * np.exp(np.minimum(gap / least, 1.0) - 1.0)
+    return Tangent(np.where(gap < least, below, gap), np.where(gap < least, below / least, 1.0))
+
+
+def vertex_thickness(solution: FilmSolution) -> Array:
+    """Film thickness at the vertices (vertices,) m: as known, else extrapolated; jumps are averaged (plots)."""
+    given = solution.problem.film
+    if given.thickness_at_vertices is None:
+        return solution.problem.space.to_vertices(solution.film.thickness)
+    if solution.problem.walls is None:
+        return given.thickness_at_vertices
+    return film_between(solution.problem, given.thickness_at_vertices + solution.opening).value
+
+
+def as_shaped(solution: FilmSolution) -> FilmSolution:
+    """The same film between rigid walls of the shape that it has now, contact left out: for what its oil does."""
+    problem = solution.problem
+    if problem.walls is None and problem.asperities is None:
+        return solution
+    shaped = replace(problem.film, thickness=solution.film.thickness)
+    if shaped.thickness_at_vertices is not None:
+        shaped = replace(shaped, thickness_at_vertices=vertex_thickness(solution))
+    rigid = replace(problem, film=shaped, walls=None, asperities=None)
+    return replace(solution, problem=rigid, opening=np.zeros_like(solution.opening))

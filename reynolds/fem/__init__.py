@@ -1,0 +1,1 @@
+"""Film mesh and finite element space: unknowns, quadrature, sparsity, element loops."""

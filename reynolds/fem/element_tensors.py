@@ -1,0 +1,95 @@
+"""Element tensors of a mesh: what geometry contributes to the operators, once for each shape of cell.
+
+Cells of one shape share their tensors, so that a regular mesh has a handful of them however fine it is; where no
+two cells are alike each has its own. Assembly is then field times tensor, summed into a fixed pattern.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from reynolds.fem import element_tensor_kernels as kernels
+from reynolds.numerics.arrays import Array
+
+PARALLEL = 1e-6  # of a cell's size, by which opposite sides may differ
+SAME = 1e-10  # of a cell's size: corners nearer than this are at the same place of its shape
+
+
+@dataclass(frozen=True)
+class ElementTensors:
+    """Tensors of the shapes and the shape of each cell (cells,).
+
+    pairs (shapes, pairs, points): g_i g_j times the area element for i < j in the order of np.triu_indices, and
+    its xx, yy and (doubled) xy part, with the steep gradients g of the conductance; gradient and steep_gradient
+    (shapes, points, basis, 2) m: the area element times each gradient; parallel (shapes,): 1 for parallelograms,
+    0 for other shapes.
+    """
+
+    shape: NDArray[np.int32]
+    pairs_xx: Array
+    pairs_yy: Array
+    pairs_xy: Array
+    pairs: Array
+    gradient: Array
+    steep_gradient: Array
+    parallel: Array
+
+
+def element_tensors(
+    vertices: Array,
+    cells: NDArray[np.int32],
+    gradient: Array,
+    geometry: Array,
+    steep: Array,
+    steep_geometry: Array,
+    weights: Array,
+) -> ElementTensors:
+    """Tensors of cells (cells, corners) between vertices (n, 2) m; tables are those of `reference.Reference`."""
+    shape, first = _shapes(vertices[cells])
+    cells, points, basis = cells[first], len(weights), gradient.shape[1]
+    weighted, steeply = (np.empty((len(first), points, basis, 2)) for _ in range(2))
+    kernels.weighted_gradients(vertices, cells, gradient, geometry, weights, weighted)
+    kernels.weighted_gradients(vertices, cells, steep, steep_geometry, weights, steeply)
+    xx, yy, xy, both = (np.empty((len(first), basis * (basis - 1) // 2, points)) for _ in range(4))
+    kernels.products(vertices, cells, steep_geometry, weights, steeply, xx, yy, xy, both)
+    return ElementTensors(shape, xx, yy, xy, both, weighted, steeply, _parallel(vertices[cells]))
+
+
+def stretched(tensors: ElementTensors, scale: Array, steep_scale: Array) -> ElementTensors:
+    """Tensors of a film whose lengths are `scale` (cells, points) those of its map, each cell a shape of its own.
+
+    Area times a gradient grows with the scale, area times two gradients not. `steep_scale`: where the steep stand.
+    """
+    of = tensors.shape
+    return replace(
+        tensors,
+        shape=np.arange(len(of), dtype=np.int32),
+        pairs_xx=tensors.pairs_xx[of],
+        pairs_yy=tensors.pairs_yy[of],
+        pairs_xy=tensors.pairs_xy[of],
+        pairs=tensors.pairs[of],
+        gradient=tensors.gradient[of] * scale[:, :, None, None],
+        steep_gradient=tensors.steep_gradient[of] * steep_scale[:, :, None, None],
+        parallel=tensors.parallel[of],
+    )
+
+
+def _parallel(corners: Array) -> Array:
+    """1 where the corners (cells, corners, 2) are those of a parallelogram, else 0."""
+    if corners.shape[1] != 4:
+        return np.zeros(len(corners))
+    twisted = np.abs(corners[:, 0] - corners[:, 1] + corners[:, 2] - corners[:, 3]).max(axis=1)
+    return (twisted <= PARALLEL * np.ptp(corners, axis=1).max(axis=1)).astype(float)
+
+
+def _shapes(corners: Array) -> tuple[NDArray[np.int32], NDArray[np.int64]]:
+    """Number of each cell's shape (cells,), and a cell of each shape."""
+    edges = (corners[:, 1:] - corners[:, :1]).reshape(len(corners), -1)
+    size = np.abs(edges).max()
+    # One number a shape: a fixed combination of its edges, rounded, tells shapes apart but for a chance of 1e-10.
+    key = np.rint(edges / (SAME * size)) @ np.sqrt(np.arange(2.0, 2.0 + edges.shape[1]))
+    _, first, shape = np.unique(np.rint(key), return_index=True, return_inverse=True)
+    return shape.astype(np.int32), first

@@ -1,0 +1,1 @@
+"""A film whose walls move until forces balance: coordinates, implicit step, rest."""

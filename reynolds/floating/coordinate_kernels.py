@@ -1,0 +1,156 @@
+"""Element loops over modes: what a mode of the film's thickness weighs, and what it does to the flow balance.
+
+`basis` and `points` are tuples as in `kernels`; modes (cells, points, k) stand at the quadrature points.
+"""
+
+# mypy: allow-untyped-defs, allow-incomplete-defs, no-check-untyped-defs
+
+import numpy as np
+from numba import njit
+
+from reynolds.fem.kernels import LEAST_MIXING
+
+_FAST = {"cache": True, "fastmath": {"contract"}, "error_model": "numpy"}
+
+
+@njit(**_FAST)
+def weigh(dofs, value, area, modes, basis, points, out):
+    """out[i, j] = int f_i phi_j, m2 times the mode's unit."""
+    out[:] = 0.0
+    for e in range(dofs.shape[0]):
+        for i in range(len(basis)):
+            for q in range(len(points)):
+                share = area[e, q] * value[q, i]
+                for j in range(modes.shape[2]):
+                    out[dofs[e, i], j] += share * modes[e, q, j]
+
+
+@njit(**_FAST)
+def mixed(modes, shares):
+    """sum_j modes_j shares[j, m], (cells, points, m)."""
+    out = np.zeros((modes.shape[0], modes.shape[1], shares.shape[1]))
+    for e in range(modes.shape[0]):
+        for q in range(modes.shape[1]):
+            for j in range(modes.shape[2]):
+                for m in range(shares.shape[1]):
+                    out[e, q, m] += modes[e, q, j] * shares[j, m]
+    return out
+
+
+@njit(**_FAST)
+def thicken(
+    dofs, shape, value, steep, gradient, signs, area, driven_x, driven_y, twisted, carried_x, carried_y, stored,
+    filling, modes, basis, points, out,
+):  # fmt: skip
+    """out[i, j] = int phi_j (driven . grad f_i - carried . grad f_i + stored filling_i f_i).
+
+    driven goes with the gradients of the conductance (steep), carried with the others, both area element times
+    gradient as `ElementTensors` has them; stored is a rate per thickness (1/s) in a lumped term. With what
+    `twist_kernels.changed` tells (twisted) times each corner's sign.
+    """
+    out[:] = 0.0
+    for e in range(dofs.shape[0]):
+        s = shape[e]
+        for i in range(len(basis)):
+            row = dofs[e, i]
+            for q in range(len(points)):
+                flow = driven_x[e, q] * steep[s, q, i, 0] + driven_y[e, q] * steep[s, q, i, 1]
+                flow += twisted[e, q] * signs[i]
+                flow -= carried_x[e, q] * gradient[s, q, i, 0] + carried_y[e, q] * gradient[s, q, i, 1]
+                flow += stored[e, q] * filling[row] * area[e, q] * value[q, i]
+                for j in range(modes.shape[2]):
+                    out[row, j] += flow * modes[e, q, j]
+
+
+@njit(**_FAST)
+def _apart(indptr, indices, level):
+    """Whether an unknown has a neighbour at another level, (size,)."""
+    found = np.zeros(len(level), dtype=np.bool_)
+    for j in range(len(level)):
+        for k in range(indptr[j], indptr[j + 1] - 1):
+            if level[indices[k]] != level[j]:
+                found[indices[k]] = found[j] = True
+    return found
+
+
+@njit(**_FAST)
+def _carried_more(
+    dofs, slots, shape, value, gradient, slope_x, slope_y, modes, wanted, basis, points, upper, lower
+):
+    """Slopes (entries, k) of `kernels.convection` by the modes, where a wanted unknown (size,) is concerned."""
+    for e in range(dofs.shape[0]):
+        needed = False
+        for i in range(len(basis)):
+            needed = needed or wanted[dofs[e, i]]
+        if not needed:
+            continue
+        s, k = shape[e], 0
+        for i in range(len(basis)):
+            for j in range(i, len(basis)):
+                slot, one, two = slots[e, k], dofs[e, i], dofs[e, j]
+                k += 1
+                if one == two:  # nothing that unknowns exchange
+                    continue
+                for q in range(len(points)):
+                    fx, fy = slope_x[e, q], slope_y[e, q]
+                    c_ij = -value[q, j] * (fx * gradient[s, q, i, 0] + fy * gradient[s, q, i, 1])
+                    c_ji = -value[q, i] * (fx * gradient[s, q, j, 0] + fy * gradient[s, q, j, 1])
+                    if one > two:
+                        c_ij, c_ji = c_ji, c_ij
+                    for m in range(modes.shape[2]):
+                        upper[slot, m] += c_ij * modes[e, q, m]
+                        lower[slot, m] += c_ji * modes[e, q, m]
+
+
+@njit(inline="always")
+def _largest_slope(upper, lower, more_upper, more_lower):
+    """Slope of max(0, upper, lower)."""
+    if upper <= 0.0 and lower <= 0.0:
+        return 0.0
+    return more_upper if upper > lower else more_lower
+
+
+@njit(**_FAST)
+def mixed_more(
+    dofs, slots, shape, value, gradient, slope_x, slope_y, modes, basis, points,
+    indptr, indices, upper, lower, leaves, level, out,
+):  # fmt: skip
+    """out[i, m] += what `kernels.upwinding` exchanges between levels, by a film that grows along the modes.
+
+    upper and lower are the convection's entries, slope_x and slope_y (cells, points) of its flux by the thickness.
+    """
+    wanted, count = _apart(indptr, indices, level), modes.shape[2]
+    more_up, more_low = np.zeros((len(indices), count)), np.zeros((len(indices), count))
+    _carried_more(
+        dofs, slots, shape, value, gradient, slope_x, slope_y, modes, wanted, basis, points, more_up, more_low
+    )
+    size = indptr.shape[0] - 1
+    for m in range(count):
+        taken, brought, taken_more, brought_more = np.zeros(size), np.zeros(size), np.zeros(size), np.zeros(size)
+        for j in range(size):
+            for k in range(indptr[j], indptr[j + 1] - 1):
+                i = indices[k]
+                if leaves[i] != leaves[j]:
+                    beside, c, more = (i, upper[k], more_up[k, m]) if leaves[j] else (j, lower[k], more_low[k, m])
+                    taken[beside] += max(0.0, c)
+                    brought[beside] += max(0.0, -c)
+                    if c > 0.0:
+                        taken_more[beside] += more
+                    else:
+                        brought_more[beside] -= more
+        for j in range(size):
+            for k in range(indptr[j], indptr[j + 1] - 1):
+                i = indices[k]
+                if level[i] == level[j] or (leaves[i] and leaves[j]):
+                    continue
+                more = _largest_slope(upper[k], lower[k], more_up[k, m], more_low[k, m])
+                if leaves[i] != leaves[j]:
+                    beside, c, grown = (i, upper[k], more_up[k, m]) if leaves[j] else (j, lower[k], more_low[k, m])
+                    if c < 0.0 and taken[beside] < brought[beside]:
+                        share = taken[beside] / brought[beside]
+                        steeper = (taken_more[beside] - share * brought_more[beside]) / brought[beside]
+                        grown = share * grown + c * steeper
+                    more = LEAST_MIXING * more + (1.0 - LEAST_MIXING) * grown
+                flow = -more * (level[j] - level[i])
+                out[i, m] += flow
+                out[j, m] -= flow

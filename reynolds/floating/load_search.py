@@ -1,0 +1,328 @@
+"""Where a film carries its load: separation and tilts of its walls at which film and contact bear what is asked.
+
+The film's thickness is then a shape, to which h = shape + separation + slope_x x + slope_y y adds a rigid motion.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from reynolds.errors import FilmInputError, FilmNotConverged
+from reynolds.film import FilmProblem, FilmSolution
+from reynolds.laws.contact import contact_pressure
+from reynolds.numerics.arrays import Array
+from reynolds.solve.loads import pressure_integrals
+from reynolds.solve.solver import FilmSolver
+
+TOLERANCE = 1e-6  # of the load, and of the load at the film's edge for moments
+MOST_FILMS = 200
+THICKEST, THINNEST = 1.0, 1e-9  # least gap over the film's extent; beyond, no film
+USUAL_GAP = 1e-4  # of the extent, where the shape is flat
+SOFT_START = 0.7  # place to begin at where walls give way: steps of one from there do not meet a gap of nothing
+LEAST_STEP, MOST_STEP = 1e-3, 2.5  # of the logarithm of the least gap
+LEAST_SHARE = 0.2  # of the least gap that a step may leave
+DIFFERENCE = 1e-4  # of the least gap, for slopes by differences
+
+Solve = Callable[[FilmProblem], FilmSolution]
+
+
+@dataclass(frozen=True)
+class RigidLoad:
+    """What film and contact are to bear: force N, and moments N m about the origin as `Loads` counts them.
+
+    moment_x (integral of p y) frees the tilt along y, moment_y (integral of -p x) that along x; None: no tilt.
+    Raises FilmInputError for a force that is not above zero.
+    """
+
+    force: float
+    moment_x: float | None = None
+    moment_y: float | None = None
+
+    def __post_init__(self) -> None:
+        if not (np.isfinite(self.force) and self.force > 0.0):
+            raise FilmInputError(
+                "load", f"{self.force:g} N", "a force above zero, which presses the walls together"
+            )
+
+
+@dataclass(frozen=True)
+class Position:
+    """Rigid motion of a wall: h grows by separation + slope_x x + slope_y y (m)."""
+
+    separation: float
+    slope_x: float = 0.0
+    slope_y: float = 0.0
+
+    def of(self, x: Array, y: Array) -> Array:
+        """What it adds to the film thickness at places (m), m."""
+        return self.separation + self.slope_x * x + self.slope_y * y
+
+
+@dataclass(frozen=True)
+class Carried:
+    """A film at the position at which it bears its load.
+
+    force N and moments N m that film and contact bear there; rest: largest miss, relative as TOLERANCE; films: how
+    many were solved.
+    """
+
+    position: Position
+    solution: FilmSolution
+    force: float
+    moment_x: float
+    moment_y: float
+    rest: float
+    films: int
+
+
+def carry(problem: FilmProblem, load: RigidLoad, solve: Solve | None = None) -> Carried:
+    """The film of `problem`, its thickness a shape, at the position at which it bears the load.
+
+    Afterwards force and free moments are those of `load` to 1e-6. The separation is bracketed between a film that
+    bears more and a thicker one that bears less, so that it is stable, and closed in by regula falsi (Illinois:
+    Dowell and Jarratt 1971). Tilts: Newton's method with Broyden's updates (1965) from there.
+    `solve` gives the film of a problem (left out: `FilmSolver`, each film warming the next). Raises
+    FilmNotConverged, with what was borne at best, where no position bears the load; and as `solve` does.
+    """
+    search = _Search(problem, load, solve or _warmed(problem))
+    for lean in search.leans():
+        try:
+            found = search.one_freedom(lean)
+            found = found if search.free == [0] else search.newton(found.position)
+        except _Nowhere:
+            continue
+        return Carried(found.position, found.solution, *found.borne, found.rest, search.films)
+    raise search.verdict()
+
+
+def _warmed(problem: FilmProblem) -> Solve:
+    solver, last = FilmSolver(problem.space), None
+
+    def solve(now: FilmProblem) -> FilmSolution:
+        nonlocal last
+        try:
+            last = solver.solve(now, last)
+        except FilmNotConverged:
+            last = solver.solve(now)
+        return last
+
+    return solve
+
+
+class _Nowhere(Exception):
+    """A way of searching has come to its end without a position."""
+
+
+@dataclass(frozen=True)
+class _Tried:
+    """A film at a position: what it bears (N, N m), the misses that are to vanish, the least gap as given (m)."""
+
+    position: Position
+    solution: FilmSolution
+    borne: tuple[float, float, float]
+    misses: Array
+    gap: float
+
+    @property
+    def rest(self) -> float:
+        return float(np.abs(self.misses).max())
+
+
+class _Search:
+    """Films of one shape at positions; remembers the one that bore the load best."""
+
+    def __init__(self, problem: FilmProblem, load: RigidLoad, solve: Solve) -> None:
+        self._problem, self._load, self._solve = problem, load, solve
+        self.films = 0
+        self._best: _Tried | None = None
+        space, shape = problem.space, problem.film.thickness
+        x, y = (np.ravel(np.broadcast_to(part, space.area.shape)) for part in space.points)
+        self._x, self._y = (np.append(part, space.vertices[:, k]) for k, part in enumerate((x, y)))
+        flat = np.ravel(np.broadcast_to(shape, space.area.shape))
+        corners = problem.film.thickness_at_vertices
+        self._shape = np.append(flat, np.full(len(space.vertices), flat.max()) if corners is None else corners)
+        self.extent = float(np.sqrt(space.area.sum()))
+        self.reach = float(np.hypot(*space.vertices.T).max())
+        self._scale = max(float(np.ptp(flat)), USUAL_GAP * self.extent)
+        thickest = float(np.log(THICKEST * self.extent / self._scale))
+        self._ends = (float(np.log(THINNEST * self.extent / self._scale)), thickest)
+        if problem.walls is not None:
+            self._ends = (-thickest, thickest)
+        moments = (load.moment_y, load.moment_x)  # of the tilts along x and y
+        self.free = [0, *(k for k, moment in enumerate(moments, start=1) if moment is not None)]
+
+    def leans(self) -> Iterator[tuple[float, float]]:
+        """Tilts to start from, rise over the extent per least gap: a flat film may bear nothing untilted."""
+        yield 0.0, 0.0
+        for sign in (-1.0, 1.0):
+            for k in self.free[1:]:
+                yield (sign, 0.0) if k == 1 else (0.0, sign)
+
+    def at(self, position: Position) -> _Tried:
+        """The film at a position; raises as the solve does."""
+        if self.films >= MOST_FILMS:
+            raise _Nowhere
+        self.films += 1
+        given, space = self._problem.film, self._problem.space
+        corners = given.thickness_at_vertices
+        film = replace(
+            given,
+            thickness=given.thickness + position.of(*space.points),
+            thickness_at_vertices=None if corners is None else corners + position.of(*space.vertices.T),
+        )
+        solution = self._solve(replace(self._problem, film=film))
+        borne = _borne(solution)
+        gap = float((self._shape + position.of(self._x, self._y)).min())
+        tried = _Tried(position, solution, borne, self._misses(borne), gap)
+        if self._best is None or tried.rest < self._best.rest:
+            self._best = tried
+        return tried
+
+    def _misses(self, borne: tuple[float, float, float]) -> Array:
+        """Force near the load relative to it, -1 .. 1 however far; moments over the load at the film's edge."""
+        load, (force, moment_x, moment_y) = self._load, borne
+        size = 0.5 * (max(force, 0.0) + load.force)
+        misses = [max((force - load.force) / size, -2.0)]
+        for moment, wanted in ((moment_y, load.moment_y), (moment_x, load.moment_x)):
+            misses += [] if wanted is None else [(moment - wanted) / (load.force * self.reach)]
+        return np.array(misses)
+
+    def _leaning(self, place: float, lean: tuple[float, float]) -> Position:
+        """Position of least gap scale exp(place), where walls give way 2 scale sinh(place), which may overlap."""
+        gap = self._scale * np.exp(place)
+        slope_x, slope_y = (gap / self.extent * part for part in lean)
+        if self._problem.walls is not None:
+            gap -= self._scale * np.exp(-place)
+        tilted = self._shape + slope_x * self._x + slope_y * self._y
+        return Position(float(gap - tilted.min()), float(slope_x), float(slope_y))
+
+    def one_freedom(self, lean: tuple[float, float]) -> _Tried:
+        """The film that bears the force alone; raises _Nowhere."""
+        (a, one), (b, two) = self._bracket(lean)
+        f_a, f_b = one.misses[0], two.misses[0]
+        while abs(f_b) > TOLERANCE:
+            place = (a * f_b - b * f_a) / (f_b - f_a)
+            new = None if place in (a, b) else self._tried(self._leaning(place, lean))
+            if new is None:
+                raise _Nowhere
+            two = new
+            if two.misses[0] * f_b < 0.0:
+                a, f_a = b, f_b
+            else:
+                f_a *= 0.5
+            b, f_b = place, two.misses[0]
+        return two
+
+    def _bracket(self, lean: tuple[float, float]) -> tuple[tuple[float, _Tried], tuple[float, _Tried]]:
+        """Places of less and of more than the load, next to each other; raises _Nowhere where there are none."""
+        at = 0.0 if self._problem.walls is None else SOFT_START
+        last = self.at(self._leaning(at, lean))
+        longest = MOST_STEP
+        step = 1.0 if last.misses[0] > 0.0 else -1.0
+        while True:
+            if abs(step) < LEAST_STEP or not self._ends[0] < at + step < self._ends[1]:
+                raise _Nowhere
+            new = self._tried(self._leaning(at + step, lean))
+            if new is None:  # from nearer by it may be reached
+                step *= 0.5
+                longest = abs(step)
+                continue
+            if new.misses[0] * last.misses[0] <= 0.0:
+                return (at, last), (at + step, new)
+            falls = (new.misses[0] - last.misses[0]) / step
+            wanted = 1.3 * abs(new.misses[0] / falls) if falls else MOST_STEP
+            at, last = at + step, new
+            step = float(np.copysign(min(max(wanted, 0.3), longest), step))
+            longest = min(2.0 * longest, MOST_STEP)
+
+    def _tried(self, position: Position) -> _Tried | None:
+        """The film there, None where it does not settle or its walls are pressed beyond their contact's law."""
+        try:
+            return self.at(position)
+        except (FilmNotConverged, FilmInputError):
+            return None
+
+    def newton(self, start: Position) -> _Tried:
+        """The film that bears force and moments; raises _Nowhere."""
+        here = self.at(start)
+        slopes: Array | None = None
+        while here.rest > TOLERANCE:
+            if fresh := slopes is None:
+                slopes = self._slopes(here)
+            assert slopes is not None
+            try:
+                new = self._downhill(here, -np.asarray(np.linalg.solve(slopes, here.misses)))
+            except np.linalg.LinAlgError:
+                raise _Nowhere from None
+            if new is None:
+                if fresh:
+                    raise _Nowhere
+                slopes = None
+                continue
+            moved = self._unknowns(new.position) - self._unknowns(here.position)
+            change = new.misses - here.misses - slopes @ moved
+            slopes = slopes + np.outer(change, moved) / (moved @ moved)
+            here = new
+        return here
+
+    def _downhill(self, here: _Tried, step: Array) -> _Tried | None:
+        size = float(np.linalg.norm(here.misses))
+        for halvings in range(8):
+            share = 0.5**halvings
+            position = self._position(self._unknowns(here.position) + share * step)
+            if self._problem.walls is None and self._least(position) < LEAST_SHARE * here.gap:
+                continue
+            new = self._tried(position)
+            if new is not None and np.linalg.norm(new.misses) < (1.0 - 1e-3 * share) * size:
+                return new
+        return None
+
+    def _slopes(self, here: _Tried) -> Array:
+        """Misses by the free unknowns (1/m), by differences."""
+        width = DIFFERENCE * (here.gap if self._problem.walls is None else self._scale)
+        columns = []
+        for k in range(len(self.free)):
+            beside = self._unknowns(here.position)
+            beside[k] += width
+            columns.append((self.at(self._position(beside)).misses - here.misses) / width)
+        return np.column_stack(columns)
+
+    def _unknowns(self, position: Position) -> Array:
+        """Separation and free tilts as rises over the film's reach, m."""
+        every = (position.separation, position.slope_x * self.reach, position.slope_y * self.reach)
+        return np.array([every[k] for k in self.free])
+
+    def _position(self, unknowns: Array) -> Position:
+        every = np.zeros(3)
+        every[self.free] = unknowns
+        return Position(float(every[0]), float(every[1] / self.reach), float(every[2] / self.reach))
+
+    def _least(self, position: Position) -> float:
+        return float((self._shape + position.of(self._x, self._y)).min())
+
+    def verdict(self) -> FilmNotConverged:
+        """What was borne at best, for the person who asked for more."""
+        assert self._best is not None
+        best, load = self._best, self._load
+        asked = f"{load.force:.6g} N" + ("" if self.free == [0] else " and its moments")
+        at = best.position
+        tilts = "" if self.free == [0] else f", slopes {at.slope_x:.3g} and {at.slope_y:.3g}"
+        moments = "" if self.free == [0] else f" with moments {best.borne[1]:.4g} and {best.borne[2]:.4g} N m"
+        return FilmNotConverged(
+            f"no position of the walls bears {asked}; nearest after {self.films} films: {best.borne[0]:.6g} N"
+            f"{moments} at separation {at.separation:.4g} m{tilts}",
+            "a load that this shape can bear, another shape or speed, or a load nearer to the middle of the film",
+        )
+
+
+def _borne(solution: FilmSolution) -> tuple[float, float, float]:
+    """Force (N) and moments (N m) of film and contact."""
+    force, moment_x, moment_y = pressure_integrals(solution)
+    problem = solution.problem
+    if problem.asperities is not None:
+        pressed = contact_pressure(problem.asperities, solution.gap).value
+        force += float(np.sum(np.broadcast_to(pressed, problem.space.area.shape) * problem.space.area))
+    return force, moment_x, moment_y

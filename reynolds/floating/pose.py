@@ -1,0 +1,75 @@
+"""A floating film put at a position, before it is solved: its shape there, how near its walls are to touching."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from reynolds.equation.rough_overlap import film_between
+from reynolds.film import Film, FilmProblem, FilmSolution
+from reynolds.floating.coordinates import ContactForce, Modes, SoftContact
+from reynolds.laws.contact import LOWEST_RATIO, Asperities
+from reynolds.numerics.arrays import Array
+
+THINNEST = 1e-9  # m: of a film between walls without asperities, some molecules of oil
+SOLID = 1.0 - 1e-6  # of the overlap at which the law of contact ends
+
+
+@dataclass(frozen=True)
+class Posed:
+    """A film at a position, before it is solved, and the asperities that its problem knows; see `Trial`."""
+
+    film: Film
+    asperities: Asperities | None
+    gap: Array
+    corner_gap: Array | None
+    least: float
+    thicker: Array
+
+
+def posed(shape: FilmProblem, modes: Modes, q: Array) -> Posed:
+    """The film of a shape at a position (k,) m.
+
+    Between rigid walls contact is left out of its problem: the gap counts there. Walls that give way feel it.
+    """
+    gap, corners = shape.film.thickness + modes.rise(q), shape.film.thickness_at_vertices
+    if shape.walls is not None:
+        corners = None if corners is None else corners + modes.at_vertices @ q
+        film = replace(shape.film, thickness=gap, thickness_at_vertices=corners)
+        return Posed(film, shape.asperities, gap, corners, float(gap.min()), modes.at_points)
+    between, at_corners, least = film_between(shape, gap), None, float(gap.min())
+    if corners is not None:
+        corners = corners + modes.at_vertices @ q
+        at_corners = film_between(shape, corners).value
+        if shape.asperities is not None and shape.surface is not None:
+            corners = None  # summits bear at the points, and a film is between them at any gap of the corners
+        else:
+            least = min(least, float(corners.min()))
+    film = replace(shape.film, thickness=between.value, thickness_at_vertices=at_corners)
+    thicker = np.ascontiguousarray(between.slope[:, :, None] * modes.at_points)
+    return Posed(film, None, gap, corners, least, thicker)
+
+
+def given_way(at: Posed, solution: FilmSolution, contact: ContactForce | None) -> Posed:
+    """What a position leaves once the walls have given way: their gap, and how it grows with the position."""
+    gap = np.broadcast_to(solution.gap, solution.problem.space.area.shape)
+    corners = None if at.corner_gap is None else at.corner_gap + solution.opening
+    thicker = at.thicker
+    if isinstance(contact, SoftContact):
+        space = solution.problem.space
+        thicker = np.ascontiguousarray(space.reference.geometry_value @ contact.grown[space.cells])
+    least = min(float(part.min()) for part in (gap, corners) if part is not None)
+    return Posed(at.film, at.asperities, gap, corners, least, thicker)
+
+
+def lowest_gap(shape: FilmProblem) -> float:
+    """The gap (m) above which there is a film: next to zero, or where the law of contact ends.
+
+    Smooth walls that give way keep any film open.
+    """
+    if shape.walls is not None and shape.asperities is None:
+        return -np.inf
+    if shape.asperities is None:
+        return THINNEST
+    return shape.asperities.summit_height + SOLID * LOWEST_RATIO * shape.asperities.height

@@ -1,0 +1,74 @@
+"""A floating film while what drives it stands still: held at a position, or come to rest where its forces balance.
+
+Rest is found by implicit Euler with steps that grow. Long steps forget how the motion got there, so that the rest
+found is stable and near the start; a motion that has none runs into something, and the message tells what.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from reynolds.errors import FilmInputError, FilmNotConverged
+from reynolds.film import FilmSolution
+from reynolds.floating.problem import Floating
+from reynolds.floating.step import Stage, standing
+from reynolds.floating.trial import instant_of
+from reynolds.numerics.arrays import Array
+from reynolds.numerics.dirk import BACKWARD_EULER, S, StageSolver, State, Taken, advance
+from reynolds.solve.solver import FilmSolver
+
+GROWTH = 4.0  # of a step after one that was solved
+STILL = 3  # steps in a row that move no coordinate by more than allowed, each GROWTH times as long
+PATIENCE = 3  # steps solved before a length is tried again that had no solution: looking for one is dear
+MOST_STEPS = 100
+SHORTEST = 1e-6  # of the first step
+FOR_EVER = 1e9  # s, a step after which nothing of before counts
+
+
+def held_at(
+    solver: FilmSolver, floating: Floating, time: float, q: Array, warm: FilmSolution | None = None
+) -> Stage:
+    """The film at a position (k,) m where the part is held, its drive that of `time` (s): forces need not balance.
+
+    Raises FilmInputError where walls overlap, FilmNotConverged where the film does not settle.
+    """
+    q = np.asarray(q, dtype=float)
+    instant = instant_of(solver, floating, time, FOR_EVER, standing(floating, time, q))
+    return Stage(time, instant.tried(q, warm), instant, films=1, steps=0, shift=np.zeros_like(q))
+
+
+def come_to_rest(solve: StageSolver[S], start: State[S], step: float, allowed: float) -> Taken[S]:
+    """The last step of a motion from `start`, its drive held at `start.time`.
+
+    `step` (s) is the first one, about the time in which the motion answers its drive. Afterwards three steps in a
+    row, each four times the one before, have moved no coordinate by more than `allowed` (m). A step without
+    solution is cut to a quarter, and tried again after PATIENCE of the shorter ones. Raises FilmInputError for a
+    step or tolerance that is none, FilmNotConverged for a motion that finds no rest, with its last move.
+    """
+    if not (np.isfinite(step) and step > 0.0 and allowed > 0.0):
+        raise FilmInputError("rest", f"a step of {step:g} s and {allowed:g} m allowed", "both above zero")
+    state, shortest, still, moved = replace(start, tangent=None), SHORTEST * step, 0, np.inf
+    refused, since = np.inf, 0
+    for _ in range(MOST_STEPS):
+        try:
+            taken = advance(BACKWARD_EULER, lambda time, *rest: solve(start.time, *rest), state, step)
+        except FilmNotConverged as reason:
+            refused, since = step, 0
+            step, still = step / GROWTH, 0
+            if step < shortest:
+                raise FilmNotConverged(f"no rest, last move {moved:.2g} m: {reason.what}", reason.remedy) from None
+            continue
+        moved = float(np.abs(taken.state.q - state.q).max())
+        still = still + 1 if moved <= allowed else 0
+        if still == STILL:
+            return taken
+        # The next guess is the place itself: a rate says nothing over a step four times as long.
+        state = replace(taken.state, rate=np.zeros_like(state.rate), bend=0.0)
+        since += 1
+        if GROWTH * step < refused or since >= PATIENCE:
+            step, refused = GROWTH * step, np.inf
+        else:
+            still = 0
+    raise FilmNotConverged(f"no rest after {MOST_STEPS} steps, last move {moved:.2g} m", "forces that balance")

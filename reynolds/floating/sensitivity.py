@@ -1,0 +1,95 @@
+"""How a solved film answers to its thickness and to what it held: slopes on the solver's last factor.
+
+The balance R(p, theta; h, held before) = 0 of every unknown, differentiated with the cavity as it is:
+J d(p, theta) = - R_h dh + d(held before)/step, one right-hand side for each change. Exact between rigid walls;
+where walls give way J leaves out how a cavity's upwinding changes with the opening (`balance.slopes`): some 1e-4
+of dQ/dq.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from reynolds.equation.balance import Operators, State, cavity_density, density, steep_gradient
+from reynolds.equation.coefficients import along, at_points
+from reynolds.equation.deformation import opening_slope
+from reynolds.equation.hourglass import signs, twisting_slope
+from reynolds.film import Cavitation, FilmSolution
+from reynolds.floating import coordinate_kernels as generalised_kernels
+from reynolds.linear.factor import ITERATIVE_TOLERANCE
+from reynolds.numerics.arrays import Array
+from reynolds.solve.solver import FilmSolver
+
+
+@dataclass(frozen=True)
+class Response:
+    """Changes of pressure (size, m) Pa and of film fraction (size, m) per unit of each of m parameters."""
+
+    pressure: Array
+    film_fraction: Array
+
+
+def response(
+    solver: FilmSolver, solution: FilmSolution, inflow: Array, tolerance: float = ITERATIVE_TOLERANCE
+) -> Response:
+    """What inflows (size, m) m3/s into the unknowns change, to a tolerance; held ones keep their pressure."""
+    return Response(*solver.response(solution, inflow, tolerance))
+
+
+def thickness_load(solution: FilmSolution, thicker: Array, parts: Operators) -> Array:
+    """dR/dq_j at constant pressures and film fractions, (size, k) m3/s per unit of q_j.
+
+    `parts`: the operators of the solution's balance (`FilmSolver.operators`).
+    """
+    problem, state = solution.problem, _state(solution)
+    space, terms, tensors = problem.space, parts.transport, problem.space.tensors
+    filling = state.film_fraction * density(problem, state.pressure)[0]
+    driven = along(terms.conductance_slope, steep_gradient(space, state.pressure))
+    twisted = twisting_slope(space, terms.conductance, terms.conductance_slope, state.pressure)
+    full = at_points(space, filling)
+    carried = (full * part for part in terms.flux_slope)
+    per_second = 0.0 if problem.storage is None else terms.content_slope / problem.storage.step
+    out = np.empty((space.size, thicker.shape[2]))
+    generalised_kernels.thicken(
+        space.dofs, tensors.shape, space.reference.value, tensors.steep_gradient, tensors.gradient, signs(space),
+        space.area, *(space.everywhere(part) for part in (*driven, twisted, *carried, np.atleast_2d(per_second))),
+        filling, thicker, *space.reference.loops, out,
+    )  # fmt: skip
+    if problem.cavitation is Cavitation.JFO and bool(np.any(state.film_fraction != 1.0)):
+        # Upwinding's diffusion grows with the flow that the walls carry.
+        generalised_kernels.mixed_more(
+            space.dofs, space.pattern.slots, tensors.shape, space.reference.value, tensors.gradient,
+            *(space.everywhere(part) for part in terms.flux_slope), thicker, *space.reference.loops,
+            space.pattern.indptr, space.pattern.indices, *parts.convection, parts.leaves,
+            cavity_density(problem) * solution.film_fraction, out,
+        )  # fmt: skip
+    return out
+
+
+def oil_slopes(solution: FilmSolution, thicker: Array, changed: Response, parts: Operators) -> Array:
+    """Change of what each unknown holds, (size, k) m3 per unit of q_j at reference density.
+
+    `thicker` and `parts` as above; `changed` is what pressures and film fractions do meanwhile, the pressures
+    opening walls that give way.
+    """
+    problem, space = solution.problem, solution.problem.space
+    ratio, ratio_slope = density(problem, solution.pressure)
+    terms = parts.transport
+    grown = np.empty((space.size, thicker.shape[2]))
+    if problem.walls is not None:
+        opened = opening_slope(problem, solution.opening) @ changed.pressure
+        thicker = thicker + space.reference.geometry_value @ opened[space.cells]
+    wider = np.ascontiguousarray(terms.content_slope[:, :, None] * thicker)
+    generalised_kernels.weigh(space.dofs, space.reference.value, space.area, wider, *space.reference.loops, grown)
+    content, fraction = parts.content[:, None], solution.film_fraction[:, None]
+    ratio, ratio_slope = ratio[:, None], ratio_slope[:, None]
+    return np.asarray(
+        fraction * ratio * grown
+        + content * (ratio * changed.film_fraction + fraction * ratio_slope * changed.pressure)
+    )
+
+
+def _state(solution: FilmSolution) -> State:
+    return State(solution.pressure, solution.film_fraction, solution.opening)

@@ -1,0 +1,96 @@
+"""Where a march of a floating film begins: what it holds at a position, and how that changes with the position."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial import cKDTree
+
+from reynolds.errors import FilmInputError
+from reynolds.fem.space import FilmSpace
+from reynolds.floating.pockets import pockets_grown
+from reynolds.floating.problem import Floating
+from reynolds.floating.sensitivity import Response, oil_slopes
+from reynolds.floating.step import Stage, solve_stage, standing
+from reynolds.numerics.arrays import Array
+from reynolds.numerics.dirk import State, Tangent
+from reynolds.solve.solver import FilmSolver
+
+NUDGE = (
+    1e-9  # m: of the position, for the slope of what a film holds, which is linear but for rough walls that touch
+)
+
+NEAR = 1e-9  # of the mesh: round-off of a place
+
+
+def started(floating: Floating, time: float, q: Array) -> State[Stage]:
+    """A full film standing still at a position (k,) m, with the tangent of its position.
+
+    Raises FilmInputError where walls overlap, as `standing` does.
+    """
+    q = np.asarray(q, dtype=float)
+    columns = []
+    for nudge in NUDGE * np.eye(len(q)):
+        ahead, behind = (standing(floating, time, q + sign * nudge) for sign in (1.0, -1.0))
+        columns.append((ahead - behind) / (2.0 * NUDGE))
+    tangent = Tangent(np.eye(len(q)), np.column_stack(columns))
+    return State(time, q, standing(floating, time, q), np.zeros(len(q)), tangent=tangent)
+
+
+def pressed(solver: FilmSolver, floating: Floating, start: State[Stage], step: float) -> State[Stage]:
+    """The start once walls that give way have done so, oil hardly having flowed: one implicit step (s).
+
+    Elastic walls follow a load at once, by a way that no shorter step makes shorter. Raises as `solve_stage`.
+    """
+    stage = solve_stage(solver, floating, start.time, start.held, step, start.q, start.stage)
+    assert start.tangent is not None
+    return replace(
+        start, q=stage.q, held=stage.holds, tangent=Tangent(*stage.carried(start.tangent.held)), stage=stage
+    )
+
+
+def restarted(floating: Floating, time: float, last: State[Stage], q: Array) -> State[Stage]:
+    """What the end of a march holds, moved to a position (k,) m: the start of the next one, with its tangent.
+
+    The film fraction of each place stays, and its oil changes with the film over it; so does the rate. A mesh that
+    turned by a pitch has other unknowns in each place. Raises FilmInputError where that leaves less than no oil
+    somewhere, and for a mesh that did not come back.
+    """
+    stage = last.stage
+    if stage is None:
+        return started(floating, time, q)
+    k = len(stage.q)
+    nothing = np.zeros((stage.instant.shape.space.size, k))
+    film, parts = stage.trial.solution, stage.instant.solver.operators(stage.trial.solution)
+    oil = oil_slopes(film, stage.trial.thicker, Response(nothing, nothing), parts)
+    oil = oil + pockets_grown(film, stage.instant.modes)
+    beside = np.zeros((len(last.held) - len(oil), k))  # position, and rates where walls have inertia
+    beside[:k] = np.eye(k)
+    seats = seats_of(floating.shape_at(time).space, stage.instant.shape.space)
+    slopes = np.vstack([oil[seats], beside])
+    held = np.concatenate([last.held[: len(oil)][seats], last.held[len(oil) :]]) + slopes @ (q - stage.q)
+    least = float(held[: len(oil)].min())
+    if least < min(0.0, float(last.held[: len(oil)].min())):
+        found = f"{least:.3g} m3 of oil at an unknown, {np.abs(q - stage.q).max():.3g} m from the last position"
+        raise FilmInputError(f"{floating.name}, start of a turn", found, "a position nearer to it")
+    warm = stage if np.array_equal(seats, np.arange(len(oil))) else None
+    return State(time, np.asarray(q, dtype=float), held, last.rate, last.bend, warm, Tangent(np.eye(k), slopes))
+
+
+def seats_of(space: FilmSpace, other: FilmSpace) -> NDArray[np.intp]:
+    """Unknown of another placing of a mesh that stands where each unknown of the mesh does, (size,).
+
+    Raises FilmInputError where places differ by more than round-off.
+    """
+    near = NEAR * float(np.ptp(space.vertices, axis=0).max())
+    if np.abs(space.vertices - other.vertices).max() <= near:
+        return np.arange(space.size)
+    distance, vertex = cKDTree(other.vertices).query(space.vertices)
+    if distance.max() > near or space.degree > 1:
+        found = f"vertices up to {distance.max():.3g} m away"
+        raise FilmInputError("mesh at the end of a turn", found, "those of its start, or turned by a pitch")
+    seats = np.empty(space.size, dtype=np.intp)
+    seats[space.vertex_dofs] = other.vertex_dofs[vertex]
+    return seats

@@ -1,0 +1,1 @@
+"""Linear systems of one sparsity: symmetric, general, cavitated, between elastic walls."""

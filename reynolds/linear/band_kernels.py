@@ -1,0 +1,173 @@
+"""Elimination in a narrow band, compiled once by numba: rows in one flat array, eight numbers at a time.
+
+`half`, the band's half width, is a multiple of eight. Row i keeps columns i - half .. i + half; entry (i, j)
+stands at i * width + j - i + half, width = 2 half + 1. Some last unknowns, coupled to more than a band holds
+(pockets), border it: columns `across` (hubs, n), rows `down` (hubs, n) and `corner` (hubs, hubs). Vectors have
+`half` zeros before and after their n numbers, so that eights may be read beyond their ends.
+"""
+
+# mypy: allow-untyped-defs, allow-incomplete-defs, no-check-untyped-defs
+
+from typing import NamedTuple
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+
+from reynolds.numerics.lanes import WIDTH, all_lanes, lanes, put_lanes
+
+_FAST = {"cache": True, "error_model": "numpy", "fastmath": {"contract", "reassoc"}}
+
+Reals = NDArray[np.float64]
+
+
+class Band(NamedTuple):
+    """A matrix of n unknowns in a band and its border, then its factors L (unit diagonal) and U in their place.
+
+    `reach` (n,): the last row (and column) that couples to one so far.
+    """
+
+    rows: Reals
+    across: Reals
+    down: Reals
+    corner: Reals
+    reach: NDArray[np.int64]
+    half: int
+
+
+@njit(**_FAST)
+def fill(place, border, column, row, entries, order, band):
+    """Spread entries (row, column) over the band: to `place` (entries,) in `rows`, negative for the border's.
+
+    `order` (n,) is the new number of each unknown, those of hubs last; `border` lists the entries of the border.
+    """
+    size = len(band.reach)
+    band.rows[:] = 0.0
+    band.across[:] = 0.0
+    band.down[:] = 0.0
+    band.corner[:] = 0.0
+    for k in range(len(place)):
+        if place[k] >= 0:
+            band.rows[place[k]] = entries[k]
+    for k in border:
+        i, j = order[row[k]], order[column[k]]
+        if i < size and j >= size:
+            band.across[j - size, i] = entries[k]
+        elif i >= size and j < size:
+            band.down[i - size, j] = entries[k]
+        else:
+            band.corner[i - size, j - size] = entries[k]
+
+
+@njit(**_FAST)
+def eliminate(band):
+    """L and U in place of the matrix, without exchange of rows; False where a pivot vanishes.
+
+    Afterwards `across` is the band's inverse times itself and `corner` the hubs' matrix without the others.
+    """
+    a, half, size = band.rows, band.half, len(band.reach)
+    for k in range(size):
+        own = k * (2 * half + 1) + half
+        if not abs(a[own]) > 0.0:
+            return False
+        inverse = 1.0 / a[own]
+        for i in range(k + 1, band.reach[k] + 1):
+            at = own + (i - k) * 2 * half
+            if a[at] != 0.0:
+                a[at] *= inverse
+                share = all_lanes(a, a[at])
+                for c in range(1, band.reach[k] - k + 1, WIDTH):
+                    put_lanes(a, at + c, lanes(a, at + c) - share * lanes(a, own + c))
+    wide = np.zeros(size + 2 * half)
+    for hub in range(len(band.across)):
+        wide[half : half + size] = band.across[hub]
+        substitute(band, wide)
+        band.across[hub] = wide[half : half + size]
+    for hub in range(len(band.across)):
+        for other in range(len(band.across)):
+            taken = 0.0
+            for j in range(size):
+                taken += band.down[hub, j] * band.across[other, j]
+            band.corner[hub, other] -= taken
+    return True
+
+
+@njit(**_FAST)
+def substitute(band, x):
+    """x := (L U)^-1 x within the band; x has `half` zeros on either side."""
+    a, half, size = band.rows, band.half, len(band.reach)
+    width, eight = 2 * half + 1, np.zeros(WIDTH)
+    for i in range(size):
+        total = all_lanes(a, 0.0)
+        for c in range(0, half, WIDTH):
+            total += lanes(a, i * width + c) * lanes(x, i + c)
+        put_lanes(eight, 0, total)
+        x[half + i] -= eight.sum()
+    for i in range(size - 1, -1, -1):
+        total = all_lanes(a, 0.0)
+        for c in range(half + 1, width, WIDTH):
+            total += lanes(a, i * width + c) * lanes(x, i + c)
+        put_lanes(eight, 0, total)
+        x[half + i] = (x[half + i] - eight.sum()) / a[i * width + half]
+
+
+@njit(**_FAST)
+def answer(band, inverse, order, load, x, new):
+    """new := x + A^-1 load, (n,); `inverse` of the corner, `order` the new number of each unknown."""
+    half, size, hubs = band.half, len(band.reach), len(band.across)
+    wide, rest = np.zeros(size + 2 * half), np.empty(hubs)
+    for i in range(len(load)):
+        if order[i] < size:
+            wide[half + order[i]] = load[i]
+        else:
+            rest[order[i] - size] = load[i]
+    substitute(band, wide)
+    inner = wide[half : half + size]
+    for hub in range(hubs):
+        for j in range(size):
+            rest[hub] -= band.down[hub, j] * inner[j]
+    rest = inverse @ rest
+    for hub in range(hubs):
+        for j in range(size):
+            inner[j] -= band.across[hub, j] * rest[hub]
+    for i in range(len(load)):
+        new[i] = x[i] + (inner[order[i]] if order[i] < size else rest[order[i] - size])
+
+
+@njit(**_FAST)
+def residual(indptr, indices, entries, load, x, left):
+    """left := load - A x, A by columns; its norm, and that of the load."""
+    for i in range(len(load)):
+        left[i] = load[i]
+    for j in range(len(load)):
+        for k in range(indptr[j], indptr[j + 1]):
+            left[indices[k]] -= entries[k] * x[j]
+    rest = size = 0.0
+    for i in range(len(load)):
+        rest += left[i] * left[i]
+        size += load[i] * load[i]
+    return np.sqrt(rest), np.sqrt(size)
+
+
+@njit(**_FAST)
+def solve(band, inverse, order, pattern, entries, loads, tolerance, rounds, found):
+    """Rows of found (m, n) := A^-1 rows of loads, refined until |A x - load| <= tolerance |load|; what is left.
+
+    `pattern`: indptr and indices by columns. What is left is the largest of |A x - load|/|load|.
+    """
+    worst, nothing = 0.0, np.zeros(loads.shape[1])
+    new, rest = np.empty(loads.shape[1]), np.empty(loads.shape[1])
+    for m in range(loads.shape[0]):
+        answer(band, inverse, order, loads[m], nothing, found[m])
+        left, size = residual(pattern[0], pattern[1], entries, loads[m], found[m], rest)
+        for _ in range(rounds):
+            if left <= tolerance * size:
+                break
+            answer(band, inverse, order, rest, found[m], new)
+            less, size = residual(pattern[0], pattern[1], entries, loads[m], new, rest)
+            if not less < left:
+                break
+            left = less
+            found[m] = new
+        worst = max(worst, left / max(size, 1e-300)) if left == left else np.inf
+    return worst

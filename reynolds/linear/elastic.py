@@ -1,0 +1,222 @@
+"""The linearised balance between walls that give way, J = A + B C, ready for any load.
+
+A, sparse, is the balance between rigid walls, B, sparse, its slope by the opening, C the walls' compliance. A film
+smooths what a wall feeds back to it: but for a few smooth pressures A^-1 B C is small, on any mesh, so that GMRES
+(Saad and Schultz 1986) on J A^-1 takes a few tens of solves with A, where a dense factor of J costs size^3. Up to
+DENSE_LIMIT free pressures the factor is cheaper all the same (803 of 1575 unknowns: 28 ms, and .4 ms a load; GMRES
+takes 30 to 100 steps of .9 ms a load). Beyond, where one balance is asked more often, or one after the other like
+it, the dense factor is made and kept: GMRES on J J_before^-1 takes a few steps.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.linalg import lapack
+from scipy.sparse import csc_array, csr_array
+from scipy.sparse.linalg import SuperLU, splu
+
+from reynolds.bodies.compliance import Opens, columns_of, compliance_of, contact_of
+from reynolds.errors import FilmNotConverged
+from reynolds.numerics.arrays import Array
+from reynolds.numerics.gmres import gmres
+
+DENSE_LIMIT = 1500  # free pressures up to which a dense factor is as fast as GMRES on two loads
+KEPT_LIMIT = 4000  # unknowns up to which a dense factor is kept: 128 MB
+MOST_STEPS = 150  # of GMRES; one that needs more is cheaper with the dense factor
+WORTH = 1.0 / 80.0  # steps over unknowns that cost as much as the dense factor
+GOOD_ENOUGH = 1e-9  # residual over load, where round-off allows no less
+Answer = Callable[[Array, float], Array]
+"""(load (size,), tolerance) -> change (size,) with |J change - load| <= tolerance |load|, round-off allowing."""
+
+
+class NearFactor:
+    """The dense factor of a balance, kept for those that come after it."""
+
+    def __init__(self) -> None:
+        self.answer: Answer | None = None
+
+
+@dataclass(frozen=True)
+class Balance:
+    """J = A + B C P: A `rigid` (size, size), B `slope` (size, vertices), C `wider` (vertices, size).
+
+    P is the diagonal `pressures` (size,), one where an unknown is a free pressure, else zero.
+    """
+
+    rigid: csc_array
+    slope: csr_array
+    wider: Opens
+    pressures: Array
+
+    def __matmul__(self, change: Array) -> Array:
+        """J change, (size,)."""
+        return np.asarray(self.rigid @ change + self.slope @ (self.wider @ (self.pressures * change)))
+
+
+def compliant_answer(balance: Balance, near: NearFactor | None = None) -> Answer:
+    """The answer of J; what is factorised is factorised once.
+
+    `near` keeps the dense factor of a balance for those to come, of one size. Raises FilmNotConverged where J is
+    singular.
+    """
+    if isinstance(balance.wider, csr_array):
+        return _sparse(csc_array(balance.rigid + balance.slope @ (balance.wider * balance.pressures[None, :])))
+    if np.count_nonzero(balance.pressures) <= DENSE_LIMIT:
+        return reduced_answer(balance)
+    size = len(balance.pressures)
+    return _Iterated(balance, NearFactor() if near is None or size > KEPT_LIMIT else near)
+
+
+class _Iterated:
+    """By GMRES, with the factor of a balance near it or of the rigid one, until its own is worth making."""
+
+    def __init__(self, balance: Balance, near: NearFactor) -> None:
+        self._balance, self._near = balance, near
+        self._size = len(balance.pressures)
+        # Where the film is thin next to nothing flows: there too the answer is to be as good.
+        diagonal = np.abs(balance.rigid.diagonal())
+        self._rows = 1.0 / np.where(diagonal > 0.0, diagonal, 1.0)
+        self._before = near.answer or _rigid_answer(balance.rigid)
+        self._steps = 0
+        self._own: Answer | None = None
+
+    def __call__(self, load: Array, tolerance: float) -> Array:
+        if self._own is None and self._before is not None and self._steps < WORTH * self._size:
+            found = self._iterated(self._before, load, tolerance)
+            if found is not None:
+                return found
+        if self._own is None:  # J need not be singular where A is
+            self._own = self._near.answer = reduced_answer(self._balance)
+        return self._own(load, tolerance)
+
+    def _iterated(self, before: Answer, load: Array, tolerance: float) -> Array | None:
+        def image(part: Array) -> Array:
+            self._steps += 1
+            return self._rows * (self._balance @ before(part, 0.0))
+
+        most = MOST_STEPS if self._near.answer is None else max(1, int(WORTH * self._size))
+        part, left = gmres(image, self._rows * load, tolerance, most)
+        return before(part, 0.0) if left <= max(tolerance, GOOD_ENOUGH) else None
+
+
+def reduced_answer(balance: Balance) -> Answer:
+    """The answer of J by the dense factor of what is left of it for the pressures on the walls."""
+    alone = _alone(balance)
+    rest = np.flatnonzero((balance.pressures == 0.0) & ~alone)
+    factor = _eliminated(csc_array(csr_array(balance.rigid)[rest][:, rest])) if rest.size else None
+    if factor is None and rest.size:  # J need not be singular where what opens no wall is
+        return _whole_answer(balance, np.flatnonzero(balance.pressures))
+    return _Reduced(balance, np.flatnonzero(alone), rest, factor)
+
+
+class _Reduced:
+    """J by the pressures t of oil and contact together.
+
+    With C the walls' own compliance, S the contact's pressure by the gap and w = C t: p = t - S w, and
+    J p = A t + (B - A S) C t, so that no compliance need be known that contact resists. Held unknowns, `alone`,
+    meet no other. The `rest`, a cavity's film fractions, open no wall: of J_rr, J_rt; J_tr, J_tt the first column
+    is sparse, and J_tt - J_tr J_rr^-1 J_rt is left.
+    """
+
+    def __init__(
+        self, balance: Balance, alone: NDArray[np.intp], rest: NDArray[np.intp], factor: SuperLU | None
+    ) -> None:
+        rigid, contact = csr_array(balance.rigid), contact_of(balance.wider)
+        free = np.flatnonzero(balance.pressures)
+        self._free, self._alone, self._rest = free, alone, rest
+        # Contact presses on the walls of a cavity, too, where the oil's pressure stays.
+        touched = np.flatnonzero((np.diff(contact.indptr) > 0) & (balance.pressures == 0.0))
+        self._opens = columns_of(compliance_of(balance.wider), np.concatenate([free, touched]))
+        slope = csr_array(balance.slope - rigid[:, free] @ contact[free])
+        left = np.vstack([slope[free] @ self._opens, -(contact[touched] @ self._opens)])
+        _add(left, csr_array(rigid[free][:, free]))
+        left[range(free.size, len(left)), range(free.size, len(left))] += 1.0
+        self._forth = np.asarray(slope[rest] @ self._opens)
+        _add(self._forth, csr_array(rigid[rest][:, free]))
+        coupled = csr_array(rigid[free][:, rest])
+        self._met = np.flatnonzero(np.diff(coupled.indptr))  # next to the rest: few
+        self._back = np.zeros((len(self._met), rest.size))
+        if factor is not None:
+            self._back = factor.solve(coupled[self._met].toarray().T, trans="T").T
+            left[self._met] -= self._back @ self._forth
+        self._factor, self._reduced, self._size = factor, dense_answer(left), len(left)
+        self._contact, self._diagonal = csr_array(contact[free]), rigid.diagonal()[alone]
+
+    def __call__(self, load: Array, tolerance: float) -> Array:
+        change, wanted = np.empty_like(load), np.zeros((self._size, *load.shape[1:]))
+        wanted[: self._free.size] = load[self._free]
+        wanted[self._met] -= self._back @ load[self._rest]
+        borne = self._reduced(wanted, tolerance)
+        change[self._free] = borne[: self._free.size]
+        if self._contact.nnz:
+            change[self._free] -= self._contact @ (self._opens @ borne)
+        change[self._alone] = (load[self._alone].T / self._diagonal).T
+        if self._factor is not None:
+            change[self._rest] = self._factor.solve(load[self._rest] - self._forth @ borne)
+        return change
+
+
+def _alone(balance: Balance) -> NDArray[np.bool_]:
+    """Unknowns without a pressure of their own that meet no other: held ones, (size,)."""
+    rigid, slope = balance.rigid.tocoo(), balance.slope.tocoo()
+    row, column = rigid.coords
+    off = (row != column) & (rigid.data != 0.0)
+    meets = np.zeros(len(balance.pressures), dtype=bool)
+    meets[row[off]] = meets[column[off]] = True
+    meets[slope.coords[0][slope.data != 0.0]] = True
+    return np.asarray((balance.pressures == 0.0) & ~meets & (balance.rigid.diagonal() != 0.0))
+
+
+def _add(dense: Array, sparse: csr_array) -> None:
+    """Add a sparse matrix to the first columns and rows of a dense one."""
+    entries = sparse.tocoo()
+    np.add.at(dense, entries.coords, entries.data)
+
+
+def _whole_answer(balance: Balance, free: NDArray[np.intp]) -> Answer:
+    """The answer of J by its dense factor, nothing eliminated beforehand; `free`: where pressures are free."""
+    whole = balance.rigid.toarray(order="F")
+    whole[:, free] += balance.slope @ columns_of(balance.wider, free)
+    return dense_answer(whole)
+
+
+def _rigid_answer(rigid: csc_array) -> Answer | None:
+    factor = _eliminated(rigid)
+    return None if factor is None else lambda load, _: np.asarray(factor.solve(load))
+
+
+def _eliminated(matrix: csc_array) -> SuperLU | None:
+    """Factor of a matrix of symmetric pattern whose diagonal bears it; None where a pivot vanishes."""
+    options = {"SymmetricMode": True, "Equil": False}
+    try:
+        return splu(matrix, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=1e-3, options=options)
+    except RuntimeError:  # "Factor is exactly singular"
+        return None
+
+
+def _sparse(matrix: csc_array) -> Answer:
+    try:
+        factor = splu(matrix)
+    except RuntimeError as reason:
+        raise singular(str(reason)) from None
+    return lambda load, tolerance: np.asarray(factor.solve(load))
+
+
+def dense_answer(matrix: Array) -> Answer:
+    """Of a dense matrix, factorised; for loads of any number of columns. Raises FilmNotConverged if singular."""
+    if not matrix.size:
+        return lambda load, tolerance: load
+    factor, pivots, fault = lapack.dgetrf(matrix)
+    if fault:
+        raise singular("a pivot is zero")
+    return lambda load, tolerance: np.asarray(lapack.dgetrs(factor, pivots, load)[0])
+
+
+def singular(reason: str) -> FilmNotConverged:
+    """The error of a balance that no change of pressure answers."""
+    what = f"the balance between walls that give way is singular ({reason})"
+    return FilmNotConverged(what, "stiffer walls, or a thicker film")

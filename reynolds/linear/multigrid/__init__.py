@@ -1,0 +1,1 @@
+"""Semicoarsening multigrid on logically rectangular meshes."""

@@ -1,0 +1,111 @@
+"""Boundary conditions of a film problem, spread over its unknowns and checked."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from reynolds.errors import FilmInputError
+from reynolds.film import Cavitation, FilmProblem, Held, Pocket
+from reynolds.numerics.array_kernels import all_finite
+from reynolds.numerics.arrays import Array
+
+
+@dataclass(frozen=True)
+class Setting:
+    """Pressure (size,) Pa and film fraction (size,) where `held`, elsewhere a guess and a full film; pockets."""
+
+    pressure: Array
+    film_fraction: Array
+    held: NDArray[np.bool_]
+    pockets: tuple[tuple[int, Pocket], ...]
+
+
+def check_pressures(problem: FilmProblem) -> None:
+    """Raise FilmInputError where no pressure is solved for.
+
+    That is where a boundary is not of the mesh, where a piece of the film has no pressure level, where a boundary
+    lies below cavitation pressure, or where one filled in part lies above it; and where a pocket touches another
+    one or a held boundary, so that its pressure is not its own. Last, where the mesh is so coarse that every
+    unknown lies on a held boundary.
+    """
+    if spread(problem).held.all():
+        found = f"{problem.space.size} unknowns, each on an edge of given pressure: none is left to solve for"
+        raise FilmInputError("mesh", found, "at least 2 cells from one such edge to the next")
+
+
+def spread(problem: FilmProblem) -> Setting:
+    """The boundary conditions at the unknowns; raises as `check_pressures`."""
+    space = problem.space
+    cavitates = problem.cavitation is not Cavitation.NONE
+    level = problem.cavitation_pressure if cavitates else 0.0
+    pressure, fraction = np.full(space.size, level), np.ones(space.size)
+    held = np.zeros(space.size, dtype=bool)
+    pockets = []
+    for name, condition in problem.boundary.items():
+        if name not in space.edge_dofs:
+            names = ", ".join(space.film_mesh.boundary_names)
+            raise FilmInputError(f"boundary {name}", "no boundary of this mesh", f"one of {names}")
+        nodes = space.edge_dofs[name]
+        if isinstance(condition, Held):
+            _check_fraction(name, condition, problem)
+            pressure[nodes], fraction[nodes], held[nodes] = condition.pressure, condition.film_fraction, True
+        elif len(nodes) == 1:
+            pockets.append((int(nodes[0]), condition))
+        else:
+            raise FilmInputError(f"boundary {name}", "a pocket on separate nodes", "film_space(pockets=...)")
+    if problem.held_nodes is not None:
+        more = ~np.isnan(problem.held_nodes)
+        pressure[more], fraction[more], held[more] = problem.held_nodes[more], 1.0, True
+    if not all_finite(pressure):
+        raise FilmInputError("boundary", "a pressure that is not finite", "a number of Pa")
+    if pockets:
+        _check_apart(held, pockets)
+    _check_level(problem, held, pockets, level)
+    if cavitates and (low := pressure[held].min(initial=np.inf)) < level:
+        raise FilmInputError(
+            "boundary", f"pressure {low:.4g} Pa", f"at least the cavitation pressure {level:.4g} Pa"
+        )
+    return Setting(pressure, fraction, held, tuple(pockets))
+
+
+def _check_apart(held: NDArray[np.bool_], pockets: list[tuple[int, Pocket]]) -> None:
+    nodes = [node for node, _ in pockets]
+    if held[nodes].any():
+        raise FilmInputError("boundary", "a pocket that touches a held pressure", "film between them")
+    if len(set(nodes)) < len(nodes):
+        raise FilmInputError("boundary", "pockets that touch each other", "one pocket, or film between them")
+
+
+def _check_fraction(name: str, condition: Held, problem: FilmProblem) -> None:
+    if not 0.0 <= condition.film_fraction <= 1.0:
+        raise FilmInputError(f"boundary {name}", f"film fraction {condition.film_fraction:g}", "0 to 1")
+    if condition.film_fraction == 1.0:
+        return
+    if problem.cavitation is not Cavitation.JFO:
+        raise FilmInputError(
+            f"boundary {name}",
+            f"film fraction {condition.film_fraction:g} with cavitation '{problem.cavitation.value}'",
+            "1, or cavitation 'jfo', which carries a film fraction along",
+        )
+    if condition.pressure != problem.cavitation_pressure:
+        raise FilmInputError(
+            f"boundary {name}",
+            f"film fraction {condition.film_fraction:g} at {condition.pressure:.4g} Pa",
+            f"the cavitation pressure {problem.cavitation_pressure:.4g} Pa, which is all that such a film bears",
+        )
+
+
+def _check_level(
+    problem: FilmProblem, held: NDArray[np.bool_], pockets: list[tuple[int, Pocket]], level: float
+) -> None:
+    """Fault a piece of the film whose pressure nothing fixes."""
+    pattern = problem.space.pattern
+    fed = held.copy()
+    for node, pocket in pockets:
+        fed[node] |= pocket.feed(level)[1] < 0.0
+    if dry := pattern.pieces_without(fed):
+        where = f"in {dry} of {pattern.pieces[0]} separate pieces of the film" if fed.any() else "anywhere"
+        raise FilmInputError("boundary", f"no pressure given {where}", "a boundary with a pressure at each piece")

@@ -1,0 +1,354 @@
+"""The film equation solved: Newton's method on every unknown's flow balance, an active set for the cavity.
+
+Each unknown is a pressure where the film is full and, under JFO, a film fraction where it is not. Each step solves
+the linearised balance; for a full film of constant viscosity between rigid walls the first step is exact. The set
+of cavitated unknowns follows the primal-dual active set method (Hintermueller, Ito and Kunisch 2002): Reynolds'
+condition is p >= p_c, R >= 0, (p - p_c) R = 0; JFO is p >= p_c, theta <= 1, (p - p_c)(1 - theta) = 0, R = 0.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from reynolds.equation.balance import Operators, State, operators, positive_share
+from reynolds.equation.deformation_sparsity import SoftPatterns
+from reynolds.errors import FilmInputError, FilmNotConverged
+from reynolds.fem.space import FilmSpace
+from reynolds.film import LEAST_FRACTION, Cavitation, FilmProblem, FilmSolution
+from reynolds.laws.fluid import CONSTANT
+from reynolds.linear.elastic import NearFactor
+from reynolds.linear.factor import ITERATIVE_TOLERANCE, Factor, GeneralFactor, Solve, row_by_row
+from reynolds.linear.multigrid.grid import grid_of
+from reynolds.numerics.arrays import Array
+from reynolds.solve.cavity_guess import COARSEST, Cascade, Obstacle, active_set
+from reynolds.solve.iterate import (
+    Iterate,
+    advanced,
+    fixed_in,
+    imbalance_of,
+    is_linear,
+    iterate_of,
+    opened,
+    with_pockets,
+)
+from reynolds.solve.newton import compliant, general_step, signed_after, symmetric_step
+from reynolds.solve.setting import Setting, spread
+from reynolds.solve.supply import pressure_sending
+
+MAX_ITERATIONS = 100
+FULL_STEPS = 15  # then, or as soon as a cavity comes back, each step must bring the balance nearer to zero
+TOLERANCE = 1e-9
+NEAR = 1e-6  # of which one more step leaves round-off
+ROUND_OFF = 1e-12
+SOFT_STEP = 1e-5  # residual of a first step between walls that give way over its load
+KEPT = 1e-3  # imbalance from which on a linearisation between walls that give way, which is dear, is kept
+KEPT_GAIN = 0.03  # of the imbalance is left, at most, by a step of a kept one that another one may follow
+LOOSEST = 1e-2  # residual of a linear solve over its load
+LESS = 0.3  # of a pocket's flow before, from where its supply's law leads up to more without a mirrored step
+LEAST_GAP = 0.1  # of the largest film, where walls overlap that a first pressure parts
+
+
+class FilmSolver:
+    """Solves films on one space, its vertices moved or not; keeps the symbolic factorisation between calls."""
+
+    def __init__(self, space: FilmSpace) -> None:
+        self._pattern = space.pattern
+        self._grid = grid_of(space)
+        self._factor = Factor(self._grid)
+        self._general = GeneralFactor(self._grid)
+        self._near, self._patterns = NearFactor(), SoftPatterns(space)
+        self._cascade: Cascade | None = None
+        self._answers: _Answers | None = None
+        self._answered: FilmSolution | None = None  # the film that came of them
+
+    def solve(self, problem: FilmProblem, start: FilmSolution | None = None) -> FilmSolution:
+        """The film of `problem`; `start` warms pressures, film fractions and cavity.
+
+        Afterwards every free unknown's flow balance holds to 1e-9 of the flows meeting there. Raises
+        FilmInputError as `check_pressures` does and for a `start` or a problem of another mesh, and
+        FilmNotConverged when that is not reached or a cavity would have to give more oil than reaches it.
+        """
+        if problem.space.pattern is not self._pattern:
+            raise FilmInputError("space", "another mesh", "the space of this solver, moved or not")
+        if start is not None and len(start.pressure) != problem.space.size:
+            raise FilmInputError("start", "a film of another mesh", "one of the space of this solver")
+        if start is None and (simpler := _simpler(problem)) is not None:
+            try:
+                return self._solved(problem, self.solve(simpler))
+            except FilmNotConverged:
+                pass  # the simpler film leads nowhere, or has no solution itself: start from nothing
+        return self._solved(problem, start)
+
+    def _solved(self, problem: FilmProblem, start: FilmSolution | None) -> FilmSolution:
+        setting = spread(problem)
+        at = self._begin(problem, setting, start)
+        seen = {at.cavity.tobytes()}
+        cycles = near = False
+        path: list[float] = []
+        soft_series = keeps = start is not None and start.problem.walls is not None and problem.walls is not None
+        imbalance = imbalance_of(problem, setting, at) if soft_series else 1.0
+        for iteration in range(1, MAX_ITERATIONS + 1):
+            tolerance = max(ITERATIVE_TOLERANCE, min(LOOSEST, 0.1 * ROUND_OFF / max(imbalance, ROUND_OFF)))
+            if problem.walls is not None:  # no step between them is exact: one that gains as Newton's does will do
+                tolerance = max(tolerance, min(SOFT_STEP, 0.1 * imbalance))
+            keeps = keeps and imbalance < KEPT and self._serves(fixed_in(problem, setting, at), at)
+            signed = (
+                self._step_kept(problem, setting, at, tolerance, imbalance)
+                if keeps
+                else self._step(problem, setting, at, tolerance, imbalance)
+            )
+            if iteration == 1 and (guessed := self._ruptured(problem, setting, at, signed)) is not at:
+                at, signed = guessed, self._step(problem, setting, guessed, tolerance, imbalance)
+            new = advanced(problem, setting, at, signed, downhill=cycles)
+            settled, at = bool(np.array_equal(new.cavity, at.cavity)), new
+            _check_degree(problem, at.cavity)
+            before, imbalance = imbalance, imbalance_of(problem, setting, at)
+            enough = ROUND_OFF if keeps else TOLERANCE  # a kept one's step gains less than Newton's
+            keeps = soft_series and (not keeps or imbalance < KEPT_GAIN * before)
+            path.append(imbalance)
+            if (settled and imbalance < ROUND_OFF) or (imbalance < enough and near):
+                _check_filled(at)
+                self._answered = _solution(problem, setting, at, path)
+                return self._answered
+            # Under JFO an unknown next to zero may change sides for ever: either side is the solution.
+            near = imbalance < (NEAR if settled else TOLERANCE if problem.cavitation is Cavitation.JFO else 0.0)
+            cycles |= iteration >= FULL_STEPS or (not settled and at.cavity.tobytes() in seen)
+            seen.add(at.cavity.tobytes())
+        raise _not_settled(problem, at, imbalance)
+
+    def _begin(self, problem: FilmProblem, setting: Setting, start: FilmSolution | None) -> Iterate:
+        space, cavitates = problem.space, problem.cavitation is not Cavitation.NONE
+        pressure, fraction = setting.pressure.copy(), setting.film_fraction
+        cavity, near = np.zeros(space.size, dtype=bool), None
+        if start is None and problem.walls is not None:
+            pressure = _lifting(problem, setting)
+        if start is not None:
+            pressure = np.where(setting.held, pressure, start.pressure)
+            near = start.opening
+            fraction = np.where(setting.held, fraction, start.film_fraction)
+            cavity = start.cavity & ~setting.held & cavitates
+        for node, pocket in setting.pockets:
+            sent = 0.0 if start is None else -LESS * float(start.outflow[node])
+            level = pressure_sending(pocket.feed, sent, float(pressure[node]))
+            pressure[node] = max(level, problem.cavitation_pressure) if cavitates else level
+        return iterate_of(problem, opened(problem, pressure, fraction, near), cavity)
+
+    def _ruptured(self, problem: FilmProblem, setting: Setting, at: Iterate, signed: Array) -> Iterate:
+        """The same with a first guess of its cavity, if a film without one would be pulled (`signed` < 0)."""
+        pulled = problem.cavitation is not Cavitation.NONE and bool((signed[~setting.held] < 0.0).any())
+        if at.cavity.any() or not pulled or not is_linear(problem) or problem.space.size <= COARSEST:
+            return at
+        # Free unknowns of the spread pressures stand at cavitation pressure: the step from there is p - p_c.
+        spread_out = opened(problem, setting.pressure, setting.film_fraction)
+        cavity = self._cavity(problem, setting, iterate_of(problem, spread_out, at.cavity))
+        return replace(at, cavity=cavity)
+
+    def _cavity(self, problem: FilmProblem, setting: Setting, at: Iterate) -> NDArray[np.bool_]:
+        """A first guess, from coarser problems under Reynolds' condition.
+
+        Under JFO, whose steps are dearer, made exact for that condition; under Reynolds' the steps to come do it.
+        """
+        matrix, load = symmetric_step(problem, setting, at, setting.held)
+        obstacle = Obstacle(matrix.data, load, setting.held)
+        if self._cascade is None:
+            self._cascade = Cascade(matrix, self._grid)
+        guess = self._cascade.cavity(obstacle)
+        return active_set(matrix, self._factor, obstacle, guess) if problem.cavitation is Cavitation.JFO else guess
+
+    def _answer(self, solution: FilmSolution) -> _Answers | None:
+        """The last linearised balance, if it is of that film, its cavity the same but for what is full."""
+        kept = self._answers
+        if kept is None or self._answered is not solution:
+            return None
+        return kept if np.array_equal(kept.at.cavity, solution.cavity) else None
+
+    def operators(self, solution: FilmSolution) -> Operators:
+        """The operators of a solution's balance; those of the last film are known."""
+        kept = self._answer(solution)
+        if kept is not None and is_linear(solution.problem):
+            return kept.at.parts
+        return operators(solution.problem, State(solution.pressure, solution.film_fraction, solution.opening))
+
+    def response(
+        self, solution: FilmSolution, inflow: Array, tolerance: float = ITERATIVE_TOLERANCE
+    ) -> tuple[Array, Array]:
+        """What inflows (size, m) m3/s add to pressures (Pa) and film fractions of a solution, (size, m) each.
+
+        By its linearised balance, held unknowns and cavity as they are: a free unknown changes pressure, one of
+        the cavity its film fraction. Where the last film solved is this one its last factor is used again, which
+        for a balance that is not linear was made some 1e-6 before the solution, or `tolerance` before it.
+        """
+        kept = self._answer(solution)
+        if kept is None or kept.aged > tolerance:
+            problem, state = solution.problem, State(solution.pressure, solution.film_fraction, solution.opening)
+            kept, _ = self._linear(problem, spread(problem), iterate_of(problem, state, solution.cavity))
+            self._answered = solution
+        return kept.to(inflow, tolerance)
+
+    def _serves(self, fixed: NDArray[np.bool_], at: Iterate) -> bool:
+        """Whether the linearisation made last has the same unknowns: held ones, pressures and cavity."""
+        kept = self._answers
+        return kept is not None and bool(
+            np.array_equal(kept.at.cavity, at.cavity) and np.array_equal(kept.fixed, fixed)
+        )
+
+    def _step(
+        self, problem: FilmProblem, setting: Setting, at: Iterate, tolerance: float, imbalance: float
+    ) -> Array:
+        """The signed unknowns after one Newton step of the free ones; held ones stay as they are."""
+        made, load = self._linear(problem, setting, at, imbalance)
+        return signed_after(problem, at, made.solve(load, tolerance), made.scale)
+
+    def _step_kept(
+        self, problem: FilmProblem, setting: Setting, at: Iterate, tolerance: float, imbalance: float
+    ) -> Array:
+        """The same by the linearisation made last, of the same unknowns: the simplified Newton method."""
+        assert self._answers is not None
+        self._answers = kept = self._answers.again_from(imbalance)
+        self._answered = None
+        load = np.where(kept.fixed, 0.0, -with_pockets(setting, at)[0] / kept.unit)
+        return signed_after(problem, at, kept.solve(load, tolerance), kept.scale)
+
+    def _linear(
+        self, problem: FilmProblem, setting: Setting, at: Iterate, imbalance: float = 0.0
+    ) -> tuple[_Answers, Array]:
+        """The balance linearised at an iterate of such an imbalance, and the load of a Newton step.
+
+        Both are scaled alike. Afterwards this is the solver's last linearised balance, of no film yet.
+        """
+        carried = problem.cavitation is Cavitation.JFO and bool(at.cavity.any())
+        fixed, scale = fixed_in(problem, setting, at), 0.0
+        if is_linear(problem) and not carried:
+            matrix, load = symmetric_step(problem, setting, at, fixed)
+            self._factor.update(matrix)
+            solve = row_by_row(self._factor.solve)
+        else:
+            upper, lower, load, scale = general_step(problem, setting, at)
+            if problem.walls is None:
+                self._general.update(problem.space.matrix(upper), lower, at.cavity)
+                solve = self._general.solve
+            else:
+                solve = row_by_row(compliant(problem, setting, at, upper, lower, self._patterns, self._near))
+        made = _Answers(solve, at, fixed, scale, imbalance)
+        self._answers, self._answered = made, None
+        return made, load
+
+
+def as_given(problem: FilmProblem, given: FilmSolution) -> FilmSolution:
+    """The film of `problem` at the pressures, film fractions and opening of another one, as they are.
+
+    Its flows are theirs; what does not balance is its imbalance. Raises as the laws do.
+    """
+    setting = spread(problem)
+    at = iterate_of(problem, State(given.pressure, given.film_fraction, given.opening), given.cavity)
+    return _solution(problem, setting, at, [imbalance_of(problem, setting, at)])
+
+
+@dataclass(frozen=True)
+class _Answers:
+    """The linearised balance of a film at an iterate, ready to be solved.
+
+    `solve(load or rows of them, tolerance)`, both sides scaled; `scale` turns an unknown of the cavity into a film
+    fraction; `made`: imbalance of the iterate; `aged`: how far from balance what they serve may be from where they
+    were made.
+    """
+
+    solve: Solve
+    at: Iterate
+    fixed: NDArray[np.bool_]
+    scale: float
+    made: float = 0.0
+    aged: float = 0.0
+
+    def again_from(self, imbalance: float) -> _Answers:
+        """The same for an iterate of such an imbalance, maybe of another problem."""
+        return replace(self, aged=max(self.made, self.aged, imbalance))
+
+    @property
+    def unit(self) -> float:
+        """Over which `newton` scales the balance, m3/(s Pa)."""
+        return float(self.at.parts.stiffness.max())
+
+    def to(self, inflow: Array, tolerance: float) -> tuple[Array, Array]:
+        """What inflows (size, m) m3/s change: pressures and film fractions, (size, m) each."""
+        if self.unit == 0.0:
+            raise FilmInputError("response", "a film that is all pocket", "one in which pressure drives a flow")
+        load = np.where(self.fixed[:, None], 0.0, inflow / self.unit)
+        change = self.solve(np.ascontiguousarray(load.T), tolerance).T
+        cavity = self.at.cavity[:, None]
+        return np.where(cavity, 0.0, change), np.where(cavity, self.scale * change, 0.0)
+
+
+def _not_settled(problem: FilmProblem, at: Iterate, imbalance: float) -> FilmNotConverged:
+    what = (
+        f"film pressure not settled after {MAX_ITERATIONS} iterations (imbalance {imbalance:.2g}, "
+        f"{int(at.cavity.sum())} of {problem.space.size} unknowns cavitated)"
+    )
+    if share := positive_share(problem.space, at.parts.stiffness):
+        return FilmNotConverged(
+            f"{what}; {share:.1%} of the mesh's couplings are positive, from cells with obtuse angles",
+            "Delaunay triangles or rectangular cells, on which no pressure overshoots",
+        )
+    return FilmNotConverged(what, "a finer mesh, or a film that changes less from cell to cell")
+
+
+def _check_filled(at: Iterate) -> None:
+    """Fault a cavity drawn dry: upwinding alone leaves no film fraction below zero, obtuse angles leave little."""
+    if (least := float(at.state.film_fraction.min())) < LEAST_FRACTION:
+        raise FilmNotConverged(
+            f"more oil drawn from a cavity than flows into it (film fraction {least:.3g})",
+            "pockets that draw less, or a mesh without obtuse angles",
+        )
+
+
+def _check_degree(problem: FilmProblem, cavity: NDArray[np.bool_]) -> None:
+    if problem.space.degree > 1 and cavity.any():
+        raise FilmInputError(
+            "film_space", "quadratic pressure in a film that cavitates", "degree 1, or a film without cavitation"
+        )
+
+
+def _simpler(problem: FilmProblem) -> FilmProblem | None:
+    """The film from which Newton's method reaches this one: of constant oil, then between rigid walls."""
+    if problem.fluid is not CONSTANT:
+        return replace(problem, fluid=CONSTANT)
+    if problem.walls is not None and problem.film.thickness.min() > 0.0:
+        return replace(problem, walls=None)
+    return None
+
+
+def _lifting(problem: FilmProblem, setting: Setting) -> Array:
+    """Pressures (size,) Pa to start from between walls that overlap until a pressure parts them."""
+    assert problem.walls is not None
+    one = np.where(setting.held, 0.0, 1.0)
+    wider = problem.space.sample_vertices(problem.walls.matrix @ one)
+    lack = LEAST_GAP * np.abs(problem.film.thickness).max() - problem.film.thickness
+    lack = lack - problem.space.sample_vertices(
+        problem.walls.matrix @ np.where(setting.held, setting.pressure, 0.0)
+    )
+    needed = float(np.max(np.divide(lack, wider, out=np.zeros_like(wider), where=wider > 0.0)))
+    return np.where(setting.held, setting.pressure, np.maximum(setting.pressure, needed))
+
+
+def _solution(problem: FilmProblem, setting: Setting, at: Iterate, path: list[float]) -> FilmSolution:
+    # A cavity that is full of oil is a film whose pressure happens to be the cavity's.
+    carried = problem.cavitation is Cavitation.JFO and bool(at.cavity.any())
+    return FilmSolution(
+        problem=problem,
+        pressure=at.state.pressure,
+        film_fraction=at.state.film_fraction,
+        film=at.parts.transport.film,
+        opening=at.state.opening,
+        flux=at.parts.transport.flux,
+        content=at.parts.transport.content,
+        outflow=-at.balance.net,
+        swallowed=at.balance.swallowed,
+        mixing=at.balance.mixing,
+        meeting=at.balance.meeting,
+        held=setting.held,
+        cavity=at.cavity & (at.state.film_fraction <= 1.0 - TOLERANCE) if carried else at.cavity,
+        path=tuple(path),
+    )

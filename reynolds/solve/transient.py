@@ -1,0 +1,149 @@
+"""A film in time: implicit Euler on the oil that each unknown holds, theta r h as one quantity.
+
+Mass is conserved to round-off at every step, whatever its size; time enters to first order.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+from typing import Generic, Protocol, TypeVar
+
+import numpy as np
+
+from reynolds.equation.balance import State, density, operators
+from reynolds.equation.deformation import opening
+from reynolds.errors import FilmInputError, FilmNotConverged
+from reynolds.film import ZERO, FilmProblem, FilmSolution, Storage
+from reynolds.numerics.arrays import Array
+from reynolds.solve.setting import spread
+from reynolds.solve.solver import FilmSolver
+
+MOST_HALVINGS = 12  # of a step on which the cavity does not settle
+
+
+class Holding(Protocol):
+    """A solution of any kind, of which a march needs what its unknowns hold."""
+
+    @property
+    def holds(self) -> Array:
+        """Oil of each unknown, m3 at reference density, (size,)."""
+
+
+Solved = TypeVar("Solved", bound=Holding)
+
+Step = Callable[[FilmProblem, Solved | None], Solved]
+"""(film with its storage, solution one step before or None) -> solution."""
+
+
+@dataclass(frozen=True)
+class Instant(Generic[Solved]):
+    """The film at the end of a step: time s, step s, and its solution (`storage` holds what it was before)."""
+
+    time: float
+    step: float
+    solution: Solved
+
+
+def march(
+    solver: FilmSolver,
+    problem_at: Callable[[float], FilmProblem],
+    end: float,
+    step: float,
+    *,
+    start: float = 0.0,
+    held: Array | None = None,
+) -> Iterator[Instant[FilmSolution]]:
+    """The film at start + step, start + 2 step, ... up to end (s), one instant at a time: as `march_with`."""
+
+    def solve(problem: FilmProblem, last: FilmSolution | None) -> FilmSolution:
+        return from_last_or_anew(lambda warm: solver.solve(problem, start=warm), last)
+
+    return march_with(solve, problem_at, end, step, start=start, held=held)
+
+
+def march_with(
+    solve: Step[Solved],
+    problem_at: Callable[[float], FilmProblem],
+    end: float,
+    step: float,
+    *,
+    start: float = 0.0,
+    held: Array | None = None,
+) -> Iterator[Instant[Solved]]:
+    """The film at start + step, start + 2 step, ... up to end (s), one instant at a time, each solved by `solve`.
+
+    Solves d(theta r h)/dt + div q = 0 with `problem_at(t)` the film at time t, without storage: its thickness,
+    wall speeds and boundary pressures; its squeeze is not used. `held` (size,) m3 is what the unknowns hold at
+    `start`; None: a full film at its lowest pressure. A step on which the film does not settle is cut in two, each
+    half yielded. Raises FilmInputError for an end or step that leads nowhere and for a mesh that moves, since its
+    motion would carry oil too; FilmNotConverged where no step is short enough.
+    """
+    if not (np.isfinite(end) and end > start):
+        raise FilmInputError("time, end", f"{end:g} s", f"after the start, {start:g} s")
+    if not (np.isfinite(step) and step > 0.0):
+        raise FilmInputError("time, step", f"{step:g} s", "above zero")
+    count = max(1, int(np.ceil((end - start) / step * (1.0 - 1e-9))))
+    first = problem_at(start)
+    before = oil_held(first) if held is None else held
+    last: Solved | None = None
+
+    def still(time: float) -> FilmProblem:
+        problem = problem_at(time)
+        if not np.array_equal(problem.space.vertices, first.space.vertices):
+            raise FilmInputError(f"mesh at {time:g} s", "vertices that have moved", "those of the start")
+        return replace(problem, film=replace(problem.film, squeeze=ZERO))
+
+    for number in range(count):
+        begin, until = (start + (end - start) * k / count for k in (number, number + 1))
+        for instant in _stepped(solve, still, before, last, begin, until):
+            before, last = instant.solution.holds, instant.solution
+            yield instant
+
+
+def oil_held(problem: FilmProblem, film_fraction: float | Array = 1.0) -> Array:
+    """What each unknown of a film holds at given film fractions (size,): m3 at reference density, (size,)."""
+    setting = spread(problem)
+    fraction = np.asarray(film_fraction, dtype=float)
+    if fraction.shape not in ((), (problem.space.size,)):
+        raise FilmInputError("film fraction", f"an array of shape {fraction.shape}", f"({problem.space.size},)")
+    fraction = np.broadcast_to(fraction, (problem.space.size,))
+    if not np.all((fraction >= 0.0) & (fraction <= 1.0)):
+        raise FilmInputError("film fraction", f"{fraction.min():g} .. {fraction.max():g}", "0 to 1")
+    state = State(setting.pressure, fraction, opening(problem, setting.pressure))
+    return operators(problem, state).content * fraction * density(problem, setting.pressure)[0]
+
+
+def _stepped(
+    solve: Step[Solved],
+    problem_at: Callable[[float], FilmProblem],
+    before: Array,
+    last: Solved | None,
+    begin: float,
+    until: float,
+) -> Iterator[Instant[Solved]]:
+    """One step, or the shorter ones that it takes."""
+    at, step, halvings = begin, until - begin, 0
+    while at < until - 1e-9 * (until - begin):
+        problem = replace(problem_at(at + step), storage=Storage(before, step))
+        try:
+            solution = solve(problem, last)
+        except FilmNotConverged as reason:
+            halvings += 1
+            if halvings > MOST_HALVINGS:
+                raise FilmNotConverged(f"at {at:.6g} s, step {step:.2g} s: {reason.what}", reason.remedy) from None
+            step *= 0.5
+            continue
+        at += step
+        before, last = solution.holds, solution
+        yield Instant(at, step, solution)
+
+
+def from_last_or_anew(solve: Callable[[Solved | None], Solved], last: Solved | None) -> Solved:
+    """From the step before; where that leads nowhere (a cavity that opens everywhere at once), from nothing."""
+    try:
+        return solve(last)
+    except FilmNotConverged:
+        if last is None:
+            raise
+        return solve(None)

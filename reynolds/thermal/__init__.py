@@ -1,0 +1,1 @@
+"""Temperature across and along the film, and its effect on the viscosity."""

@@ -1,0 +1,295 @@
+"""A film and its oil brought to agree: viscosity by shear, by temperature or by both, and walls that warmth bends.
+
+What is sought is the viscosity at the levels across the film, over that of the resting oil under the same
+pressure, and the opening of the film by its walls' heat. A round takes them to the generalised Reynolds equation,
+whose own Newton method follows the pressure, then to temperatures and shear rates and so back; Anderson's
+extrapolation takes the place of a relaxation factor.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+from typing import Generic, NamedTuple, TypeVar
+
+import numpy as np
+
+from reynolds.errors import FilmInputError, FilmNotConverged
+from reynolds.film import FilmProblem, FilmSolution
+from reynolds.laws.fluid import Fluid, ViscosityLaw, isoviscous
+from reynolds.numerics.anderson import History
+from reynolds.numerics.arrays import Array
+from reynolds.solve.solver import FilmSolver
+from reynolds.thermal.energy import FilmTemperature, Heat, solve_energy
+from reynolds.thermal.film_profile import Levels, Profile, dowson, film_with, scaled, shear_rate
+from reynolds.thermal.walls import opening_by_heat
+
+MAX_ROUNDS = 100
+MOST_HALVINGS = 12
+THINNEST = 1e-9  # of the viscosity of the oil at rest: less is a law far outside its range
+ROUGHLY = 0.1  # a relative change: near enough to start from
+MOST_CLOSED = 0.5  # of its thickness, by which warm walls may close the film in one round
+
+LocalLaw = Callable[[Array, Array, Array], Array]
+"""(temperature K, pressure Pa, shear rate 1/s), arrays that broadcast -> viscosity Pa s; NaN K where none is."""
+
+HeatOrNone = TypeVar("HeatOrNone", covariant=True)
+
+
+@dataclass(frozen=True)
+class Coupled(Generic[HeatOrNone]):
+    """A film and its oil that agree.
+
+    `heat`: its temperature, None where none was asked for; profile: how viscosity bends the flow; share (size, m):
+    viscosity at the levels over that of the resting oil under the same pressure; growth (vertices,) m: opening of
+    the film by its walls' heat; change: the largest relative one of viscosity or thickness in one more round.
+    """
+
+    film: FilmSolution
+    heat: HeatOrNone
+    profile: Profile = field(repr=False)
+    share: Array = field(repr=False)
+    growth: Array = field(repr=False)
+    rounds: int
+    change: float
+
+    @property
+    def holds(self) -> Array:
+        """Oil of each unknown, m3 at reference density, (size,)."""
+        return self.film.holds
+
+
+@dataclass(frozen=True)
+class Posed:
+    """A film of resting oil at one temperature, the oil's law, and its heat (None: the temperature stays).
+
+    `before` (size, m + 2) K: the temperature one time step ago, where the film stores oil; `at_once`: it follows
+    its film without delay instead.
+    """
+
+    problem: FilmProblem
+    law: LocalLaw
+    heat: Heat | None = None
+    before: Array | None = None
+    at_once: bool = False
+
+
+class _Conditions(NamedTuple):
+    """What the law answers to: temperature at all levels (size, m + 2) K, shear rate (size, m) 1/s."""
+
+    temperature: Array
+    rate: Array
+
+
+@dataclass(frozen=True)
+class _Guess:
+    """Viscosity over the resting oil's (size, m) and opening by heat over the film given (vertices,), as one."""
+
+    share: Array
+    opened: Array
+
+    @property
+    def point(self) -> Array:
+        return np.concatenate([np.log(self.share).ravel(), self.opened])
+
+    def at(self, point: Array) -> _Guess:
+        """The guess of this shape at a point; the film closes by no more than the half in one step."""
+        count = self.share.size
+        opened = np.maximum(point[count:], self.opened - MOST_CLOSED * np.maximum(1.0 + self.opened, 0.0))
+        return _Guess(np.exp(point[:count]).reshape(self.share.shape), opened)
+
+
+@dataclass(frozen=True)
+class _Work:
+    """What stays through the rounds: the case, levels, solver, and the film given (vertices,) m."""
+
+    posed: Posed
+    across: Levels
+    solver: FilmSolver
+    given: Array
+
+
+def agree(
+    posed: Posed, across: Levels, tolerance: float, solver: FilmSolver | None, start: Coupled[object] | None
+) -> Coupled[FilmTemperature | None]:
+    """The film of the viscosity that its own temperature and shear rates make at the levels across.
+
+    Afterwards one more round would change no viscosity and no film thickness by more than `tolerance` of it.
+    Raises FilmInputError, also where the oil's law does not hold at the answer, and FilmNotConverged.
+    """
+    problem = posed.problem
+    work = _Work(posed, across, solver or FilmSolver(problem.space), _given_thickness(problem))
+    if start is None and problem.fluid.viscosity is not isoviscous:
+        # An oil still cold or at rest may stiffen without bound under a pressure that the film never has.
+        start = agree(_unpressed(posed), across, ROUGHLY, work.solver, None)
+    conditions, guess = _first(work, start)
+    film, heat = (None, None) if start is None else (start.film, start.heat)
+    history, solved = History(), None
+    for rounds in range(1, MAX_ROUNDS + 1):
+        film, guess = _film(work, guess, film, solved)
+        solved = guess
+        profile = scaled(dowson(across, guess.share), resting_viscosity(problem, film.pressure))
+        heat = _heat(posed, film, profile, heat)
+        image, conditions, fault = _image(work, film, profile, heat, conditions)
+        change = float(np.abs(image.point - guess.point).max())
+        if fault is None and change < tolerance:
+            return Coupled(film, heat, profile, guess.share, guess.opened * work.given, rounds, change)
+        guess = guess.at(history.extrapolate(guess.point, image.point))
+    if fault is not None:
+        raise fault
+    raise FilmNotConverged(
+        f"film and oil do not agree after {MAX_ROUNDS} rounds (viscosity or film still change by {change:.2g})",
+        "a start from a case near by (`start`), a thicker film, or a wall that takes more heat",
+    )
+
+
+def _unpressed(posed: Posed) -> Posed:
+    """The same with an oil that no pressure stiffens."""
+    problem = posed.problem
+
+    def law(temperature: Array, pressure: Array, rate: Array) -> Array:
+        return posed.law(temperature, np.zeros_like(pressure), rate)
+
+    return replace(posed, problem=replace(problem, fluid=Fluid(isoviscous, problem.fluid.density)), law=law)
+
+
+def _film(
+    work: _Work, guess: _Guess, warm: FilmSolution | None, solved: _Guess | None
+) -> tuple[FilmSolution, _Guess]:
+    """The film of a guess, or of one nearer to the last that had a film; without such a one, of a thinner oil."""
+    problem = work.posed.problem
+    fault: FilmInputError | FilmNotConverged | None = None
+    for _ in range(MOST_HALVINGS):
+        posed = _opened(bent(problem, dowson(work.across, guess.share)), guess.opened * work.given)
+        try:
+            return work.solver.solve(posed, warm), guess
+        except (FilmInputError, FilmNotConverged) as reason:
+            fault = reason if fault is None else fault
+        if solved is not None:
+            guess = guess.at(0.5 * (guess.point + solved.point))
+        elif problem.fluid.viscosity is not isoviscous:
+            guess = replace(guess, share=0.5 * guess.share)
+        else:
+            break
+    assert fault is not None
+    raise fault
+
+
+def resting_viscosity(problem: FilmProblem, pressure: Array) -> Array:
+    """Viscosity (size,) Pa s that the problem itself states at nodal pressures (size,) Pa."""
+    given = problem.space.to_unknowns(problem.film.viscosity)[:, None]
+    found, _ = problem.fluid.viscosity(pressure[:, None], given)
+    return np.asarray(found[:, 0])
+
+
+@dataclass(frozen=True)
+class _Shared:
+    """A law in pressure of which each place has a share (cells, points): the film's viscosity has it already."""
+
+    law: ViscosityLaw
+    share: Array
+
+    def __call__(self, pressure: Array, viscosity: Array) -> tuple[Array, Array]:
+        value, slope = self.law(pressure, viscosity / self.share)
+        return value * self.share, slope * self.share
+
+
+def bent(problem: FilmProblem, shape: Profile) -> FilmProblem:
+    """The problem with the shares of its viscosity that a profile has, under any pressure the same."""
+    rest = problem.film
+    film = film_with(rest, problem.space, shape)
+    share = film.viscosity
+    film = replace(
+        film, viscosity=share * rest.viscosity, couette_viscosity=film.sliding_viscosity * rest.viscosity
+    )
+    if problem.fluid.viscosity is isoviscous:
+        return replace(problem, film=film)
+    return replace(problem, film=film, fluid=Fluid(_Shared(problem.fluid.viscosity, share), problem.fluid.density))
+
+
+def _opened(problem: FilmProblem, growth: Array) -> FilmProblem:
+    """The problem with its film opened by growth (vertices,) m."""
+    if not growth.any():
+        return problem
+    film, known = problem.film, problem.film.thickness_at_vertices
+    film = replace(
+        film,
+        thickness=film.thickness + problem.space.sample_vertices(growth),
+        thickness_at_vertices=None if known is None else known + growth,
+    )
+    return replace(problem, film=film)
+
+
+def _given_thickness(problem: FilmProblem) -> Array:
+    known = problem.film.thickness_at_vertices
+    return problem.space.to_vertices(problem.film.thickness) if known is None else known
+
+
+def _first(work: _Work, start: Coupled[object] | None) -> tuple[_Conditions, _Guess]:
+    """The oil at rest at the lowest temperature given, or as a start has it."""
+    posed, space, m = work.posed, work.posed.problem.space, len(work.across.weights)
+    lowest = np.nan if posed.heat is None else posed.heat.datum
+    conditions = _Conditions(np.full((space.size, m + 2), lowest), np.zeros((space.size, m)))
+    if start is None:
+        growth = _growth(posed.heat, posed.problem, np.zeros((2, space.size)))
+        return conditions, _Guess(_share(posed, conditions, np.zeros(space.size)), growth / work.given)
+    if start.share.shape != (space.size, m) or len(start.growth) != len(work.given):
+        expected = f"({space.size}, {m}): the same space and levels"
+        raise FilmInputError("viscosity to start from", f"a start of shape {start.share.shape}", expected)
+    if isinstance(start.heat, FilmTemperature) and posed.heat is not None:
+        conditions = conditions._replace(temperature=start.heat.temperature)
+    return conditions, _Guess(start.share, start.growth / work.given)
+
+
+def _heat(posed: Posed, film: FilmSolution, profile: Profile, last: object) -> FilmTemperature | None:
+    if posed.heat is None:
+        return None
+    warm = last.temperature if isinstance(last, FilmTemperature) else None
+    return solve_energy(film, posed.heat, profile, start=warm, before=posed.before, at_once=posed.at_once)
+
+
+def _image(
+    work: _Work, film: FilmSolution, profile: Profile, heat: FilmTemperature | None, last: _Conditions
+) -> tuple[_Guess, _Conditions, FilmInputError | None]:
+    """What a film makes of its oil; where the law does not hold there, on the way from the last conditions.
+
+    An oil still too stiff makes more heat than the film's answer will: then the fault comes along.
+    """
+    posed = work.posed
+    temperature = last.temperature if heat is None else heat.temperature
+    flux = np.zeros((2, posed.problem.space.size)) if heat is None else heat.heat_flux
+    opened = _growth(posed.heat, posed.problem, flux) / work.given
+    reached = _Conditions(temperature, shear_rate(film, profile))
+    fault: FilmInputError | None = None
+    for halvings in range(MOST_HALVINGS):
+        part = 0.5**halvings
+        there = _Conditions(*(old + part * (new - old) for old, new in zip(last, reached, strict=True)))
+        try:
+            return _Guess(_share(posed, there, film.pressure), opened), there, fault
+        except FilmInputError as reason:
+            fault = reason if fault is None else fault
+    assert fault is not None
+    raise fault
+
+
+def _share(posed: Posed, conditions: _Conditions, pressure: Array) -> Array:
+    """Viscosity by the law over that of the resting oil, (size, m). Raises FilmInputError where no oil has it."""
+    found = posed.law(conditions.temperature[:, 1:-1], pressure[:, None], conditions.rate)
+    share = np.broadcast_to(found / resting_viscosity(posed.problem, pressure)[:, None], conditions.rate.shape)
+    if not (share.min() > THINNEST and share.max() < 1.0 / THINNEST):
+        warmest, coldest = np.max(conditions.temperature), np.min(conditions.temperature)
+        raise FilmInputError(
+            "viscosity across the film",
+            f"{np.min(found):.3g} to {np.max(found):.3g} Pa s at {coldest:.4g} to {warmest:.4g} K",
+            f"at least {THINNEST:g} of the resting oil's: a law that holds there, or a film that stays cooler",
+        )
+    return share
+
+
+def _growth(heat: Heat | None, problem: FilmProblem, flux: Array) -> Array:
+    """Opening (vertices,) m by both walls' heat."""
+    growth = np.zeros(len(problem.space.vertices))
+    if heat is not None:
+        for wall, into in zip((heat.fixed_wall, heat.moving_wall), flux, strict=True):
+            growth = growth + opening_by_heat(wall, problem.space, into)
+    return growth

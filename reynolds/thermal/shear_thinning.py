@@ -1,0 +1,53 @@
+"""An oil that thins with shear, in a film: the generalised Reynolds equation with its local shear rates.
+
+At each unknown the shear rate follows from the profile across the film, (mu_c (U1 - U2)/h + (z - zbar) grad p)/mu,
+a vector in the film plane whose magnitude counts; viscosity then varies across the film, and along it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import cast
+
+import numpy as np
+
+from reynolds.film import FilmProblem
+from reynolds.numerics.arrays import Array
+from reynolds.solve.solver import FilmSolver
+from reynolds.thermal.coupling import Coupled, Posed, agree, resting_viscosity
+from reynolds.thermal.film_profile import DEFAULT_LEVELS, levels
+
+TOLERANCE = 1e-8
+
+ShearLaw = Callable[[Array, Array], Array]
+"""(shear rate 1/s, viscosity at rest Pa s), arrays that broadcast -> viscosity Pa s: `rheology` has such laws."""
+
+
+def newtonian(shear_rate: Array, viscosity: Array) -> Array:
+    """A viscosity that shear does not change."""
+    return np.broadcast_to(viscosity, np.broadcast_shapes(np.shape(shear_rate), np.shape(viscosity)))
+
+
+def solve_shear(
+    problem: FilmProblem,
+    law: ShearLaw,
+    *,
+    count: int = DEFAULT_LEVELS,
+    tolerance: float = TOLERANCE,
+    solver: FilmSolver | None = None,
+    start: Coupled[object] | None = None,
+) -> Coupled[None]:
+    """The film of `problem` with an oil that thins with shear, resolved by `count` levels across.
+
+    The problem's own viscosity and pressure law are those of the oil at rest, from which `law(shear rate, mu)`
+    makes the viscosity at each level. `start` warms. Afterwards one more round would change no viscosity by more
+    than `tolerance` of it. Raises FilmInputError as the laws do, and FilmNotConverged.
+    Validity: an oil without memory (its relaxation time far below the time through the film).
+    Source: Dowson 1962; Yang and Wen 1990, for oils that are not Newtonian.
+    """
+
+    def viscosity(temperature: Array, pressure: Array, rate: Array) -> Array:
+        return law(rate, resting_viscosity(problem, pressure[:, 0])[:, None])
+
+    found = agree(Posed(problem, viscosity), levels(count), tolerance, solver, start)
+    return cast("Coupled[None]", found)  # without a heat posed there is none
