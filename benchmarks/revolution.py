@@ -20,13 +20,13 @@ import numpy as np
 from rich.console import Console
 from rich.table import Table
 
-from gaps.block_motion import BlockFilm, floating_block
-from gaps.physics import Physics
-from gaps.piston_motion import PistonFilm, floating_piston
-from gaps.revolution import GapRevolution, run_revolution
-from gaps.schedule import evenly
-from gaps.seen import GapSeen, block_seen, piston_seen, slipper_seen
-from gaps.slipper_motion import SlipperFilm, floating_slipper
+from gaps.films.block import BlockFilm, floating_block
+from gaps.films.physics import Physics
+from gaps.films.piston import PistonFilm, floating_piston
+from gaps.films.slipper import SlipperFilm, floating_slipper
+from gaps.revolution.march import GapRevolution, run_revolution
+from gaps.revolution.reports import GapSeen, block_seen, piston_seen, slipper_seen
+from gaps.revolution.schedule import evenly
 from reynolds.floating.problem import Floating
 from reynolds.floating.step import Stage
 from reynolds.numerics.arrays import Array

@@ -72,7 +72,7 @@ def run_film(options: argparse.Namespace) -> int:
 
 
 def _revolution(case: RevolutionCase, options: argparse.Namespace, meshes: int) -> int:
-    from gaps.physics import Effect
+    from gaps.films.physics import Effect
     from swashfilm.film_refine import refinement_head, refinement_rows
     from swashfilm.progress import progress
     from swashfilm.revolution_page import revolution_rows

@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 from dataclasses import replace
 
-from gaps.physics import Effect
+from gaps.films.physics import Effect
 from reynolds.errors import FilmInputError
 from swashfilm.fidelity import Fidelity
 from swashfilm.physics_switches import SWITCHES

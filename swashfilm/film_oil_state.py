@@ -6,8 +6,8 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from gaps.physics import Physics
-from gaps.ring import SEALED
+from gaps.films.physics import Physics
+from gaps.shapes.valve_plate_ring import SEALED
 from reynolds.film import FilmSolution
 from reynolds.laws.oil import WALTHER_SHIFT, walther_coefficients
 from reynolds.numerics.arrays import Array

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from gaps.revolution import GapRevolution, Leg
+from gaps.revolution.march import GapRevolution, Leg
 from reynolds.solve.export import write_pvd
 from swashfilm.fidelity import Fidelity
 from swashfilm.gap_names import FIELDS, vtu_name

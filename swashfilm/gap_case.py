@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from gaps.physics import Physics
+from gaps.films.physics import Physics
 from reynolds.numerics.arrays import Array
 from swashfilm.case_pump import CasePump, operating_rows, own_rows, read_case_pump
 from swashfilm.gap_position import Load, load_rows, position_rows, read_load, read_position, touching

@@ -9,13 +9,13 @@ from typing import Any, assert_never
 
 import numpy as np
 
-from gaps.block_motion import BlockDrive, standing_block
-from gaps.course import constant
-from gaps.lateral import lateral_force
-from gaps.piston_motion import PistonDrive, standing_piston
-from gaps.result import GapFilm
-from gaps.slipper_motion import SlipperDrive, face_force, floating_slipper
-from gaps.standing import block_told, piston_told, rest_from, slipper_told
+from gaps.films.block import BlockDrive, standing_block
+from gaps.films.over_turn import constant
+from gaps.films.piston import PistonDrive, standing_piston
+from gaps.films.slipper import SlipperDrive, face_force, floating_slipper
+from gaps.loads.piston_forces import lateral_force
+from gaps.standing.gap_film import GapFilm
+from gaps.standing.reports import block_told, piston_told, rest_from, slipper_told
 from reynolds.fem.space import FilmSpace
 from reynolds.floating.problem import Floating
 from reynolds.floating.rest import held_at

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from enum import Enum
 
-from gaps.physics import Effect, Physics
+from gaps.films.physics import Effect, Physics
 from system.case_table import Table
 
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from gaps.physics import Effect
-from gaps.revolution import Leg
+from gaps.films.physics import Effect
+from gaps.revolution.march import Leg
 
 PHYSICS_HEAD = ("physics", "is", "switch", "time of the gaps")
 _TOLD = {

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from gaps.result import GapFilm
+from gaps.standing.gap_film import GapFilm
 from swashfilm.film_oil_state import UNITS, oil_state
 from system.assembly import PumpPoint
 from system.films import FilmsPoint

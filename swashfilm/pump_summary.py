@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from gaps.result import GapFilm
+from gaps.standing.gap_film import GapFilm
 from swashfilm.coefficients_told import coefficient_records
 from swashfilm.fidelity import Fidelity
 from swashfilm.losses_told import loss_records

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Protocol
 
-from gaps.schedule import Accuracy
+from gaps.revolution.schedule import Accuracy
 from swashfilm.case_pump import CasePump, operating_rows, own_rows, read_case_pump
 from swashfilm.gap_case import FORMAT
 from swashfilm.physics_case import physics_rows, read_physics

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gaps.seen import Active
-from gaps.turn import GapInstant
+from gaps.revolution.reports import Active
+from gaps.revolution.turn import GapInstant
 from reynolds.equation.rough_overlap import vertex_thickness
 from reynolds.numerics.arrays import Array
 from swashfilm.revolution_study import RevolutionStudy, friction_power, tilt

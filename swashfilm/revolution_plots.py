@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gaps.seen import Active
+from gaps.revolution.reports import Active
 from swashfilm.figure_png import figure_of, png_of
 from swashfilm.maps import draw_map
 from swashfilm.revolution_data import PISTON_END, POSITIONS, SHOWN

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from gaps.course import TURN, Course
+from gaps.films.over_turn import TURN, Course
 from reynolds.numerics.arrays import Array
 from system.case_table import Table, quoted
 from system.chamber_state_kernels import CAVITY_PRESSURE
@@ -35,7 +35,8 @@ Row = tuple[float, ...]
 class ChamberPressure:
     """Rows of shaft angle (rad) and pressure (Pa) of one chamber; none: the pump's own lumped cycle.
 
-    `text` is what gives it in a case. Between rows it is a `gaps.course.Course`; one row holds over the turn.
+    `text` is what gives it in a case. Between rows it is a `gaps.films.over_turn.Course`; one row holds over the
+    turn.
     """
 
     text: str

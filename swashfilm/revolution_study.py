@@ -8,9 +8,16 @@ from typing import Any
 
 import numpy as np
 
-from gaps.revolution import GapRevolution
-from gaps.seen import Active, BlockSeen, GapSeen, PistonSeen, SlipperSeen, mass_balance_error
-from gaps.warmth import Warmth
+from gaps.revolution.march import GapRevolution
+from gaps.revolution.reports import (
+    Active,
+    BlockSeen,
+    GapSeen,
+    PistonSeen,
+    SlipperSeen,
+    mass_balance_error,
+)
+from gaps.revolution.warmth import Warmth
 from reynolds.numerics.arrays import Array
 from swashfilm.revolution_case import GapCase, RevolutionCase
 from swashfilm.revolution_warnings import revolution_warnings

@@ -7,9 +7,9 @@ from typing import Any
 
 import numpy as np
 
-from gaps.physics import Effect
-from gaps.revolution import GapRevolution
-from gaps.slipper_motion import retainer_force
+from gaps.films.physics import Effect
+from gaps.films.slipper import retainer_force
+from gaps.revolution.march import GapRevolution
 from swashfilm.gap_names import LARGEST_RIGID_PRESSURE
 from swashfilm.revolution_case import GapCase
 from system.checks import run_checks

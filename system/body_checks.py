@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from gaps.own_body import OwnMesh
+from gaps.walls.user_mesh import OwnMesh
 from reynolds.bodies.chart import Chart, Cylinder, OnSphere, Side
 from reynolds.bodies.space import BodySpace, Face, body_space
 from reynolds.bodies.transfer import transfer

@@ -13,8 +13,8 @@ from typing import Annotated
 
 from pydantic import Field, computed_field
 
-from gaps.bearing_pads import BearingPads
-from gaps.slipper_lands import SlipperLands, lands_between
+from gaps.shapes.bearing_pads import BearingPads
+from gaps.shapes.slipper_lands import SlipperLands, lands_between
 from reynolds.fem.sphere import PLANE, Sphere
 from reynolds.laws.oil import Oil
 from system.fields import (

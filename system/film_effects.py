@@ -19,10 +19,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.optimize import brentq
 
-from gaps.film_heat import GapHeat
-from gaps.physics import Effect, FilmLaws, Physics
-from gaps.springs import SpringBore, SpringPlates
-from gaps.walls import BoreWalls, GapWalls, PlateWalls
+from gaps.films.physics import Effect, FilmLaws, Physics
+from gaps.revolution.film_heat import GapHeat
+from gaps.walls.pair import BoreWalls, GapWalls, PlateWalls
+from gaps.walls.springs import SpringBore, SpringPlates
 from reynolds.bodies.elasticity import Elastic
 from reynolds.laws.fluid import Fluid
 from reynolds.laws.law import Tangent

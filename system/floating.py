@@ -15,8 +15,8 @@ from time import perf_counter
 
 import numpy as np
 
-from gaps.revolution import Leg
-from gaps.seen import mass_balance_error
+from gaps.revolution.march import Leg
+from gaps.revolution.reports import mass_balance_error
 from system.assembly import PumpPoint, met_point, put_together
 from system.description import PumpDescription
 from system.errors import NotConverged

@@ -13,8 +13,8 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from multiprocessing.connection import Connection
 
-from gaps.revolution import GapRevolution
-from gaps.seen import PistonSeen
+from gaps.revolution.march import GapRevolution
+from gaps.revolution.reports import PistonSeen
 from reynolds.numerics.arrays import Array
 from system.errors import NotConverged
 from system.floating_drives import Rubbing, drives

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from gaps.block_balance import BlockBalance
+from gaps.loads.block_tipping import BlockBalance
 from system.checks import CheckReport, CheckWarning, Finding, length, needs, pressure, run_checks
 from system.description import PumpDescription
 from system.floating_parts import ball_plane_height
@@ -16,7 +16,7 @@ from system.lumped import block_spring, piston_area
 def block_tips(pump: PumpDescription) -> Iterator[Finding]:
     """What a parallel film does not lift of the pistons' force presses within the valve plate's outermost face.
 
-    At rated pressure and full swash angle, spring included (`gaps.block_balance`).
+    At rated pressure and full swash angle, spring included (`gaps.loads.block_tipping`).
     """
     plate, case = pump.valve_plate, pump.operating.case_pressure
     radii = (plate.land_radius_1, plate.land_radius_2, plate.land_radius_3, plate.land_radius_4)

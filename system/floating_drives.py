@@ -1,8 +1,8 @@
 """What drives the three floating gaps: forces between the parts over a turn, from chamber pressure and friction.
 
 Every sampled shaft angle has the balance of forces of piston and slipper with the ball joint between them
-(`gaps.ball_joint`); from it follow what the bore, the swash plate and the valve plate must bear. Friction of films
-comes from the revolutions before (`Rubbing`).
+(`gaps.loads.ball_joint`); from it follow what the bore, the swash plate and the valve plate must bear. Friction of
+films comes from the revolutions before (`Rubbing`).
 """
 
 from __future__ import annotations
@@ -12,12 +12,27 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from gaps.ball_joint import BallForces, DrivenBody, ball_forces, ball_friction, relative_spin, swept_acceleration
-from gaps.block_motion import BlockDrive, wrench_about
-from gaps.course import Course, OverTurn
-from gaps.lateral import lateral_force, lateral_moment
-from gaps.piston_motion import PistonDrive, PistonShape
-from gaps.slipper_motion import Orifice, Retainer, SlipperDrive, SlipperShape, face_force, face_inertia, pressed_by
+from gaps.films.block import BlockDrive, wrench_about
+from gaps.films.over_turn import Course, OverTurn
+from gaps.films.piston import PistonDrive, PistonShape
+from gaps.films.slipper import (
+    Orifice,
+    Retainer,
+    SlipperDrive,
+    SlipperShape,
+    face_force,
+    face_inertia,
+    pressed_by,
+)
+from gaps.loads.ball_joint import (
+    BallForces,
+    DrivenBody,
+    ball_forces,
+    ball_friction,
+    relative_spin,
+    swept_acceleration,
+)
+from gaps.loads.piston_forces import lateral_force, lateral_moment
 from reynolds.numerics.arrays import Array
 from system.chamber_state_kernels import CAVITY_PRESSURE
 from system.directions import bore_axis, bore_sides, plate_axes

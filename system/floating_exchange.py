@@ -11,8 +11,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from gaps.revolution import GapRevolution
-from gaps.seen import BlockSeen, GapSeen, PistonSeen, Seen, SlipperSeen
+from gaps.revolution.march import GapRevolution
+from gaps.revolution.reports import BlockSeen, GapSeen, PistonSeen, Seen, SlipperSeen
 from reynolds.numerics.arrays import Array
 from system.chamber_course import periodic_values
 from system.chamber_problem import LeakTable

@@ -8,14 +8,22 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from gaps.block_motion import BlockDrive, floating_block
-from gaps.film_heat import GapHeat, warm_revolution
-from gaps.physics import Effect, Physics
-from gaps.piston_motion import PistonDrive, floating_piston
-from gaps.revolution import GapRevolution, TurnReport, run_revolution
-from gaps.schedule import Accuracy, Schedule, evenly
-from gaps.seen import BlockSeen, PistonSeen, Seen, SlipperSeen, block_seen, piston_seen, slipper_seen
-from gaps.slipper_motion import SlipperDrive, floating_slipper
+from gaps.films.block import BlockDrive, floating_block
+from gaps.films.physics import Effect, Physics
+from gaps.films.piston import PistonDrive, floating_piston
+from gaps.films.slipper import SlipperDrive, floating_slipper
+from gaps.revolution.film_heat import GapHeat, warm_revolution
+from gaps.revolution.march import GapRevolution, TurnReport, run_revolution
+from gaps.revolution.reports import (
+    BlockSeen,
+    PistonSeen,
+    Seen,
+    SlipperSeen,
+    block_seen,
+    piston_seen,
+    slipper_seen,
+)
+from gaps.revolution.schedule import Accuracy, Schedule, evenly
 from reynolds.errors import FilmNotConverged
 from reynolds.fem.space import FilmSpace
 from reynolds.floating.problem import Floating

@@ -10,10 +10,10 @@ import math
 
 import numpy as np
 
-from gaps.bodies import PistonPart
-from gaps.film_heat import GapHeat, Sink
-from gaps.physics import FilmLaws, Physics
-from gaps.walls import BoreWalls, PlateWalls
+from gaps.films.physics import FilmLaws, Physics
+from gaps.revolution.film_heat import GapHeat, Sink
+from gaps.walls.pair import BoreWalls, PlateWalls
+from gaps.walls.parts import PistonPart
 from reynolds.laws.oil import walther
 from reynolds.numerics.arrays import Array
 from system.assumptions import Assumption, Taken

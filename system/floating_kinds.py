@@ -11,8 +11,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from gaps.revolution import GapRevolution
-from gaps.seen import PistonSeen
+from gaps.revolution.march import GapRevolution
+from gaps.revolution.reports import PistonSeen
 from reynolds.numerics.arrays import Array
 from system.chamber_problem import ChamberProblem
 from system.description import PumpDescription

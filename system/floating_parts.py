@@ -9,8 +9,17 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
-from gaps.physics import FilmLaws
-from gaps.profiles import Barrel, Crown, EdgeRelief, Profile, Shape, Waviness, measured, ring_grooves
+from gaps.films.physics import FilmLaws
+from gaps.shapes.profiles import (
+    Barrel,
+    Crown,
+    EdgeRelief,
+    Profile,
+    Shape,
+    Waviness,
+    measured,
+    ring_grooves,
+)
 from reynolds.bodies.elasticity import Elastic
 from reynolds.laws.contact import Asperities, composite_modulus
 from reynolds.laws.fluid import CONSTANT, Fluid

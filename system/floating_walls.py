@@ -6,9 +6,9 @@ import math
 from collections.abc import Mapping
 from dataclasses import replace
 
-from gaps.bodies import BushingPart, PistonPart, PlatePart, SlipperPart
-from gaps.own_body import CHAMBER, FILM, HELD, POCKET, SLIDING, OwnMesh
-from gaps.walls import BoreWalls, PlateWalls
+from gaps.walls.pair import BoreWalls, PlateWalls
+from gaps.walls.parts import BushingPart, PistonPart, PlatePart, SlipperPart
+from gaps.walls.user_mesh import CHAMBER, FILM, HELD, POCKET, SLIDING, OwnMesh
 from reynolds.bodies.elasticity import Elastic
 from system.assumptions import Taken
 from system.description import PumpDescription

@@ -7,15 +7,20 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from gaps.block_motion import BlockFilm, standing_block
-from gaps.film_heat import GapHeat
-from gaps.physics import Effect, Physics
-from gaps.piston_motion import PistonFilm, standing_piston
-from gaps.pressure_flow import carried_power, kidney_conductances, piston_conductance, slipper_conductance
-from gaps.result import GapFilm, ValvePlateFilm
-from gaps.slipper_motion import SlipperFilm, floating_slipper
-from gaps.standing import block_told, piston_told, slipper_told
-from gaps.standing_heat import warm_turn
+from gaps.films.block import BlockFilm, standing_block
+from gaps.films.physics import Effect, Physics
+from gaps.films.piston import PistonFilm, standing_piston
+from gaps.films.slipper import SlipperFilm, floating_slipper
+from gaps.revolution.film_heat import GapHeat
+from gaps.standing.conductances import (
+    carried_power,
+    kidney_conductances,
+    piston_conductance,
+    slipper_conductance,
+)
+from gaps.standing.gap_film import GapFilm, ValvePlateFilm
+from gaps.standing.heat import warm_turn
+from gaps.standing.reports import block_told, piston_told, slipper_told
 from reynolds.floating.problem import Floating
 from reynolds.floating.rest import held_at
 from reynolds.floating.step import Stage

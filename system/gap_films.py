@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from gaps.block_motion import BlockDrive, BlockFilm
-from gaps.physics import Effect, Physics
-from gaps.piston_motion import PistonDrive, PistonFilm
-from gaps.slipper_motion import SlipperDrive, SlipperFilm
+from gaps.films.block import BlockDrive, BlockFilm
+from gaps.films.physics import Effect, Physics
+from gaps.films.piston import PistonDrive, PistonFilm
+from gaps.films.slipper import SlipperDrive, SlipperFilm
 from system.floating_drives import piston_shape, slipper_shape
 from system.floating_parts import FloatingParts
 from system.instants import Rotor, valve_plate_geometry

@@ -7,8 +7,8 @@ from functools import cached_property
 
 import numpy as np
 
-from gaps.ball_joint import Spins
-from gaps.ring import ValvePlateGeometry
+from gaps.loads.ball_joint import Spins
+from gaps.shapes.valve_plate_ring import ValvePlateGeometry
 from reynolds.numerics.arrays import Array
 from system.description import PumpDescription
 from system.kinematics import SwashDrive, drive_at_ratio, piston_displacement

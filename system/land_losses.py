@@ -13,7 +13,7 @@ from pathlib import Path
 
 import numpy as np
 
-from gaps.orifice_table import OrificeTable
+from gaps.shapes.orifice_table import OrificeTable
 from reynolds.numerics.arrays import Array
 from system.chamber_problem import LeakTable
 from system.coefficient_files import FlowCoefficients, seen

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from gaps.ball_joint import Spins, bore_drag, free_spins, land_drag
+from gaps.loads.ball_joint import Spins, bore_drag, free_spins, land_drag
 from system.description import PumpDescription
 from system.directions import plate_axes
 from system.kinematics import SwashDrive, stroke
@@ -29,8 +29,8 @@ def spins(pump: PumpDescription, point: OperatingPoint, drive: SwashDrive, torqu
     """Spins (rad/s) of the piston relative to the block and of the slipper in space, constant over the turn.
 
     spin_ratio times shaft speed where stated; where left out, that at which the joint's friction and the films'
-    drags balance (`gaps.ball_joint.free_spins`); the bore stands along the shaft, as the cone's mean over the turn
-    does.
+    drags balance (`gaps.loads.ball_joint.free_spins`); the bore stands along the shaft, as the cone's mean over
+    the turn does.
     """
     speed, ratios = point.shaft_speed, (pump.piston.spin_ratio, pump.slipper.spin_ratio)
     piston, slipper = (None if ratio is None else ratio * speed for ratio in ratios)

@@ -7,11 +7,15 @@ from typing import assert_never
 
 import numpy as np
 
-from gaps.block_motion import standing_block
-from gaps.physics import Physics
-from gaps.piston_motion import standing_piston
-from gaps.pressure_flow import kidney_conductances, piston_conductance, slipper_land_conductance
-from gaps.slipper_motion import floating_slipper
+from gaps.films.block import standing_block
+from gaps.films.physics import Physics
+from gaps.films.piston import standing_piston
+from gaps.films.slipper import floating_slipper
+from gaps.standing.conductances import (
+    kidney_conductances,
+    piston_conductance,
+    slipper_land_conductance,
+)
 from reynolds.floating.rest import held_at
 from reynolds.numerics.arrays import Array
 from reynolds.solve.solver import FilmSolver

@@ -17,7 +17,7 @@ from pathlib import Path
 
 import numpy as np
 
-from gaps.physics import Effect
+from gaps.films.physics import Effect
 from reynolds.errors import FilmInputError, FilmNotConverged
 from reynolds.laws.oil import walther
 from system.films import films_point

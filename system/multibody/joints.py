@@ -6,7 +6,7 @@ the plate:
 
     slipper   m_s A   = B + T + H + (R - N) n          piston   m_p a_p = -B + F a + L,   L . a = 0
 
-as `gaps.ball_joint`, with the retainer. F is chamber pressure over the case's on the piston's area and the
+as `gaps.loads.ball_joint`, with the retainer. F is chamber pressure over the case's on the piston's area and the
 friction of the bore. The slipper's motion in the plate gives B there, the piston's along the bore the rest of
 it. L comes from two places, the case edge of the guiding land and its inner end, by the moment about the ball;
 the plate's moment holds what acts on the slipper about the ball.

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from gaps.revolution import GapRevolution
+from gaps.revolution.march import GapRevolution
 from reynolds.errors import FilmInputError
 from reynolds.numerics.arrays import Array
 from reynolds.numerics.cache import content_key

@@ -14,7 +14,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from gaps.physics import Effect
+from gaps.films.physics import Effect
 from gaps.response import Axis, Measure, Output, Response
 from reynolds.numerics.arrays import Array
 from reynolds.numerics.cache import content_key

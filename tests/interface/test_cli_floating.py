@@ -2,7 +2,7 @@
 
 import pytest
 
-from gaps.physics import Effect
+from gaps.films.physics import Effect
 from swashfilm.__main__ import main
 from swashfilm.cli import build_parser
 from swashfilm.cli_floating import floating_faults, floating_options

@@ -7,7 +7,7 @@ import pytest
 import pyvista
 import xarray
 
-from gaps.schedule import Accuracy
+from gaps.revolution.schedule import Accuracy
 from swashfilm.fidelity import Fidelity
 from swashfilm.pump_page import write_pump_page
 from swashfilm.pump_run import run_pump

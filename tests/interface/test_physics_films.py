@@ -7,7 +7,7 @@ import pytest
 import pyvista
 import xarray
 
-from gaps.physics import Effect, Physics
+from gaps.films.physics import Effect, Physics
 from swashfilm.__main__ import main
 from swashfilm.diagnose_films import FIELDS_FILE, OF_FILMS, film_pictures, films_of_both
 from swashfilm.film_oil_state import oil_state

@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from gaps.profiles import PointsAround, measured
+from gaps.shapes.profiles import PointsAround, measured
 from reynolds.errors import FilmInputError
 from system.faults import InputFaults
 from system.floating_parts import floating_parts

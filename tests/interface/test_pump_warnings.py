@@ -5,10 +5,10 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from gaps.course import constant
-from gaps.physics import Effect
-from gaps.piston_motion import PistonDrive, PistonFilm, PistonShape, standing_piston
-from gaps.standing import piston_told
+from gaps.films.over_turn import constant
+from gaps.films.physics import Effect
+from gaps.films.piston import PistonDrive, PistonFilm, PistonShape, standing_piston
+from gaps.standing.reports import piston_told
 from reynolds.floating.rest import held_at
 from reynolds.solve.solver import FilmSolver
 from swashfilm.pump_warnings import coarse_angles, impossible_pressures, uncarried_loads

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 import xarray
 
-from gaps.physics import Effect
+from gaps.films.physics import Effect
 from swashfilm import film_series
 from swashfilm.__main__ import main
 from swashfilm.revolution_case import RevolutionCase

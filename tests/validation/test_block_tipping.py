@@ -9,9 +9,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from gaps.revolution import GapRevolution
-from gaps.schedule import Accuracy
-from gaps.seen import BlockSeen
+from gaps.revolution.march import GapRevolution
+from gaps.revolution.reports import BlockSeen
+from gaps.revolution.schedule import Accuracy
 from reynolds.errors import FilmNotConverged
 from system.floating_checks import check_floating
 from system.floating_drives import drives, no_rubbing

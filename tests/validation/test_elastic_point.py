@@ -2,7 +2,7 @@
 
 import pytest
 
-from gaps.physics import Physics
+from gaps.films.physics import Physics
 from system.floating import floating_point
 from system.floating_gaps import FloatingOptions
 from system.operating import operating_point

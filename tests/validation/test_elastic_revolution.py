@@ -5,10 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from gaps.physics import Effect, Physics
-from gaps.revolution import GapRevolution, Leg
-from gaps.schedule import Accuracy
-from gaps.seen import SlipperSeen
+from gaps.films.physics import Effect, Physics
+from gaps.revolution.march import GapRevolution, Leg
+from gaps.revolution.reports import SlipperSeen
+from gaps.revolution.schedule import Accuracy
 from system.floating_drives import Drives, drives, no_rubbing
 from system.floating_gaps import FloatingOptions, block_revolution, piston_revolution, slipper_revolution
 from system.floating_parts import FloatingParts, floating_parts

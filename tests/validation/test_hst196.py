@@ -15,7 +15,7 @@ from types import ModuleType
 import numpy as np
 import pytest
 
-from gaps.schedule import Accuracy
+from gaps.revolution.schedule import Accuracy
 from system.floating_drives import drives, no_rubbing
 from system.floating_gaps import FloatingOptions, slipper_revolution
 from system.floating_parts import floating_parts

@@ -13,9 +13,9 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from gaps.revolution import GapRevolution
-from gaps.schedule import Accuracy
-from gaps.seen import Active, SlipperSeen
+from gaps.revolution.march import GapRevolution
+from gaps.revolution.reports import Active, SlipperSeen
+from gaps.revolution.schedule import Accuracy
 from system.floating_drives import Drives, drives, no_rubbing
 from system.floating_gaps import FloatingOptions, slipper_revolution
 from system.floating_parts import FloatingParts, floating_parts

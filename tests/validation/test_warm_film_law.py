@@ -8,10 +8,10 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from gaps.block_motion import standing_block
-from gaps.film_heat import GapHeat, local_law, wall_image
-from gaps.pressure_flow import kidney_conductances, slipper_land_conductance
-from gaps.slipper_motion import floating_slipper
+from gaps.films.block import standing_block
+from gaps.films.slipper import floating_slipper
+from gaps.revolution.film_heat import GapHeat, local_law, wall_image
+from gaps.standing.conductances import kidney_conductances, slipper_land_conductance
 from reynolds.film import HALF
 from reynolds.floating.rest import held_at
 from reynolds.laws.oil import dynamic_viscosity

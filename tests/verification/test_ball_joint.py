@@ -8,7 +8,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from gaps.ball_joint import (
+from gaps.films.slipper import face_force, pressed_by
+from gaps.loads.ball_joint import (
     DrivenBody,
     Spins,
     ball_forces,
@@ -19,8 +20,7 @@ from gaps.ball_joint import (
     relative_spin,
     swept_acceleration,
 )
-from gaps.lateral import lateral_force, lateral_moment
-from gaps.slipper_motion import face_force, pressed_by
+from gaps.loads.piston_forces import lateral_force, lateral_moment
 from reynolds.errors import FilmInputError
 from system.directions import bore_axis, bore_sides, plate_axes
 from system.kinematics import (

@@ -5,12 +5,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from gaps.bearing_pads import EDGE, BearingPads
-from gaps.block_motion import BlockDrive, BlockFilm
-from gaps.course import constant
-from gaps.physics import Effect, Physics
-from gaps.ring import Ring, ValvePlateGeometry
-from gaps.rubbing import rubbed
+from gaps.films.block import BlockDrive, BlockFilm
+from gaps.films.friction import rubbed
+from gaps.films.over_turn import constant
+from gaps.films.physics import Effect, Physics
+from gaps.shapes.bearing_pads import EDGE, BearingPads
+from gaps.shapes.valve_plate_ring import Ring, ValvePlateGeometry
 from reynolds.errors import FilmInputError
 from reynolds.film import FilmSolution
 from reynolds.floating.coordinates import generalised_force, modes_on

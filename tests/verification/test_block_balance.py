@@ -13,8 +13,7 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from gaps.block_balance import BlockBalance, land_lift
-from gaps.block_motion import (
+from gaps.films.block import (
     BlockDrive,
     BlockFilm,
     floating_block,
@@ -23,11 +22,12 @@ from gaps.block_motion import (
     standing_block,
     wrench_about,
 )
-from gaps.course import constant
-from gaps.physics import FilmLaws
-from gaps.profiles import Profile, Waviness
-from gaps.ring import ValvePlateGeometry
-from gaps.rubbing import rubbed
+from gaps.films.friction import rubbed
+from gaps.films.over_turn import constant
+from gaps.films.physics import FilmLaws
+from gaps.loads.block_tipping import BlockBalance, land_lift
+from gaps.shapes.profiles import Profile, Waviness
+from gaps.shapes.valve_plate_ring import ValvePlateGeometry
 from reynolds.film import FilmProblem, Storage
 from reynolds.floating.coordinates import contact_force, generalised_force, modes_on
 from reynolds.floating.rest import held_at

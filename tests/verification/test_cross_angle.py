@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from gaps.bearing_pads import EDGE
-from gaps.ring import Ring
+from gaps.shapes.bearing_pads import EDGE
+from gaps.shapes.valve_plate_ring import Ring
 from system import kinematics as kin
 from system.faults import InputFaults
 from system.instants import rotor, valve_plate_geometry

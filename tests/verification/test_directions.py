@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from gaps.ball_joint import DrivenBody, ball_forces
+from gaps.loads.ball_joint import DrivenBody, ball_forces
 from system.directions import bore_axis, bore_sides, plate_axes
 from system.kinematics import SwashDrive, ball_radius, slipper_acceleration, slipper_sliding_velocity
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from gaps.orifice_table import OrificeTable
-from gaps.slipper_motion import Orifice, hagen_poiseuille_conductance, supply
+from gaps.films.slipper import Orifice, hagen_poiseuille_conductance, supply
+from gaps.shapes.orifice_table import OrificeTable
 from reynolds.errors import FilmInputError
 from system.edge_losses import KINETIC, Edge, LandPath, LossCourse, secant_conductance
 from system.land_losses import creeping_film_leaks, land_losses, orifice_table, with_inertia

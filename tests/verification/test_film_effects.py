@@ -5,10 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from gaps.physics import Effect
-from gaps.springs import SpringBore, SpringPlates
-from gaps.stand import Stand
-from gaps.walls import BoreWalls, PlateWalls
+from gaps.films.physics import Effect
+from gaps.walls.pair import BoreWalls, PlateWalls
+from gaps.walls.pose import Stand
+from gaps.walls.springs import SpringBore, SpringPlates
 from reynolds.errors import FilmInputError
 from swashfilm.film_oil_state import oil_state
 from system.errors import NotConverged

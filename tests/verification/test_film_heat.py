@@ -7,15 +7,15 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from gaps.bodies import PistonPart
-from gaps.course import constant
-from gaps.film_heat import GapHeat, Sink, warm_revolution
-from gaps.physics import Effect, Physics
-from gaps.piston_motion import PistonDrive, PistonFilm, PistonShape, floating_piston
-from gaps.revolution import GapRevolution, run_revolution
-from gaps.schedule import Accuracy, evenly
-from gaps.seen import PistonSeen, piston_seen
-from gaps.warmth import ThinnedOver
+from gaps.films.over_turn import constant
+from gaps.films.physics import Effect, Physics
+from gaps.films.piston import PistonDrive, PistonFilm, PistonShape, floating_piston
+from gaps.revolution.film_heat import GapHeat, Sink, warm_revolution
+from gaps.revolution.march import GapRevolution, run_revolution
+from gaps.revolution.reports import PistonSeen, piston_seen
+from gaps.revolution.schedule import Accuracy, evenly
+from gaps.revolution.warmth import ThinnedOver
+from gaps.walls.parts import PistonPart
 from reynolds.bodies.elasticity import Elastic
 from reynolds.errors import FilmInputError, FilmNotConverged
 from reynolds.solve.solver import FilmSolver

@@ -6,10 +6,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from gaps.film_heat import Sink
+from gaps.films.slipper import floating_slipper
 from gaps.response import Axis, Response, Samples
-from gaps.slipper_motion import floating_slipper
-from gaps.standing_heat import warm_turn
+from gaps.revolution.film_heat import Sink
+from gaps.standing.heat import warm_turn
 from reynolds.floating.rest import held_at
 from reynolds.laws.oil import dynamic_viscosity
 from reynolds.solve.loads import boundary_flows

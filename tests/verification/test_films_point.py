@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from gaps.result import GapFilm
+from gaps.standing.gap_film import GapFilm
 from system.description import PumpDescription
 from system.directions import plate_axes
 from system.films import TOLERANCE, FilmsPoint, film_shear, films_point, leak_table

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from gaps.schedule import Accuracy
+from gaps.revolution.schedule import Accuracy
 from reynolds.errors import FilmInputError, FilmNotConverged
 from system.floating_beside import Driven, piston_beside
 from system.floating_drives import drives, no_rubbing

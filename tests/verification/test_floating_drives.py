@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from gaps.ball_joint import swept_acceleration
+from gaps.loads.ball_joint import swept_acceleration
 from system.directions import bore_axis, bore_sides, plate_axes
 from system.floating_drives import drives, group_instant, no_rubbing
 from system.floating_parts import floating_parts

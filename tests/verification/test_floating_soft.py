@@ -13,8 +13,8 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
-from gaps.revolution import run_revolution
-from gaps.schedule import Accuracy, evenly
+from gaps.revolution.march import run_revolution
+from gaps.revolution.schedule import Accuracy, evenly
 from reynolds.bodies.compliance import Walls
 from reynolds.bodies.elasticity import Elastic
 from reynolds.bodies.foundation import Compliance, half_space, winkler

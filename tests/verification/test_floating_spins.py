@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from gaps.schedule import Accuracy
+from gaps.revolution.schedule import Accuracy
 from system.floating import SPIN_TOLERANCE, FloatingPoint, floating_point
 from system.floating_exchange import spin_torques
 from system.floating_gaps import FloatingOptions

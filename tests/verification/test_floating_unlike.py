@@ -8,7 +8,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from gaps.schedule import Accuracy
+from gaps.revolution.schedule import Accuracy
 from system.description import PumpDescription
 from system.floating import PRESSURE_TOLERANCE, FloatingPoint, floating_point
 from system.floating_gaps import FloatingOptions

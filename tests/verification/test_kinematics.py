@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from gaps.ball_joint import DrivenBody, ball_forces, swept_acceleration
+from gaps.loads.ball_joint import DrivenBody, ball_forces, swept_acceleration
 from system import kinematics as kin
 from system import pairs
 from system.directions import bore_axis, plate_axes

@@ -11,10 +11,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from gaps.course import constant
-from gaps.physics import Effect, Physics
-from gaps.piston_motion import PistonDrive, PistonFilm, PistonShape
-from gaps.profiles import Points, Profile, Waviness
+from gaps.films.over_turn import constant
+from gaps.films.physics import Effect, Physics
+from gaps.films.piston import PistonDrive, PistonFilm, PistonShape
+from gaps.shapes.profiles import Points, Profile, Waviness
 from reynolds.errors import FilmInputError
 from reynolds.film import FilmSolution, Held, Storage
 from reynolds.solve.loads import boundary_flows

@@ -9,7 +9,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from gaps.ball_joint import DrivenBody, ball_forces, swept_acceleration
+from gaps.loads.ball_joint import DrivenBody, ball_forces, swept_acceleration
 from swashfilm.forces_data import force_warnings
 from system.description import PumpDescription
 from system.directions import bore_axis, plate_axes
@@ -177,7 +177,7 @@ def test_a_joint_left_on_one_part_alone_is_seen():
 
 
 def test_ball_and_plate_are_those_of_the_joint_balance():
-    """Without a spring on the slippers they are `gaps.ball_joint`'s, angle by angle."""
+    """Without a spring on the slippers they are `gaps.loads.ball_joint`'s, angle by angle."""
     joints = found(load_pump("ref90", {"retainer.kind": "clearance"}))
     group, own, one = joints.group, joints.loads[0], joints.sets[0]
     pushing = joints.hold.pushing

@@ -14,7 +14,11 @@ import pytest
 import skfem
 from numpy.typing import NDArray
 
-from gaps.bodies import (
+from gaps.films.physics import Effect, Physics
+from gaps.revolution.schedule import Accuracy
+from gaps.shapes.slipper_lands import slipper_mesh
+from gaps.walls.pair import PlateWalls, seen_from, while_turning
+from gaps.walls.parts import (
     BushingPart,
     PistonPart,
     PlatePart,
@@ -25,13 +29,9 @@ from gaps.bodies import (
     plate_body,
     slipper_body,
 )
-from gaps.own_body import OwnMesh
-from gaps.physics import Effect, Physics
-from gaps.piston_walls import FaceGrid, PistonWalls, face_grid
-from gaps.schedule import Accuracy
-from gaps.slipper_lands import slipper_mesh
-from gaps.stand import Stand
-from gaps.walls import PlateWalls, seen_from, while_turning
+from gaps.walls.piston import FaceGrid, PistonWalls, face_grid
+from gaps.walls.pose import Stand
+from gaps.walls.user_mesh import OwnMesh
 from reynolds.bodies.elasticity import Elastic
 from reynolds.bodies.mesh import BodyMesh, ring
 from reynolds.bodies.mesh_file import body_from_file

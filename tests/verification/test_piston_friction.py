@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from gaps.course import constant
-from gaps.physics import Effect, FilmLaws, Physics
-from gaps.piston_motion import PistonDrive, PistonFilm, PistonFriction, PistonShape, floating_piston
-from gaps.piston_yielding import Yielding
+from gaps.films.over_turn import constant
+from gaps.films.physics import Effect, FilmLaws, Physics
+from gaps.films.piston import PistonDrive, PistonFilm, PistonFriction, PistonShape, floating_piston
+from gaps.films.piston_deformation import Yielding
 from reynolds.floating.start import started
 from reynolds.floating.step import Stage, solve_stage
 from reynolds.laws.contact import Asperities, contact_pressure

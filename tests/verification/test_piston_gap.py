@@ -10,13 +10,13 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from gaps.course import constant
-from gaps.lateral import lateral_force
-from gaps.piston_motion import PistonDrive, PistonFilm, PistonShape, standing_piston
-from gaps.pressure_flow import piston_conductance
-from gaps.profiles import Barrel, Profile
-from gaps.result import GapFilm
-from gaps.standing import piston_told, rest_from
+from gaps.films.over_turn import constant
+from gaps.films.piston import PistonDrive, PistonFilm, PistonShape, standing_piston
+from gaps.loads.piston_forces import lateral_force
+from gaps.shapes.profiles import Barrel, Profile
+from gaps.standing.conductances import piston_conductance
+from gaps.standing.gap_film import GapFilm
+from gaps.standing.reports import piston_told, rest_from
 from reynolds.errors import FilmNotConverged
 from reynolds.floating.rest import held_at
 from reynolds.floating.step import Stage

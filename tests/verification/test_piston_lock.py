@@ -19,10 +19,10 @@ import numpy as np
 import pytest
 from scipy.linalg import expm
 
-from gaps.course import constant
-from gaps.physics import Effect, FilmLaws, Physics
-from gaps.piston_motion import PistonDrive, PistonFilm, PistonShape, floating_piston
-from gaps.profiles import EdgeRelief, Points, Profile
+from gaps.films.over_turn import constant
+from gaps.films.physics import Effect, FilmLaws, Physics
+from gaps.films.piston import PistonDrive, PistonFilm, PistonShape, floating_piston
+from gaps.shapes.profiles import EdgeRelief, Points, Profile
 from reynolds.floating.coordinates import generalised_force, modes_on
 from reynolds.floating.problem import Floating
 from reynolds.floating.start import started

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from gaps.frames import Frame
-from gaps.slipper_lands import slipper_mesh
+from gaps.shapes.slipper_lands import slipper_mesh
 from reynolds.fem.space import film_space
 from reynolds.fem.sphere import PLANE
 from system.floating_parts import floating_parts

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from gaps.ring import Ring
+from gaps.shapes.valve_plate_ring import Ring
 from system.faults import InputFaults
 from system.instants import valve_plate_geometry
 from system.lumped import port_openings

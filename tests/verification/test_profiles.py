@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from gaps.course import Course, constant
-from gaps.physics import Effect, FilmLaws, Physics, laws_left
-from gaps.profiles import (
+from gaps.films.over_turn import Course, constant
+from gaps.films.physics import Effect, FilmLaws, Physics, laws_left
+from gaps.shapes.profiles import (
     PLAIN,
     Barrel,
     Crown,

@@ -10,7 +10,8 @@ import numpy as np
 import pytest
 from scipy.special import ive
 
-from gaps.bodies import (
+from gaps.shapes.bore_rows import closer_at_end, closer_at_start
+from gaps.walls.parts import (
     BushingPart,
     PistonPart,
     PlatePart,
@@ -22,10 +23,9 @@ from gaps.bodies import (
     slipper_body,
     slipper_walls,
 )
-from gaps.own_body import CHAMBER, FILM
-from gaps.piston_walls import FaceGrid, PistonWalls, face_grid
-from gaps.rows import closer_at_end, closer_at_start
-from gaps.stand import Stand
+from gaps.walls.piston import FaceGrid, PistonWalls, face_grid
+from gaps.walls.pose import Stand
+from gaps.walls.user_mesh import CHAMBER, FILM
 from reynolds.bodies.elasticity import Elastic, pressure_forces, structure
 from reynolds.bodies.space import body_space
 from reynolds.bodies.wall import BodyWall, FacePressure, FaceWall, load_opening
@@ -363,7 +363,7 @@ def test_faces_a_piston_cannot_meet():
 
 def test_pocket_presses_on_slipper_and_plate(tmp_path):
     """A pocket's column is what its face alone does, both walls added; the cheaper form is chosen by size."""
-    from gaps.slipper_lands import slipper_mesh
+    from gaps.shapes.slipper_lands import slipper_mesh
 
     film = film_space(slipper_mesh(((8e-3, 14e-3),), (3, 24)), pockets=["pocket"])
     slipper = slipper_body(SlipperPart(0.5e-3, 8e-3, 7e-3, 14e-3, 5e-3, BRONZE), (6, 12, 1))
@@ -390,7 +390,7 @@ def test_pocket_presses_on_slipper_and_plate(tmp_path):
 
 def test_slipper_bends_alike_on_coarse_films(refine):
     """Films of eight sectors on: the rim's opening errs as the area of the film's polygon, by 1/n^2."""
-    from gaps.slipper_lands import slipper_mesh
+    from gaps.shapes.slipper_lands import slipper_mesh
 
     body = slipper_body(SlipperPart(0.5e-3, 8e-3, 7e-3, 14e-3, 5e-3, BRONZE), (6, 12, 1))
 
@@ -405,7 +405,7 @@ def test_slipper_bends_alike_on_coarse_films(refine):
 
 def test_grooves_press_on_slipper_and_plate(tmp_path):
     """Lands, groove and pocket at one pressure press as a film without a groove: nothing is left out."""
-    from gaps.slipper_lands import SlipperLands, slipper_mesh
+    from gaps.shapes.slipper_lands import SlipperLands, slipper_mesh
 
     grooved, plain = SlipperLands(((8e-3, 10e-3), (11.5e-3, 14e-3))), SlipperLands(((8e-3, 14e-3),))
     for body in (

@@ -12,8 +12,8 @@ from functools import partial
 import numpy as np
 import pytest
 
-from gaps.revolution import GapRevolution, run_revolution
-from gaps.schedule import Accuracy, Schedule, evenly
+from gaps.revolution.march import GapRevolution, run_revolution
+from gaps.revolution.schedule import Accuracy, Schedule, evenly
 from reynolds.errors import FilmInputError, FilmNotConverged
 from reynolds.fem.mesh import Cell, rectangle, ring
 from reynolds.fem.space import FilmSpace, film_space

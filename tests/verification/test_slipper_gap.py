@@ -9,12 +9,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from gaps.course import constant
-from gaps.pressure_flow import slipper_conductance as conductance_of
-from gaps.result import GapFilm
-from gaps.seen import Active
-from gaps.slipper_lands import SlipperLands
-from gaps.slipper_motion import (
+from gaps.films.over_turn import constant
+from gaps.films.slipper import (
     Orifice,
     SlipperDrive,
     SlipperFilm,
@@ -23,7 +19,11 @@ from gaps.slipper_motion import (
     floating_slipper,
     hagen_poiseuille_conductance,
 )
-from gaps.standing import rest_from, slipper_told
+from gaps.revolution.reports import Active
+from gaps.shapes.slipper_lands import SlipperLands
+from gaps.standing.conductances import slipper_conductance as conductance_of
+from gaps.standing.gap_film import GapFilm
+from gaps.standing.reports import rest_from, slipper_told
 from reynolds.errors import FilmNotConverged
 from reynolds.floating.rest import held_at
 from reynolds.floating.step import Stage

@@ -8,11 +8,9 @@ import numpy as np
 import pytest
 from scipy.optimize import minimize_scalar
 
-from gaps.course import constant
-from gaps.physics import Effect, FilmLaws, Physics
-from gaps.profiles import EdgeRelief, Profile, Waviness
-from gaps.slipper_lands import SlipperLands, lands_between, slipper_mesh
-from gaps.slipper_motion import (
+from gaps.films.over_turn import constant
+from gaps.films.physics import Effect, FilmLaws, Physics
+from gaps.films.slipper import (
     Orifice,
     Retainer,
     SlipperDrive,
@@ -24,6 +22,8 @@ from gaps.slipper_motion import (
     retainer_force,
     supply,
 )
+from gaps.shapes.profiles import EdgeRelief, Profile, Waviness
+from gaps.shapes.slipper_lands import SlipperLands, lands_between, slipper_mesh
 from reynolds.errors import FilmInputError
 from reynolds.film import FilmSolution, Held
 from reynolds.floating.coordinates import generalised_force, modes_on

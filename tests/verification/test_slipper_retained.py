@@ -10,9 +10,9 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from gaps.schedule import Accuracy
-from gaps.seen import Active
-from gaps.slipper_motion import retainer_force
+from gaps.films.slipper import retainer_force
+from gaps.revolution.reports import Active
+from gaps.revolution.schedule import Accuracy
 from reynolds.errors import FilmNotConverged
 from swashfilm.revolution_warnings import pulled_together
 from system.floating_drives import drives, no_rubbing, slipper_retainer

@@ -5,12 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from gaps.course import constant
-from gaps.physics import Effect, Physics
-from gaps.revolution import GapRevolution, run_revolution
-from gaps.schedule import Accuracy, evenly
-from gaps.slipper_lands import SlipperLands
-from gaps.slipper_motion import (
+from gaps.films.over_turn import constant
+from gaps.films.physics import Effect, Physics
+from gaps.films.slipper import (
     Orifice,
     SlipperDrive,
     SlipperFilm,
@@ -18,6 +15,9 @@ from gaps.slipper_motion import (
     face_force,
     floating_slipper,
 )
+from gaps.revolution.march import GapRevolution, run_revolution
+from gaps.revolution.schedule import Accuracy, evenly
+from gaps.shapes.slipper_lands import SlipperLands
 from reynolds.floating.step import Stage
 from reynolds.solve.solver import FilmSolver
 

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from gaps.ball_joint import Spins
+from gaps.loads.ball_joint import Spins
 from system.floating_drives import drives, no_rubbing
 from system.floating_parts import floating_parts
 from system.instants import rotor

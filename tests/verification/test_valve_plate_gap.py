@@ -11,12 +11,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 import pytest
 
-from gaps.block_motion import BlockDrive, BlockFilm, kidney_wrench, standing_block
-from gaps.course import Course, constant
-from gaps.pressure_flow import kidney_conductances
-from gaps.result import ValvePlateFilm
-from gaps.ring import ValvePlateGeometry
-from gaps.standing import block_told
+from gaps.films.block import BlockDrive, BlockFilm, kidney_wrench, standing_block
+from gaps.films.over_turn import Course, constant
+from gaps.shapes.valve_plate_ring import ValvePlateGeometry
+from gaps.standing.conductances import kidney_conductances
+from gaps.standing.gap_film import ValvePlateFilm
+from gaps.standing.reports import block_told
 from reynolds.floating.rest import held_at
 from reynolds.floating.step import Stage
 from reynolds.numerics.arrays import Array

@@ -12,14 +12,14 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from gaps.block_balance import BlockBalance, land_lift
-from gaps.block_motion import BlockDrive, BlockFilm, floating_block, kidney_wrench, standing_block
-from gaps.bodies import PlatePart, part_wall, plate_body
-from gaps.course import constant
-from gaps.physics import FilmLaws
-from gaps.ring import ValvePlateGeometry
-from gaps.rubbing import rubbed
-from gaps.standing import block_told
+from gaps.films.block import BlockDrive, BlockFilm, floating_block, kidney_wrench, standing_block
+from gaps.films.friction import rubbed
+from gaps.films.over_turn import constant
+from gaps.films.physics import FilmLaws
+from gaps.loads.block_tipping import BlockBalance, land_lift
+from gaps.shapes.valve_plate_ring import ValvePlateGeometry
+from gaps.standing.reports import block_told
+from gaps.walls.parts import PlatePart, part_wall, plate_body
 from reynolds.bodies.chart import face_normals
 from reynolds.bodies.elasticity import Elastic
 from reynolds.bodies.space import body_space

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from enum import Enum
 
-from gaps.walls import GapWalls
+from gaps.walls.pair import GapWalls
 from reynolds.film import Cavitation
 from reynolds.laws.contact import Asperities
 from reynolds.laws.fluid import CONSTANT, Fluid

@@ -1,7 +1,7 @@
 """A part by a mesh of the user's: read from a file, its faces by what they are for, under the film of its gap.
 
-In place of the body that `gaps.bodies` makes from the part's sizes, and in the same axes: a face under the film,
-faces held or sliding, and faces that pressures beside the film press on, by the names of those pressures.
+In place of the body that `gaps.walls.parts` makes from the part's sizes, and in the same axes: a face under the
+film, faces held or sliding, and faces that pressures beside the film press on, by the names of those pressures.
 """
 
 from __future__ import annotations

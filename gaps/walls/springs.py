@@ -10,9 +10,9 @@ from dataclasses import dataclass, field
 import numpy as np
 from scipy.sparse import csr_array
 
-from gaps.piston_walls import ByChamber
-from gaps.stand import Stand
-from gaps.walls import BoreWalls, PlateWalls
+from gaps.walls.pair import BoreWalls, PlateWalls
+from gaps.walls.piston import ByChamber
+from gaps.walls.pose import Stand
 from reynolds.bodies.foundation import Compliance, winkler
 from reynolds.fem.space import FilmSpace
 

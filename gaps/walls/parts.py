@@ -19,9 +19,9 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from gaps.own_body import CHAMBER, FILM, HELD, POCKET, OwnMesh, own_body, with_faces
-from gaps.rows import closer_at_end, closer_at_start
-from gaps.slipper_lands import Land
+from gaps.shapes.bore_rows import closer_at_end, closer_at_start
+from gaps.shapes.slipper_lands import Land
+from gaps.walls.user_mesh import CHAMBER, FILM, HELD, POCKET, OwnMesh, own_body, with_faces
 from reynolds.bodies.chart import Cylinder, OnSphere, Plane, Side
 from reynolds.bodies.compliance import Walls
 from reynolds.bodies.elasticity import Elastic

@@ -1,7 +1,8 @@
 """The cylinder block that floats on the valve plate: film and outer forces by its film thickness and two tilts.
 
-Film plane: the pump's x, y (x to the inner dead centre), which does not turn; the mesh is the ring of `gaps.ring`
-and turns with the block. Coordinates q = (h on the shaft axis, rise along x, rise along y), m, rises over R4:
+Film plane: the pump's x, y (x to the inner dead centre), which does not turn; the mesh is the ring of
+`gaps.shapes.valve_plate_ring` and turns with the block. Coordinates q = (h on the shaft axis, rise along x, rise
+along y), m, rises over R4:
 
     h = face(r, angle) + q0 + q1 x/R4 + q2 y/R4.
 
@@ -26,13 +27,13 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from gaps.course import OverTurn
-from gaps.physics import FilmLaws, Physics, laws_left
-from gaps.profiles import PLAIN, Profile
-from gaps.ring import SEALED, Ring, ValvePlateGeometry
-from gaps.rubbing import Rubbed, rubbed
-from gaps.stand import Stand
-from gaps.walls import while_turning
+from gaps.films.friction import Rubbed, rubbed
+from gaps.films.over_turn import OverTurn
+from gaps.films.physics import FilmLaws, Physics, laws_left
+from gaps.shapes.profiles import PLAIN, Profile
+from gaps.shapes.valve_plate_ring import SEALED, Ring, ValvePlateGeometry
+from gaps.walls.pair import while_turning
+from gaps.walls.pose import Stand
 from reynolds.bodies.compliance import Walls
 from reynolds.errors import FilmInputError
 from reynolds.fem.space import FilmSpace

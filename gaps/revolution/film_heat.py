@@ -16,10 +16,10 @@ from typing import Generic, TypeVar, cast
 
 import numpy as np
 
-from gaps.revolution import GapRevolution, Leg, TurnReport, run_revolution, unheard
-from gaps.schedule import Accuracy, Schedule
-from gaps.seen import GapSeen
-from gaps.warmth import HeatFlows, ThinnedOver, Warmth, thinned
+from gaps.revolution.march import GapRevolution, Leg, TurnReport, run_revolution, unheard
+from gaps.revolution.reports import GapSeen
+from gaps.revolution.schedule import Accuracy, Schedule
+from gaps.revolution.warmth import HeatFlows, ThinnedOver, Warmth, thinned
 from reynolds.equation.coefficients import at_points
 from reynolds.errors import FilmInputError, FilmNotConverged
 from reynolds.film import HALF, FilmProblem, FilmSolution

@@ -6,7 +6,7 @@ rise along y), m, rises over the outer radius r2 of the last land:
 
     h = face(r) + q0 + q1 x/r2 + q2 y/r2.
 
-Boundaries: pocket, case, and groove_1, groove_2, .. between lands (`gaps.slipper_lands`).
+Boundaries: pocket, case, and groove_1, groove_2, .. between lands (`gaps.shapes.slipper_lands`).
 """
 
 from __future__ import annotations
@@ -16,14 +16,14 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from gaps.course import OverTurn
-from gaps.orifice_table import OrificeTable
-from gaps.physics import FilmLaws, Physics, laws_left
-from gaps.profiles import PLAIN, Profile
-from gaps.rubbing import Rubbed, rubbed
-from gaps.slipper_lands import SlipperLands, slipper_mesh
-from gaps.stand import Stand
-from gaps.walls import while_turning
+from gaps.films.friction import Rubbed, rubbed
+from gaps.films.over_turn import OverTurn
+from gaps.films.physics import FilmLaws, Physics, laws_left
+from gaps.shapes.orifice_table import OrificeTable
+from gaps.shapes.profiles import PLAIN, Profile
+from gaps.shapes.slipper_lands import SlipperLands, slipper_mesh
+from gaps.walls.pair import while_turning
+from gaps.walls.pose import Stand
 from reynolds.bodies.compliance import Walls
 from reynolds.fem.space import FilmSpace, film_space
 from reynolds.film import ZERO, Boundary, Film, FilmProblem, Held, Pocket, no_feed

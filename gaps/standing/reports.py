@@ -6,11 +6,11 @@ from functools import partial
 
 import numpy as np
 
-from gaps.block_motion import BlockFilm
-from gaps.piston_motion import PistonFilm
-from gaps.result import GapFilm, ValvePlateFilm
-from gaps.seen import active
-from gaps.slipper_motion import SlipperFilm
+from gaps.films.block import BlockFilm
+from gaps.films.piston import PistonFilm
+from gaps.films.slipper import SlipperFilm
+from gaps.revolution.reports import active
+from gaps.standing.gap_film import GapFilm, ValvePlateFilm
 from reynolds.floating.problem import Floating
 from reynolds.floating.rest import come_to_rest
 from reynolds.floating.start import pressed, started

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from gaps.seen import Active
+from gaps.revolution.reports import Active
 from reynolds.film import FilmSolution
 from reynolds.numerics.arrays import Array
 from reynolds.solve.loads import Loads
@@ -22,7 +22,8 @@ class GapFilm:
     position (k,) m, as the gap's film counts it; chamber_flow m3/s out of the chamber into the gap, leakage_flow
     m3/s out of the gap into the case; friction_power W drawn from the moving parts; required_load N and
     carried_load N: what presses the parts together and what the film with its pockets and contact holds, both in
-    the load's direction; contact_load N, int of the asperities' pressure; active: as `gaps.seen.GapSeen` has it.
+    the load's direction; contact_load N, int of the asperities' pressure; active: as
+    `gaps.revolution.reports.GapSeen` has it.
     """
 
     solution: FilmSolution

@@ -11,8 +11,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from gaps.block_motion import BlockFilm
-from gaps.slipper_motion import SlipperFilm
+from gaps.films.block import BlockFilm
+from gaps.films.slipper import SlipperFilm
 from reynolds.film import ZERO, Boundary, Cavitation, FilmProblem, FilmSolution, Held, Pocket, no_feed
 from reynolds.floating.step import Stage
 from reynolds.numerics.arrays import Array

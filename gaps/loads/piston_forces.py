@@ -1,4 +1,4 @@
-"""Generalised forces of what pushes a piston across its bore, by the eccentricities of `gaps.piston_motion`."""
+"""Generalised forces of what pushes a piston across its bore, by the eccentricities of `gaps.films.piston`."""
 
 from __future__ import annotations
 

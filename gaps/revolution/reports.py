@@ -9,11 +9,11 @@ from typing import TypeVar
 
 import numpy as np
 
-from gaps.block_motion import BlockFilm
-from gaps.piston_motion import PistonFilm, PistonFriction
-from gaps.revolution import GapRevolution
-from gaps.rubbing import Heat
-from gaps.slipper_motion import SlipperFilm, SlipperFriction
+from gaps.films.block import BlockFilm
+from gaps.films.friction import Heat
+from gaps.films.piston import PistonFilm, PistonFriction
+from gaps.films.slipper import SlipperFilm, SlipperFriction
+from gaps.revolution.march import GapRevolution
 from reynolds.floating.step import Stage
 from reynolds.laws.contact import Asperities
 from reynolds.numerics.arrays import Array
@@ -50,7 +50,7 @@ class GapSeen:
 
 @dataclass(frozen=True)
 class PistonSeen(GapSeen):
-    """A piston's film with what it does to the piston; swollen m3, see `gaps.piston_yielding`."""
+    """A piston's film with what it does to the piston; swollen m3, see `gaps.films.piston_deformation`."""
 
     friction: PistonFriction
     swollen: float

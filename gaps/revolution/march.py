@@ -10,9 +10,9 @@ from typing import Generic
 
 import numpy as np
 
-from gaps.schedule import Accuracy, Schedule
-from gaps.turn import GapInstant, GapTurn, Seen, Turns
-from gaps.warmth import Warmth
+from gaps.revolution.schedule import Accuracy, Schedule
+from gaps.revolution.turn import GapInstant, GapTurn, Seen, Turns
+from gaps.revolution.warmth import Warmth
 from reynolds.errors import FilmInputError
 from reynolds.floating.problem import Floating
 from reynolds.floating.step import Stage

@@ -15,8 +15,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from gaps.stand import Stand
-from gaps.walls import BoreWalls
+from gaps.walls.pair import BoreWalls
+from gaps.walls.pose import Stand
 from reynolds.bodies.compliance import full
 from reynolds.film import FilmSolution
 from reynolds.floating.step import Stage

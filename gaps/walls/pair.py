@@ -9,7 +9,8 @@ from typing import Protocol
 
 import numpy as np
 
-from gaps.bodies import (
+from gaps.shapes.bore_rows import closer_at_end, closer_at_start
+from gaps.walls.parts import (
     BushingPart,
     PistonPart,
     PlatePart,
@@ -20,9 +21,8 @@ from gaps.bodies import (
     plate_body,
     slipper_body,
 )
-from gaps.piston_walls import ByChamber, PistonWalls, face_grid
-from gaps.rows import closer_at_end, closer_at_start
-from gaps.stand import Stand
+from gaps.walls.piston import ByChamber, PistonWalls, face_grid
+from gaps.walls.pose import Stand
 from reynolds.bodies.compliance import Walls, full
 from reynolds.bodies.foundation import Compliance, both
 from reynolds.bodies.wall import Body

@@ -9,8 +9,8 @@ from typing import Generic, TypeVar
 
 import numpy as np
 
-from gaps.means import Passed
-from gaps.schedule import Accuracy, Schedule
+from gaps.revolution.schedule import Accuracy, Schedule
+from gaps.revolution.step_means import Passed
 from reynolds.equation.rough_overlap import vertex_thickness
 from reynolds.errors import FilmNotConverged
 from reynolds.fem.space import FilmSpace

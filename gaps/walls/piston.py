@@ -19,8 +19,8 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from gaps.own_body import CHAMBER
-from gaps.stand import Stand
+from gaps.walls.pose import Stand
+from gaps.walls.user_mesh import CHAMBER
 from reynolds.bodies.foundation import Compliance
 from reynolds.bodies.wall import Body, FacePressure, body_wall, load_opening
 from reynolds.errors import FilmInputError
@@ -142,7 +142,7 @@ class PistonWalls:
     def at(self, film: FilmSpace, stand: Stand) -> Compliance:
         """Both walls of a film on that mesh.
 
-        The film plane is that of `gaps.piston_motion`. Raises FilmInputError for a film with other columns than
+        The film plane is that of `gaps.films.piston`. Raises FilmInputError for a film with other columns than
         the faces have, and for one that reaches beyond a part.
         """
         one, two = (_turned(_met(grid, film, start), angle) for grid, start, angle in self._parts(stand))

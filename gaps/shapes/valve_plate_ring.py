@@ -3,7 +3,7 @@
 Kidneys are holes of the mesh, kidney_1 about angle 0 at shaft angle 0; the film plane (pump's x, y, x to the inner
 dead centre) does not turn. Ports are sectors of the valve plate between R2 and R3. Webs between kidneys that lie
 over a port are at its pressure and are no film; a port's edge is taken at the next mesh line inside it. Outer
-bearing pads (`gaps.bearing_pads`) are cells of their own, which stand still.
+bearing pads (`gaps.shapes.bearing_pads`) are cells of their own, which stand still.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from gaps.bearing_pads import EDGE, BearingPads, with_pads
+from gaps.shapes.bearing_pads import EDGE, BearingPads, with_pads
 from reynolds.fem.mesh import FilmMesh, rename, ring
 from reynolds.fem.space import FilmSpace, film_space
 from reynolds.fem.sphere import PLANE, Sphere

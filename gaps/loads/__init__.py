@@ -1,0 +1,1 @@
+"""Loads on the parts: ball joint, side forces of the piston, tipping of the block."""

@@ -1,0 +1,1 @@
+"""A gap whose parts do not move across the film: film, conductances, temperature."""

@@ -1,0 +1,1 @@
+"""Parts of a gap as elastic bodies, and the compliance of both of its walls."""
