@@ -14,14 +14,14 @@ from time import perf_counter
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
-from system.assembly import PumpPoint
-from system.films import films_point
-from system.lumped_point import lumped_point
-from system.operating import operating_point
-from system.physics.rubbing import OF_GAP
-from system.physics_description import PhysicsSection
-from system.pump_file import load_pump
-from system.pump_gap import Gap
+from system.description.effects import PhysicsSection
+from system.description.gap import Gap
+from system.effects.friction import OF_GAP
+from system.points.films import films_point
+from system.points.lumped import lumped_point
+from system.pump.assembly import PumpPoint
+from system.pump.operating import operating_point
+from system.pump_file.file import load_pump
 
 COARSE = {"positions_per_pitch": 2, "finer": 0.5, "tolerance": 0.05}
 CASES = {

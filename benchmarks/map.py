@@ -20,10 +20,10 @@ from rich.table import Table
 
 from swashfilm.fidelity import Fidelity
 from swashfilm.map_run import MapAsked, run_map
-from system.map_plan import MapAxis, MapInput, MapPlan, map_plan, paper_axes
-from system.pump_file import load_pump
-from system.side_by_side import crew
-from system.work import Hands
+from system.maps.plan import MapAxis, MapInput, MapPlan, map_plan, paper_axes
+from system.pump_file.file import load_pump
+from system.work.processes import crew
+from system.work.tasks import Hands
 
 FINE = 17
 """Pressures of the finer map, at five temperatures: 4 x 17 x 4 x 5 points."""
@@ -89,7 +89,7 @@ def local_cluster() -> Iterator[Hands]:
     """Two workers of a Dask cluster on this machine."""
     from distributed import LocalCluster
 
-    from system.cluster import THREADS, cluster
+    from system.work.cluster import THREADS, cluster
 
     os.environ.update(dict.fromkeys(THREADS, "1"))
     with (

@@ -11,10 +11,10 @@ from statistics import median
 from rich.console import Console
 from rich.table import Table
 
-from system.films import films_point
-from system.lumped_point import lumped_point
-from system.operating import operating_point
-from system.pump_file import load_pump
+from system.points.films import films_point
+from system.points.lumped import lumped_point
+from system.pump.operating import operating_point
+from system.pump_file.file import load_pump
 
 
 def seconds(work: Callable[[], object], repeats: int) -> list[float]:

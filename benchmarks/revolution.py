@@ -31,13 +31,13 @@ from reynolds.floating.problem import Floating
 from reynolds.floating.step import Stage
 from reynolds.numerics.arrays import Array
 from reynolds.solve.solver import FilmSolver
-from system.floating_drives import drives, no_rubbing, piston_shape, slipper_shape
-from system.floating_gaps import MARCHED
-from system.floating_parts import floating_parts
-from system.instants import rotor, valve_plate_geometry
-from system.lumped_point import lumped_point
-from system.operating import operating_point
-from system.pump_file import load_pump
+from system.films.drives import drives, no_rubbing, piston_shape, slipper_shape
+from system.films.parts import floating_parts
+from system.films.rotor import rotor, valve_plate_geometry
+from system.points.floating_gaps import MARCHED
+from system.points.lumped import lumped_point
+from system.pump.operating import operating_point
+from system.pump_file.file import load_pump
 
 PUMP, PRESSURE = "ref90_floating", "35 MPa"
 CELLS = {"slipper": (12, 40), "piston": (48, 16), "block": (4, 16)}

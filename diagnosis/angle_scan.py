@@ -13,7 +13,7 @@ from scipy.signal import lfilter
 from diagnosis.study import PortEvent, TraceMisfit
 from diagnosis.thresholds import LocateLimits
 from reynolds.numerics.arrays import Array
-from system.units import TURN
+from system.inputs.units import TURN
 
 SIGMA_OF_MEDIAN = 1.4826  # of a normal distribution, over its median deviation
 MOST_MEMORY = 0.95  # lag-1 correlation of a trace's noise: above it the trace is too short to tell

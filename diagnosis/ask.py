@@ -16,8 +16,8 @@ from diagnosis.verdict import Diagnosis
 from diagnosis.weighed import Weighed
 from diagnosis.words import explanation_words
 from reynolds.errors import FilmInputError
-from system.description import PumpDescription
-from system.errors import NotConverged
+from system.description.pump import PumpDescription
+from system.inputs.errors import NotConverged
 
 STANDS = 0.001  # probability of a rival worth a reading
 

@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 from diagnosis.inputs import bench_points, measured
 from diagnosis.recording import Recording
 from reynolds.numerics.arrays import Array
-from system.bench_points import BenchPoints
-from system.channels import INPUTS, ChannelName
-from system.description import PumpDescription
+from system.bench.points import BenchPoints
+from system.description.pump import PumpDescription
+from system.inputs.channels import INPUTS, ChannelName
 
 BEYOND = 0.1  # of a range as recorded, beyond each of its ends
 SLOW, UNLOADED, SWIVELLED = 0.25, 0.1, 0.2  # of rated speed, rise of pressure, displacement: least on a bench

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from system.channels import ChannelName
-from system.units import Dimension, in_unit
+from system.inputs.channels import ChannelName
+from system.inputs.units import Dimension, in_unit
 
 BENCH_UNITS = {Dimension.PRESSURE: "bar", Dimension.TEMPERATURE: "degC", Dimension.VOLUME_FLOW: "L/min"}
 """What a bench reads in, where it is not the usual reading unit."""

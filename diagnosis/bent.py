@@ -21,10 +21,10 @@ from diagnosis.study import Study
 from diagnosis.thresholds import Thresholds
 from diagnosis.weighed import Weighed
 from reynolds.numerics.arrays import Array
-from system.errors import NotConverged
+from system.effects.effect import EffectId, Kind
 from system.estimation.evidence import multiplier_evidence
 from system.estimation.posterior import Posterior, settled
-from system.physics.effects import EffectId, Kind
+from system.inputs.errors import NotConverged
 
 Evidence = Callable[[Weighed], float | None]
 

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 from enum import Enum
 
 from reynolds.numerics.arrays import Array
-from system.case_table import Table
-from system.channels import ChannelName
-from system.units import STANDARD_ATMOSPHERE, Dimension, QuantityError, unit_scale
+from system.inputs.channels import ChannelName
+from system.inputs.toml_table import Table
+from system.inputs.units import STANDARD_ATMOSPHERE, Dimension, QuantityError, unit_scale
 
 
 class Reference(Enum):

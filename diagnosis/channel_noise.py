@@ -9,8 +9,8 @@ import numpy as np
 from diagnosis.channel_form import AccuracyClass, ChannelForm
 from diagnosis.recording import RecordedChannel
 from reynolds.numerics.arrays import Array
-from system.channels import ChannelName
-from system.units import Dimension
+from system.inputs.channels import ChannelName
+from system.inputs.units import Dimension
 
 LEAST_GAIN = 1e-3
 SETTING_SHARE = 5e-4  # of full displacement: how well a swash angle is set where nothing is stated

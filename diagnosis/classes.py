@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from diagnosis.weighed import Weighed
-from system.physics.effects import Kind
+from system.effects.effect import Kind
 
 NOT_NAMED = (Kind.NO_MISMATCH, Kind.UNKNOWN_PHYSICS)
 

@@ -11,7 +11,7 @@ from scipy.special import log_softmax
 
 from diagnosis.thresholds import Thresholds
 from diagnosis.weighed import Weighed
-from system.physics.effects import Kind
+from system.effects.effect import Kind
 
 TRUE_TO = 0.01  # of what an explanation brings: the square of a form that is off by a tenth
 PLACED_BY = 0.05  # the same of one law at several places, which nothing but its form there tells apart

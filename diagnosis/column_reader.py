@@ -8,7 +8,7 @@ from diagnosis.recording import DataNote, NoteKind
 from diagnosis.table import Columns, TableFault, TableSource
 from diagnosis.tables import read_columns
 from reynolds.numerics.arrays import Array
-from system.faults import Fault, nearest_choice
+from system.inputs.faults import Fault, nearest_choice
 
 
 @dataclass

@@ -17,7 +17,7 @@ from diagnosis.map_axes import smooth_shapes
 from diagnosis.study import Study
 from diagnosis.thresholds import Thresholds
 from reynolds.numerics.arrays import Array
-from system.components import Component
+from system.effects.components import Component
 from system.estimation.evidence import multiplier_evidence, project
 from system.estimation.posterior import Posterior
 

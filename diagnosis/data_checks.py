@@ -12,8 +12,8 @@ from diagnosis.reading_checks import impossible
 from diagnosis.recording import DataNote, NoteKind, Recording
 from diagnosis.sensor_checks import coarse, copies, noiseless, repeated_rows, stuck, stuck_inputs
 from diagnosis.unit_checks import implausible, trace_sizes
-from system.bench_truth import SIMULATED
-from system.channels import OUTPUTS, ChannelName
+from system.bench.outputs import SIMULATED
+from system.inputs.channels import OUTPUTS, ChannelName
 
 VARIED = 2.0
 """Of flow over displacement ratio from point to point: more than leakage makes, so that the speed varied."""

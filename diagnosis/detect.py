@@ -14,9 +14,9 @@ from diagnosis.multiplicity import family_chance, log_chances
 from diagnosis.regions import Region, flagged
 from diagnosis.study import Candidate, Study
 from diagnosis.thresholds import Thresholds
-from system.channels import ChannelName
 from system.estimation.evidence import Score, score
 from system.estimation.posterior import Posterior, settled
+from system.inputs.channels import ChannelName
 
 
 @dataclass(frozen=True)

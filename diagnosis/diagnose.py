@@ -27,11 +27,11 @@ from diagnosis.unknown import Scaling, scaling
 from diagnosis.verdict import Diagnosis, Status
 from diagnosis.weighed import Weighed, with_probabilities
 from reynolds.numerics.arrays import Array
-from system.channels import ChannelName
+from system.effects.effect import Kind
 from system.estimation.posterior import Effort, Posterior, settled
-from system.physics.effects import Kind
-from system.progress import Report, silent
-from system.side_by_side import Crew, crew
+from system.inputs.channels import ChannelName
+from system.work.processes import Crew, crew
+from system.work.progress import Report, silent
 
 FORETOLD = 6  # explanations, the likeliest, whose held-out points are looked at
 HOPELESS = 100.0  # nats behind what another explanation is seen to reach: there a fit is given up

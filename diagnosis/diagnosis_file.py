@@ -15,9 +15,9 @@ from diagnosis.time_scan import TimeKind, TimeMark
 from diagnosis.verdict import Claim, Diagnosis, Estimate
 from diagnosis.weighed import HeldOut, Weighed
 from diagnosis.words import paragraphs, statement
-from system.channels import ChannelName
-from system.faults import Fault, InputFaults
-from system.physics.effects import Kind
+from system.effects.effect import Kind
+from system.inputs.channels import ChannelName
+from system.inputs.faults import Fault, InputFaults
 
 FORMAT = 1
 KEYS = (

@@ -19,10 +19,10 @@ from diagnosis.table_rows import table_rows
 from diagnosis.thresholds import Thresholds
 from diagnosis.verdict import Diagnosis
 from reynolds.numerics.arrays import Array
-from system.channels import ChannelName
 from system.estimation.parameters import Parameter
 from system.estimation.posterior import Posterior
-from system.units import Dimension
+from system.inputs.channels import ChannelName
+from system.inputs.units import Dimension
 
 AXES = (ChannelName.SPEED, ChannelName.P_OUT, ChannelName.DISPLACEMENT_RATIO, ChannelName.T_CASE)
 Row = Mapping[str, str]

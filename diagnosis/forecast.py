@@ -15,11 +15,11 @@ from scipy.special import ndtr
 
 from diagnosis.study import PumpSimulator, Study
 from reynolds.numerics.arrays import Array
-from system.bench_points import BenchPoints
+from system.bench.points import BenchPoints
+from system.effects.effect import EffectId
 from system.estimation.observations import Observations
 from system.estimation.posterior import Posterior, standard_slopes
 from system.estimation.whitening import Whitening, autocorrelation, whitener
-from system.physics.effects import EffectId
 
 
 @dataclass(frozen=True)

@@ -15,10 +15,10 @@ from diagnosis.thresholds import Thresholds
 from diagnosis.unknown import LEAST_RANGE
 from diagnosis.weighed import Weighed
 from reynolds.numerics.arrays import Array
-from system.channels import ChannelName
-from system.errors import NotConverged
 from system.estimation.evidence import score
 from system.estimation.posterior import settled
+from system.inputs.channels import ChannelName
+from system.inputs.errors import NotConverged
 
 FLAT = 0.25  # of a power: what grows by less more or less grows alike
 

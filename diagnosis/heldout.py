@@ -13,10 +13,10 @@ from diagnosis.study import Study
 from diagnosis.thresholds import HeldOutLimits, Thresholds
 from diagnosis.weighed import HeldOut
 from reynolds.numerics.arrays import Array
-from system.channels import ChannelName
 from system.estimation.folds import left_out
 from system.estimation.posterior import Posterior
 from system.estimation.predictive import log_predictive
+from system.inputs.channels import ChannelName
 
 Marks = NDArray[np.bool_]
 

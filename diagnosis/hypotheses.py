@@ -9,11 +9,11 @@ from math import log
 
 from diagnosis.study import Candidate, PumpSimulator, Study
 from diagnosis.thresholds import PriorMasses, Thresholds
-from system.components import Component
+from system.description.gap import Gap
+from system.effects.components import Component
+from system.effects.effect import EffectId, Kind
+from system.effects.extension import Extension
 from system.estimation.parameters import Parameter, Role
-from system.physics.effects import EffectId, Kind
-from system.physics.extension import Extension
-from system.pump_gap import Gap
 
 RUBBED = {
     "piston_cylinder": Gap.PISTON,

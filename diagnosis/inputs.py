@@ -10,11 +10,11 @@ import numpy as np
 from diagnosis.bench_units import channel_unit, difference, difference_unit, reading
 from diagnosis.recording import Circuit, DataNote, NoteKind, Recording
 from reynolds.numerics.arrays import Array
-from system.bench_points import BenchPoints
-from system.channels import INPUTS, ChannelName
-from system.description import PumpDescription
+from system.bench.points import BenchPoints
+from system.bench.sensors import taken_parameter
+from system.description.pump import PumpDescription
 from system.estimation.parameters import Parameter
-from system.sensors import taken_parameter
+from system.inputs.channels import INPUTS, ChannelName
 
 WARMER = 5.0  # K, of case and inlet one for the other: a case is warmer by the losses
 WARMTH = 10.0  # K, where neither is measured

@@ -21,9 +21,9 @@ from diagnosis.thresholds import Thresholds
 from diagnosis.verdict import Claim, Estimate, Status
 from diagnosis.weighed import Weighed
 from reynolds.numerics.arrays import Array
+from system.description.gap import Gap
+from system.effects.effect import Kind
 from system.estimation.posterior import Posterior
-from system.physics.effects import Kind
-from system.pump_gap import Gap
 
 
 @dataclass(frozen=True)

@@ -19,10 +19,10 @@ from diagnosis.study import Study
 from diagnosis.thresholds import Thresholds
 from diagnosis.weighed import Weighed
 from reynolds.numerics.arrays import Array
-from system.errors import NotConverged
 from system.estimation.evidence import multiplier_evidence
 from system.estimation.parameters import Role
 from system.estimation.posterior import Posterior, settled
+from system.inputs.errors import NotConverged
 
 MATERIAL = 0.1  # of the mismatch in square: what explains nine tenths of it is all of it, but for its form
 BROADER = 5.44  # n times the variance of a squared scale from the median (Rousseeuw and Croux 1993)

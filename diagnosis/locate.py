@@ -25,8 +25,8 @@ from diagnosis.thresholds import Thresholds
 from diagnosis.time_scan import TimeMark, scan_time
 from diagnosis.weighed import Weighed
 from reynolds.numerics.arrays import Array
-from system.channels import ChannelName
-from system.components import Component
+from system.effects.components import Component
+from system.inputs.channels import ChannelName
 
 _Box = Callable[[ChannelName, Contrasts, Array, Mapping[ChannelName, Array]], Region | None]
 

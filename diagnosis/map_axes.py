@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 
 from diagnosis.recording import Recording
 from reynolds.numerics.arrays import Array
-from system.channels import ChannelName
-from system.units import Dimension, in_unit
+from system.inputs.channels import ChannelName
+from system.inputs.units import Dimension, in_unit
 
 AXES = (ChannelName.SPEED, ChannelName.P_OUT, ChannelName.DISPLACEMENT_RATIO, ChannelName.T_CASE)
 LEAST_SPAN = 0.05  # of the largest value: set points that scatter by less are one

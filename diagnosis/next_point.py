@@ -15,11 +15,11 @@ from diagnosis.bench_box import BenchBox, rows
 from diagnosis.forecast import Contender, Forecast, forecasts, foretold, readings
 from diagnosis.study import Study
 from reynolds.numerics.arrays import Array
-from system.bench_points import BenchPoints, operating_at
-from system.description import PumpDescription
-from system.operating import OperatingPoint
-from system.physics.effects import EffectId
-from system.units import Dimension, format_quantity
+from system.bench.points import BenchPoints, operating_at
+from system.description.pump import PumpDescription
+from system.effects.effect import EffectId
+from system.inputs.units import Dimension, format_quantity
+from system.pump.operating import OperatingPoint
 
 READINGS = 3  # at the point that is asked for
 SETTLED = log(20.0)  # nats: odds of 20 to 1

@@ -9,7 +9,7 @@ import numpy as np
 
 from diagnosis.recording import DataNote, NoteKind, Recording, reading_sigma
 from reynolds.numerics.arrays import Array
-from system.channels import OUTPUTS, ChannelName
+from system.inputs.channels import OUTPUTS, ChannelName
 
 FAR = 6.0  # robust standard deviations
 ROUNDS = 12

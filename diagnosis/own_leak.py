@@ -18,11 +18,11 @@ from diagnosis.next_point import READINGS, SETTLED
 from diagnosis.shown import PLACES
 from diagnosis.study import Study
 from reynolds.numerics.arrays import Array
-from system.bench_points import BenchPoints
-from system.channels import ChannelName
-from system.components import Component
+from system.bench.points import BenchPoints
+from system.description.gap import Gap
+from system.effects.components import Component
 from system.estimation.posterior import values_at
-from system.pump_gap import Gap
+from system.inputs.channels import ChannelName
 
 LEAKS: Mapping[Gap, Component] = {
     Gap.PISTON: Component.PISTON_LEAKAGE,

@@ -11,11 +11,11 @@ from diagnosis.screen import joint_evidence, linear_gain
 from diagnosis.study import Study
 from diagnosis.thresholds import Thresholds
 from diagnosis.weighed import Weighed
+from system.description.gap import Gap
+from system.effects.effect import EffectId
 from system.estimation.posterior import Posterior, settled
-from system.physics.effects import EffectId
-from system.progress import Report
-from system.pump_gap import Gap
-from system.side_by_side import Crew
+from system.work.processes import Crew
+from system.work.progress import Report
 
 REFITTED = 2  # of the additions to the best, and of the pairs at the prior mean
 MOST_REFITTED = 4  # where more stand within the gap of a class: what cannot be told apart is told together

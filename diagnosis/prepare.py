@@ -16,16 +16,16 @@ from diagnosis.thresholds import Thresholds
 from diagnosis.trace_misfits import port_events, trace_misfits, trace_parameters
 from diagnosis.traced_bench import traced_bench
 from reynolds.errors import FilmInputError
-from system.bench_map import LumpedBench
-from system.bench_parameters import base_parameters
-from system.bench_truth import SIMULATED
-from system.channels import INPUTS, OUTPUTS, ChannelName
-from system.description import PumpDescription
+from system.bench.outputs import SIMULATED
+from system.bench.parameters import base_parameters
+from system.bench.sensors import drift_parameter, lag_parameter, sensor_parameters
+from system.bench.simulator import LumpedBench
+from system.description.pump import PumpDescription
+from system.description.tolerances import Tolerances
+from system.effects.catalogue.entries import CATALOGUE
+from system.effects.extension import Entry
 from system.estimation.parameters import Parameter
-from system.physics.catalogue import CATALOGUE
-from system.physics.extension import Entry
-from system.sensors import drift_parameter, lag_parameter, sensor_parameters
-from system.tolerances import Tolerances
+from system.inputs.channels import INPUTS, OUTPUTS, ChannelName
 
 LAG = 1.0  # s, one sigma of a flow meter's lag where none is stated
 

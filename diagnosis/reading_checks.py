@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 from diagnosis.recording import DataNote, NoteKind, RecordedChannel, Recording, reading_sigma
 from diagnosis.unit_checks import HIGHEST, LIKELY
 from reynolds.numerics.arrays import Array
-from system.channels import OUTPUTS, ChannelName
-from system.units import STANDARD_ATMOSPHERE, Dimension, unit_scale
+from system.inputs.channels import OUTPUTS, ChannelName
+from system.inputs.units import STANDARD_ATMOSPHERE, Dimension, unit_scale
 
 MOST = 0.5  # of a channel's readings: more of them are a fault of its unit
 VACUUM = -1.02 * STANDARD_ATMOSPHERE  # Pa gauge, with what a sensor may be off

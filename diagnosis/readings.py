@@ -9,8 +9,8 @@ from diagnosis.map_axes import scaled_axes
 from diagnosis.recording import RecordedChannel, Recording, reading_sigma
 from reynolds.errors import FilmInputError
 from reynolds.numerics.arrays import Array
-from system.channels import ChannelName
 from system.estimation.observations import Channel, Observations
+from system.inputs.channels import ChannelName
 
 THIRD = 1.0 / 3.0  # of an axis scaled to [-1, 1], on either side of its middle
 

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from reynolds.numerics.arrays import Array
-from system.channels import ChannelName
+from system.inputs.channels import ChannelName
 
 
 class Circuit(Enum):

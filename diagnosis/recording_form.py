@@ -9,9 +9,9 @@ from typing import Any
 from diagnosis.channel_form import ChannelForm, Reference, TimeForm, read_channel, read_time
 from diagnosis.recording import Circuit
 from diagnosis.table import TableSource
-from system.case_table import Table
-from system.channels import ChannelName
-from system.units import Dimension
+from system.inputs.channels import ChannelName
+from system.inputs.toml_table import Table
+from system.inputs.units import Dimension
 
 FORMAT = 1
 _SOURCE_KEYS = ("sheet", "decimal", "separator", "group", "variable")

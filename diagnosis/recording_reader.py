@@ -20,10 +20,10 @@ from diagnosis.series_points import series_points
 from diagnosis.table import Columns, TableFault
 from diagnosis.trace_reader import ReadTraces, read_traces
 from reynolds.numerics.arrays import Array
-from system.case_table import Table, fault_lines, read_toml
-from system.channels import INPUTS, ChannelName
-from system.faults import Fault, InputFaults, nearest_path
-from system.units import QuantityError, unit_scale
+from system.inputs.channels import INPUTS, ChannelName
+from system.inputs.faults import Fault, InputFaults, nearest_path
+from system.inputs.toml_table import Table, fault_lines, read_toml
+from system.inputs.units import QuantityError, unit_scale
 
 FILE = "recording.toml"
 

@@ -17,14 +17,14 @@ from diagnosis.study import Study
 from diagnosis.thresholds import Thresholds
 from diagnosis.weighed import Weighed
 from reynolds.numerics.arrays import Array
-from system.errors import NotConverged
+from system.estimation.bounded_step import Bounds
 from system.estimation.fit import FitLimits, maximum_posterior
 from system.estimation.parameters import Parameter
 from system.estimation.posterior import Posterior, values_at
 from system.estimation.simulator import Simulator
-from system.estimation.trust import Bounds
-from system.progress import Report
-from system.side_by_side import Crew
+from system.inputs.errors import NotConverged
+from system.work.processes import Crew
+from system.work.progress import Report
 
 SIZES = (0.1, 0.3, 1.0, 2.0)  # spreads that a start is looked for at
 BESIDE = (0.75, 0.9)  # of the best size: tried too, and their inverses

@@ -12,7 +12,7 @@ from scipy.stats import norm
 from diagnosis.contrasts import Contrasts
 from diagnosis.map_axes import bound_text, inside
 from reynolds.numerics.arrays import Array
-from system.channels import ChannelName
+from system.inputs.channels import ChannelName
 
 Places = NDArray[np.int64]
 Marks = NDArray[np.bool_]

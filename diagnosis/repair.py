@@ -14,7 +14,7 @@ from diagnosis.study import Study, TraceMisfit
 from diagnosis.thresholds import Thresholds
 from diagnosis.weighed import Weighed
 from reynolds.numerics.arrays import Array
-from system.components import Component
+from system.effects.components import Component
 from system.estimation.evidence import project
 from system.estimation.posterior import Posterior, values_at
 

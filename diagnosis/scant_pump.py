@@ -9,13 +9,13 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from system.assumptions import Assumption
-from system.case_table import Table, fault_lines, read_toml
-from system.description import FORMAT, PumpDescription
-from system.faults import InputFaults, nearest_choice
-from system.kinematics import SwashDrive, stroke
-from system.pump_file import builtin_pumps, load_pump, pump_of_tables, resolved_toml
-from system.units import Dimension, QuantityError, format_quantity, parse_quantity
+from system.description.assumptions import Assumption
+from system.description.pump import FORMAT, PumpDescription
+from system.inputs.faults import InputFaults, nearest_choice
+from system.inputs.toml_table import Table, fault_lines, read_toml
+from system.inputs.units import Dimension, QuantityError, format_quantity, parse_quantity
+from system.pump.laws.kinematics import SwashDrive, stroke
+from system.pump_file.file import builtin_pumps, load_pump, pump_of_tables, resolved_toml
 
 MODEL = "ref90"
 TELLING = ("slipper", "valve_plate", "ports")

@@ -15,7 +15,7 @@ from diagnosis.study import Candidate, Study
 from diagnosis.thresholds import Thresholds
 from diagnosis.weighed import Weighed
 from reynolds.numerics.arrays import Array
-from system.components import Component
+from system.effects.components import Component
 from system.estimation.evidence import Sign, multiplier_evidence, project, score
 from system.estimation.posterior import Posterior
 

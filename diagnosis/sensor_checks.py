@@ -9,8 +9,8 @@ import numpy as np
 
 from diagnosis.recording import DataNote, NoteKind, RecordedChannel, Recording, reading_sigma
 from reynolds.numerics.arrays import Array
-from system.channels import INPUTS, OUTPUTS, ChannelName
-from system.units import Dimension
+from system.inputs.channels import INPUTS, OUTPUTS, ChannelName
+from system.inputs.units import Dimension
 
 LEAST_RUN = 5  # readings alike from which a sensor may be stuck
 MOVED = 0.05  # share of its largest value by which an input moves

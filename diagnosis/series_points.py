@@ -12,7 +12,7 @@ from diagnosis.recording_form import SeriesForm
 from diagnosis.steadiness import SteadyRule, effective_number, steady_stretches
 from diagnosis.table import TableFault
 from reynolds.numerics.arrays import Array
-from system.channels import INPUTS
+from system.inputs.channels import INPUTS
 
 SETTLING = 3.0  # lags of a channel left out at the beginning of a stretch
 

@@ -11,8 +11,8 @@ from diagnosis.refit import Look, first_look
 from diagnosis.study import Study
 from diagnosis.thresholds import Thresholds
 from diagnosis.weighed import Weighed, with_probabilities
-from system.errors import NotConverged
-from system.physics.effects import Kind
+from system.effects.effect import Kind
+from system.inputs.errors import NotConverged
 
 PARAMETERS = 4  # wrong parameters that are refitted in any case where there is a mismatch
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from diagnosis.verdict import Estimate
-from system.channels import ChannelName
-from system.physics.effects import EffectId
-from system.pump_gap import Gap
-from system.units import Dimension, in_unit, reading_unit
+from system.description.gap import Gap
+from system.effects.effect import EffectId
+from system.inputs.channels import ChannelName
+from system.inputs.units import Dimension, in_unit, reading_unit
 
 MOST_ODDS = 1000000
 """Odds beyond which a number means nothing: models are not that true."""

@@ -11,16 +11,16 @@ import numpy as np
 from diagnosis.recording import Recording, TraceBlock
 from diagnosis.thresholds import Thresholds
 from reynolds.numerics.arrays import Array
-from system.bench_points import BenchPoints
-from system.channels import ChannelName
-from system.components import Component
+from system.bench.points import BenchPoints
+from system.effects.components import Component
+from system.effects.effect import EffectId
+from system.effects.extension import Entry, Extension
 from system.estimation.evidence import Sign
 from system.estimation.observations import Observations
 from system.estimation.parameters import Parameter, Scale
 from system.estimation.posterior import Posterior, linear_posterior, values_at
 from system.estimation.simulator import Simulator
-from system.physics.effects import EffectId
-from system.physics.extension import Entry, Extension
+from system.inputs.channels import ChannelName
 
 SUBJECTS: Mapping[EffectId, str] = {
     EffectId.TORQUE_OFFSET: "torque.zero",

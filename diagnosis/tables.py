@@ -9,7 +9,7 @@ from diagnosis.logger_tables import read_mdf, read_tdms
 from diagnosis.matlab_tables import read_matlab
 from diagnosis.table import Columns, TableFault, TableSource
 from diagnosis.text_tables import read_text
-from system.faults import nearest_path
+from system.inputs.faults import nearest_path
 
 _READERS: Mapping[str, Callable[[TableSource], Columns]] = {
     **dict.fromkeys((".csv", ".txt", ".tsv", ".dat"), read_text),

@@ -13,8 +13,8 @@ from diagnosis.map_axes import smooth_shapes
 from diagnosis.study import Study
 from diagnosis.thresholds import Thresholds
 from reynolds.numerics.arrays import Array
-from system.channels import ChannelName
 from system.estimation.evidence import multiplier_evidence
+from system.inputs.channels import ChannelName
 
 SMOOTH = 30.0  # sigma: prior width of a smooth mismatch over the map, which a drift must stand out of
 EDGE = 3  # points at either end after which no onset is looked for

@@ -8,11 +8,11 @@ import numpy as np
 
 from diagnosis.traced_bench import TracedBench
 from reynolds.numerics.arrays import Array
-from system.bench_parameters import GROOVE_NAMES
-from system.errors import NotConverged
+from system.bench.parameters import GROOVE_NAMES
+from system.bench.sensors import TRACE_NAMES
 from system.estimation.fit import FitLimits, maximum_posterior
 from system.estimation.parameters import Parameter
-from system.sensors import TRACE_NAMES
+from system.inputs.errors import NotConverged
 
 MOVING = frozenset({
     "bulk_modulus", "dead_volume", "flow_coefficient", "stand_out_share", "p_out.zero", "film_thickness.piston",

@@ -11,16 +11,16 @@ from diagnosis.study import PortEvent, TraceMisfit
 from diagnosis.trace_fit import MOVING, settled_traces
 from diagnosis.traced_bench import TracedBench
 from reynolds.numerics.arrays import Array
-from system.bench_map import LumpedBench
-from system.bench_parameters import groove_parameters
-from system.channels import ChannelName
-from system.description import PumpDescription
+from system.bench.parameters import groove_parameters
+from system.bench.sensors import encoder_parameter, transducer_parameters
+from system.bench.simulator import LumpedBench
+from system.description.pump import PumpDescription
 from system.estimation.parameters import Parameter
 from system.estimation.posterior import values_at
-from system.lumped import port_openings
-from system.ports import PortOpening
-from system.sensors import encoder_parameter, transducer_parameters
-from system.units import TURN
+from system.inputs.channels import ChannelName
+from system.inputs.units import TURN
+from system.pump.lumped import port_openings
+from system.pump.ports.areas import PortOpening
 
 LINE_LAG = 1e-4  # s, one sigma: a transducer behind a bore follows within a degree at 1500 r/min
 NO_ENCODER = 1e-6  # rad: one sigma of an encoder that is stated to be without offset

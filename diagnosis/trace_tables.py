@@ -12,7 +12,7 @@ from diagnosis.table_rows import table_rows
 from diagnosis.thresholds import Thresholds
 from diagnosis.verdict import Diagnosis
 from reynolds.numerics.arrays import Array
-from system.channels import ChannelName
+from system.inputs.channels import ChannelName
 
 ANGLE = f"angle [{channel_unit(ChannelName.ANGLE)}]"
 

@@ -10,14 +10,14 @@ import numpy as np
 from diagnosis.recording import RecordedChannel, TraceBlock
 from diagnosis.trace_rows import TraceRows, trace_rows
 from reynolds.numerics.arrays import Array
-from system.bench_map import INPUT_STEPS, LumpedBench
-from system.bench_points import BenchPoints
-from system.channels import ChannelName
-from system.components import Component
+from system.bench.points import BenchPoints
+from system.bench.simulator import INPUT_STEPS, LumpedBench
+from system.effects.components import Component
+from system.effects.extension import Extension
 from system.estimation.observations import Channel, Observations
 from system.estimation.parameters import Parameter
 from system.estimation.posterior import values_at
-from system.physics.extension import Extension
+from system.inputs.channels import ChannelName
 
 
 @dataclass(frozen=True, eq=False)

@@ -7,7 +7,7 @@ import numpy as np
 from diagnosis.recording import TraceBlock
 from diagnosis.table import TableFault
 from reynolds.numerics.arrays import Array
-from system.units import TURN
+from system.inputs.units import TURN
 
 FEWEST_ROWS = 36  # a turn, below which a trace shows no event of the ports
 FEWEST_CYCLES = 3  # from which their scatter is kept

@@ -11,8 +11,8 @@ import numpy as np
 
 from diagnosis.recording import Circuit, DataNote, NoteKind, RecordedChannel, Recording
 from reynolds.numerics.arrays import Array
-from system.channels import ChannelName
-from system.units import STANDARD_ATMOSPHERE, Dimension, unit_scale
+from system.inputs.channels import ChannelName
+from system.inputs.units import STANDARD_ATMOSPHERE, Dimension, unit_scale
 
 LIKELY = {
     Dimension.ANGULAR_SPEED: (1.0, 2000.0),

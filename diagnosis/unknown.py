@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from reynolds.numerics.arrays import Array
-from system.channels import ChannelName
+from system.inputs.channels import ChannelName
 
 LEAST_RANGE = 1.2  # largest over smallest value of a coordinate that an exponent is asked for
 STEPS = 50

@@ -10,10 +10,10 @@ from diagnosis.locate import Location
 from diagnosis.next_point import NextPoint
 from diagnosis.unknown import Scaling
 from diagnosis.weighed import HeldOut, Weighed
+from system.description.gap import Gap
+from system.effects.effect import EffectId, Kind
 from system.estimation.posterior import Effort, Posterior
-from system.physics.effects import EffectId, Kind
-from system.pump_gap import Gap
-from system.units import Dimension
+from system.inputs.units import Dimension
 
 
 class Status(Enum):

@@ -9,8 +9,8 @@ import numpy as np
 from scipy.special import log_softmax
 
 from diagnosis.hypotheses import Hypothesis
-from system.channels import ChannelName
 from system.estimation.posterior import Posterior
+from system.inputs.channels import ChannelName
 
 
 @dataclass(frozen=True)

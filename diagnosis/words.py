@@ -27,9 +27,9 @@ from diagnosis.time_scan import TimeKind
 from diagnosis.unknown import Scaling
 from diagnosis.verdict import Diagnosis, Status
 from diagnosis.weighed import Weighed
-from system.channels import ChannelName
-from system.physics.catalogue import entry_of
-from system.physics.effects import Kind
+from system.effects.catalogue.entries import entry_of
+from system.effects.effect import Kind
+from system.inputs.channels import ChannelName
 
 RIVALS = 3  # told by name at most
 WORTH_TELLING = 0.01  # probability of a rival

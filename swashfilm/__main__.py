@@ -29,8 +29,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     from reynolds.errors import FilmInputError, FilmNotConverged
     from swashfilm.cli import run_command
     from swashfilm.run_folder import Interrupted
-    from system.errors import NotConverged
-    from system.faults import InputFaults
+    from system.inputs.errors import NotConverged
+    from system.inputs.faults import InputFaults
 
     try:
         return run_command(words)

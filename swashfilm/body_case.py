@@ -16,9 +16,9 @@ from reynolds.bodies.supports import Supports
 from reynolds.bodies.wall import Body
 from reynolds.errors import FilmInputError
 from swashfilm.mesh_case import MESH_FILE, CaseMesh
-from system.case_table import Table
-from system.parts_description import MeshUnit
-from system.units import Dimension
+from system.description.parts import MeshUnit
+from system.inputs.toml_table import Table
+from system.inputs.units import Dimension
 
 UPWARDS = Plane((0.0, 0.0, 1.0))
 Cells = tuple[int, int, int]

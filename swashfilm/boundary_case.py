@@ -11,9 +11,9 @@ import numpy as np
 from reynolds.film import Cavitation
 from swashfilm.field_reader import FieldReader
 from swashfilm.fields import CellData, InTime, MeshData, PointData, Uniform, read_field
-from system.case_table import Table
-from system.faults import nearest_choice
-from system.units import Dimension, QuantityError, format_quantity
+from system.inputs.faults import nearest_choice
+from system.inputs.toml_table import Table
+from system.inputs.units import Dimension, QuantityError, format_quantity
 
 
 @dataclass(frozen=True)

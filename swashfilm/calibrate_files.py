@@ -13,13 +13,13 @@ from diagnosis.table_rows import table_rows
 from swashfilm.calibrate_run import Calibration
 from swashfilm.diagnose_files import write_rows
 from swashfilm.run_folder import write_json
-from system.calibrated_pump import calibrated_pump
-from system.calibration import PHYSICS
-from system.channels import ChannelName
-from system.description import PumpDescription
+from system.bench.calibration.calibrated_pump import calibrated_pump
+from system.bench.calibration.held_out import PHYSICS
+from system.description.pump import PumpDescription
 from system.estimation.posterior import Posterior
-from system.pump_file import resolved_toml
-from system.units import RPM, Dimension
+from system.inputs.channels import ChannelName
+from system.inputs.units import RPM, Dimension
+from system.pump_file.file import resolved_toml
 
 KIND = "calibration"
 CALIBRATED = "pump_calibrated.toml"

@@ -10,8 +10,8 @@ from typing import Any
 
 from swashfilm import calibrate_plots
 from swashfilm.diagnose_files import read_rows
-from system.calibration import PHYSICS
-from system.faults import Fault, InputFaults
+from system.bench.calibration.held_out import PHYSICS
+from system.inputs.faults import Fault, InputFaults
 
 TABLES = ("parameters", "undetermined", "equation_21", "hersey", "heldout", "residuals")
 FILES = ("summary.json", *(f"{name}.csv" for name in TABLES))

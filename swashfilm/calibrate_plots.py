@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from swashfilm.figure_png import figure_of, png_of
-from system.calibration import PHYSICS
+from system.bench.calibration.held_out import PHYSICS
 
 Row = Mapping[str, str]
 COLOURS = ("#b55a00", "#3c7a8c", "#6d5a9c", "#4f7a3a")

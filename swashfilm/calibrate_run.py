@@ -17,23 +17,29 @@ from diagnosis.study import Study, study_of
 from diagnosis.thresholds import Thresholds, load_thresholds
 from diagnosis.weighed import Weighed
 from reynolds.errors import FilmInputError
-from system.bench_map import LumpedBench
-from system.bench_points import BenchPoints
-from system.calibration import HeldOutRow, model_rows, physics_rows
-from system.channels import ChannelName
-from system.description import PumpDescription
-from system.errors import NotConverged
+from system.bench.calibration.equation_21 import (
+    EqFit,
+    eq_fits,
+    eq_twenty_one,
+    measured_losses,
+    paper_priors,
+)
+from system.bench.calibration.held_out import HeldOutRow, model_rows, physics_rows
+from system.bench.calibration.hersey_curve import HerseyCurve, hersey_curves
+from system.bench.loss_models.model import LossModelName
+from system.bench.points import BenchPoints
+from system.bench.simulator import LumpedBench
+from system.description.pump import PumpDescription
+from system.description.tolerances import tolerances
+from system.effects.catalogue.entries import entry_of
+from system.effects.effect import EffectId
+from system.effects.extension import Extension
 from system.estimation.determined import Combination, undetermined
 from system.estimation.posterior import Posterior
-from system.faults import Fault, InputFaults
-from system.hersey_curve import HerseyCurve, hersey_curves
-from system.loss_models.model import LossModelName
-from system.paper_fit import EqFit, eq_fits, eq_twenty_one, measured_losses, paper_priors
-from system.physics.catalogue import entry_of
-from system.physics.effects import EffectId
-from system.physics.extension import Extension
-from system.progress import Report
-from system.tolerances import tolerances
+from system.inputs.channels import ChannelName
+from system.inputs.errors import NotConverged
+from system.inputs.faults import Fault, InputFaults
+from system.work.progress import Report
 
 
 @dataclass(frozen=True)

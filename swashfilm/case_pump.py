@@ -9,13 +9,13 @@ from itertools import chain
 from pathlib import Path
 from typing import Any
 
-from system.case_table import Table, quoted
-from system.faults import Fault, InputFaults
-from system.film_effects import effects_in_films
-from system.instants import Rotor, rotor
-from system.operating import OperatingPoint, operating_point
-from system.pump_file import builtin_pumps, load_pump
-from system.units import Dimension, format_quantity
+from system.films.rotor import Rotor, rotor
+from system.inputs.faults import Fault, InputFaults
+from system.inputs.toml_table import Table, quoted
+from system.inputs.units import Dimension, format_quantity
+from system.points.film_effects import effects_in_films
+from system.pump.operating import OperatingPoint, operating_point
+from system.pump_file.file import builtin_pumps, load_pump
 
 OPERATING = "operating"
 

@@ -27,7 +27,7 @@ from swashfilm.cli_table import TABLE_OPTIONS, add_table_options, run_table_comm
 from swashfilm.cli_transient import add_transient_options, run_transient_command
 from swashfilm.command_inputs import COMMAND_LINE
 from swashfilm.terminal import show, show_table
-from system.faults import Fault, InputFaults, nearest_choice
+from system.inputs.faults import Fault, InputFaults, nearest_choice
 
 
 def run_command(words: Sequence[str]) -> int:

@@ -8,10 +8,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from swashfilm.terminal import show, show_table
-from system.faults import Fault, InputFaults, nearest_choice
+from system.inputs.faults import Fault, InputFaults, nearest_choice
 
 if TYPE_CHECKING:
-    from system.loss_models.model import LossModelName
+    from system.bench.loss_models.model import LossModelName
 
 CALIBRATE_OPTIONS = ["--laws", "--models"]
 LAWS = ("mixed_friction", "none")
@@ -40,7 +40,7 @@ def add_calibrate_options(command: argparse.ArgumentParser) -> None:
 
 def run_calibrate_command(options: argparse.Namespace) -> int:
     """Run `swashfilm calibrate` and return its exit code."""
-    from system.loss_models.model import LossModelName
+    from system.bench.loss_models.model import LossModelName
 
     faults: list[Fault] = []
     if options.laws not in LAWS:

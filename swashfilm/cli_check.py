@@ -9,13 +9,13 @@ from typing import Any
 
 from swashfilm.cli_diagnose import check_recording_command, is_recording
 from swashfilm.terminal import show
-from system.faults import Fault, InputFaults
+from system.inputs.faults import Fault, InputFaults
 
 
 def run_check_command(options: argparse.Namespace) -> int:
     """Run `swashfilm check` and return its exit code; raises InputFaults with what is wrong in the file."""
-    from system.case_table import read_toml
-    from system.pump_file import builtin_pumps, check_pump, resolved_toml
+    from system.inputs.toml_table import read_toml
+    from system.pump_file.file import builtin_pumps, check_pump, resolved_toml
 
     is_pump = options.file in builtin_pumps()
     if not is_pump:

@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING
 
 from swashfilm.command_inputs import COMMAND_LINE
 from swashfilm.terminal import show_table
-from system.faults import Fault, InputFaults
-from system.units import Dimension, QuantityError, parse_quantity
+from system.inputs.faults import Fault, InputFaults
+from system.inputs.units import Dimension, QuantityError, parse_quantity
 
 if TYPE_CHECKING:
-    from system.film_passages import FilmPassage
-    from system.openfoam_case import CaseFlow
+    from system.inputs.coefficients.film_passages import FilmPassage
+    from system.inputs.coefficients.openfoam_case import CaseFlow
 
 SIZES = {
     "--throat-area": (Dimension.AREA, "narrowest section of the flow; of a film, that of the thinner one"),
@@ -54,7 +54,7 @@ def add_coefficient_options(command: argparse.ArgumentParser) -> None:
 
 def run_coefficients_command(options: argparse.Namespace) -> int:
     """Run `swashfilm coefficients` and return its exit code; raises InputFaults with what is wrong."""
-    from system.openfoam_case import read_case_flow
+    from system.inputs.coefficients.openfoam_case import read_case_flow
 
     area, density, viscosity = _sizes(options, SIZES)
     passage = _passage(options, area)
@@ -100,7 +100,7 @@ def _tell_film(
 ) -> None:
     """Show and write extra length and loss factor of a step or groove."""
     from swashfilm.coefficient_rows import known_extra_length, loss_row
-    from system.film_passages import film_loss
+    from system.inputs.coefficients.film_passages import film_loss
 
     known = known_extra_length(options.output, passage)
     loss = film_loss(passage, found, density, viscosity, known)
@@ -117,7 +117,7 @@ def _tell_film(
 
 def _passage(options: argparse.Namespace, area: float) -> FilmPassage | None:
     """The step or groove that the options state, None where they state a port; raises InputFaults for a part."""
-    from system.film_passages import FilmPassage
+    from system.inputs.coefficients.film_passages import FilmPassage
 
     needed = (*FILM_SIZES, "--film-ratio")
     stated = [option for option in (*needed, "--width-ratio") if _given(options, option) is not None]

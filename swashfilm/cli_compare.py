@@ -8,12 +8,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from swashfilm.terminal import show, show_table
-from system.faults import Fault, InputFaults, nearest_choice, nearest_path
+from system.inputs.faults import Fault, InputFaults, nearest_choice, nearest_path
 
 if TYPE_CHECKING:
     from swashfilm.compare_run import Known
-    from system.description import PumpDescription
-    from system.map_plan import MapAxis
+    from system.description.pump import PumpDescription
+    from system.maps.plan import MapAxis
 
 COMPARE_OPTIONS = ["--cycle"]
 
@@ -32,7 +32,7 @@ def run_compare_command(options: argparse.Namespace) -> int:
     from swashfilm.compare_run import DIFFERENCE_HEAD, DUTY_HEAD, difference_rows, duty_rows, run_compare
     from swashfilm.cycle_file import read_cycle
     from swashfilm.run_folder import final_folder, run_folder
-    from system.map_compare import common_axes, compare
+    from system.maps.compare import common_axes, compare
 
     one, other = _both(options.one, options.other)
     cycle = None
@@ -55,7 +55,7 @@ def _both(one: str, other: str) -> tuple[Known, Known]:
 
     Raises InputFaults with what is wrong with either.
     """
-    from system.map_plan import paper_axes
+    from system.maps.plan import paper_axes
 
     loaded: list[Known | PumpDescription] = []
     wrong: list[InputFaults] = []
@@ -79,7 +79,7 @@ def _both(one: str, other: str) -> tuple[Known, Known]:
 
 
 def _is_pump(name: str) -> bool:
-    from system.pump_file import builtin_pumps
+    from system.pump_file.file import builtin_pumps
 
     path = Path(name)
     if name in builtin_pumps() or path.suffix == ".toml":
@@ -92,7 +92,7 @@ def _is_pump(name: str) -> bool:
 
 
 def _pump_of(name: str) -> PumpDescription:
-    from system.pump_file import load_pump
+    from system.pump_file.file import load_pump
 
     return load_pump(name)
 
@@ -105,10 +105,10 @@ def _map_of(name: str) -> Known:
 
 def _lumped_map(pump: PumpDescription, axes: tuple[MapAxis, ...]) -> Known:
     """A pump's map, solved here; raises InputFaults where a point cannot be."""
-    from system.map_data import map_data
-    from system.map_plan import map_plan
-    from system.map_point import LumpedSolver, MapWork
-    from system.work import done_part
+    from system.maps.data import map_data
+    from system.maps.plan import map_plan
+    from system.maps.point import LumpedSolver, MapWork
+    from system.work.tasks import done_part
 
     plan = map_plan(pump, axes)
     if faults := plan.checked().faults:

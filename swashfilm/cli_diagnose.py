@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from swashfilm.terminal import show, show_table
-from system.faults import Fault, InputFaults
+from system.inputs.faults import Fault, InputFaults
 
 if TYPE_CHECKING:
     from diagnosis.recording import Recording
@@ -60,8 +60,8 @@ def run_diagnose_command(options: argparse.Namespace) -> int:
     from swashfilm.diagnose_run import EXTENDED, checked_recording, other_pump, run_diagnosis
     from swashfilm.progress import progress
     from swashfilm.run_folder import final_folder, run_folder
-    from system.physics.catalogue import CATALOGUE, with_films_solved
-    from system.physics.effects import Kind
+    from system.effects.catalogue.entries import CATALOGUE, with_films_solved
+    from system.effects.effect import Kind
 
     known = load_known_pump(options.pump)
     recording = checked_recording(options.recording, known)
@@ -125,7 +125,7 @@ def _channel_rows(recording: Recording) -> Sequence[tuple[str, ...]]:
 
 
 def _workers(options: argparse.Namespace, faults: list[Fault]) -> int:
-    from system.side_by_side import cores
+    from system.work.processes import cores
 
     text = options.workers
     if text is None:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from swashfilm.command_inputs import COMMAND_LINE, expect
 from swashfilm.physics_switches import SWITCHES, add_switches, switched_keys
 from swashfilm.terminal import show, show_table
-from system.faults import Fault, InputFaults
+from system.inputs.faults import Fault, InputFaults
 
 if TYPE_CHECKING:
     from swashfilm.film_case import Case

@@ -10,11 +10,11 @@ from reynolds.errors import FilmInputError
 from swashfilm.fidelity import Fidelity
 from swashfilm.physics_switches import SWITCHES
 from swashfilm.revolution_case import FINER
-from system.description import SINGLE_PARTS, PumpDescription
-from system.faults import Fault
-from system.floating_gaps import FloatingOptions, usual_finer
-from system.physics.switched import hold_plain
-from system.unlike import kinds
+from system.description.pump import SINGLE_PARTS, PumpDescription
+from system.effects.switched import hold_plain
+from system.inputs.faults import Fault
+from system.points.floating_gaps import FloatingOptions, usual_finer
+from system.pump.chamber_kinds import kinds
 
 ALIKE = "chambers that are alike; where they differ: swashfilm run with --fidelity lumped or floating"
 FEWEST_STEPS, MOST_STEPS = 24, 7200

@@ -6,9 +6,9 @@ import re
 
 import numpy as np
 
-from system.faults import Fault
-from system.map_plan import MapAxis, MapInput
-from system.units import Dimension, QuantityError, parse_quantity, with_point
+from system.inputs.faults import Fault
+from system.inputs.units import Dimension, QuantityError, parse_quantity, with_point
+from system.maps.plan import MapAxis, MapInput
 
 _NUMBER = re.compile(r"\s*[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?\s*")
 _MOST = 1000

@@ -11,12 +11,12 @@ from typing import TYPE_CHECKING
 from swashfilm.command_inputs import COMMAND_LINE, expect, given_text
 from swashfilm.fidelity import Fidelity
 from swashfilm.terminal import show, show_table
-from system.faults import Fault, InputFaults, nearest_choice
+from system.inputs.faults import Fault, InputFaults, nearest_choice
 
 if TYPE_CHECKING:
     from swashfilm.map_run import MapAsked
-    from system.map_plan import MapAxis, MapPlan
-    from system.work import Hands
+    from system.maps.plan import MapAxis, MapPlan
+    from system.work.tasks import Hands
 
 LEVELS = {
     "--speeds": ("SPEED", "1000,1300,1700,2100rpm", "shaft speeds"),
@@ -92,10 +92,10 @@ def run_map_command(options: argparse.Namespace) -> int:
 def _hands(options: argparse.Namespace, asked: MapAsked) -> Iterator[Hands]:
     """Who does the points: processes of this machine, as many as are worth their start, or a cluster's workers."""
     from swashfilm.map_run import worth_starting
-    from system.side_by_side import cores, crew
+    from system.work.processes import cores, crew
 
     if options.cluster is not None:
-        from system.cluster import cluster
+        from system.work.cluster import cluster
 
         with cluster(options.cluster) as hands:
             yield hands
@@ -108,8 +108,8 @@ def _hands(options: argparse.Namespace, asked: MapAsked) -> Iterator[Hands]:
 def _asked(options: argparse.Namespace) -> MapAsked:
     """What a command line means; raises InputFaults with every fault at once."""
     from swashfilm.map_run import MapAsked
-    from system.map_plan import map_plan
-    from system.pump_file import load_pump
+    from system.maps.plan import map_plan
+    from system.pump_file.file import load_pump
 
     faults = [*_word_faults(options)]
     axes = _axes(options, faults)
@@ -130,7 +130,7 @@ def _asked(options: argparse.Namespace) -> MapAsked:
 def _axes(options: argparse.Namespace, faults: list[Fault]) -> list[MapAxis]:
     """The stated axes over those of --plan; what is wrong with any goes to `faults`."""
     from swashfilm.cli_levels import map_axis
-    from system.map_plan import MapInput, paper_axes
+    from system.maps.plan import MapInput, paper_axes
 
     axes = {axis.input: axis for axis in paper_axes()} if options.plan == "paper" else {}
     for option, (name, example, _) in LEVELS.items():
@@ -167,7 +167,7 @@ def _word_faults(options: argparse.Namespace) -> Iterator[Fault]:
 
 
 def _resume_faults(folder: Path) -> Iterator[Fault]:
-    from system.kept_points import points_of_run
+    from system.work.kept_results import points_of_run
 
     try:
         points_of_run(folder)
@@ -178,7 +178,7 @@ def _resume_faults(folder: Path) -> Iterator[Fault]:
 def _solver_faults(options: argparse.Namespace, plan: MapPlan) -> Iterator[Fault]:
     """What a fidelity does not solve, told before the work begins."""
     from swashfilm.cli_floating import alike_faults
-    from system.map_plan import MapInput
+    from system.maps.plan import MapInput
 
     if options.fidelity == Fidelity.LUMPED.value:
         return

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from system.work import Status
+from system.work.tasks import Status
 
 EXIT_INTERNAL = 1
 EXIT_NOT_CONVERGED = 3

@@ -10,7 +10,7 @@ from pathlib import Path
 
 from swashfilm.command_inputs import COMMAND_LINE
 from swashfilm.terminal import show
-from system.faults import Fault, InputFaults, nearest_path
+from system.inputs.faults import Fault, InputFaults, nearest_path
 
 PAGES = {
     "calibration": "calibrate_page.write_calibrate_page",

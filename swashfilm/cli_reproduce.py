@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from swashfilm.command_inputs import COMMAND_LINE
 from swashfilm.physics_switches import SWITCHES, add_switches
 from swashfilm.terminal import show, show_table
-from system.faults import Fault, InputFaults, nearest_choice
+from system.inputs.faults import Fault, InputFaults, nearest_choice
 
 if TYPE_CHECKING:
     from diagnosis.recording import Recording
@@ -54,7 +54,7 @@ def run_reproduce_command(options: argparse.Namespace) -> int:
     from swashfilm.reproduce_page import count_words, markdown_page, verdict_rows
     from swashfilm.reproduce_run import run_reproduce
     from swashfilm.run_folder import final_folder, run_folder
-    from system.side_by_side import crew
+    from system.work.processes import crew
 
     with (
         crew(workers) as hands,
@@ -78,7 +78,7 @@ def run_reproduce_command(options: argparse.Namespace) -> int:
 
 
 def _list() -> int:
-    from system.paper.figures import DRAWINGS, Figure
+    from system.paper.figure import DRAWINGS, Figure
 
     show_table("Figures and tables", [(figure.value, figure.title) for figure in Figure])
     show_table("Drawings, without numbers", list(DRAWINGS.items()))
@@ -89,9 +89,9 @@ def _asked(options: argparse.Namespace) -> tuple[ReproduceAsked, int]:
     """What a command line means, and how many workers; raises InputFaults with every fault at once."""
     from swashfilm.cli_floating import alike_faults, floating_faults, floating_options
     from swashfilm.reproduce_run import ReproduceAsked
-    from system.paper.figures import Figure
+    from system.paper.figure import Figure
     from system.paper.reproduce import PaperFidelity
-    from system.pump_file import load_pump
+    from system.pump_file.file import load_pump
 
     faults = _word_faults(options)
     try:
@@ -125,7 +125,7 @@ def _pump_of(options: argparse.Namespace) -> str:
 
 def _word_faults(options: argparse.Namespace) -> list[Fault]:
     """What is wrong with the words, whatever the pump."""
-    from system.paper.figures import DRAWINGS, Figure
+    from system.paper.figure import DRAWINGS, Figure
     from system.paper.reproduce import PaperFidelity
 
     faults: list[Fault] = []

@@ -11,11 +11,11 @@ from swashfilm.command_inputs import COMMAND_LINE, expect, given_text
 from swashfilm.fidelity import Fidelity
 from swashfilm.physics_switches import SWITCHES, add_switches
 from swashfilm.terminal import show, show_table
-from system.faults import Fault, InputFaults, nearest_choice
-from system.units import with_point
+from system.inputs.faults import Fault, InputFaults, nearest_choice
+from system.inputs.units import with_point
 
 if TYPE_CHECKING:
-    from system.description import PumpDescription
+    from system.description.pump import PumpDescription
 
 _TEMPERATURE = "operating.temperature"
 _OVERRIDES = {
@@ -63,8 +63,8 @@ def run_pump_command(options: argparse.Namespace) -> int:
     from swashfilm.pump_page import efficiency_rows, headline_rows, pair_rows
     from swashfilm.pump_run import run_pump
     from swashfilm.run_folder import final_folder, run_folder
-    from system.floating_kinds import work_of
-    from system.side_by_side import cores
+    from system.points.floating_kinds import work_of
+    from system.work.processes import cores
 
     given = given_text(options.pump, stated)
     if options.fidelity == Fidelity.FLOATING.value and (times := work_of(pump)) > 1.0:
@@ -92,8 +92,8 @@ def run_pump_command(options: argparse.Namespace) -> int:
 def _pump(options: argparse.Namespace) -> PumpDescription:
     """The pump that a command line means; raises InputFaults with what is wrong in file and options together."""
     from swashfilm.cli_floating import alike_faults, floating_faults
-    from system.given_thickness import moved_to
-    from system.pump_file import load_pump
+    from system.pump.film_thickness import moved_to
+    from system.pump_file.file import load_pump
 
     stated, faults = _overrides(options)
     if options.fidelity not in _FIDELITIES:

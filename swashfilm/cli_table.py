@@ -12,15 +12,15 @@ from typing import TYPE_CHECKING, Any
 from swashfilm.command_inputs import COMMAND_LINE
 from swashfilm.physics_switches import SWITCHES, add_switches, switched_keys
 from swashfilm.terminal import show, show_table
-from system.faults import Fault, InputFaults, nearest_choice
-from system.units import with_point
+from system.inputs.faults import Fault, InputFaults, nearest_choice
+from system.inputs.units import with_point
 
 if TYPE_CHECKING:
     from swashfilm.gap_table_case import GapTableCase
-    from system.description import PumpDescription
-    from system.progress import Report
-    from system.table_build import Range, TableCase
-    from system.table_points import Asked
+    from system.description.pump import PumpDescription
+    from system.points.table.build import Range, TableCase
+    from system.work.progress import Report
+    from system.work.sampled_points import Asked
 
 _SOURCE = "films"
 RANGES = {
@@ -92,7 +92,7 @@ def run_table_command(options: argparse.Namespace) -> int:
 
 def is_film_case(path: str) -> bool:
     """Whether a file there is a film case and no pump."""
-    from system.case_table import read_toml
+    from system.inputs.toml_table import read_toml
 
     return Path(path).is_file() and bool({"film", "gap"} & set(read_toml(Path(path))[1]))
 
@@ -143,10 +143,10 @@ def _gap_case(options: argparse.Namespace) -> tuple[GapTableCase, int]:
 def _case(options: argparse.Namespace) -> tuple[TableCase, int]:
     """The case that a command line means, and how many workers; raises InputFaults with every fault at once."""
     from swashfilm.cli_floating import alike_faults, floating_faults, floating_options
-    from system import table_sources
-    from system.response_tables import INPUTS
-    from system.table_build import TableCase, table_axes
-    from system.table_sources import Source
+    from system.points.table import sources as table_sources
+    from system.points.table.build import TableCase, table_axes
+    from system.points.table.response_table import INPUTS
+    from system.points.table.sources import Source
 
     faults: list[Fault] = []
     single = {option for option in RANGES if ".." not in (_given(options, option) or "..")}
@@ -170,7 +170,7 @@ def _case(options: argparse.Namespace) -> tuple[TableCase, int]:
 
 def _counts(options: argparse.Namespace, faults: list[Fault], inputs: int) -> tuple[int, int, int]:
     """Points to learn from and to hold out, and workers."""
-    from system.table_points import FEWEST_HELD_OUT, usual_counts
+    from system.work.sampled_points import FEWEST_HELD_OUT, usual_counts
 
     learnt, held_out = usual_counts(inputs)
     return (
@@ -182,7 +182,7 @@ def _counts(options: argparse.Namespace, faults: list[Fault], inputs: int) -> tu
 
 def _pump(options: argparse.Namespace, faults: list[Fault], single: Collection[str]) -> PumpDescription:
     """The pump, with what a table holds; raises InputFaults where it or `faults` has any."""
-    from system.pump_file import load_pump
+    from system.pump_file.file import load_pump
 
     keys = HELD | {option: RANGES[option] for option in single}
     stated: dict[str, object] = {
@@ -207,7 +207,7 @@ def _pump(options: argparse.Namespace, faults: list[Fault], single: Collection[s
 
 
 def _ranges(options: argparse.Namespace, faults: list[Fault], single: Collection[str]) -> list[Range | None]:
-    from system.units import Dimension
+    from system.inputs.units import Dimension
 
     dimensions = (Dimension.ANGULAR_SPEED, Dimension.PRESSURE, None, Dimension.TEMPERATURE)
     return [
@@ -220,7 +220,7 @@ def _ranges(options: argparse.Namespace, faults: list[Fault], single: Collection
 
 def _range(faults: list[Fault], option: str, text: str, dimension: object, example: str) -> Range | None:
     """MIN..MAX in SI; None after a fault."""
-    from system.units import Dimension, QuantityError, parse_quantity
+    from system.inputs.units import Dimension, QuantityError, parse_quantity
 
     ends = text.split("..")
     try:

@@ -9,12 +9,12 @@ import numpy as np
 
 from reynolds.numerics.arrays import Array
 from swashfilm.terminal import show
-from system.coefficient_files import PORT_HEADS, SOURCE
-from system.csv_table import Heads, read_table
-from system.faults import Fault, InputFaults
-from system.film_passages import FilmLoss, FilmPassage
-from system.loss_files import GROOVE_HEADS, STEP_HEADS
-from system.units import Dimension
+from system.inputs.coefficients.film_passages import FilmLoss, FilmPassage
+from system.inputs.coefficients.flow_files import PORT_HEADS, SOURCE
+from system.inputs.coefficients.loss_files import GROOVE_HEADS, STEP_HEADS
+from system.inputs.csv_table import Heads, read_table
+from system.inputs.faults import Fault, InputFaults
+from system.inputs.units import Dimension
 
 IN_UNIT = {"opening": ("mm2", 1e6)}
 """Unit in which a column is written, and what makes it of SI; all else are bare numbers."""

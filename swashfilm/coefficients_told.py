@@ -7,11 +7,11 @@ from typing import Any
 import numpy as np
 
 from reynolds.numerics.arrays import Array
-from system.assembly import PumpPoint
-from system.coefficient_files import FlowCoefficients
-from system.description import PumpDescription
-from system.flow_tables import coefficients_of
-from system.units import Dimension, format_quantity
+from system.description.pump import PumpDescription
+from system.inputs.coefficients.flow_files import FlowCoefficients
+from system.inputs.units import Dimension, format_quantity
+from system.pump.assembly import PumpPoint
+from system.pump.ports.flow_coefficients import coefficients_of
 
 LARGEST_SHARE_BEYOND = 0.01
 """Of the time in which a port is open, from which it is told that its coefficients are those of an edge."""

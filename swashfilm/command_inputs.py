@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from pathlib import Path
 
-from system.faults import Fault, InputFaults
+from system.inputs.faults import Fault, InputFaults
 
 COMMAND_LINE = "command line"
 """The source that faults of options are reported from."""
@@ -15,16 +15,16 @@ def given_text(pump: str, stated: Mapping[str, object]) -> str:
     """The pump file as given, under comments that tell what the command line put in place of its entries."""
     from importlib.resources import files
 
-    from system.pump_file import builtin_pumps
+    from system.pump_file.file import builtin_pumps
 
-    built_in = files("system").joinpath("pumps", f"{pump}.toml")
+    built_in = files("system.description").joinpath("pumps", f"{pump}.toml")
     text = built_in.read_text("utf-8") if pump in builtin_pumps() else Path(pump).read_text("utf-8")
     return "".join(f"# command line: {path} = {value}\n" for path, value in stated.items()) + text
 
 
 def expect(path: str | Path, wanted: str, command: str) -> None:
     """Raise InputFaults for a file of the other kind ("pump" or "film"), with the command that takes it."""
-    from system.case_table import read_toml
+    from system.inputs.toml_table import read_toml
 
     if not Path(path).is_file():
         return

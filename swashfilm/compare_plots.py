@@ -14,10 +14,10 @@ from swashfilm.map_plots import (
     shown,
     slice_of,
 )
-from system.efficiencies import EfficiencyDefinition
-from system.map_compare import Comparison
-from system.map_data import LOSSES
-from system.map_plan import MapInput
+from system.maps.compare import Comparison
+from system.maps.data import LOSSES
+from system.maps.plan import MapInput
+from system.pump.efficiency import EfficiencyDefinition
 
 INK = "#55616a"
 SHOWN = (EfficiencyDefinition.PAPER, EfficiencyDefinition.ENERGY_RETURNED)

@@ -12,11 +12,11 @@ from swashfilm.compare_plots import compare_plots
 from swashfilm.duty_run import duty_summary
 from swashfilm.kept_pictures import keep_pictures, kept_pictures
 from swashfilm.run_folder import write_json
-from system.duty import Cycle, duty
-from system.map_compare import Comparison
-from system.map_data import MapData
-from system.map_interpolation import MapError, MapInterpolant, left_out_error
-from system.map_plan import MapInput
+from system.maps.compare import Comparison
+from system.maps.data import MapData
+from system.maps.duty import Cycle, duty
+from system.maps.interpolation import MapError, MapInterpolant, left_out_error
+from system.maps.plan import MapInput
 
 PICTURES = "compare"
 DIFFERENCE_HEAD = ("", "A, mean", "B, mean", "largest difference, B - A", "at", "interpolation may miss there")

@@ -7,8 +7,8 @@ import math
 from collections.abc import Mapping
 
 from swashfilm.expressions import CONSTANTS, FUNCTIONS, IN_TIME
-from system.case_table import Table
-from system.units import Dimension, QuantityError, parse_quantity
+from system.inputs.toml_table import Table
+from system.inputs.units import Dimension, QuantityError, parse_quantity
 
 _EXAMPLE = "a bare number, or a quantity with its unit, such as '10 um'"
 

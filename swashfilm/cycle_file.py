@@ -12,10 +12,10 @@ import numpy as np
 
 from reynolds.errors import FilmInputError
 from reynolds.numerics.arrays import Array
-from system.duty import Cycle
-from system.faults import Fault, InputFaults, nearest_choice, nearest_path
-from system.map_plan import MapAxis, MapInput
-from system.units import Dimension, QuantityError, unit_scale, with_point
+from system.inputs.faults import Fault, InputFaults, nearest_choice, nearest_path
+from system.inputs.units import Dimension, QuantityError, unit_scale, with_point
+from system.maps.duty import Cycle
+from system.maps.plan import MapAxis, MapInput
 
 TIME = "time"
 HEADS = {

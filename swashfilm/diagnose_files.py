@@ -26,7 +26,7 @@ from diagnosis.trace_tables import trace_residual_rows
 from diagnosis.verdict import Diagnosis
 from swashfilm.diagnose_runs import NOTHING, Told
 from swashfilm.run_folder import write_json
-from system.channels import ChannelName
+from system.inputs.channels import ChannelName
 
 KIND = "diagnosis"
 TRACES = "trace_residuals.csv"

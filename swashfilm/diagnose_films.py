@@ -16,16 +16,16 @@ from swashfilm.maps import MapField, draw_map
 from swashfilm.pump_data import GAPS, films_dataset
 from swashfilm.pump_fields import write_fields
 from swashfilm.pump_plots import GAP_FIELDS, gap_place, pictured
-from system.description import PumpDescription
-from system.errors import NotConverged
-from system.film_effects import SOLVED
-from system.films import FilmsPoint, films_point
-from system.operating import operating_point
-from system.physics.effects import EffectId
-from system.physics.rubbing import OF_GAP
-from system.progress import Report
-from system.units import LPM
-from system.unlike import kinds
+from system.description.pump import PumpDescription
+from system.effects.effect import EffectId
+from system.effects.friction import OF_GAP
+from system.inputs.errors import NotConverged
+from system.inputs.units import LPM
+from system.points.film_effects import SOLVED
+from system.points.films import FilmsPoint, films_point
+from system.pump.chamber_kinds import kinds
+from system.pump.operating import operating_point
+from system.work.progress import Report
 
 if TYPE_CHECKING:
     import xarray

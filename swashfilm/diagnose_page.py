@@ -18,8 +18,8 @@ from swashfilm.diagnose_files import NO_NEXT_POINT, TRACES, read_rows
 from swashfilm.diagnose_films import film_pictures
 from swashfilm.diagnose_runs import HYDRAULIC, SHAFT, WITH, WITHOUT
 from swashfilm.diagnose_trace_plots import trace_residuals
-from system.faults import Fault, InputFaults
-from system.units import Dimension, in_unit, reading_unit
+from system.inputs.faults import Fault, InputFaults
+from system.inputs.units import Dimension, in_unit, reading_unit
 
 FILES = (
     "summary.json", "diagnosis.json", "residuals.csv", "hypotheses.csv", "parameters.csv", "next_points.csv",

@@ -24,15 +24,15 @@ from reynolds.laws.oil import walther
 from swashfilm.diagnose_files import NO_NEXT_POINT, write_diagnosis_files
 from swashfilm.diagnose_page import write_diagnose_page
 from swashfilm.diagnose_runs import claimed_pump, run_both
-from system.description import PumpDescription
-from system.errors import NotConverged
-from system.faults import Fault, InputFaults
-from system.physics.catalogue import CATALOGUE
-from system.physics.effects import Kind
-from system.physics.extension import Entry
-from system.progress import Report
-from system.pump_file import builtin_pumps, resolved_toml
-from system.tolerances import tolerances
+from system.description.pump import PumpDescription
+from system.description.tolerances import tolerances
+from system.effects.catalogue.entries import CATALOGUE
+from system.effects.effect import Kind
+from system.effects.extension import Entry
+from system.inputs.errors import NotConverged
+from system.inputs.faults import Fault, InputFaults
+from system.pump_file.file import builtin_pumps, resolved_toml
+from system.work.progress import Report
 
 EXTENDED = "pump_extended.toml"
 """In the run folder, where something is claimed: the pump with it."""

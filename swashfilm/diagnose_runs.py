@@ -21,19 +21,19 @@ from reynolds.errors import FilmInputError
 from swashfilm.diagnose_films import FilmsTold, films_of_both
 from swashfilm.fidelity import Fidelity
 from swashfilm.pump_run import run_pump
-from system.bench_points import operating_at
-from system.channels import ChannelName
-from system.description import PumpDescription
-from system.errors import NotConverged
+from system.bench.calibration.extended_pump import extended_pump, values_by_name
+from system.bench.points import operating_at
+from system.description.pump import PumpDescription
+from system.effects.catalogue.entries import entry_of
+from system.effects.effect import Kind
 from system.estimation.posterior import values_at
-from system.extended_pump import extended_pump, values_by_name
-from system.given_thickness import moved_to
-from system.operating import OperatingPoint
-from system.physics.catalogue import entry_of
-from system.physics.effects import Kind
-from system.progress import Report
-from system.pump_file import resolved_toml
-from system.units import LPM
+from system.inputs.channels import ChannelName
+from system.inputs.errors import NotConverged
+from system.inputs.units import LPM
+from system.pump.film_thickness import moved_to
+from system.pump.operating import OperatingPoint
+from system.pump_file.file import resolved_toml
+from system.work.progress import Report
 
 WITHOUT, WITH = "without", "with"
 """Run folders within the diagnosis's own."""

@@ -14,7 +14,7 @@ from importlib.metadata import PackageNotFoundError, requires, version
 from pathlib import Path
 
 from swashfilm.picture3d import REMEDY, draw
-from system.side_by_side import cores
+from system.work.processes import cores
 
 LEAST_MEMORY = 2e9  # bytes; a run with films takes half of it
 _NEEDED = re.compile(r"[A-Za-z0-9_.\-]+")

@@ -13,11 +13,11 @@ import numpy as np
 from swashfilm.duty_plots import duty_plots
 from swashfilm.kept_pictures import keep_pictures
 from swashfilm.run_folder import write_json
-from system.duty import Cycle, Duty, Energy, duty
-from system.faults import Fault, InputFaults
-from system.map_data import MapData
-from system.map_interpolation import MapError, MapInterpolant, left_out_error
-from system.map_plan import MapInput
+from system.inputs.faults import Fault, InputFaults
+from system.maps.data import MapData
+from system.maps.duty import Cycle, Duty, Energy, duty
+from system.maps.interpolation import MapError, MapInterpolant, left_out_error
+from system.maps.plan import MapInput
 
 COURSE = "course.csv"
 ENERGY_HEAD = ("", "energy", "error", "mean power", "of the loss")

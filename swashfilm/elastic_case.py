@@ -14,8 +14,8 @@ from reynolds.errors import FilmInputError
 from reynolds.fem.space import FilmSpace
 from swashfilm.body_case import BodyKind, built_body, file_body
 from swashfilm.mesh_case import CaseMesh
-from system.case_table import Table, quoted
-from system.units import Dimension, format_quantity
+from system.inputs.toml_table import Table, quoted
+from system.inputs.units import Dimension, format_quantity
 
 
 @dataclass(frozen=True)

@@ -17,7 +17,7 @@ from types import MappingProxyType
 import numpy as np
 
 from reynolds.numerics.arrays import Array
-from system.faults import nearest_choice
+from system.inputs.faults import nearest_choice
 
 _Evaluate = Callable[[Mapping[str, Array]], Array]
 

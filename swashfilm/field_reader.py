@@ -11,8 +11,8 @@ from reynolds.fem.space import FilmSpace
 from swashfilm.expressions import PLACE
 from swashfilm.fields import Field, MeshData, may_be_data, read_field
 from swashfilm.mesh_case import CaseMesh
-from system.case_table import Table
-from system.units import Dimension, QuantityError
+from system.inputs.toml_table import Table
+from system.inputs.units import Dimension, QuantityError
 
 
 @dataclass(frozen=True)

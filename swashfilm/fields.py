@@ -22,8 +22,8 @@ from swashfilm.expressions import (
     ExpressionError,
     parse_expression,
 )
-from system.faults import nearest_choice
-from system.units import Dimension, QuantityError, format_quantity, parse_quantity, with_point
+from system.inputs.faults import nearest_choice
+from system.inputs.units import Dimension, QuantityError, format_quantity, parse_quantity, with_point
 
 _WITH_UNIT = re.compile(r"[+-]?(?>(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*[A-Za-zµμ°].*")
 _NAME = re.compile(r"[^\W\d]\w*")

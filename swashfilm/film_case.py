@@ -28,9 +28,9 @@ from swashfilm.revolution_case import RevolutionCase, read_revolution_case
 from swashfilm.roughness_case import read_roughness
 from swashfilm.thermal_case import check_bodies, read_thermal
 from swashfilm.time_case import initial_film_fraction, read_time
-from system.case_table import Table, fault_lines, read_toml
-from system.faults import InputFaults
-from system.units import Dimension
+from system.inputs.faults import InputFaults
+from system.inputs.toml_table import Table, fault_lines, read_toml
+from system.inputs.units import Dimension
 
 
 @dataclass(frozen=True)

@@ -12,7 +12,7 @@ from reynolds.film import FilmSolution
 from reynolds.laws.oil import WALTHER_SHIFT, walther_coefficients
 from reynolds.numerics.arrays import Array
 from reynolds.solve.loads import evaluate
-from system.description import PumpDescription
+from system.description.pump import PumpDescription
 
 UNITS: Mapping[str, str] = {"film_viscosity": "Pa s", "film_temperature": "K"}
 

@@ -16,7 +16,7 @@ from swashfilm.film_in_time import last_of
 from swashfilm.film_refine import refinement_head, refinement_rows
 from swashfilm.headline import named
 from swashfilm.maps import MapField, draw_map
-from system.faults import Fault, InputFaults
+from system.inputs.faults import Fault, InputFaults
 
 FIELDS = (
     MapField("film_pressure", "film pressure / MPa", 1e-6, always=True),

@@ -19,8 +19,8 @@ from swashfilm.film_summary import film_summary
 from swashfilm.gap_case import GapCase
 from swashfilm.headline import headline_numbers, named, sizes
 from swashfilm.mesh_case import MOST_CELLS
-from system.faults import Fault, InputFaults
-from system.progress import Report
+from system.inputs.faults import Fault, InputFaults
+from system.work.progress import Report
 
 
 @dataclass(frozen=True)

@@ -10,7 +10,7 @@ from swashfilm.gap_case import FORMAT
 from swashfilm.load_case import load_rows
 from swashfilm.thermal_case import thermal_rows
 from swashfilm.time_case import time_rows
-from system.units import Dimension, format_quantity
+from system.inputs.units import Dimension, format_quantity
 
 
 def resolved_text(stated: FilmStatement) -> str:

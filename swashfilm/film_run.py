@@ -17,7 +17,7 @@ from swashfilm.film_summary import film_summary
 from swashfilm.gap_case import GapCase
 from swashfilm.gap_study import true_place
 from swashfilm.run_folder import write_json
-from system.progress import Report
+from system.work.progress import Report
 
 if TYPE_CHECKING:
     import xarray

@@ -15,11 +15,11 @@ from swashfilm.gap_case import GapCase
 from swashfilm.revolution_case import RevolutionCase
 from swashfilm.revolution_study import revolution_course, revolution_summary, solve_revolution
 from swashfilm.study_case import Point, StudyCase
-from system.kept_points import POINTS, KeptPoints, points_of_run, run_kept
-from system.progress import Report
-from system.side_by_side import crew
-from system.work import Outcome as WorkOutcome
-from system.work import Status
+from system.work.kept_results import POINTS, KeptPoints, points_of_run, run_kept
+from system.work.processes import crew
+from system.work.progress import Report
+from system.work.tasks import Outcome as WorkOutcome
+from system.work.tasks import Status
 
 COURSE = "course"
 """Of a revolution, beside its summary: what a study compares over the shaft angle."""

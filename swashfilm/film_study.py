@@ -16,7 +16,7 @@ from swashfilm.film_oil import film_of, heat_of, oil_solver
 from swashfilm.film_transient import Moment, transient
 from swashfilm.gap_case import GapCase
 from swashfilm.gap_study import GapStudy, solve_gap
-from system.progress import Report, silent
+from system.work.progress import Report, silent
 
 if TYPE_CHECKING:
     pass

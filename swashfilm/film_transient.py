@@ -14,7 +14,7 @@ from reynolds.solve.transient import oil_held
 from reynolds.thermal.energy import FilmTemperature
 from swashfilm.film_oil import film_of, heat_of, oil_solver
 from swashfilm.film_problem import film_problem
-from system.progress import Report
+from system.work.progress import Report
 
 if TYPE_CHECKING:
     from swashfilm.film_statement import FilmStatement

@@ -12,7 +12,7 @@ from swashfilm.gap_names import TITLES
 from swashfilm.physics_told import PHYSICS_HEAD, physics_told
 from swashfilm.pump_data import GAPS
 from swashfilm.revolution_plots import film_text, revolution_plots
-from system.units import LPM
+from system.inputs.units import LPM
 
 SHOWN = ("film", "path", "temperature", "contact", "maps")
 SHOWN_UNLIKE = ("film", "path")

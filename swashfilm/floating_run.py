@@ -19,11 +19,11 @@ from swashfilm.revolution_data import revolution_dataset, write_convergence, wri
 from swashfilm.revolution_fields import write_revolution_fields
 from swashfilm.revolution_study import RevolutionStudy, revolution_summary
 from swashfilm.terminal import show_table
-from system.floating import FloatingKind, FloatingPoint
-from system.floating_gaps import FloatingOptions
-from system.floating_heat import all_taken
-from system.instants import Rotor
-from system.pump_gap import Gap
+from system.description.gap import Gap
+from system.films.heat import all_taken
+from system.films.rotor import Rotor
+from system.points.floating import FloatingKind, FloatingPoint
+from system.points.floating_gaps import FloatingOptions
 
 RESULTS = "results.nc"
 Kept = dict[tuple[str, str], np.ndarray]

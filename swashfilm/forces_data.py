@@ -9,14 +9,14 @@ from typing import Any
 import numpy as np
 
 from reynolds.numerics.arrays import Array
-from system import pairs
-from system.assembly import PumpPoint
-from system.lumped import piston_forces, piston_motion
 from system.multibody.closure import closure
-from system.multibody.group_kinematics import SHAFT
-from system.multibody.retainer_body import guide_loss
+from system.multibody.kinematics import SHAFT
+from system.multibody.retainer import guide_loss
 from system.multibody.rotating_group import JointForces
-from system.retainer import BallGuide
+from system.pump.assembly import PumpPoint
+from system.pump.laws import friction_pairs as pairs
+from system.pump.laws.retainer import BallGuide
+from system.pump.lumped import piston_forces, piston_motion
 
 TABLE = "forces.csv"
 Columns = dict[str, tuple[str, Array]]

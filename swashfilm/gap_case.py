@@ -12,15 +12,15 @@ from reynolds.numerics.arrays import Array
 from swashfilm.case_pump import CasePump, operating_rows, own_rows, read_case_pump
 from swashfilm.gap_position import Load, load_rows, position_rows, read_load, read_position, touching
 from swashfilm.physics_case import physics_rows, read_physics
-from system.case_table import Table, quoted
-from system.chamber_state_kernels import CAVITY_PRESSURE
-from system.floating_parts import FloatingParts, floating_parts
-from system.gap_films import RIGID
-from system.instants import Rotor, rotor
-from system.operating import operating_point
-from system.pump_file import load_pump
-from system.pump_gap import Gap
-from system.units import Dimension, format_quantity
+from system.description.gap import Gap
+from system.films.parts import FloatingParts, floating_parts
+from system.films.problems import RIGID
+from system.films.rotor import Rotor, rotor
+from system.inputs.toml_table import Table, quoted
+from system.inputs.units import Dimension, format_quantity
+from system.pump.chamber.state_kernels import CAVITY_PRESSURE
+from system.pump.operating import operating_point
+from system.pump_file.file import load_pump
 
 FORMAT = 1
 

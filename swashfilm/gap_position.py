@@ -9,13 +9,13 @@ import numpy as np
 
 from reynolds.floating.pose import THINNEST
 from reynolds.numerics.arrays import Array
-from system.case_table import Table, quoted
-from system.floating_parts import FloatingParts
-from system.given_positions import eccentric
-from system.instants import Rotor, travel
-from system.pump_gap import Gap
-from system.standing_gaps import instant_drives
-from system.units import Dimension, format_quantity
+from system.description.gap import Gap
+from system.films.given_positions import eccentric
+from system.films.parts import FloatingParts
+from system.films.rotor import Rotor, travel
+from system.films.standing_gaps import instant_drives
+from system.inputs.toml_table import Table, quoted
+from system.inputs.units import Dimension, format_quantity
 
 
 @dataclass(frozen=True)

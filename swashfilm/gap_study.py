@@ -24,12 +24,12 @@ from reynolds.numerics.arrays import Array
 from reynolds.solve.solver import FilmSolver
 from swashfilm.gap_case import GapCase
 from swashfilm.gap_position import FaceLoad, PistonLoad, rim
-from system.floating_gaps import BLOCK_START, SLIPPER_START
-from system.gap_cycle import PISTON_CELLS, RING_CELLS, SLIPPER_CELLS
-from system.gap_films import Cells, block_film, piston_film, slipper_film
-from system.places import place_of
-from system.pump_gap import Gap
-from system.standing_gaps import NO_RUBBING, instant_drives
+from system.description.gap import Gap
+from system.films.cycle import PISTON_CELLS, RING_CELLS, SLIPPER_CELLS
+from system.films.places import place_of
+from system.films.problems import Cells, block_film, piston_film, slipper_film
+from system.films.standing_gaps import NO_RUBBING, instant_drives
+from system.points.floating_gaps import BLOCK_START, SLIPPER_START
 
 START = {
     Gap.PISTON: np.zeros(4),

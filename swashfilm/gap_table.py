@@ -18,13 +18,13 @@ from swashfilm.headline import named
 from swashfilm.revolution_case import RevolutionCase
 from swashfilm.revolution_study import NO_RUBBING
 from swashfilm.table_run import TABLE, table_warnings, write_table_files
-from system.floating_parts import floating_parts
-from system.progress import Report
-from system.response_tables import PRESSURE, RATIO, SPEED, axis_value
-from system.side_by_side import crew
-from system.table_points import Solved, points_of, samples_of, solved_points
-from system.table_store import read_response, response_record, write_response
-from system.units import Dimension, parse_quantity
+from system.films.parts import floating_parts
+from system.inputs.units import Dimension, parse_quantity
+from system.points.table.response_table import PRESSURE, RATIO, SPEED, axis_value
+from system.points.table.store import read_response, response_record, write_response
+from system.work.processes import crew
+from system.work.progress import Report
+from system.work.sampled_points import Solved, points_of, samples_of, solved_points
 
 POSITIVE = (
     "leakage_flow_m3_per_s", "friction_power_W", "film_thickness_mean_m", "film_thickness_min_m",

@@ -28,10 +28,10 @@ from swashfilm.study_case import (
     read_switched,
     stepped,
 )
-from system.case_table import Table
-from system.faults import Fault, InputFaults
-from system.table_points import usual_counts
-from system.units import Dimension, format_quantity
+from system.inputs.faults import Fault, InputFaults
+from system.inputs.toml_table import Table
+from system.inputs.units import Dimension, format_quantity
+from system.work.sampled_points import usual_counts
 
 TABLE = "table"
 FORMAT = 1

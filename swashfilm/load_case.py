@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from reynolds.floating.load_search import RigidLoad
-from system.case_table import Table
-from system.units import Dimension, format_quantity
+from system.inputs.toml_table import Table
+from system.inputs.units import Dimension, format_quantity
 
 _MOMENTS = ("moment_x", "moment_y")
 

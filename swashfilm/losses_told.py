@@ -9,13 +9,13 @@ from typing import Any
 import numpy as np
 
 from reynolds.numerics.arrays import Array
-from system.assembly import PumpPoint
-from system.description import PumpDescription, SlipperSection
-from system.edge_losses import LandPath
-from system.flow_tables import coefficients_of
-from system.land_losses import deepest, land_losses
-from system.loss_files import LossFactors, groove_losses, step_losses
-from system.units import Dimension, format_quantity
+from system.description.pump import PumpDescription, SlipperSection
+from system.inputs.coefficients.edge_losses import LandPath
+from system.inputs.coefficients.loss_files import LossFactors, groove_losses, step_losses
+from system.inputs.units import Dimension, format_quantity
+from system.pump.assembly import PumpPoint
+from system.pump.land_losses import deepest, land_losses
+from system.pump.ports.flow_coefficients import coefficients_of
 
 LARGEST_SHARE_BEYOND = 0.01
 """Of the turn, from which it is told that losses are those of a file's last row."""

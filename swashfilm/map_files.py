@@ -12,13 +12,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from system.efficiencies import EfficiencyDefinition
-from system.faults import Fault, InputFaults, nearest_path
-from system.kept_points import POINTS
-from system.map_data import MapData, best_points, objects
-from system.map_interpolation import MapError
-from system.map_plan import MapAxis, MapInput, reading_levels
-from system.map_point import QUANTITIES, Members
+from system.inputs.faults import Fault, InputFaults, nearest_path
+from system.maps.data import MapData, best_points, objects
+from system.maps.interpolation import MapError
+from system.maps.plan import MapAxis, MapInput, reading_levels
+from system.maps.point import QUANTITIES, Members
+from system.pump.efficiency import EfficiencyDefinition
+from system.work.kept_results import POINTS
 
 if TYPE_CHECKING:
     import xarray

@@ -10,7 +10,7 @@ from typing import Any
 from swashfilm.kept_pictures import keep_pictures
 from swashfilm.map_files import MAP, read_map
 from swashfilm.map_plots import map_plots
-from system.faults import Fault, InputFaults
+from system.inputs.faults import Fault, InputFaults
 
 FILES = ("summary.json", "resolved.toml", MAP)
 CM3 = 1e6

@@ -12,10 +12,10 @@ import numpy as np
 from reynolds.numerics.arrays import Array
 from swashfilm.figure_png import figure_of, png_of
 from swashfilm.map_files import PARTS
-from system.efficiencies import EfficiencyDefinition
-from system.map_data import MapData
-from system.map_interpolation import weights
-from system.map_plan import MapInput, reading_levels
+from system.maps.data import MapData
+from system.maps.interpolation import weights
+from system.maps.plan import MapInput, reading_levels
+from system.pump.efficiency import EfficiencyDefinition
 
 LINES = 12
 DOWNWARDS = (1, 1, 1, 1, 2, 2, 5, 5, 10, 10, 20)

@@ -16,11 +16,10 @@ from swashfilm.fidelity import Fidelity
 from swashfilm.map_files import write_map, write_tables
 from swashfilm.map_summary import map_summary
 from swashfilm.run_folder import write_json
-from system.description import PumpDescription
-from system.faults import Fault, InputFaults
-from system.kept_points import POINTS, Kept, KeptPoints, points_of_run, run_kept
-from system.map_data import MapData, map_data
-from system.map_interpolation import (
+from system.description.pump import PumpDescription
+from system.inputs.faults import Fault, InputFaults
+from system.maps.data import MapData, map_data
+from system.maps.interpolation import (
     CHECKED,
     MapError,
     MapInterpolant,
@@ -28,17 +27,25 @@ from system.map_interpolation import (
     fresh_error,
     left_out_error,
 )
-from system.map_plan import MapInput, MapPlan, point_words
-from system.map_point import DirectSolver, LumpedSolver, MapSolver, MapWork, TableSolver, columns
-from system.operating import OperatingPoint
-from system.progress import Report
-from system.pump_file import resolved_toml
-from system.response_tables import PRESSURE, RATIO, SPEED, VISCOSITY, ResponseTable, point_text
-from system.table_build import TableCase, build_table, table_axes
-from system.table_points import usual_counts
-from system.table_sources import FilmsSolver
-from system.table_store import find_table, own_table
-from system.work import Hands, Outcome, Status
+from system.maps.plan import MapInput, MapPlan, point_words
+from system.maps.point import DirectSolver, LumpedSolver, MapSolver, MapWork, TableSolver, columns
+from system.points.table.build import TableCase, build_table, table_axes
+from system.points.table.response_table import (
+    PRESSURE,
+    RATIO,
+    SPEED,
+    VISCOSITY,
+    ResponseTable,
+    point_text,
+)
+from system.points.table.sources import FilmsSolver
+from system.points.table.store import find_table, own_table
+from system.pump.operating import OperatingPoint
+from system.pump_file.file import resolved_toml
+from system.work.kept_results import POINTS, Kept, KeptPoints, points_of_run, run_kept
+from system.work.progress import Report
+from system.work.sampled_points import usual_counts
+from system.work.tasks import Hands, Outcome, Status
 
 FILMS_COST = 2.0
 """Seconds of processor time that a point of the films fidelity takes, about (benchmarks/map.py)."""

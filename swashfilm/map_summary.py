@@ -8,19 +8,19 @@ from typing import Any
 import numpy as np
 
 from reynolds.numerics.arrays import Array
-from system.description import PumpDescription
-from system.film_effects import effects_in_films, film_effects
-from system.floating_parts import floating_parts
-from system.gap_cycle import PLAIN
-from system.instants import rotor
-from system.kept_points import Kept
-from system.map_data import Best, MapData, best_points, toet_notes, told_warnings
-from system.map_interpolation import MapError
-from system.map_plan import MapAxis, MapInput, MapPlan, point_words, reading_levels
-from system.map_point import LumpedSolver, MapWork, TableSolver
-from system.operating import operating_point
-from system.pump_file import check_pump
-from system.work import Status
+from system.description.pump import PumpDescription
+from system.films.cycle import PLAIN
+from system.films.parts import floating_parts
+from system.films.rotor import rotor
+from system.maps.data import Best, MapData, best_points, toet_notes, told_warnings
+from system.maps.interpolation import MapError
+from system.maps.plan import MapAxis, MapInput, MapPlan, point_words, reading_levels
+from system.maps.point import LumpedSolver, MapWork, TableSolver
+from system.points.film_effects import effects_in_films, film_effects
+from system.pump.operating import operating_point
+from system.pump_file.file import check_pump
+from system.work.kept_results import Kept
+from system.work.tasks import Status
 
 
 def map_summary(plan: MapPlan, work: MapWork, data: MapData, kept: Kept, error: MapError | None) -> dict[str, Any]:

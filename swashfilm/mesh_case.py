@@ -11,8 +11,8 @@ from reynolds.errors import FilmInputError
 from reynolds.fem.mesh import Cell, FilmMesh, annulus, mesh_from_file, rectangle
 from reynolds.fem.refine import refine_mesh
 from swashfilm.fields import MeshData, mesh_data
-from system.case_table import Table, quoted
-from system.units import Dimension, format_quantity
+from system.inputs.toml_table import Table, quoted
+from system.inputs.units import Dimension, format_quantity
 
 MESH_FILE = "the path of a mesh file in a format that meshio reads"
 MOST_CELLS = 10_000_000  # some 10 GB of memory

@@ -15,9 +15,9 @@ from reynolds.laws.rheology import Carreau, Cross, Eyring
 from reynolds.laws.viscosity import Barus, Roelands
 from reynolds.numerics.arrays import Array
 from reynolds.thermal.shear_thinning import ShearLaw
-from system.case_table import Table
-from system.faults import nearest_choice
-from system.units import Dimension, format_quantity
+from system.inputs.faults import nearest_choice
+from system.inputs.toml_table import Table
+from system.inputs.units import Dimension, format_quantity
 
 _KINEMATIC = ("kinematic_viscosity_40C", "kinematic_viscosity_100C")
 _OF_LAWS = {

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from enum import Enum
 
 from gaps.films.physics import Effect, Physics
-from system.case_table import Table
+from system.inputs.toml_table import Table
 
 
 class Walls(Enum):

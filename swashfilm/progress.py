@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import TextIO
 
-from system.progress import Report
+from system.work.progress import Report
 
 LINE_EVERY = 5.0  # s between two lines in a log
 

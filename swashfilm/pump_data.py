@@ -10,9 +10,9 @@ import numpy as np
 
 from gaps.standing.gap_film import GapFilm
 from swashfilm.film_oil_state import UNITS, oil_state
-from system.assembly import PumpPoint
-from system.films import FilmsPoint
-from system.pairs import Pair
+from system.points.films import FilmsPoint
+from system.pump.assembly import PumpPoint
+from system.pump.laws.friction_pairs import Pair
 
 if TYPE_CHECKING:
     import xarray

@@ -10,9 +10,9 @@ from reynolds.solve.export import write_pvd, write_vtu
 from swashfilm.film_oil_state import oil_state
 from swashfilm.gap_names import FIELDS, vtu_name
 from swashfilm.pump_data import GAPS
-from system.films import FilmsPoint
-from system.places import place_of
-from system.pump_gap import Gap
+from system.description.gap import Gap
+from system.films.places import place_of
+from system.points.films import FilmsPoint
 
 
 def write_fields(folder: Path, films: FilmsPoint) -> None:

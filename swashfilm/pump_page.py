@@ -18,9 +18,9 @@ from swashfilm.gap_names import TITLES
 from swashfilm.pump_data import GAPS
 from swashfilm.pump_summary import ABBREVIATION
 from swashfilm.table_told import TOLD_HEAD, told_rows
-from system.faults import Fault, InputFaults
-from system.pairs import Pair
-from system.units import LPM
+from system.inputs.faults import Fault, InputFaults
+from system.inputs.units import LPM
+from system.pump.laws.friction_pairs import Pair
 
 PICTURES = (*GAPS, "pump")
 Rows = list[tuple[str, ...]]

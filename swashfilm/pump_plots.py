@@ -13,8 +13,8 @@ from swashfilm.gap_names import TITLES
 from swashfilm.maps import MapField, draw_map
 from swashfilm.pump_data import GAPS, PICTURED_TURN
 from swashfilm.pump_summary import ABBREVIATION
-from system.pairs import Pair
-from system.units import LPM
+from system.inputs.units import LPM
+from system.pump.laws.friction_pairs import Pair
 
 if TYPE_CHECKING:
     import xarray

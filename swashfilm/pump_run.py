@@ -18,18 +18,18 @@ from swashfilm.pump_summary import pump_summary
 from swashfilm.pump_warnings import films_warnings
 from swashfilm.run_folder import write_json
 from swashfilm.table_told import told_point, told_summary, told_warnings
-from system.assembly import PumpPoint
-from system.description import PumpDescription
-from system.films import FilmsPoint, films_point
-from system.floating import floating_point
-from system.floating_gaps import FloatingOptions
-from system.lumped_point import lumped_point
+from system.description.pump import PumpDescription
 from system.multibody.floating_group import floating_joint_forces
 from system.multibody.rotating_group import JointForces, joint_forces
-from system.operating import operating_point
-from system.progress import Report
-from system.pump_file import check_pump, resolved_toml
-from system.table_sources import Source
+from system.points.films import FilmsPoint, films_point
+from system.points.floating import floating_point
+from system.points.floating_gaps import FloatingOptions
+from system.points.lumped import lumped_point
+from system.points.table.sources import Source
+from system.pump.assembly import PumpPoint
+from system.pump.operating import operating_point
+from system.pump_file.file import check_pump, resolved_toml
+from system.work.progress import Report
 
 if TYPE_CHECKING:
     import xarray

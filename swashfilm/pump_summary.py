@@ -13,12 +13,12 @@ from swashfilm.coefficients_told import coefficient_records
 from swashfilm.fidelity import Fidelity
 from swashfilm.losses_told import loss_records
 from swashfilm.pump_data import gap_films
-from system.assembly import PumpPoint
-from system.bench import Efficiency, energy_split, ideal_flow, ideal_torque, paper_losses
-from system.description import PumpDescription
-from system.film_effects import effects_in_films
-from system.films import FilmsPoint
-from system.pairs import Pair
+from system.description.pump import PumpDescription
+from system.points.film_effects import effects_in_films
+from system.points.films import FilmsPoint
+from system.pump.assembly import PumpPoint
+from system.pump.bench import Efficiency, energy_split, ideal_flow, ideal_torque, paper_losses
+from system.pump.laws.friction_pairs import Pair
 
 ABBREVIATION = {
     Pair.PISTON_CYLINDER: "PCP",

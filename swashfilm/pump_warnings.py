@@ -5,7 +5,7 @@ from __future__ import annotations
 from swashfilm.gap_names import LARGEST_RIGID_PRESSURE
 from swashfilm.pump_data import gap_films
 from swashfilm.pump_summary import gap_statement
-from system.films import FilmsPoint
+from system.points.films import FilmsPoint
 
 LARGEST_SAMPLING_ERROR = 0.02
 

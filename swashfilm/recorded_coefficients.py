@@ -8,13 +8,13 @@ from diagnosis.recording import Recording
 from diagnosis.scant_pump import load_known_pump
 from swashfilm.calibrate_run import calibrate
 from swashfilm.diagnose_run import checked_recording
-from system.description import PumpDescription
-from system.faults import Fault, InputFaults
-from system.paper.coefficients import fig13_of
+from system.bench.calibration.equation_21 import LOSS_CHANNELS
+from system.description.pump import PumpDescription
+from system.inputs.faults import Fault, InputFaults
+from system.paper.figures.coefficients import fig13_of
 from system.paper.judge import FigureResult
 from system.paper.points import Reading
-from system.paper_fit import LOSS_CHANNELS
-from system.progress import Report
+from system.work.progress import Report
 
 
 def recording_for_fig13(path: Path, pump: str) -> Recording:

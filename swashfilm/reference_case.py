@@ -10,9 +10,9 @@ from pathlib import Path
 from typing import Any
 
 from swashfilm.reference_passages import Groove, Orifice, Passage, Slot, Step
-from system.case_table import Table, fault_lines, read_toml
-from system.faults import Fault, InputFaults
-from system.units import Dimension, QuantityError, parse_quantity
+from system.inputs.faults import Fault, InputFaults
+from system.inputs.toml_table import Table, fault_lines, read_toml
+from system.inputs.units import Dimension, QuantityError, parse_quantity
 
 FORMAT = 1
 CELLS, FEWEST_CELLS, MOST_CELLS = 6, 2, 24

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from swashfilm.reference_plots import coefficient_plot
-from system.faults import Fault, InputFaults
+from system.inputs.faults import Fault, InputFaults
 
 HEAD = (
     "passage",

@@ -12,8 +12,8 @@ import numpy as np
 from swashfilm.reference_case import FEWEST_CELLS, ReferenceCase, ReferenceKind
 from swashfilm.reference_passages import Passage, Solved
 from swashfilm.run_folder import write_json
-from system.csv_table import write_table
-from system.progress import Report
+from system.inputs.csv_table import write_table
+from system.work.progress import Report
 
 if TYPE_CHECKING:
     pass

@@ -10,7 +10,7 @@ from typing import Any
 
 from swashfilm.reproduce_plots import figure_picture
 from swashfilm.run_folder import write_json
-from system.paper.figures import Axis, Panel
+from system.paper.figure import Axis, Panel
 from system.paper.judge import FigureResult, Judged, Range
 
 CLAIMS, DATA, PLOTS = "claims.json", "data", "plots"

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from swashfilm.reproduce_files import CLAIMS, PLOTS
-from system.faults import Fault, InputFaults
+from system.inputs.faults import Fault, InputFaults
 from system.paper.judge import Verdict
 
 FILES = ("summary.json", CLAIMS, "resolved.toml")

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from swashfilm.figure_png import figure_of, png_of
-from system.paper.figures import Axis, Panel, PanelKind, Unit
+from system.paper.figure import Axis, Panel, PanelKind, Unit
 
 COLOURS = ("#3c7a8c", "#b55a00", "#5b9a5b", "#b8862b", "#6d5a9c", "#8c5a3c", "#9aa4ab")
 COLUMNS = 2

@@ -12,15 +12,15 @@ from diagnosis.recording import Recording
 from reynolds.numerics.cache import cache_folder
 from swashfilm.recorded_coefficients import recorded_fig13
 from swashfilm.reproduce_files import claim_rows, figure_row, write_reproduction
-from system.description import PumpDescription
-from system.floating_gaps import FloatingOptions
-from system.kept_points import KeptPoints
-from system.paper.figures import DRAWINGS, Figure
+from system.description.pump import PumpDescription
+from system.paper.figure import DRAWINGS, Figure
 from system.paper.judge import FigureResult
 from system.paper.reproduce import Means, PaperFidelity, reproduce
-from system.progress import Report
-from system.pump_file import load_pump, resolved_toml
-from system.work import Hands
+from system.points.floating_gaps import FloatingOptions
+from system.pump_file.file import load_pump, resolved_toml
+from system.work.kept_results import KeptPoints
+from system.work.progress import Report
+from system.work.tasks import Hands
 
 PAPERS_OWN = ("ref90", "ref90_floating")
 """Built-in pumps that stand for the paper's."""

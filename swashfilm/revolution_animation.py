@@ -10,7 +10,7 @@ import numpy as np
 from swashfilm.maps import draw_map, paint
 from swashfilm.revolution_data import SHOWN
 from swashfilm.revolution_plots import FILM, INK, degrees, shown, span
-from system.progress import Report
+from system.work.progress import Report
 
 if TYPE_CHECKING:
     import xarray

@@ -11,10 +11,10 @@ from swashfilm.case_pump import CasePump, operating_rows, own_rows, read_case_pu
 from swashfilm.gap_case import FORMAT
 from swashfilm.physics_case import physics_rows, read_physics
 from swashfilm.revolution_pressure import ChamberPressure, read_chamber_pressure
-from system.case_table import Table, quoted
-from system.floating_gaps import MARCHED, USUAL, FloatingOptions, usual_finer
-from system.instants import Rotor
-from system.pump_gap import Gap
+from system.description.gap import Gap
+from system.films.rotor import Rotor
+from system.inputs.toml_table import Table, quoted
+from system.points.floating_gaps import MARCHED, USUAL, FloatingOptions, usual_finer
 
 STEPS = 360
 FILMS, RING_FILMS = 36, 180  # kept of a turn; the ring's repeat with the pitch

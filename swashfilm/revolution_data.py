@@ -15,8 +15,8 @@ from gaps.revolution.turn import GapInstant
 from reynolds.equation.rough_overlap import vertex_thickness
 from reynolds.numerics.arrays import Array
 from swashfilm.revolution_study import RevolutionStudy, friction_power, tilt
-from system.instants import engaged_share
-from system.pump_gap import Gap
+from system.description.gap import Gap
+from system.films.rotor import engaged_share
 
 if TYPE_CHECKING:
     import xarray

@@ -10,7 +10,7 @@ from reynolds.solve.export import write_pvd, write_vtu
 from swashfilm.gap_names import FIELDS, vtu_name
 from swashfilm.revolution_data import film_temperatures
 from swashfilm.revolution_study import RevolutionStudy
-from system.places import place_of
+from system.films.places import place_of
 
 
 def write_revolution_fields(folder: Path, study: RevolutionStudy) -> None:

@@ -14,8 +14,8 @@ from swashfilm.film_refine import refinement_head, refinement_rows
 from swashfilm.gap_names import TITLES
 from swashfilm.physics_told import PHYSICS_HEAD, physics_told
 from swashfilm.revolution_plots import revolution_plots
-from system.faults import Fault, InputFaults
-from system.pump_gap import Gap
+from system.description.gap import Gap
+from system.inputs.faults import Fault, InputFaults
 
 FILES = ("summary.json", "resolved.toml", "results.nc", "convergence.csv")
 _LISTS = ("assumptions", "physics_left_out", "physics_seconds", "gap")

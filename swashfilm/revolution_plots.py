@@ -10,7 +10,7 @@ from gaps.revolution.reports import Active
 from swashfilm.figure_png import figure_of, png_of
 from swashfilm.maps import draw_map
 from swashfilm.revolution_data import PISTON_END, POSITIONS, SHOWN
-from system.pump_gap import Gap
+from system.description.gap import Gap
 
 if TYPE_CHECKING:
     import xarray

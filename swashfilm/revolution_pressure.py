@@ -10,16 +10,16 @@ import numpy as np
 
 from gaps.films.over_turn import TURN, Course
 from reynolds.numerics.arrays import Array
-from system.case_table import Table, quoted
-from system.chamber_state_kernels import CAVITY_PRESSURE
-from system.faults import nearest_choice
-from system.fields import Points
-from system.instants import Rotor
-from system.lumped import piston_motion
-from system.lumped_point import lumped_point
-from system.point_files import read_rows
-from system.pump_values import listed_rows
-from system.units import Dimension, QuantityError, format_quantity, parse_quantity
+from system.description.values import listed_rows
+from system.films.rotor import Rotor
+from system.inputs.faults import nearest_choice
+from system.inputs.fields import Points
+from system.inputs.point_files import read_rows
+from system.inputs.toml_table import Table, quoted
+from system.inputs.units import Dimension, QuantityError, format_quantity, parse_quantity
+from system.points.lumped import lumped_point
+from system.pump.chamber.state_kernels import CAVITY_PRESSURE
+from system.pump.lumped import piston_motion
 
 CYCLE = "cycle"
 LEAST_ROWS = 4

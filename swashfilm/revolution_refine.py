@@ -6,7 +6,7 @@ from swashfilm.convergence import convergence
 from swashfilm.film_refine import Refinement
 from swashfilm.revolution_case import RevolutionCase
 from swashfilm.revolution_study import RevolutionStudy, revolution_summary, solve_revolution
-from system.progress import Report
+from system.work.progress import Report
 
 EXPECTED = (1.0, 2.0)
 """Orders to expect: second of the film, first of a cavity's front; a least value is no smooth one."""

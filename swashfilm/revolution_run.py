@@ -12,7 +12,7 @@ from swashfilm.revolution_fields import write_revolution_fields
 from swashfilm.revolution_refine import refine_revolution
 from swashfilm.revolution_study import revolution_summary, solve_revolution
 from swashfilm.run_folder import write_json
-from system.progress import Report
+from system.work.progress import Report
 
 
 def run_revolution_case(

@@ -21,13 +21,13 @@ from gaps.revolution.warmth import Warmth
 from reynolds.numerics.arrays import Array
 from swashfilm.revolution_case import GapCase, RevolutionCase
 from swashfilm.revolution_warnings import revolution_warnings
-from system.floating_drives import Drives, drives, no_rubbing, slipper_shape
-from system.floating_gaps import block_revolution, piston_revolution, slipper_revolution
-from system.floating_heat import all_taken
-from system.floating_parts import FloatingParts, floating_parts
-from system.instants import valve_plate_geometry
-from system.progress import Report, silent
-from system.pump_gap import Gap
+from system.description.gap import Gap
+from system.films.drives import Drives, drives, no_rubbing, slipper_shape
+from system.films.heat import all_taken
+from system.films.parts import FloatingParts, floating_parts
+from system.films.rotor import valve_plate_geometry
+from system.points.floating_gaps import block_revolution, piston_revolution, slipper_revolution
+from system.work.progress import Report, silent
 
 NO_RUBBING = "friction of the films on the parts: left out of the forces between them (one gap alone)"
 

@@ -12,11 +12,11 @@ from gaps.films.slipper import retainer_force
 from gaps.revolution.march import GapRevolution
 from swashfilm.gap_names import LARGEST_RIGID_PRESSURE
 from swashfilm.revolution_case import GapCase
-from system.checks import run_checks
-from system.floating_checks import block_tips, slipper_has_a_wedge
-from system.floating_drives import slipper_retainer
-from system.floating_parts import FloatingParts
-from system.pump_gap import Gap
+from system.description.gap import Gap
+from system.films.drives import slipper_retainer
+from system.films.parts import FloatingParts
+from system.pump_file.check import run_checks
+from system.pump_file.floating import block_tips, slipper_has_a_wedge
 
 LARGEST_OVERLAP = 3.0  # standard deviations of the summits: beyond, asperities would be pressed flat
 LARGEST_STEP_ERROR = 2.0  # of what a step is allowed

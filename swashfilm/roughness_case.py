@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from reynolds.errors import FilmInputError
 from reynolds.laws.contact import Asperities, composite_modulus
 from reynolds.laws.roughness import Surface
-from system.case_table import Table
-from system.units import Dimension, format_quantity
+from system.inputs.toml_table import Table
+from system.inputs.units import Dimension, format_quantity
 
 
 @dataclass(frozen=True)

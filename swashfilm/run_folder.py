@@ -16,7 +16,7 @@ from itertools import count
 from pathlib import Path
 from typing import Any
 
-from system.faults import Fault, InputFaults
+from system.inputs.faults import Fault, InputFaults
 
 RUNS = Path("runs")
 
@@ -54,7 +54,7 @@ def run_folder(name: str, wanted: Path | None = None) -> Iterator[Path]:
         shutil.rmtree(partial)
         raise Interrupted(None) from None
     except BaseException:
-        from system.kept_points import POINTS
+        from system.work.kept_results import POINTS
 
         if any((partial / POINTS).glob("*.json")):
             sys.stderr.write(f"swashfilm: points that were solved are kept in {partial}: --resume {partial}\n")

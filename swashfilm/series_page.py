@@ -15,8 +15,8 @@ from swashfilm.series_courses import course_plots
 from swashfilm.series_data import study_dataset, study_summary, write_study_table
 from swashfilm.series_plots import study_plots
 from swashfilm.study_case import StudyCase
-from system.faults import Fault, InputFaults
-from system.progress import Report
+from system.inputs.faults import Fault, InputFaults
+from system.work.progress import Report
 
 
 def run_study(

@@ -15,9 +15,9 @@ import numpy as np
 
 from swashfilm.film_case import Case, read_case
 from swashfilm.physics_switches import switch_of
-from system.case_table import Table, fault_lines, quoted, read_toml
-from system.faults import Fault, InputFaults, nearest_choice
-from system.units import Dimension, QuantityError, format_quantity, parse_quantity
+from system.inputs.faults import Fault, InputFaults, nearest_choice
+from system.inputs.toml_table import Table, fault_lines, quoted, read_toml
+from system.inputs.units import Dimension, QuantityError, format_quantity, parse_quantity
 
 MOST_POINTS = 10_000
 _STEP = re.compile(r"([^\[\].]+)(?:\[(\d+)\])?")

@@ -11,9 +11,9 @@ from typing import Any
 from gaps.response import Measure
 from swashfilm.headline import named
 from swashfilm.table_plots import table_plots
-from system.faults import Fault, InputFaults
-from system.table_store import read_response
-from system.units import Dimension, format_quantity
+from system.inputs.faults import Fault, InputFaults
+from system.inputs.units import Dimension, format_quantity
+from system.points.table.store import read_response
 
 KINDS = NUMBERS, OUTPUTS = "numbers", "outputs"
 """Of the rows of a summary: what a run of a pump's table tells, and what its response is learnt of."""

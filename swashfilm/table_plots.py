@@ -12,8 +12,8 @@ from reynolds.numerics.arrays import Array
 from swashfilm.figure_png import figure_of, png_of
 from swashfilm.headline import named
 from swashfilm.revolution_data import SHOWN
-from system.response_tables import LARGE_ERROR
-from system.units import Dimension, in_unit, reading_unit
+from system.inputs.units import Dimension, in_unit, reading_unit
+from system.points.table.response_table import LARGE_ERROR
 
 COLOURS = {"piston": "#3c7a8c", "slipper": "#8c5a3c", "valve_plate": "#5b9a5b", "socket": "#b8862b", "": "#3c7a8c"}
 COURSE = 80

@@ -11,16 +11,16 @@ import numpy as np
 from gaps.response import Region, Response
 from swashfilm.run_folder import write_json
 from swashfilm.table_page import input_text, place_text
-from system.floating_parts import floating_parts
-from system.progress import Report
-from system.pump_file import resolved_toml
-from system.response_tables import LARGE_ERROR, ResponseTable, axis_value
-from system.side_by_side import crew
-from system.table_build import TableCase, build_table
-from system.table_means import MEANINGS
-from system.table_numbers import NUMBERS
-from system.table_store import keep_table, table_record
-from system.units import Dimension
+from system.films.parts import floating_parts
+from system.inputs.units import Dimension
+from system.points.table.build import TableCase, build_table
+from system.points.table.means import MEANINGS
+from system.points.table.pump_numbers import NUMBERS
+from system.points.table.response_table import LARGE_ERROR, ResponseTable, axis_value
+from system.points.table.store import keep_table, table_record
+from system.pump_file.file import resolved_toml
+from system.work.processes import crew
+from system.work.progress import Report
 
 TABLE = "table"
 NARROW = 0.7

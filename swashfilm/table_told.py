@@ -8,13 +8,13 @@ from pathlib import Path
 from typing import Any
 
 from swashfilm.fidelity import Fidelity
-from system.description import PumpDescription
-from system.floating_parts import floating_parts
-from system.operating import OperatingPoint
-from system.response_tables import LARGE_ERROR, axis_value
-from system.table_means import GAP_PAIRS
-from system.table_point import TablePoint, table_point
-from system.table_store import find_table, own_table
+from system.description.pump import PumpDescription
+from system.films.parts import floating_parts
+from system.points.table.means import GAP_PAIRS
+from system.points.table.point import TablePoint, table_point
+from system.points.table.response_table import LARGE_ERROR, axis_value
+from system.points.table.store import find_table, own_table
+from system.pump.operating import OperatingPoint
 
 TOLD_HEAD = ("", "mean film", "least film", "share of contact", "missed at held-out points, at most")
 

@@ -12,8 +12,8 @@ from reynolds.thermal.walls import Adiabatic, Convecting, GivenTemperature, Turn
 from swashfilm.elastic_case import ElasticStatement
 from swashfilm.oil_case import OilStatement
 from swashfilm.warm_body_case import WarmBody, read_warm_body
-from system.case_table import Table
-from system.units import Dimension, format_quantity
+from system.inputs.toml_table import Table
+from system.inputs.units import Dimension, format_quantity
 
 _WALLS = (
     "{ temperature }, { heat_transfer_coefficient, outer_temperature }, 'adiabatic', 'turning', or "

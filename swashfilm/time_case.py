@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from swashfilm.expressions import ExpressionError, parse_expression
 from swashfilm.field_reader import FieldReader
 from swashfilm.fields import Field, Formula
-from system.case_table import Table
-from system.units import Dimension, format_quantity
+from system.inputs.toml_table import Table
+from system.inputs.units import Dimension, format_quantity
 
 MOST_STEPS = 1_000_000
 USUAL_OUTPUTS = 50

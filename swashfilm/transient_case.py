@@ -9,14 +9,14 @@ from typing import Any
 import numpy as np
 
 from swashfilm.case_pump import CasePump, operating_rows, own_rows, read_case_pump
-from system.case_table import Table, fault_lines, quoted, read_toml
-from system.faults import InputFaults
-from system.kinematics import drive_at_ratio
-from system.lumped import full_drive
-from system.multibody.group_kinematics import swash_angle
-from system.multibody.transient import Course, Schedule, TransientCase
-from system.units import Dimension, QuantityError, format_quantity, parse_quantity
-from system.unlike import kinds
+from system.inputs.faults import InputFaults
+from system.inputs.toml_table import Table, fault_lines, quoted, read_toml
+from system.inputs.units import Dimension, QuantityError, format_quantity, parse_quantity
+from system.multibody.kinematics import swash_angle
+from system.multibody.transient.solver import Course, Schedule, TransientCase
+from system.pump.chamber_kinds import kinds
+from system.pump.laws.kinematics import drive_at_ratio
+from system.pump.lumped import full_drive
 
 FORMAT = 1
 MOST_TURNS = 1000.0

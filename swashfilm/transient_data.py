@@ -11,12 +11,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from reynolds.numerics.arrays import Array
-from system.chamber_state_kernels import CAVITY_PRESSURE
-from system.kinematics import SwashDrive, stroke
-from system.lumped import full_drive
-from system.multibody import transient_kernels as kernel
-from system.multibody.transient import Transient
-from system.multibody.transient_torque import drive_torque
+from system.multibody.transient import kernels as kernel
+from system.multibody.transient.solver import Transient
+from system.multibody.transient.torque import drive_torque
+from system.pump.chamber.state_kernels import CAVITY_PRESSURE
+from system.pump.laws.kinematics import SwashDrive, stroke
+from system.pump.lumped import full_drive
 
 if TYPE_CHECKING:
     import xarray

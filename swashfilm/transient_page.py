@@ -11,8 +11,8 @@ from typing import Any
 import numpy as np
 
 from swashfilm import transient_plots
-from system.faults import Fault, InputFaults
-from system.units import LPM
+from system.inputs.faults import Fault, InputFaults
+from system.inputs.units import LPM
 
 FILES = ("summary.json", "resolved.toml", "results.nc")
 

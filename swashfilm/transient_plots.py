@@ -8,7 +8,7 @@ import numpy as np
 
 from reynolds.numerics.arrays import Array
 from swashfilm.figure_png import figure_of, png_of
-from system.units import LPM
+from system.inputs.units import LPM
 
 if TYPE_CHECKING:
     import xarray

@@ -8,7 +8,7 @@ from typing import Any
 from swashfilm.run_folder import write_json
 from swashfilm.transient_case import StatedTransient
 from swashfilm.transient_data import transient_dataset, transient_summary, write_course
-from system.multibody.transient import run_transient
+from system.multibody.transient.solver import run_transient
 
 
 def run_stated_transient(stated: StatedTransient, folder: Path) -> dict[str, Any]:

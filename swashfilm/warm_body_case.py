@@ -9,8 +9,8 @@ from reynolds.bodies.wall import Body, heated_wall
 from reynolds.errors import FilmInputError
 from reynolds.fem.space import FilmSpace
 from reynolds.thermal.walls import Body as HeatedBody
-from system.case_table import Table, quoted
-from system.units import Dimension
+from system.inputs.toml_table import Table, quoted
+from system.inputs.units import Dimension
 
 
 @dataclass(frozen=True)

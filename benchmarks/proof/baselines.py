@@ -6,7 +6,7 @@ import numpy as np
 
 from diagnosis.study import Study
 from reynolds.numerics.arrays import Array
-from system.channels import ChannelName
+from system.inputs.channels import ChannelName
 
 from .outcome import Rival
 

@@ -1,9 +1,9 @@
 """Recordings whose plant is the film simulation: the fidelity proof.
 
-A point is the films fidelity (`system.films.films_point`): three gaps solved on meshes over the turn, parts at the
-places that the pump file gives, with one piece of film physics that the lumped simulation leaves out. A point
-takes half a second to two, a warm one ten, so that the true readings are kept beside this file; sensors read them
-as those of the other plant.
+A point is the films fidelity (`system.points.films.films_point`): three gaps solved on meshes over the turn, parts
+at the places that the pump file gives, with one piece of film physics that the lumped simulation leaves out. A
+point takes half a second to two, a warm one ten, so that the true readings are kept beside this file; sensors read
+them as those of the other plant.
 """
 
 from __future__ import annotations
@@ -20,10 +20,10 @@ import numpy as np
 from gaps.films.physics import Effect
 from reynolds.errors import FilmInputError, FilmNotConverged
 from reynolds.laws.oil import walther
-from system.films import films_point
-from system.gap_cycle import PLAIN, SMOOTH, GapPhysics
-from system.operating import operating_point
-from system.pump_file import load_pump
+from system.films.cycle import PLAIN, SMOOTH, GapPhysics
+from system.points.films import films_point
+from system.pump.operating import operating_point
+from system.pump_file.file import load_pump
 
 from .campaigns import Campaign
 from .plant.bench import Truth

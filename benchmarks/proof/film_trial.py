@@ -10,8 +10,8 @@ from time import process_time
 from diagnosis.scant_pump import load_known_pump
 from diagnosis.verdict import Claim, Diagnosis
 from swashfilm.diagnose_run import checked_recording, run_diagnosis
-from system.physics.catalogue import CATALOGUE, with_films_solved
-from system.progress import silent
+from system.effects.catalogue.entries import CATALOGUE, with_films_solved
+from system.work.progress import silent
 
 from .film_plant import FilmPlant, readings
 from .writing import write_recording

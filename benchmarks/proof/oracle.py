@@ -13,7 +13,7 @@ from diagnosis.study import Study
 from diagnosis.thresholds import Thresholds
 from diagnosis.verdict import Diagnosis
 from diagnosis.weighed import Weighed
-from system.errors import NotConverged
+from system.inputs.errors import NotConverged
 
 from .outcome import Outcome
 

@@ -22,8 +22,8 @@ with a flow coefficient of 0.61; exponents of a leak ~ p^k nu^m with both free. 
 of its prior: 152 to 158 bar do not decide it (`examples/uci_hydraulic/leak.py`)."""
 TANKS_TEXT = """Two tanks (Schoukens et al. 2016), Torricelli's law as the model; in truth both overflow.
 Errors by simulating the whole record (`examples/cascaded_tanks/overflow.py`)."""
-FILMS_TEXT = """The plant is the films fidelity (`system.films`), with one or two pieces of film physics more
-each; the diagnosis has the lumped simulation. Rigid: nothing is left out (`benchmarks/proof_films.py`)."""
+FILMS_TEXT = """The plant is the films fidelity (`system.points.films`), with one or two pieces of film physics
+more each; the diagnosis has the lumped simulation. Rigid: nothing is left out (`benchmarks/proof_films.py`)."""
 
 
 def sections() -> Mapping[str, Callable[[], Told]]:

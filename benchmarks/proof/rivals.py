@@ -18,12 +18,12 @@ from diagnosis.screen import screen
 from diagnosis.study import Study
 from diagnosis.thresholds import Thresholds
 from reynolds.numerics.arrays import Array
+from system.effects.effect import Kind
 from system.estimation.evidence import Sign, project, score
 from system.estimation.laplace import laplace
 from system.estimation.parameters import Role
 from system.estimation.posterior import Posterior
 from system.estimation.whitening import Whitening, whitener
-from system.physics.effects import Kind
 
 from .baselines import gaussian_process, sparse_regression
 from .outcome import Rival

@@ -16,7 +16,7 @@ HERE = Path(__file__).resolve().parent
 PACKAGES = ("diagnosis", "system", "gaps", "reynolds")
 ASKED = (
     "diagnosis.ask", "diagnosis.data_checks", "diagnosis.diagnose", "diagnosis.inputs", "diagnosis.prepare",
-    "diagnosis.recording_reader", "diagnosis.scant_pump", "system.tolerances",
+    "diagnosis.recording_reader", "diagnosis.scant_pump", "system.description.tolerances",
 )  # fmt: skip
 """Modules that a diagnosis is made of; all that they import counts, too."""
 TRIERS = (

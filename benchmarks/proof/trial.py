@@ -24,11 +24,11 @@ from diagnosis.weighed import Weighed
 from reynolds.errors import FilmInputError
 from reynolds.laws.oil import walther
 from swashfilm.diagnose_run import checked_recording
-from system.description import PumpDescription
-from system.errors import NotConverged
-from system.faults import InputFaults
-from system.physics.effects import EffectId, Kind
-from system.tolerances import tolerances
+from system.description.pump import PumpDescription
+from system.description.tolerances import tolerances
+from system.effects.effect import EffectId, Kind
+from system.inputs.errors import NotConverged
+from system.inputs.faults import InputFaults
 
 from .campaigns import campaigns
 from .cases import Case, Part

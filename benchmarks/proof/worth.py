@@ -15,9 +15,9 @@ from diagnosis.next_point import READINGS
 from diagnosis.study import Study
 from diagnosis.thresholds import Thresholds
 from diagnosis.verdict import Diagnosis
-from system.bench_points import BenchPoints
-from system.description import PumpDescription
-from system.units import STANDARD_ATMOSPHERE
+from system.bench.points import BenchPoints
+from system.description.pump import PumpDescription
+from system.inputs.units import STANDARD_ATMOSPHERE
 
 from .campaigns import Campaign, campaigns, held
 from .cases import Case

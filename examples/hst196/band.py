@@ -20,10 +20,10 @@ import numpy as np
 from scipy.stats import qmc
 
 from reynolds.numerics.arrays import Array
-from system.operating import operating_point
-from system.pump_file import load_pump
-from system.transmission import transmission
-from system.units import STANDARD_ATMOSPHERE
+from system.inputs.units import STANDARD_ATMOSPHERE
+from system.points.transmission import transmission
+from system.pump.operating import operating_point
+from system.pump_file.file import load_pump
 
 PUMP = Path(__file__).resolve().parents[1] / "pumps" / "hst196.toml"
 INCH = 25.4e-3

@@ -15,11 +15,11 @@ from pathlib import Path
 
 import numpy as np
 
-from system.bench import BenchReading
-from system.lumped_point import lumped_point
-from system.operating import OperatingPoint, operating_point
 from system.paper.made_readings import PLAN
-from system.pump_file import load_pump
+from system.points.lumped import lumped_point
+from system.pump.bench import BenchReading
+from system.pump.operating import OperatingPoint, operating_point
+from system.pump_file.file import load_pump
 
 PLANTED = {"piston_cylinder": 0.030, "slipper_swash_plate": 0.0070, "valve_plate_cylinder": 0.013}
 SEED = 112

@@ -26,7 +26,7 @@ from system.estimation.fit import maximum_posterior
 from system.estimation.observations import Channel, Observations
 from system.estimation.parameters import Parameter, Role, Scale
 from system.estimation.posterior import Posterior
-from system.units import Dimension
+from system.inputs.units import Dimension
 
 LPM, BAR = 1e-3 / 60.0, 1e5
 COOLERS = (3, 20, 100)  # %

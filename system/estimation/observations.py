@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from reynolds.errors import FilmInputError
 from reynolds.numerics.arrays import Array
-from system.units import Dimension
+from system.inputs.units import Dimension
 
 
 @dataclass(frozen=True)

@@ -7,7 +7,7 @@ from enum import Enum
 from math import exp, inf, log
 
 from reynolds.errors import FilmInputError
-from system.units import Dimension
+from system.inputs.units import Dimension
 
 
 class Scale(Enum):

@@ -11,11 +11,11 @@ from scipy.linalg import cho_factor, cho_solve
 
 from reynolds.errors import FilmInputError
 from reynolds.numerics.arrays import Array
+from system.estimation.bounded_step import Bounds
 from system.estimation.laplace import laplace
 from system.estimation.observations import Observations
 from system.estimation.parameters import Parameter
 from system.estimation.simulator import Simulator
-from system.estimation.trust import Bounds
 from system.estimation.whitening import Whitening, whitener
 
 UNSEEN = 1e-9  # share of its prior variance by which a parameter must be known better to have a pull

@@ -12,8 +12,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from reynolds.numerics.arrays import Array
-from system.multibody.group_kinematics import dot
 from system.multibody.joints import wrench
+from system.multibody.kinematics import dot
 from system.multibody.rotating_group import JointForces
 
 

@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 
 from reynolds.numerics.arrays import Array
-from system.floating import FloatingKind, FloatingPoint
 from system.multibody.joints import SetLoads
 from system.multibody.rotating_group import ChamberLoads, JointForces, joined, levers, turning_group
-from system.shaft_torque import GroupMasses
-from system.unlike import kinds
+from system.points.floating import FloatingKind, FloatingPoint
+from system.pump.chamber_kinds import kinds
+from system.pump.shaft_torque import GroupMasses
 
 
 def floating_joint_forces(found: FloatingPoint) -> JointForces:

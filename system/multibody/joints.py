@@ -19,9 +19,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from reynolds.numerics.arrays import Array
-from system.multibody.group_kinematics import SHAFT, BallMotion, cross, dot, swept
-from system.multibody.retainer_body import Hold
-from system.shaft_torque import GroupMasses
+from system.multibody.kinematics import SHAFT, BallMotion, cross, dot, swept
+from system.multibody.retainer import Hold
+from system.pump.shaft_torque import GroupMasses
 
 
 @dataclass(frozen=True)

@@ -11,15 +11,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from system.assumptions import Assumption, Taken
-from system.description import PumpDescription
-from system.floating_parts import STEEL
-from system.lumped_point import lumped_point
-from system.multibody.group_places import actuator_arm, slippers_reach, stroking
+from system.description.assumptions import Assumption, Taken
+from system.description.parts import Stroking
+from system.description.pump import PumpDescription
+from system.films.parts import STEEL
+from system.inputs.units import Dimension
+from system.multibody.places import actuator_arm, slippers_reach, stroking
 from system.multibody.rotating_group import joint_forces
-from system.operating import OperatingPoint
-from system.parts_description import Stroking
-from system.units import Dimension
+from system.points.lumped import lumped_point
+from system.pump.operating import OperatingPoint
 
 FILLS = 0.1  # s in which a taken orifice fills the actuator
 DROP = 1e6  # Pa over it meanwhile

@@ -2,9 +2,9 @@
 
 Motion is prescribed by shaft angle and swash angle, pressures and friction are those of an operating point, so
 every joint follows from the balance of one body after the other: slipper and piston (`joints`), retainer and
-ball guide (`retainer_body`), block, shaft and swash plate (`shaft_body`). Pump frame of `system.directions`.
-The plate pivots where the plane of the ball centres cuts the shaft. Chambers that differ have each its own
-pressure and masses, and the mean friction of all.
+ball guide (`retainer_body`), block, shaft and swash plate (`shaft_body`). Pump frame of
+`system.pump.laws.directions`. The plate pivots where the plane of the ball centres cuts the shaft. Chambers that
+differ have each its own pressure and masses, and the mean friction of all.
 """
 
 from __future__ import annotations
@@ -15,23 +15,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from reynolds.numerics.arrays import Array
-from system.assembly import PumpPoint
-from system.description import PumpDescription
-from system.directions import plate_axes
-from system.kinematics import SwashDrive, displacement, drive_at_ratio, piston_acceleration, stroke
-from system.lumped import (
-    block_spring,
-    chamber_problem,
-    full_drive,
-    group_masses,
-    piston_area,
-    piston_motion,
-)
-from system.multibody.group_kinematics import SHAFT, BallMotion, Plate, ball_motion, circle_of, swash_angle
-from system.multibody.group_places import GroupPlaces, group_places
+from system.description.pump import PumpDescription
 from system.multibody.joints import Levers, SetForces, SetLoads, set_forces, wrench
-from system.multibody.retainer_body import GuideContact, Hold, guide_contact, hold
-from system.multibody.shaft_body import (
+from system.multibody.kinematics import SHAFT, BallMotion, Plate, ball_motion, circle_of, swash_angle
+from system.multibody.places import GroupPlaces, group_places
+from system.multibody.retainer import GuideContact, Hold, guide_contact, hold
+from system.multibody.shaft import (
     BlockReactions,
     PlateReactions,
     ShaftDrag,
@@ -40,11 +29,28 @@ from system.multibody.shaft_body import (
     plate_reactions,
     shaft_reactions,
 )
-from system.operating import OperatingPoint
-from system.pairs import Pair, over_chambers
-from system.retainer import BallGuide
-from system.shaft_torque import GroupMasses, forces_by_loss
-from system.unlike import kinds
+from system.pump.assembly import PumpPoint
+from system.pump.chamber_kinds import kinds
+from system.pump.laws.directions import plate_axes
+from system.pump.laws.friction_pairs import Pair, over_chambers
+from system.pump.laws.kinematics import (
+    SwashDrive,
+    displacement,
+    drive_at_ratio,
+    piston_acceleration,
+    stroke,
+)
+from system.pump.laws.retainer import BallGuide
+from system.pump.lumped import (
+    block_spring,
+    chamber_problem,
+    full_drive,
+    group_masses,
+    piston_area,
+    piston_motion,
+)
+from system.pump.operating import OperatingPoint
+from system.pump.shaft_torque import GroupMasses, forces_by_loss
 
 
 @dataclass(frozen=True)

@@ -1,1 +1,1 @@
-"""The paper's figures and tables: what its text states, the same numbers here, and a verdict on each statement."""
+"""The paper's statements against the numbers of this program, and a judgement on each."""

@@ -8,7 +8,7 @@ from enum import Enum
 from math import inf, isfinite
 
 from reynolds.errors import FilmInputError
-from system.paper.figures import Figure, Panel, Unit
+from system.paper.figure import Figure, Panel, Unit
 from system.paper.points import Reading
 
 ROUND_OFF = 1e-6

@@ -6,12 +6,12 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from system.bench_points import BenchPoints
-from system.channels import ChannelName
+from system.bench.calibration.equation_21 import EqTwentyOne, paper_priors
+from system.bench.points import BenchPoints
 from system.estimation.observations import Channel, Observations
-from system.pairs import Pair
+from system.inputs.channels import ChannelName
 from system.paper.points import PRESSURES, RATIOS, SPEEDS, PaperPoint, PaperPoints, Reading
-from system.paper_fit import EqTwentyOne, paper_priors
+from system.pump.laws.friction_pairs import Pair
 
 SEED = 13
 NOISE = {

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from math import inf
 
-from system.paper.figures import Figure
+from system.paper.figure import Figure
 from system.paper.judge import OURS, number_claim, share_claim
 
 _FULL = "at full displacement, four speeds, 5 to 35 MPa"

@@ -12,19 +12,19 @@ import numpy as np
 from reynolds.errors import FilmInputError
 from reynolds.numerics.arrays import Array
 from reynolds.numerics.cache import content_key
-from system.assembly import PumpPoint
-from system.bench import BenchReading, LossSplit, paper_efficiency, paper_losses
-from system.description import PumpDescription
-from system.films import films_point
-from system.kept_points import KeptPoints, run_kept
-from system.lumped_point import lumped_point
-from system.operating import OperatingPoint, operating_point
-from system.pairs import Pair
-from system.paper.figures import Figure
-from system.progress import Report, silent
-from system.pump_file import resolved_toml
-from system.units import RPM
-from system.work import Hands, Record, Status
+from system.description.pump import PumpDescription
+from system.inputs.units import RPM
+from system.paper.figure import Figure
+from system.points.films import films_point
+from system.points.lumped import lumped_point
+from system.pump.assembly import PumpPoint
+from system.pump.bench import BenchReading, LossSplit, paper_efficiency, paper_losses
+from system.pump.laws.friction_pairs import Pair
+from system.pump.operating import OperatingPoint, operating_point
+from system.pump_file.file import resolved_toml
+from system.work.kept_results import KeptPoints, run_kept
+from system.work.progress import Report, silent
+from system.work.tasks import Hands, Record, Status
 
 POINT_FORMAT = 1
 """Raised when the same point gives other numbers: by the laws behind it, or by what is kept."""
@@ -130,7 +130,7 @@ def paper_point(found: PumpPoint) -> PaperPoint:
 
 @dataclass(frozen=True)
 class PaperWork:
-    """Solves the paper's points of a pump: a `system.work.Work`."""
+    """Solves the paper's points of a pump: a `system.work.tasks.Work`."""
 
     pump: PumpDescription
     fidelity: PointFidelity

@@ -6,23 +6,23 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from enum import Enum
 
-from system.description import PumpDescription
-from system.floating_gaps import FloatingOptions
-from system.kept_points import KeptPoints
-from system.paper.chambers import fig10, fig11
-from system.paper.coefficients import fig13
-from system.paper.efficiencies import fig2, fig3
-from system.paper.equations import equations
-from system.paper.figures import Figure
-from system.paper.films import GIVEN, NO_FIELD, fig8_of_films
-from system.paper.floating_films import floating_figures
-from system.paper.guide import fig15, fig19
+from system.description.pump import PumpDescription
+from system.paper.figure import Figure
+from system.paper.figures.chambers import fig10, fig11
+from system.paper.figures.coefficients import fig13
+from system.paper.figures.efficiencies import fig2, fig3
+from system.paper.figures.equations import equations
+from system.paper.figures.films import GIVEN, NO_FIELD, fig8_of_films
+from system.paper.figures.floating_films import floating_figures
+from system.paper.figures.guide import fig15, fig19
+from system.paper.figures.pair_losses import fig16, fig17, fig18, fig20, fig21, fig22
+from system.paper.figures.table_one import table1
 from system.paper.judge import FigureResult
-from system.paper.pair_losses import fig16, fig17, fig18, fig20, fig21, fig22
 from system.paper.points import PaperPoints, PointFidelity, places_of, solve_points
-from system.paper.table_one import table1
-from system.progress import Report, silent
-from system.work import Hands
+from system.points.floating_gaps import FloatingOptions
+from system.work.kept_results import KeptPoints
+from system.work.progress import Report, silent
+from system.work.tasks import Hands
 
 OF_POINTS: Mapping[Figure, Callable[[PaperPoints], FigureResult]] = {
     Figure.TABLE1: table1,

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from math import inf
 
-from system.paper.figures import Figure, Unit
+from system.paper.figure import Figure, Unit
 from system.paper.judge import OURS, Claim, Range, number_claim, share_claim
 from system.paper.pair_statements import MOTION_CLAIMS, PAIR_CLAIMS
 

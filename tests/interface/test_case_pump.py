@@ -5,7 +5,7 @@ import pytest
 from swashfilm.__main__ import main
 from swashfilm.gap_case import GapCase
 from swashfilm.study_case import StudyCase, load_film
-from system.faults import InputFaults
+from system.inputs.faults import InputFaults
 
 GAP = 'format = 1\n[film]\ngap = "piston"\npump = "ref90"\n'
 

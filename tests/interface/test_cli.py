@@ -16,7 +16,7 @@ from reynolds.errors import FilmNotConverged
 from reynolds.linear.factor import ITERATIVE_TOLERANCE
 from swashfilm import film_run
 from swashfilm.__main__ import main
-from system.pump_file import load_pump, resolved_toml
+from system.pump_file.file import load_pump, resolved_toml
 
 ROOT = Path(__file__).resolve().parents[2]
 EXAMPLES = ROOT / "examples" / "films"

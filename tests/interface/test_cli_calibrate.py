@@ -12,14 +12,14 @@ import pytest
 from recording_heads import HEAD
 
 from swashfilm.__main__ import main
-from system.bench_map import LumpedBench
-from system.bench_points import BenchPoints
-from system.bench_truth import SIMULATED
-from system.paper_fit import paper_priors
-from system.physics.catalogue import entry_of
-from system.physics.effects import EffectId
-from system.physics.extension import Extension
-from system.pump_file import load_pump
+from system.bench.calibration.equation_21 import paper_priors
+from system.bench.outputs import SIMULATED
+from system.bench.points import BenchPoints
+from system.bench.simulator import LumpedBench
+from system.effects.catalogue.entries import entry_of
+from system.effects.effect import EffectId
+from system.effects.extension import Extension
+from system.pump_file.file import load_pump
 
 PUMP = load_pump("ref90")
 RECORDING = (

@@ -8,8 +8,8 @@ from swashfilm.cli import build_parser
 from swashfilm.cli_floating import floating_faults, floating_options
 from swashfilm.physics_switches import SWITCHES
 from swashfilm.physics_told import physics_told
-from system.floating_gaps import FloatingOptions
-from system.pump_file import load_pump
+from system.points.floating_gaps import FloatingOptions
+from system.pump_file.file import load_pump
 
 FLOATING = ["run", "ref90_floating", "--fidelity", "floating"]
 

@@ -10,10 +10,10 @@ from pathlib import Path
 import pytest
 
 from swashfilm.__main__ import main
-from system.cluster import THREADS, about_worker, cluster, worker_faults
-from system.faults import InputFaults
-from system.kept_points import KeptPoints, run_kept
-from system.work import Status
+from system.inputs.faults import InputFaults
+from system.work.cluster import THREADS, about_worker, cluster, worker_faults
+from system.work.kept_results import KeptPoints, run_kept
+from system.work.tasks import Status
 
 PARTS = list(range(24))
 
@@ -40,7 +40,7 @@ class Halves:
 
 
 def test_without_dask_the_extra_is_named(monkeypatch):
-    monkeypatch.setattr("system.cluster.find_spec", lambda name: None)
+    monkeypatch.setattr("system.work.cluster.find_spec", lambda name: None)
     with pytest.raises(InputFaults, match=r"\.\[cluster\]"), cluster("tcp://nowhere:1"):
         pass
 
@@ -94,6 +94,7 @@ def test_a_map_by_a_cluster_has_the_same_numbers(local_cluster, tmp_path):
 
 def test_nothing_else_needs_dask():
     code = (
-        "import sys, swashfilm.map_run, system.cluster; sys.exit(bool({'distributed', 'dask'} & set(sys.modules)))"
+        "import sys, swashfilm.map_run, system.work.cluster; "
+        "sys.exit(bool({'distributed', 'dask'} & set(sys.modules)))"
     )
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0

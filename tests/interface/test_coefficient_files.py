@@ -8,12 +8,12 @@ import pytest
 
 from swashfilm.cli import run_command
 from swashfilm.coefficients_told import share_beyond
-from system.coefficient_files import read_flow_coefficients
-from system.csv_table import read_table
-from system.faults import InputFaults
-from system.loss_files import read_step_losses
-from system.pump_file import load_pump, resolved_toml
-from system.units import Dimension
+from system.inputs.coefficients.flow_files import read_flow_coefficients
+from system.inputs.coefficients.loss_files import read_step_losses
+from system.inputs.csv_table import read_table
+from system.inputs.faults import InputFaults
+from system.inputs.units import Dimension
+from system.pump_file.file import load_pump, resolved_toml
 
 PORT = """# source: a bench, 2026
 opening [cm2], reynolds [1], flow_coefficient [1]

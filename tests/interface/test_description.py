@@ -9,16 +9,16 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from system.checks import CheckWarning
-from system.description import PumpDescription, section_models
-from system.faults import InputFaults, key_lines
-from system.fields import dimension_of
-from system.operating import operating_point
-from system.operating_checks import check_operating_point
-from system.pump_file import builtin_pumps, check_pump, load_pump, resolved_toml
-from system.units import STANDARD_ATMOSPHERE
+from system.description.pump import PumpDescription, section_models
+from system.inputs.faults import InputFaults, key_lines
+from system.inputs.fields import dimension_of
+from system.inputs.units import STANDARD_ATMOSPHERE
+from system.pump.operating import operating_point
+from system.pump_file.check import CheckWarning
+from system.pump_file.file import builtin_pumps, check_pump, load_pump, resolved_toml
+from system.pump_file.operating import check_operating_point
 
-REF90 = files("system").joinpath("pumps", "ref90.toml").read_text("utf-8")
+REF90 = files("system.description").joinpath("pumps", "ref90.toml").read_text("utf-8")
 EXAMPLES = sorted(Path(__file__).parents[2].joinpath("examples", "pumps").glob("*.toml"))
 WRITTEN_KEYS = [tuple(path.split(".")) for path in key_lines(REF90) if "." in path]
 

@@ -19,15 +19,15 @@ from reynolds.numerics.arrays import Array
 from swashfilm import diagnose_run
 from swashfilm.__main__ import main
 from swashfilm.diagnose_files import read_rows
-from system.bench_map import LumpedBench
-from system.bench_points import BenchPoints
-from system.channels import ChannelName
-from system.errors import NotConverged
-from system.lumped_point import lumped_point
-from system.operating import operating_point
-from system.physics.catalogue import entry_of
-from system.physics.effects import EffectId
-from system.pump_file import load_pump
+from system.bench.points import BenchPoints
+from system.bench.simulator import LumpedBench
+from system.effects.catalogue.entries import entry_of
+from system.effects.effect import EffectId
+from system.inputs.channels import ChannelName
+from system.inputs.errors import NotConverged
+from system.points.lumped import lumped_point
+from system.pump.operating import operating_point
+from system.pump_file.file import load_pump
 
 PUMP = load_pump("ref90")
 EXAMPLES = Path(__file__).resolve().parents[2] / "examples" / "recordings"

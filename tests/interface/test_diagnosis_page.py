@@ -29,9 +29,9 @@ from swashfilm.diagnose_page import (
 )
 from swashfilm.diagnose_plots import effect_courses, residual_maps
 from swashfilm.diagnose_runs import NOTHING, Told, run_both
-from system.channels import ChannelName
-from system.physics.effects import EffectId, Kind
-from system.pump_file import load_pump
+from system.effects.effect import EffectId, Kind
+from system.inputs.channels import ChannelName
+from system.pump_file.file import load_pump
 
 PNG = b"\x89PNG"
 E = EffectId

@@ -19,12 +19,12 @@ from diagnosis.table_rows import by_table_rows
 from diagnosis.time_scan import TimeKind, TimeMark
 from diagnosis.verdict import Claim, Diagnosis, Estimate, Status
 from diagnosis.words import next_point_text, paragraphs, statement
-from system.channels import ChannelName
-from system.components import Component
-from system.faults import InputFaults
-from system.physics.effects import EffectId, Kind
-from system.pump_gap import Gap
-from system.units import Dimension
+from system.description.gap import Gap
+from system.effects.components import Component
+from system.effects.effect import EffectId, Kind
+from system.inputs.channels import ChannelName
+from system.inputs.faults import InputFaults
+from system.inputs.units import Dimension
 
 E = EffectId
 

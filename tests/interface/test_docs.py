@@ -23,14 +23,14 @@ from swashfilm.pump_page import headline_rows
 from swashfilm.pump_run import run_pump
 from swashfilm.pump_summary import pump_summary
 from swashfilm.study_case import load_film
-from system.assembly import PointWarning
-from system.description import section_models
-from system.films import FilmsPoint, films_point
-from system.operating import operating_point
-from system.pairs import Pair
-from system.pump_file import builtin_pumps, load_pump
-from system.pump_gap import Gap
-from system.pump_values import units_shown
+from system.description.gap import Gap
+from system.description.pump import section_models
+from system.description.values import units_shown
+from system.points.films import FilmsPoint, films_point
+from system.pump.assembly import PointWarning
+from system.pump.laws.friction_pairs import Pair
+from system.pump.operating import operating_point
+from system.pump_file.file import builtin_pumps, load_pump
 
 ROOT = Path(__file__).parents[2]
 PAGES = [

@@ -12,7 +12,7 @@ from swashfilm.film_case import FilmCase, load_case
 from swashfilm.film_study import solve_case
 from swashfilm.film_summary import film_summary
 from swashfilm.gap_case import GapCase
-from system.faults import InputFaults
+from system.inputs.faults import InputFaults
 
 MESH = '{ kind = "rectangle", size = ["10 mm", "10 mm"], cells = [8, 4] }'
 GOOD = f"""
@@ -318,9 +318,8 @@ def test_a_chamber_below_the_pressure_of_a_cavity_is_a_fault(write, gap, pressur
 def test_a_pump_file_stands_beside_the_case(write):
     from importlib.resources import files
 
-    write(
-        files("system").joinpath("pumps", "ref90.toml").read_text("utf-8").replace("0.9 mm", "1.1 mm"), "my.toml"
-    )
+    ref90 = files("system.description").joinpath("pumps", "ref90.toml").read_text("utf-8")
+    write(ref90.replace("0.9 mm", "1.1 mm"), "my.toml")
     case = load_case(write(GAP.replace('"ref90"', '"my.toml"')))
     assert case.rotor.pump.slipper.orifice_diameter == 1.1e-3
 

@@ -8,7 +8,7 @@ import pytest
 from swashfilm.__main__ import main
 from swashfilm.film_case import FilmCase, load_case
 from swashfilm.study_case import StudyCase, load_film
-from system.faults import InputFaults
+from system.inputs.faults import InputFaults
 
 GOOD = """
 format = 1

@@ -17,7 +17,7 @@ from swashfilm.film_case import FilmCase, load_case
 from swashfilm.film_in_time import fields_over_time
 from swashfilm.film_study import solve_case
 from swashfilm.film_summary import film_summary
-from system.faults import InputFaults
+from system.inputs.faults import InputFaults
 
 ROOT = Path(__file__).resolve().parents[2]
 EXAMPLES = ROOT / "examples" / "films"

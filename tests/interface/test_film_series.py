@@ -12,8 +12,8 @@ import xarray
 from swashfilm import film_series
 from swashfilm.__main__ import main
 from swashfilm.study_case import StudyCase, _axis, load_film
-from system.case_table import Table
-from system.faults import InputFaults
+from system.inputs.faults import InputFaults
+from system.inputs.toml_table import Table
 
 BASE = """
 format = 1

@@ -11,9 +11,9 @@ from gaps.revolution.schedule import Accuracy
 from swashfilm.fidelity import Fidelity
 from swashfilm.pump_page import write_pump_page
 from swashfilm.pump_run import run_pump
-from system.floating_gaps import FloatingOptions
-from system.gap_films import RIGID
-from system.pump_file import load_pump
+from system.films.problems import RIGID
+from system.points.floating_gaps import FloatingOptions
+from system.pump_file.file import load_pump
 
 pytestmark = pytest.mark.slow
 
@@ -26,8 +26,8 @@ ROUGHLY = FloatingOptions(
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory):
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("system.floating.PRESSURE_TOLERANCE", 1.0)
-        patch.setattr("system.floating.FRICTION_TOLERANCE", 1.0)
+        patch.setattr("system.points.floating.PRESSURE_TOLERANCE", 1.0)
+        patch.setattr("system.points.floating.FRICTION_TOLERANCE", 1.0)
         place = tmp_path_factory.mktemp("floating")
         pump = load_pump("ref90_floating", {"operating.pressure": "5 MPa"})
         run_pump(pump, "", Fidelity.FLOATING, place, lambda *_: None, options=ROUGHLY)
@@ -94,8 +94,8 @@ def test_the_page_shows_the_gaps_and_can_be_made_anew(folder):
 
 @pytest.mark.long
 def test_a_worn_piston_stands_beside_the_others(tmp_path, monkeypatch):
-    monkeypatch.setattr("system.floating.PRESSURE_TOLERANCE", 1.0)
-    monkeypatch.setattr("system.floating.FRICTION_TOLERANCE", 1.0)
+    monkeypatch.setattr("system.points.floating.PRESSURE_TOLERANCE", 1.0)
+    monkeypatch.setattr("system.points.floating.FRICTION_TOLERANCE", 1.0)
     stated = {"operating.pressure": "5 MPa", "piston.3.radial_clearance": "22 um"}
     run_pump(
         load_pump("ref90_floating", stated), "", Fidelity.FLOATING, tmp_path, lambda *_: None, options=ROUGHLY

@@ -10,7 +10,7 @@ import pytest
 from swashfilm.__main__ import main
 from swashfilm.gap_table import read_gap_table
 from swashfilm.gap_table_case import load_gap_table
-from system.faults import InputFaults
+from system.inputs.faults import InputFaults
 
 # A concentric piston held at its dead centre: leakage pi d h^3 p/(12 mu l), a power of all that varies.
 PISTON = """format = 1

@@ -13,10 +13,10 @@ from swashfilm.__main__ import main
 from swashfilm.cli_levels import map_axis
 from swashfilm.map_files import read_map
 from swashfilm.map_plots import efficiency_levels
-from system import map_point
-from system.errors import NotConverged
-from system.faults import Fault
-from system.map_plan import MapInput
+from system.inputs.errors import NotConverged
+from system.inputs.faults import Fault
+from system.maps import point as map_point
+from system.maps.plan import MapInput
 
 SMALL = [
     "--fidelity", "lumped", "--speeds", "1000..2000rpm:3", "--pressures", "10,20,30MPa",

@@ -11,10 +11,10 @@ import pytest
 from swashfilm.film_case import load_case
 from swashfilm.film_study import solve_case
 from swashfilm.film_summary import film_summary
-from system.faults import Fault, InputFaults
-from system.floating_parts import floating_parts
-from system.pump_file import check_pump, load_pump, resolved_toml
-from system.table_store import pump_key
+from system.films.parts import floating_parts
+from system.inputs.faults import Fault, InputFaults
+from system.points.table.store import pump_key
+from system.pump_file.file import check_pump, load_pump, resolved_toml
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "films" / "slipper.vtu"
 OWN = {"mesh": str(EXAMPLE), "unit": "mm"}

@@ -5,21 +5,21 @@ from importlib.resources import files
 import numpy as np
 import pytest
 
-from system.checks import CheckReport
-from system.description import section_models
-from system.faults import InputFaults
-from system.fields import choice_of, dimension_of, layouts_of, table_of, tables_of, text_of
-from system.floating_checks import check_floating
-from system.floating_parts import BRASS, STEEL, ball_plane_height, floating_parts
-from system.instants import rotor, travel
-from system.line_description import LineKind
-from system.operating import operating_point
-from system.parts_description import RetainerKind
-from system.places import guide_frame
-from system.pump_file import builtin_pumps, check_pump, load_pump, resolved_toml
-from system.pump_values import units_shown
+from system.description.lines import LineKind
+from system.description.parts import RetainerKind
+from system.description.pump import section_models
+from system.description.values import units_shown
+from system.films.parts import BRASS, STEEL, ball_plane_height, floating_parts
+from system.films.places import guide_frame
+from system.films.rotor import rotor, travel
+from system.inputs.faults import InputFaults
+from system.inputs.fields import choice_of, dimension_of, layouts_of, table_of, tables_of, text_of
+from system.pump.operating import operating_point
+from system.pump_file.check import CheckReport
+from system.pump_file.file import builtin_pumps, check_pump, load_pump, resolved_toml
+from system.pump_file.floating import check_floating
 
-REF90 = files("system").joinpath("pumps", "ref90.toml").read_text("utf-8")
+REF90 = files("system.description").joinpath("pumps", "ref90.toml").read_text("utf-8")
 PROFILE = [["0 mm", "3 um"], ["3 mm", "0 um"], ["45 mm", "0.5 um"]]
 EVERY = {
     "pump.cross_angle": "1 deg",

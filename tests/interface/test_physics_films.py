@@ -13,15 +13,15 @@ from swashfilm.diagnose_films import FIELDS_FILE, OF_FILMS, film_pictures, films
 from swashfilm.film_oil_state import oil_state
 from swashfilm.pump_data import PICTURED_TURN
 from swashfilm.pump_summary import pump_summary
-from system.film_effects import SOLVED
-from system.films import films_point
-from system.gap_cycle import SMOOTH
-from system.lumped_point import lumped_point
-from system.map_point import LumpedSolver, MapWork
-from system.operating import operating_point
-from system.physics.effects import EffectId
-from system.physics_description import PhysicsSection
-from system.pump_file import load_pump, resolved_toml
+from system.description.effects import PhysicsSection
+from system.effects.effect import EffectId
+from system.films.cycle import SMOOTH
+from system.maps.point import LumpedSolver, MapWork
+from system.points.film_effects import SOLVED
+from system.points.films import films_point
+from system.points.lumped import lumped_point
+from system.pump.operating import operating_point
+from system.pump_file.file import load_pump, resolved_toml
 
 PNG = b"\x89PNG"
 REF90 = load_pump("ref90")

@@ -7,13 +7,13 @@ import pytest
 
 from gaps.shapes.profiles import PointsAround, measured
 from reynolds.errors import FilmInputError
-from system.faults import InputFaults
-from system.floating_parts import floating_parts
-from system.lines import ImpedanceLine
-from system.lumped import port_lines
-from system.lumped_point import lumped_point
-from system.operating import operating_point
-from system.pump_file import load_pump, resolved_toml
+from system.films.parts import floating_parts
+from system.inputs.faults import InputFaults
+from system.points.lumped import lumped_point
+from system.pump.chamber.lines import ImpedanceLine
+from system.pump.lumped import port_lines
+from system.pump.operating import operating_point
+from system.pump_file.file import load_pump, resolved_toml
 
 HEAD = "place [mm],material taken off [um]\n"
 AROUND = "place [mm],angle [deg],material taken off [um]\n"

@@ -12,7 +12,7 @@ from gaps.standing.reports import piston_told
 from reynolds.floating.rest import held_at
 from reynolds.solve.solver import FilmSolver
 from swashfilm.pump_warnings import coarse_angles, impossible_pressures, uncarried_loads
-from system.gap_cycle import PLAIN, SMOOTH, GapPhysics
+from system.films.cycle import PLAIN, SMOOTH, GapPhysics
 
 
 def film(pressure, load=0.0):

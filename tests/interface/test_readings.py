@@ -11,10 +11,10 @@ from diagnosis.readings import observations
 from diagnosis.recording import Circuit, NoteKind, RecordedChannel, Recording, SteadyTable, TraceBlock
 from diagnosis.table_rows import table_rows
 from reynolds.errors import FilmInputError
-from system.channels import INPUTS, ChannelName
-from system.description import PumpDescription
-from system.pump_file import load_pump
-from system.sensors import actual
+from system.bench.sensors import actual
+from system.description.pump import PumpDescription
+from system.inputs.channels import INPUTS, ChannelName
+from system.pump_file.file import load_pump
 
 C = ChannelName
 SIGMAS = {C.SPEED: 0.05, C.P_OUT: 1.5e4, C.T_IN: 0.2, C.Q_CASE: 2.5e-7}

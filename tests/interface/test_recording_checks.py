@@ -7,7 +7,7 @@ import pytest
 
 from diagnosis.data_checks import check_recording, too_few
 from diagnosis.recording import Circuit, NoteKind, RecordedChannel, Recording, SteadyTable, TraceBlock
-from system.channels import INPUTS, OUTPUTS, ChannelName
+from system.inputs.channels import INPUTS, OUTPUTS, ChannelName
 
 DISPLACEMENT = 90e-6  # m3/rev
 COLUMNS = {name: place for place, name in enumerate(ChannelName)}

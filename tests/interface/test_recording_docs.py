@@ -7,8 +7,8 @@ import pytest
 
 from diagnosis.recording_form import read_form
 from swashfilm.__main__ import main
-from system.case_table import Table
-from system.channels import ChannelName
+from system.inputs.channels import ChannelName
+from system.inputs.toml_table import Table
 
 ROOT = Path(__file__).parents[2]
 PAGE = ROOT / "docs" / "files.md"

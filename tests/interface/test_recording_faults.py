@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from diagnosis.recording_reader import read_recording
-from system.faults import Fault, InputFaults
+from system.inputs.faults import Fault, InputFaults
 
 HEAD = 'format = 1\npressure_reference = "gauge"\n'
 STEADY = '[steady]\nfile = "steady.csv"\n'

@@ -9,8 +9,8 @@ from hypothesis import strategies as st
 
 from diagnosis.recording import Circuit, NoteKind, reading_sigma
 from diagnosis.recording_reader import read_recording
-from system.channels import ChannelName
-from system.faults import InputFaults
+from system.inputs.channels import ChannelName
+from system.inputs.faults import InputFaults
 
 ATMOSPHERE = 101325.0
 HEAD = 'format = 1\npressure_reference = "absolute"\n'

@@ -9,9 +9,9 @@ import pytest
 
 from swashfilm.cli import run_command
 from swashfilm.reference_case import ReferenceKind, load_reference
-from system.coefficient_files import read_flow_coefficients
-from system.faults import InputFaults
-from system.loss_files import read_step_losses
+from system.inputs.coefficients.flow_files import read_flow_coefficients
+from system.inputs.coefficients.loss_files import read_step_losses
+from system.inputs.faults import InputFaults
 
 EXAMPLES = sorted((Path(__file__).parents[2] / "examples" / "references").glob("*.toml"))
 STEP = 'format = 1\n[reference]\nkind = "step"\nfilm_ratio = [2, 0.5]\nreynolds = [5, 0]\ncells = 2\n'

@@ -16,19 +16,19 @@ from swashfilm.diagnose_run import checked_recording
 from swashfilm.reproduce_files import claim_rows
 from swashfilm.reproduce_plots import figure_picture
 from swashfilm.reproduce_run import about, paper_points
-from system.checks import run_checks
-from system.floating_checks import slipper_has_a_wedge
-from system.floating_gaps import FloatingOptions
-from system.kept_points import KeptPoints
-from system.paper.figures import Figure
-from system.paper.floating_films import FLOATING_RATIOS, FloatingWork, floating_figures
+from system.paper.figure import Figure
+from system.paper.figures.floating_films import FLOATING_RATIOS, FloatingWork, floating_figures
 from system.paper.judge import Verdict
 from system.paper.points import PRESSURES, RATED, Place
 from system.paper.reproduce import Means, PaperFidelity, reproduce
 from system.paper.statements import CLAIMS
-from system.pump_file import load_pump
-from system.side_by_side import HERE
-from system.work import Outcome, Status
+from system.points.floating_gaps import FloatingOptions
+from system.pump_file.check import run_checks
+from system.pump_file.file import load_pump
+from system.pump_file.floating import slipper_has_a_wedge
+from system.work.kept_results import KeptPoints
+from system.work.processes import HERE
+from system.work.tasks import Outcome, Status
 
 ROOT = Path(__file__).parents[2]
 PAGE = ROOT / "docs" / "reproduction.md"

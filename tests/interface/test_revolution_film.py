@@ -15,8 +15,8 @@ from swashfilm.__main__ import main
 from swashfilm.revolution_case import RevolutionCase
 from swashfilm.revolution_study import revolution_summary, solve_revolution
 from swashfilm.study_case import load_film
-from system.faults import InputFaults
-from system.lumped_point import lumped_point
+from system.inputs.faults import InputFaults
+from system.points.lumped import lumped_point
 
 SLIPPER = """format = 1
 [film]

@@ -5,10 +5,10 @@ import math
 import pytest
 
 from diagnosis.scant_pump import load_known_pump
-from system.faults import InputFaults
-from system.kinematics import SwashDrive, displacement, stroke
-from system.pump_file import check_pump, load_pump
-from system.tolerances import tolerances
+from system.description.tolerances import tolerances
+from system.inputs.faults import InputFaults
+from system.pump.laws.kinematics import SwashDrive, displacement, stroke
+from system.pump_file.file import check_pump, load_pump
 
 SCANT = '[pump]\ndisplacement = "{}"\npistons = {}\n[oil]\ngrade = "ISO VG 46"\n'
 

@@ -11,14 +11,14 @@ import pytest
 
 from swashfilm.__main__ import main
 from swashfilm.cli_table import TABLE_OPTIONS
-from system import table_sources
-from system.lumped_point import lumped_point
-from system.operating import operating_point
-from system.power import Gaps
-from system.pump_file import load_pump
-from system.table_means import GAP_PAIRS, MEANINGS, SolvedPoint, given_films
-from system.table_numbers import NUMBERS
-from system.table_sources import Source
+from system.points.lumped import lumped_point
+from system.points.table import sources as table_sources
+from system.points.table.means import GAP_PAIRS, MEANINGS, SolvedPoint, given_films
+from system.points.table.pump_numbers import NUMBERS
+from system.points.table.sources import Source
+from system.pump.operating import operating_point
+from system.pump.power import Gaps
+from system.pump_file.file import load_pump
 
 PUMP = load_pump("ref90")
 FEW = ["--points", "32", "--held-out", "6"]

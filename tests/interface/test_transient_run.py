@@ -11,7 +11,7 @@ import pytest
 
 from swashfilm.cli import run_command
 from swashfilm.transient_case import load_transient
-from system.faults import InputFaults
+from system.inputs.faults import InputFaults
 
 ROOT = Path(__file__).parents[2]
 EXAMPLE = ROOT / "examples" / "transients" / "destroke.toml"

@@ -9,7 +9,7 @@ import pytest
 from diagnosis.data_checks import check_recording
 from diagnosis.recording import NoteKind
 from diagnosis.recording_reader import read_recording
-from system.channels import ChannelName
+from system.inputs.channels import ChannelName
 
 RIG = runpy.run_path(str(Path(__file__).parents[2] / "examples" / "uci_hydraulic" / "rig.py"))
 

@@ -8,11 +8,11 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from system.films import FilmsPoint, films_point
-from system.lumped_point import lumped_point
-from system.operating import operating_point
-from system.pairs import Pair
-from system.pump_file import load_pump
+from system.points.films import FilmsPoint, films_point
+from system.points.lumped import lumped_point
+from system.pump.laws.friction_pairs import Pair
+from system.pump.operating import operating_point
+from system.pump_file.file import load_pump
 
 pytestmark = pytest.mark.slow
 PUMP = load_pump("ref90")

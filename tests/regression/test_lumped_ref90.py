@@ -6,13 +6,13 @@ What its description and the paper say a simulation of it must give, and what it
 import numpy as np
 import pytest
 
-from system.assembly import PumpPoint
-from system.bench import ideal_flow, ideal_torque
-from system.lumped import lumped_pairs, piston_motion
-from system.lumped_point import lumped_point
-from system.operating import operating_point
-from system.pairs import Pair
-from system.pump_file import load_pump
+from system.points.lumped import lumped_point
+from system.pump.assembly import PumpPoint
+from system.pump.bench import ideal_flow, ideal_torque
+from system.pump.laws.friction_pairs import Pair
+from system.pump.lumped import lumped_pairs, piston_motion
+from system.pump.operating import operating_point
+from system.pump_file.file import load_pump
 
 RPM = 2 * np.pi / 60
 PUMP = load_pump("ref90")

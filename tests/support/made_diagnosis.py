@@ -19,17 +19,17 @@ from diagnosis.unknown import Scaling
 from diagnosis.verdict import Claim, Diagnosis, Estimate, Status
 from diagnosis.weighed import HeldOut, Weighed
 from reynolds.numerics.arrays import Array
-from system.channels import ChannelName
-from system.components import Component
+from system.description.gap import Gap
+from system.effects.components import Component
+from system.effects.effect import EffectId, Kind
 from system.estimation.fit import maximum_posterior
 from system.estimation.observations import Channel, Observations
 from system.estimation.parameters import Parameter, Role, Scale
 from system.estimation.posterior import Effort, Posterior
-from system.operating import operating_point
-from system.physics.effects import EffectId, Kind
-from system.pump_file import load_pump
-from system.pump_gap import Gap
-from system.units import Dimension
+from system.inputs.channels import ChannelName
+from system.inputs.units import Dimension
+from system.pump.operating import operating_point
+from system.pump_file.file import load_pump
 
 LPM = 1.0 / 60000.0
 PRESSURE = np.tile(np.linspace(5e6, 35e6, 7), 4)

@@ -10,9 +10,9 @@ from diagnosis.map_axes import AXES
 from diagnosis.recording import Circuit, Recording, SteadyTable
 from diagnosis.thresholds import load_thresholds
 from reynolds.numerics.arrays import Array
-from system.bench_points import BenchPoints
-from system.channels import ChannelName
+from system.bench.points import BenchPoints
 from system.estimation.observations import Channel, Observations
+from system.inputs.channels import ChannelName
 
 CHANNELS = (ChannelName.Q_OUT, ChannelName.Q_CASE, ChannelName.TORQUE)
 SIGMA = np.array([0.1, 0.02, 0.3])  # of the channels: L/min, L/min, N m

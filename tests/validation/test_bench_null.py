@@ -5,14 +5,14 @@ import numpy as np
 from diagnosis.inputs import bench_points
 from diagnosis.readings import observations
 from diagnosis.recording_reader import read_recording
-from system.bench_map import LumpedBench
-from system.bench_parameters import base_parameters
-from system.bench_truth import SIMULATED
-from system.channels import ChannelName
+from system.bench.outputs import SIMULATED
+from system.bench.parameters import base_parameters
+from system.bench.sensors import sensor_parameters
+from system.bench.simulator import LumpedBench
+from system.description.tolerances import tolerances
 from system.estimation.posterior import linear_posterior
-from system.pump_file import load_pump
-from system.sensors import sensor_parameters
-from system.tolerances import tolerances
+from system.inputs.channels import ChannelName
+from system.pump_file.file import load_pump
 
 INPUTS = (ChannelName.SPEED, ChannelName.P_OUT, ChannelName.P_IN, ChannelName.P_CASE, ChannelName.T_CASE)
 

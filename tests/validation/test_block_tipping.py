@@ -13,15 +13,15 @@ from gaps.revolution.march import GapRevolution
 from gaps.revolution.reports import BlockSeen
 from gaps.revolution.schedule import Accuracy
 from reynolds.errors import FilmNotConverged
-from system.floating_checks import check_floating
-from system.floating_drives import drives, no_rubbing
-from system.floating_gaps import FloatingOptions, block_revolution
-from system.floating_parts import floating_parts
-from system.gap_films import RIGID
-from system.instants import rotor
-from system.lumped_point import lumped_point
-from system.operating import operating_point
-from system.pump_file import load_pump
+from system.films.drives import drives, no_rubbing
+from system.films.parts import floating_parts
+from system.films.problems import RIGID
+from system.films.rotor import rotor
+from system.points.floating_gaps import FloatingOptions, block_revolution
+from system.points.lumped import lumped_point
+from system.pump.operating import operating_point
+from system.pump_file.file import load_pump
+from system.pump_file.floating import check_floating
 
 COARSE = FloatingOptions(RIGID, steps=72, accuracy=Accuracy(step=3e-2), finer=0.5)
 pytestmark = pytest.mark.slow

@@ -3,10 +3,10 @@
 import pytest
 
 from gaps.films.physics import Physics
-from system.floating import floating_point
-from system.floating_gaps import FloatingOptions
-from system.operating import operating_point
-from system.pump_file import load_pump
+from system.points.floating import floating_point
+from system.points.floating_gaps import FloatingOptions
+from system.pump.operating import operating_point
+from system.pump_file.file import load_pump
 
 
 @pytest.mark.long

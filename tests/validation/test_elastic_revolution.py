@@ -9,14 +9,19 @@ from gaps.films.physics import Effect, Physics
 from gaps.revolution.march import GapRevolution, Leg
 from gaps.revolution.reports import SlipperSeen
 from gaps.revolution.schedule import Accuracy
-from system.floating_drives import Drives, drives, no_rubbing
-from system.floating_gaps import FloatingOptions, block_revolution, piston_revolution, slipper_revolution
-from system.floating_parts import FloatingParts, floating_parts
-from system.gap_films import RIGID
-from system.instants import Rotor, rotor
-from system.lumped_point import lumped_point
-from system.operating import operating_point
-from system.pump_file import load_pump
+from system.films.drives import Drives, drives, no_rubbing
+from system.films.parts import FloatingParts, floating_parts
+from system.films.problems import RIGID
+from system.films.rotor import Rotor, rotor
+from system.points.floating_gaps import (
+    FloatingOptions,
+    block_revolution,
+    piston_revolution,
+    slipper_revolution,
+)
+from system.points.lumped import lumped_point
+from system.pump.operating import operating_point
+from system.pump_file.file import load_pump
 
 COARSE = FloatingOptions(RIGID, steps=24, accuracy=Accuracy(step=0.1), finer=0.5, keep=8)
 SOFT = Physics().without(Effect.PRESSURE_VISCOSITY)

@@ -16,15 +16,15 @@ import numpy as np
 import pytest
 
 from gaps.revolution.schedule import Accuracy
-from system.floating_drives import drives, no_rubbing
-from system.floating_gaps import FloatingOptions, slipper_revolution
-from system.floating_parts import floating_parts
-from system.gap_films import RIGID
-from system.instants import rotor
-from system.leakage import piston_conductance, slipper_conductance, valve_plate_conductance
-from system.lumped_point import lumped_point
-from system.operating import operating_point
-from system.pump_file import load_pump
+from system.films.drives import drives, no_rubbing
+from system.films.parts import floating_parts
+from system.films.problems import RIGID
+from system.films.rotor import rotor
+from system.points.floating_gaps import FloatingOptions, slipper_revolution
+from system.points.lumped import lumped_point
+from system.pump.laws.leakage import piston_conductance, slipper_conductance, valve_plate_conductance
+from system.pump.operating import operating_point
+from system.pump_file.file import load_pump
 
 PUMP = Path(__file__).resolve().parents[2] / "examples" / "pumps" / "hst196.toml"
 SOURCE = "recordings/hst196, 399 units"

@@ -16,14 +16,14 @@ import pytest
 from gaps.revolution.march import GapRevolution
 from gaps.revolution.reports import Active, SlipperSeen
 from gaps.revolution.schedule import Accuracy
-from system.floating_drives import Drives, drives, no_rubbing
-from system.floating_gaps import FloatingOptions, slipper_revolution
-from system.floating_parts import FloatingParts, floating_parts
-from system.gap_films import RIGID
-from system.instants import Rotor, rotor
-from system.lumped_point import lumped_point
-from system.operating import operating_point
-from system.pump_file import load_pump
+from system.films.drives import Drives, drives, no_rubbing
+from system.films.parts import FloatingParts, floating_parts
+from system.films.problems import RIGID
+from system.films.rotor import Rotor, rotor
+from system.points.floating_gaps import FloatingOptions, slipper_revolution
+from system.points.lumped import lumped_point
+from system.pump.operating import operating_point
+from system.pump_file.file import load_pump
 
 PAPER, SHEET = "seed paper, Fig. 9", "physics/left_out_physics.md"
 PISTONS, LITRES_A_MINUTE = 9, 6e4

@@ -18,20 +18,20 @@ from reynolds.laws.oil import dynamic_viscosity
 from reynolds.solve.solver import FilmSolver
 from reynolds.thermal.coupling import Posed, agree
 from reynolds.thermal.film_profile import levels
-from system.floating_heat import block_heat, slipper_heat
-from system.floating_parts import floating_parts
-from system.gap_cycle import SMOOTH
-from system.gap_films import block_film, slipper_film
-from system.given_positions import given_block, given_slipper
-from system.instants import Rotor, rotor
-from system.operating import operating_point
-from system.physics.effects import BenchState, GapCourse
-from system.physics.film_laws import ISENTROPIC_RISE, HeatShares, film_rise
-from system.physics.state import warmed
-from system.pump_file import load_pump
-from system.pump_gap import Gap
-from system.standing_films import chambers_at
-from system.standing_gaps import instant_drives
+from system.description.gap import Gap
+from system.effects.effect import BenchState, GapCourse
+from system.effects.laws.film import ISENTROPIC_RISE, HeatShares, film_rise
+from system.effects.state import warmed
+from system.films.cycle import SMOOTH
+from system.films.given_positions import given_block, given_slipper
+from system.films.heat import block_heat, slipper_heat
+from system.films.instant import chambers_at
+from system.films.parts import floating_parts
+from system.films.problems import block_film, slipper_film
+from system.films.rotor import Rotor, rotor
+from system.films.standing_gaps import instant_drives
+from system.pump.operating import operating_point
+from system.pump_file.file import load_pump
 
 RPM = np.pi / 30
 REF90 = load_pump("ref90")

@@ -22,8 +22,8 @@ from gaps.loads.ball_joint import (
 )
 from gaps.loads.piston_forces import lateral_force, lateral_moment
 from reynolds.errors import FilmInputError
-from system.directions import bore_axis, bore_sides, plate_axes
-from system.kinematics import (
+from system.pump.laws.directions import bore_axis, bore_sides, plate_axes
+from system.pump.laws.kinematics import (
     SwashDrive,
     ball_radius,
     piston_acceleration,

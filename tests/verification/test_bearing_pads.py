@@ -16,13 +16,13 @@ from reynolds.film import FilmSolution
 from reynolds.floating.coordinates import generalised_force, modes_on
 from reynolds.solve.loads import loads
 from reynolds.solve.solver import FilmSolver
-from system.faults import InputFaults
-from system.floating_checks import check_floating
-from system.instants import valve_plate_geometry
-from system.lumped_point import lumped_point
-from system.operating import operating_point
-from system.pairs import Pair
-from system.pump_file import load_pump, resolved_toml
+from system.films.rotor import valve_plate_geometry
+from system.inputs.faults import InputFaults
+from system.points.lumped import lumped_point
+from system.pump.laws.friction_pairs import Pair
+from system.pump.operating import operating_point
+from system.pump_file.file import load_pump, resolved_toml
+from system.pump_file.floating import check_floating
 
 RADII = (26.5e-3, 31.5e-3, 40.5e-3, 45.7e-3)
 SPEED, VISCOSITY, HEIGHT, TILT = 220.0, 0.0258, 10e-6, 0.5e-6

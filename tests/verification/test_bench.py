@@ -5,8 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from system import bench
-from system.chamber import flow_energy
+from system.pump import bench
+from system.pump.chamber.cycle import flow_energy
 
 K = 1.6e9
 DISPLACEMENT = 89.86e-6

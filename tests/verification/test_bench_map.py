@@ -7,20 +7,20 @@ import numpy as np
 import pytest
 
 from reynolds.errors import FilmInputError
-from system import lumped
-from system.bench_map import INPUT_STEPS, LumpedBench
-from system.bench_parameters import base_parameters, pump_with
-from system.bench_points import BenchPoints
-from system.bench_truth import SIMULATED
-from system.channels import INPUTS, ChannelName
-from system.components import Component
-from system.errors import NotConverged
-from system.kinematics import stroke
-from system.lumped_point import lumped_point
-from system.operating import operating_point
-from system.pump_file import load_pump, resolved_toml
-from system.sensors import encoder_parameter
-from system.tolerances import tolerances
+from system.bench.outputs import SIMULATED
+from system.bench.parameters import base_parameters, pump_with
+from system.bench.points import BenchPoints
+from system.bench.sensors import encoder_parameter
+from system.bench.simulator import INPUT_STEPS, LumpedBench
+from system.description.tolerances import tolerances
+from system.effects.components import Component
+from system.inputs.channels import INPUTS, ChannelName
+from system.inputs.errors import NotConverged
+from system.points.lumped import lumped_point
+from system.pump import lumped
+from system.pump.laws.kinematics import stroke
+from system.pump.operating import operating_point
+from system.pump_file.file import load_pump, resolved_toml
 
 REF90 = load_pump("ref90")
 CROSSED = load_pump("ref90", {"pump.cross_angle": "3 deg", "pump.displacement": "91.31 cm3/rev"})

@@ -5,12 +5,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 import pytest
 
-from system.bench_parameters import BASE_NAMES, base_parameters, groove_parameters
-from system.bench_points import BenchPoints
-from system.channels import ChannelName
-from system.estimation.parameters import Role, Scale
-from system.pump_file import load_pump
-from system.sensors import (
+from system.bench.parameters import BASE_NAMES, base_parameters, groove_parameters
+from system.bench.points import BenchPoints
+from system.bench.sensors import (
     SENSOR_NAMES,
     actual,
     drift_parameter,
@@ -19,7 +16,10 @@ from system.sensors import (
     read,
     sensor_parameters,
 )
-from system.tolerances import tolerances
+from system.description.tolerances import tolerances
+from system.estimation.parameters import Role, Scale
+from system.inputs.channels import ChannelName
+from system.pump_file.file import load_pump
 
 CHANNELS = (ChannelName.Q_CASE, ChannelName.TORQUE)
 TRUTH = np.array([[1e-5, 100.0], [2e-5, 300.0], [4e-5, 200.0]])

@@ -9,20 +9,20 @@ from itertools import product
 import numpy as np
 import pytest
 
-from system.bench_map import LumpedBench
-from system.bench_parameters import base_parameters
-from system.bench_points import BenchPoints, operating_at
-from system.bench_truth import SIMULATED
-from system.calibrated_pump import calibrated_pump
+from system.bench.calibration.calibrated_pump import calibrated_pump
+from system.bench.calibration.hersey_curve import PAIRS, hersey_curves
+from system.bench.outputs import SIMULATED
+from system.bench.parameters import base_parameters
+from system.bench.points import BenchPoints, operating_at
+from system.bench.simulator import LumpedBench
+from system.description.gap import Gap
+from system.description.tolerances import tolerances
+from system.effects.catalogue.entries import entry_of
+from system.effects.effect import EffectId
 from system.estimation.observations import Channel, Observations
 from system.estimation.posterior import Posterior, linear_posterior
-from system.hersey_curve import PAIRS, hersey_curves
-from system.lumped_point import lumped_point
-from system.physics.catalogue import entry_of
-from system.physics.effects import EffectId
-from system.pump_file import load_pump
-from system.pump_gap import Gap
-from system.tolerances import tolerances
+from system.points.lumped import lumped_point
+from system.pump_file.file import load_pump
 
 PUMP = load_pump("ref90")
 GRID = np.array(list(product((1000.0, 2100.0), (10e6, 30e6), (0.5, 1.0))))

@@ -7,16 +7,22 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from system import chamber_kernel as kernel
-from system import chamber_state_kernels as chamber_state
-from system.chamber import solve_cycle
-from system.chamber_course import periodic_cubics
-from system.chamber_problem import ChamberProblem, LeakTable, PortPressure
-from system.errors import NotConverged
-from system.kinematics import SwashDrive, drive_at_ratio, piston_displacement, piston_velocity, stand_out
-from system.leakage import piston_carried_flow, piston_conductance
-from system.ports import PortOpening, opening_area, orifice_flow
-from system.relief_grooves import ReliefGroove
+from system.inputs.errors import NotConverged
+from system.pump.chamber import kernels as kernel
+from system.pump.chamber import state_kernels as chamber_state
+from system.pump.chamber.cycle import solve_cycle
+from system.pump.chamber.problem import ChamberProblem, LeakTable, PortPressure
+from system.pump.chamber.setup import periodic_cubics
+from system.pump.laws.kinematics import (
+    SwashDrive,
+    drive_at_ratio,
+    piston_displacement,
+    piston_velocity,
+    stand_out,
+)
+from system.pump.laws.leakage import piston_carried_flow, piston_conductance
+from system.pump.ports.areas import PortOpening, opening_area, orifice_flow
+from system.pump.ports.relief_grooves import ReliefGroove
 
 DEGREES = np.pi / 180.0
 AREA = np.pi / 4 * 22e-3**2

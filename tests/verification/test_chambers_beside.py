@@ -5,10 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from system.bench_courses import MapProblem, beside, solve_map
-from system.bench_points import BenchPoints
-from system.bench_setting import setting
-from system.pump_file import load_pump
+from system.bench.chamber_map import MapProblem, beside, solve_map
+from system.bench.points import BenchPoints
+from system.bench.setting import setting
+from system.pump_file.file import load_pump
 
 PUMP = load_pump("ref90")
 TOLERANCE = 1e-5

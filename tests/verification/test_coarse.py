@@ -10,7 +10,7 @@ import pytest
 from diagnosis.coarse import PLACED_BY, TRUE_TO, class_gap, place_gap, shared_out
 from diagnosis.thresholds import load_thresholds
 from diagnosis.weighed import Weighed, with_probabilities
-from system.physics.effects import EffectId, Kind
+from system.effects.effect import EffectId, Kind
 
 LIMITS = load_thresholds()
 OPENING, CHURNING = (EffectId.ELASTIC_OPENING,), (EffectId.CHURNING,)

@@ -23,12 +23,12 @@ from diagnosis.regions import EDGES, strongest_region
 from diagnosis.study import Study, concerned, study_of
 from diagnosis.time_scan import TimeKind
 from reynolds.numerics.arrays import Array
-from system.channels import ChannelName
-from system.components import Component
+from system.effects.components import Component
+from system.effects.effect import EffectId, Kind
+from system.effects.extension import Entry, Extension
 from system.estimation.evidence import Sign
 from system.estimation.parameters import Parameter, Role, Scale
-from system.physics.effects import EffectId, Kind
-from system.physics.extension import Entry, Extension
+from system.inputs.channels import ChannelName
 
 POINTS = 80
 

@@ -8,12 +8,18 @@ import pytest
 from gaps.films.slipper import Orifice, hagen_poiseuille_conductance, supply
 from gaps.shapes.orifice_table import OrificeTable
 from reynolds.errors import FilmInputError
-from system.edge_losses import KINETIC, Edge, LandPath, LossCourse, secant_conductance
-from system.land_losses import creeping_film_leaks, land_losses, orifice_table, with_inertia
-from system.lumped import lumped_leaks, piston_motion
-from system.lumped_point import lumped_point
-from system.operating import operating_point
-from system.pump_file import load_pump
+from system.inputs.coefficients.edge_losses import (
+    KINETIC,
+    Edge,
+    LandPath,
+    LossCourse,
+    secant_conductance,
+)
+from system.points.lumped import lumped_point
+from system.pump.land_losses import creeping_film_leaks, land_losses, orifice_table, with_inertia
+from system.pump.lumped import lumped_leaks, piston_motion
+from system.pump.operating import operating_point
+from system.pump_file.file import load_pump
 
 DENSITY, VISCOSITY = 860.0, 0.02
 NU = VISCOSITY / DENSITY
@@ -212,7 +218,7 @@ def test_a_bore_s_file_takes_the_place_of_its_length(tmp_path):
 def test_openings_between_rows_are_interpolated():
     from pathlib import Path
 
-    from system.coefficient_files import FlowCoefficients
+    from system.inputs.coefficients.flow_files import FlowCoefficients
 
     reynolds = np.array([[1.0, 10.0, 100.0]] * 2)
     coefficients = np.array([[0.1, 0.3, 0.6], [0.2, 0.4, 0.7]])

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 from reynolds.errors import FilmInputError
-from system.bench import BenchReading
-from system.efficiencies import EfficiencyBasis, EfficiencyDefinition, efficiency
-from system.pump_file import load_pump
+from system.pump.bench import BenchReading
+from system.pump.efficiency import EfficiencyBasis, EfficiencyDefinition, efficiency
+from system.pump_file.file import load_pump
 
 READING = BenchReading(100 * pi, 200.0, 20e6, 1e6, 0.0, 2.5e-3, 2.6e-3, 0.05e-3)
 BASIS = EfficiencyBasis(READING, 1.6e9, swept=52e-6, toet=51e-6)
@@ -57,8 +57,8 @@ def test_names_are_unique_and_have_formulas():
 
 def test_simulated_energies_are_those_of_the_power_balance():
     """The definitions read port flows alone; the solver's own balance says the same to its error."""
-    from system.lumped_point import lumped_point
-    from system.operating import operating_point
+    from system.points.lumped import lumped_point
+    from system.pump.operating import operating_point
 
     pump = load_pump("ref90")
     point = lumped_point(pump, operating_point(pump))

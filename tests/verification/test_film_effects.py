@@ -11,22 +11,22 @@ from gaps.walls.pose import Stand
 from gaps.walls.springs import SpringBore, SpringPlates
 from reynolds.errors import FilmInputError
 from swashfilm.film_oil_state import oil_state
-from system.errors import NotConverged
-from system.film_effects import SOLVED, effects_in_films, even_rise, film_effects, resisting
-from system.films import films_point, leak_table
-from system.floating_parts import floating_parts
-from system.gap_cycle import PLAIN, SMOOTH, GapPhysics, gap_cycle
-from system.given_thickness import at_temperature, moved_to, unpressed
-from system.instants import rotor
-from system.lumped_point import lumped_point
-from system.operating import operating_point
-from system.physics.catalogue import EXTENSIONS
-from system.physics.effects import EffectId
-from system.physics.film_laws import barus_flow, opening_flow
-from system.physics.rubbing import OF_GAP
-from system.physics_description import PhysicsSection
-from system.pump_file import load_pump
-from system.pump_gap import Gap
+from system.description.effects import PhysicsSection
+from system.description.gap import Gap
+from system.effects.catalogue.entries import EXTENSIONS
+from system.effects.effect import EffectId
+from system.effects.friction import OF_GAP
+from system.effects.laws.film import barus_flow, opening_flow
+from system.films.cycle import PLAIN, SMOOTH, GapPhysics, gap_cycle
+from system.films.parts import floating_parts
+from system.films.rotor import rotor
+from system.inputs.errors import NotConverged
+from system.points.film_effects import SOLVED, effects_in_films, even_rise, film_effects, resisting
+from system.points.films import films_point, leak_table
+from system.points.lumped import lumped_point
+from system.pump.film_thickness import at_temperature, moved_to, unpressed
+from system.pump.operating import operating_point
+from system.pump_file.file import load_pump
 
 REF90 = load_pump("ref90")
 COARSE = {"positions_per_pitch": 2, "finer": 0.5}

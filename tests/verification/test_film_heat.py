@@ -19,7 +19,7 @@ from gaps.walls.parts import PistonPart
 from reynolds.bodies.elasticity import Elastic
 from reynolds.errors import FilmInputError, FilmNotConverged
 from reynolds.solve.solver import FilmSolver
-from system.floating_heat import rod, slab, tube
+from system.films.heat import rod, slab, tube
 
 DIAMETER, CLEARANCE, LENGTH, VISCOSITY = 22e-3, 15e-6, 40e-3, 0.03
 DENSITY, SPECIFIC_HEAT, CONDUCTIVITY, INLET, THINNING = 860.0, 2000.0, 0.14, 313.15, 0.03

@@ -14,26 +14,33 @@ from reynolds.floating.rest import held_at
 from reynolds.laws.oil import dynamic_viscosity
 from reynolds.solve.loads import boundary_flows
 from reynolds.solve.solver import FilmSolver
-from system.bench_map import LumpedBench
-from system.bench_points import BenchPoints
-from system.bench_truth import SIMULATED
-from system.extended_pump import extended_pump
-from system.faults import InputFaults
-from system.floating_heat import slipper_heat
-from system.floating_parts import floating_parts
-from system.gap_cycle import SMOOTH
-from system.gap_films import slipper_film
-from system.given_positions import given_slipper
-from system.instants import rotor
-from system.lumped import SAMPLES_PER_PITCH
-from system.lumped_point import lumped_point
-from system.operating import operating_point
-from system.physics import catalogue, switched
-from system.physics.effects import BenchState, EffectId, GapCourse
-from system.physics.film_tables import COMPLIANCE, OUTPUTS, OpeningCase, OpeningTable, SolvedOpening
-from system.pump_file import load_pump, resolved_toml
-from system.pump_gap import Gap
-from system.standing_gaps import instant_drives
+from system.bench.calibration.extended_pump import extended_pump
+from system.bench.outputs import SIMULATED
+from system.bench.points import BenchPoints
+from system.bench.simulator import LumpedBench
+from system.description.gap import Gap
+from system.effects import switched
+from system.effects.catalogue import entries as catalogue
+from system.effects.effect import BenchState, EffectId, GapCourse
+from system.effects.opening_tables import (
+    COMPLIANCE,
+    OUTPUTS,
+    OpeningCase,
+    OpeningTable,
+    SolvedOpening,
+)
+from system.films.cycle import SMOOTH
+from system.films.given_positions import given_slipper
+from system.films.heat import slipper_heat
+from system.films.parts import floating_parts
+from system.films.problems import slipper_film
+from system.films.rotor import rotor
+from system.films.standing_gaps import instant_drives
+from system.inputs.faults import InputFaults
+from system.points.lumped import lumped_point
+from system.pump.lumped import SAMPLES_PER_PITCH
+from system.pump.operating import operating_point
+from system.pump_file.file import load_pump, resolved_toml
 
 REF90 = load_pump("ref90")
 STEEPEST = 1.5 * np.pi

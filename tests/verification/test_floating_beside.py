@@ -7,15 +7,15 @@ import pytest
 
 from gaps.revolution.schedule import Accuracy
 from reynolds.errors import FilmInputError, FilmNotConverged
-from system.floating_beside import Driven, piston_beside
-from system.floating_drives import drives, no_rubbing
-from system.floating_gaps import FloatingOptions, piston_revolution
-from system.floating_parts import floating_parts
-from system.gap_films import RIGID
-from system.instants import rotor
-from system.lumped_point import lumped_point
-from system.operating import operating_point
-from system.pump_file import load_pump
+from system.films.drives import drives, no_rubbing
+from system.films.parts import floating_parts
+from system.films.problems import RIGID
+from system.films.rotor import rotor
+from system.points.floating_gaps import FloatingOptions, piston_revolution
+from system.points.lumped import lumped_point
+from system.points.piston_process import Driven, piston_beside
+from system.pump.operating import operating_point
+from system.pump_file.file import load_pump
 
 ROUGHLY = FloatingOptions(RIGID, steps=36, finer=0.25, accuracy=Accuracy(step=0.1, floor=1e-7, closed=0.5), keep=6)
 

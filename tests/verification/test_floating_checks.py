@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from system.floating_checks import check_floating
-from system.pump_file import load_pump
+from system.pump_file.file import load_pump
+from system.pump_file.floating import check_floating
 
 
 def told(name: str, overrides: dict[str, object] | None = None) -> str:

@@ -8,13 +8,21 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from system.directions import plate_axes
-from system.floating_exchange import FloatingGaps, around, ball_shift, chamber_draws, growth, of_each, resampled
-from system.floating_parts import floating_parts
-from system.instants import rotor, valve_plate_geometry
-from system.lumped import piston_area
-from system.operating import operating_point
-from system.pump_file import load_pump
+from system.films.parts import floating_parts
+from system.films.rotor import rotor, valve_plate_geometry
+from system.points.floating_exchange import (
+    FloatingGaps,
+    around,
+    ball_shift,
+    chamber_draws,
+    growth,
+    of_each,
+    resampled,
+)
+from system.pump.laws.directions import plate_axes
+from system.pump.lumped import piston_area
+from system.pump.operating import operating_point
+from system.pump_file.file import load_pump
 
 PUMP = load_pump("ref90_floating")
 ROTOR, PARTS = rotor(PUMP, operating_point(PUMP)), floating_parts(PUMP)

@@ -5,14 +5,19 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from system.description import PumpDescription
-from system.errors import NotConverged
-from system.floating import FRICTION_TOLERANCE, PRESSURE_TOLERANCE, FloatingPoint, floating_point
-from system.floating_exchange import leak_table, leakage_heat
-from system.floating_gaps import FloatingOptions
-from system.gap_films import RIGID
-from system.operating import operating_point
-from system.pump_file import load_pump
+from system.description.pump import PumpDescription
+from system.films.problems import RIGID
+from system.inputs.errors import NotConverged
+from system.points.floating import (
+    FRICTION_TOLERANCE,
+    PRESSURE_TOLERANCE,
+    FloatingPoint,
+    floating_point,
+)
+from system.points.floating_exchange import leak_table, leakage_heat
+from system.points.floating_gaps import FloatingOptions
+from system.pump.operating import operating_point
+from system.pump_file.file import load_pump
 
 STEPS = 72
 pytestmark = pytest.mark.slow
@@ -69,6 +74,6 @@ def test_friction_is_that_of_the_films(found):
 
 
 def test_rounds_that_do_not_settle_say_so(monkeypatch):
-    monkeypatch.setattr("system.floating.ROUND_LIMIT", 1)
+    monkeypatch.setattr("system.points.floating.ROUND_LIMIT", 1)
     with pytest.raises(NotConverged, match="after 1 rounds"):
         floating_point(pump(), operating_point(pump()), FloatingOptions(RIGID, steps=STEPS, finer=0.35))

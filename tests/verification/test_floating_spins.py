@@ -10,12 +10,12 @@ import numpy as np
 import pytest
 
 from gaps.revolution.schedule import Accuracy
-from system.floating import SPIN_TOLERANCE, FloatingPoint, floating_point
-from system.floating_exchange import spin_torques
-from system.floating_gaps import FloatingOptions
-from system.gap_films import RIGID
-from system.operating import operating_point
-from system.pump_file import load_pump, resolved_toml
+from system.films.problems import RIGID
+from system.points.floating import SPIN_TOLERANCE, FloatingPoint, floating_point
+from system.points.floating_exchange import spin_torques
+from system.points.floating_gaps import FloatingOptions
+from system.pump.operating import operating_point
+from system.pump_file.file import load_pump, resolved_toml
 
 ROUGHLY = FloatingOptions(
     RIGID, steps=36, finer=0.25, accuracy=Accuracy(step=0.05, floor=1e-8, closed=0.1, reach=1.0), keep=6
@@ -31,8 +31,8 @@ def found(tmp_path_factory) -> FloatingPoint:
     path.write_text("\n".join(row for row in rows if not row.startswith("spin_ratio")), "utf-8")
     pump = load_pump(path)
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("system.floating.PRESSURE_TOLERANCE", 1.0)
-        patch.setattr("system.floating.FRICTION_TOLERANCE", 1.0)
+        patch.setattr("system.points.floating.PRESSURE_TOLERANCE", 1.0)
+        patch.setattr("system.points.floating.FRICTION_TOLERANCE", 1.0)
         return floating_point(pump, operating_point(pump), ROUGHLY)
 
 

@@ -9,12 +9,12 @@ import numpy as np
 import pytest
 
 from gaps.revolution.schedule import Accuracy
-from system.description import PumpDescription
-from system.floating import PRESSURE_TOLERANCE, FloatingPoint, floating_point
-from system.floating_gaps import FloatingOptions
-from system.gap_films import RIGID
-from system.operating import operating_point
-from system.pump_file import load_pump
+from system.description.pump import PumpDescription
+from system.films.problems import RIGID
+from system.points.floating import PRESSURE_TOLERANCE, FloatingPoint, floating_point
+from system.points.floating_gaps import FloatingOptions
+from system.pump.operating import operating_point
+from system.pump_file.file import load_pump
 
 ROUGHLY = FloatingOptions(
     RIGID, steps=36, finer=0.25, accuracy=Accuracy(step=0.1, floor=1e-7, closed=0.5, reach=1.0), keep=6
@@ -35,8 +35,8 @@ def with_clearance(clearance: float) -> PumpDescription:
 def found():
     """The point of a pump after one round."""
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("system.floating.PRESSURE_TOLERANCE", 1.0)
-        patch.setattr("system.floating.FRICTION_TOLERANCE", 1.0)
+        patch.setattr("system.points.floating.PRESSURE_TOLERANCE", 1.0)
+        patch.setattr("system.points.floating.FRICTION_TOLERANCE", 1.0)
         pumps = PUMP, with_clearance(CLEARANCE * (1.0 + 1e-12)), with_clearance(WEAR * CLEARANCE)
         return [floating_point(pump, operating_point(pump), ROUGHLY) for pump in pumps]
 

@@ -8,12 +8,19 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from system.coefficient_files import FlowCoefficients
-from system.flow_tables import MOST_OPENINGS, PlainLaw, file_law, flow_scale, flow_table, with_factor
-from system.lumped_point import lumped_point
-from system.operating import operating_point
-from system.ports import FLOW_FROM, PORT_SIZE, as_array, orifice, orifice_coefficients
-from system.pump_file import load_pump, pump_of_tables, resolved_toml
+from system.inputs.coefficients.flow_files import FlowCoefficients
+from system.points.lumped import lumped_point
+from system.pump.operating import operating_point
+from system.pump.ports.areas import FLOW_FROM, PORT_SIZE, as_array, orifice, orifice_coefficients
+from system.pump.ports.flow_coefficients import (
+    MOST_OPENINGS,
+    PlainLaw,
+    file_law,
+    flow_scale,
+    flow_table,
+    with_factor,
+)
+from system.pump_file.file import load_pump, pump_of_tables, resolved_toml
 
 LAW = PlainLaw(0.7, 12.0)
 OIL = 860.0, 30e-6  # kg/m3, m2/s
@@ -156,7 +163,7 @@ def test_half_the_coefficient_by_file_is_four_times_the_drop(tmp_path):
 
 def test_a_port_without_a_file_carries_no_table():
     port = load_pump("ref90")
-    from system.lumped import port_openings
+    from system.pump.lumped import port_openings
 
     for opening in port_openings(port):
         assert as_array(opening).shape == (PORT_SIZE,)

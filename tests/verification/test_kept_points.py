@@ -12,9 +12,9 @@ from pathlib import Path
 import pytest
 
 from reynolds.errors import FilmInputError, FilmNotConverged
-from system.kept_points import KeptPoints, points_of_run, run_kept
-from system.side_by_side import Crew, WorkerDied, crew
-from system.work import Status
+from system.work.kept_results import KeptPoints, points_of_run, run_kept
+from system.work.processes import Crew, WorkerDied, crew
+from system.work.tasks import Status
 
 PARTS = list(range(8))
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from system.leakage import (
+from system.pump.laws.leakage import (
     piston_carried_flow,
     piston_conductance,
     slipper_conductance,

@@ -10,17 +10,17 @@ import pytest
 
 from reynolds.errors import FilmInputError
 from reynolds.numerics.arrays import Array
-from system.bench_points import BenchPoints
-from system.calibration import Split, model_rows, split_levels
-from system.channels import INPUTS, ChannelName
+from system.bench.calibration.held_out import Split, model_rows, split_levels
+from system.bench.loss_models.bench import LossModelBench, loss_model_bench
+from system.bench.loss_models.catalogue import LOSS_MODELS
+from system.bench.loss_models.model import LossModel, LossModelName
+from system.bench.loss_models.orders import polymod_for
+from system.bench.loss_models.polynomials import Orders, polymod
+from system.bench.points import BenchPoints
 from system.estimation.fit import maximum_posterior
 from system.estimation.observations import Channel, Observations
-from system.loss_models.bench import LossModelBench, loss_model_bench
-from system.loss_models.catalogue import LOSS_MODELS
-from system.loss_models.model import LossModel, LossModelName
-from system.loss_models.orders import polymod_for
-from system.loss_models.polynomials import Orders, polymod
-from system.pump_file import load_pump
+from system.inputs.channels import INPUTS, ChannelName
+from system.pump_file.file import load_pump
 
 PUMP = load_pump("ref90")
 GRID = np.array(list(product((1000, 1300, 1700, 2100), (5e6, 12e6, 18e6, 25e6, 35e6), (0.28, 0.51, 0.77, 1.0))))
@@ -89,7 +89,7 @@ def test_polynomials_and_laws_have_the_terms_of_their_print(name: LossModelName)
 def test_wilson_by_hand() -> None:
     """One point: C_s D dp/mu of slip, C_d D mu w + C_f D dp + T_c of drag."""
     bench = _bench(LOSS_MODELS[LossModelName.WILSON])
-    from system.loss_models.points import loss_points
+    from system.bench.loss_models.points import loss_points
 
     at = loss_points(PUMP, POINTS)
     values = np.array([2e-9, 1e-6, 3e4, 0.02, 1.5])

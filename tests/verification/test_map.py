@@ -8,18 +8,24 @@ import pytest
 from pydantic import BaseModel
 
 from reynolds.errors import FilmInputError
-from system.duty import Cycle, duty
-from system.efficiencies import EfficiencyDefinition
-from system.faults import InputFaults
-from system.lumped_point import lumped_point
-from system.map_compare import compare
-from system.map_data import LOSSES, best_points, map_data
-from system.map_interpolation import MapInterpolant, check_points, fresh_error, left_out_error, weights
-from system.map_plan import MapAxis, MapInput, map_plan, paper_axes
-from system.map_point import LumpedSolver, MapWork, point_numbers
-from system.operating import operating_point
-from system.pump_file import load_pump
-from system.work import Status, done_part
+from system.inputs.faults import InputFaults
+from system.maps.compare import compare
+from system.maps.data import LOSSES, best_points, map_data
+from system.maps.duty import Cycle, duty
+from system.maps.interpolation import (
+    MapInterpolant,
+    check_points,
+    fresh_error,
+    left_out_error,
+    weights,
+)
+from system.maps.plan import MapAxis, MapInput, map_plan, paper_axes
+from system.maps.point import LumpedSolver, MapWork, point_numbers
+from system.points.lumped import lumped_point
+from system.pump.efficiency import EfficiencyDefinition
+from system.pump.operating import operating_point
+from system.pump_file.file import load_pump
+from system.work.tasks import Status, done_part
 
 PUMP = load_pump("ref90")
 RPM = np.pi / 30.0

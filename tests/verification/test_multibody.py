@@ -11,20 +11,10 @@ import pytest
 
 from gaps.loads.ball_joint import DrivenBody, ball_forces, swept_acceleration
 from swashfilm.forces_data import force_warnings
-from system.description import PumpDescription
-from system.directions import bore_axis, plate_axes
-from system.kinematics import (
-    SwashDrive,
-    crossed_drive,
-    piston_acceleration,
-    piston_displacement,
-    piston_velocity,
-    slipper_sliding_speed,
-)
-from system.lumped import piston_area
-from system.lumped_point import lumped_point
+from system.description.pump import PumpDescription
 from system.multibody.closure import closure
-from system.multibody.group_kinematics import (
+from system.multibody.joints import wrench
+from system.multibody.kinematics import (
     BoreCircle,
     Plate,
     axial_rates,
@@ -34,12 +24,22 @@ from system.multibody.group_kinematics import (
     dot,
     swash_angle,
 )
-from system.multibody.joints import wrench
-from system.multibody.retainer_body import guide_contact, guide_loss
+from system.multibody.retainer import guide_contact, guide_loss
 from system.multibody.rotating_group import JointForces, joint_forces
-from system.operating import operating_point
-from system.pump_file import load_pump
-from system.retainer import BallGuide, mean_sliding_speed
+from system.points.lumped import lumped_point
+from system.pump.laws.directions import bore_axis, plate_axes
+from system.pump.laws.kinematics import (
+    SwashDrive,
+    crossed_drive,
+    piston_acceleration,
+    piston_displacement,
+    piston_velocity,
+    slipper_sliding_speed,
+)
+from system.pump.laws.retainer import BallGuide, mean_sliding_speed
+from system.pump.lumped import piston_area
+from system.pump.operating import operating_point
+from system.pump_file.file import load_pump
 
 DEGREES = np.pi / 180.0
 ANGLE = 2 * np.pi * np.arange(72) / 72

@@ -26,14 +26,14 @@ from diagnosis.unknown import scaling
 from diagnosis.verdict import Diagnosis, Status
 from diagnosis.weighed import Weighed, with_probabilities
 from reynolds.numerics.arrays import Array
-from system.channels import ChannelName
-from system.components import Component
-from system.errors import NotConverged
+from system.description.gap import Gap
+from system.effects.components import Component
+from system.effects.effect import EffectId, Kind
+from system.effects.extension import Entry, Extension
 from system.estimation.evidence import mixture_evidence, score
 from system.estimation.parameters import Parameter, Role, Scale
-from system.physics.effects import EffectId, Kind
-from system.physics.extension import Entry, Extension
-from system.pump_gap import Gap
+from system.inputs.channels import ChannelName
+from system.inputs.errors import NotConverged
 
 POINTS = 96
 

@@ -17,19 +17,19 @@ from diagnosis.next_point import READINGS, SETTLED, NextPoint, gains_at, next_po
 from diagnosis.recording import Circuit, RecordedChannel, Recording, SteadyTable
 from diagnosis.study import Study
 from reynolds.numerics.arrays import Array
-from system.bench_map import LumpedBench
-from system.bench_parameters import base_parameters
-from system.bench_points import BenchPoints
-from system.channels import ChannelName
+from system.bench.parameters import base_parameters
+from system.bench.points import BenchPoints
+from system.bench.simulator import LumpedBench
+from system.description.tolerances import tolerances
+from system.effects.catalogue.entries import entry_of
+from system.effects.effect import EffectId
 from system.estimation.fit import maximum_posterior
 from system.estimation.observations import Channel, Observations
 from system.estimation.parameters import Parameter, Role, Scale
 from system.estimation.posterior import standard_slopes
-from system.physics.catalogue import entry_of
-from system.physics.effects import EffectId
-from system.pump_file import load_pump
-from system.tolerances import tolerances
-from system.units import Dimension
+from system.inputs.channels import ChannelName
+from system.inputs.units import Dimension
+from system.pump_file.file import load_pump
 
 MPA, LPM = 1e6, 1.0 / 60000.0
 SPEED, PRESSURE = 150.0, 20 * MPA

@@ -15,14 +15,14 @@ from diagnosis.forecast import Contender
 from diagnosis.own_leak import LEAKS, own_leak
 from diagnosis.recording import Circuit, RecordedChannel, Recording, SteadyTable
 from reynolds.numerics.arrays import Array
-from system.bench_points import BenchPoints
-from system.channels import ChannelName
-from system.components import Component
-from system.errors import NotConverged
+from system.bench.points import BenchPoints
+from system.description.gap import Gap
+from system.effects.components import Component
+from system.effects.effect import EffectId
 from system.estimation.parameters import Parameter, Role, Scale
-from system.physics.effects import EffectId
-from system.pump_file import load_pump
-from system.pump_gap import Gap
+from system.inputs.channels import ChannelName
+from system.inputs.errors import NotConverged
+from system.pump_file.file import load_pump
 
 BAR, LPM, RPM = 1e5, 1.0 / 60000.0, 2.0 * np.pi / 60.0
 METER = 0.02 * LPM

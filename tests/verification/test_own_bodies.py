@@ -40,14 +40,14 @@ from reynolds.errors import FilmInputError
 from reynolds.fem.mesh import Cell, annulus, rectangle
 from reynolds.fem.space import FilmSpace, film_space
 from reynolds.numerics.arrays import Array
-from system.description import PumpDescription
-from system.floating_drives import drives, no_rubbing
-from system.floating_gaps import FloatingOptions, slipper_revolution
-from system.floating_parts import floating_parts
-from system.instants import rotor
-from system.lumped_point import lumped_point
-from system.operating import operating_point
-from system.pump_file import load_pump
+from system.description.pump import PumpDescription
+from system.films.drives import drives, no_rubbing
+from system.films.parts import floating_parts
+from system.films.rotor import rotor
+from system.points.floating_gaps import FloatingOptions, slipper_revolution
+from system.points.lumped import lumped_point
+from system.pump.operating import operating_point
+from system.pump_file.file import load_pump
 
 STEEL, BRONZE = Elastic(210e9, 0.3), Elastic(110e9, 0.34)
 BORE, OUTSIDE, GUIDE = 11e-3, 15e-3, 20e-3

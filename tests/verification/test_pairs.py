@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from system import pairs
+from system.pump.laws import friction_pairs as pairs
 
 MU = 25.8e-3
 N = 360

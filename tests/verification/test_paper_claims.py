@@ -9,19 +9,30 @@ import numpy as np
 import pytest
 
 from reynolds.errors import FilmInputError
-from system.bench import LossSplit
-from system.kept_points import KeptPoints
-from system.pairs import Pair
-from system.paper.efficiencies import drain_for_share, fig2, share_with_drain, without_trapped_oil
-from system.paper.equations import equations
-from system.paper.figures import Figure, Unit
-from system.paper.guide import turned
+from system.paper.figure import Figure, Unit
+from system.paper.figures.efficiencies import (
+    drain_for_share,
+    fig2,
+    share_with_drain,
+    without_trapped_oil,
+)
+from system.paper.figures.equations import equations
+from system.paper.figures.guide import turned
+from system.paper.figures.pair_losses import (
+    coefficient_for_share,
+    fig17,
+    fig18,
+    from_line,
+    zero_share,
+)
 from system.paper.judge import Claim, Impossibility, Range, Verdict, judge
-from system.paper.pair_losses import coefficient_for_share, fig17, fig18, from_line, zero_share
 from system.paper.points import PRESSURES, PaperPoint, PointFidelity, Reading, places_of, solve_points
 from system.paper.statements import CLAIMS
-from system.pump_file import load_pump
-from system.side_by_side import HERE
+from system.pump.bench import LossSplit
+from system.pump.laws.friction_pairs import Pair
+from system.pump_file.file import load_pump
+from system.work.kept_results import KeptPoints
+from system.work.processes import HERE
 
 PUMPS = Path(__file__).parents[2] / "examples" / "pumps"
 REF90 = load_pump("ref90")

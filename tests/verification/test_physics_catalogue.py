@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 from reynolds.laws.oil import dynamic_viscosity
-from system.physics.catalogue import CATALOGUE, EXTENSIONS, entry_of
-from system.physics.effects import BenchState, EffectId, GapCourse, Kind, both, neutral
-from system.pump_file import load_pump
-from system.pump_gap import Gap
+from system.description.gap import Gap
+from system.effects.catalogue.entries import CATALOGUE, EXTENSIONS, entry_of
+from system.effects.effect import BenchState, EffectId, GapCourse, Kind, both, neutral
+from system.pump_file.file import load_pump
 
 REF90 = load_pump("ref90")
 POINTS, ANGLES = 3, 6

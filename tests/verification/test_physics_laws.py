@@ -8,15 +8,32 @@ from scipy.integrate import quad
 
 from reynolds.laws.contact import gaussian_moment
 from reynolds.laws.oil import dynamic_viscosity
-from system.physics import contact_laws, drag_laws, film_laws, flow_laws, port_laws, tipping_laws
-from system.physics.catalogue import CATALOGUE
-from system.physics.effects import BenchState, GapCourse, neutral
-from system.physics.outside import outside
-from system.physics.state import warmed
-from system.ports import PortOpening
-from system.pump_file import load_pump
-from system.pump_gap import Gap
-from system.relief_grooves import ReliefGroove
+from system.description.gap import Gap
+from system.effects.catalogue.entries import CATALOGUE
+from system.effects.effect import BenchState, GapCourse, neutral
+from system.effects.laws import (
+    contact as contact_laws,
+)
+from system.effects.laws import (
+    drag as drag_laws,
+)
+from system.effects.laws import (
+    film as film_laws,
+)
+from system.effects.laws import (
+    flow as flow_laws,
+)
+from system.effects.laws import (
+    port as port_laws,
+)
+from system.effects.laws import (
+    tipping as tipping_laws,
+)
+from system.effects.outside import outside
+from system.effects.state import warmed
+from system.pump.ports.areas import PortOpening
+from system.pump.ports.relief_grooves import ReliefGroove
+from system.pump_file.file import load_pump
 
 RPM = np.pi / 30
 REF90 = load_pump("ref90")

@@ -7,23 +7,23 @@ import pytest
 
 from reynolds.errors import FilmInputError
 from reynolds.numerics.arrays import Array
-from system.bench_map import LumpedBench
-from system.bench_parameters import base_parameters
-from system.bench_points import BenchPoints
-from system.bench_truth import SIMULATED
-from system.description import PumpDescription
-from system.extended_pump import extended_pump
-from system.floating import floating_point
-from system.lumped import SAMPLES_PER_PITCH
-from system.lumped_point import lumped_point
-from system.operating import operating_point
-from system.physics.catalogue import EXTENSIONS
-from system.physics.effects import EffectId
-from system.physics.extension import Extension
-from system.physics.switched import switched_on
-from system.physics_description import PhysicsSection
-from system.pump_file import check_pump, load_pump, resolved_toml
-from system.tolerances import tolerances
+from system.bench.calibration.extended_pump import extended_pump
+from system.bench.outputs import SIMULATED
+from system.bench.parameters import base_parameters
+from system.bench.points import BenchPoints
+from system.bench.simulator import LumpedBench
+from system.description.effects import PhysicsSection
+from system.description.pump import PumpDescription
+from system.description.tolerances import tolerances
+from system.effects.catalogue.entries import EXTENSIONS
+from system.effects.effect import EffectId
+from system.effects.extension import Extension
+from system.effects.switched import switched_on
+from system.points.floating import floating_point
+from system.points.lumped import lumped_point
+from system.pump.lumped import SAMPLES_PER_PITCH
+from system.pump.operating import operating_point
+from system.pump_file.file import check_pump, load_pump, resolved_toml
 
 REF90 = load_pump("ref90")
 BY_NAME = [pytest.param(one, id=one.parameters[0].name) for one in EXTENSIONS]

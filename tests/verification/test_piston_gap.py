@@ -22,7 +22,7 @@ from reynolds.floating.rest import held_at
 from reynolds.floating.step import Stage
 from reynolds.numerics.arrays import Array
 from reynolds.solve.solver import FilmSolver
-from system.given_positions import eccentric
+from system.films.given_positions import eccentric
 
 RADIUS, CLEARANCE = 11e-3, 15e-6
 LENGTH, VISCOSITY, PRESSURE = 40e-3, 0.0258, 35e6

@@ -7,19 +7,19 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from gaps.frames import Frame
 from gaps.shapes.slipper_lands import slipper_mesh
 from reynolds.fem.space import film_space
 from reynolds.fem.sphere import PLANE
-from system.floating_parts import floating_parts
-from system.gap_films import RIGID, piston_film
-from system.instants import Rotor, rotor, travel
-from system.kinematics import piston_displacement, slipper_sliding_velocity, stroke
-from system.operating import operating_point
-from system.places import face_frame, guide_frame, place_of
-from system.pump_file import load_pump
-from system.pump_gap import Gap
-from system.standing_gaps import instant_drives
+from system.description.gap import Gap
+from system.films.frames import Frame
+from system.films.parts import floating_parts
+from system.films.places import face_frame, guide_frame, place_of
+from system.films.problems import RIGID, piston_film
+from system.films.rotor import Rotor, rotor, travel
+from system.films.standing_gaps import instant_drives
+from system.pump.laws.kinematics import piston_displacement, slipper_sliding_velocity, stroke
+from system.pump.operating import operating_point
+from system.pump_file.file import load_pump
 
 ANGLES = np.radians([0.0, 35.0, 90.0, 180.0, 250.0, 345.0])
 PUMPS = ["ref90", str(Path(__file__).resolve().parents[2] / "examples/pumps/cylindrical_block.toml")]

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from system.ports import (
+from system.pump.ports.areas import (
     PortOpening,
     break_angles,
     critical_pressure_drop,
@@ -12,7 +12,7 @@ from system.ports import (
     orifice_coefficients,
     orifice_flow,
 )
-from system.relief_grooves import ReliefGroove
+from system.pump.ports.relief_grooves import ReliefGroove
 
 DEGREES = np.pi / 180.0
 GROOVE, KIDNEY = 4e-6, 152e-6

@@ -10,10 +10,8 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from system.chamber_problem import ChamberProblem, LeakTable
-from system.errors import NotConverged
-from system.kinematics import SwashDrive, drive_at_ratio, piston_displacement, piston_velocity, stand_out
-from system.lines import (
+from system.inputs.errors import NotConverged
+from system.pump.chamber.lines import (
     HeldPressure,
     Impedance,
     ImpedanceLine,
@@ -22,10 +20,18 @@ from system.lines import (
     OrificeLine,
     volume_impedance,
 )
-from system.ports import PortOpening, opening_area, orifice_flow
-from system.ports_coupling import SETTLED, PortedCycle, ported_cycle
-from system.ports_volume import Supply, line_power, port_balance
-from system.relief_grooves import ReliefGroove
+from system.pump.chamber.port_coupling import SETTLED, PortedCycle, ported_cycle
+from system.pump.chamber.port_volume import Supply, line_power, port_balance
+from system.pump.chamber.problem import ChamberProblem, LeakTable
+from system.pump.laws.kinematics import (
+    SwashDrive,
+    drive_at_ratio,
+    piston_displacement,
+    piston_velocity,
+    stand_out,
+)
+from system.pump.ports.areas import PortOpening, opening_area, orifice_flow
+from system.pump.ports.relief_grooves import ReliefGroove
 
 DEGREES = np.pi / 180.0
 AREA = np.pi / 4 * 22e-3**2

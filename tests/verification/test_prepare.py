@@ -17,9 +17,9 @@ from diagnosis.study import Study
 from diagnosis.thresholds import load_thresholds
 from diagnosis.trace_misfits import port_events
 from reynolds.errors import FilmInputError
-from system.channels import ChannelName
-from system.pump_file import load_pump
-from system.tolerances import tolerances
+from system.description.tolerances import tolerances
+from system.inputs.channels import ChannelName
+from system.pump_file.file import load_pump
 
 LIMITS = load_thresholds()
 PUMP = load_pump("ref90")

@@ -12,10 +12,10 @@ import pytest
 from diagnosis.bench_box import BenchBox
 from diagnosis.hypotheses import Hypothesis, together
 from diagnosis.weighed import Weighed
-from system.channels import ChannelName
-from system.physics.catalogue import entry_of
-from system.physics.effects import EffectId, Kind
-from system.pump_gap import Gap
+from system.description.gap import Gap
+from system.effects.catalogue.entries import entry_of
+from system.effects.effect import EffectId, Kind
+from system.inputs.channels import ChannelName
 
 
 @pytest.fixture

@@ -14,7 +14,7 @@ from scipy import stats
 
 from diagnosis.recording import reading_sigma
 from diagnosis.recording_reader import read_recording
-from system.channels import ChannelName
+from system.inputs.channels import ChannelName
 
 
 @pytest.fixture(scope="module")
@@ -35,8 +35,8 @@ def test_an_outcome_is_of_another_program_once_anything_that_made_it_changes(pro
     assert {name for name in taken if name and name.split(".")[0] in proof.store.PACKAGES} <= counted
     assert {
         "diagnosis.data_checks",
-        "system.physics.film_laws",
-        "system.bench_map",
+        "system.effects.laws.film",
+        "system.bench.simulator",
         "reynolds.laws.oil",
     } <= counted
 

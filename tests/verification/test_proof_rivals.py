@@ -14,8 +14,8 @@ from diagnosis.prepare import prepare
 from diagnosis.recording_reader import read_recording
 from diagnosis.study import Study
 from diagnosis.thresholds import load_thresholds
-from system.pump_file import load_pump
-from system.tolerances import tolerances
+from system.description.tolerances import tolerances
+from system.pump_file.file import load_pump
 
 
 @pytest.fixture(scope="module")

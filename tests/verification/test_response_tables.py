@@ -16,22 +16,29 @@ import pytest
 
 from gaps.response import Measure
 from reynolds.errors import FilmInputError, FilmNotConverged
-from system.assembly import PumpPoint
-from system.errors import NotConverged
-from system.faults import InputFaults
-from system.lumped_point import lumped_point
-from system.operating import operating_point
-from system.pairs import Pair
-from system.power import Gaps
-from system.pump_file import load_pump
-from system.side_by_side import crew
-from system.table_build import TableCase, build_table, point_at, table_axes
-from system.table_means import GAP_PAIRS, MEANINGS, SolvedPoint, mean_ratios
-from system.table_numbers import numbers_error, pump_numbers
-from system.table_point import TablePoint, table_point
-from system.table_points import points_of
-from system.table_sources import FilmsSolver, Source
-from system.table_store import find_table, keep_table, own_table, pump_key, read_table, table_record
+from system.inputs.errors import NotConverged
+from system.inputs.faults import InputFaults
+from system.points.lumped import lumped_point
+from system.points.table.build import TableCase, build_table, point_at, table_axes
+from system.points.table.means import GAP_PAIRS, MEANINGS, SolvedPoint, mean_ratios
+from system.points.table.point import TablePoint, table_point
+from system.points.table.pump_numbers import numbers_error, pump_numbers
+from system.points.table.sources import FilmsSolver, Source
+from system.points.table.store import (
+    find_table,
+    keep_table,
+    own_table,
+    pump_key,
+    read_table,
+    table_record,
+)
+from system.pump.assembly import PumpPoint
+from system.pump.laws.friction_pairs import Pair
+from system.pump.operating import operating_point
+from system.pump.power import Gaps
+from system.pump_file.file import load_pump
+from system.work.processes import crew
+from system.work.sampled_points import points_of
 
 PUMP = load_pump("ref90")
 NAMES = list(MEANINGS)

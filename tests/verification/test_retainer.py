@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.optimize import linprog
 
-from system.retainer import (
+from system.pump.laws.retainer import (
     BallGuide,
     RetainerMotion,
     azimuth_rate_ratio,

@@ -6,14 +6,14 @@ import numpy as np
 
 from diagnosis.hypotheses import Hypothesis, simulator_of, together
 from diagnosis.pairs import _apart
-from system.bench_map import LumpedBench
-from system.bench_points import BenchPoints
-from system.bench_truth import SIMULATED
-from system.extended_pump import extended_pump
-from system.physics.catalogue import entry_of
-from system.physics.effects import EffectId, Kind
-from system.pump_file import load_pump
-from system.pump_gap import Gap
+from system.bench.calibration.extended_pump import extended_pump
+from system.bench.outputs import SIMULATED
+from system.bench.points import BenchPoints
+from system.bench.simulator import LumpedBench
+from system.description.gap import Gap
+from system.effects.catalogue.entries import entry_of
+from system.effects.effect import EffectId, Kind
+from system.pump_file.file import load_pump
 
 REF90 = load_pump("ref90")
 ONE = np.ones(1)

@@ -11,9 +11,12 @@ import numpy as np
 import pytest
 
 from gaps.loads.ball_joint import DrivenBody, ball_forces, swept_acceleration
-from system.assembly import PumpPoint
-from system.directions import bore_axis, plate_axes
-from system.kinematics import (
+from system.description.lines import LineKind, LineSection
+from system.points.lumped import lumped_point
+from system.pump.assembly import PumpPoint
+from system.pump.laws.directions import bore_axis, plate_axes
+from system.pump.laws.friction_pairs import over_chambers
+from system.pump.laws.kinematics import (
     SwashDrive,
     ball_radius,
     piston_acceleration,
@@ -21,13 +24,10 @@ from system.kinematics import (
     slipper_acceleration,
     slipper_sliding_velocity,
 )
-from system.line_description import LineKind, LineSection
-from system.lumped import chamber_problem, group_masses, lumped_leaks, piston_motion
-from system.lumped_point import lumped_point
-from system.operating import operating_point
-from system.pairs import over_chambers
-from system.pump_file import load_pump
-from system.shaft_torque import ChamberForces, GroupMasses, chamber_torque, shaft_torque
+from system.pump.lumped import chamber_problem, group_masses, lumped_leaks, piston_motion
+from system.pump.operating import operating_point
+from system.pump.shaft_torque import ChamberForces, GroupMasses, chamber_torque, shaft_torque
+from system.pump_file.file import load_pump
 
 DEGREES = np.pi / 180.0
 SPEED = 220.0

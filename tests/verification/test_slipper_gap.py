@@ -29,12 +29,12 @@ from reynolds.floating.rest import held_at
 from reynolds.floating.step import Stage
 from reynolds.numerics.arrays import Array
 from reynolds.solve.solver import FilmSolver
-from system.floating_parts import floating_parts
-from system.instants import rotor
-from system.leakage import slipper_conductance
-from system.operating import operating_point
-from system.pump_file import load_pump
-from system.standing_gaps import instant_drives
+from system.films.parts import floating_parts
+from system.films.rotor import rotor
+from system.films.standing_gaps import instant_drives
+from system.pump.laws.leakage import slipper_conductance
+from system.pump.operating import operating_point
+from system.pump_file.file import load_pump
 
 INNER, OUTER, ORIFICE, ORIFICE_LENGTH = 8.2e-3, 14e-3, 0.9e-3, 5e-3
 SHAPE = SlipperShape(SlipperLands(((INNER, OUTER),)), Orifice(ORIFICE, ORIFICE_LENGTH))

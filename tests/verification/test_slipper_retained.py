@@ -15,14 +15,14 @@ from gaps.revolution.reports import Active
 from gaps.revolution.schedule import Accuracy
 from reynolds.errors import FilmNotConverged
 from swashfilm.revolution_warnings import pulled_together
-from system.floating_drives import drives, no_rubbing, slipper_retainer
-from system.floating_gaps import FloatingOptions, slipper_revolution
-from system.floating_parts import floating_parts
-from system.gap_films import RIGID
-from system.instants import rotor
-from system.lumped_point import lumped_point
-from system.operating import operating_point
-from system.pump_file import load_pump
+from system.films.drives import drives, no_rubbing, slipper_retainer
+from system.films.parts import floating_parts
+from system.films.problems import RIGID
+from system.films.rotor import rotor
+from system.points.floating_gaps import FloatingOptions, slipper_revolution
+from system.points.lumped import lumped_point
+from system.pump.operating import operating_point
+from system.pump_file.file import load_pump
 
 COARSE = FloatingOptions(RIGID, steps=36, finer=0.25, accuracy=Accuracy(step=0.1, floor=1e-7, closed=0.1))
 FAST = {"operating.speed": "2800 rpm", "operating.pressure": "10 MPa", "operating.inlet_pressure": "0 bar"}

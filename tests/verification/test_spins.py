@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 from gaps.loads.ball_joint import Spins
-from system.floating_drives import drives, no_rubbing
-from system.floating_parts import floating_parts
-from system.instants import rotor
-from system.operating import operating_point
-from system.pump_file import load_pump, resolved_toml
-from system.spins import SpinTorques, spins, torques_of_films
+from system.films.drives import drives, no_rubbing
+from system.films.parts import floating_parts
+from system.films.rotor import rotor
+from system.films.spins import SpinTorques, spins, torques_of_films
+from system.pump.operating import operating_point
+from system.pump_file.file import load_pump, resolved_toml
 
 
 @pytest.fixture

@@ -8,7 +8,7 @@ from diagnosis.series_points import on_raster
 from diagnosis.steadiness import SteadyRule, effective_number, is_steady, steady_stretches
 from diagnosis.table import TableFault
 from diagnosis.traces import synchronous_mean
-from system.units import TURN
+from system.inputs.units import TURN
 
 RULE = SteadyRule(samples=100, limit=3.0)
 

@@ -14,15 +14,15 @@ from diagnosis.trace_fit import settled_traces
 from diagnosis.trace_misfits import trace_misfits
 from diagnosis.trace_rows import WINDOWS, shrunk_covariance, trace_rows, windows
 from diagnosis.traced_bench import TracedBench, traced_bench
-from system.bench_map import LumpedBench
-from system.bench_parameters import base_parameters, groove_parameters
-from system.bench_points import BenchPoints
-from system.channels import ChannelName
+from system.bench.parameters import base_parameters, groove_parameters
+from system.bench.points import BenchPoints
+from system.bench.sensors import encoder_parameter, read_turns, transducer_parameters
+from system.bench.simulator import LumpedBench
+from system.description.tolerances import tolerances
 from system.estimation.fit import maximum_posterior
 from system.estimation.observations import Channel, Observations
-from system.pump_file import load_pump
-from system.sensors import encoder_parameter, read_turns, transducer_parameters
-from system.tolerances import tolerances
+from system.inputs.channels import ChannelName
+from system.pump_file.file import load_pump
 
 PUMP = load_pump("ref90")
 RPM = np.pi / 30.0

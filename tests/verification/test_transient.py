@@ -11,13 +11,19 @@ import numpy as np
 import pytest
 
 from reynolds.errors import FilmInputError
-from system.lumped_point import lumped_point
-from system.multibody import transient_kernels as kernel
 from system.multibody.rotating_group import joint_forces
-from system.multibody.transient import Course, Schedule, Transient, TransientCase, run_transient
-from system.operating import operating_point
-from system.ports import orifice_flow
-from system.pump_file import load_pump
+from system.multibody.transient import kernels as kernel
+from system.multibody.transient.solver import (
+    Course,
+    Schedule,
+    Transient,
+    TransientCase,
+    run_transient,
+)
+from system.points.lumped import lumped_point
+from system.pump.operating import operating_point
+from system.pump.ports.areas import orifice_flow
+from system.pump_file.file import load_pump
 
 DEGREES = np.pi / 180.0
 PUMPS = Path(__file__).parents[2] / "examples" / "pumps"

@@ -7,10 +7,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from system.leakage import slipper_conductance, valve_plate_conductance
-from system.operating import operating_point
-from system.pump_file import load_pump
-from system.transmission import Transmission, transmission
+from system.points.transmission import Transmission, transmission
+from system.pump.laws.leakage import slipper_conductance, valve_plate_conductance
+from system.pump.operating import operating_point
+from system.pump_file.file import load_pump
 
 PUMP = Path(__file__).resolve().parents[2] / "examples" / "pumps" / "hst196.toml"
 TIGHT = {

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from system.estimation.trust import Bounds, Quadratic, bounded_step
+from system.estimation.bounded_step import Bounds, Quadratic, bounded_step
 
 
 def _models(count: int):

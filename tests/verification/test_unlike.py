@@ -5,13 +5,13 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from system.description import PumpDescription
-from system.films import films_point
-from system.lumped_point import lumped_point
-from system.operating import operating_point
-from system.pairs import over_chambers
-from system.pump_file import load_pump
-from system.unlike import kinds
+from system.description.pump import PumpDescription
+from system.points.films import films_point
+from system.points.lumped import lumped_point
+from system.pump.chamber_kinds import kinds
+from system.pump.laws.friction_pairs import over_chambers
+from system.pump.operating import operating_point
+from system.pump_file.file import load_pump
 
 CLEARANCE = load_pump("ref90").piston.radial_clearance
 PISTONS = 9

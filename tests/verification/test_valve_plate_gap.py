@@ -21,7 +21,7 @@ from reynolds.floating.rest import held_at
 from reynolds.floating.step import Stage
 from reynolds.numerics.arrays import Array
 from reynolds.solve.solver import FilmSolver
-from system.leakage import valve_plate_conductance
+from system.pump.laws.leakage import valve_plate_conductance
 
 RADII = (26.5e-3, 31.5e-3, 40.5e-3, 45.7e-3)
 PISTONS, PITCH = 9, np.radians(40.0)

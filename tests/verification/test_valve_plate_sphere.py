@@ -35,11 +35,11 @@ from reynolds.floating.step import solve_stage, standing
 from reynolds.laws.contact import Asperities
 from reynolds.solve.loads import loads
 from reynolds.solve.solver import FilmSolver
-from system.faults import InputFaults
-from system.instants import valve_plate_geometry
-from system.lumped import lumped_leaks, piston_motion
-from system.operating import operating_point
-from system.pump_file import check_pump, load_pump
+from system.films.rotor import valve_plate_geometry
+from system.inputs.faults import InputFaults
+from system.pump.lumped import lumped_leaks, piston_motion
+from system.pump.operating import operating_point
+from system.pump_file.file import check_pump, load_pump
 
 RADII, RADIUS = (26.5e-3, 31.5e-3, 40.5e-3, 45.7e-3), 90e-3
 SPHERE, ARC = Sphere(RADIUS), float(np.radians(30.0))

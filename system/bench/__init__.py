@@ -1,0 +1,1 @@
+"""A bench map simulated as a whole, with sensors and uncertain parameters."""

@@ -1,0 +1,1 @@
+"""Calibration: Eq. (21), Hersey curves, held-out comparison, fitted pump as file."""

@@ -1,0 +1,167 @@
+"""The uncertain parameters of a pump, and the pump that given values of them make."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from math import inf
+
+import numpy as np
+from pydantic import BaseModel
+
+from system.description.gap import Gap
+from system.description.pump import FrictionSection, OilSection, PumpDescription
+from system.description.tolerances import Tolerances
+from system.estimation.parameters import Parameter, Role, Scale
+from system.inputs.units import Dimension
+from system.pump.laws.kinematics import stroke, swash_angle_for_stroke
+from system.pump.lumped import full_drive
+
+SLOPE_ABOUT = 323.15
+"""Temperature (K) about which viscosity_slope turns the oil's law: 50 degC."""
+GUIDE, BEARINGS = "ball_guide_retainer", ("front_bearing", "rear_bearing")
+_THICKNESS = {
+    Gap.PISTON: ("piston", "radial_clearance"),
+    Gap.SLIPPER: ("slipper", "film_thickness"),
+    Gap.VALVE_PLATE: ("valve_plate", "film_thickness"),
+}
+
+GROOVE_NAMES = (GROOVE_ADVANCE, GROOVE_AREA) = ("groove_advance", "groove_area")
+GROOVE_SPREAD = (np.radians(0.5), 0.1)
+"""One sigma of how relief grooves are cut: of their beginning (rad), of their throats' area (relative)."""
+
+BASE_NAMES = frozenset(
+    {
+        *(f"film_thickness.{gap.value}" for gap in Gap),
+        *(f"friction.{pair}" for pair in FrictionSection.model_fields),
+        "eccentricity_ratio", "bulk_modulus", "viscosity", "viscosity_slope", "displacement", "dead_volume",
+        "flow_coefficient", "stand_out_share", *GROOVE_NAMES,
+    }
+)  # fmt: skip
+"""Names of all parameters of `base_parameters` and `groove_parameters`."""
+
+
+def base_parameters(pump: PumpDescription, tolerances: Tolerances) -> tuple[Parameter, ...]:
+    """What is uncertain about a pump before anything is found missing, each with its prior about the stated value.
+
+    film_thickness.GAP in m, eccentricity_ratio, friction.PAIR, dead_volume in m3, flow_coefficient, bulk_modulus
+    in Pa; factors on viscosity and displacement; viscosity_slope in 1/K; stand_out_share about 0.5 where not
+    stated. A friction coefficient of 0 stays 0.
+    """
+    return (
+        *(_thickness(pump, gap, tolerances) for gap in Gap),
+        _absolute("eccentricity_ratio", pump.piston.eccentricity_ratio, tolerances.eccentricity_ratio, 0.0, 0.95),
+        *_fluid(pump, tolerances),
+        *_frictions(pump, tolerances),
+        _absolute("displacement", 1.0, tolerances.displacement, 0.5, 1.5),
+        _relative("dead_volume", pump.pump.dead_volume, tolerances.dead_volume, Dimension.VOLUME),
+        _relative("flow_coefficient", pump.ports.flow_coefficient, tolerances.flow_coefficient, None, upper=1.0),
+        _absolute("stand_out_share", _share(pump), tolerances.stand_out_share, 0.0, 1.2),
+    )
+
+
+def groove_parameters() -> tuple[Parameter, ...]:
+    """How the relief grooves ahead of the kidneys are cut: groove_advance in rad sooner, groove_area a factor.
+
+    Steady readings hardly show it: for what has traces.
+    """
+    advance, area = GROOVE_SPREAD
+    return (
+        Parameter(
+            GROOVE_ADVANCE, Role.BASE, Scale.NORMAL, 0.0, advance, -0.1, 0.1, Dimension.ANGLE, "cut of grooves"
+        ),
+        replace(_relative(GROOVE_AREA, 1.0, area, None), source="cut of grooves"),
+    )
+
+
+def pump_with(pump: PumpDescription, values: Mapping[str, float]) -> PumpDescription:
+    """The pump with values of `base_parameters` by name; what is not named stays, other names do not matter.
+
+    displacement moves the swash plate's stop; viscosity and viscosity_slope make the oil's two viscosities nu
+    factor exp(slope (T - 50 degC)) at 40 and 100 degC, between which Walther's law runs.
+    """
+    changed: dict[str, BaseModel] = {}
+    for gap, (section, key) in _THICKNESS.items():
+        _set(changed, pump, section, key, values.get(f"film_thickness.{gap.value}"))
+    _set(changed, pump, "piston", "eccentricity_ratio", values.get("eccentricity_ratio"))
+    _set(changed, pump, "piston", "stand_out_share", values.get("stand_out_share"))
+    for pair in FrictionSection.model_fields:
+        _set(changed, pump, "friction", pair, values.get(f"friction.{pair}"))
+    _set(changed, pump, "pump", "dead_volume", values.get("dead_volume"))
+    factor = values.get("displacement", 1.0)
+    _set(changed, pump, "pump", "swash_angle_max", _swash_angle(pump, factor))
+    if pump.pump.displacement is not None:
+        _set(changed, pump, "pump", "displacement", factor * pump.pump.displacement)
+    _set(changed, pump, "ports", "flow_coefficient", values.get("flow_coefficient"))
+    _set(changed, pump, "oil", "bulk_modulus", values.get("bulk_modulus"))
+    thicker, slope = values.get("viscosity", 1.0), values.get("viscosity_slope", 0.0)
+    for key, kelvin in (("kinematic_viscosity_40C", 313.15), ("kinematic_viscosity_100C", 373.15)):
+        _set(changed, pump, "oil", key, getattr(pump.oil, key) * thicker * np.exp(slope * (kelvin - SLOPE_ABOUT)))
+    return pump.model_copy(update=changed)
+
+
+def _set(
+    changed: dict[str, BaseModel], pump: PumpDescription, section: str, key: str, value: float | None
+) -> None:
+    if value is not None:
+        table: BaseModel = changed.get(section, getattr(pump, section))
+        changed[section] = table.model_copy(update={key: float(value)})
+
+
+def _swash_angle(pump: PumpDescription, factor: float) -> float:
+    """The largest swash angle (rad) at which the full stroke is `factor` times the pump's; a cross angle stays."""
+    full = full_drive(pump)
+    whole = swash_angle_for_stroke(factor * stroke(full), full.pitch_radius, full.bore_cone_angle)
+    cross = np.tan(pump.pump.cross_angle or 0.0)
+    return float(np.arctan(np.sqrt(np.tan(whole) ** 2 - cross**2)))
+
+
+def _share(pump: PumpDescription) -> float:
+    return 0.5 if pump.piston.stand_out_share is None else pump.piston.stand_out_share
+
+
+def _thickness(pump: PumpDescription, gap: Gap, tolerances: Tolerances) -> Parameter:
+    section, key = _THICKNESS[gap]
+    centre = getattr(getattr(pump, section), key)
+    return _relative(f"film_thickness.{gap.value}", centre, tolerances.film_thickness, Dimension.LENGTH)
+
+
+def _fluid(pump: PumpDescription, tolerances: Tolerances) -> tuple[Parameter, ...]:
+    oil: OilSection = pump.oil
+    slope = tolerances.viscosity_slope
+    return (
+        _relative("bulk_modulus", oil.bulk_modulus, tolerances.bulk_modulus, Dimension.MODULUS, Role.FLUID),
+        _relative("viscosity", 1.0, tolerances.viscosity, None, Role.FLUID),
+        Parameter(
+            "viscosity_slope", Role.FLUID, Scale.NORMAL, 0.0, slope, -0.02, 0.015,
+            Dimension.TEMPERATURE_COEFFICIENT, "[tolerance]",
+        ),
+    )  # fmt: skip
+
+
+def _frictions(pump: PumpDescription, tolerances: Tolerances) -> tuple[Parameter, ...]:
+    found = []
+    for pair in FrictionSection.model_fields:
+        spread = tolerances.bearing_friction if pair in BEARINGS else tolerances.friction
+        spread = tolerances.guide_friction if pair == GUIDE else spread
+        if (centre := getattr(pump.friction, pair)) > 0.0:
+            found.append(_relative(f"friction.{pair}", centre, spread, None))
+    return tuple(found)
+
+
+def _relative(
+    name: str,
+    centre: float,
+    spread: float,
+    dimension: Dimension | None,
+    role: Role = Role.BASE,
+    upper: float = inf,
+) -> Parameter:
+    """One of unit logarithm's spread, between a tenth and ten times its centre."""
+    return Parameter(
+        name, role, Scale.LOG, centre, spread, 0.1 * centre, min(10.0 * centre, upper), dimension, "[tolerance]"
+    )
+
+
+def _absolute(name: str, centre: float, spread: float, lower: float, upper: float) -> Parameter:
+    return Parameter(name, Role.BASE, Scale.NORMAL, centre, spread, lower, upper, None, "[tolerance]")

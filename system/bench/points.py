@@ -1,0 +1,40 @@
+"""The steady points of a test bench, as arrays: what a simulator of a whole map is asked for."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from reynolds.numerics.arrays import Array
+from system.description.pump import PumpDescription
+from system.pump.operating import OperatingPoint, operating_point
+
+
+@dataclass(frozen=True)
+class BenchPoints:
+    """N steady points: speed in rad/s, pressures in Pa gauge, temperatures in K, hours run in h; arrays (N,).
+
+    `order` is the place of a point in the sequence in which the points were taken, from 0.
+    """
+
+    speed: Array
+    displacement_ratio: Array
+    p_out: Array
+    p_in: Array
+    p_case: Array
+    T_case: Array
+    T_in: Array
+    hours: Array
+    order: Array
+
+
+def operating_at(pump: PumpDescription, points: BenchPoints, at: int) -> OperatingPoint:
+    """Point number `at` as a pump's operating point, its oil as warm as the case; raises as `operating_point`."""
+    return operating_point(
+        pump,
+        shaft_speed=float(points.speed[at]),
+        delivery_pressure=float(points.p_out[at]),
+        inlet_pressure=float(points.p_in[at]),
+        case_pressure=float(points.p_case[at]),
+        displacement_ratio=float(points.displacement_ratio[at]),
+        temperature=float(points.T_case[at]),
+    )

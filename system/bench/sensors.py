@@ -1,0 +1,166 @@
+"""What sensors make of the truth: a gain, a zero, a drift, a lag; and the settings that a bench believes in."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
+from math import inf
+from typing import Protocol
+
+import numpy as np
+
+from reynolds.numerics.arrays import Array
+from system.bench.points import BenchPoints
+from system.estimation.parameters import Parameter, Role, Scale
+from system.inputs.channels import INPUTS, OUTPUTS, ChannelName
+from system.inputs.units import TURN, Dimension
+
+BIASED_INPUTS = (ChannelName.P_OUT, ChannelName.T_CASE, ChannelName.DISPLACEMENT_RATIO)
+"""Inputs of which a calibration's bias is told apart from others'."""
+CALIBRATION, TAKEN = "calibration of the channel", "not measured, taken"
+FARTHEST = 4.0  # sigma that what is taken may be off
+ENCODER_OFFSET = "encoder_offset"
+CHAMBER_GAIN, CHAMBER_ZERO, CHAMBER_LAG = (
+    f"{ChannelName.P_CHAMBER.value}.{what}" for what in ("gain", "zero", "lag")
+)
+TRACE_NAMES = frozenset({ENCODER_OFFSET, CHAMBER_GAIN, CHAMBER_ZERO, CHAMBER_LAG})
+"""Names of the parameters that change what traces read, and no steady reading."""
+READING_NAMES = frozenset(
+    f"{channel.value}.{what}" for channel in OUTPUTS for what in ("gain", "zero", "drift", "lag")
+)
+"""Names of the parameters that change what is read, not what is there."""
+SENSOR_NAMES = frozenset(
+    {
+        *TRACE_NAMES,
+        *READING_NAMES,
+        *(f"{channel.value}.zero" for channel in INPUTS),
+    }
+)
+"""Names of all parameters of sensors."""
+
+
+class Sensor(Protocol):
+    """A channel with one sigma of its calibration: gain relative, zero in SI."""
+
+    @property
+    def name(self) -> ChannelName: ...
+    @property
+    def gain_sigma(self) -> float: ...
+    @property
+    def zero_sigma(self) -> float: ...
+
+
+def sensor_parameters(sensors: Iterable[Sensor]) -> tuple[Parameter, ...]:
+    """CHANNEL.gain and CHANNEL.zero of every output, CHANNEL.zero of the inputs in BIASED_INPUTS.
+
+    A reading is the truth (1 + gain) + zero. What is known for certain (sigma 0) has no parameter.
+    """
+    found = []
+    for sensor in sensors:
+        if sensor.name in OUTPUTS and sensor.gain_sigma > 0.0:
+            found.append(_bias(sensor.name, "gain", sensor.gain_sigma, None, 0.9))
+        if sensor.name in (*OUTPUTS, *BIASED_INPUTS) and sensor.zero_sigma > 0.0:
+            found.append(_bias(sensor.name, "zero", sensor.zero_sigma, sensor.name.dimension, inf))
+    return tuple(found)
+
+
+def taken_parameter(channel: ChannelName, sigma: float) -> Parameter:
+    """CHANNEL.zero of an input that was not measured: by how much too high it is taken (SI)."""
+    return replace(_bias(channel, "zero", sigma, channel.dimension, FARTHEST * sigma), source=TAKEN)
+
+
+def drift_parameter(channel: ChannelName, sigma: float) -> Parameter:
+    """CHANNEL.drift: what an output reads too much at the last point, growing evenly from the first (SI)."""
+    return _bias(channel, "drift", sigma, channel.dimension, inf)
+
+
+def lag_parameter(channel: ChannelName, sigma: float) -> Parameter:
+    """CHANNEL.lag in s: time constant with which an output follows from the reading at the point before."""
+    return Parameter(
+        f"{channel.value}.lag", Role.SENSOR, Scale.HALF, 0.0, sigma, 0.0, inf, Dimension.TIME, CALIBRATION
+    )
+
+
+def encoder_parameter(sigma: float) -> Parameter:
+    """encoder_offset in rad: what the encoder of traces reads too much."""
+    return Parameter(
+        ENCODER_OFFSET, Role.SENSOR, Scale.NORMAL, 0.0, sigma, -0.2, 0.2, Dimension.ANGLE, CALIBRATION
+    )
+
+
+def transducer_parameters(transducer: Sensor, lag: float) -> tuple[Parameter, ...]:
+    """p_chamber.gain, p_chamber.zero (Pa) and p_chamber.lag (s, one sigma `lag`) of the transducer of traces.
+
+    The lag is that of the bore and line before it, a first-order one. What is known for certain has no parameter.
+    """
+    found = [lag_parameter(transducer.name, lag)]
+    if transducer.gain_sigma > 0.0:
+        found.append(_bias(transducer.name, "gain", transducer.gain_sigma, None, 0.9))
+    if transducer.zero_sigma > 0.0:
+        found.append(_bias(transducer.name, "zero", transducer.zero_sigma, transducer.name.dimension, inf))
+    return tuple(found)
+
+
+def read_turns(pressure: Array, speed: Array, angles: Array, values: Mapping[str, float]) -> Array:
+    """Chamber pressure (N, K) in Pa gauge as read at shaft angles (K,) rad, of turns (N, M) at even angles from 0.
+
+    speed (N,), rad/s. By the values of TRACE_NAMES: the encoder reads its offset too much; what the transducer
+    follows with its lag tau is the turn's k-th harmonic over 1 + i k omega tau.
+    """
+    samples = pressure.shape[1]
+    lag = values.get(CHAMBER_LAG, 0.0)
+    if lag > 0.0:
+        order = np.arange(samples // 2 + 1)
+        late = np.fft.rfft(pressure, axis=1) / (1.0 + 1j * order * np.reshape(speed, (-1, 1)) * lag)
+        pressure = np.fft.irfft(late, samples, axis=1)
+    place = (angles - values.get(ENCODER_OFFSET, 0.0)) % TURN
+    grid = TURN * np.arange(samples) / samples
+    there = np.stack([np.interp(place, grid, one, period=TURN) for one in pressure])
+    return np.asarray(there * (1.0 + values.get(CHAMBER_GAIN, 0.0)) + values.get(CHAMBER_ZERO, 0.0))
+
+
+def actual(points: BenchPoints, values: Mapping[str, float]) -> BenchPoints:
+    """The points as they were, by their readings less the inputs' zeros."""
+    changed = {}
+    for channel in INPUTS:
+        zero = values.get(f"{channel.value}.zero", 0.0)
+        if zero != 0.0:
+            changed[channel.value] = getattr(points, channel.value) - zero
+    return replace(points, **changed)
+
+
+def read(truth: Array, channels: Sequence[ChannelName], points: BenchPoints, values: Mapping[str, float]) -> Array:
+    """Readings (N, C) of the truth (N, C), both in SI, with the sensors' values by name."""
+    found = truth.copy()
+    progress = _progress(points)
+    for column, channel in enumerate(channels):
+        gain, zero, drift = (values.get(f"{channel.value}.{what}", 0.0) for what in ("gain", "zero", "drift"))
+        found[:, column] = found[:, column] * (1.0 + gain) + zero + drift * progress
+        lag = values.get(f"{channel.value}.lag", 0.0)
+        if lag > 0.0:
+            found[:, column] = _lagging(found[:, column], points, lag)
+    return found
+
+
+def _bias(channel: ChannelName, what: str, sigma: float, dimension: Dimension | None, bound: float) -> Parameter:
+    name = f"{channel.value}.{what}"
+    return Parameter(name, Role.SENSOR, Scale.NORMAL, 0.0, sigma, -bound, bound, dimension, CALIBRATION)
+
+
+def _progress(points: BenchPoints) -> Array:
+    """From 0 at the first point taken to 1 at the last: by the hours where they are known, else by the order."""
+    time = points.hours if np.all(np.isfinite(points.hours)) and np.ptp(points.hours) > 0.0 else points.order
+    span = np.ptp(time)
+    return np.asarray((time - np.min(time)) / span) if span > 0.0 else np.zeros(len(time))
+
+
+def _lagging(reading: Array, points: BenchPoints, lag: float) -> Array:
+    """Readings that have come only part of the way from those at the point before, exp(-t/lag) being left."""
+    sequence = np.argsort(points.order, kind="stable")
+    ordered, hours = reading[sequence], points.hours[sequence]
+    left = np.exp(-3600.0 * np.diff(hours) / lag)
+    late = ordered.copy()
+    late[1:] -= np.diff(ordered) * left
+    found = np.empty_like(reading)
+    found[sequence] = late
+    return found

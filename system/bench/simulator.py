@@ -1,0 +1,276 @@
+"""A bench map simulated by the lumped fidelity, all points at once: a `Simulator` of parameters with priors."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+from functools import reduce
+from hashlib import blake2b
+
+import numpy as np
+
+from reynolds.errors import FilmInputError
+from reynolds.numerics.arrays import Array
+from system.bench.chamber_map import Courses, beside, other_gaps, solve_map
+from system.bench.components import WARMER, components
+from system.bench.outputs import SIMULATED, Affected, Solved, truth
+from system.bench.parameters import BASE_NAMES
+from system.bench.points import BenchPoints
+from system.bench.sensors import READING_NAMES, SENSOR_NAMES, TRACE_NAMES, read, read_turns
+from system.bench.setting import Setting, affected, setting
+from system.description.pump import PumpDescription
+from system.effects.components import Component
+from system.effects.effect import both
+from system.effects.extension import Extension
+from system.effects.gap_states import bench_state, gap_courses
+from system.effects.switched import stated_effects, stated_laws
+from system.estimation.parameters import Parameter, Scale
+from system.inputs.channels import INPUTS, ChannelName
+from system.inputs.errors import NotConverged
+from system.pump.chamber_kinds import kinds
+from system.pump.lumped import lumped_pairs
+
+SAMPLES_PER_PITCH = 10
+"""Shaft angles a piston pitch: torque within .07 sigma of a class A bench, flows within 5e-4."""
+TOLERANCE = 1e-5
+TRACE_SAMPLES_PER_PITCH = 80
+STEP = 0.03
+"""Of slopes by difference, in spreads of the parameter."""
+LOG_STEP = 0.01
+"""The largest, of the value, on a logarithmic scale: leakage goes with the cube of a film."""
+KEPT = 8
+"""Courses of a map that are remembered, the last ones."""
+INPUT_STEPS = {
+    ChannelName.SPEED: 1.0,
+    ChannelName.DISPLACEMENT_RATIO: -2e-3,
+    ChannelName.P_OUT: 1e5,
+    ChannelName.P_IN: 2e4,
+    ChannelName.P_CASE: 1e4,
+    ChannelName.T_IN: 1.0,
+    ChannelName.T_CASE: 0.2,
+}
+"""Steps of slopes by input, SI: some ten times what a sensor is good to."""
+
+
+class LumpedBench:
+    """The readings of a bench at N points, by the lumped fidelity; a `system.estimation.simulator.Simulator`.
+
+    channels: the C outputs of SIMULATED that are read, inputs: the M measured inputs, both in the order of the
+    observations. Parameters: of `base_parameters`, `sensor_parameters` and those of the extensions in `physics`,
+    which join where they are not among them; what none of them names is as the pump states it, its own
+    [physics] too. Ports are held at their mean pressures: lines behind them and their ripple are left out. Raises
+    FilmInputError for a channel it does not know, a parameter that is none of these, chambers that differ, and
+    points at which the oil's law is void.
+    """
+
+    def __init__(
+        self,
+        pump: PumpDescription,
+        points: BenchPoints,
+        channels: tuple[ChannelName, ...],
+        parameters: tuple[Parameter, ...],
+        physics: tuple[Extension, ...] = (),
+        inputs: tuple[ChannelName, ...] = INPUTS,
+        samples_per_pitch: int = SAMPLES_PER_PITCH,
+        tolerance: float = TOLERANCE,
+    ) -> None:
+        for channel in channels:
+            if channel not in SIMULATED:
+                names = ", ".join(known.value for known in SIMULATED)
+                raise FilmInputError("bench.channels", channel.value, f"one of {names}")
+        if not kinds(pump).alike:
+            raise FilmInputError("bench.pump", "single pistons or slippers", "chambers that are alike")
+        self.pump, self.points, self.channels, self.inputs = pump, points, channels, inputs
+        self.physics, self.samples_per_pitch, self.tolerance = physics, samples_per_pitch, tolerance
+        own = {parameter.name for parameter in parameters}
+        joining = [one for law in physics for one in law.free if one.name not in own]
+        self._parameters = (*parameters, *joining)
+        _hold_known(self._parameters, physics)
+        self._columns = [SIMULATED.index(channel) for channel in channels]
+        setting(pump, points, {}, samples_per_pitch)
+        self._kept: dict[bytes, Courses] = {}
+        self._stated = stated_laws(pump)
+
+    def __getstate__(self) -> dict[str, object]:
+        """What another process needs: all but the courses that are remembered."""
+        return {**vars(self), "_kept": {}}
+
+    @property
+    def parameters(self) -> tuple[Parameter, ...]:
+        """All parameters with their priors; the order of every vector of values."""
+        return self._parameters
+
+    def predict(self, values: Array) -> Array:
+        """Readings (N, C) in SI at the values (k,). Raises NotConverged."""
+        return self._read(self.solved(values), values, self.points)
+
+    def difference(self, values: Array, other: Array) -> Array:
+        """Readings (N, C) at `other` values less those at `values`, by `other_gaps` where gaps alone differ.
+
+        Friction and sensors are exact; leakage is good to 0.5 % of its change, what it takes from the ports to
+        some 8 %. Chambers that differ in anything else are solved `beside` those at `values`.
+        """
+        solved = self.solved(values)
+        near = self._near(solved, other, self.points)
+        return self._read(near, other, self.points) - self._read(solved, values, self.points)
+
+    def slopes(self, values: Array, names: tuple[str, ...]) -> Array:
+        """d readings / d value of the named parameters, (N, C, len(names)), by `difference` over STEP spreads."""
+        solved, columns = self.solved(values), []
+        before = self._read(solved, values, self.points)
+        for name in names:
+            index = [parameter.name for parameter in self.parameters].index(name)
+            step = self.step_of(name, values)
+            moved = np.array(values, dtype=float)
+            moved[index] += step
+            near = solved if name in READING_NAMES | TRACE_NAMES else self._near(solved, moved, self.points)
+            columns.append((self._read(near, moved, self.points) - before) / step)
+        return np.stack(columns, axis=-1) if columns else np.zeros((*self._shape, 0))
+
+    def input_slopes(self, values: Array) -> Array:
+        """d readings / d input, (N, C, M), in SI per SI."""
+        solved, columns = self.solved(values), []
+        before = self._read(solved, values, self.points)
+        for channel in self.inputs:
+            step = INPUT_STEPS[channel]
+            moved = replace(self.points, **{channel.value: getattr(self.points, channel.value) + step})
+            near = self._near(solved, values, moved)
+            columns.append((self._read(near, values, moved) - before) / step)
+        return np.stack(columns, axis=-1) if columns else np.zeros((*self._shape, 0))
+
+    def with_parameters(self, parameters: tuple[Parameter, ...]) -> LumpedBench:
+        """The same bench with these parameters: replaced where a name is there already, added where not."""
+        return self._with(parameters, self.physics)
+
+    def with_extensions(self, extensions: tuple[Extension, ...]) -> LumpedBench:
+        """The same bench with these laws, each of its own parameters, beside those it has."""
+        joining = tuple(parameter for extension in extensions for parameter in extension.free)
+        return self._with(joining, (*self.physics, *extensions))
+
+    def elsewhere(self, points: BenchPoints) -> LumpedBench:
+        """The same pump with the same parameters and laws at other points."""
+        return LumpedBench(
+            self.pump, points, self.channels, self.parameters, self.physics, self.inputs, self.samples_per_pitch,
+            self.tolerance,
+        )  # fmt: skip
+
+    def traces(self, values: Array, points: tuple[int, ...], angles: Array) -> Array:
+        """Chamber pressure (len(points), K) in Pa gauge at shaft angles (K,) rad, as `turns` of a finer bench."""
+        return self.finely(points).turns(values, angles)
+
+    def finely(self, points: tuple[int, ...]) -> LumpedBench:
+        """The same bench at some of its points, with as many shaft angles as a trace asks for."""
+        chosen = list(points)
+        some = replace(self.points, **{name: getattr(self.points, name)[chosen] for name in vars(self.points)})
+        return LumpedBench(
+            self.pump, some, self.channels, self.parameters, self.physics, self.inputs, TRACE_SAMPLES_PER_PITCH,
+            self.tolerance,
+        )  # fmt: skip
+
+    def turns(self, values: Array, angles: Array) -> Array:
+        """Chamber pressure (N, K) in Pa gauge at shaft angles (K,) rad, as encoder and transducer read it."""
+        pressure = self.solved(values).courses.pressure
+        return read_turns(pressure, self.points.speed, angles, self._named(values))
+
+    def courses(self, values: Array) -> Courses:
+        """Chamber pressure over the turn at all points, and the totals of a turn."""
+        return self.solved(values).courses
+
+    def solved(self, values: Array) -> Solved:
+        """The map at the values (k,): what readings, components and traces come from."""
+        plain = self._setting(values, self.points)
+        return self._complete(plain, self._solve(plain), values, self._solve)
+
+    def components(self, values: Array) -> Mapping[Component, Array]:
+        """What each component of the pump's balance adds to the readings (N, C), SI (`bench_components`)."""
+        solved = self.solved(values)
+        warm = replace(self.points, T_case=self.points.T_case + WARMER)
+        return components(solved, self._near(solved, values, warm), self.channels)
+
+    def _named(self, values: Array) -> dict[str, float]:
+        return {parameter.name: float(value) for parameter, value in zip(self.parameters, values, strict=True)}
+
+    @property
+    def _shape(self) -> tuple[int, int]:
+        return len(self.points.speed), len(self.channels)
+
+    def _setting(self, values: Array, points: BenchPoints) -> Setting:
+        """The pump at the points; values of which no pump can be made are a step too far of a fit."""
+        try:
+            return setting(self.pump, points, self._named(values), self.samples_per_pitch)
+        except ValueError as void:
+            raise NotConverged(f"bench map: no pump has these values: {void}") from void
+
+    def _solve(self, at: Setting) -> Courses:
+        """The courses of a setting, remembered by all that they hang on."""
+        key = blake2b(at.problem.key).digest()
+        if key not in self._kept:
+            self._kept[key] = solve_map(self.pump, at.problem, self.tolerance)
+            for oldest in list(self._kept)[:-KEPT]:
+                del self._kept[oldest]
+        return self._kept[key]
+
+    def _near(self, solved: Solved, values: Array, points: BenchPoints) -> Solved:
+        """A map beside a solved one: its chambers along the steps of that, or at its pressures."""
+        plain = self._setting(values, points)
+        courses = self._moved(solved.plain, solved.plain_courses, plain)
+        return self._complete(
+            plain, courses, values, lambda changed: self._moved(solved.setting, solved.courses, changed)
+        )
+
+    def _moved(self, before: Setting, courses: Courses, after: Setting) -> Courses:
+        if before.problem.differs_in_gaps_alone(after.problem):
+            return other_gaps(courses, before.problem, after.problem)
+        if before.problem.has_ports_of(after.problem):
+            return beside(self.pump, courses, after.problem, self.tolerance)
+        return self._solve(after)
+
+    def _complete(
+        self, plain: Setting, courses: Courses, values: Array, solve: Callable[[Setting], Courses]
+    ) -> Solved:
+        """Laws at the pressures of chambers without them, then chambers with them: leakage moves these little."""
+        if not (self.physics or plain.pump.physics.on):
+            return Solved(plain, courses, plain, courses, None)
+        found = lumped_pairs(plain.pump, plain.point, plain.motion, courses)
+        gaps = gap_courses(plain.pump, plain.point, plain.motion, courses, found)
+        state = bench_state(plain.pump, plain.point, self.points.hours)
+        named = self._named(values)
+        stated = stated_effects(self._stated, gaps, state)
+        effects = reduce(both, (law.effects(named, gaps, state) for law in self.physics), stated)
+        changed = affected(plain, effects)
+        return Solved(plain, courses, changed, solve(changed), Affected(effects, state))
+
+    def _read(self, solved: Solved, values: Array, points: BenchPoints) -> Array:
+        found = truth(solved)[:, self._columns]
+        return read(found, self.channels, points, self._named(values))
+
+    def step_of(self, name: str, values: Array) -> float:
+        """The step in SI by which a slope of the named parameter is taken, away from its nearer bound."""
+        index = [parameter.name for parameter in self.parameters].index(name)
+        parameter, value = self.parameters[index], float(values[index])
+        step = STEP * parameter.stretch(parameter.standard(value))
+        if parameter.scale is Scale.LOG:
+            step = min(step, LOG_STEP * value)
+        return -step if value + step > parameter.upper else step
+
+    def _with(self, parameters: tuple[Parameter, ...], physics: tuple[Extension, ...]) -> LumpedBench:
+        new = {parameter.name: parameter for parameter in parameters}
+        own = tuple(new.pop(parameter.name, parameter) for parameter in self.parameters)
+        bench = LumpedBench(
+            self.pump, self.points, self.channels, (*own, *new.values()), physics, self.inputs,
+            self.samples_per_pitch, self.tolerance,
+        )  # fmt: skip
+        bench._kept = self._kept
+        return bench
+
+
+def _hold_known(parameters: tuple[Parameter, ...], physics: tuple[Extension, ...]) -> None:
+    """Raise FilmInputError for a parameter that nothing listens to."""
+    laws = {parameter.name for law in physics for parameter in law.free}
+    for parameter in parameters:
+        if parameter.name not in BASE_NAMES | laws | SENSOR_NAMES:
+            raise FilmInputError(
+                "bench.parameters",
+                parameter.name,
+                "a parameter of the pump, of its sensors or of a law switched on",
+            )

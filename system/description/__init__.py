@@ -1,0 +1,1 @@
+"""The pump as its file describes it."""

@@ -1,0 +1,198 @@
+"""Tables of the pump description that floating gaps need: the parts' shapes, surfaces, materials and holds.
+
+Every key may be left out; `system.films.parts` says what is then taken, and why.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import math
+from enum import Enum
+from typing import Annotated
+
+from pydantic import Field, computed_field
+
+from system.inputs.fields import (
+    Angle,
+    AnyLength,
+    Area,
+    ArealDensity,
+    Coefficient,
+    Conductivity,
+    Damping,
+    Density,
+    Elasticity,
+    Expansion,
+    FaceName,
+    FaceNames,
+    Inertia,
+    Length,
+    MeshFile,
+    Profile,
+    Section,
+    Stiffness,
+    Torque,
+)
+from system.inputs.units import Dimension
+
+
+class ReliefSection(Section):
+    """An edge taken back: by `depth` at the edge, falling to nothing at `width` from it as a parabola."""
+
+    width: Length
+    depth: Length
+
+
+class WavinessSection(Section):
+    """[valve_plate.waviness]: the plate's face rises and falls by `amplitude` around the shaft."""
+
+    waves: Annotated[int, Field(ge=1, le=99)]
+    amplitude: Length
+
+
+class PadSection(Section):
+    """[[valve_plate.pads]]: a run of outer bearing pads, evenly spaced, the first about the inner dead centre."""
+
+    inner: Length
+    outer: Length
+    arc: Annotated[float, Dimension.ANGLE, Field(gt=0.0, le=2.0 * math.pi * (1.0 + 1e-12))]
+    number: Annotated[int, Field(ge=1, le=99)]
+
+
+class MeshUnit(Enum):
+    """What a coordinate of one means in a mesh file."""
+
+    METRE = "m"
+    CENTIMETRE = "cm"
+    MILLIMETRE = "mm"
+    MICROMETRE = "um"
+    INCH = "in"
+
+    @property
+    def metres(self) -> float:
+        """Length of the unit, m."""
+        return {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "um": 1e-6, "in": 25.4e-3}[self.value]
+
+
+class BodySection(Section):
+    """[PART.body]: a mesh of one's own in place of the body that is made from the part's sizes.
+
+    A name left out is the face of the mesh that has the key's own name, if it has one.
+    """
+
+    mesh: MeshFile
+    unit: MeshUnit
+    film: FaceName | None = None  # under the film
+    held: FaceNames | None = None  # held fast
+    sliding: FaceNames | None = None  # held across, free along
+    chamber: FaceName | None = None  # where the chamber presses on piston or bore beside the film
+    pocket: FaceName | None = None  # where a slipper's pocket presses on slipper or swash plate
+
+    @computed_field  # type: ignore[prop-decorator]
+    @property
+    def content(self) -> str:
+        """A name for what the file holds, part of the table's repr: a mesh that has changed is another."""
+        return hashlib.sha256(self.mesh.read_bytes()).hexdigest() if self.mesh.is_file() else "absent"
+
+
+class BoreSection(Section):
+    """[bore]: the bore's own shape."""
+
+    profile: Profile | None = None  # from the case edge inwards
+    edge_relief: ReliefSection | None = None  # of the guide's case edge
+    wall: Length | None = None  # of the bore, to the middle of the web
+    body: BodySection | None = None
+
+
+class SwashPlateSection(Section):
+    """[swash_plate]: what the slippers slide on, and what tilts."""
+
+    thickness: Length | None = None
+    inertia: Inertia | None = None  # about the tilt axis, with all that tilts
+    pivot_offset: AnyLength | None = None  # of the tilt axis from the shaft's, to the inner dead centre
+    angle_min: Angle | None = None  # of the lower stop; the upper one is at [pump] swash_angle_max
+    damping: Damping | None = None
+    trunnion_friction: Torque | None = None
+    body: BodySection | None = None  # of what lies under one slipper
+
+
+class GrooveShape(Enum):
+    """Section of a relief groove: triangular, cut by a round tool, or known by its throat's area alone."""
+
+    V = "v"
+    ROUND = "round"
+    AREA = "area"
+
+
+class GrooveSection(Section):
+    """[[ports.grooves]]: a relief groove between two angles, ahead of the port's kidney or behind it."""
+
+    start: Angle
+    end: Angle
+    shape: GrooveShape
+    depth: Length | None = None  # at the kidney
+    angle: Annotated[float, Dimension.ANGLE, Field(gt=0.0, lt=math.pi)] | None = None  # between the flanks of a V
+    width: Length | None = None  # of the round tool
+    area: Area | None = None  # of the throat at the kidney
+
+
+class Stroking(Enum):
+    """Which way the actuator's pressure tilts the swash plate: to larger displacement, or to smaller."""
+
+    UP = "up"
+    DOWN = "down"
+
+
+class RetainerKind(Enum):
+    """How slippers are kept on the swash plate: pressed by the spring, or by a plate at a fixed clearance."""
+
+    SPRING = "spring"
+    CLEARANCE = "clearance"
+
+
+class RetainerSection(Section):
+    """[retainer]: what holds the slippers down."""
+
+    kind: RetainerKind | None = None
+    clearance: Length | None = None  # film at which the retainer is reached
+    stiffness: Stiffness | None = None  # beyond it, a slipper
+
+
+class MaterialSection(Section):
+    """[materials.PART]: what a part is made of."""
+
+    youngs_modulus: Elasticity
+    poissons_ratio: Annotated[float, Field(gt=-1.0, lt=0.5)]
+    density: Density | None = None
+    thermal_conductivity: Conductivity | None = None
+    thermal_expansion: Expansion | None = None
+
+
+class MaterialsSection(Section):
+    """[materials]: the six parts that meet in the three gaps."""
+
+    piston: MaterialSection | None = None
+    bushing: MaterialSection | None = None
+    slipper: MaterialSection | None = None
+    swash_plate: MaterialSection | None = None
+    block: MaterialSection | None = None
+    valve_plate: MaterialSection | None = None
+
+
+class SurfaceSection(Section):
+    """[surfaces.PAIR]: both faces of a gap together, as `reynolds.laws.roughness` and `reynolds.laws.contact` take
+    them.
+    """
+
+    composite_roughness: Length | None = None
+    asperity_density: ArealDensity | None = None
+    asperity_radius: Length | None = None
+    friction_coefficient: Coefficient | None = None  # of the boundary layer
+
+
+class SurfacesSection(Section):
+    """[surfaces]: the three gaps by the names of their friction pairs."""
+
+    piston_cylinder: SurfaceSection | None = None
+    slipper_swash_plate: SurfaceSection | None = None
+    valve_plate_cylinder: SurfaceSection | None = None

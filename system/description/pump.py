@@ -1,0 +1,435 @@
+"""The pump description, format 1: what a pump file says, in SI floats.
+
+Lengths in m, angles in rad, speeds in rad/s, pressures in Pa gauge (atmosphere = 0), temperatures in K.
+`system.pump_file.file` reads and writes it; `system.pump_file.check` holds it to geometry.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Annotated
+
+from pydantic import Field, computed_field
+
+from gaps.shapes.bearing_pads import BearingPads
+from gaps.shapes.slipper_lands import SlipperLands, lands_between
+from reynolds.fem.sphere import PLANE, Sphere
+from reynolds.laws.oil import Oil
+from system.description.effects import PhysicsSection
+from system.description.lines import LineSection
+from system.description.parts import (
+    BodySection,
+    BoreSection,
+    GrooveSection,
+    GrooveShape,
+    MaterialsSection,
+    PadSection,
+    ReliefSection,
+    RetainerSection,
+    Stroking,
+    SurfacesSection,
+    SwashPlateSection,
+    WavinessSection,
+)
+from system.description.tolerance import ToleranceSection
+from system.inputs.fields import (
+    AcuteAngle,
+    Angle,
+    AngularSpeed,
+    AnyLength,
+    Area,
+    Coefficient,
+    CoefficientFile,
+    Conductivity,
+    Density,
+    Displacement,
+    Expansion,
+    Force,
+    Fraction,
+    Grooves,
+    KinematicViscosity,
+    Leakage,
+    Length,
+    Mass,
+    Modulus,
+    NotNegative,
+    Positive,
+    Pressure,
+    PressureCoefficient,
+    Profile,
+    Section,
+    SlipperGrooves,
+    SpecificHeat,
+    Stiffness,
+    Temperature,
+    Volume,
+    Webs,
+    files_content,
+    table_of,
+    tables_of,
+)
+from system.inputs.units import Dimension
+
+FORMAT = 1
+
+
+class PumpSection(Section):
+    """[pump]: the rotating group as a whole."""
+
+    pistons: int = Field(ge=3, le=99)
+    displacement: Displacement | None = None  # checked against the geometry, Eq. (6)
+    swash_angle_max: AcuteAngle
+    cross_angle: Annotated[float, Dimension.ANGLE, Field(gt=-math.pi / 4, lt=math.pi / 4)] | None = None
+    bore_cone_angle: Annotated[float, Dimension.ANGLE, Field(ge=0.0, lt=math.pi / 2)]
+    piston_diameter: Length
+    pitch_radius: Length  # of the ball centres at zero swash angle
+    dead_volume: Volume  # of one chamber at inner dead centre and full swash angle
+    rated_speed: AngularSpeed
+    rated_pressure: Annotated[float, Dimension.PRESSURE, Positive]
+
+
+class PistonSection(Section):
+    """[piston]: one piston in its bore; lengths at inner dead centre and full swash angle."""
+
+    radial_clearance: Length
+    engaged_length: Length
+    overhang: Annotated[float, Dimension.LENGTH, NotNegative]  # ball centre to bore edge
+    eccentricity_ratio: Annotated[float, Field(ge=0.0, lt=1.0)]  # given; used where no balance is
+    mass: Mass
+    spin_ratio: float | None = None  # spin relative to the block / shaft speed
+    stand_out_share: Annotated[float, Field(ge=0.0, le=1.2)] | None = None  # of (H_max - H)/2 at part stroke
+    guide_length: Length | None = None  # of the land in the bore, from the case edge inwards
+    centre_of_mass: Length | None = None  # from the ball centre into the bore
+    profile: Profile | None = None  # from the chamber's end
+    barrel: Length | None = None  # fall of a crowned piston from its middle to its ends
+    edge_relief: ReliefSection | None = None  # at the chamber's end
+    grooves: Grooves | None = None  # rings; places from the chamber's end
+    bore_diameter: Annotated[float, Dimension.LENGTH, NotNegative] | None = None  # of a hollow piston
+    body: BodySection | None = None
+
+
+class SlipperSection(Section):
+    """[slipper]: one slipper; film thickness and tilts are the given ones, used where no balance is."""
+
+    land_inner_radius: Length
+    land_outer_radius: Length
+    orifice_diameter: Length
+    orifice_length: Length
+    film_thickness: Length
+    mass: Mass
+    centre_of_mass_to_ball: Annotated[float, Dimension.LENGTH, NotNegative]
+    ball_joint_radius: Length
+    spin_ratio: float | None = None  # spin about its own axis / shaft speed
+    tilt_radial: Angle
+    tilt_tangential: Angle
+    ball_height: Length | None = None  # of the ball centre above the sliding face
+    orifice_flow_coefficient: Annotated[float, Field(gt=0.0, le=1.0)] | None = None  # of entry and exit
+    orifice_file: CoefficientFile | None = None  # flow coefficients of the whole bore
+    pocket_file: CoefficientFile | None = None  # losses of steps, at the edges of pocket, lands and rim
+    groove_file: CoefficientFile | None = None  # losses of grooves, of those in the land
+    profile: Profile | None = None  # over the radius
+    crown: AnyLength | None = None  # of the face over its outer radius; negative: dished
+    rim_relief: ReliefSection | None = None  # at the outer radius
+    grooves: SlipperGrooves | None = None  # closed rings in the land
+    vented_grooves: SlipperGrooves | None = None  # rings open to the case
+    flange_thickness: Length | None = None
+    socket_radius: Length | None = None  # up to which the ball holds the flange
+    body: BodySection | None = None
+
+    @computed_field  # type: ignore[prop-decorator]
+    @property
+    def coefficient_content(self) -> str:
+        """A name for what its files of coefficients hold, part of the table's repr."""
+        return files_content((self.orifice_file, self.pocket_file, self.groove_file))
+
+    @property
+    def lands(self) -> SlipperLands:
+        """The sealing lands that the grooves leave; raises FilmInputError for grooves that do not lie apart."""
+        grooves, vented = self.grooves or (), self.vented_grooves or ()
+        return lands_between(self.land_inner_radius, self.land_outer_radius, grooves, vented)
+
+
+class ValvePlateSection(Section):
+    """[valve_plate]: sealing lands 1 .. 2 and 3 .. 4 (inner and outer), the block's kidneys between them."""
+
+    land_radius_1: Length
+    land_radius_2: Length
+    land_radius_3: Length
+    land_radius_4: Length
+    kidney_pitch_radius: Length
+    kidney_width: Length
+    kidney_arc: Annotated[float, Dimension.ANGLE, Positive]  # over all, rounded ends included
+    film_thickness: Length
+    tilt_x: Angle
+    tilt_y: Angle
+    residual_clamping: Coefficient  # fraction of the pressure force
+    kidney_file: CoefficientFile | None = None  # losses of steps, at the edges of the lands
+    thickness: Length | None = None
+    waviness: WavinessSection | None = None
+    profile: Profile | None = None  # over the radius
+    pads: tuple[PadSection, ...] = ()  # beyond the outer land
+    sphere_radius: Length | None = None  # of a face that bulges into a hollow block; radii are then off the axis
+    body: BodySection | None = None
+
+    @computed_field  # type: ignore[prop-decorator]
+    @property
+    def coefficient_content(self) -> str:
+        """A name for what its file of coefficients holds, part of the table's repr."""
+        return files_content((self.kidney_file,))
+
+    @property
+    def sphere(self) -> Sphere:
+        """The face, a plane where no radius is stated."""
+        return PLANE if self.sphere_radius is None else Sphere(self.sphere_radius)
+
+    @property
+    def bearing_pads(self) -> tuple[BearingPads, ...]:
+        """The pads as films take them; raises FilmInputError for those that run into each other."""
+        return tuple(BearingPads(pad.inner, pad.outer, pad.arc, pad.number) for pad in self.pads)
+
+    @property
+    def outer_radius(self) -> float:
+        """Outermost radius that bears, m."""
+        return max([self.land_radius_4, *(pad.outer for pad in self.pads)])
+
+
+class DeliverySection(Section):
+    """[ports.delivery]: what the delivery port has in place of [ports], angles from its own dead centre."""
+
+    groove_start: Angle | None = None
+    groove_end: Angle | None = None
+    groove_area: Area | None = None
+    kidney_full_start: Angle | None = None
+    kidney_full_end: Angle | None = None
+    kidney_end: Angle | None = None
+    kidney_area: Area | None = None
+    coefficient_file: CoefficientFile | None = None
+    grooves: tuple[GrooveSection, ...] = ()
+    webs: Webs | None = None
+
+
+_ONE_GROOVE = ("groove_start", "groove_area")
+
+
+class PortsSection(Section):
+    """[ports]: opening of either port over the angle from its own dead centre."""
+
+    groove_start: Angle | None = None  # with groove_area: one groove of that area
+    groove_end: Angle  # the kidney begins to open
+    groove_area: Area | None = None
+    kidney_full_start: Angle
+    kidney_full_end: Angle
+    kidney_end: Angle
+    kidney_area: Area
+    flow_coefficient: Annotated[float, Field(gt=0.0, le=1.0)]
+    critical_reynolds: Annotated[float, Positive]  # laminar-turbulent transition of the orifice law
+    coefficient_file: CoefficientFile | None = None  # over opening and Reynolds number; the two above scale it
+    grooves: tuple[GrooveSection, ...] = ()  # in place of groove_start and groove_area
+
+    webs: Webs | None = None  # that part the port into several kidneys
+    delivery: DeliverySection | None = None  # what differs there
+
+    @property
+    def sides(self) -> tuple[PortsSection, PortsSection]:
+        """The ports of suction and delivery side, each as if both were it.
+
+        Grooves of the one way of stating them take the place of those of the other.
+        """
+        if self.delivery is None:
+            return self, self
+        stated = {key: getattr(self.delivery, key) for key in DeliverySection.model_fields}
+        own = {key: value for key, value in stated.items() if value not in (None, ())}
+        if "grooves" in own:
+            own = dict.fromkeys(_ONE_GROOVE) | own
+        elif own.keys() & set(_ONE_GROOVE):
+            own |= {"grooves": ()}
+        bare = self.model_copy(update={"delivery": None})
+        return bare, bare.model_copy(update=own)
+
+    @property
+    def coefficient_files(self) -> tuple[Path, ...]:
+        """Those of [ports] and of the delivery port, each once."""
+        stated = (self.coefficient_file, self.delivery.coefficient_file if self.delivery else None)
+        return tuple(dict.fromkeys(path for path in stated if path is not None))
+
+    @computed_field  # type: ignore[prop-decorator]
+    @property
+    def coefficient_content(self) -> str:
+        """A name for what these files hold, part of the table's repr: a file that has changed is another."""
+        return files_content(self.coefficient_files)
+
+    @property
+    def web_spans(self) -> tuple[tuple[float, float], ...]:
+        """From and to (rad, from the port's own dead centre) of each web."""
+        return tuple((middle - 0.5 * width, middle + 0.5 * width) for middle, width in self.webs or ())
+
+    @property
+    def relief_grooves(self) -> tuple[GrooveSection, ...]:
+        """All grooves, [ports] groove_start and groove_area being one of a known area."""
+        if self.groove_start is None or self.groove_area is None:
+            return self.grooves
+        own = GrooveSection(
+            start=self.groove_start, end=self.groove_end, shape=GrooveShape.AREA, area=self.groove_area
+        )
+        return (own, *self.grooves)
+
+
+class BallGuideSection(Section):
+    """[ball_guide]: the ball guide under its spring, F = stiffness (compression + displacement), Eq. (13)."""
+
+    radius: Length
+    contact_latitude: AcuteAngle
+    spring_preload: Force  # at zero relative displacement
+    spring_stiffness: Stiffness
+    spring_compression: Annotated[float, Dimension.LENGTH, NotNegative]  # relative displacement
+
+
+class BlockSection(Section):
+    """[block]: the cylinder block."""
+
+    mass: Mass
+    spline_position: AnyLength | None = None  # above the valve plate: where the shaft holds the block sideways
+    end_thickness: Length | None = None  # between the bores and the face on the valve plate
+    body: BodySection | None = None
+
+
+class BearingsSection(Section):
+    """[bearings]: mean diameters, and the share of the side force that each bearing takes."""
+
+    front_diameter: Length
+    rear_diameter: Length
+    front_share: Fraction
+    rear_share: Fraction
+    front_position: AnyLength | None = None  # above the valve plate, of the bearings' middles
+    rear_position: AnyLength | None = None
+
+
+class ActuatorSection(Section):
+    """[actuator]: the piston that tilts the swash plate, and the spring against it."""
+
+    strokes: Stroking | None = None
+    area: Area | None = None
+    arm: Length | None = None  # from the tilt axis
+    dead_volume: Volume | None = None  # at its innermost place
+    orifice_area: Area | None = None  # between control pressure and actuator
+    leakage: Leakage | None = None  # to the case
+    spring_rate: Stiffness | None = None
+    spring_preload: Force | None = None  # at the actuator's innermost place
+
+
+class FrictionSection(Section):
+    """[friction]: Coulomb coefficient of each of the seven friction pairs."""
+
+    piston_cylinder: Coefficient
+    piston_slipper_socket: Coefficient
+    slipper_swash_plate: Coefficient
+    valve_plate_cylinder: Coefficient
+    ball_guide_retainer: Coefficient
+    front_bearing: Coefficient
+    rear_bearing: Coefficient
+
+
+class OilSection(Section):
+    """[oil]: a pump file may say `grade` in place of the two viscosities."""
+
+    kinematic_viscosity_40C: KinematicViscosity
+    kinematic_viscosity_100C: KinematicViscosity
+    density: Density
+    bulk_modulus: Modulus
+    specific_heat: SpecificHeat
+    pressure_viscosity: PressureCoefficient | None = None  # Barus' coefficient
+    thermal_conductivity: Conductivity | None = None
+    thermal_expansion: Expansion | None = None
+
+    @property
+    def fluid(self) -> Oil:
+        """The oil as `reynolds.laws.oil` knows it; raises ValueError where Walther's law is void."""
+        return Oil(**{name: getattr(self, name) for name in Oil.__dataclass_fields__})
+
+
+class OperatingSection(Section):
+    """[operating]: where the pump runs when nothing else is asked for."""
+
+    speed: AngularSpeed
+    pressure: Pressure
+    displacement_ratio: Annotated[float, Field(gt=0.0, le=1.0)]
+    temperature: Temperature
+    inlet_pressure: Pressure
+    case_pressure: Pressure
+
+
+SINGLE_PARTS = ("piston", "slipper")
+"""Tables of which single parts may differ: [piston.3] puts its values in place of [piston]'s for chamber 3."""
+
+
+class PumpDescription(Section):
+    """A pump, complete: every table of the pump file."""
+
+    name: str = Field(min_length=1)
+    format: int = Field(ge=FORMAT, le=FORMAT)
+    pump: PumpSection
+    piston: PistonSection
+    slipper: SlipperSection
+    valve_plate: ValvePlateSection
+    ports: PortsSection
+    ball_guide: BallGuideSection
+    block: BlockSection
+    bearings: BearingsSection
+    friction: FrictionSection
+    oil: OilSection
+    operating: OperatingSection
+    bore: BoreSection = BoreSection()
+    swash_plate: SwashPlateSection = SwashPlateSection()
+    actuator: ActuatorSection = ActuatorSection()
+    retainer: RetainerSection = RetainerSection()
+    materials: MaterialsSection = MaterialsSection()
+    surfaces: SurfacesSection = SurfacesSection()
+    delivery_line: LineSection = LineSection()
+    suction_line: LineSection = LineSection()
+    physics: PhysicsSection = PhysicsSection()
+    tolerance: ToleranceSection = ToleranceSection()
+    single_pistons: tuple[tuple[int, PistonSection], ...] = ()  # by chamber, complete
+    single_slippers: tuple[tuple[int, SlipperSection], ...] = ()
+
+    @property
+    def bodies(self) -> tuple[BodySection, ...]:
+        """The meshes that are stated for parts."""
+        stated = (
+            self.piston.body, self.bore.body, self.slipper.body, self.swash_plate.body, self.block.body,
+            self.valve_plate.body, *(part.body for _, part in self.single_pistons),
+            *(part.body for _, part in self.single_slippers),
+        )  # fmt: skip
+        return tuple(body for body in stated if body is not None)
+
+    @property
+    def file_contents(self) -> tuple[str, ...]:
+        """Names for what the files hold that the pump's own names by their paths: meshes and coefficients."""
+        slippers = (self.slipper, *(part for _, part in self.single_slippers))
+        losses = (*(part.coefficient_content for part in slippers), self.valve_plate.coefficient_content)
+        return (*(body.content for body in self.bodies), *losses, self.ports.coefficient_content)
+
+    def of_chamber(self, chamber: int) -> PumpDescription:
+        """The pump with the piston and slipper of a chamber (1 .. z) in place of all, and no single parts."""
+        return self.model_copy(
+            update={
+                "piston": dict(self.single_pistons).get(chamber, self.piston),
+                "slipper": dict(self.single_slippers).get(chamber, self.slipper),
+                "single_pistons": (),
+                "single_slippers": (),
+            }
+        )
+
+
+def section_models() -> Iterator[tuple[str, type[Section]]]:
+    """Yield name and model of every table in the order of the file; of one inside another as `outer.inner`."""
+    yield from _tables_in(PumpDescription, "")
+
+
+def _tables_in(model: type[Section], above: str) -> Iterator[tuple[str, type[Section]]]:
+    for name, field in model.model_fields.items():
+        inner = table_of(field) or tables_of(field)
+        if inner is not None:
+            yield above + name, inner
+            yield from _tables_in(inner, f"{above}{name}.")

@@ -1,0 +1,29 @@
+"""How well a pump is known, as its file states it."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from system.inputs.fields import Positive, Section, Spread
+from system.inputs.units import Dimension
+
+
+class ToleranceSection(Section):
+    """[tolerance]: one sigma of what is uncertain, relative but where said; `system.description.tolerances` takes
+    the rest.
+    """
+
+    film_thickness: Spread | None = None
+    eccentricity_ratio: Spread | None = None  # absolute
+    bulk_modulus: Spread | None = None
+    viscosity: Spread | None = None
+    viscosity_slope: Annotated[float, Dimension.TEMPERATURE_COEFFICIENT, Positive] | None = (
+        None  # of its logarithm
+    )
+    friction: Spread | None = None
+    guide_friction: Spread | None = None  # ball guide and retainer
+    bearing_friction: Spread | None = None
+    displacement: Spread | None = None
+    dead_volume: Spread | None = None
+    flow_coefficient: Spread | None = None
+    stand_out_share: Spread | None = None  # absolute

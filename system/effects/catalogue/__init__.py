@@ -1,0 +1,1 @@
+"""The catalogue of effects, with priors and channels."""

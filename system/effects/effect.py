@@ -1,0 +1,157 @@
+"""Effects by their id, what their laws may see of the pump, and what they change in it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+from enum import Enum
+
+import numpy as np
+
+from reynolds.numerics.arrays import Array
+from system.description.pump import PumpDescription
+
+
+class Kind(Enum):
+    """What a mismatch comes from, as the verdict says it."""
+
+    MISSING_PHYSICS = "missing_physics"
+    SENSOR_FAULT = "sensor_fault"
+    WRONG_PARAMETER = "wrong_parameter"
+    UNKNOWN_PHYSICS = "unknown_physics"
+    NO_MISMATCH = "no_mismatch"
+
+
+class EffectId(Enum):
+    """The ids of the catalogue: missing physics, sensor faults, wrong parameters, and what stands in none."""
+
+    FILM_HEATING = "film_heating"
+    VISCOSITY_PRESSURE = "viscosity_pressure"
+    ENTRAINED_AIR = "entrained_air"
+    INCOMPLETE_FILLING = "incomplete_filling"
+    SHEAR_THINNING = "shear_thinning"
+    MIXED_FRICTION = "mixed_friction"
+    ELASTIC_OPENING = "elastic_opening"
+    THERMAL_CLEARANCE = "thermal_clearance"
+    SQUEEZE_PUMPING = "squeeze_pumping"
+    SLIPPER_LIFT = "slipper_lift"
+    BLOCK_TIPPING = "block_tipping"
+    CHURNING = "churning"
+    SEAL_DRAG = "seal_drag"
+    CHARGE_PUMP_DRAG = "charge_pump_drag"
+    PORT_SHORT_CIRCUIT = "port_short_circuit"
+    NOTCH_EROSION = "notch_erosion"
+    PORT_THROTTLING = "port_throttling"
+    COMPRESSION_LOSS = "compression_loss"
+    CONTROL_FLOW = "control_flow"
+    SWASH_DROOP = "swash_droop"
+    LINE_RESONANCE = "line_resonance"
+    LAMINAR_CROSS_LEAK = "laminar_cross_leak"
+    TORQUE_OFFSET = "torque_offset"
+    TORQUE_GAIN = "torque_gain"
+    Q_OUT_GAIN = "Q_out_gain"
+    Q_IN_GAIN = "Q_in_gain"
+    Q_CASE_OFFSET = "Q_case_offset"
+    Q_CASE_DRIFT = "Q_case_drift"
+    Q_CASE_GAIN = "Q_case_gain"
+    FLOW_LAG = "flow_lag"
+    P_OUT_OFFSET = "p_out_offset"
+    T_CASE_OFFSET = "T_case_offset"
+    T_IN_OFFSET = "T_in_offset"
+    FILM_THICKNESS = "film_thickness"
+    VISCOSITY_GRADE = "viscosity_grade"
+    BULK_MODULUS = "bulk_modulus"
+    DEAD_VOLUME = "dead_volume"
+    FRICTION_COEFFICIENT = "friction_coefficient"
+    DISPLACEMENT = "displacement"
+    UNKNOWN_PHYSICS = "unknown_physics"
+
+
+@dataclass(frozen=True)
+class GapCourse:
+    """One gap over the turn at N points, M shaft angles each: arrays (N, M), of one piston, one slipper, the ring.
+
+    pressure: chamber over case pressure in Pa; sliding_speed: of the two walls in m/s, never negative;
+    film: thickness in m; normal_force: what Coulomb friction multiplies, N; coulomb, viscous: loss in W without
+    any effect; leakage: through the lands, m3/s, without any; width (N,): of the film across its sliding, m;
+    land_area (N,): of the sealing lands in m2.
+    """
+
+    pressure: Array
+    sliding_speed: Array
+    film: Array
+    normal_force: Array
+    coulomb: Array
+    viscous: Array
+    leakage: Array
+    width: Array
+    land_area: Array
+
+
+@dataclass(frozen=True)
+class BenchState:
+    """N bench points as laws see them: rad/s, Pa gauge, Pa s, K, h run; arrays (N,). `geometry` is the pump."""
+
+    speed: Array
+    displacement_ratio: Array
+    delivery_pressure: Array
+    inlet_pressure: Array
+    case_pressure: Array
+    viscosity: Array
+    temperature: Array
+    hours: Array
+    geometry: PumpDescription
+
+
+@dataclass(frozen=True)
+class Effects:
+    """What a law changes at N points and M angles; ones and zeros change nothing.
+
+    conductance, viscous, coulomb: (3, N, M), factors on leakage, shear and Coulomb friction of the gaps in the
+    order of `Gap`; extra_coulomb: (5, N, M), W, of one piston, one slipper, the valve plate, one socket, the ball
+    guide. Then (N,) each, flows in m3/s of volume at the port they leave: cross_flow (delivery to inlet),
+    drain_flow (delivery to case), drain_from_inlet; torque in N m on the shaft; ideal: factor on the displacement;
+    intake: share of the displaced volume that is filled with oil; delivery_reading: factor on what the delivery's
+    meter reads; groove_advance in rad and groove_area, factor: by how much sooner and wider the relief grooves
+    ahead of both kidneys open; suction_area: factor on the kidney that chambers draw through; carried_off: W,
+    where the power of the flows and the torque goes, a sink of the power balance.
+    """
+
+    conductance: Array
+    viscous: Array
+    coulomb: Array
+    extra_coulomb: Array
+    cross_flow: Array
+    drain_flow: Array
+    drain_from_inlet: Array
+    torque: Array
+    ideal: Array
+    intake: Array
+    delivery_reading: Array
+    groove_advance: Array
+    groove_area: Array
+    suction_area: Array
+    carried_off: Array
+
+
+FACTORS = (
+    "conductance", "viscous", "coulomb", "ideal", "intake", "delivery_reading", "groove_area", "suction_area",
+)  # fmt: skip
+"""Fields of `Effects` that multiply; the others add."""
+
+
+def neutral(points: int, angles: int) -> Effects:
+    """The effects of no law at all."""
+    shapes = {"conductance": (3, points, angles), "viscous": (3, points, angles), "coulomb": (3, points, angles),
+              "extra_coulomb": (5, points, angles)}  # fmt: skip
+    return Effects(
+        **{
+            field.name: np.full(shapes.get(field.name, (points,)), 1.0 if field.name in FACTORS else 0.0)
+            for field in fields(Effects)
+        }
+    )
+
+
+def both(one: Effects, other: Effects) -> Effects:
+    """Two laws at once, each as if the other were not: factors multiply, all else adds."""
+    pairs = {field.name: (getattr(one, field.name), getattr(other, field.name)) for field in fields(Effects)}
+    return Effects(**{name: a * b if name in FACTORS else a + b for name, (a, b) in pairs.items()})

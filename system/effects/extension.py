@@ -1,0 +1,79 @@
+"""An extension: a law with physical parameters, and its entry in the catalogue of effects."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+
+from system.description.gap import Gap
+from system.effects.components import Component
+from system.effects.effect import BenchState, EffectId, Effects, GapCourse, Kind
+from system.estimation.parameters import Parameter
+from system.inputs.channels import ChannelName
+
+Values = Mapping[str, float]  # of the parameters of one extension by name, SI
+Law = Callable[[Values, Mapping[Gap, GapCourse], BenchState], Effects]  # values of 0 change nothing, exactly
+
+
+@dataclass(frozen=True)
+class Extension:
+    """One law switched on, at one gap or (None) at the pump as a whole.
+
+    Parameters are named as in a pump file, `elastic_opening.slipper.opening`; the law knows the last part. `grid`
+    lists the values of parameters that set a scale rather than a size and are tried one after the other: one empty
+    mapping where there is none. `scales` are those of them that are continuous: a fit of a member sets them free
+    about the member's values. Values are those of the grid's first member beside the parameters'.
+    """
+
+    id: EffectId
+    pair: Gap | None
+    law: Law
+    parameters: tuple[Parameter, ...]
+    grid: tuple[Values, ...] = ({},)
+    scales: tuple[Parameter, ...] = ()
+
+    @property
+    def members(self) -> tuple[Extension, ...]:
+        """One extension for each member of the grid."""
+        return tuple(replace(self, grid=(member,), scales=self._scales_about(member)) for member in self.grid)
+
+    @property
+    def free(self) -> tuple[Parameter, ...]:
+        """All that a fit of one member sets free: the sizes and the scales."""
+        return (*self.parameters, *self.scales)
+
+    @property
+    def neutral(self) -> dict[str, float]:
+        """Parameters by name with which the law changes nothing: their centres."""
+        return {parameter.name: parameter.centre for parameter in self.parameters}
+
+    def effects(self, values: Mapping[str, float], courses: Mapping[Gap, GapCourse], state: BenchState) -> Effects:
+        """What the law changes with parameters by name; those of other extensions beside them do not matter."""
+        return self.law(self.stated(values), courses, state)
+
+    def stated(self, values: Mapping[str, float]) -> dict[str, float]:
+        """The law's values by its own keys, as a pump file's table states them, of parameters by name."""
+        return {**self.grid[0], **{_key(one): values[one.name] for one in self.free if one.name in values}}
+
+    def _scales_about(self, member: Values) -> tuple[Parameter, ...]:
+        return tuple(replace(one, centre=member[_key(one)]) for one in self.scales)
+
+
+def _key(parameter: Parameter) -> str:
+    """The law's own name of a parameter."""
+    return parameter.name.rpartition(".")[2]
+
+
+@dataclass(frozen=True)
+class Entry:
+    """One id of the catalogue: where it acts, the channels it shows in, what it is mistaken for, its words."""
+
+    id: EffectId
+    verdict: Kind
+    extensions: tuple[Extension, ...]
+    components: tuple[Component, ...]
+    channels: tuple[ChannelName, ...]
+    regime: str
+    twins: tuple[EffectId, ...]
+    sentence: str
+    source: str

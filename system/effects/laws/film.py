@@ -1,0 +1,187 @@
+"""Laws of the films: oil that thickens under pressure, warms or thins by shear, walls that give way or expand."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from reynolds.numerics.arrays import Array
+from system.description.gap import Gap
+from system.effects.effect import BenchState, Effects, GapCourse
+from system.effects.extension import Values
+from system.effects.state import GAPS, unchanged, warmed
+from system.pump.film_thickness import LEAST_FILM
+
+ISENTROPIC_RISE = 0.45e-6
+"""K/Pa by which throttled mineral oil warms, (1 - alpha T)/(rho cp)."""
+WARM_PASSES = 8
+"""Rounds between a film's heat and its temperature; each leaves less than a third of the error before."""
+THINNING = 0.04
+"""1/K, of viscosity: mineral oils at 20 to 80 degC have .03 to .06."""
+SMALL = 1e-9
+
+Courses = Mapping[Gap, GapCourse]
+
+
+def barus_flow(exponent: Array) -> Array:
+    """(1 - exp(-a p))/(a p): flow through a film of falling pressure p .. 0 over that of constant viscosity.
+
+    Barus 1893, mu = mu0 exp(a p); exact for plane and annular films alike. `exponent` a p, 0 or more; up to about
+    100 MPa, beyond it Roelands' law rises less.
+    """
+    return np.asarray(np.where(exponent > SMALL, -np.expm1(-exponent) / np.maximum(exponent, SMALL), 1.0))
+
+
+def barus_shear(exponent: Array) -> Array:
+    """(exp(a p) - 1)/(a p): shear of a film whose pressure falls linearly from p to 0, over that without."""
+    return np.asarray(np.where(exponent > SMALL, np.expm1(exponent) / np.maximum(exponent, SMALL), 1.0))
+
+
+def opening_flow(opening: Array) -> Array:
+    """((1 + c)^4 - 1)/(4 c): flow through a film that opens by the share c where the pressure is full.
+
+    The mean of (h/h0)^3 along a pressure that falls linearly and lifts the wall in proportion.
+    """
+    return np.asarray(
+        np.where(opening > SMALL, ((1.0 + opening) ** 4 - 1.0) / np.maximum(4.0 * opening, SMALL), 1.0)
+    )
+
+
+def cross_ratio(shear_rate: Array, drop: float, rate: float) -> Array:
+    """Viscosity at a shear rate (1/s) over that at rest: Cross 1965 with exponent 1, `drop` lost at high rates."""
+    relative = shear_rate / rate
+    return np.asarray(1.0 - drop * relative / (1.0 + relative))
+
+
+def viscosity_pressure(values: Values, courses: Courses, state: BenchState) -> Effects:
+    """Barus' law in all three films: `coefficient` 1/Pa. Less leakage at high pressure, more shear under it."""
+    exponents = [values["coefficient"] * np.maximum(courses[gap].pressure, 0.0) for gap in GAPS]
+    return _in_films(
+        courses, state, [barus_flow(own) for own in exponents], [barus_shear(own) for own in exponents]
+    )
+
+
+@dataclass(frozen=True)
+class ElasticOpening:
+    """The law of one gap that opens under its pressure: `opening` 1/Pa, of the film's thickness."""
+
+    gap: Gap
+
+    def __call__(self, values: Values, courses: Courses, state: BenchState) -> Effects:
+        """The effects with these values."""
+        share = values["opening"] * np.maximum(courses[self.gap].pressure, 0.0)
+        return in_one_film(self.gap, courses, state, opening_flow(share), 1.0 / (1.0 + 0.5 * share))
+
+
+@dataclass(frozen=True)
+class ThermalClearance:
+    """The law of one gap whose walls expand unlike: `rate` 1/K of the film, from the pump's own temperature on."""
+
+    gap: Gap
+
+    def __call__(self, values: Values, courses: Courses, state: BenchState) -> Effects:
+        """The effects with these values."""
+        warmer = state.temperature - state.geometry.operating.temperature
+        film = np.maximum(1.0 + values["rate"] * warmer, LEAST_FILM)[:, None] * np.ones_like(
+            courses[self.gap].film
+        )
+        return in_one_film(self.gap, courses, state, film**3, 1.0 / film)
+
+
+def shear_thinning(values: Values, courses: Courses, state: BenchState) -> Effects:
+    """Cross' law at the shear rate speed/film of sliding: `drop`, and `rate` 1/s at which half of it is lost.
+
+    Thins shear alone: leakage runs at rates a tenth as high, and across the sliding.
+    """
+    shear = [
+        cross_ratio(courses[gap].sliding_speed / courses[gap].film, values["drop"], values["rate"]) for gap in GAPS
+    ]
+    return _in_films(courses, state, [np.ones_like(own) for own in shear], shear)
+
+
+def film_heating(values: Values, courses: Courses, state: BenchState) -> Effects:
+    """Films warmer than the case: what they lose and throttle, less what walls and oil take off.
+
+    `piston`, `slipper`, `valve_plate` R (m2 K/W): of the way through the gap's walls to the case; `carried_share`,
+    `throttled_share`, `carry_over`: `HeatShares`. Mean rise of a film over the turn by `film_rise`; viscosity at
+    that temperature serves leakage and shear, both in balance with it.
+    """
+    shares = HeatShares(values["carried_share"], values["throttled_share"], values["carry_over"])
+    ratios = []
+    for gap in GAPS:
+        ratio = warmed(state, film_rise(values[gap.value], shares, courses[gap], state))
+        ratios.append(ratio[:, None] * np.ones_like(courses[gap].film))
+    return _in_films(courses, state, [1.0 / ratio for ratio in ratios], ratios)
+
+
+@dataclass(frozen=True)
+class HeatShares:
+    """What of a film's heat goes which way, each 0 to 1; the defaults are those of films solved with heat.
+
+    carried: of the heat, that leaves with the oil before it comes to a wall; throttled: of 0.45 K/MPa, that warms
+    the film above the case: 1 where oil comes as warm as the case, less where it comes from cooler chambers;
+    carry_over: of the oil that sliding draws in, that is the film's own come back (Ettles 1969: .7 to .9 of pads).
+    """
+
+    carried: float = 0.0
+    throttled: float = 1.0
+    carry_over: float = 0.0
+
+
+def film_rise(resistance: float, shares: HeatShares, own: GapCourse, state: BenchState) -> Array:
+    """Kelvin (N,) by which a film is warmer than the case: heat P over G = A/R to the walls and C with the oil.
+
+    P: the pair's loss, Coulomb and shear, and q 0.45 K/MPa of throttling; C = rho c (leakage + (1 - k) h U w/2,
+    the cool oil that sliding draws in over the width w). theta = P/(G + C), of which s P goes with the oil alone:
+    theta = P (1 + s G/C)/(G + C). s, q, k of `shares`. Solved by Newton's method as if viscosity fell by THINNING
+    a kelvin.
+    """
+    oil, area = state.geometry.oil, own.land_area
+    heat = oil.density * oil.specific_heat
+    drawn = (1.0 - shares.carry_over) * heat * 0.5 * own.width * (own.film * own.sliding_speed).mean(axis=1)
+    leaked = heat * np.abs(own.leakage).mean(axis=1)
+    throttled = shares.throttled * ISENTROPIC_RISE * heat * (own.leakage * own.pressure).mean(axis=1)
+    rubbed, sheared = own.coulomb.mean(axis=1), own.viscous.mean(axis=1)
+    rise = np.zeros_like(area)
+    for _ in range(WARM_PASSES):
+        ratio = warmed(state, rise)
+        carried = drawn + leaked / ratio
+        kept = (resistance + shares.carried * area / carried) / (area + resistance * carried)
+        image = (rubbed + ratio * sheared + throttled / ratio) * kept
+        rise = rise + (image - rise) / (1.0 + THINNING * image)
+    return rise
+
+
+def in_one_film(gap: Gap, courses: Courses, state: BenchState, flow: Array, shear: Array) -> Effects:
+    """Effects of a factor on one gap's flow and one on its shear."""
+    ones = np.ones_like(flow)
+    return _in_films(
+        courses,
+        state,
+        [flow if own is gap else ones for own in GAPS],
+        [shear if own is gap else ones for own in GAPS],
+    )
+
+
+def _in_films(courses: Courses, state: BenchState, flows: list[Array], shears: list[Array]) -> Effects:
+    """Effects of factors (N, M) on the flow through each gap's lands and on its shear.
+
+    The slipper's orifice takes its share of the pressure as before; the ring's shear is that of all chambers, so
+    it takes the turn's mean.
+    """
+    behind = GAPS.index(Gap.SLIPPER)
+    ring = GAPS.index(Gap.VALVE_PLATE)
+    flows[behind] = through_orifice(flows[behind], state)
+    shears[ring] = np.broadcast_to(shears[ring].mean(axis=1, keepdims=True), shears[ring].shape)
+    return replace(unchanged(courses), conductance=np.stack(flows), viscous=np.stack(shears))
+
+
+def through_orifice(lands: Array, state: BenchState) -> Array:
+    """Factor on a slipper's leakage when its lands let through `lands` times as much: Eq. (16)."""
+    slipper = state.geometry.slipper
+    d4, h3 = slipper.orifice_diameter**4, slipper.film_thickness**3
+    share = 128.0 * h3 * slipper.orifice_length
+    share /= share + 6.0 * d4 * slipper.lands.log_ratio
+    return np.asarray(1.0 / ((1.0 - share) / lands + share))

@@ -1,0 +1,94 @@
+"""Laws of oil that goes another way: past the chambers, into the case, or not into the chamber at all."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+
+import numpy as np
+
+from reynolds.numerics.arrays import Array
+from system.description.gap import Gap
+from system.effects.effect import BenchState, Effects, GapCourse
+from system.effects.extension import Values
+from system.effects.state import (
+    absolute,
+    dead_volume,
+    displaced,
+    orifice_flow,
+    pressure_difference,
+    unchanged,
+)
+from system.inputs.units import STANDARD_ATMOSPHERE, TURN
+
+POLYTROPIC = 1.2
+"""Exponent of air bubbles in oil, between slow (1) and fast (1.4) changes."""
+REFERENCE_VISCOSITY = 0.025
+"""Pa s at which a laminar control flow has the size that its area states."""
+
+Courses = Mapping[Gap, GapCourse]
+
+
+def free_air(share: float, pressure: Array) -> Array:
+    """Volume share (N,) of bubbles at an absolute pressure (Pa) with `share` at one atmosphere."""
+    return np.asarray(share * (STANDARD_ATMOSPHERE / pressure) ** (1.0 / POLYTROPIC))
+
+
+def entrained_air(values: Values, courses: Courses, state: BenchState) -> Effects:
+    """Bubbles fill part of the displacement and of the dead volume as they grow again; they are gone at delivery.
+
+    `void`: volume share at one atmosphere. The missing oil is x(p_in) - x(p_out) of displaced and dead volume.
+    """
+    lost = free_air(values["void"], absolute(state.inlet_pressure))
+    lost = lost - free_air(values["void"], absolute(state.delivery_pressure))
+    return replace(unchanged(courses), intake=1.0 - lost * (1.0 + dead_volume(state) / displaced(state)))
+
+
+def incomplete_filling(values: Values, courses: Courses, state: BenchState) -> Effects:
+    """An inlet line that loses `inlet_loss` times the pressure that the kidney loses at suction.
+
+    Chambers draw through line and kidney as through a kidney (1 + inlet_loss)^(-1/2) as wide, dp = rho/2 (Q/(Cd
+    A))^2. Where that takes all of the inlet's pressure a cavity opens, and above a speed n_c, which goes with the
+    root of that pressure, chambers no longer fill: the share n_c/n. The line's loss counts at each piston's own
+    flow, not at their sum: alike where chambers starve, a little early where they just fill.
+    """
+    narrowed = (1.0 + values["inlet_loss"]) ** -0.5
+    return replace(unchanged(courses), suction_area=np.full_like(state.speed, narrowed))
+
+
+def squeeze_pumping(values: Values, courses: Courses, state: BenchState) -> Effects:
+    """Slippers that rise and fall by `stroke` m each turn pump oil from the inlet's side into the case."""
+    area = np.pi * state.geometry.slipper.land_outer_radius**2
+    flow = state.geometry.pump.pistons * area * values["stroke"] * state.speed / TURN
+    lost = flow * (state.inlet_pressure - state.case_pressure)
+    return replace(unchanged(courses), drain_from_inlet=flow, carried_off=lost)
+
+
+def port_short_circuit(values: Values, courses: Courses, state: BenchState) -> Effects:
+    """A turbulent path of `area` m2 from delivery to inlet, in the mean: sqrt(dp), whatever speed and oil."""
+    return _across(courses, state, orifice_flow(state, values["area"], pressure_difference(state)))
+
+
+def laminar_cross_leak(values: Values, courses: Courses, state: BenchState) -> Effects:
+    """A laminar path from delivery to inlet: flow `conductance` (m3) dp/mu."""
+    return _across(courses, state, values["conductance"] * pressure_difference(state) / state.viscosity)
+
+
+def control_flow(values: Values, courses: Courses, state: BenchState) -> Effects:
+    """What the control draws from delivery into the case, at any speed and displacement.
+
+    A clearance and an orifice one behind the other, dp/p0 = l (mu/mu0) Q/Q0 + (1 - l) (Q/Q0)^2: `area` m2 of an
+    orifice with the flow Q0 at rated pressure p0, where `laminar` l is the clearance's share of the pressure at
+    mu0 = 25 mPa s; 0: an orifice alone, 1: a clearance alone.
+    """
+    drop = state.delivery_pressure - state.case_pressure
+    rated = state.geometry.pump.rated_pressure
+    full = orifice_flow(state, values["area"], np.full_like(drop, rated))
+    slit = values["laminar"] * state.viscosity / REFERENCE_VISCOSITY
+    orifice = 4.0 * (1.0 - values["laminar"]) * np.abs(drop) / rated
+    flow = full * 2.0 * drop / rated / np.maximum(slit + np.sqrt(slit**2 + orifice), 1e-12)
+    return replace(unchanged(courses), drain_flow=flow, carried_off=flow * drop)
+
+
+def _across(courses: Courses, state: BenchState, flow: Array) -> Effects:
+    return replace(unchanged(courses), cross_flow=flow, carried_off=flow * pressure_difference(state))

@@ -1,0 +1,71 @@
+"""Laws of the swash plate and the ports: a plate that gives way, grooves that wear, a line that resonates."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+
+import numpy as np
+
+from reynolds.numerics.arrays import Array
+from system.description.gap import Gap
+from system.effects.effect import BenchState, Effects, GapCourse
+from system.effects.extension import Values
+from system.effects.state import pressure_difference, swash_tangent, unchanged
+from system.pump.ports.areas import PortOpening
+
+RESONANCE_WIDTH = 0.05
+"""Half width of a line's resonance, of its speed: a quality of 10 (5 to 15 are usual)."""
+
+Courses = Mapping[Gap, GapCourse]
+
+
+def swash_droop(values: Values, courses: Courses, state: BenchState) -> Effects:
+    """A plate that gives way under load by an angle, whatever its own: `rate` rad/Pa, and `play` rad at any load.
+
+    The moment of the pistons under pressure bends stop, actuator and trunnions (sheet D5). Ideal flow and torque
+    fall alike, the more of them the less the plate is tilted; it gives way no further than upright.
+    """
+    angle = np.arctan(swash_tangent(state))
+    left = np.maximum(angle - values["rate"] * pressure_difference(state) - values["play"], 0.0)
+    ideal = np.divide(np.tan(left), np.tan(angle), out=np.ones_like(angle), where=angle > 0.0)
+    return replace(unchanged(courses), ideal=ideal)
+
+
+def notch_erosion(values: Values, courses: Courses, state: BenchState) -> Effects:
+    """Worn relief grooves: they begin `advance` rad sooner, their throats wider by the share `widening`."""
+    ones = np.ones_like(state.speed)
+    return replace(
+        unchanged(courses), groove_advance=values["advance"] * ones, groove_area=(1.0 + values["widening"]) * ones
+    )
+
+
+def eroded(port: PortOpening, advance: float, area: float) -> PortOpening:
+    """A port whose grooves ahead of the kidney begin `advance` rad sooner, throats `area` times as wide."""
+    grooves = tuple(
+        replace(groove, begins=groove.begins - advance, area=groove.area * area)
+        if groove.begins < groove.deep
+        else groove
+        for groove in port.grooves
+    )
+    return replace(port, grooves=grooves)
+
+
+def narrowed(port: PortOpening, area: float) -> PortOpening:
+    """A port whose kidney is `area` times as wide; grooves stay."""
+    return replace(port, kidney_area=port.kidney_area * area)
+
+
+def lorentz(speed: Array, at: float) -> Array:
+    """1/(1 + ((n - n0)/(b n0))^2) (N,): a resonance at the shaft speed n0 = `at` rad/s, b RESONANCE_WIDTH."""
+    return np.asarray(1.0 / (1.0 + ((speed - at) / (RESONANCE_WIDTH * at)) ** 2))
+
+
+def line_resonance(values: Values, courses: Courses, state: BenchState) -> Effects:
+    """A delivery meter that reads `height` (share) too much where the ripple meets the line's resonance.
+
+    Mean bias of turbine meters in pulsing flow; the pump itself is unmoved. `speed`: of the shaft, rad/s.
+    """
+    return replace(
+        unchanged(courses), delivery_reading=1.0 + values["height"] * lorentz(state.speed, values["speed"])
+    )

@@ -1,0 +1,89 @@
+"""Laws of parts that lose their seat: slippers that lift off the plate, a block that tips on its valve plate."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+
+import numpy as np
+
+from reynolds.numerics.arrays import Array
+from system.description.gap import Gap
+from system.effects.effect import BenchState, Effects, GapCourse
+from system.effects.extension import Values
+from system.effects.laws.film import through_orifice
+from system.effects.state import GAPS, piston_area, pressure_difference, swash_tangent, unchanged
+
+ONSET = 0.2
+"""Of the moment that holds a part: from it on to the same again beyond it parts give way smoothly."""
+
+Courses = Mapping[Gap, GapCourse]
+
+
+def gives_way(ratio: Array) -> Array:
+    """How far a part has lost its seat, 0 to 1, at a ratio of the moment that tips it to that which holds it."""
+    way = np.clip((ratio - 1.0) / ONSET, 0.0, 1.0)
+    return np.asarray(way * way * (3.0 - 2.0 * way))
+
+
+def slipper_ratio(state: BenchState, pressure: Array, retainer_force: float) -> Array:
+    """Tipping over holding moment (N, M) of a slipper: m w^2 R l against (Ap p + F) r1, p over case pressure.
+
+    The mass of a slipper outside its ball turns it outwards; chamber pressure and retainer hold it on its land.
+    """
+    slipper, part = state.geometry.slipper, state.geometry.pump
+    tips = slipper.mass * state.speed**2 * part.pitch_radius * slipper.centre_of_mass_to_ball
+    holds = (piston_area(state) * np.maximum(pressure, 0.0) + retainer_force) * slipper.land_inner_radius
+    return np.asarray(tips[:, None] / np.maximum(holds, 1e-3))
+
+
+def slipper_lift(values: Values, courses: Courses, state: BenchState) -> Effects:
+    """Slippers that tip off by `ride_height` m where chamber and `retainer_force` (N each) hold too little."""
+    course, effects = courses[Gap.SLIPPER], unchanged(courses)
+    away = gives_way(slipper_ratio(state, course.pressure, values["retainer_force"]))
+    film = 1.0 + values["ride_height"] * away / course.film
+    row = GAPS.index(Gap.SLIPPER)
+    conductance, viscous = effects.conductance.copy(), effects.viscous.copy()
+    conductance[row], viscous[row] = through_orifice(film**3, state), 1.0 / film
+    return replace(effects, conductance=conductance, viscous=viscous)
+
+
+def block_ratio(state: BenchState, course: GapCourse) -> Array:
+    """Tipping over holding moment (N,) of the block.
+
+    The pistons' accelerations tip it, z/2 m w^2 R^2 tan(swash); spring and residual clamping hold it at the outer
+    land, the clamping from where the loaded half's thrust stands, 2/pi of the pitch radius off.
+    """
+    pump = state.geometry
+    guide, plate, part = pump.ball_guide, pump.valve_plate, pump.pump
+    spring = guide.spring_preload + guide.spring_stiffness * guide.spring_compression
+    mass = pump.piston.mass + pump.slipper.mass
+    tips = 0.5 * part.pistons * mass * (state.speed * part.pitch_radius) ** 2 * swash_tangent(state)
+    thrust = part.pistons * piston_area(state) * np.maximum(course.pressure, 0.0).mean(axis=1)
+    arm = plate.outer_radius - 2.0 / np.pi * part.pitch_radius
+    return np.asarray(tips / (spring * plate.outer_radius + plate.residual_clamping * thrust * arm))
+
+
+def block_tipping(values: Values, courses: Courses, state: BenchState) -> Effects:
+    """A block that tips open by `wedge` m on one side: more flow over the lands, and between the kidneys.
+
+    A wedge 0 .. w over a film h lets (h + w/2)^3 + 3/2 (h + w/2)(w/2)^2 through in the mean round the plate. Of
+    the plate between the kidneys, two webs as long as a chamber's pitch, as much more goes from delivery to inlet.
+    """
+    course, effects = courses[Gap.VALVE_PLATE], unchanged(courses)
+    pump, half = state.geometry, 0.5 * values["wedge"] * gives_way(block_ratio(state, course))[:, None]
+    film = course.film + half
+    cubed = film**3 + 1.5 * film * half**2
+    row = GAPS.index(Gap.VALVE_PLATE)
+    conductance, viscous = effects.conductance.copy(), effects.viscous.copy()
+    conductance[row], viscous[row] = cubed / course.film**3, course.film / film
+    web = 2.0 * np.pi / pump.pump.pistons * pump.valve_plate.kidney_pitch_radius
+    more = (cubed - course.film**3).mean(axis=1) * 2.0 * pump.valve_plate.kidney_width / (12.0 * web)
+    flow = more * pressure_difference(state) / state.viscosity
+    return replace(
+        effects,
+        conductance=conductance,
+        viscous=viscous,
+        cross_flow=flow,
+        carried_off=flow * pressure_difference(state),
+    )

@@ -1,0 +1,37 @@
+"""Priors of extensions: what a parameter of a law may be before a recording is looked at."""
+
+from __future__ import annotations
+
+from math import log
+
+from system.description.gap import Gap
+from system.effects.effect import EffectId
+from system.estimation.parameters import Parameter, Role, Scale
+from system.inputs.units import Dimension
+
+
+def half(path: str, spread: float, upper: float, dimension: Dimension | None, source: str) -> Parameter:
+    """A size that is never negative: half a normal law of that spread, up to `upper`."""
+    return Parameter(path, Role.EXTENSION, Scale.HALF, 0.0, spread, 0.0, upper, dimension, source)
+
+
+def signed(path: str, spread: float, bound: float, dimension: Dimension | None, source: str) -> Parameter:
+    """A size of either sign: normal, within -bound .. bound."""
+    return Parameter(path, Role.EXTENSION, Scale.NORMAL, 0.0, spread, -bound, bound, dimension, source)
+
+
+def path_of(effect: EffectId, key: str, pair: Gap | None = None) -> str:
+    """The name of a parameter: its key's path in a pump file below [physics]."""
+    return ".".join([effect.value, *([pair.value] if pair else []), key])
+
+
+def scale_of(effect: EffectId, key: str, grid: tuple[float, ...], dimension: Dimension | None) -> Parameter:
+    """The scale that a grid of even ratios samples: log-normal about each member, one sigma half way to the next.
+
+    Bounds lie one ratio beyond the ends.
+    """
+    ratio = grid[1] / grid[0]
+    return Parameter(
+        path_of(effect, key), Role.EXTENSION, Scale.LOG, grid[0], 0.5 * log(ratio), grid[0] / ratio,
+        grid[-1] * ratio, dimension, "between the members of its grid",
+    )  # fmt: skip

@@ -1,0 +1,90 @@
+"""What several laws need of a bench point: displaced and dead volume, orifices, warmer oil."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from reynolds.laws.oil import WALTHER_SHIFT, walther_coefficients
+from reynolds.numerics.arrays import Array
+from system.description.gap import Gap
+from system.effects.effect import BenchState, Effects, GapCourse, neutral
+from system.inputs.units import STANDARD_ATMOSPHERE, TURN
+from system.pump.laws.kinematics import crossed_drive, stroke
+
+GAPS = tuple(Gap)
+"""The gaps in the order of the first axis of `Effects.conductance`."""
+
+
+def unchanged(courses: Mapping[Gap, GapCourse]) -> Effects:
+    """`neutral` in the shape of the courses."""
+    return neutral(*courses[Gap.PISTON].pressure.shape)
+
+
+def piston_area(state: BenchState) -> float:
+    """Cross section of a piston in m2."""
+    return float(np.pi / 4.0 * state.geometry.pump.piston_diameter**2)
+
+
+def full_stroke(state: BenchState) -> float:
+    """Stroke in m at the largest swash angle."""
+    part = state.geometry.pump
+    return stroke(
+        crossed_drive(part.pitch_radius, part.bore_cone_angle, part.swash_angle_max, part.cross_angle or 0.0)
+    )
+
+
+def swash_tangent(state: BenchState) -> Array:
+    """tan(swash angle) (N,), proportional to the displacement ratio: exact but for t^2 of the bores' cone."""
+    return np.asarray(state.displacement_ratio * np.tan(state.geometry.pump.swash_angle_max))
+
+
+def displaced(state: BenchState) -> Array:
+    """Volume (N,) m3 that all pistons displace in a turn."""
+    return np.asarray(
+        state.geometry.pump.pistons * piston_area(state) * full_stroke(state) * state.displacement_ratio
+    )
+
+
+def ideal_flow(state: BenchState) -> Array:
+    """Displaced volume over time (N,), m3/s."""
+    return np.asarray(displaced(state) * state.speed / TURN)
+
+
+def dead_volume(state: BenchState) -> Array:
+    """Volume (N,) m3 of all chambers together at inner dead centre: it grows as the stroke is set back."""
+    part = state.geometry.pump
+    back = piston_area(state) * full_stroke(state) * (1.0 - state.displacement_ratio) / 2.0
+    return np.asarray(part.pistons * (part.dead_volume + back))
+
+
+def pressure_difference(state: BenchState) -> Array:
+    """Delivery over inlet pressure (N,), Pa."""
+    return np.asarray(state.delivery_pressure - state.inlet_pressure)
+
+
+def absolute(pressure: Array) -> Array:
+    """A gauge pressure (Pa) as an absolute one."""
+    return np.asarray(pressure + STANDARD_ATMOSPHERE)
+
+
+def orifice_flow(state: BenchState, area: float, drop: Array) -> Array:
+    """Flow (N,) m3/s through a sharp-edged orifice, Cd A sqrt(2 dp/rho), Cd the ports'; odd in dp."""
+    speed = np.sqrt(2.0 * np.abs(drop) / state.geometry.oil.density)
+    return np.asarray(np.sign(drop) * state.geometry.ports.flow_coefficient * area * speed)
+
+
+def warmed(state: BenchState, rise: Array) -> Array:
+    """Viscosity of the oil warmer by `rise` K over its viscosity at the state's temperature, (N, ...) as `rise`.
+
+    Walther's law (1931, ASTM D341) through the oil's two viscosities, also beyond 150 degC: there it goes on
+    smoothly, positive and falling, so that a fit may pass by.
+    """
+    intercept, slope = walther_coefficients(state.geometry.oil.fluid)
+    cold = state.temperature.reshape((-1,) + (1,) * (rise.ndim - 1))
+
+    def viscosity(kelvin: Array) -> Array:
+        return np.asarray(10.0**10.0 ** (intercept - slope * np.log10(kelvin)) - WALTHER_SHIFT)
+
+    return np.asarray(viscosity(cold + rise) / viscosity(cold))

@@ -1,0 +1,51 @@
+"""The effects that a pump's description switches on, with the values it states."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from functools import reduce
+
+from reynolds.errors import FilmInputError
+from system.description.gap import Gap
+from system.description.pump import PumpDescription
+from system.effects.catalogue.entries import EXTENSIONS
+from system.effects.effect import BenchState, EffectId, Effects, GapCourse, both
+from system.effects.extension import Extension, Law, Values
+from system.effects.opening_tables import COMPLIANCE, SolvedOpening, opening_table
+from system.effects.state import unchanged
+
+
+def switched_on(pump: PumpDescription) -> Iterator[tuple[Extension, Values]]:
+    """Every extension of which the pump has a table below [physics], with its law's values."""
+    for extension in EXTENSIONS:
+        section = getattr(pump.physics, extension.id.value)
+        if section is not None and extension.pair is not None:
+            section = getattr(section, extension.pair.value)
+        if section is not None:
+            yield extension, {key: float(value) for key, value in dict(section).items() if value is not None}
+
+
+def stated_laws(pump: PumpDescription) -> tuple[tuple[Law, Values], ...]:
+    """The laws of all of them with their values; films between elastic walls are kept, or solved where new."""
+    return tuple((_law(pump, extension, values), values) for extension, values in switched_on(pump))
+
+
+def _law(pump: PumpDescription, extension: Extension, values: Values) -> Law:
+    if extension.id is EffectId.ELASTIC_OPENING and COMPLIANCE in values and extension.pair is not None:
+        return SolvedOpening(opening_table(pump, extension.pair))
+    return extension.law
+
+
+def hold_plain(pump: PumpDescription) -> None:
+    """Raise FilmInputError where a pump has effects switched on that a fidelity does not read."""
+    if pump.physics.on:
+        found = ", ".join(dict.fromkeys(extension.id.value for extension, _ in switched_on(pump)))
+        raise FilmInputError("physics", found, "no effects, or the lumped or the films fidelity, which read them")
+
+
+def stated_effects(
+    laws: tuple[tuple[Law, Values], ...], courses: Mapping[Gap, GapCourse], state: BenchState
+) -> Effects:
+    """What `stated_laws` change together; nothing where none is on."""
+    found = (law(values, courses, state) for law, values in laws)
+    return reduce(both, found, unchanged(courses))

@@ -1,0 +1,92 @@
+"""One step towards the peak of a quadratic model between bounds."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.linalg import solve_triangular
+
+from reynolds.numerics.arrays import Array
+from system.estimation.parameters import Parameter
+from system.inputs.errors import NotConverged
+
+
+@dataclass(frozen=True)
+class Bounds:
+    """Least and largest xi, (k,) each."""
+
+    lowest: Array
+    highest: Array
+
+    @classmethod
+    def of(cls, parameters: tuple[Parameter, ...]) -> Bounds:
+        """Those of some parameters."""
+        lowest = np.array([parameter.lowest for parameter in parameters])
+        return cls(lowest, np.array([parameter.highest for parameter in parameters]))
+
+    def within(self, xi: Array) -> Array:
+        """The nearest xi between the bounds."""
+        return np.clip(xi, self.lowest, self.highest)
+
+
+@dataclass(frozen=True)
+class Quadratic:
+    """The objective about xi by its slopes: J(xi + d) = J - 2 gradient.d + d.precision.d."""
+
+    xi: Array
+    gradient: Array
+    precision: Array
+
+    @classmethod
+    def of(cls, xi: Array, residual: Array, slopes: Array) -> Quadratic:
+        """Of J = r.r + xi.xi with dr/dxi = -slopes."""
+        return cls(xi, slopes.T @ residual - xi, slopes.T @ slopes + np.eye(xi.size))
+
+    def fall(self, step: Array) -> float:
+        """By how much the model's objective falls along a step."""
+        return float(2.0 * self.gradient @ step - step @ self.precision @ step)
+
+
+def bounded_step(model: Quadratic, bounds: Bounds, damping: float, largest: float) -> Array:
+    """The damped Newton step of the model: its least between bounds, none of it longer than `largest` in any xi.
+
+    (precision + damping diag(precision)) d = gradient within the bounds, and on a bound a gradient that points out
+    of it; a step too long is shortened as a whole.
+    """
+    below, above = bounds.lowest - model.xi, bounds.highest - model.xi
+    damped = model.precision + damping * np.diag(np.diag(model.precision))
+    step, held = _held(model.gradient, damped, below, above)
+    left = np.where(held, model.gradient - damped @ step, 0.0)
+    if np.any(np.where(step < above, left, 0.0) > 0.0) or np.any(np.where(step > below, left, 0.0) < 0.0):
+        step = _least_between(model.gradient, damped, below, above)
+    length = float(np.abs(step).max(initial=0.0))
+    return step if length <= largest else step * (largest / length)
+
+
+def _held(gradient: Array, damped: Array, below: Array, above: Array) -> tuple[Array, NDArray[np.bool_]]:
+    """What would pass a bound held on it and the rest solved anew, and which are held: mostly it is the least."""
+    step = np.zeros_like(gradient)
+    free = np.ones(step.size, dtype=bool)
+    while free.any():
+        push = gradient[free] - damped[np.ix_(free, ~free)] @ step[~free]
+        step[free] = np.linalg.solve(damped[np.ix_(free, free)], push)
+        over = free & ((step > above) | (step < below))
+        if not over.any():
+            break
+        step[over] = np.clip(step[over], below[over], above[over])
+        free &= ~over
+    return step, ~free
+
+
+def _least_between(gradient: Array, damped: Array, below: Array, above: Array) -> Array:
+    """The least of d.damped.d - 2 gradient.d between bounds, by bounded-variable least squares."""
+    from scipy.optimize import lsq_linear
+
+    lower = np.linalg.cholesky(damped)
+    right = solve_triangular(lower, gradient, lower=True)
+    found = lsq_linear(lower.T, right, (below, above), method="bvls", tol=1e-12, max_iter=100 * gradient.size)
+    if not found.success:
+        raise NotConverged(f"a step of {gradient.size} parameters between their bounds: {found.message}")
+    return np.asarray(found.x)

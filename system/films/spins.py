@@ -1,0 +1,86 @@
+"""Spins of piston and slipper about their own axes: stated, or what ball joint and films leave them."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from gaps.loads.ball_joint import Spins, bore_drag, free_spins, land_drag
+from system.description.pump import PumpDescription
+from system.pump.laws.directions import plate_axes
+from system.pump.laws.kinematics import SwashDrive, stroke
+from system.pump.lumped import piston_area, piston_stand_out
+from system.pump.operating import OperatingPoint
+
+
+@dataclass(frozen=True)
+class SpinTorques:
+    """What sets spins: friction mu |B| r of the joint (N m); drags (N m s) of the films of piston and slipper, and
+    torques (N m) by which these turn what does not spin."""
+
+    friction: float
+    drags: tuple[float, float]
+    driven: tuple[float, float] = (0.0, 0.0)
+
+
+def spins(pump: PumpDescription, point: OperatingPoint, drive: SwashDrive, torques: SpinTorques) -> Spins:
+    """Spins (rad/s) of the piston relative to the block and of the slipper in space, constant over the turn.
+
+    spin_ratio times shaft speed where stated; where left out, that at which the joint's friction and the films'
+    drags balance (`gaps.loads.ball_joint.free_spins`); the bore stands along the shaft, as the cone's mean over
+    the turn does.
+    """
+    speed, ratios = point.shaft_speed, (pump.piston.spin_ratio, pump.slipper.spin_ratio)
+    piston, slipper = (None if ratio is None else ratio * speed for ratio in ratios)
+    if piston is not None and slipper is not None:
+        return Spins(piston, slipper)
+    return free_spins(
+        bore_axis=np.array([0.0, 0.0, 1.0]),
+        plate_normal=plate_axes(drive)[2],
+        shaft_speed=speed,
+        friction=torques.friction,
+        piston_drag=torques.drags[0],
+        slipper_drag=torques.drags[1],
+        stated=(piston, slipper),
+        driven=torques.driven,
+    )
+
+
+def estimated_torques(pump: PumpDescription, point: OperatingPoint, drive: SwashDrive) -> SpinTorques:
+    """What sets spins before any film is solved.
+
+    The friction is that of the turn's mean force, Ap (mean of both ports' pressures - p_case)/cos(g); drags are
+    Petroff's of a centred piston at mid stroke and of the slipper's parallel lands at `film_thickness`.
+    """
+    part, slipper = pump.piston, pump.slipper
+    above = 0.5 * (point.delivery_pressure + point.inlet_pressure) - point.case_pressure
+    force = piston_area(pump) * abs(above) / math.cos(drive.swash_angle)
+    engaged = part.engaged_length - piston_stand_out(pump, drive) - 0.5 * stroke(drive)
+    length = min(engaged, part.guide_length or engaged)
+    lands = (land_drag(point.viscosity, *land, slipper.film_thickness) for land in slipper.lands.radii)
+    return SpinTorques(
+        pump.friction.piston_slipper_socket * force * slipper.ball_joint_radius,
+        (
+            bore_drag(point.viscosity, pump.pump.piston_diameter, length, part.radial_clearance),
+            math.fsum(lands),
+        ),
+    )
+
+
+def torques_of_films(
+    estimated: SpinTorques, friction: float, turned: Spins, torques: tuple[float, float]
+) -> SpinTorques:
+    """What sets spins by films solved at spins (rad/s): mean torques (N m) on piston and slipper there.
+
+    A torque against its spin is drag, as far as it exceeds the estimated one; what is left of it the film drives.
+    friction as `SpinTorques` has it.
+    """
+    spun = turned.piston, turned.slipper
+    drags = tuple(
+        max(least, -torque / spin) if spin else least
+        for least, torque, spin in zip(estimated.drags, torques, spun, strict=True)
+    )
+    driven = tuple(torque + drag * spin for torque, drag, spin in zip(torques, drags, spun, strict=True))
+    return SpinTorques(friction, (drags[0], drags[1]), (driven[0], driven[1]))

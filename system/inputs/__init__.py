@@ -1,0 +1,1 @@
+"""Values from files: units, faults, TOML and CSV tables, channel names."""

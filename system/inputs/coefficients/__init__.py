@@ -1,0 +1,1 @@
+"""Coefficients of ports and edges from CFD or test bench, with an OpenFOAM reader."""

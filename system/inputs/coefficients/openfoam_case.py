@@ -1,0 +1,136 @@
+"""The flow through two patches of an OpenFOAM case, read with pyvista: a flow coefficient at a Reynolds number.
+
+Incompressible cases have a kinematic pressure p/rho in m2/s2; which one a file `p` holds its `dimensions` tell.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from system.inputs.faults import Fault, InputFaults, nearest_choice, nearest_path
+
+_DIMENSIONS = re.compile(r"^\s*dimensions\s*\[([^\]]*)\]", re.MULTILINE)
+KINEMATIC, PRESSURE = (0.0, 2.0, -2.0), (1.0, -1.0, -2.0)
+"""Powers of kg, m and s in the dimensions of p."""
+IMBALANCE = 0.01
+"""Of the flow by which inlet and outlet may differ."""
+
+
+@dataclass(frozen=True)
+class CaseFlow:
+    """At the last time of a case: volume flow in at the inlet (m3/s), static pressure drop inlet to outlet (Pa).
+
+    balance_error: outflow less inflow, of the inflow; time in s, or the number of iterations.
+    """
+
+    time: float
+    flow: float
+    pressure_drop: float
+    balance_error: float
+
+    def flow_coefficient(self, throat_area: float, density: float) -> float:
+        """Cd of q = Cd A sqrt(2 dp/rho), A in m2, rho in kg/m3."""
+        return float(self.flow / (throat_area * np.sqrt(2.0 * self.pressure_drop / density)))
+
+    def reynolds(self, throat_area: float, kinematic_viscosity: float) -> float:
+        """u d_h/nu in a throat of A m2, d_h = sqrt(4 A/pi), nu in m2/s."""
+        return float(self.flow / throat_area * np.sqrt(4.0 * throat_area / np.pi) / kinematic_viscosity)
+
+
+def read_case_flow(case: Path, inlet: str, outlet: str, density: float) -> CaseFlow:
+    """The flow of a case folder between two patches, density in kg/m3 for kinematic pressures.
+
+    Raises InputFaults for a folder that is no case, patches and fields that it lacks, a pressure of other
+    dimensions, a flow that runs the other way, differs by more than IMBALANCE or does not fall in pressure.
+    """
+    control = case / "system" / "controlDict"
+    if not control.is_file():
+        fault = Fault("case", f"no {control}", "the folder of an OpenFOAM case", nearest_path(control))
+        raise InputFaults(str(case), [fault])
+    time, boundary = _last_boundary(control)
+    faults = [
+        Fault("patch", f"'{name}'", f"one of {', '.join(boundary.keys())}", nearest_choice(name, boundary.keys()))
+        for name in (inlet, outlet)
+        if name not in boundary.keys()  # noqa: SIM118 (a pyvista MultiBlock looks its names up in keys alone)
+    ]
+    faults += [] if faults else _field_faults(case, boundary[inlet])
+    if faults:
+        raise InputFaults(str(case), faults)
+    scale = density if _pressure_powers(case, time) == KINEMATIC else 1.0
+    (inflow, before), (outflow, behind) = (_through(boundary[name]) for name in (inlet, outlet))
+    found = CaseFlow(time, -inflow, scale * (before - behind), (outflow + inflow) / max(abs(inflow), 1e-300))
+    return _held(case, found)
+
+
+def _last_boundary(control: Path) -> tuple[float, Any]:
+    """The last time of a case, and its patches then."""
+    import pyvista
+
+    reader = pyvista.OpenFOAMReader(str(control))
+    time = float(reader.time_values[-1])
+    reader.set_active_time_value(time)
+    reader.cell_to_point_creation = False
+    reader.enable_all_patch_arrays()
+    return time, reader.read()["boundary"]
+
+
+def _field_faults(case: Path, patch: Any) -> list[Fault]:
+    """Fields that are not there."""
+    return [
+        Fault(f"field {name}", "no such field at the last time", "U and p", f"run the solver in {case}")
+        for name in ("U", "p")
+        if name not in patch.cell_data
+    ]
+
+
+def _pressure_powers(case: Path, time: float) -> tuple[float, ...]:
+    """Powers of kg, m and s in p; raises InputFaults for those of neither pressure."""
+    places = [place / "p" for place in case.iterdir() if _is_time(place.name, time) and (place / "p").is_file()]
+    found = _DIMENSIONS.search(places[0].read_text("latin-1")) if places else None
+    powers = tuple(float(word) for word in found[1].split()[:3]) if found else ()
+    if powers not in (KINEMATIC, PRESSURE):
+        told = found[1].strip() if found else "no dimensions"
+        fault = Fault("field p", f"dimensions [{told}]", "[0 2 -2 ..] (kinematic) or [1 -1 -2 ..]")
+        raise InputFaults(str(case), [fault])
+    return powers
+
+
+def _is_time(name: str, time: float) -> bool:
+    try:
+        return abs(float(name) - time) <= 1e-9 * max(abs(time), 1.0)
+    except ValueError:
+        return False
+
+
+def _through(patch: Any) -> tuple[float, float]:
+    """Volume flow out through a patch (m3/s; faces of a boundary look outward), and its mean p."""
+    sized = patch.compute_cell_sizes(length=False, volume=False)
+    area = np.asarray(sized.cell_data["Area"])
+    normals = np.asarray(patch.extract_surface().face_normals)
+    out = np.einsum("ij,ij->i", np.asarray(patch.cell_data["U"]), normals)
+    return float(out @ area), float(np.asarray(patch.cell_data["p"]) @ area / area.sum())
+
+
+def _held(case: Path, found: CaseFlow) -> CaseFlow:
+    """The flow; raises InputFaults where it is no flow through an orifice."""
+    faults = []
+    if not found.flow > 0.0:
+        faults.append(
+            Fault("inlet", f"{found.flow:.3g} m3/s in", "a flow into the case", "inlet and outlet swapped")
+        )
+    elif abs(found.balance_error) > IMBALANCE:
+        share = f"outflow {1.0 + found.balance_error:.3f} of the inflow"
+        faults.append(
+            Fault("outlet", share, f"the inflow to {IMBALANCE:.0%}", "a converged flow between two patches")
+        )
+    if not found.pressure_drop > 0.0:
+        drop = f"{found.pressure_drop:.4g} Pa from inlet to outlet"
+        faults.append(Fault("p", drop, "a pressure that falls along the flow"))
+    if faults:
+        raise InputFaults(str(case), faults)
+    return found

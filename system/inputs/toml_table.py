@@ -1,0 +1,174 @@
+"""Reading a TOML case: values with their units out of tables, and every fault of the file at once."""
+
+from __future__ import annotations
+
+import math
+import re
+import tomllib
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+from enum import Enum
+from pathlib import Path
+from typing import Any, TypeVar
+
+from system.inputs.faults import Fault, InputFaults, key_lines, nearest_choice, nearest_path
+from system.inputs.units import Dimension, QuantityError, parse_quantity, with_point
+
+Choice = TypeVar("Choice", bound=Enum)
+
+
+def read_toml(path: Path) -> tuple[str, dict[str, Any]]:
+    """The text of a TOML file and its tables; raises InputFaults for a file that is absent or no TOML."""
+    try:
+        text = path.read_text("utf-8-sig")  # some editors put a byte order mark first
+    except FileNotFoundError:
+        fault = Fault("file", "no such file", "an existing TOML file", nearest_path(path))
+        raise InputFaults(str(path), [fault]) from None
+    except (OSError, UnicodeDecodeError) as reason:
+        raise InputFaults(str(path), [Fault("file", f"cannot be read: {reason}", "TOML in UTF-8")]) from None
+    return text, toml_tables(str(path), text)
+
+
+def toml_tables(source: str, text: str) -> dict[str, Any]:
+    """The tables of a TOML text; raises InputFaults, naming the `source`, for a text that is none."""
+    try:
+        return tomllib.loads(text)
+    except tomllib.TOMLDecodeError as reason:
+        at = re.search(r"at line (\d+)", str(reason))
+        lines = text.splitlines()
+        number = int(at[1]) if at else len(lines)
+        value = lines[number - 1].partition("=")[2].partition("#")[0].strip() if lines else ""
+        fault = Fault("file", f"no TOML: {reason}", "TOML 1.0", with_point(value))
+        raise InputFaults(source, [fault], {"file": number}) from None
+
+
+def fault_lines(text: str, faults: Iterable[Fault]) -> dict[str, int]:
+    """Line of every fault's path in a TOML text, or of the entry or table that holds it."""
+    lines = key_lines(text)
+    for fault in faults:
+        path = fault.path.partition("[")[0]
+        while path and path not in lines:
+            path = path.rpartition(".")[0]
+        if path:
+            lines[fault.path] = lines[path]
+    return lines
+
+
+def quoted(text: str) -> str:
+    """A TOML basic string of one line."""
+    return '"' + text.replace("\\", "\\\\").replace('"', '\\"') + '"'
+
+
+@dataclass
+class Table:
+    """One table being read: hands out SI values and collects what is wrong with it.
+
+    `faults` is shared by all tables of a file. A key that was asked for is known; `close` faults the others.
+    """
+
+    path: str
+    values: Mapping[str, Any]
+    faults: list[Fault]
+    asked: list[str] = field(default_factory=list)
+
+    def get(self, key: str) -> Any:
+        """The raw value of a key, None where there is none; the key is known from then on."""
+        if key not in self.asked:
+            self.asked.append(key)
+        return self.values.get(key)
+
+    def fault(self, key: str, found: str, expected: str, nearest: str = "") -> None:
+        """Tell of a fault of one key."""
+        self.faults.append(Fault(self.name(key), found, expected, nearest))
+
+    def name(self, key: str) -> str:
+        """Path of a key in the file."""
+        return f"{self.path}.{key}" if self.path else key
+
+    def table(self, key: str, *, needed: str = "") -> Table | None:
+        """The table under a key, or None: faulted where it is no table, or absent and `needed` (why)."""
+        raw = self.get(key)
+        if isinstance(raw, dict):
+            return Table(self.name(key), raw, self.faults)
+        if raw is not None or needed:
+            found = "no such table" if raw is None else repr(raw)
+            self.fault(key, found, f"a table [{self.name(key)}] {needed}".rstrip())
+        return None
+
+    def quantity(self, key: str, dimension: Dimension, default: float | None = None) -> float | None:
+        """A quantity with its unit in SI; None with its fault told."""
+        raw = self.get(key)
+        if raw is None:
+            if default is None:
+                self.fault(key, "no such key", f"{dimension.noun} with its unit, such as '{dimension.example}'")
+            return default
+        try:
+            return parse_quantity(raw, dimension)
+        except QuantityError as reason:
+            self.fault(key, reason.found, reason.expected, reason.nearest)
+            return None
+
+    def positive(self, key: str, dimension: Dimension, default: float | None = None) -> float | None:
+        """A quantity above zero in SI; None with its fault told."""
+        value = self.quantity(key, dimension, default)
+        if value is not None and not value > 0.0:
+            self.fault(key, str(self.values[key]), f"{dimension.noun} above zero, such as '{dimension.example}'")
+            return None
+        return value
+
+    def pair(
+        self, key: str, dimension: Dimension, default: tuple[float, float] | None = None
+    ) -> tuple[float, float] | None:
+        """Two quantities, along x and y, in SI; None with the faults told."""
+        raw = self.get(key)
+        if raw is None and default is not None:
+            return default
+        if not isinstance(raw, list) or len(raw) != 2:
+            found = "no such key" if raw is None else repr(raw)
+            example = f'["{dimension.example}", "{dimension.example}"]'
+            self.fault(key, found, f"{dimension.noun} along x and y, such as {example}")
+            return None
+        parts = Table(self.name(key), dict(zip("xy", raw, strict=True)), self.faults)
+        x, y = (parts.quantity(axis, dimension) for axis in "xy")
+        return None if x is None or y is None else (x, y)
+
+    def number(self, key: str, default: float | None = None) -> float | None:
+        """A bare number; None with its fault told."""
+        raw = self.get(key)
+        if raw is None and default is not None:
+            return default
+        if isinstance(raw, bool) or not isinstance(raw, (int, float)) or not math.isfinite(raw):
+            self.fault(key, "no such key" if raw is None else repr(raw), "a bare number (it has no unit)")
+            return None
+        return float(raw)
+
+    def file(self, key: str, folder: Path, expected: str) -> Path | None:
+        """The path of a file that is there, from a folder; None with its fault told."""
+        raw = self.get(key)
+        if not isinstance(raw, str):
+            self.fault(key, "no such key" if raw is None else repr(raw), expected)
+            return None
+        path = folder / raw
+        if not path.is_file():
+            self.fault(key, f"'{path}', which is no file", expected, nearest_path(path))
+            return None
+        return path
+
+    def choice(self, key: str, kind: type[Choice], default: Choice | None = None) -> Choice | None:
+        """One of an Enum's values; None with its fault told."""
+        raw = self.get(key)
+        if raw is None and default is not None:
+            return default
+        for member in kind:
+            if raw == member.value:
+                return member
+        names = [str(member.value) for member in kind]
+        found = "no such key" if raw is None else repr(raw)
+        self.fault(key, found, f"one of {', '.join(map(repr, names))}", nearest_choice(str(raw), names))
+        return None
+
+    def close(self) -> None:
+        """Fault every key that nobody asked for, with the nearest one that is known."""
+        for key in self.values:
+            if key not in self.asked:
+                self.fault(key, "unknown key", f"one of {', '.join(self.asked)}", nearest_choice(key, self.asked))

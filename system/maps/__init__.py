@@ -1,0 +1,1 @@
+"""Operating maps, duty cycles, comparison, derived displacement."""

@@ -1,0 +1,166 @@
+"""A duty cycle by a map: energies over the time, each with the error that the map between its levels has."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from reynolds.errors import FilmInputError
+from reynolds.numerics.arrays import Array
+from system.inputs.faults import Fault, InputFaults
+from system.maps.data import LOSSES, MapData
+from system.maps.interpolation import MapError, MapInterpolant, inside
+from system.maps.plan import MapAxis, MapInput
+from system.pump.efficiency import EfficiencyDefinition
+
+GAUSS_POINTS = 4
+"""Places in each stretch of a cycle, Gauss and Legendre's: exact for powers of the seventh degree along it."""
+
+
+@dataclass(frozen=True)
+class Cycle:
+    """Inputs of a map over time (s), SI, (N,) each and straight between; those that are held may be left out.
+
+    A time that stands twice is a step. Raises FilmInputError for fewer than two rows, and for times that fall or
+    do not pass.
+    """
+
+    time: Array
+    inputs: Mapping[MapInput, Array]
+
+    def __post_init__(self) -> None:
+        if len(self.time) < 2 or np.any(np.diff(self.time) < 0.0) or not self.time[-1] > self.time[0]:
+            found = f"{len(self.time)} rows" if len(self.time) < 2 else "times that fall, or do not pass"
+            raise FilmInputError("cycle", found, "two rows or more, in the order of their time")
+
+    @property
+    def duration(self) -> float:
+        """From the first row to the last, s."""
+        return float(self.time[-1] - self.time[0])
+
+
+@dataclass(frozen=True)
+class Energy:
+    """An energy over the cycle and its error by interpolation, J."""
+
+    value: float
+    error: float
+
+
+@dataclass(frozen=True)
+class Duty:
+    """What a pump does over a cycle.
+
+    energies: shaft, hydraulic, loss and every sink of the loss, by its words; efficiency: mean overall one by
+    definition, energy over energy, with its error; marked: part of the time between points with a warning, by its
+    name; volume: delivered, m3; shown_by: what has shown the error.
+    """
+
+    duration: float
+    volume: Energy
+    energies: Mapping[str, Energy]
+    efficiency: Mapping[EfficiencyDefinition, Energy]
+    marked: Mapping[str, float]
+    shown_by: str
+
+
+def duty(interpolant: MapInterpolant, cycle: Cycle, error: MapError) -> Duty:
+    """A cycle's energies; raises InputFaults for a cycle that leaves the map's box, saying where.
+
+    The error of each energy is the largest that the map has shown of that power, over the whole time: it holds
+    wherever in the box the cycle stays.
+    """
+    _hold_inside(interpolant.data, cycle)
+    places, share = _stretches(cycle)
+    told = interpolant.at(places)
+    told["loss"] = told["shaft_power"] - told["hydraulic_power"]
+
+    def over_time(values: Array) -> float:
+        return float(share @ values)
+
+    time, largest = cycle.duration, dict(error.largest)
+    largest["loss"] = largest["shaft_power"] + largest["hydraulic_power"]
+    names = {"shaft_power": "shaft", "hydraulic_power": "hydraulic", "loss": "loss", **LOSSES}
+    energies = {words: Energy(over_time(told[name]), time * largest[name]) for name, words in names.items()}
+    return Duty(
+        duration=time,
+        volume=Energy(over_time(told["delivery_flow"]), time * largest["delivery_flow"]),
+        energies={
+            words: energy for words, energy in energies.items() if energy.value != 0.0 or energy.error != 0.0
+        },
+        efficiency=_efficiencies(told, share, energies),
+        marked=_marked(interpolant.data, places, share / time),
+        shown_by=f"{error.count} {error.shown_by}",
+    )
+
+
+def _hold_inside(data: MapData, cycle: Cycle) -> None:
+    """Raise InputFaults with each input's first row outside the box; between rows a cycle cannot leave it."""
+    out = [
+        (int(np.argmin(good)), axis)
+        for axis in data.axes
+        if axis.input in cycle.inputs and not np.all(good := inside(axis, cycle.inputs[axis.input]))
+    ]
+    if out:
+        raise InputFaults("cycle", [_beyond(axis, cycle, row) for row, axis in out])
+
+
+def _beyond(axis: MapAxis, cycle: Cycle, row: int) -> Fault:
+    given, ends = axis.input, (axis.values[0], axis.values[-1])
+    found = f"{given.text(float(cycle.inputs[given][row]))} at {cycle.time[row]:.6g} s"
+    box = " .. ".join(dict.fromkeys(map(given.text, ends)))
+    return Fault(given.words, found, f"{box}, the map's box: nothing is extrapolated")
+
+
+def _stretches(cycle: Cycle) -> tuple[dict[MapInput, Array], Array]:
+    """Inputs (M,) at Gauss' places of every stretch of the cycle, and the seconds that each stands for."""
+    nodes, weights = np.polynomial.legendre.leggauss(GAUSS_POINTS)
+    part, span = 0.5 * (nodes + 1.0), np.diff(cycle.time)
+    places = {
+        given: (values[:-1, None] + np.diff(values)[:, None] * part)[span > 0.0].ravel()
+        for given, values in cycle.inputs.items()
+    }
+    return places, (0.5 * span[:, None] * weights)[span > 0.0].ravel()
+
+
+def _efficiencies(
+    told: Mapping[str, Array], share: Array, energies: Mapping[str, Energy]
+) -> dict[EfficiencyDefinition, Energy]:
+    """Mean overall efficiency of each definition: useful energy over that of the shaft."""
+    delivered = told["port_delivery_pressure"] * told["delivery_flow"]
+    ports = float(share @ (delivered - told["port_inlet_pressure"] * told["inlet_flow"]))
+    shaft, hydraulic = energies["shaft"], energies["hydraulic"]
+    kept = float(share @ told["compression_power"])
+    useful: dict[EfficiencyDefinition, float] = {
+        EfficiencyDefinition.PAPER: ports,
+        EfficiencyDefinition.ISO_SWEPT: ports,
+        EfficiencyDefinition.ISO_TOET: ports,
+        EfficiencyDefinition.ENERGY_RETURNED: hydraulic.value + kept,
+        EfficiencyDefinition.ENERGY_NOT_RETURNED: hydraulic.value,
+    }
+    relative = hydraulic.error / abs(hydraulic.value) + shaft.error / shaft.value
+    return {
+        definition: Energy(value / shaft.value, abs(value) / shaft.value * relative)
+        for definition, value in useful.items()
+    }
+
+
+def _marked(data: MapData, places: Mapping[MapInput, Array], share: Array) -> dict[str, float]:
+    """Part of the time in cells of the map of which a corner carries a warning, by the warning's name."""
+    cell: list[tuple[np.ndarray, np.ndarray]] = []
+    for axis in data.axes:
+        levels = np.array(axis.values)
+        at = places.get(axis.input, np.full(len(share), levels[0]))
+        lower = np.clip(np.searchsorted(levels, at, side="right") - 1, 0, max(0, len(levels) - 2))
+        cell.append((lower, np.minimum(lower + 1, len(levels) - 1)))
+    names = sorted({name for told in data.warnings.flat for name, _ in told})
+    found = {}
+    for name in names:
+        here = np.array([any(name == one for one, _ in told) for told in data.warnings.flat]).reshape(data.shape)
+        corners = [
+            here[tuple(ends[corner >> k & 1] for k, ends in enumerate(cell))] for corner in range(2 ** len(cell))
+        ]
+        found[name] = float(share @ np.logical_or.reduce(corners))
+    return {name: part for name, part in found.items() if part > 0.0}

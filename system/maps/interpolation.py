@@ -1,0 +1,203 @@
+"""A map between its levels: smooth along each axis, with an error that fresh points have shown."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+
+from reynolds.errors import FilmInputError
+from reynolds.numerics.arrays import Array
+from system.inputs.faults import Fault, InputFaults
+from system.maps.data import MapData
+from system.maps.plan import MapAxis, MapInput, MapPlan
+from system.maps.point import columns
+from system.pump.bench import ideal_flow, ideal_torque
+from system.pump.operating import OperatingPoint, operating_point
+
+CUBIC = 3
+ROUND_OFF = 1e-9  # of an axis' width, by which a point may lie outside
+ROWS = 1024
+"""Points at a time: memory."""
+CHECKED = 40
+"""Fresh points that a map is checked at, where each costs little."""
+IDEAL = ("delivery_flow", "inlet_flow", "shaft_torque")
+"""Numbers of which the part that no loss changes is left out before anything is interpolated."""
+
+
+@dataclass(frozen=True)
+class MapInterpolant:
+    """Numbers of a whole map anywhere in its box: tensor product of splines, no-knot ends, cubic along four levels
+    or more, else of the degree that fewer hold.
+
+    What is interpolated are losses: flows and torque less the ideal ones, everything else as it is. Raises
+    InputFaults for a map with points that have no result.
+    """
+
+    data: MapData
+
+    def __post_init__(self) -> None:
+        lacking = int(np.sum(~self.data.solved))
+        if lacking:
+            reason = str(self.data.reason[~self.data.solved][0])
+            found = f"{lacking} of {self.data.solved.size} points without a result, the first: {reason}"
+            fault = Fault("map", found, "a whole map", "swashfilm map with --resume, or without those levels")
+            raise InputFaults(self.data.name, [fault])
+
+    def at(self, inputs: Mapping[MapInput, Array]) -> dict[str, Array]:
+        """Every number (N,) of the map at N points, SI; inputs of single level may be left out.
+
+        Raises FilmInputError with every input that lies outside the box: nothing is extrapolated.
+        """
+        given = {axis.input: axis.values[0] for axis in self.data.axes if len(axis.values) == 1} | dict(inputs)
+        places = {axis.input: np.atleast_1d(np.asarray(given[axis.input], float)) for axis in self.data.axes}
+        _hold_inside(self.data.axes, places)
+        count = max(len(place) for place in places.values())
+        full = {given: np.broadcast_to(place, count) for given, place in places.items()}
+        rows = (slice(at, at + ROWS) for at in range(0, count, ROWS))
+        found = np.concatenate([self._rows([full[axis.input][own] for axis in self.data.axes]) for own in rows])
+        named = dict(zip(self._names, found.T, strict=True))
+        return {name: value + ideal(name, full, named) for name, value in named.items()}
+
+    def _rows(self, places: Sequence[Array]) -> Array:
+        """What is interpolated (N, columns) at places (N,) on each axis."""
+        kernel = np.ones((len(places[0]), 1))
+        for axis, place in zip(self.data.axes, places, strict=True):
+            kernel = (kernel[:, :, None] * weights(axis, place)[:, None, :]).reshape(len(place), -1)
+        return np.asarray(kernel @ self._losses.reshape(kernel.shape[1], -1))
+
+    @property
+    def _names(self) -> tuple[str, ...]:
+        return tuple(name for name, _, _ in columns())
+
+    @cached_property
+    def _losses(self) -> Array:
+        """What is interpolated (n1, .., n5, columns)."""
+        values = self.data.values
+        return np.stack([values[name] - ideal(name, self.data.grid, values) for name in self._names], axis=-1)
+
+
+def ideal(name: str, inputs: Mapping[MapInput, Array], values: Mapping[str, Array]) -> Array | float:
+    """What of a flow or a torque no loss changes: n V and dp V/(2 pi), V geometric; 0 of other numbers."""
+    if name not in IDEAL:
+        return 0.0
+    volume = values["geometric_displacement"]
+    if name == "shaft_torque":
+        return ideal_torque(volume, values["port_delivery_pressure"] - values["port_inlet_pressure"])  # type: ignore[arg-type]
+    return ideal_flow(volume, inputs[MapInput.SPEED])  # type: ignore[arg-type]
+
+
+def weights(axis: MapAxis, places: Array) -> Array:
+    """What each level counts at places (N,): (N, levels), exact for polynomials of the spline's degree."""
+    from scipy.interpolate import make_interp_spline
+
+    count = len(axis.values)
+    if count == 1:
+        return np.ones((len(places), 1))
+    lower, upper = axis.values[0], axis.values[-1]
+    unit = (np.array(axis.values) - lower) / (upper - lower)
+    spline = make_interp_spline(unit, np.eye(count), k=min(CUBIC, count - 1))
+    return np.asarray(spline(np.clip((places - lower) / (upper - lower), 0.0, 1.0)))
+
+
+def inside(axis: MapAxis, places: Array) -> np.ndarray:
+    """Which of places (N,) lie between the ends of an axis, but for round-off."""
+    lower, upper = axis.values[0], axis.values[-1]
+    slack = ROUND_OFF * max(upper - lower, abs(upper))
+    return np.asarray((places >= lower - slack) & (places <= upper + slack))
+
+
+def _hold_inside(axes: Sequence[MapAxis], places: Mapping[MapInput, Array]) -> None:
+    out = []
+    for axis in axes:
+        wrong = places[axis.input][~inside(axis, places[axis.input])]
+        if wrong.size:
+            box = f"{axis.input.text(axis.values[0])} .. {axis.input.text(axis.values[-1])}"
+            out.append((axis.input, float(wrong[0]), box))
+    if out:
+        raise FilmInputError(
+            ", ".join(given.words for given, _, _ in out),
+            ", ".join(given.text(value) for given, value, _ in out),
+            ", ".join(box for _, _, box in out) + ", the map's box: nothing is extrapolated",
+        )
+
+
+def check_points(plan: MapPlan, count: int) -> tuple[OperatingPoint, ...]:
+    """Fresh points inside the box of a plan, by Sobol's sequence over the axes that have several levels."""
+    from scipy.stats.qmc import Sobol
+
+    wide = [axis for axis in plan.axes if len(axis.values) > 1]
+    if not wide or count == 0:
+        return ()
+    places = Sobol(len(wide), scramble=False).fast_forward(1).random(count)
+    lower = np.array([axis.values[0] for axis in wide])
+    values = lower + places * (np.array([axis.values[-1] for axis in wide]) - lower)
+    held = {axis.input.value: axis.values[0] for axis in plan.axes if len(axis.values) == 1}
+    return tuple(
+        operating_point(
+            plan.pump, **held, **{axis.input.value: float(x) for axis, x in zip(wide, row, strict=True)}
+        )
+        for row in values
+    )
+
+
+@dataclass(frozen=True)
+class MapError:
+    """What a map misses between its levels, by column: rms and largest error, SI; how many points have shown it.
+
+    shown_by: fresh points, or inner levels that the map itself gives without them.
+    """
+
+    rms: Mapping[str, float]
+    largest: Mapping[str, float]
+    count: int
+    shown_by: str
+
+
+def fresh_error(
+    interpolant: MapInterpolant, points: Sequence[OperatingPoint], found: Mapping[str, Array]
+) -> MapError:
+    """The error at fresh points: `found` are their numbers (N,) by column."""
+    at = {given: np.array([getattr(point, given.value) for point in points]) for given in MapInput}
+    told = interpolant.at(at)
+    return _error({name: told[name] - values for name, values in found.items()}, "fresh points, solved")
+
+
+def left_out_error(data: MapData) -> MapError | None:
+    """The error with which each inner level of each axis is told by the others; None where no axis has one.
+
+    Levels stand twice as far apart then: an upper bound for a smooth map, some five times too large on REF90.
+    """
+    off: dict[str, list[Array]] = {}
+    for k, axis in enumerate(data.axes):
+        for level in range(1, len(axis.values) - 1):
+            values = axis.values[:level] + axis.values[level + 1 :]
+            kept = [i for i in range(len(axis.values)) if i != level]
+            told = MapInterpolant(_taken(data, k, kept, MapAxis(axis.input, values)))
+            inputs = {given: np.take(grid, level, axis=k).ravel() for given, grid in data.grid.items()}
+            for name, numbers in told.at(inputs).items():
+                off.setdefault(name, []).append(numbers - np.take(data.values[name], level, axis=k).ravel())
+    return _error({name: np.concatenate(rows) for name, rows in off.items()}, "levels left out") if off else None
+
+
+def _taken(data: MapData, k: int, kept: Sequence[int], axis: MapAxis) -> MapData:
+    """The map with some levels of axis k alone."""
+    return replace(
+        data,
+        axes=(*data.axes[:k], axis, *data.axes[k + 1 :]),
+        values={name: np.take(values, kept, axis=k) for name, values in data.values.items()},
+        status=np.take(data.status, kept, axis=k),
+        reason=np.take(data.reason, kept, axis=k),
+        warnings=np.take(data.warnings, kept, axis=k),
+    )
+
+
+def _error(off: Mapping[str, Array], shown_by: str) -> MapError:
+    return MapError(
+        {name: float(np.sqrt(np.mean(values**2))) for name, values in off.items()},
+        {name: float(np.max(np.abs(values))) for name, values in off.items()},
+        len(next(iter(off.values()))),
+        shown_by,
+    )

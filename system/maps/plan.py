@@ -1,0 +1,145 @@
+"""What an operating map is taken over: levels of five inputs, and what is wrong with any point of their grid."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from enum import Enum
+from functools import cached_property
+from itertools import product
+
+from reynolds.errors import FilmInputError
+from system.description.pump import PumpDescription
+from system.inputs.faults import Fault
+from system.inputs.units import RPM, Dimension, format_quantity, in_unit, reading_unit
+from system.pump.operating import OperatingPoint, operating_point
+from system.pump_file.check import CheckWarning
+from system.pump_file.operating import check_operating_point
+
+PAPER_SPEEDS = tuple(RPM * speed for speed in (1000.0, 1300.0, 1700.0, 2100.0))
+PAPER_PRESSURES = tuple(1e6 * pressure for pressure in (5.0, 10.0, 15.0, 20.0, 25.0, 30.0, 35.0))
+PAPER_RATIOS = (0.28, 0.51, 0.77, 1.0)
+"""The paper's 112 test points: rad/s, Pa gauge at the delivery port, share of the full displacement."""
+
+
+class MapInput(Enum):
+    """The inputs of a map by their field in `OperatingPoint`, in the order of its axes."""
+
+    SPEED = "shaft_speed"
+    PRESSURE = "delivery_pressure"
+    RATIO = "displacement_ratio"
+    TEMPERATURE = "temperature"
+    INLET_PRESSURE = "inlet_pressure"
+
+    @property
+    def dimension(self) -> Dimension | None:
+        """What is measured; None for the displacement ratio, a bare number."""
+        return _DIMENSIONS.get(self)
+
+    @property
+    def unit(self) -> str:
+        """The SI unit of its levels."""
+        return self.dimension.si_unit if self.dimension else "1"
+
+    @property
+    def words(self) -> str:
+        """What it is called."""
+        return "oil temperature in the case" if self is MapInput.TEMPERATURE else self.value.replace("_", " ")
+
+    def text(self, value: float) -> str:
+        """A value as people read it."""
+        dimension = self.dimension
+        return f"{value:.6g}" if dimension is None else format_quantity(value, dimension, digits=6)
+
+
+_DIMENSIONS = {
+    MapInput.SPEED: Dimension.ANGULAR_SPEED,
+    MapInput.PRESSURE: Dimension.PRESSURE,
+    MapInput.TEMPERATURE: Dimension.TEMPERATURE,
+    MapInput.INLET_PRESSURE: Dimension.PRESSURE,
+}
+
+
+@dataclass(frozen=True)
+class MapAxis:
+    """The levels of one input, SI, rising; a single one holds it. Raises FilmInputError for others."""
+
+    input: MapInput
+    values: tuple[float, ...]
+
+    def __post_init__(self) -> None:
+        rising = all(low < high for low, high in zip(self.values, self.values[1:], strict=False))
+        if not self.values or not rising:
+            found = ", ".join(self.input.text(value) for value in self.values) or "no level"
+            raise FilmInputError(f"levels of {self.input.words}", found, "levels that rise, each once")
+
+
+@dataclass(frozen=True)
+class MapPlan:
+    """A pump over the grid of five axes, in the order of `MapInput`; what is no axis is the pump's own."""
+
+    pump: PumpDescription
+    axes: tuple[MapAxis, ...]
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """How many levels each axis has."""
+        return tuple(len(axis.values) for axis in self.axes)
+
+    @cached_property
+    def points(self) -> tuple[OperatingPoint, ...]:
+        """All points, the last axis' level changing first; raises FilmInputError where the oil's law is void."""
+        names = [axis.input.value for axis in self.axes]
+        levels = product(*(axis.values for axis in self.axes))
+        return tuple(operating_point(self.pump, **dict(zip(names, level, strict=True))) for level in levels)
+
+    def checked(self) -> MapCheck:
+        """What is wrong with and doubtful about any of the points, each told once."""
+        faults: Counter[Fault] = Counter()
+        warnings: dict[str, list[CheckWarning]] = {}
+        for point in self.points:
+            report = check_operating_point(self.pump, point)
+            faults.update(report.faults)
+            for warning in report.warnings:
+                warnings.setdefault(warning.path, []).append(warning)
+        told = {path: f"at {len(found)} points; at the first: {found[0]}" for path, found in warnings.items()}
+        return MapCheck(tuple(faults), told)
+
+
+@dataclass(frozen=True)
+class MapCheck:
+    """Faults of a plan's points, none twice, and its warnings by the key of the pump file that they are of."""
+
+    faults: tuple[Fault, ...]
+    warnings: Mapping[str, str]
+
+
+def map_plan(pump: PumpDescription, axes: Sequence[MapAxis]) -> MapPlan:
+    """A plan of the stated axes; an input that has none is held at the pump's own operating point."""
+    stated, point = {axis.input: axis for axis in axes}, operating_point(pump)
+    held = {given: MapAxis(given, (getattr(point, given.value),)) for given in MapInput}
+    return MapPlan(pump, tuple((held | stated).values()))
+
+
+def paper_axes() -> tuple[MapAxis, ...]:
+    """The paper's 112 points: four speeds, seven delivery pressures, four displacements."""
+    return (
+        MapAxis(MapInput.SPEED, PAPER_SPEEDS),
+        MapAxis(MapInput.PRESSURE, PAPER_PRESSURES),
+        MapAxis(MapInput.RATIO, PAPER_RATIOS),
+    )
+
+
+def point_words(point: OperatingPoint) -> str:
+    """The inputs of a point as people read them."""
+    return ", ".join(f"{given.words} {given.text(getattr(point, given.value))}" for given in MapInput)
+
+
+def reading_levels(axis: MapAxis) -> tuple[tuple[float, ...], str]:
+    """The levels of an axis in the unit that people read them in, and that unit; empty for a bare number."""
+    dimension = axis.input.dimension
+    if dimension is None:
+        return axis.values, ""
+    unit = reading_unit(max(axis.values), dimension)
+    return tuple(in_unit(value, unit, dimension) for value in axis.values), unit

@@ -1,0 +1,1 @@
+"""Displacement in time: swash plate, actuator and every chamber."""

@@ -1,0 +1,319 @@
+"""Compiled course of a pump whose swash plate swings: chambers, actuator and plate over equal steps of shaft
+angle.
+
+Chambers and actuator keep the mass of their oil as `chamber_kernel` does, by its implicit method of order 4;
+over a step the plate is known to second order, g + g' t + g'' t^2/2. The plate follows virtual work on its
+tilt,
+
+    (I + m sum s_g^2) g'' = sum s_g [A (p - p_case) + f - m (s_phiphi w^2 + 2 s_phig w g' + s_gg g'^2
+                            - w^2 sin b (R + s sin b))] + M_actuator - M_spring - c g' - M_t g'/(g'^2 + r^2)^(1/2)
+
+by velocity Verlet, order 2. f is the nominal friction of a piston in its bore. Stops are plastic: while the moment
+presses the plate on one, it rests, and the moment on the stop is told.
+"""
+
+# mypy: allow-untyped-defs, allow-incomplete-defs, no-check-untyped-defs
+
+from __future__ import annotations
+
+import numba
+import numpy as np
+
+from system.multibody.plate_kernels import axial
+from system.pump.chamber.kernels import (
+    GAMMA,
+    LEFT,
+    NODES,
+    STAGES,
+    TABLEAU,
+    WEIGHTS,
+    fill_stage,
+    stage_pressure,
+)
+from system.pump.chamber.state_kernels import (
+    INTEGRALS,
+    PATHS,
+    WAYS,
+    oil_energy,
+    oil_volume,
+    outflows,
+    port_ways,
+)
+from system.pump.ports.areas import orifice_coefficients, section_area
+
+PLATE = np.dtype(
+    [
+        ("pistons", "i8"),
+        ("pitch_radius", "f8"),
+        ("cone", "f8"),
+        ("cross", "f8"),
+        ("pivot_offset", "f8"),
+        ("inner_place", "f8"),
+        ("angle_min", "f8"),
+        ("angle_max", "f8"),
+        ("inertia", "f8"),
+        ("damping", "f8"),
+        ("rubbing", "f8"),
+        ("rubbing_rate", "f8"),
+        ("mass", "f8"),
+        ("engaged_length", "f8"),
+        ("overhang", "f8"),
+        ("friction", "f8"),
+        ("shear", "f8"),
+        ("slide", "f8"),
+        ("piston_leak", "f8"),
+        ("slipper_leak", "f8"),
+        ("ring_leak", "f8"),
+        ("carried", "f8"),
+        ("sense", "f8"),
+        ("arm", "f8"),
+        ("actuator_area", "f8"),
+        ("actuator_volume", "f8"),
+        ("actuator_orifice", "f8"),
+        ("actuator_leak", "f8"),
+        ("spring_rate", "f8"),
+        ("spring_force", "f8"),
+    ],
+    align=True,
+)
+"""Constants of plate, actuator and pistons, SI, as the compiled code reads them.
+
+Leaks: piston times engaged length m4/(s Pa), slipper and ring m3/(s Pa); carried m2; shear of a piston N s/m2;
+slide m/s, below which friction fades; inner_place m, of the inner dead centre at the largest angle; rubbing N m of
+the trunnion, fading below rubbing_rate rad/s; sense 1 for an actuator that strokes the plate up, -1 down.
+"""
+
+ATTEMPTS = 10
+"""Newton's method may swing about a narrow port's laminar range and close in slowly: it goes on where it stood."""
+COLUMNS = 16
+TIME, ANGLE, RATE, ACCELERATION, CONTROL, ACTUATOR, MOMENT_PRESSURE, MOMENT_INERTIA = range(8)
+MOMENT_FRICTION, MOMENT_ACTUATOR, MOMENT_SPRING, MOMENT_DRAG, MOMENT_STOP, DELIVERY, SUCTION, CASE = range(8, 16)
+"""What a row of the course holds: s, rad, rad/s, rad/s2, Pa, Pa, N m; of the step that ends there the flows out of
+the chambers, m3/s at zero gauge pressure."""
+
+
+@numba.njit(cache=True, error_model="numpy")
+def tilt_at(plate, tilt, time):
+    """Angle and rate at a time (s) into a step, between the stops; tilt (3,) at its begin."""
+    p = plate[0]
+    angle = tilt[0] + time * (tilt[1] + 0.5 * time * tilt[2])
+    if angle > p.angle_max:
+        return p.angle_max, 0.0
+    if angle < p.angle_min:
+        return p.angle_min, 0.0
+    return angle, tilt[1] + time * tilt[2]
+
+
+@numba.njit(cache=True, error_model="numpy")
+def piston_at(chamber, plate, shaft_angle, angle, rate, ways):
+    """Content (m3) of a chamber and its growth (m3/rad); fills ways as `chamber_kernel.openings` does."""
+    c, p = chamber[0], plate[0]
+    place, by_phi, by_g, _, _, _ = axial(shaft_angle, angle, p.pitch_radius, p.cone, p.cross, p.pivot_offset)
+    out = place - p.inner_place
+    way = by_phi + by_g * rate / c.shaft_speed
+    ways[0] = p.piston_leak / (p.engaged_length - out)
+    ways[1], ways[2] = p.slipper_leak, p.ring_leak
+    ways[3], ways[4], ways[5] = p.carried * way * c.shaft_speed, 0.0, 0.0
+    ports = section_area(shaft_angle, c.delivery_port), section_area(shaft_angle, c.suction_port)
+    port_ways(chamber, ports[0], ports[1], ways)
+    ways[10], ways[11] = c.delivery_pressure, c.inlet_pressure
+    return c.dead_volume + c.piston_area * out, c.piston_area * way
+
+
+@numba.njit(cache=True, error_model="numpy")
+def actuator_reach(plate, angle):
+    """Way (m) of the actuator's piston from its innermost place."""
+    p = plate[0]
+    if p.sense > 0.0:
+        return p.arm * (np.sin(angle) - np.sin(p.angle_min))
+    return p.arm * (np.sin(p.angle_max) - np.sin(angle))
+
+
+@numba.njit(cache=True, error_model="numpy")
+def actuator_at(chamber, plate, angle, rate, control, ways):
+    """The same of the actuator: its orifice stands in the place of the delivery port, its leak in the piston's."""
+    c, p = chamber[0], plate[0]
+    ways[:] = 0.0
+    ways[0] = p.actuator_leak
+    law = (c.flow_coefficient, c.density, c.kinematic_viscosity, c.critical_reynolds)
+    ways[6], ways[7] = orifice_coefficients(p.actuator_orifice, *law)
+    ways[9] = 1.0
+    ways[10], ways[11] = control, c.case_pressure
+    swept = p.sense * p.actuator_area * p.arm * np.cos(angle) * rate
+    return p.actuator_volume + p.actuator_area * actuator_reach(plate, angle), swept / c.shaft_speed
+
+
+@numba.njit(cache=True, error_model="numpy")
+def content_at(chamber, plate, which, shaft_angle, tilt, time, control, ways):
+    """Content and growth of compartment `which` at a time into a step: a chamber, or the actuator after them
+    all."""
+    angle, rate = tilt_at(plate, tilt, time)
+    if which == plate[0].pistons:
+        at = time / control[2]
+        return actuator_at(chamber, plate, angle, rate, control[0] + at * (control[1] - control[0]), ways)
+    own = shaft_angle + time * chamber[0].shaft_speed + 2.0 * np.pi * which / plate[0].pistons
+    return piston_at(chamber, plate, own, angle, rate, ways)
+
+
+@numba.njit(cache=True, error_model="numpy")
+def advance(chamber, plate, which, shaft_angle, tilt, control, state, stages, totals):
+    """One step of a compartment's oil: state (2,) mass m3 and pressure Pa; False where a stage finds no pressure.
+
+    control: pressure before the actuator's orifice at begin and end of the step (Pa), and the step (s). stages as
+    `chamber_kernel.step` has them; totals (INTEGRALS,) gains what `integral_rates` counts.
+    """
+    bulk, length = chamber[0].bulk_modulus, control[2] * chamber[0].shaft_speed
+    ways, flows = np.empty(WAYS), np.empty(PATHS)
+    _, swell = content_at(chamber, plate, which, shaft_angle, tilt, 0.0, control, ways)
+    pressure = state[1]
+    outflows(chamber, pressure, ways, flows)
+    fill_stage(chamber, pressure, oil_volume(pressure, bulk)[0], swell, ways, flows, stages[0])
+    for stage in range(1, STAGES):
+        time = NODES[stage] * control[2]
+        content, swell = content_at(chamber, plate, which, shaft_angle, tilt, time, control, ways)
+        base = state[0]
+        for earlier in range(stage):
+            base -= length * TABLEAU[stage, earlier] * stages[earlier, LEFT]
+        for _ in range(ATTEMPTS):
+            pressure, specific, _s, found = stage_pressure(
+                chamber, pressure, content, base, GAMMA * control[2], 0.0, ways, flows
+            )
+            if found:
+                break
+        if not found:
+            return False
+        fill_stage(chamber, pressure, specific, swell, ways, flows, stages[stage])
+    for stage in range(STAGES):
+        state[0] -= length * WEIGHTS[stage] * stages[stage, LEFT]
+        for one in range(INTEGRALS):
+            totals[one] += length * WEIGHTS[stage] * stages[stage, one]
+    state[1] = pressure
+    return True
+
+
+@numba.njit(cache=True, error_model="numpy")
+def moments(chamber, plate, shaft_angle, angle, rate, states, row):
+    """Fill the row's moments (N m) on the plate; return their sum and what they turn (kg m2)."""
+    c, p = chamber[0], plate[0]
+    speed, out = c.shaft_speed, np.sin(p.cone)
+    lean = np.sqrt(np.tan(angle) ** 2 + np.tan(p.cross) ** 2)
+    row[MOMENT_PRESSURE : MOMENT_STOP + 1] = 0.0
+    turned = p.inertia
+    for k in range(p.pistons):
+        own = shaft_angle + 2.0 * np.pi * k / p.pistons
+        place, by_phi, by_g, by_phi_phi, by_phi_g, by_g_g = axial(
+            own, angle, p.pitch_radius, p.cone, p.cross, p.pivot_offset
+        )
+        gain = by_phi_phi * speed**2 + 2.0 * by_phi_g * speed * rate + by_g_g * rate**2
+        gain -= speed**2 * out * (p.pitch_radius + place * out)
+        push = c.piston_area * (states[k, 1] - c.case_pressure)
+        moved = place - p.inner_place
+        engaged, way = p.engaged_length - moved, by_phi * speed + by_g * rate
+        lever = 1.0 + 2.0 * (p.overhang + moved) / engaged
+        drag = p.friction * abs(push - p.mass * gain) * lean * lever / np.sqrt(way**2 + p.slide**2)
+        row[MOMENT_PRESSURE] += by_g * push
+        row[MOMENT_INERTIA] -= by_g * p.mass * gain
+        row[MOMENT_FRICTION] -= by_g * (drag + p.shear * engaged) * way
+        turned += p.mass * by_g**2
+    lever, reach = p.sense * p.arm * np.cos(angle), actuator_reach(plate, angle)
+    row[MOMENT_ACTUATOR] = lever * p.actuator_area * (states[p.pistons, 1] - c.case_pressure)
+    row[MOMENT_SPRING] = -lever * (p.spring_force + p.spring_rate * reach)
+    row[MOMENT_DRAG] = -p.damping * rate - p.rubbing * rate / np.sqrt(rate**2 + p.rubbing_rate**2)
+    return np.sum(row[MOMENT_PRESSURE:MOMENT_STOP]), turned
+
+
+@numba.njit(cache=True, error_model="numpy")
+def resting(plate, angle, moment):
+    """Whether a moment presses the plate on a stop that it lies on."""
+    p = plate[0]
+    return (angle >= p.angle_max and moment > 0.0) or (angle <= p.angle_min and moment < 0.0)
+
+
+@numba.njit(cache=True, error_model="numpy")
+def swing(chamber, plate, shaft_angle, tilt, step, states, row):
+    """Take the plate over a step (s) of Verlet's rule; tilt (3,) is that of its end, the row filled.
+
+    Returns what a stop took of its momentum, kg m2/s.
+    """
+    p = plate[0]
+    angle = tilt[0] + step * (tilt[1] + 0.5 * step * tilt[2])
+    met = min(max(angle, p.angle_min), p.angle_max)
+    rate = tilt[1] + step * tilt[2]
+    struck = met != angle
+    moment, turned = moments(chamber, plate, shaft_angle, met, 0.0 if struck else rate, states, row)
+    taken, gain = 0.0, moment / turned
+    if struck:
+        taken, rate = turned * rate, 0.0
+    else:
+        rate = tilt[1] + 0.5 * step * (tilt[2] + gain)
+    if resting(plate, met, moment):
+        row[MOMENT_STOP] = -moment
+        rate, gain = 0.0, 0.0
+    tilt[0], tilt[1], tilt[2] = met, rate, gain
+    return taken
+
+
+@numba.njit(cache=True, error_model="numpy")
+def contents(chamber, states):
+    """Oil in compartments, m3 at zero gauge pressure, and its elastic energy, J: M (h - p s)."""
+    found = np.zeros(2)
+    for k in range(states.shape[0]):
+        pressure, bulk = states[k, 1], chamber[0].bulk_modulus
+        specific, liquid, _ = oil_volume(pressure, bulk)
+        found[0] += states[k, 0]
+        found[1] += states[k, 0] * (oil_energy(pressure, specific, liquid, bulk) - pressure * specific)
+    return found
+
+
+@numba.njit(cache=True, error_model="numpy")
+def let_go(chamber, plate, shaft_angle, tilt, states, row, free):
+    """Fill the row of a plate that is held; tilt (3,) gets no rate and, if it is `free` now, its acceleration."""
+    moment, turned = moments(chamber, plate, shaft_angle, tilt[0], 0.0, states, row)
+    tilt[1] = 0.0
+    tilt[2] = moment / turned if free and not resting(plate, tilt[0], moment) else 0.0
+    row[MOMENT_STOP] = 0.0 if tilt[2] else -moment
+
+
+@numba.njit(cache=True, error_model="numpy")
+def pass_step(chamber, plate, shaft_angle, tilt, control, states, stages, totals):
+    """Take all oil over a step, totals (INTEGRALS,) being the chambers'; False where a stage finds no pressure."""
+    totals[:] = 0.0
+    aside = np.zeros(INTEGRALS)
+    for k in range(states.shape[0]):
+        into = totals if k < plate[0].pistons else aside
+        if not advance(chamber, plate, k, shaft_angle, tilt, control, states[k], stages, into):
+            return False
+    return True
+
+
+@numba.njit(cache=True, error_model="numpy")
+def course(chamber, plate, held, step, controls, tilt, states, rows, pressures, totals, impulses, before):
+    """Fill rows (N + 1, COLUMNS), pressures (N + 1, z) from states (z + 1, 2) at the begin; 0, or a failed step.
+
+    The plate is held for the first `held` steps. controls (N, 2): pressure before the actuator's orifice at begin
+    and end of each step; totals (INTEGRALS,) of all chambers after the held steps; impulses (N,) N m s on stops;
+    before (2,): `contents` of the chambers as the plate is let go.
+    """
+    pistons, stages, one = plate[0].pistons, np.empty((STAGES, INTEGRALS + 2)), np.zeros(INTEGRALS)
+    control = np.array([0.0, 0.0, step])
+    for n in range(rows.shape[0]):
+        row, angle = rows[n], (n - held) * step * chamber[0].shaft_speed
+        if n <= held:
+            let_go(chamber, plate, angle, tilt, states, row, n == held)
+            before[:] = contents(chamber, states[:pistons])
+        else:
+            impulses[n - 1] = swing(chamber, plate, angle, tilt, step, states, row)
+        row[TIME], row[ANGLE], row[RATE], row[ACCELERATION] = (n - held) * step, tilt[0], tilt[1], tilt[2]
+        row[ACTUATOR] = states[pistons, 1]
+        pressures[n] = states[:pistons, 1]
+        if n + 1 == rows.shape[0]:
+            return 0
+        row[CONTROL], rows[n + 1, CONTROL] = controls[n, 0], controls[n, 1]
+        control[:2] = controls[n]
+        if not pass_step(chamber, plate, angle, tilt, control, states, stages, one):
+            return n + 1
+        if n >= held:
+            totals += one
+        rows[n + 1, DELIVERY], rows[n + 1, SUCTION] = one[0] / step, one[1] / step
+        rows[n + 1, CASE] = (one[2] + one[3] + one[4]) / step
+    return 0

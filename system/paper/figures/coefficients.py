@@ -1,0 +1,165 @@
+"""Fig. 13: friction coefficients tuned by Eq. (21), and what points at one speed and displacement determine."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+
+import numpy as np
+
+from reynolds.numerics.arrays import Array
+from system.bench.calibration.equation_21 import RANGES, EqFit, eq_fits, measured_losses
+from system.paper.figure import Axis, Curve, Figure, Panel, PanelKind, Unit
+from system.paper.judge import FigureResult, Impossibility, Judged, Range, judge, range_of
+from system.paper.made_readings import MADE, SEED, equation_of, made_readings
+from system.paper.points import PaperPoints, Reading
+from system.paper.statements import CLAIMS
+from system.pump.laws.friction_pairs import Pair
+
+
+def fig13(model: PaperPoints, seen: PaperPoints) -> FigureResult:
+    """Coefficients by Eq. (21) of `model`, tuned to readings made of the points in `seen` with noise.
+
+    model: by the lumped fidelity. The paper's test points stand in no text, so readings are made: by another
+    fidelity where `seen` is one, else by the model itself, which flatters it.
+    """
+    points, readings = made_readings(seen)
+    equation, losses = equation_of(model), measured_losses(points, readings)
+    rated = model.pump.pump.rated_speed
+    fits = {
+        Reading.WITH_SHEAR: eq_fits(equation, losses, points, rated),
+        Reading.MIXED: eq_fits(equation.mixed, losses, points, rated),
+    }
+    own = ", the model's own, so that the fit finds what it was made of" if seen.fidelity is model.fidelity else ""
+    told = f"Readings are {MADE}: of {seen.fidelity.value} points{own}; with a bench's noise, seed {SEED}."
+    return fig13_of(fits, (told,))
+
+
+def fig13_of(fits: Mapping[Reading, Sequence[EqFit]], told: Sequence[str]) -> FigureResult:
+    """The figure of fits at one speed, displacement by displacement, and of the whole map; `told`: of what.
+
+    By both readings: beside the films' shear, and holding it.
+    """
+    cells = {reading: [fit for fit in own if fit.ratio is not None] for reading, own in fits.items()}
+    panels = (
+        *(_bounded(own, reading) for reading, own in cells.items()),
+        _printed(cells[Reading.MIXED]),
+    )
+    judged = (
+        _solved(cells[Reading.MIXED]),
+        *(_in_range(own, reading) for reading, own in cells.items()),
+    )
+    widths = tuple(_widths(own[-1], reading) for reading, own in fits.items())
+    return FigureResult(Figure.FIG13, panels, judged, (*told, _rank(fits[Reading.MIXED]), *widths))
+
+
+_DISPLACEMENT, _COEFFICIENT = Axis("displacement", Unit.SHARE), Axis("friction coefficient", Unit.NUMBER)
+
+
+def _names(fit: EqFit) -> list[str]:
+    """The pairs whose coefficients are tuned."""
+    return [parameter.name.rpartition(".")[2] for parameter in fit.posterior.parameters]
+
+
+def _bounded(cells: Sequence[EqFit], reading: Reading) -> Panel:
+    """Coefficients and their sigma over displacement, with bounds and priors."""
+    curves = tuple(
+        Curve(
+            name,
+            x,
+            np.array([fit.posterior.values[k] for fit in cells]),
+            np.array([fit.posterior.sigma(fit.posterior.parameters[k].name) for fit in cells]),
+        )
+        for k, name, x in _columns(cells)
+    )
+    title = f"Coefficients at rated speed and one sigma, {reading.value}"
+    return Panel(title, PanelKind.LOGARITHMIC, _DISPLACEMENT, _COEFFICIENT, curves)
+
+
+def _printed(cells: Sequence[EqFit]) -> Panel:
+    """Size of what plain least squares gives."""
+    curves = tuple(
+        Curve(name, x, np.array([abs(fit.printed[k]) for fit in cells])) for k, name, x in _columns(cells)
+    )
+    title = "Their size by plain least squares, as printed"
+    return Panel(title, PanelKind.LOGARITHMIC, _DISPLACEMENT, _COEFFICIENT, curves)
+
+
+def _columns(cells: Sequence[EqFit]) -> Iterator[tuple[int, str, Array]]:
+    """Column, words and displacements of each coefficient, in the order of `Pair`."""
+    names, x = _names(cells[0]), np.array([fit.ratio for fit in cells], dtype=float)
+    for pair in Pair:
+        if pair.value in names:
+            yield names.index(pair.value), pair.value.replace("_", " "), x
+
+
+def _rank(fits: Sequence[EqFit]) -> str:
+    """How many combinations the points tell apart, displacement by displacement and all together."""
+    ranks = ", ".join(f"{fit.rank} at {100.0 * fit.ratio:.0f} %" for fit in fits if fit.ratio is not None)
+    whole = fits[-1]
+    return (
+        f"Of {len(_names(whole))} coefficients Eq. (21)'s points at rated speed and one displacement tell apart "
+        f"(rank) {ranks}; all {whole.points} points together {whole.rank}."
+    )
+
+
+def _solved(cells: Sequence[EqFit]) -> Judged:
+    ranks = range_of(float(fit.rank) for fit in cells)
+    printed = range_of(float(np.max(np.abs(fit.printed))) for fit in cells)
+    reason = (
+        "at one speed and displacement every pair's loss is straight in pressure: plain least squares, as "
+        "printed, "
+        f"gives coefficients of up to {printed.low:.2g} to {printed.high:.2g}"
+    )
+    rank = float(max(fit.rank for fit in cells))
+    impossible = Impossibility("rank of the seven points' matrix", Unit.NUMBER, rank, Range(low=7.0))
+    return judge(CLAIMS["fig13.solved"], ranks, reason=reason, impossible=impossible)
+
+
+_WHY = {
+    Reading.WITH_SHEAR: "that of coefficients that hold the films' shear, which is counted beside these",
+    Reading.MIXED: "shear of films of given thickness is the same at every pressure, and only pairs whose loss "
+    "hardly rises with pressure can hold it",
+}
+
+
+def _in_range(cells: Sequence[EqFit], reading: Reading) -> Judged:
+    names = _names(cells[0])
+    beyond = {
+        name: max(beyond_range(RANGES[Pair(name)], float(fit.posterior.values[k])) for fit in cells)
+        for k, name in enumerate(names)
+    }
+    furthest = max(beyond, key=lambda name: beyond[name])
+    at = names.index(furthest)
+    found = range_of(float(fit.posterior.values[at]) for fit in cells)
+    low, high = RANGES[Pair(furthest)]
+    reason = (
+        f"with bounds and priors; furthest is {furthest.replace('_', ' ')}, {found.text(Unit.NUMBER)}, where the "
+        f"paper's range is {low:g} to {high:g}: {_WHY[reading]}; left are {_left(cells):.1f} sigma in the mean"
+    )
+    far = max(beyond.values())
+    return judge(CLAIMS["fig13.range"], Range(far, far), reading=reading, reason=reason)
+
+
+def beyond_range(ends: tuple[float, float], value: float) -> float:
+    """How many times beyond the nearer end of a range of positive numbers a value lies; 1 within."""
+    low, high = ends
+    return max(1.0, low / value, value / high)
+
+
+def _widths(whole: EqFit, reading: Reading) -> str:
+    """What the whole map knows of each coefficient."""
+    posterior, names = whole.posterior, _names(whole)
+    spread = np.sqrt(np.diag(posterior.covariance))
+    told = ", ".join(
+        f"{name.replace('_', ' ')} {value:.4f} ({100.0 * width:.0f} %)"
+        for name, value, width in zip(names, posterior.values, spread, strict=True)
+    )
+    return (
+        f"All {whole.points} points together, {reading.value}, and how wide still of the prior: {told}; left are "
+        f"{_left([whole]):.1f} sigma in the mean."
+    )
+
+
+def _left(fits: Sequence[EqFit]) -> float:
+    """Root mean square of what fits leave, in sigma."""
+    return float(np.sqrt(np.mean(np.concatenate([fit.posterior.residual for fit in fits]) ** 2)))

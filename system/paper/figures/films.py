@@ -1,0 +1,61 @@
+"""Fig. 8 by films solved at given positions, and how a film is drawn."""
+
+from __future__ import annotations
+
+from math import pi
+
+import numpy as np
+
+from reynolds.film import FilmSolution
+from system.description.pump import PumpDescription
+from system.paper.figure import Axis, Field, Figure, Panel, PanelKind, Unit
+from system.paper.judge import FigureResult, Range, judge
+from system.paper.points import FULL, PRESSURES, RATED, PaperWork, Place, PointFidelity
+from system.paper.statements import CLAIMS
+from system.points.films import films_point
+
+FILM = Axis("film", Unit.FILM)
+SHOWN_ANGLE = 1.5 * pi
+"""Shaft angle (rad) of the film that is drawn: the middle of the delivery half."""
+NO_FIELD = "Films of given thickness have no field: --fidelity films or floating."
+GIVEN = (
+    "The film is the one that the pump file gives: only --fidelity floating finds how it follows the displacement."
+)
+
+
+def fig8_of_films(pump: PumpDescription) -> FigureResult:
+    """The piston's film at rated point in the position that the description gives."""
+    place = Place(RATED, PRESSURES[-1], FULL)
+    found = films_point(pump, PaperWork(pump, PointFidelity.FILMS).at(place)).gaps
+    at = int(np.argmin(np.abs(found.shaft_angle - SHOWN_ANGLE)))
+    mean = float(np.mean([film.film_thickness_mean for film in found.piston]))
+    field = film_field(found.piston[at].solution)
+    over = field.values.mean() / field.values.min()
+    reason = f"by construction: eccentricity {pump.piston.eccentricity_ratio:g} is given, parallel to the bore"
+    judged = (
+        judge(CLAIMS["fig8.mean"], Range(mean, mean), reason="by construction: the clearance of the pump file"),
+        judge(CLAIMS["fig8.nonuniform"], Range(float(over), float(over)), reason=reason),
+    )
+    return FigureResult(Figure.FIG8, (film_panel(field, float(found.shaft_angle[at])),), judged)
+
+
+def film_panel(field: Field, shaft_angle: float) -> Panel:
+    """A piston's film at a shaft angle (rad) as the paper's Fig. 8 has it."""
+    return Panel(
+        f"Film of the piston at {np.degrees(shaft_angle):.0f} deg", PanelKind.FIELD,
+        Axis("angle round the piston", Unit.ANGLE), Axis("length ratio", Unit.NUMBER), field=field,
+    )  # fmt: skip
+
+
+def film_field(solution: FilmSolution) -> Field:
+    """Thickness at a film's quadrature points over angle (rad) and share of the length."""
+    space = solution.problem.space
+    x, y = (one.ravel() for one in space.points)
+    thickness = np.broadcast_to(solution.film.thickness, space.points[0].shape).ravel()
+    columns, column = np.unique(np.round(x / np.ptp(x), 9), return_inverse=True)
+    rows, row = np.unique(np.round(y / np.ptp(y), 9), return_inverse=True)
+    values = np.full((rows.size, columns.size), np.nan)
+    values[row, column] = thickness
+    angle = 2.0 * pi * (columns - columns[0]) / (columns[-1] - columns[0] + columns[1] - columns[0])
+    length = (rows - rows[0]) / (rows[-1] - rows[0])
+    return Field(FILM, angle, length, values)

@@ -1,0 +1,57 @@
+"""Table 1: the simulated pump against what the paper's text states of its own."""
+
+from __future__ import annotations
+
+from system.paper.figure import Figure
+from system.paper.judge import FigureResult, Range, judge
+from system.paper.points import FULL, PRESSURES, RATED, PaperPoints, Reading
+from system.paper.statements import CLAIMS
+from system.pump.laws.friction_pairs import Pair
+from system.pump.laws.kinematics import displacement, stroke
+from system.pump.lumped import block_spring, full_drive, piston_area
+
+_PAIRS = {pair.value: pair for pair in Pair}
+
+
+def table1(points: PaperPoints) -> FigureResult:
+    """Rated values, films and start coefficients of the pump beside those in the text."""
+    pump = points.pump
+    friction = pump.friction
+    found = {
+        "displacement": displacement(pump.pump.pistons, piston_area(pump), float(stroke(full_drive(pump)))),
+        "pressure": pump.pump.rated_pressure,
+        "speed": pump.pump.rated_speed,
+        "swash_angle": pump.pump.swash_angle_max,
+        "spring": block_spring(pump),
+        "piston_film": pump.piston.radial_clearance,
+        "plate_film": pump.valve_plate.film_thickness,
+        "bearings": friction.front_bearing,
+    }
+    found |= {pair.value: getattr(friction, pair.value) for pair in Pair if f"table1.{pair.value}" in CLAIMS}
+    judged = tuple(
+        judge(
+            CLAIMS[f"table1.{name}"],
+            Range(float(value), float(value)),
+            reason=_holding_shear(points, _PAIRS[name]) if name in _PAIRS else "",
+        )
+        for name, value in found.items()
+    )
+    remark = (
+        "The table itself is lost: every number that its text does not state is an assumption of the pump file."
+    )
+    return FigureResult(Figure.TABLE1, (), judged, (remark,))
+
+
+def _holding_shear(points: PaperPoints, pair: Pair) -> str:
+    """What a pair's coefficient would be, held the film's shear in it as the paper's do."""
+    told = "a start value in the paper, to be tuned"
+    ends = [points.at(RATED, pressure, FULL) for pressure in (PRESSURES[-1], PRESSURES[0])]
+    mixed, alone = ([one.loss(pair, reading) for one in ends] for reading in (Reading.WITH_SHEAR, Reading.MIXED))
+    if mixed == alone:
+        return told
+    stated = getattr(points.pump.friction, pair.value)
+    held = [stated * both / own for both, own in zip(mixed, alone, strict=True)]
+    return (
+        f"{told}; the film's shear is counted beside it, held in it the coefficient would be {held[0]:.4f} at 35 "
+        f"MPa and {held[1]:.4f} at 5, rated speed and full displacement"
+    )

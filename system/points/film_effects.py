@@ -1,0 +1,220 @@
+"""[physics] as films have it: what heats, stiffens or opens a film is solved in it, not put on as a factor.
+
+    film_heating        films warm, between walls by which their heat has the stated resistance to the case
+    viscosity_pressure  Barus' law at every place of the films
+    elastic_opening     by compliance: the parts' own bodies, so many times as soft; by opening: a wall on springs
+    thermal_clearance   films as thick as their walls leave them at the point's temperature (`given_thickness`)
+
+All other effects stay the closed laws that they are at the lumped fidelity, beside the films.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+from scipy.optimize import brentq
+
+from gaps.films.physics import Effect, FilmLaws, Physics
+from gaps.revolution.film_heat import GapHeat
+from gaps.walls.pair import BoreWalls, GapWalls, PlateWalls
+from gaps.walls.springs import SpringBore, SpringPlates
+from reynolds.bodies.elasticity import Elastic
+from reynolds.laws.fluid import Fluid
+from reynolds.laws.law import Tangent
+from reynolds.laws.viscosity import barus
+from system.description.assumptions import Assumption, Taken
+from system.description.effects import FilmHeatingSection, OpeningSection
+from system.description.gap import Gap
+from system.description.pump import PumpDescription
+from system.effects.effect import EffectId
+from system.effects.switched import switched_on
+from system.films.cycle import GapPhysics
+from system.films.heat import all_taken, block_heat, piston_heat, slipper_heat
+from system.films.parts import FloatingParts
+from system.films.rotor import Rotor
+from system.inputs.units import Dimension, format_quantity
+from system.pump.film_thickness import given_film, opening_share
+
+SOLVED = (
+    EffectId.FILM_HEATING,
+    EffectId.VISCOSITY_PRESSURE,
+    EffectId.ELASTIC_OPENING,
+    EffectId.THERMAL_CLEARANCE,
+)
+"""What films solve; a table of any other effect acts by its closed law."""
+_SOLVED_SHARES = (0.0, 1.0, 0.0)
+"""carried_share, throttled_share and carry_over by which the closed law comes nearest to films that solve them."""
+_PART = {Gap.PISTON: "piston", Gap.SLIPPER: "slipper", Gap.VALVE_PLATE: "block"}
+_FACES = {
+    Gap.PISTON: ("bushing", "piston"),
+    Gap.SLIPPER: ("swash_plate", "slipper"),
+    Gap.VALVE_PLATE: ("valve_plate", "block"),
+}
+_HEAT: Mapping[Gap, Callable[[Rotor, FloatingParts], GapHeat]] = {
+    Gap.PISTON: piston_heat,
+    Gap.SLIPPER: slipper_heat,
+    Gap.VALVE_PLATE: block_heat,
+}
+
+
+@dataclass(frozen=True)
+class FilmEffects:
+    """Films with the physics that [physics] has them solve: their parts, and what is on in each gap."""
+
+    parts: FloatingParts
+    physics: GapPhysics
+
+
+@dataclass(frozen=True)
+class BarusAboveCase:
+    """Barus' law from the case's pressure (Pa) on, at which a point's viscosity stands; coefficient 1/Pa."""
+
+    coefficient: float
+    case_pressure: float
+
+    def __call__(self, pressure: ArrayLike, viscosity_at_case: ArrayLike) -> Tangent:
+        """Viscosity (Pa s) and its slope; raises as `barus`."""
+        resting = np.asarray(viscosity_at_case) * math.exp(-self.coefficient * self.case_pressure)
+        return barus(pressure, resting, self.coefficient)
+
+
+def effects_in_films(pump: PumpDescription) -> tuple[tuple[EffectId, ...], tuple[EffectId, ...]]:
+    """Effects of [physics] that films solve, and those that stay closed laws beside them."""
+    on = dict.fromkeys(extension.id for extension, _ in switched_on(pump))
+    return tuple(one for one in on if one in SOLVED), tuple(one for one in on if one not in SOLVED)
+
+
+def closed_laws(pump: PumpDescription) -> PumpDescription:
+    """The pump with only those effects that no film solves."""
+    off = dict.fromkeys(one.value for one in SOLVED)
+    return pump.model_copy(update={"physics": pump.physics.model_copy(update=off)})
+
+
+def film_effects(rotor: Rotor, parts: FloatingParts, pump: PumpDescription, physics: GapPhysics) -> FilmEffects:
+    """Parts and physics of the films with what the pump's [physics] has them solve, beside `physics`.
+
+    rotor, parts: of the pump as its films stand (`given_thickness`). What films take otherwise than the closed
+    laws is told among the parts' assumptions.
+    """
+    stated, taken = pump.physics, list(parts.taken)
+    on: dict[Gap, Physics] = {gap: getattr(physics, gap.value) for gap in Gap}
+    if stated.viscosity_pressure is not None and stated.viscosity_pressure.coefficient > 0.0:
+        law = BarusAboveCase(stated.viscosity_pressure.coefficient, rotor.point.case_pressure)
+        fluid = Fluid(viscosity=law)
+        parts = _with_laws(parts, lambda gap, laws: replace(laws, fluid=fluid))
+        on = {gap: own.including(Effect.PRESSURE_VISCOSITY) for gap, own in on.items()}
+        taken = [one for one in taken if one.path != "oil.pressure_viscosity"]
+    if stated.elastic_opening is not None:
+        soft = {gap: softened(pump, gap, _laws(parts, gap).walls) for gap in Gap}
+        parts = _with_laws(parts, lambda gap, laws: replace(laws, walls=soft[gap] or laws.walls))
+        on = {gap: own.including(Effect.ELASTIC_WALLS) if soft[gap] else own for gap, own in on.items()}
+    if stated.film_heating is not None:
+        parts, told = _between_walls(rotor, parts, stated.film_heating)
+        on = {gap: own.including(Effect.HEAT) for gap, own in on.items()}
+        taken += told
+    parts = replace(parts, taken=tuple(taken))
+    return FilmEffects(
+        replace(parts, taken=all_taken(rotor, parts, on[Gap.PISTON])), GapPhysics(*(on[gap] for gap in Gap))
+    )
+
+
+def softened(pump: PumpDescription, gap: Gap, walls: GapWalls | None) -> GapWalls | None:
+    """The walls that [physics.elastic_opening.GAP] gives a film; None for rigid ones, and where it has no table.
+
+    compliance C: the parts' own bodies with moduli E/C, since displacement is proportional to 1/E. opening s, a
+    share of the film per pressure: a wall on springs that a pressure p lifts by s p h0.
+    """
+    stated: OpeningSection | None = getattr(pump.physics.elastic_opening, gap.value)
+    if stated is None or walls is None:
+        return None
+    if stated.compliance is not None:
+        return _softer(walls, stated.compliance) if stated.compliance > 0.0 else None
+    springs = opening_share(pump, gap) * given_film(pump, gap)
+    if springs == 0.0:
+        return None
+    if isinstance(walls, BoreWalls):
+        return SpringBore(walls.piston, walls.bushing, compliance=springs)
+    assert isinstance(walls, PlateWalls)
+    return SpringPlates(walls.parts, compliance=springs)
+
+
+def _softer(walls: GapWalls, times: float) -> GapWalls:
+    """The same bodies, so many times as soft."""
+
+    def softer(part: Any) -> Any:
+        return replace(part, elastic=Elastic(part.elastic.youngs_modulus / times, part.elastic.poisson_ratio))
+
+    if isinstance(walls, BoreWalls):
+        return BoreWalls(softer(walls.piston), softer(walls.bushing))
+    assert isinstance(walls, PlateWalls)
+    one, two = walls.parts
+    return PlateWalls((softer(one), softer(two)))
+
+
+def _between_walls(
+    rotor: Rotor, parts: FloatingParts, stated: FilmHeatingSection
+) -> tuple[FloatingParts, tuple[Assumption, ...]]:
+    """Parts by which a film's mean temperature has the stated resistance to the case (`even_rise`); ratios stay.
+
+    No wall resists where the film alone resists more than is stated.
+    """
+    materials, taken = dict(parts.materials), Taken()
+    for gap in Gap:
+        heat = _HEAT[gap](rotor, parts)
+        across = given_film(rotor.pump, gap) / heat.conductivity
+        walls = heat.fixed.resistance, heat.moving.resistance
+        times = resisting(float(getattr(stated, gap.value)), across, *walls)
+        for name in _FACES[gap]:
+            conductivity = materials[name].thermal_conductivity / times if times > 0.0 else math.inf
+            materials[name] = replace(materials[name], thermal_conductivity=conductivity)
+        drawn = format_quantity(even_rise(across, *walls), Dimension.THERMAL_RESISTANCE, digits=5)
+        taken.note(
+            f"walls of the {gap.value.replace('_', ' ')} film", f"{times:.3g} times as resistant to heat",
+            f"as [physics.film_heating] states; by drawing and material {drawn}",
+        )  # fmt: skip
+    shares = stated.carried_share, stated.throttled_share, stated.carry_over
+    if shares != _SOLVED_SHARES:
+        told = "carried_share {:.3g}, throttled_share {:.3g} and carry_over {:.3g}".format(*shares)
+        taken.note("heat of the oil", "as the films carry it", f"{told} are of the closed law alone")
+    return replace(parts, materials=materials), tuple(taken.assumptions)
+
+
+def even_rise(across: float, one: float, two: float) -> float:
+    """Mean rise of a film over the case per heat that is made evenly across it, m2 K/W.
+
+    across: h/k of the film, between walls that resist by one and two (m2 K/W). T'' = -q/(h k) between walls at
+    R1 q1 and R2 q2: q1/q = (h/(2 k) + R2)/(R1 + R2 + h/k), mean/q = (R1 q1 + R2 q2)/(2 q) + h/(12 k).
+    """
+    share = (0.5 * across + two) / (one + two + across)
+    return 0.5 * (one * share + two * (1.0 - share)) + across / 12.0
+
+
+def resisting(wanted: float, across: float, one: float, two: float) -> float:
+    """How many times as resistant walls give a film the wanted `even_rise` (m2 K/W); 0 where it has more alone."""
+    if wanted <= across / 12.0:
+        return 0.0
+    most = 2.0 * wanted / min(one, two) + 2.0  # there even the better wall alone would let it rise more
+
+    def missing(times: float) -> float:
+        return even_rise(across, times * one, times * two) - wanted
+
+    return float(brentq(missing, 0.0, most))
+
+
+def _laws(parts: FloatingParts, gap: Gap) -> FilmLaws:
+    found: FilmLaws = getattr(parts, _PART[gap]).laws
+    return found
+
+
+def _with_laws(parts: FloatingParts, changed: Callable[[Gap, FilmLaws], FilmLaws]) -> FloatingParts:
+    """The parts with the laws of each gap's film changed."""
+    found = {name: getattr(parts, name) for name in _PART.values()}
+    return replace(
+        parts,
+        **{name: replace(found[name], laws=changed(gap, found[name].laws)) for gap, name in _PART.items()},
+    )

@@ -1,0 +1,306 @@
+"""The floating fidelity: gaps whose films come from the balance of forces, coupled with the chambers.
+
+Rounds of the three gaps over the revolution and of the chamber's cycle: films leak into the chamber's balance,
+the parts' small motion moves its volume, and their friction loads each other through the ball joint. Friction of
+the three gaps is shear of their films and contact of their asperities, with no Coulomb's law beside it; the ball
+joint rubs by its forces and spins, and the other pairs are the lumped fidelity's.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from contextlib import nullcontext
+from dataclasses import dataclass, replace
+from time import perf_counter
+
+import numpy as np
+
+from gaps.revolution.march import Leg
+from gaps.revolution.reports import mass_balance_error
+from system.description.pump import PumpDescription
+from system.effects.switched import hold_plain
+from system.films.drives import Drives, Rubbing, no_rubbing
+from system.films.parts import FloatingParts
+from system.films.rotor import Rotor, rotor
+from system.inputs.errors import NotConverged
+from system.points.floating_exchange import (
+    FloatingGaps,
+    block_torque,
+    gap_exchange,
+    leakage_heat,
+    port_draws,
+    rubbing,
+    shaft_moment,
+    spin_torques,
+    with_floating_gaps,
+)
+from system.points.floating_gaps import FloatingOptions
+from system.points.floating_kinds import (
+    Asked,
+    Group,
+    by_chamber,
+    chamber_problems,
+    drives_of,
+    gap_revolutions,
+    group_of,
+)
+from system.points.lumped import lumped_point
+from system.points.piston_process import PistonBeside, piston_beside
+from system.pump.assembly import PumpPoint, met_point, put_together
+from system.pump.chamber.port_coupling import PortedCycle, ported_cycle
+from system.pump.laws.friction_pairs import over_chambers
+from system.pump.lumped import lumped_pairs, piston_motion, port_lines, swept_displacement
+from system.pump.operating import OperatingPoint
+from system.pump.power import Gaps
+from system.work.means import mean_of
+from system.work.progress import Report, silent
+
+PRESSURE_TOLERANCE = 1e-4
+"""Largest change of the chamber pressure between two rounds, of delivery minus inlet pressure."""
+FRICTION_TOLERANCE = 2e-3
+"""Largest change of a film's friction between two rounds, of the largest force on a slipper."""
+SPIN_TOLERANCE = 2e-3
+"""Largest change of a spin between two rounds, of the shaft's."""
+FIRST_CLOSED = 0.05
+"""Distance from the periodic motion at which the first round lets its turns be, share of the mean film."""
+FEW_STEPS = 8
+"""Steps a pitch of rounds before gaps and chambers nearly agree."""
+NEARLY = 20.0
+"""Times as large as their tolerances may the changes of a round be for gaps and chambers to nearly agree.
+
+No less than what turns of more steps change themselves: 5 to 15 times.
+"""
+CLOSING = 0.5
+"""The same of later rounds, over what the round before changed."""
+ROUND_LIMIT = 12
+
+
+@dataclass(frozen=True)
+class Round:
+    """One round of gaps and chamber: what it changed (as the tolerances count it), the steps of its turns and how
+    nearly they closed (share of the mean film), films solved, time s; what of it its gaps spent on each leg, s,
+    pistons beside the others counted, too."""
+
+    pressure_change: float
+    friction_change: float
+    spin_change: float
+    steps: int
+    closed: float
+    films_solved: int
+    seconds: float
+    spent: Mapping[Leg, float]
+
+
+@dataclass(frozen=True)
+class FloatingKind:
+    """Chambers that are alike: their parts, what drove their gaps last, and the gaps.
+
+    chambers, from 0; of a pump whose chambers are all alike the first alone.
+    """
+
+    chambers: tuple[int, ...]
+    rotor: Rotor
+    parts: FloatingParts
+    drives: Drives
+    gaps: FloatingGaps
+
+
+@dataclass(frozen=True)
+class FloatingPoint:
+    """One coupled operating point: the pump, its gaps over the revolution, and the evidence of convergence.
+
+    kinds: of chambers, the most common first; their block is one. mass_balance_error of each gap over the turn,
+    the worst of its kinds.
+    """
+
+    rotor: Rotor
+    options: FloatingOptions
+    pump_point: PumpPoint
+    kinds: tuple[FloatingKind, ...]
+    rounds: tuple[Round, ...]
+    mass_balance_error: Gaps
+
+
+def floating_point(
+    pump: PumpDescription,
+    point: OperatingPoint,
+    options: FloatingOptions | None = None,
+    *,
+    side_by_side: bool = False,
+    report: Report = silent,
+) -> FloatingPoint:
+    """One periodic operating point with the three gaps floating; side by side: the pistons in a second process.
+
+    Raises NotConverged where gaps and chamber pressure do not settle within ROUND_LIMIT rounds, FilmNotConverged
+    where a film does not, ValueError for steps that do not divide among the pistons, FilmInputError where
+    [physics] switches effects on.
+    """
+    hold_plain(pump)
+    options = options or FloatingOptions()
+    lumped = lumped_point(pump, point)
+    at = rotor(pump, lumped.point)
+    group, angle = group_of(at), lumped.cycle.shaft_angle
+    still = (no_rubbing(angle.size),) * len(group.parts)
+    pressures = tuple(one.pressure for one in lumped.chambers)
+    asked = Asked(at, angle, pressures, still, (None,) * len(group.parts), options)
+    gaps: tuple[FloatingGaps, ...] | None = None
+    rounds: list[Round] = []
+    with piston_beside(group.parts) if side_by_side else nullcontext() as beside:
+        while not rounds or not _settled(rounds[-1], options):
+            if len(rounds) == ROUND_LIMIT:
+                raise _not_settled(rounds[-1])
+            closing = replace(asked, options=_loosened(options, rounds, at.pump.pump.pistons))
+            found = _round(closing, group, point, gaps, beside, _of_round(report, len(rounds) + 1))
+            asked, gaps = found.asked, found.gaps
+            rounds.append(found.taken)
+    return _told(point, group, replace(found, asked=replace(asked, options=options)), tuple(rounds))
+
+
+@dataclass(frozen=True)
+class _Found:
+    """Where a round ends: what would drive the next, gaps by kind, chambers and ports, and what the round took."""
+
+    asked: Asked
+    gaps: tuple[FloatingGaps, ...]
+    ported: PortedCycle
+    taken: Round
+
+
+def _round(
+    asked: Asked,
+    group: Group,
+    point: OperatingPoint,
+    before: tuple[FloatingGaps, ...] | None,
+    beside: PistonBeside | None,
+    report: Report,
+) -> _Found:
+    """The gaps at the pressure and friction of the round before, then the chambers with these gaps."""
+    began, pump, pistons = perf_counter(), asked.rotor.pump, asked.rotor.pump.pump.pistons
+    driven = drives_of(asked, group)
+    gaps = gap_revolutions(asked, group, driven, before, beside, report)
+    problems = chamber_problems(asked, group, point, piston_motion(pump, point), gaps)
+    pressures, samples = (
+        (asked.rotor.point.delivery_pressure, asked.rotor.point.inlet_pressure),
+        asked.shaft_angle.size,
+    )
+    drawn = samples // pistons if group.kinds.alike else samples
+    draws = port_draws(gaps[0].block, pressures, pump.oil.bulk_modulus, drawn)
+    ported = ported_cycle(problems, port_lines(pump, point), pistons, samples, draws=draws)
+    turning = group.rotors(asked)
+    following = replace(
+        asked,
+        rotor=rotor(pump, met_point(point, ported)),
+        pressure=tuple(cycle.pressure for cycle in ported.cycles),
+        rubbing=tuple(rubbing(own, samples) for own in gaps),
+        spin_torques=tuple(
+            spin_torques(own, at, of.group) for own, at, of in zip(gaps, turning, driven, strict=True)
+        ),
+    )
+    turned = [*(gap for own in gaps for gap in (own.piston, own.slipper)), gaps[0].block]
+    taken = Round(
+        float(np.max(np.abs(np.array(following.pressure) - asked.pressure))) / problems[0].pressure_span,
+        max(map(_rubbing_change, asked.rubbing, following.rubbing))
+        / max(at.forces.lift for one in driven for at in one.group),
+        max(map(_spin_change, turning, group.rotors(following))),
+        asked.options.steps,
+        asked.options.accuracy.closed,
+        sum(gap.films_solved for gap in turned),
+        perf_counter() - began,
+        {leg: sum(gap.spent.get(leg, 0.0) for gap in turned) for leg in Leg},
+    )
+    return _Found(following, gaps, ported, taken)
+
+
+def _rubbing_change(one: Rubbing, other: Rubbing) -> float:
+    """Largest change of a film's friction, N."""
+    return float(max(np.abs(one.piston - other.piston).max(), np.abs(one.slipper - other.slipper).max()))
+
+
+def _spin_change(one: Rotor, other: Rotor) -> float:
+    """Largest change of a spin, of the shaft's."""
+    before, after = one.spins, other.spins
+    change = max(abs(after.piston - before.piston), abs(after.slipper - before.slipper))
+    return change / one.point.shaft_speed
+
+
+def _of_round(report: Report, number: int) -> Report:
+    return lambda done, total, what: report(done, total, f"round {number}, {what}")
+
+
+def _loosened(options: FloatingOptions, rounds: list[Round], pistons: int) -> FloatingOptions:
+    """How a round turns its gaps: before they nearly agree with the chambers, no better than it is worth."""
+    if rounds and (_agree(rounds[-1], NEARLY) or _exact(rounds[-1], options)):
+        return options
+    last = rounds[-1] if rounds else None
+    unknown = max(last.pressure_change, last.friction_change, last.spin_change) if last else FIRST_CLOSED
+    closed = max(options.accuracy.closed, min(FIRST_CLOSED, CLOSING * unknown))
+    accuracy = replace(options.accuracy, closed=closed, step=max(options.accuracy.step, closed))
+    steps = min(options.steps, FEW_STEPS * pistons)
+    return replace(options, steps=steps, accuracy=accuracy)
+
+
+def _agree(taken: Round, times: float = 1.0) -> bool:
+    """Whether a round changed no more than the tolerances, or so many times them."""
+    changes = (
+        (taken.pressure_change, PRESSURE_TOLERANCE),
+        (taken.friction_change, FRICTION_TOLERANCE),
+        (taken.spin_change, SPIN_TOLERANCE),
+    )
+    return all(change <= times * tolerance for change, tolerance in changes)
+
+
+def _exact(taken: Round, options: FloatingOptions) -> bool:
+    return taken.steps == options.steps and taken.closed == options.accuracy.closed
+
+
+def _settled(taken: Round, options: FloatingOptions) -> bool:
+    return _exact(taken, options) and _agree(taken)
+
+
+def _not_settled(taken: Round) -> NotConverged:
+    return NotConverged(
+        f"floating gaps and chamber pressure: after {ROUND_LIMIT} rounds the pressure still changes by "
+        f"{taken.pressure_change:.2g} of the ports' difference (expected at most {PRESSURE_TOLERANCE:g}), "
+        f"friction by {taken.friction_change:.2g} of the largest force (at most {FRICTION_TOLERANCE:g}), a spin "
+        f"by {taken.spin_change:.2g} of the shaft's (at most {SPIN_TOLERANCE:g}); "
+        "try more steps, a lower pressure, or the films fidelity"
+    )
+
+
+def _told(point: OperatingPoint, group: Group, found: _Found, rounds: tuple[Round, ...]) -> FloatingPoint:
+    """The pump with gaps and chambers that agree."""
+    asked, ported, block = found.asked, found.ported, found.gaps[0].block
+    pistons, speed, samples = asked.rotor.pump.pump.pistons, point.shaft_speed, asked.shaft_angle.size
+    rotors = group.rotors(asked)
+    of_kinds = [
+        FloatingKind(group.kinds.chambers(kind), *each)
+        for kind, each in enumerate(zip(rotors, group.parts, drives_of(asked, group), found.gaps, strict=True))
+    ]
+    chambers = list(
+        zip(group.kinds.by_chamber(of_kinds), by_chamber(group, found.gaps), ported.cycles, strict=True)
+    )
+    each, derived = [], []
+    for own, gaps, cycle in chambers:
+        motion = piston_motion(own.rotor.pump, point)
+        each.append(with_floating_gaps(lumped_pairs(own.rotor.pump, point, motion, cycle), gaps, own.drives.group))
+        derived.append(swept_displacement(own.rotor.pump, motion.drive))
+    losses = mean_of(each)
+    about_shaft = losses.ball_guide_retainer, losses.front_bearing, losses.rear_bearing
+    moments = [shaft_moment(gaps, own.rotor, own.parts, own.drives.group) for own, gaps, _ in chambers]
+    lumped = sum(loss.coulomb + loss.viscous for loss in about_shaft) / speed
+    pump_point = put_together(
+        point,
+        ported,
+        losses,
+        pistons,
+        float(np.mean(derived)),
+        mean_of([gap_exchange(gaps, pistons, speed) for _, gaps, _ in chambers]),
+        over_chambers(moments, pistons) + block_torque(block, samples) + lumped,
+        mean_of([leakage_heat(gaps, pistons) for _, gaps, _ in chambers]),
+    )
+    missing = Gaps(
+        max(mass_balance_error(own.piston) for own in found.gaps),
+        max(mass_balance_error(own.slipper) for own in found.gaps),
+        mass_balance_error(block),
+    )
+    return FloatingPoint(asked.rotor, asked.options, pump_point, tuple(of_kinds), rounds, missing)

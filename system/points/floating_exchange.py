@@ -1,0 +1,298 @@
+"""What three floating gaps tell chambers, shaft and power balance, over the turn.
+
+Arrays over n equidistant angles of a chamber from 0, those of the gaps' reported angles. Of the block only a pitch
+is known where chambers are alike; then it repeats.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from gaps.revolution.march import GapRevolution
+from gaps.revolution.reports import BlockSeen, GapSeen, PistonSeen, Seen, SlipperSeen
+from reynolds.numerics.arrays import Array
+from system.films.drives import GroupInstant, Rubbing
+from system.films.parts import FloatingParts
+from system.films.rotor import Rotor, travel, valve_plate_geometry
+from system.films.spins import SpinTorques, torques_of_films
+from system.inputs.units import TURN
+from system.pump.chamber.problem import LeakTable
+from system.pump.chamber.setup import periodic_values
+from system.pump.laws.directions import bore_axis, bore_sides, plate_axes
+from system.pump.laws.friction_pairs import FrictionPairs, PairLoss
+from system.pump.lumped import piston_area
+from system.pump.power import GapExchange, Gaps
+
+
+@dataclass(frozen=True)
+class FloatingGaps:
+    """The gaps of one chamber: its piston, its slipper, and the block over a pitch, or over the turn.
+
+    chamber, from 0: where chambers differ, the one whose gaps they are.
+    """
+
+    piston: GapRevolution[PistonSeen]
+    slipper: GapRevolution[SlipperSeen]
+    block: GapRevolution[BlockSeen]
+    chamber: int = 0
+
+
+def of_each(revolution: GapRevolution[Seen], tell: Callable[[Seen], float | Array]) -> Array:
+    """What `tell` says of each reported angle, (n, ...), from shaft angle 0 on."""
+    return np.roll(np.array([tell(instant.seen) for instant in revolution.turn.instants]), 1, axis=0)
+
+
+def passing(revolution: GapRevolution[Seen], tell: Callable[[Seen], float | Array]) -> Array:
+    """What `tell` says in the mean around each reported angle, (n, ...), from shaft angle 0 on."""
+    return around(np.roll(np.array([tell(instant.passed) for instant in revolution.turn.instants]), 1, axis=0))
+
+
+def around(means: Array) -> Array:
+    """Means over the steps on both sides of equidistant angles, (n, ...), from means up to each angle.
+
+    What passes over the turn stays what it was, however short the bursts in which it does.
+    """
+    return np.asarray(0.5 * (means + np.roll(means, -1, axis=0)))
+
+
+def positions(revolution: GapRevolution[Seen]) -> Array:
+    """Positions (n, k) m from shaft angle 0 on."""
+    return np.roll(revolution.positions, 1, axis=0)
+
+
+def resampled(values: Array, samples: int) -> Array:
+    """Periodic values (n, ...) at as many equidistant angles as wanted, by the chambers' cubic splines.
+
+    The mean over the turn stays the same.
+    """
+    count = len(values)
+    if samples == count:
+        return values
+    rows = np.ascontiguousarray(values.reshape(count, -1).T)
+    return np.asarray(periodic_values(rows, samples).T.reshape(samples, *values.shape[1:]))
+
+
+def leak_table(gaps: FloatingGaps) -> LeakTable:
+    """Flow out of the chamber into each gap, by its angle; it answers to the pressure by the next round alone."""
+    piston = passing(gaps.piston, lambda seen: float(seen.flow[0]))
+    slipper = passing(gaps.slipper, lambda seen: float(seen.flow[0]))
+    carried = np.stack([piston, slipper, chamber_draws(gaps.block, gaps.chamber, len(piston))])
+    return LeakTable(np.zeros_like(carried), carried)
+
+
+def chamber_draws(block: GapRevolution[BlockSeen], chamber: int, steps: int) -> Array:
+    """Flow (steps,) m3/s out of a chamber into the block's film, in the mean around the chamber's own angles.
+
+    Of a block that is known over a pitch alone, each of its chambers tells a part.
+    """
+    flow = np.array([instant.passed.flow for instant in block.turn.instants])
+    known, pistons = flow.shape
+    own = (np.arange(1, known + 1)[:, None] + steps // pistons * np.arange(pistons)) % steps
+    found = np.empty(steps)
+    if known == steps:
+        found[own[:, chamber]] = flow[:, chamber]
+    else:
+        found[own] = flow
+    return around(found)
+
+
+def ball_shift(gaps: FloatingGaps, rotor: Rotor, parts: FloatingParts) -> Array:
+    """How far the ball is from where rigid parts without films would have it, (n, 3) m.
+
+    The piston's axis leaves the bore's by e at the ball; the slipper keeps the ball on the swash plate, its film h
+    thick, so that it goes along the bore besides: d = e - a (n . e + h)/(n . a).
+    """
+    normal, across = plate_axes(rotor.drive)[2], axis_shift(gaps, rotor, parts, 0.0)
+    axis, film = bore_axes(rotor, len(across)), positions(gaps.slipper)[:, 0]
+    return np.asarray(across - axis * ((across @ normal + film) / (axis @ normal))[:, None])
+
+
+def axis_shift(gaps: FloatingGaps, rotor: Rotor, parts: FloatingParts, inside: float) -> Array:
+    """Distance (n, 3) m of the piston's axis from the bore's, `inside` (m) of the ball into the bore."""
+    piston, guide = positions(gaps.piston), parts.piston.guide_length
+    shift = np.empty((len(piston), 3))
+    for k, angle in enumerate(TURN * np.arange(len(piston)) / len(piston)):
+        depth = inside - rotor.pump.piston.overhang - travel(rotor, angle)
+        inner, case = piston[k, :2], piston[k, 2:]
+        shift[k] = (case + (inner - case) * depth / guide) @ bore_sides(rotor.drive, angle)
+    return shift
+
+
+def bore_axes(rotor: Rotor, count: int) -> Array:
+    """The bore's axis (count, 3) at equidistant shaft angles."""
+    return np.array([bore_axis(rotor.drive, TURN * k / count) for k in range(count)])
+
+
+def growth(gaps: FloatingGaps, rotor: Rotor, parts: FloatingParts) -> Array:
+    """Growth (n,) m3 of the chamber by the parts' small motion: the ball along its bore, the block's lift, and how
+    piston and bore give way.
+
+    Ap (d . a) - Ap z + A_kidney z_kidney, z the block's way off the plate at the bore's and at the kidney's place.
+    """
+    pump, plate = rotor.pump, valve_plate_geometry(rotor.pump)
+    block, rim = positions(gaps.block), plate.land_radii[3]
+    pistons, shift = pump.pump.pistons, ball_shift(gaps, rotor, parts)
+    block = np.tile(block, (len(shift) // len(block), 1))
+    block = np.roll(block, gaps.chamber * len(shift) // pistons, axis=0)
+    angle = TURN * np.arange(len(shift)) / len(shift)
+    along = np.sum(shift * bore_axes(rotor, len(shift)), axis=1)
+    rise = (block[:, 1] * np.cos(angle) + block[:, 2] * np.sin(angle)) / rim
+    lifted, area = block[:, 0] + pump.pump.pitch_radius * rise, piston_area(pump)
+    kidney = plate.kidney_area * block[:, 0] + plate.kidney_lever * rise
+    swollen = of_each(gaps.piston, lambda seen: seen.swollen)
+    return np.asarray(area * (along - lifted) + kidney + swollen)
+
+
+def rubbing(gaps: FloatingGaps, samples: int) -> Rubbing:
+    """What the films do to piston and slipper at `samples` angles."""
+    return Rubbing(
+        resampled(of_each(gaps.piston, lambda seen: seen.friction.force), samples),
+        resampled(of_each(gaps.piston, lambda seen: seen.friction.moment), samples),
+        resampled(of_each(gaps.slipper, lambda seen: seen.friction.force), samples),
+    )
+
+
+def spin_torques(gaps: FloatingGaps, rotor: Rotor, group: tuple[GroupInstant, ...]) -> SpinTorques:
+    """What sets the spins of piston and slipper by their films and the joint's forces, means over the turn."""
+    pump = rotor.pump
+    force = float(np.mean([np.linalg.norm(at.forces.ball) for at in group]))
+    friction = pump.friction.piston_slipper_socket * force * pump.slipper.ball_joint_radius
+    torques = (
+        _mean(gaps.piston, lambda seen: seen.friction.torque),
+        _mean(gaps.slipper, lambda seen: seen.friction.torque),
+    )
+    return torques_of_films(rotor.estimated_torques, friction, rotor.spins, torques)
+
+
+def shaft_moment(gaps: FloatingGaps, rotor: Rotor, parts: FloatingParts, group: tuple[GroupInstant, ...]) -> Array:
+    """Torque (N,) N m by which the piston with its slipper resists the shaft, from the forces on them.
+
+    The moment about the shaft of the swash plate's force and friction and of inertia, at the places where the
+    films hold the parts; the plate holds the joint's friction about its normal. The joint's forces leave out the
+    acceleration d'' of the parts' small motion; to first order it asks the shaft for m d'' . r', by virtual work
+    on the rigid parts, r' = dr/d angle of their centres of mass.
+    """
+    ball, normal = ball_shift(gaps, rotor, parts), plate_axes(rotor.drive)[2]
+    axis = bore_axes(rotor, len(ball))
+    along = np.sum(ball * axis, axis=1)[:, None] * axis
+    piston = along + axis_shift(gaps, rotor, parts, parts.piston.centre_of_mass)
+    shift = resampled(np.stack([piston, ball, ball, ball], axis=1), len(group))
+    held = [
+        -float(np.cross(places + moved, forces)[:, 2].sum()) + float(at.ball_moment @ normal * normal[2])
+        for at, moved, (places, forces) in zip(group, shift, _applied(rotor, parts, group), strict=True)
+    ]
+    swung = _swung(rotor, np.array([at.places[:2] for at in group]), shift[:, :2])
+    return np.asarray(np.array(held) + swung)
+
+
+def _swung(rotor: Rotor, places: Array, shift: Array) -> Array:
+    """Torque (N,) N m of the inertia of small motion, sum of m w^2 d'' . r' over the places (N, 2, 3) m.
+
+    Piston first, then slipper; derivatives by central differences, whose mean work is that of the parts'
+    acceleration along the small motion.
+    """
+    step = TURN / len(places)
+    masses = np.array([rotor.pump.piston.mass, rotor.pump.slipper.mass])
+    rate = (np.roll(places, -1, axis=0) - np.roll(places, 1, axis=0)) / (2.0 * step)
+    bend = (np.roll(shift, -1, axis=0) - 2.0 * shift + np.roll(shift, 1, axis=0)) / step**2
+    return np.asarray(rotor.point.shaft_speed**2 * np.sum(bend * rate, axis=2) @ masses)
+
+
+def _applied(rotor: Rotor, parts: FloatingParts, group: tuple[GroupInstant, ...]) -> Iterator[tuple[Array, Array]]:
+    """Places and forces (4, 3) on each piston and slipper: inertia of both, the plate's lift and its friction.
+
+    Lift stands where it holds the slipper's moments, friction under the ball: its moment about the plate's normal
+    is that of the film, with the joint's.
+    """
+    normal = plate_axes(rotor.drive)[2]
+    foot = parts.slipper.ball_height - rotor.pump.slipper.centre_of_mass_to_ball
+    for at in group:
+        lift = (at.plate @ normal) * normal
+        yield np.vstack([at.places, at.places[1] + foot * normal]), np.vstack([at.inertia, lift, at.plate - lift])
+
+
+def block_torque(block: GapRevolution[BlockSeen], samples: int) -> Array:
+    """Torque (samples,) N m of the valve plate's film against the block's turning."""
+    turns = round(TURN / block.angles[-1])
+    return resampled(np.tile(passing(block, lambda seen: seen.torque), turns), samples)
+
+
+def with_floating_gaps(
+    losses: FrictionPairs, gaps: FloatingGaps, group: tuple[GroupInstant, ...]
+) -> FrictionPairs:
+    """The pairs with those of the three gaps from their films: shear of oil as viscous, rubbing as Coulomb's.
+
+    The joint rubs as its forces and spins have it. Ball guide and bearings stay.
+    """
+    pistons, samples = losses.piston_cylinder.count, len(group)
+    joint = np.array([at.joint_loss for at in group])
+    return replace(
+        losses,
+        piston_cylinder=_pair(pistons, gaps.piston, samples),
+        slipper_swash_plate=_pair(pistons, gaps.slipper, samples),
+        valve_plate_cylinder=_pair(1, gaps.block, samples),
+        piston_slipper_socket=PairLoss(pistons, joint, np.zeros_like(joint)),
+    )
+
+
+def _pair(count: int, revolution: GapRevolution[Seen], samples: int) -> PairLoss:
+    turns = round(TURN / revolution.angles[-1])
+    rubbed, sheared = (
+        resampled(np.tile(passing(revolution, tell), turns), samples)
+        for tell in (lambda seen: seen.heat.rubbing, lambda seen: seen.heat.shear)
+    )
+    return PairLoss(count, rubbed, sheared)
+
+
+def leakage_heat(gaps: FloatingGaps, pistons: int) -> Gaps:
+    """Heat (W) of the flow that pressure drives through the gaps, the slippers' orifices with them, mean."""
+    return Gaps(
+        pistons * _mean(gaps.piston, lambda seen: seen.heat.flow),
+        pistons * _mean(gaps.slipper, lambda seen: seen.heat.flow + seen.throttled),
+        _mean(gaps.block, lambda seen: seen.heat.flow),
+    )
+
+
+def gap_exchange(gaps: FloatingGaps, pistons: int, shaft_speed: float) -> GapExchange:
+    """What the gaps give the moving parts, and the block's draws.
+
+    Heat of sliding less the power of the walls, and what films spend on the parts' small motion: both reach the
+    chambers without the shaft.
+    """
+    return GapExchange(
+        carried=Gaps(
+            pistons
+            * (_mean(gaps.piston, lambda seen: _rubbed(seen) - seen.friction.power) + _pushed(gaps.piston)),
+            pistons
+            * (_mean(gaps.slipper, lambda seen: _rubbed(seen) - seen.friction.power) + _pushed(gaps.slipper)),
+            _mean(gaps.block, lambda seen: _rubbed(seen) - seen.torque * shaft_speed) + _pushed(gaps.block),
+        ),
+        delivery_draw=_mean(gaps.block, lambda seen: seen.delivery_draw),
+        suction_draw=_mean(gaps.block, lambda seen: seen.suction_draw),
+    )
+
+
+def _pushed(revolution: GapRevolution[Seen]) -> float:
+    """Power (W) by which a film moves what presses on it, mean over the turn."""
+    return float(np.mean([instant.pushed for instant in revolution.turn.instants]))
+
+
+def _rubbed(seen: GapSeen) -> float:
+    return seen.heat.shear + seen.heat.rubbing
+
+
+def _mean(revolution: GapRevolution[Seen], tell: Callable[[Seen], float]) -> float:
+    return float(np.mean([tell(instant.passed) for instant in revolution.turn.instants]))
+
+
+def port_draws(
+    block: GapRevolution[BlockSeen], pressures: tuple[float, float], modulus: float, count: int
+) -> tuple[Array, Array]:
+    """What the block's film takes from delivery and suction port while it repeats, (count,) m3/s at zero gauge."""
+    delivery = resampled(passing(block, lambda seen: seen.delivery_draw), count)
+    suction = resampled(passing(block, lambda seen: seen.suction_draw), count)
+    dense = np.exp(np.array(pressures) / modulus)
+    return np.asarray(delivery * dense[0]), np.asarray(suction * dense[1])

@@ -1,0 +1,247 @@
+"""One floating gap of a pump over the revolution: the pump's parts and drives put on its films."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from gaps.films.block import BlockDrive, floating_block
+from gaps.films.physics import Effect, Physics
+from gaps.films.piston import PistonDrive, floating_piston
+from gaps.films.slipper import SlipperDrive, floating_slipper
+from gaps.revolution.film_heat import GapHeat, warm_revolution
+from gaps.revolution.march import GapRevolution, TurnReport, run_revolution
+from gaps.revolution.reports import (
+    BlockSeen,
+    PistonSeen,
+    Seen,
+    SlipperSeen,
+    block_seen,
+    piston_seen,
+    slipper_seen,
+)
+from gaps.revolution.schedule import Accuracy, Schedule, evenly
+from reynolds.errors import FilmNotConverged
+from reynolds.fem.space import FilmSpace
+from reynolds.floating.problem import Floating
+from reynolds.floating.step import Stage
+from reynolds.numerics.arrays import Array
+from reynolds.solve.solver import FilmSolver
+from system.description.pump import PumpDescription
+from system.films.heat import block_heat, piston_heat, slipper_heat
+from system.films.parts import FloatingParts
+from system.films.problems import block_film, piston_film, slipper_film
+from system.films.rotor import Rotor
+from system.pump.chamber_kinds import kinds
+from system.pump_file.check import run_checks
+from system.pump_file.floating import block_tips
+from system.work.progress import Report, silent
+
+MARCHED = Accuracy(step=1e-2, balance=0.1)
+PISTON_CELLS, SLIPPER_CELLS, BLOCK_CELLS = (48, 16), (12, 40), (4, 16)
+LEAST_CELLS = 2
+LEAST_PISTON_CELLS = 8
+"""Along a bore: on fewer, a tilted piston with much clearance leaves the ends of its film between their points."""
+RIGID_FINER, SOFT_FINER = 1.0, 0.5
+SLIPPER_START = BLOCK_START = 1e-5  # m: a film that every pump starts with
+SOFTLY = "a coarser mesh to find where, or rigid walls"
+USUAL = Physics()
+"""What the films of high pressure need: walls that give way, oil that stiffens, rough walls, cavities."""
+
+
+def usual_finer(physics: Physics) -> float:
+    """Times the usual cells each way where nothing is said: half of them between walls that give way (price)."""
+    return SOFT_FINER if physics.elastic_walls else RIGID_FINER
+
+
+@dataclass(frozen=True)
+class FloatingOptions:
+    """How the gaps float: what physics, in how many steps a turn, how exactly, meshes how many times `finer`.
+
+    A mesh less than one time finer is coarser; left out it is that of elastic walls (`usual_finer`). Every
+    `keep`th film is kept.
+    """
+
+    physics: Physics = field(default=USUAL)
+    steps: int = 360
+    accuracy: Accuracy = field(default=MARCHED)
+    finer: float = SOFT_FINER
+    keep: int = 10
+
+    @property
+    def rigid(self) -> FloatingOptions:
+        """The same between rigid walls, with oil that neither pressure nor heat changes."""
+        return replace(
+            self, physics=self.physics.without(Effect.ELASTIC_WALLS, Effect.PRESSURE_VISCOSITY, Effect.HEAT)
+        )
+
+    @property
+    def piston_cells(self) -> tuple[int, int]:
+        """Cells around and along the piston's film."""
+        return self._cells(PISTON_CELLS, LEAST_PISTON_CELLS)
+
+    @property
+    def slipper_cells(self) -> tuple[int, int]:
+        """Cells across each land of the slipper and around it."""
+        return self._cells(SLIPPER_CELLS)
+
+    @property
+    def block_cells(self) -> tuple[int, int]:
+        """Cells across each land of the valve plate and around a piston pitch."""
+        return self._cells(BLOCK_CELLS)
+
+    def _cells(self, cells: tuple[int, int], least: int = LEAST_CELLS) -> tuple[int, int]:
+        return max(least, round(self.finer * cells[0])), max(least, round(self.finer * cells[1]))
+
+
+def piston_revolution(
+    rotor: Rotor,
+    parts: FloatingParts,
+    drive: PistonDrive,
+    options: FloatingOptions,
+    before: GapRevolution[PistonSeen] | None = None,
+    report: Report = silent,
+) -> GapRevolution[PistonSeen]:
+    """The piston over the turn, from the middle of its bore or on from a revolution `before`.
+
+    Raises as `run_revolution`.
+    """
+    cells = options.piston_cells
+    film = piston_film(rotor, parts, drive, options.physics, cells)
+    floating, schedule = floating_piston(film), evenly(drive.shaft_speed, options.steps, keep=options.keep)
+    told = _of_turn(report, options.steps, "piston")
+    heat = piston_heat(rotor, parts) if options.physics.heat else None
+    return _run(
+        film.space_at(0.0), floating, schedule, np.zeros(4), piston_seen(film), options, heat, before, told
+    )
+
+
+def slipper_revolution(
+    rotor: Rotor,
+    parts: FloatingParts,
+    drive: SlipperDrive,
+    options: FloatingOptions,
+    before: GapRevolution[SlipperSeen] | None = None,
+    report: Report = silent,
+) -> GapRevolution[SlipperSeen]:
+    """The slipper over the turn, from a film of SLIPPER_START without tilt or on from a revolution `before`.
+
+    Raises as `run_revolution`; where nothing presses the slipper on, that is told as the reason.
+    """
+    cells = options.slipper_cells
+    film = slipper_film(rotor, parts, drive, options.physics, cells)
+    floating, schedule = floating_slipper(film), evenly(drive.shaft_speed, options.steps, keep=options.keep)
+    start, told = np.array([SLIPPER_START, 0.0, 0.0]), _of_turn(report, options.steps, "slipper")
+    heat = slipper_heat(rotor, parts) if options.physics.heat else None
+    try:
+        return _run(film.space, floating, schedule, start, slipper_seen(film), options, heat, before, told)
+    except FilmNotConverged as stopped:
+        raise _pulled_off(drive, options.steps, stopped) from stopped
+
+
+def _pulled_off(drive: SlipperDrive, steps: int, stopped: FilmNotConverged) -> FilmNotConverged:
+    """Why a slipper's turn has ended: pulled off its plate with more than the spring behind its retainer bears."""
+    degrees = np.linspace(0.0, 360.0, steps, endpoint=False)
+    lift = np.array([-float(np.asarray(drive.outer(np.radians(at)))[0]) for at in degrees])
+    worst = int(np.argmin(lift))
+    holds = math.inf if drive.retainer is None else drive.retainer.limit
+    if -lift[worst] < holds:
+        return stopped
+    pulled = (
+        f"at {degrees[worst]:.0f} deg the slipper is pulled off its plate with {-lift[worst]:.4g} N beyond the "
+        f"spring's share, and the retainer gives way from {holds:.4g} N on"
+    )
+    remedy = "a stiffer spring (ball_guide.spring_preload), or retainer.kind = 'clearance'"
+    return FilmNotConverged(f"{stopped.what}; {pulled}", f"{remedy}; {stopped.remedy}")
+
+
+def block_revolution(
+    rotor: Rotor,
+    parts: FloatingParts,
+    drive: BlockDrive,
+    options: FloatingOptions,
+    before: GapRevolution[BlockSeen] | None = None,
+    report: Report = silent,
+) -> GapRevolution[BlockSeen]:
+    """The block over the turn, or over a piston pitch where chambers are alike, after which all repeats.
+
+    From a film of BLOCK_START without tilt or on from a revolution `before`; between elastic walls from where it
+    is between rigid ones. Raises ValueError where the steps do not divide among the pitches, else as
+    `run_revolution`; where its lands cannot hold it, that is told as the reason.
+    """
+    pistons, pump = rotor.pump.pump.pistons, rotor.pump
+    if options.steps % pistons:
+        raise ValueError(f"steps: found {options.steps}, expected a multiple of the {pistons} pistons")
+    if before is None and (first := _between_rigid(rotor, parts, drive, options, report)):
+        then = block_revolution(rotor, parts, drive, options, first.bare, report)
+        films = first.films_solved + then.films_solved
+        return replace(then, films_solved=films, spent={**first.spent, **then.spent})
+    alike = kinds(pump).alike
+    steps, span = (options.steps // pistons, 2.0 * np.pi / pistons) if alike else (options.steps, 2.0 * np.pi)
+    film = block_film(rotor, parts, drive, options.physics, options.block_cells)
+    schedule = evenly(drive.shaft_speed, steps, span, options.keep)
+    start, told = np.array([BLOCK_START, 0.0, 0.0]), _of_turn(report, steps, "block")
+    heat = block_heat(rotor, parts) if options.physics.heat else None
+    try:
+        return _run(
+            film.space, floating_block(film), schedule, start, block_seen(film), options, heat, before, told
+        )
+    except FilmNotConverged as stopped:
+        raise _off_its_plate(pump, stopped) from stopped
+
+
+def _off_its_plate(pump: PumpDescription, stopped: FilmNotConverged) -> FilmNotConverged:
+    """Why a block's turn has ended, with what is doubtful about its lands, if anything is."""
+    doubts = run_checks((block_tips,), pump).warnings
+    what = "; ".join([stopped.what, *(f"{doubt.path}: {doubt.value}" for doubt in doubts)])
+    return FilmNotConverged(what, "; ".join([*(doubt.remedy for doubt in doubts), stopped.remedy]))
+
+
+def _between_rigid(
+    rotor: Rotor, parts: FloatingParts, drive: BlockDrive, options: FloatingOptions, report: Report
+) -> GapRevolution[BlockSeen] | None:
+    """Where a block whose walls give way begins: its turn between rigid ones, at a tenth of the price.
+
+    A block forgets where it began only over several pitches. None where walls are rigid, and where nothing settles
+    between rigid ones: elastic ones may do so all the same.
+    """
+    if not options.physics.elastic_walls:
+        return None
+    try:
+        return block_revolution(rotor, parts, drive, options.rigid, None, report)
+    except FilmNotConverged:
+        return None
+
+
+def _run(
+    space: FilmSpace,
+    floating: Floating,
+    schedule: Schedule,
+    start: Array,
+    look: Callable[[Stage], Seen],
+    options: FloatingOptions,
+    heat: GapHeat | None,
+    before: GapRevolution[Seen] | None,
+    report: TurnReport,
+) -> GapRevolution[Seen]:
+    solver, accuracy = FilmSolver(space), options.accuracy
+    try:
+        if heat is None:
+            return run_revolution(
+                solver, floating, schedule, start, look, accuracy=accuracy, before=before, report=report
+            )
+        return warm_revolution(
+            solver, floating, schedule, start, look, heat, accuracy=accuracy, before=before, report=report
+        )
+    except FilmNotConverged as reason:
+        if not options.physics.elastic_walls:
+            raise
+        raise FilmNotConverged(f"between elastic walls, {reason.what}", f"{reason.remedy}; {SOFTLY}") from None
+
+
+def _of_turn(report: Report, steps: int, gap: str) -> TurnReport:
+    """Progress of a gap's turn by its share, in the turn's angles."""
+    return lambda turn, share: report(int(share * steps), steps, f"{gap}, {turn}")

@@ -1,0 +1,158 @@
+"""The floating gaps of a pump's kinds of chambers: what drives each, their revolutions, and their chambers.
+
+A kind has one piston and one slipper over the turn, driven by the mean pressure of its chambers; each chamber has
+its own cycle. Where all are alike, one chamber and a pitch of the block tell of all; else the block takes a turn.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from gaps.revolution.march import GapRevolution
+from gaps.revolution.reports import PistonSeen
+from reynolds.numerics.arrays import Array
+from system.description.pump import PumpDescription
+from system.films.drives import Drives, Rubbing, block_drive, drives
+from system.films.parts import FloatingParts, floating_parts
+from system.films.rotor import Rotor
+from system.films.spins import SpinTorques
+from system.points.floating_exchange import FloatingGaps, growth, leak_table
+from system.points.floating_gaps import (
+    FloatingOptions,
+    block_revolution,
+    piston_revolution,
+    slipper_revolution,
+)
+from system.points.piston_process import Driven, PistonBeside
+from system.pump.chamber.problem import ChamberProblem
+from system.pump.chamber_kinds import Kinds, kinds
+from system.pump.lumped import PistonMotion, chamber_problem
+from system.pump.operating import OperatingPoint
+from system.work.progress import Report
+
+BLOCK_SHARE = 0.1
+"""Of the work of a round of chambers that are alike, what the block takes over a pitch (REF90, 72 steps)."""
+
+
+@dataclass(frozen=True)
+class Group:
+    """A pump's kinds of chambers with the parts of each."""
+
+    kinds: Kinds
+    parts: tuple[FloatingParts, ...]
+
+    def rotors(self, asked: Asked) -> tuple[Rotor, ...]:
+        """The rotating group at the point asked for, with the parts of each kind."""
+        each = zip(self.kinds.pumps, asked.spin_torques, strict=True)
+        return tuple(replace(asked.rotor, pump=pump, spin_torques=torques) for pump, torques in each)
+
+
+def work_of(pump: PumpDescription) -> float:
+    """About how many times the work of a pump with chambers that are alike the floating gaps of a pump take."""
+    found = kinds(pump)
+    if found.alike:
+        return 1.0
+    return (1.0 - BLOCK_SHARE) * len(found.pumps) + BLOCK_SHARE * pump.pump.pistons
+
+
+def group_of(rotor: Rotor) -> Group:
+    """The kinds of a pump's chambers."""
+    found = kinds(rotor.pump)
+    return Group(found, tuple(floating_parts(pump) for pump in found.pumps))
+
+
+@dataclass(frozen=True)
+class Asked:
+    """What drives a round: pressures (N,) Pa of the chambers over their own angles (N,) rad, friction by kind.
+
+    spin_torques by kind, None before films are solved.
+    """
+
+    rotor: Rotor
+    shaft_angle: Array
+    pressure: tuple[Array, ...]
+    rubbing: tuple[Rubbing, ...]
+    spin_torques: tuple[SpinTorques | None, ...]
+    options: FloatingOptions
+
+
+def driven_by(asked: Asked, group: Group) -> tuple[Driven, ...]:
+    """What drives piston and slipper of each kind."""
+    pressure = np.array(asked.pressure)
+    return tuple(
+        Driven(
+            rotor,
+            asked.shaft_angle,
+            pressure[list(group.kinds.chambers(kind))].mean(axis=0),
+            rubbing,
+            asked.options,
+        )
+        for kind, (rotor, rubbing) in enumerate(zip(group.rotors(asked), asked.rubbing, strict=True))
+    )
+
+
+def drives_of(asked: Asked, group: Group) -> tuple[Drives, ...]:
+    """The drives of each kind's gaps; the block's is one for all."""
+    found = [
+        drives(one.rotor, parts, one.shaft_angle, one.pressure, one.rubbing)
+        for one, parts in zip(driven_by(asked, group), group.parts, strict=True)
+    ]
+    if group.kinds.alike:
+        return tuple(found)
+    groups = group.kinds.by_chamber([one.group for one in found])
+    block = block_drive(asked.rotor, group.parts[0], asked.shaft_angle, asked.pressure, groups)
+    return tuple(replace(one, block=block) for one in found)
+
+
+def gap_revolutions(
+    asked: Asked,
+    group: Group,
+    driven: Sequence[Drives],
+    before: Sequence[FloatingGaps] | None,
+    beside: PistonBeside | None,
+    report: Report,
+) -> tuple[FloatingGaps, ...]:
+    """The gaps of each kind over the revolution, on from those before; pistons by the process beside, if any."""
+    options, block_before = asked.options, None if before is None else before[0].block
+    last_of: Sequence[FloatingGaps | None] = [None] * len(driven) if before is None else before
+    each = list(zip(group.rotors(asked), group.parts, driven, last_of, strict=True))
+    pistons: Sequence[GapRevolution[PistonSeen]] = ()
+    if beside is not None:
+        beside.start(driven_by(asked, group))
+    else:
+        pistons = [
+            piston_revolution(rotor, parts, of.piston, options, last.piston if last else None, report)
+            for rotor, parts, of, last in each
+        ]
+    slippers = [
+        slipper_revolution(rotor, parts, of.slipper, options, last.slipper if last else None, report)
+        for rotor, parts, of, last in each
+    ]
+    block = block_revolution(asked.rotor, group.parts[0], driven[0].block, options, block_before, report)
+    if beside is not None:
+        pistons = beside.fetch(report)
+    return tuple(
+        FloatingGaps(piston, slipper, block, group.kinds.chambers(kind)[0])
+        for kind, (piston, slipper) in enumerate(zip(pistons, slippers, strict=True))
+    )
+
+
+def by_chamber(group: Group, gaps: Sequence[FloatingGaps]) -> tuple[FloatingGaps, ...]:
+    """The gaps of each chamber, of one where all are alike."""
+    return tuple(replace(own, chamber=k) for k, own in enumerate(group.kinds.by_chamber(gaps)))
+
+
+def chamber_problems(
+    asked: Asked, group: Group, point: OperatingPoint, motion: PistonMotion, gaps: Sequence[FloatingGaps]
+) -> tuple[ChamberProblem, ...]:
+    """Each chamber between its gaps: what they leak, and what the parts' small motion adds to its volume."""
+    rotors = group.kinds.by_chamber(group.rotors(asked))
+    return tuple(
+        replace(chamber_problem(at.pump, point, motion, leak_table(own)), growth=growth(own, at, parts))
+        for at, parts, own in zip(
+            rotors, group.kinds.by_chamber(group.parts), by_chamber(group, gaps), strict=True
+        )
+    )

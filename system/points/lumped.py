@@ -1,0 +1,120 @@
+"""One operating point at the lumped fidelity, with the effects that the pump's [physics] switches on."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from system.description.pump import PumpDescription
+from system.effects.effect import Effects
+from system.inputs.errors import NotConverged
+from system.inputs.units import TURN
+from system.points.effects import affected, displaced, point_effects, rubbed_pairs, with_outside
+from system.pump.assembly import PumpPoint, assemble
+from system.pump.chamber.cycle import TOLERANCE, ChamberCycle
+from system.pump.chamber.port_coupling import PortedCycle, ported_cycle
+from system.pump.chamber.problem import LeakTable
+from system.pump.chamber_kinds import Kinds, kinds
+from system.pump.film_thickness import expansion
+from system.pump.land_losses import land_losses, with_inertia
+from system.pump.lumped import (
+    PistonMotion,
+    chamber_problem,
+    group_masses,
+    lumped_leaks,
+    lumped_pairs,
+    piston_motion,
+    port_lines,
+    swept_displacement,
+)
+from system.pump.operating import OperatingPoint
+from system.pump.power import chamber_exchange
+
+ROUND_LIMIT = 20
+SETTLED = 1e-7
+"""Change of a gap's leakage between two rounds, of itself, that is none."""
+
+
+def lumped_point(pump: PumpDescription, point: OperatingPoint, tolerance: float = TOLERANCE) -> PumpPoint:
+    """One periodic operating point of a pump with films of given thickness: REF90's nominal loss model.
+
+    Chambers that differ have each its own cycle; what rubs about the shaft takes the mean of pumps with chambers
+    like each. Effects of [physics] see the gaps as they are without any; then chambers are solved once more.
+    Raises NotConverged when the chamber pressure does not become periodic, FilmInputError for a film that warmth
+    closes. Valid for films thick against their
+    roughness at the viscosity of the case; what it leaves out is in `left_out_physics.md`.
+    """
+    found = kinds(pump)
+    expansion(pump, point.temperature)
+    plain = _solved(found, pump, point, (), tolerance)
+    if not pump.physics.on:
+        return plain
+    cycles = [plain.chambers[found.of_chamber.index(kind)] for kind in range(len(found.pumps))]
+    effects = [point_effects(own, plain.point, cycle) for own, cycle in zip(found.pumps, cycles, strict=True)]
+    inside = _solved(found, pump, point, effects, tolerance)
+    return with_outside(inside, pump, found.by_chamber(effects))
+
+
+def _solved(
+    found: Kinds, pump: PumpDescription, asked: OperatingPoint, effects: Sequence[Effects], tolerance: float
+) -> PumpPoint:
+    """The point with what effects change in chambers and pairs, kind by kind, or with none."""
+    point = displaced(asked, effects)
+    motions = [piston_motion(own, point) for own in found.pumps]
+    ported = _ported(found, pump, point, motions, effects, tolerance)
+    pistons = pump.pump.pistons
+    chambers = list(zip(found.by_chamber(found.pumps), found.by_chamber(motions), ported.cycles, strict=True))
+    losses = [lumped_pairs(own, point, motion, cycle) for own, motion, cycle in chambers]
+    if effects:
+        losses = [rubbed_pairs(*each) for each in zip(losses, found.by_chamber(effects), strict=True)]
+    exchange = chamber_exchange(ported.cycle, pistons * point.shaft_speed / TURN)
+    derived = float(np.mean([swept_displacement(own, motion.drive) for own, motion, _ in chambers]))
+    masses = [group_masses(own) for own, _, _ in chambers]
+    return assemble(asked, ported, losses, pistons, derived, exchange, masses)
+
+
+def _ported(
+    found: Kinds,
+    pump: PumpDescription,
+    point: OperatingPoint,
+    motions: Sequence[PistonMotion],
+    effects: Sequence[Effects],
+    tolerance: float,
+) -> PortedCycle:
+    """Chambers and ports; where lands lose by inertia (`land_losses`), at pressures that these losses leave.
+
+    Raises NotConverged where flow and pressure do not settle within ROUND_LIMIT rounds.
+    """
+    pistons, samples, lines = pump.pump.pistons, motions[0].shaft_angle.size, port_lines(pump, point)
+    creeping = [lumped_leaks(own, point, motion) for own, motion in zip(found.pumps, motions, strict=True)]
+    leaks = creeping
+    for _ in range(ROUND_LIMIT):
+        problems = [
+            chamber_problem(own, point, motion, leak)
+            for own, motion, leak in zip(found.pumps, motions, leaks, strict=True)
+        ]
+        if effects:
+            problems = [affected(*each) for each in zip(problems, effects, strict=True)]
+        ported = ported_cycle(found.by_chamber(problems), lines, pistons, samples, tolerance)
+        before, leaks = (
+            leaks,
+            [
+                _slowed(own, point, leak, ported.cycles[found.of_chamber.index(kind)])
+                for kind, (own, leak) in enumerate(zip(found.pumps, creeping, strict=True))
+            ],
+        )
+        pairs = zip(leaks, before, strict=True)
+        if all(np.allclose(one.conductance, other.conductance, SETTLED, 0.0) for one, other in pairs):
+            return ported
+    raise NotConverged(
+        f"leakage by files of losses: after {ROUND_LIMIT} rounds it still changes by more than {SETTLED:g} of "
+        "itself; leave out pocket_file, groove_file, kidney_file and orifice_file"
+    )
+
+
+def _slowed(pump: PumpDescription, point: OperatingPoint, creeping: LeakTable, cycle: ChamberCycle) -> LeakTable:
+    """Leaks less what inertia takes at a cycle's pressures; the same where no file says anything."""
+    if not land_losses(pump).any:
+        return creeping
+    return with_inertia(pump, creeping, cycle.pressure - point.case_pressure, point.viscosity, bore=True)

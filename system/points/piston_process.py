@@ -1,0 +1,128 @@
+"""The piston's revolutions in a process of their own, beside slipper and block.
+
+The piston takes about as long as the other two together. Its process keeps what the last revolution left in the
+film, so that what goes to and fro is what drives it and what is told of it.
+"""
+
+from __future__ import annotations
+
+import multiprocessing
+import signal
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from multiprocessing.connection import Connection
+
+from gaps.revolution.march import GapRevolution
+from gaps.revolution.reports import PistonSeen
+from reynolds.numerics.arrays import Array
+from system.films.drives import Rubbing, drives
+from system.films.parts import FloatingParts
+from system.films.rotor import Rotor
+from system.inputs.errors import NotConverged
+from system.points.floating_gaps import FloatingOptions, piston_revolution
+from system.work.progress import Report
+
+Found = GapRevolution[PistonSeen]
+TOLD_A_TURN = 12
+
+
+@dataclass(frozen=True)
+class Driven:
+    """What drives piston and slipper of a kind of chambers.
+
+    The pump at its point, pressure (N,) Pa over the chamber's angle (N,), friction.
+    """
+
+    rotor: Rotor
+    shaft_angle: Array
+    pressure: Array
+    rubbing: Rubbing
+    options: FloatingOptions
+
+
+@dataclass(frozen=True)
+class _Progress:
+    done: int
+    total: int
+    what: str
+
+
+class PistonBeside:
+    """A process that solves pistons, one of each kind: start them, do something else, fetch what it found."""
+
+    def __init__(self, connection: Connection) -> None:
+        self._connection = connection
+
+    def start(self, driven: tuple[Driven, ...]) -> None:
+        """Begin a round, from where the one before ended."""
+        self._connection.send(driven)
+
+    def fetch(self, report: Report) -> tuple[Found, ...]:
+        """The revolutions of the round begun, without what the next start from; tells progress while it waits.
+
+        Raises what `piston_revolution` raises, NotConverged where the process has died.
+        """
+        while True:
+            try:
+                told = self._connection.recv()
+            except (EOFError, ConnectionResetError):
+                raise NotConverged(
+                    "the piston's process has died; try one process alone, or in a script of your own stand what "
+                    "it runs under `if __name__ == '__main__':`"
+                ) from None
+            if isinstance(told, _Progress):
+                report(told.done, told.total, told.what)
+            elif isinstance(told, Exception):
+                raise told
+            else:
+                found: tuple[Found, ...] = told
+                return found
+
+
+@contextmanager
+def piston_beside(parts: tuple[FloatingParts, ...]) -> Iterator[PistonBeside]:
+    """A process for the pistons as long as the context lasts; Ctrl-C is for this process alone, which ends it."""
+    ours, theirs = multiprocessing.get_context("spawn").Pipe()
+    process = multiprocessing.get_context("spawn").Process(target=_serve, args=(theirs, parts), daemon=True)
+    process.start()
+    theirs.close()
+    try:
+        yield PistonBeside(ours)
+    finally:
+        ours.close()
+        process.terminate()
+        process.join()
+
+
+def _serve(connection: Connection, parts: tuple[FloatingParts, ...]) -> None:
+    """Rounds of the pistons, one for each that is asked for, until nobody asks."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    before: list[Found | None] = [None] * len(parts)
+    while True:
+        try:
+            asked: tuple[Driven, ...] = connection.recv()
+        except EOFError:
+            return
+        try:
+            found = [_solve(*each, _teller(connection)) for each in zip(asked, parts, before, strict=True)]
+        except Exception as reason:  # whatever it is belongs to whoever asked
+            connection.send(reason)
+        else:
+            before = [*found]
+            connection.send(tuple(one.bare for one in found))
+
+
+def _teller(connection: Connection) -> Report:
+    """Progress, seldom enough for a pipe that nobody reads for a while."""
+
+    def tell(done: int, total: int, what: str) -> None:
+        if done % max(1, total // TOLD_A_TURN) == 0:
+            connection.send(_Progress(done, total, what))
+
+    return tell
+
+
+def _solve(asked: Driven, parts: FloatingParts, before: Found | None, report: Report) -> Found:
+    driven = drives(asked.rotor, parts, asked.shaft_angle, asked.pressure, asked.rubbing)
+    return piston_revolution(asked.rotor, parts, driven.piston, asked.options, before, report)

@@ -1,0 +1,1 @@
+"""Response tables of the gaps: build, store, and the point by table."""

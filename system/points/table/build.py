@@ -1,0 +1,178 @@
+"""Building a pump's response table: its box of operating points, and what the solved ones teach."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Sequence
+from dataclasses import dataclass, replace
+from importlib.metadata import version
+from pathlib import Path
+
+import numpy as np
+
+from gaps.response import Axis, Response, Samples, Spacing
+from reynolds.errors import FilmInputError
+from reynolds.laws.oil import dynamic_viscosity, temperature_of
+from reynolds.numerics.arrays import Array
+from reynolds.numerics.cache import content_key
+from system.description.pump import PumpDescription
+from system.effects.switched import hold_plain
+from system.inputs.units import Dimension, format_quantity
+from system.points.table.means import MEANINGS, TABLE_FORMAT, mean_ratios, measured_outputs
+from system.points.table.point import table_point
+from system.points.table.pump_numbers import numbers_error, pump_numbers
+from system.points.table.response_table import (
+    INPUTS,
+    PRESSURE,
+    RATIO,
+    SPEED,
+    VISCOSITY,
+    Failed,
+    Origin,
+    ResponseTable,
+)
+from system.points.table.sources import PointSolver, with_held_ports
+from system.points.table.store import KEY_LENGTH, keep_table, pump_key
+from system.pump.operating import OperatingPoint, operating_point
+from system.work.processes import HERE
+from system.work.progress import Report, silent
+from system.work.sampled_points import Solved, points_of, samples_of, solved_points, tables_folder
+from system.work.tasks import Hands
+
+SPEEDS = (0.2, 1.2)
+"""Of the rated speed: the box where nothing else is stated."""
+PRESSURES = (0.05, 1.15)
+"""Of the rated pressure, the lower one beyond inlet and case."""
+RATIOS = (0.1, 1.0)
+TEMPERATURES = (293.15, 373.15)
+"""K: 20 .. 100 degC, as viscosities of the pump's oil."""
+
+Range = tuple[float, float]
+
+
+@dataclass(frozen=True)
+class TableCase:
+    """What to condense: a pump, who solves its points, the box, how many points to learn from and to hold out.
+
+    Of INPUTS those that have no axis are held at the pump's own operating point. An `Asked`.
+    """
+
+    pump: PumpDescription
+    solver: PointSolver
+    axes: tuple[Axis, ...]
+    learnt: int
+    held_out: int
+
+    @property
+    def held(self) -> dict[str, float]:
+        """The inputs that are held, SI."""
+        varied, point = {axis.name for axis in self.axes}, operating_point(self.pump)
+        return {name: getattr(point, name) for name in INPUTS if name not in varied}
+
+    def key(self, x: Array) -> str:
+        """Name of a point's content: the pump, the solver with what it states, the format, the place."""
+        solver, point = self.solver, point_at(self, x)
+        place = np.array([getattr(point, name) for name in INPUTS])
+        return content_key(
+            pump_key(self.pump), TABLE_FORMAT, solver.source.value, sorted(solver.stated.items()), place
+        )
+
+    def solve(self, x: Array) -> Array:
+        """The gaps' means over the turn, by their ratios to the lumped law; after them the pump's numbers."""
+        pump = with_held_ports(self.pump)
+        solved = self.solver.solve(pump, point_at(self, x))
+        return np.concatenate([mean_ratios(pump, solved), pump_numbers(solved.pump_point)])
+
+
+def table_axes(
+    pump: PumpDescription,
+    speeds: Range | None = None,
+    pressures: Range | None = None,
+    ratios: Range | None = None,
+    temperatures: Range | None = None,
+    held: Collection[str] = (),
+) -> tuple[Axis, ...]:
+    """The box of a pump's table, SI, temperatures standing for the viscosities of its oil, without what is `held`.
+
+    What is None is taken from the rating (SPEEDS, PRESSURES) or as RATIOS and TEMPERATURES. Raises FilmInputError
+    for a range that is none, where the oil's law is void, and where no pump is: a delivery pressure that is not
+    above inlet and case, a displacement ratio above 1.
+    """
+    rated = pump.pump
+    low, high = speeds or (SPEEDS[0] * rated.rated_speed, SPEEDS[1] * rated.rated_speed)
+    cold, hot = temperatures or TEMPERATURES
+    floor = max(pump.operating.inlet_pressure, pump.operating.case_pressure)
+    if pressures and pressures[0] <= floor:
+        found, least = (format_quantity(value, Dimension.PRESSURE, digits=4) for value in (pressures[0], floor))
+        raise FilmInputError("range of delivery pressure", f"from {found}", f"more than inlet and case, {least}")
+    if ratios and ratios[1] > 1.0:
+        raise FilmInputError("range of displacement ratio", f"to {ratios[1]:g}", "at most 1")
+    lowest = max(floor, 0.0) + PRESSURES[0] * rated.rated_pressure
+    box = (
+        Axis(SPEED, low, high, Spacing.LOGARITHMIC),
+        Axis(PRESSURE, *(pressures or (lowest, PRESSURES[1] * rated.rated_pressure)), Spacing.LOGARITHMIC),
+        Axis(RATIO, *(ratios or RATIOS), Spacing.LOGARITHMIC),
+        Axis(
+            VISCOSITY,
+            dynamic_viscosity(pump.oil.fluid, hot),
+            dynamic_viscosity(pump.oil.fluid, cold),
+            Spacing.LOGARITHMIC,
+        ),
+    )
+    return tuple(axis for axis in box if axis.name not in held)
+
+
+def build_table(
+    case: TableCase, *, hands: Hands = HERE, report: Report = silent, folder: Path | None = None
+) -> ResponseTable:
+    """The table of a case, kept in the cache; its points as `solved_points`.
+
+    Held-out points are run by the table, too, for what it misses of the pump's numbers. Raises NotConverged where
+    too few points have a result, FilmInputError for a pump with effects of [physics], and as `table_point`.
+    """
+    hold_plain(case.pump)
+    found = solved_points(case, hands=hands, report=report, folder=folder)
+    (learnt, _), (held_out, numbers) = (_parted(samples) for samples in samples_of(case, found))
+    outputs = measured_outputs(np.concatenate([learnt.values, held_out.values]))
+    table = ResponseTable(_origin(case, found), Response(case.axes, outputs, learnt, held_out))
+    pump = with_held_ports(case.pump)
+    told = [pump_numbers(table_point(pump, point_at(case, x), table).pump_point) for x in held_out.points]
+    table = replace(table, numbers=numbers_error(np.array(told), numbers))
+    keep_table(table, tables_folder(folder) / f"{table.origin.pump_key}-{case_key(case)}")
+    return table
+
+
+def _parted(samples: Samples) -> tuple[Samples, Array]:
+    """Samples of the outputs alone, and the pump's numbers (n, r) there."""
+    count = len(MEANINGS)
+    return Samples(samples.points, samples.values[:, :count]), samples.values[:, count:]
+
+
+def point_at(case: TableCase, x: Array) -> OperatingPoint:
+    """The operating point of a place (d,) in the box: at the temperature at which the oil has its viscosity."""
+    stated = {axis.name: float(value) for axis, value in zip(case.axes, x, strict=True)}
+    if VISCOSITY in stated:
+        stated["temperature"] = temperature_of(case.pump.oil.fluid, stated[VISCOSITY])
+    return replace(operating_point(case.pump), **stated)
+
+
+def case_key(case: TableCase) -> str:
+    """Name of a case among those of its pump."""
+    source = case.solver.source.value, sorted(case.solver.stated.items())
+    return content_key(*source, case.axes, sorted(case.held.items()), case.learnt, case.held_out)[:KEY_LENGTH]
+
+
+def _origin(case: TableCase, found: Sequence[Solved]) -> Origin:
+    points = points_of(case)
+    failed = (Failed(tuple(map(float, points[one.index])), one.reason) for one in found if one.reason)
+    return Origin(
+        pump=case.pump.name,
+        pump_key=pump_key(case.pump),
+        source=case.solver.source,
+        stated=dict(case.solver.stated),
+        package=version("swashfilm"),
+        inlet_pressure=case.pump.operating.inlet_pressure,
+        case_pressure=case.pump.operating.case_pressure,
+        held=case.held,
+        failed=tuple(failed),
+        seconds=float(np.mean([solved.seconds for solved in found])),
+    )

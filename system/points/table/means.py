@@ -1,0 +1,152 @@
+"""What a response table holds of one solved point: the gaps' means over the turn, as ratios to the lumped law.
+
+The lumped law knows pressure, speed and viscosity already; what is left of a solved point is of order one and
+smooth. Ratios are taken at the solved point's own chamber pressure, so that they hold the gap and nothing else.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from gaps.response import Measure, Output
+from reynolds.numerics.arrays import Array
+from system.description.gap import Gap
+from system.description.pump import PumpDescription
+from system.pump.assembly import PumpPoint
+from system.pump.chamber.problem import LeakTable
+from system.pump.chamber.setup import periodic_values
+from system.pump.film_thickness import given_film
+from system.pump.laws.friction_pairs import Pair
+from system.pump.lumped import lumped_leaks, lumped_pairs, piston_motion
+from system.pump.operating import OperatingPoint
+from system.pump.power import Gaps
+
+TABLE_FORMAT = 3
+"""Raised when solved points give other numbers in a table: by what is kept of them, or by the laws behind it."""
+GAP_PAIRS = {
+    "piston": Pair.PISTON_CYLINDER,
+    "slipper": Pair.SLIPPER_SWASH_PLATE,
+    "valve_plate": Pair.VALVE_PLATE_CYLINDER,
+}
+OF_EVERY_GAP = {
+    "leakage": "mean flow out of the chambers into the gap, beside what the piston carries / by the lumped law",
+    "carried": "power of oil that the walls carry / by the lumped law, of slipper and plate / its leakage power",
+    "friction": "mean loss of the pair, net of what carried oil gives back / by the lumped law",
+    "contact_share": "loss of contact (Coulomb friction) / loss of the pair",
+    "film_mean": "mean film over area and turn / the film given by the description",
+    "film_least": "least film anywhere in the turn / the film given by the description",
+}
+OF_ONE_PART = {
+    "socket.friction": "mean loss of the ball joints / by the lumped law",
+    "valve_plate.delivery_draw": "what the film takes from the delivery port / plate flow",
+    "valve_plate.suction_draw": "what the film takes from the suction port / plate flow",
+}
+"""Plate flow: the lumped law's with half of the chambers at delivery pressure, `plate_flow`."""
+MEANINGS = {f"{gap}.{name}": text for gap in GAP_PAIRS for name, text in OF_EVERY_GAP.items()} | OF_ONE_PART
+"""Outputs by name, and what they are, in the order of `mean_ratios`."""
+OF_ORDER_ONE = ("leakage", "friction", "film_mean", "film_least")
+"""Learnt by logarithm, their error relative, where they are positive at all points: a flow may turn its sign, so
+may the distance of rough walls. The others may be nothing; their error is that of the ratio itself."""
+
+
+def measured_outputs(values: Array) -> tuple[Output, ...]:
+    """The outputs with their measure, given values (n, m) at all points."""
+    return tuple(
+        Output(
+            name,
+            Measure.RELATIVE
+            if name.partition(".")[2] in OF_ORDER_ONE and np.all(column > 0.0)
+            else Measure.ABSOLUTE,
+        )
+        for name, column in zip(MEANINGS, values.T, strict=True)
+    )
+
+
+@dataclass(frozen=True)
+class SolvedPoint:
+    """A point as a costly fidelity solves it; films in m: mean over area and turn, least anywhere in the turn."""
+
+    pump_point: PumpPoint
+    film_mean: Gaps
+    film_least: Gaps
+
+
+@dataclass(frozen=True)
+class LawMoments:
+    """One chamber by the lumped law at a given pressure, means over the turn, of the gaps (3,).
+
+    flow: of the pressure flow G (p - p_case), m3/s; carried, one: of the law's carried flow, m3/s (nothing but in
+    the piston's gap), and of a flow of 1 m3/s; all three by mass, at case pressure. power: what carried oil is
+    measured by, W: the oil carried in the piston's gap, the pressure flow in the others, in which the law knows
+    none; above: p - p_case, Pa.
+    """
+
+    flow: Array
+    carried: Array
+    one: float
+    power: Array
+    above: float
+
+
+def law_moments(law: LeakTable, pump: PumpDescription, point: OperatingPoint, pressure: Array) -> LawMoments:
+    """Moments of the lumped law at a chamber's pressure (N,) Pa at the law's N shaft angles."""
+    above = pressure - point.case_pressure
+    dense = np.exp(above / pump.oil.bulk_modulus)
+    power = np.mean(law.conductance * above**2, axis=1)
+    power[0] = np.mean(law.carried_flow[0] * above)
+    return LawMoments(
+        flow=np.mean(law.conductance * above * dense, axis=1),
+        carried=np.mean(law.carried_flow * dense, axis=1),
+        one=float(np.mean(dense)),
+        power=power,
+        above=float(np.mean(above)),
+    )
+
+
+def mean_ratios(pump: PumpDescription, solved: SolvedPoint) -> Array:
+    """The outputs (m,) of a solved point, in the order of MEANINGS."""
+    found, point = solved.pump_point, solved.pump_point.point
+    motion = piston_motion(pump, point)
+    samples = found.cycle.shaft_angle.size
+    above = found.cycle.pressure - point.case_pressure
+    moments = law_moments(lumped_leaks(pump, point, motion), pump, point, found.cycle.pressure)
+    flow = periodic_values(found.leaks.conductance, samples) * above
+    flow = flow + periodic_values(found.leaks.carried_flow, samples)
+    flow = np.mean(flow * np.exp(above / pump.oil.bulk_modulus), axis=1)
+    carried = [getattr(found.exchange.carried, gap) for gap in GAP_PAIRS] / (found.pistons * moments.power)
+    leakage = (flow - carried * moments.carried) / moments.flow
+    by_law = lumped_pairs(pump, point, motion, found.cycle)
+    given, scale = given_films(pump), plate_flow(pump, point)
+    rows = [
+        (
+            leakage[k],
+            carried[k],
+            net_loss(found, gap) / by_law.loss(pair).mean,
+            found.pairs.loss(pair).mean_coulomb / found.pairs.loss(pair).mean,
+            getattr(solved.film_mean, gap) / getattr(given, gap),
+            getattr(solved.film_least, gap) / getattr(given, gap),
+        )
+        for k, (gap, pair) in enumerate(GAP_PAIRS.items())
+    ]
+    joint = by_law.piston_slipper_socket.mean
+    socket = found.pairs.piston_slipper_socket.mean / joint if joint > 0.0 else 1.0  # a coefficient of 0
+    draws = (found.exchange.delivery_draw / scale, found.exchange.suction_draw / scale)
+    return np.array([*np.ravel(rows), socket, *draws])
+
+
+def given_films(pump: PumpDescription) -> Gaps:
+    """The films (m) that the description gives."""
+    return Gaps(*(given_film(pump, gap) for gap in Gap))
+
+
+def plate_flow(pump: PumpDescription, point: OperatingPoint) -> float:
+    """Leakage of the valve plate by the lumped law, m3/s, were half of the chambers at delivery pressure."""
+    one = float(lumped_leaks(pump, point, piston_motion(pump, point)).conductance[2, 0])
+    return 0.5 * pump.pump.pistons * one * (point.delivery_pressure - point.case_pressure)
+
+
+def net_loss(point: PumpPoint, gap: str) -> float:
+    """Loss of a gap's pair less what carried oil gives back, W: what the shaft feels of it."""
+    return point.pairs.loss(GAP_PAIRS[gap]).mean - float(getattr(point.exchange.carried, gap))

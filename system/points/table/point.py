@@ -1,0 +1,148 @@
+"""The table fidelity: the lumped kernel with film physics inside, by the ratios of a response table."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from reynolds.numerics.arrays import Array
+from system.description.pump import PumpDescription
+from system.effects.switched import hold_plain
+from system.inputs.errors import NotConverged
+from system.inputs.units import TURN
+from system.points.table.means import GAP_PAIRS, given_films, law_moments, plate_flow
+from system.points.table.response_table import ResponseTable
+from system.pump.assembly import PumpPoint, assemble, met_point
+from system.pump.chamber.cycle import solve_cycle
+from system.pump.chamber.port_coupling import ported_cycle
+from system.pump.chamber.problem import LeakTable
+from system.pump.chamber_kinds import kinds
+from system.pump.laws.friction_pairs import FrictionPairs, Pair, PairLoss
+from system.pump.lumped import (
+    PistonMotion,
+    chamber_problem,
+    group_masses,
+    lumped_leaks,
+    lumped_pairs,
+    piston_motion,
+    port_lines,
+    swept_displacement,
+)
+from system.pump.operating import OperatingPoint
+from system.pump.power import GapExchange, Gaps, chamber_exchange, port_draw
+
+ROUND_LIMIT = 12
+SETTLED = 1e-6
+"""Part of the ports' pressure difference by which the delivery pressure may miss the one that the table was asked
+at: only an orifice of stated area moves it."""
+
+
+@dataclass(frozen=True)
+class TablePoint:
+    """A point by a table: the pump, and each gap's films (m) and contact share over the turn."""
+
+    pump_point: PumpPoint
+    table: ResponseTable
+    film_mean: Gaps
+    film_least: Gaps
+    contact_share: Gaps
+
+
+def table_point(pump: PumpDescription, point: OperatingPoint, table: ResponseTable) -> TablePoint:
+    """One periodic operating point by the lumped kernel, its gaps leaking and rubbing as the table says.
+
+    Raises FilmInputError outside the table's box or at another inlet or case pressure, NotConverged as
+    `ported_cycle` and where an orifice line does not settle, ValueError where chambers differ.
+    """
+    kinds(pump).hold_alike()
+    hold_plain(pump)
+    motion, lines, pistons = piston_motion(pump, point), port_lines(pump, point), pump.pump.pistons
+    asked = point
+    for _ in range(ROUND_LIMIT):
+        means = table.at(asked)
+        problem = chamber_problem(pump, point, motion, _leaks(pump, asked, motion, means))
+        draws = _draws(pump, asked, means)
+        none = GapExchange(Gaps(0.0, 0.0, 0.0), *draws)
+        ported = ported_cycle((problem,), lines, pistons, motion.shaft_angle.size, draws=port_draw(problem, none))
+        met = met_point(point, ported).delivery_pressure
+        if abs(met - asked.delivery_pressure) <= SETTLED * problem.pressure_span:
+            break
+        asked = replace(point, delivery_pressure=met)
+    else:
+        raise NotConverged(
+            f"table and delivery line: after {ROUND_LIMIT} rounds the delivery pressure still moves, expected at "
+            f"most {SETTLED:g} of the pressure difference; leave delivery_line.orifice_area out"
+        )
+    cycle, met_at = ported.cycle, met_point(point, ported)
+    moments = law_moments(lumped_leaks(pump, point, motion), pump, point, cycle.pressure)
+    losses = _losses(lumped_pairs(pump, met_at, motion, cycle), pistons * moments.power, means)
+    exchange = GapExchange(chamber_exchange(cycle, pistons * point.shaft_speed / TURN).carried, *draws)
+    derived, masses = swept_displacement(pump, motion.drive), group_masses(pump)
+    found = assemble(point, ported, (losses,), pistons, derived, exchange, (masses,))
+    given = given_films(pump)
+    return TablePoint(
+        pump_point=found,
+        table=table,
+        film_mean=Gaps(*(getattr(given, gap) * means[f"{gap}.film_mean"] for gap in GAP_PAIRS)),
+        film_least=Gaps(*(getattr(given, gap) * means[f"{gap}.film_least"] for gap in GAP_PAIRS)),
+        contact_share=Gaps(*(means[f"{gap}.contact_share"] for gap in GAP_PAIRS)),
+    )
+
+
+def _leaks(
+    pump: PumpDescription, point: OperatingPoint, motion: PistonMotion, means: Mapping[str, float]
+) -> LeakTable:
+    """Flow out of a chamber into each gap, of the table's mean and carried power: a G (p - p_case) + b C + c.
+
+    G and C are the lumped law's, moments those at the pressure of its own cycle. The piston's oil is carried by
+    b C, the others' by c. A conductance is not negative: where carried oil is more than all, a is 0 and c keeps
+    the mean flow.
+    """
+    law = lumped_leaks(pump, point, motion)
+    cycle = solve_cycle(chamber_problem(pump, point, motion, law), motion.shaft_angle.size)
+    moments = law_moments(law, pump, point, cycle.pressure)
+    flow = moments.flow * [means[f"{gap}.leakage"] for gap in GAP_PAIRS]
+    carried = np.array([means[f"{gap}.carried"] for gap in GAP_PAIRS])
+    constant = np.array([0.0, *(carried * moments.power / moments.above)[1:]])
+    by_pressure = flow - constant * moments.one
+    answering = np.maximum(by_pressure / moments.flow, 0.0)
+    constant += (by_pressure - answering * moments.flow) / moments.one
+    return LeakTable(answering[:, None] * law.conductance, carried[:, None] * law.carried_flow + constant[:, None])
+
+
+def _draws(pump: PumpDescription, point: OperatingPoint, means: Mapping[str, float]) -> tuple[float, float]:
+    """What the valve plate's film takes from delivery and suction port, m3/s at port pressure."""
+    scale = plate_flow(pump, point)
+    return scale * means["valve_plate.delivery_draw"], scale * means["valve_plate.suction_draw"]
+
+
+def _losses(by_law: FrictionPairs, carried: Array, means: Mapping[str, float]) -> FrictionPairs:
+    """The lumped pairs, those of gaps and joints with the table's means.
+
+    carried (3,) W: the power that the table's carried oil is a ratio to; what is learnt is the loss less that oil.
+    """
+    told = {
+        pair.value: _with_mean(
+            by_law.loss(pair),
+            means[f"{gap}.friction"] * by_law.loss(pair).mean + means[f"{gap}.carried"] * float(carried[k]),
+            means[f"{gap}.contact_share"],
+        )
+        for k, (gap, pair) in enumerate(GAP_PAIRS.items())
+    }
+    joint = by_law.piston_slipper_socket
+    told[Pair.PISTON_SLIPPER_SOCKET.value] = _with_mean(joint, means["socket.friction"] * joint.mean, 1.0)
+    return replace(by_law, **told)
+
+
+def _with_mean(law: PairLoss, mean: float, contact: float) -> PairLoss:
+    """A pair with another mean (W, of all), over the angle as the law has its Coulomb and its viscous part."""
+    one = mean / law.count
+    return PairLoss(law.count, _scaled(law.coulomb, contact * one), _scaled(law.viscous, (1.0 - contact) * one))
+
+
+def _scaled(course: Array, mean: float) -> Array:
+    """A course over the angle with another mean; flat where it is nothing (a coefficient of 0)."""
+    own = float(np.mean(course))
+    return course * (mean / own) if own > 0.0 else np.full_like(course, mean)

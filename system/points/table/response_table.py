@@ -1,0 +1,140 @@
+"""Response tables of a pump: its gaps' means over the turn, learnt once from solved points and kept by content.
+
+A table belongs to a pump as it is, its inlet and case pressure included, at any speed, delivery pressure,
+displacement ratio and viscosity in its box. Ports' lines belong to the run: points are solved at held pressures.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from gaps.response import Response, unit_places
+from reynolds.errors import FilmInputError
+from system.inputs.units import Dimension, format_quantity
+from system.points.table.pump_numbers import NumbersError
+from system.points.table.sources import Source
+from system.pump.operating import OperatingPoint
+
+LARGE_ERROR = 0.03
+"""Error of a held-out point from which a table is warned of."""
+HELD_TO = 1e-5
+"""Relative: how far an input that a table holds may be off."""
+SPEED, PRESSURE, RATIO, VISCOSITY = "shaft_speed", "delivery_pressure", "displacement_ratio", "viscosity"
+INPUTS = (SPEED, PRESSURE, RATIO, VISCOSITY)
+DIMENSIONS = {
+    SPEED: Dimension.ANGULAR_SPEED,
+    PRESSURE: Dimension.PRESSURE,
+    VISCOSITY: Dimension.DYNAMIC_VISCOSITY,
+    "temperature": Dimension.TEMPERATURE,
+    "inlet_pressure": Dimension.PRESSURE,
+    "case_pressure": Dimension.PRESSURE,
+}
+
+
+@dataclass(frozen=True)
+class Failed:
+    """A point that has no result: where (SI, in the order of the axes), and why."""
+
+    at: tuple[float, ...]
+    reason: str
+
+
+@dataclass(frozen=True)
+class Origin:
+    """Where a table's numbers come from.
+
+    pump, pump_key: its name and its content; source with what it states of physics, mesh and accuracy; package:
+    the program's version; inlet_pressure, case_pressure Pa gauge; held: those of INPUTS that have no axis, SI;
+    failed: points without a result; seconds of computing that a point took, mean.
+    """
+
+    pump: str
+    pump_key: str
+    source: Source
+    stated: Mapping[str, str]
+    package: str
+    inlet_pressure: float
+    case_pressure: float
+    held: Mapping[str, float]
+    failed: tuple[Failed, ...]
+    seconds: float
+
+
+@dataclass(frozen=True)
+class ResponseTable:
+    """A pump's response with its origin: axes of INPUTS but for those held, outputs of `table_means.MEANINGS`.
+
+    numbers: how far runs by the table are off at the held-out points; None before they were run.
+    """
+
+    origin: Origin
+    response: Response
+    numbers: NumbersError | None = None
+
+    def at(self, point: OperatingPoint) -> dict[str, float]:
+        """The outputs by name at an operating point; shares of contact are held to 0 .. 1, which a share is.
+
+        Raises FilmInputError for a point outside the box or at another value of what is held.
+        """
+        self._check_held(point)
+        values = self.response.at(np.array([[getattr(point, axis.name) for axis in self.response.axes]]))[0]
+        found = {output.name: float(value) for output, value in zip(self.response.outputs, values, strict=True)}
+        shares = {name: min(max(found[name], 0.0), 1.0) for name in found if name.endswith("contact_share")}
+        return found | shares
+
+    def holds(self, point: OperatingPoint) -> bool:
+        """Whether a point lies in the box, and what is held is as the table has it."""
+        held = all(_same(value, getattr(point, name)) for name, value in self.origin.held.items())
+        return held and all(axis.lower <= getattr(point, axis.name) <= axis.upper for axis in self.response.axes)
+
+    def beside_failed(self, point: OperatingPoint) -> Failed | None:
+        """The point without a result that is nearer than any learnt one, if any: there the table guesses."""
+        axes = self.response.axes
+        here = unit_places(axes, np.array([[getattr(point, axis.name) for axis in axes]]))
+        distance = [
+            np.linalg.norm(unit_places(axes, points) - here, axis=1)
+            for points in (np.array([one.at for one in self.origin.failed]), self.response.learnt.points)
+            if len(points)
+        ]
+        if not self.origin.failed or distance[0].min() >= distance[1].min():
+            return None
+        return self.origin.failed[int(distance[0].argmin())]
+
+    def _check_held(self, point: OperatingPoint) -> None:
+        for name, own in self.origin.held.items():
+            if not _same(own, getattr(point, name)):
+                found, expected = axis_value(name, getattr(point, name)), axis_value(name, own)
+                raise FilmInputError(name.replace("_", " "), found, f"{expected}, at which the table is held")
+        for name in ("inlet_pressure", "case_pressure"):
+            own, asked = getattr(self.origin, name), getattr(point, name)
+            if abs(asked - own) > 1.0:
+                shown = (format_quantity(value, Dimension.PRESSURE, digits=5) for value in (asked, own))
+                raise FilmInputError(name.replace("_", " "), *shown)
+
+
+def _same(one: float, other: float) -> bool:
+    """Whether two values of an input are one but for round-off and what a port's pressure settles to."""
+    return abs(one - other) <= HELD_TO * abs(one)
+
+
+def axis_value(name: str, value: float) -> str:
+    """A value of an operating point's as people read it."""
+    return format_quantity(value, DIMENSIONS[name], digits=4) if name in DIMENSIONS else f"{value:.4g}"
+
+
+def box_text(table: ResponseTable) -> str:
+    """The box of a table as people read it, with what is held."""
+    ranges = {
+        axis.name: f"{axis_value(axis.name, axis.lower)} .. {axis_value(axis.name, axis.upper)}"
+        for axis in table.response.axes
+    }
+    held = {name: axis_value(name, value) for name, value in table.origin.held.items()}
+    return ", ".join(f"{name.replace('_', ' ')} {text}" for name, text in (ranges | held).items())
+
+
+def point_text(point: OperatingPoint) -> str:
+    """The inputs of a point as people read them."""
+    return ", ".join(f"{name.replace('_', ' ')} {axis_value(name, getattr(point, name))}" for name in INPUTS)

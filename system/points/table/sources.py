@@ -1,0 +1,121 @@
+"""Where the points of a response table come from: a fidelity that solves the films, by one call."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from enum import Enum
+from typing import Protocol, assert_never
+
+import numpy as np
+
+from system.description.lines import LineSection
+from system.description.pump import PumpDescription
+from system.points.films import POSITIONS_PER_PITCH, TOLERANCE, films_point
+from system.points.floating import PRESSURE_TOLERANCE, floating_point
+from system.points.floating_gaps import FloatingOptions
+from system.points.table.means import SolvedPoint
+from system.pump.operating import OperatingPoint
+from system.pump.power import Gaps
+
+
+class Source(Enum):
+    """The fidelity that a table condenses, the finer one later."""
+
+    FILMS = "films"
+    FLOATING = "floating"
+
+
+class PointSolver(Protocol):
+    """Solves one operating point: frozen data that can be sent to another process.
+
+    `stated`: physics, mesh and accuracy in words and numbers, all that its result depends on beside pump and
+    point.
+    """
+
+    @property
+    def source(self) -> Source:
+        """The fidelity behind it."""
+        ...
+
+    @property
+    def stated(self) -> Mapping[str, str]:
+        """What its numbers rest on."""
+        ...
+
+    def solve(self, pump: PumpDescription, point: OperatingPoint) -> SolvedPoint:
+        """The point solved; raises NotConverged or FilmNotConverged."""
+        ...
+
+
+@dataclass(frozen=True)
+class FilmsSolver:
+    """`films_point`: rigid isothermal films at the positions that the description gives."""
+
+    positions_per_pitch: int = POSITIONS_PER_PITCH
+    source = Source.FILMS
+
+    @property
+    def stated(self) -> Mapping[str, str]:
+        """What its numbers rest on."""
+        return {
+            "physics": "rigid, isothermal, mass-conserving cavitation; positions and Coulomb coefficients given",
+            "mesh": f"meshes of the films fidelity, {self.positions_per_pitch} film angles a piston pitch",
+            "accuracy": f"chamber pressure repeats to {TOLERANCE:g} of the pressure difference",
+        }
+
+    def solve(self, pump: PumpDescription, point: OperatingPoint) -> SolvedPoint:
+        """The point by `films_point`."""
+        found = films_point(pump, point, positions_per_pitch=self.positions_per_pitch)
+        series = (found.gaps.piston, found.gaps.slipper, tuple(film.gap for film in found.gaps.valve_plate))
+        mean = (float(np.mean([film.film_thickness_mean for film in films])) for films in series)
+        least = (min(film.loads.film_thickness_min for film in films) for films in series)
+        return SolvedPoint(found.pump_point, Gaps(*mean), Gaps(*least))
+
+
+@dataclass(frozen=True)
+class FloatingSolver:
+    """`floating_point`: films from the balance of forces, coupled with the chambers."""
+
+    options: FloatingOptions = field(default_factory=FloatingOptions)
+    source = Source.FLOATING
+
+    @property
+    def stated(self) -> Mapping[str, str]:
+        """What its numbers rest on."""
+        options = self.options
+        cells = (options.piston_cells, options.slipper_cells, options.block_cells)
+        left_out = [effect.value.replace("_", " ") for effect in options.physics.left_out]
+        exact = options.accuracy
+        return {
+            "physics": f"gaps float; left out: {', '.join(left_out) or 'nothing'}",
+            "mesh": f"cells of piston, slipper, block {', '.join(f'{x} x {y}' for x, y in cells)}",
+            "accuracy": f"{options.steps} angles a turn; a step errs by {exact.step:g} of the least film and "
+            f"{exact.floor:g} m at most, a turn closes to {exact.closed:g} of the mean film; chamber pressure "
+            f"repeats to {PRESSURE_TOLERANCE:g} of the ports' difference",
+        }
+
+    def solve(self, pump: PumpDescription, point: OperatingPoint) -> SolvedPoint:
+        """The point by `floating_point`; least film: of the mean planes, below 0 where rough walls overlap."""
+        found = floating_point(pump, point, self.options)
+        gaps = found.kinds[0].gaps
+        turns = (gaps.piston.turn, gaps.slipper.turn, gaps.block.turn)
+        mean = (float(np.mean([instant.mean_film for instant in turn.instants])) for turn in turns)
+        least = (min(instant.least_gap for instant in turn.instants) for turn in turns)
+        return SolvedPoint(found.pump_point, Gaps(*mean), Gaps(*least))
+
+
+def solver_of(source: Source, options: FloatingOptions) -> PointSolver:
+    """What solves the points of a source; `options` are those of floating gaps."""
+    match source:
+        case Source.FILMS:
+            return FilmsSolver()
+        case Source.FLOATING:
+            return FloatingSolver(options)
+        case _:
+            assert_never(source)
+
+
+def with_held_ports(pump: PumpDescription) -> PumpDescription:
+    """The pump without its lines: points of a table are solved at held port pressures."""
+    return pump.model_copy(update={"delivery_line": LineSection(), "suction_line": LineSection()})

@@ -1,0 +1,223 @@
+"""Response tables on disk: written beside each other, found by the content of the pump they belong to."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any, TypeVar
+
+import numpy as np
+
+from gaps.response import Axis, HeldOutError, Measure, Output, Response, Samples, Spacing
+from reynolds.numerics.arrays import Array
+from reynolds.numerics.cache import content_key
+from system.description.pump import PumpDescription
+from system.inputs.faults import Fault, InputFaults, nearest_path
+from system.inputs.units import Dimension
+from system.points.table.means import MEANINGS, TABLE_FORMAT
+from system.points.table.pump_numbers import NUMBERS, NumbersError
+from system.points.table.response_table import (
+    DIMENSIONS,
+    Failed,
+    Origin,
+    ResponseTable,
+    box_text,
+    point_text,
+)
+from system.points.table.sources import Source, with_held_ports
+from system.pump.operating import OperatingPoint
+from system.pump_file.file import resolved_toml
+from system.work.sampled_points import tables_folder
+
+KEY_LENGTH = 24
+
+
+def pump_key(pump: PumpDescription) -> str:
+    """Hash of all that a pump's gaps depend on beside the axes: not its name, not its lines."""
+    stated = pump.operating.model_copy(
+        update={"speed": 0.0, "pressure": 0.0, "displacement_ratio": 1.0, "temperature": 0.0}
+    )
+    bare = with_held_ports(pump).model_copy(update={"name": "", "operating": stated})
+    made_of = TABLE_FORMAT, resolved_toml(bare), pump.file_contents
+    return content_key("pump of a response table", *made_of)[:KEY_LENGTH]
+
+
+def keep_table(table: ResponseTable, place: Path) -> None:
+    """Write `place`.npz, the points with their values, and `place`.json, all that says what they are."""
+    write_response(place, table.response, table_record(table))
+
+
+def write_response(place: Path, response: Response, record: Mapping[str, Any]) -> None:
+    """Write `place`.npz, the points of a response with values, and `place`.json, the record of what it is."""
+    place.parent.mkdir(parents=True, exist_ok=True)
+    np.savez(
+        place.with_suffix(".npz"),
+        learnt_points=response.learnt.points,
+        learnt_values=response.learnt.values,
+        held_out_points=response.held_out.points,
+        held_out_values=response.held_out.values,
+    )
+    place.with_suffix(".json").write_text(json.dumps(record, indent=2) + "\n", encoding="utf-8")
+
+
+Read = TypeVar("Read")
+
+
+def read_response(path: Path, table_format: int, made: Callable[[Mapping[str, Any], Response], Read]) -> Read:
+    """What is `made` of the record and response that `write_response` wrote, by its .json or .npz.
+
+    Raises InputFaults where there is none, or of another format.
+    """
+    try:
+        record = json.loads(path.with_suffix(".json").read_text("utf-8"))
+        if record["table_format"] != table_format:
+            found = f"format {record['table_format']} of {path.with_suffix('.json')}"
+            raise InputFaults("response table", [Fault("table_format", found, str(table_format), "build it anew")])
+        with np.load(path.with_suffix(".npz"), allow_pickle=False) as arrays:
+            learnt = Samples(arrays["learnt_points"], arrays["learnt_values"])
+            held_out = Samples(arrays["held_out_points"], arrays["held_out_values"])
+        return made(record, Response(_axes(record), _outputs(record), learnt, held_out))
+    except (OSError, ValueError, KeyError, TypeError) as reason:
+        expected = "the .json and .npz that `swashfilm table` wrote, side by side"
+        near = nearest_path(path.with_suffix(".json"))
+        raise InputFaults("response table", [Fault(str(path), repr(reason), expected, near)]) from None
+
+
+def read_table(path: Path) -> ResponseTable:
+    """The table that `keep_table` wrote, by its .json or .npz; raises InputFaults where it is none."""
+    return read_response(path, TABLE_FORMAT, _pump_table)
+
+
+def _pump_table(record: Mapping[str, Any], response: Response) -> ResponseTable:
+    if [output.name for output in response.outputs] != list(MEANINGS):
+        raise ValueError(f"outputs {', '.join(output.name for output in response.outputs)}")
+    return ResponseTable(_origin(record), response, _numbers(record["numbers"], response))
+
+
+def _numbers(rows: Sequence[Mapping[str, Any]], response: Response) -> NumbersError:
+    if [row["name"] for row in rows] != list(NUMBERS):
+        raise ValueError(f"numbers {', '.join(row['name'] for row in rows)}")
+    rms, largest = (np.array([row[key] for row in rows]) for key in ("held_out_rms", "held_out_largest"))
+    points = response.held_out.points.tolist()
+    worst = np.array([points.index(row["held_out_worst_at"]) for row in rows])
+    return NumbersError(tuple(Measure(row["measure"]) for row in rows), HeldOutError(rms, largest, worst))
+
+
+def tables_of(pump: PumpDescription, folder: Path | None = None) -> Iterator[ResponseTable]:
+    """Every kept table of a pump; one that cannot be read raises as `read_table`."""
+    for path in sorted(tables_folder(folder).glob(f"{pump_key(pump)}-*.json")):
+        yield read_table(path)
+
+
+def find_table(pump: PumpDescription, point: OperatingPoint, folder: Path | None = None) -> ResponseTable:
+    """The kept table of a pump that holds a point: of the last source in `Source`, then with the most points.
+
+    Raises InputFaults where there is none, telling the boxes of those that do not hold it.
+    """
+    tables = list(tables_of(pump, folder))
+    fit = [table for table in tables if table.holds(point)]
+    if fit:
+        sources = list(Source)
+        return max(fit, key=lambda t: (sources.index(t.origin.source), len(t.response.learnt.points)))
+    boxes = " or ".join(box_text(table) for table in tables)
+    if tables:
+        fault = Fault("--fidelity table", point_text(point), f"a point in the box of a table: {boxes}")
+    else:
+        fault = Fault(
+            "--fidelity table",
+            f"no table of this pump at its inlet and case pressure in {tables_folder(folder)}",
+            "one built before",
+            "swashfilm table PUMP, with the same inlet and case pressure",
+        )
+    raise InputFaults("response table", [fault])
+
+
+def own_table(path: Path, pump: PumpDescription) -> ResponseTable:
+    """The table of a file, which must be this pump's; raises InputFaults where it is another's."""
+    table = read_table(path)
+    if table.origin.pump_key != pump_key(pump):
+        found = f"{path}, a table of {table.origin.pump} as it was then"
+        fault = Fault(
+            "--table", found, "a table of this very pump, inlet and case pressure", "swashfilm table PUMP"
+        )
+        raise InputFaults("response table", [fault])
+    return table
+
+
+def table_record(table: ResponseTable) -> dict[str, Any]:
+    """What the .json says: origin, box, outputs with their errors."""
+    origin = table.origin
+    return {
+        "kind": "response_table_data",
+        "table_format": TABLE_FORMAT,
+        **{key: value for key, value in asdict(origin).items() if key not in ("source", "failed")},
+        "source": origin.source.value,
+        "units": "SI: rad/s, Pa gauge, 1, Pa s; outputs 1",
+        **response_record(table.response, DIMENSIONS),
+        "numbers": _numbers_record(table),
+        "failed": [{"at": list(one.at), "reason": one.reason} for one in origin.failed],
+    }
+
+
+def _numbers_record(table: ResponseTable) -> list[dict[str, Any]]:
+    """The rows of what runs by the table miss, none before they were run."""
+    if table.numbers is None:
+        return []
+    return [
+        {"name": name, "measure": measure.value} | _errors(table.response, table.numbers.error, k)
+        for k, (name, measure) in enumerate(zip(NUMBERS, table.numbers.measures, strict=True))
+    ]
+
+
+def _errors(response: Response, error: HeldOutError, k: int) -> dict[str, Any]:
+    """The error of one column, and where it is largest."""
+    return {
+        "held_out_rms": float(error.rms[k]),
+        "held_out_largest": float(error.largest[k]),
+        "held_out_worst_at": _row(response.held_out.points[error.worst[k]]),
+    }
+
+
+def response_record(response: Response, dimensions: Mapping[str, Dimension]) -> dict[str, Any]:
+    """What the .json says of a response: its box (axes of these dimensions), its outputs and their errors."""
+    error = response.held_out_error
+    return {
+        "axes": [
+            asdict(axis)
+            | {
+                "spacing": axis.spacing.value,
+                "dimension": dimensions[axis.name].name if axis.name in dimensions else None,
+            }
+            for axis in response.axes
+        ],
+        "outputs": [
+            {
+                "name": output.name,
+                "measure": output.measure.value,
+                "least": output.least,
+            }
+            | _errors(response, error, k)
+            for k, output in enumerate(response.outputs)
+        ],
+        "points": {"learnt": len(response.learnt.points), "held_out": len(response.held_out.points)},
+    }
+
+
+def _origin(record: Mapping[str, Any]) -> Origin:
+    plain = ("pump", "pump_key", "stated", "package", "inlet_pressure", "case_pressure", "held", "seconds")
+    failed = tuple(Failed(tuple(one["at"]), one["reason"]) for one in record["failed"])
+    return Origin(source=Source(record["source"]), failed=failed, **{key: record[key] for key in plain})
+
+
+def _axes(record: Mapping[str, Any]) -> tuple[Axis, ...]:
+    return tuple(Axis(row["name"], row["lower"], row["upper"], Spacing(row["spacing"])) for row in record["axes"])
+
+
+def _outputs(record: Mapping[str, Any]) -> tuple[Output, ...]:
+    return tuple(Output(row["name"], Measure(row["measure"]), row["least"]) for row in record["outputs"])
+
+
+def _row(values: Array) -> list[float]:
+    return [float(value) for value in values]

@@ -1,0 +1,1 @@
+"""The lumped pump and what every fidelity shares: loads, power, efficiencies, assembly."""

@@ -1,0 +1,304 @@
+"""From one chamber's cycle and the pair losses to the pump: flows, torque, powers. The same for every fidelity."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from enum import Enum
+
+import numpy as np
+
+from reynolds.numerics.arrays import Array
+from system.inputs.units import STANDARD_ATMOSPHERE, TURN
+from system.pump.bench import BenchReading, Efficiency, iso_efficiency, paper_efficiency
+from system.pump.chamber.cycle import ChamberCycle, Paths
+from system.pump.chamber.port_coupling import Port, PortedCycle
+from system.pump.chamber.problem import ChamberProblem, LeakTable
+from system.pump.chamber.state_kernels import CAVITY_PRESSURE
+from system.pump.laws.friction_pairs import FrictionPairs, Pair, over_chambers
+from system.pump.laws.kinematics import stroke
+from system.pump.operating import OperatingPoint
+from system.pump.ports.areas import opening_area
+from system.pump.power import (
+    GapExchange,
+    Gaps,
+    PowerBalance,
+    leakage_by_flow,
+    port_draw,
+    power_balance,
+    shaft_work,
+)
+from system.pump.shaft_torque import GroupMasses, shaft_torque
+from system.work.means import mean_of
+
+
+class PointWarning(Enum):
+    """What a reader of the numbers must know; none of them makes a number void."""
+
+    CHAMBER_CAVITATES = "chamber_cavitates"
+    CHAMBER_OVERPRESSURE = "chamber_overpressure"
+    ENERGY_NOT_BALANCED = "energy_not_balanced"
+    NO_DELIVERY = "no_delivery"
+    PORT_PRESSURE_FOLLOWS_LINE = "port_pressure_follows_line"
+
+
+@dataclass(frozen=True)
+class Remark:
+    """A warning of a point with its number, limit and remedy."""
+
+    warning: PointWarning
+    text: str
+
+    def __str__(self) -> str:
+        """Name and text."""
+        return f"{self.warning.value}: {self.text}"
+
+
+PORT_PRESSURE_MET = 1e-3
+"""Part of the ports' pressure difference by which a port's mean pressure may miss the operating point untold."""
+ENERGY_BALANCED = 5e-3
+"""Energy balance error from which it is told: five times what is asked of every fidelity."""
+OVERPRESSURE = 1.1
+"""Chamber peak over the higher port pressure (both absolute) from which trapped oil is told."""
+
+
+@dataclass(frozen=True)
+class PointChecks:
+    """Relative errors of a point; those of the chamber are in its cycle.
+
+    mass_balance_error of the delivered mass; energy_balance_error: mean torque from the forces on the rotating
+    group times shaft speed against all that the shaft power goes into, each computed on its own, of the shaft
+    power; work_balance_error: the same with the work that the pistons do by the chambers' integration, friction in
+    either; quadrature_error: of the friction power, estimated from every second shaft angle.
+    """
+
+    mass_balance_error: float
+    energy_balance_error: float
+    work_balance_error: float
+    quadrature_error: float
+
+
+@dataclass(frozen=True)
+class PumpPoint:
+    """One operating point of a pump, periodic: SI, pressures gauge.
+
+    Per chamber, arrays over `cycle.shaft_angle`: `cycle` (where chambers differ their mean, each at its own angle,
+    and so `leaks` and `pairs`), `delivery_area`, `suction_area` in m2; `chambers`: the cycle of each, of one where
+    they are alike. Whole pump:
+    `delivery_flow_ripple` in m3/s over the same angles (volume at chamber pressure through the delivery port);
+    `delivery`, `suction`: pressure of either port and what its line takes; `shaft_torque` in N m, from the forces
+    on the rotating group; `leakage_flow` of each gap (mean over the revolution, all chambers, volume at case
+    pressure); `exchange`, what the gaps exchange beside; `bench`, what a test bench reads;
+    `geometric_displacement` and `derived_displacement` in m3 per revolution.
+    """
+
+    point: OperatingPoint
+    pistons: int
+    swash_angle: float
+    cycle: ChamberCycle
+    chambers: tuple[ChamberCycle, ...]
+    delivery_area: Array
+    suction_area: Array
+    delivery_flow_ripple: Array
+    delivery: Port
+    suction: Port
+    shaft_torque: Array
+    leakage_flow: Gaps
+    leaks: LeakTable
+    pairs: FrictionPairs
+    exchange: GapExchange
+    bench: BenchReading
+    power: PowerBalance
+    geometric_displacement: float
+    derived_displacement: float
+    checks: PointChecks
+    warnings: tuple[Remark, ...]
+
+    @property
+    def paper_efficiency(self) -> Efficiency | None:
+        """The paper's Eqs. (3)-(5); None where the machine does not pump (warning `no_delivery`)."""
+        return paper_efficiency(self.bench) if pumps(self.bench) else None
+
+    @property
+    def iso_efficiency(self) -> Efficiency | None:
+        """ISO 4391/4409 with the derived displacement; None where the machine does not pump."""
+        return iso_efficiency(self.bench, self.derived_displacement) if pumps(self.bench) else None
+
+
+def assemble(
+    point: OperatingPoint,
+    ported: PortedCycle,
+    pairs: Sequence[FrictionPairs],
+    pistons: int,
+    derived_displacement: float,
+    exchange: GapExchange,
+    masses: Sequence[GroupMasses],
+) -> PumpPoint:
+    """The pump's flows, torque and powers from the chambers' periodic cycles and the friction of their pairs.
+
+    pairs, masses: of one chamber for all, or of each of z. Gaps leak heat by their flow, and the torque comes from
+    the forces behind the losses: `put_together`.
+    """
+    ring = exchange.carried.valve_plate
+    torque = shaft_torque(ported.problems, ported.cycles, pairs, masses, pistons, ring)
+    leakage = leakage_by_flow(ported, pistons * point.shaft_speed / TURN, exchange)
+    return put_together(point, ported, mean_of(pairs), pistons, derived_displacement, exchange, torque, leakage)
+
+
+def put_together(
+    point: OperatingPoint,
+    ported: PortedCycle,
+    pairs: FrictionPairs,
+    pistons: int,
+    derived_displacement: float,
+    exchange: GapExchange,
+    torque: Array,
+    leakage: Gaps,
+) -> PumpPoint:
+    """The pump from its chambers' cycle, the friction of its pairs, the shaft's torque (N,) N m by forces and the
+    heat (W) of the flow through each gap.
+
+    The bench reads the torque of `power.shaft_work`, good to the chambers' integration; the torque from forces is
+    good to the sampled angles. Where a line of stated orifice sets a port's pressure, the point is given at that
+    pressure.
+    """
+    problem, cycle, asked = ported.problem, ported.cycle, point
+    point = met_point(point, ported)
+    rate = pistons * point.shaft_speed / TURN
+    work = shaft_work(cycle, rate, pairs.power, exchange)
+    reading = _reading(point, problem, cycle.outflow, rate, work, exchange)
+    power = power_balance(ported, reading, rate, pairs.power, leakage)
+    energy = abs(point.shaft_speed * float(np.mean(torque)) - power.accounted) / abs(power.shaft)
+    quadrature = sum(pairs.loss(pair).quadrature_error for pair in Pair)
+    return PumpPoint(
+        point=point,
+        pistons=pistons,
+        swash_angle=problem.drive.swash_angle,
+        cycle=cycle,
+        chambers=ported.cycles,
+        delivery_area=opening_area(problem.delivery_port, cycle.shaft_angle),
+        suction_area=opening_area(problem.suction_port, cycle.shaft_angle),
+        delivery_flow_ripple=over_chambers([own.flow.delivery for own in ported.cycles], pistons),
+        delivery=ported.delivery,
+        suction=ported.suction,
+        shaft_torque=torque,
+        leakage_flow=_leakage_flow(problem, cycle.outflow, rate, exchange),
+        leaks=mean_of([own.leaks for own in ported.problems]),
+        pairs=pairs,
+        exchange=exchange,
+        bench=reading,
+        power=power,
+        geometric_displacement=pistons * problem.piston_area * stroke(problem.drive),
+        derived_displacement=derived_displacement,
+        checks=PointChecks(
+            mass_balance_error=cycle.checks.mass_balance_error,
+            energy_balance_error=energy,
+            work_balance_error=abs(power.shaft - power.accounted) / abs(power.shaft),
+            quadrature_error=quadrature / pairs.power,
+        ),
+        warnings=(*_remarks(asked, ported, reading), *_unbalanced(energy)),
+    )
+
+
+def met_point(point: OperatingPoint, ported: PortedCycle) -> OperatingPoint:
+    """The operating point at the ports' mean pressures as chambers and lines have settled them."""
+    problem = ported.problem
+    return replace(point, delivery_pressure=problem.delivery_pressure, inlet_pressure=problem.inlet_pressure)
+
+
+def pumps(reading: BenchReading) -> bool:
+    """Whether shaft power goes in and oil goes from inlet to delivery: elsewhere an efficiency is void."""
+    return reading.shaft_power > 0.0 and reading.inlet_flow > 0.0 and reading.delivery_flow > 0.0
+
+
+def _remarks(asked: OperatingPoint, ported: PortedCycle, reading: BenchReading) -> Iterator[Remark]:
+    yield from _ports_off(asked, ported)
+    if not pumps(reading):
+        yield Remark(
+            PointWarning.NO_DELIVERY,
+            f"delivery flow {reading.delivery_flow * 6e4:.3g} L/min, inlet flow {reading.inlet_flow * 6e4:.3g} "
+            f"L/min, shaft power {reading.shaft_power:.3g} W (limit: all above 0): leakage takes more than the "
+            "pistons move, efficiencies are void; raise speed or displacement, lower pressure or temperature",
+        )
+    degrees = np.degrees(ported.cycles[0].shaft_angle)
+    cycle, name = _chamber_by(ported, lambda one: -float(one.pressure.min()))
+    if cycle.cavitates:
+        low = degrees[cycle.pressure <= CAVITY_PRESSURE]
+        yield Remark(
+            PointWarning.CHAMBER_CAVITATES,
+            f"a cavity opens in {name} (vacuum at {low.size} of {degrees.size} sampled shaft angles, from "
+            f"{low.min():.0f} to {low.max():.0f} deg): a starved inlet, or both ports shut while the piston moves "
+            "out; air release is not modelled; raise the inlet pressure, or let the ports change over sooner",
+        )
+    highest = max(float(ported.delivery.pressure.max()), float(ported.suction.pressure.max()))
+    limit = OVERPRESSURE * (highest + STANDARD_ATMOSPHERE) - STANDARD_ATMOSPHERE
+    cycle, name = _chamber_by(ported, lambda one: float(one.pressure.max()))
+    peak = int(np.argmax(cycle.pressure))
+    if cycle.pressure[peak] > limit:
+        yield Remark(
+            PointWarning.CHAMBER_OVERPRESSURE,
+            f"{name} peaks at {cycle.pressure[peak] * 1e-6:.1f} MPa at {degrees[peak]:.0f} deg (limit "
+            f"{limit * 1e-6:.1f} MPa, {OVERPRESSURE - 1.0:.0%} over the port): both ports shut while the piston "
+            "moves in; let the port shut later, or the relief groove of the next begin earlier",
+        )
+
+
+def _unbalanced(energy: float) -> Iterator[Remark]:
+    """A remark where the power of the forces on the shaft is not what all sinks take."""
+    if energy > ENERGY_BALANCED:
+        yield Remark(
+            PointWarning.ENERGY_NOT_BALANCED,
+            f"the torque of the forces on the rotating group and all that the shaft power goes into differ by "
+            f"{energy:.2%} of it (limit {ENERGY_BALANCED:.1%}): more steps of floating gaps, and spins left free, "
+            "since what drives one that is stated gives power that is not the shaft's",
+        )
+
+
+def _chamber_by(ported: PortedCycle, size: Callable[[ChamberCycle], float]) -> tuple[ChamberCycle, str]:
+    """The chamber that is largest by a measure, and what to call it."""
+    number = int(np.argmax([size(cycle) for cycle in ported.cycles]))
+    return ported.cycles[number], "the chamber" if len(ported.cycles) == 1 else f"chamber {number + 1}"
+
+
+def _ports_off(asked: OperatingPoint, ported: PortedCycle) -> Iterator[Remark]:
+    """A remark for each port whose line keeps another mean pressure than was asked for."""
+    allowed = PORT_PRESSURE_MET * ported.problem.pressure_span
+    wanted = (asked.delivery_pressure, asked.inlet_pressure)
+    for name, port, pressure in zip(("delivery", "inlet"), (ported.delivery, ported.suction), wanted, strict=True):
+        if abs(port.mean_pressure - pressure) > allowed:
+            yield Remark(
+                PointWarning.PORT_PRESSURE_FOLLOWS_LINE,
+                f"the mean {name} pressure is {port.mean_pressure * 1e-6:.4g} MPa, what the orifice of its line "
+                f"makes of the flow, not {pressure * 1e-6:.4g} MPa (limit {allowed * 1e-6:.2g} MPa off); leave "
+                "the orifice's area out and it is found",
+            )
+
+
+def _leakage_flow(problem: ChamberProblem, outflow: Paths, rate: float, exchange: GapExchange) -> Gaps:
+    scale = rate * problem.specific_volume(problem.case_pressure)
+    draw = problem.specific_volume(problem.case_pressure) * sum(port_draw(problem, exchange))
+    return Gaps(
+        scale * float(outflow.piston), scale * float(outflow.slipper), scale * float(outflow.valve_plate) + draw
+    )
+
+
+def _reading(
+    point: OperatingPoint,
+    problem: ChamberProblem,
+    outflow: Paths,
+    rate: float,
+    shaft_power: float,
+    exchange: GapExchange,
+) -> BenchReading:
+    delivered = rate * float(outflow.delivery) * problem.specific_volume(point.delivery_pressure)
+    drawn_in = -rate * float(outflow.suction) * problem.specific_volume(point.inlet_pressure)
+    return BenchReading(
+        shaft_speed=point.shaft_speed,
+        shaft_torque=shaft_power / point.shaft_speed,
+        delivery_pressure=point.delivery_pressure,
+        inlet_pressure=point.inlet_pressure,
+        drain_pressure=point.case_pressure,
+        delivery_flow=delivered - exchange.delivery_draw,
+        inlet_flow=drawn_in + exchange.suction_draw,
+        drain_flow=_leakage_flow(problem, outflow, rate, exchange).total,
+    )

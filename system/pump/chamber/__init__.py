@@ -1,0 +1,1 @@
+"""Chamber pressure over a periodic turn, with port volumes and lines."""

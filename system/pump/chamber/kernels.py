@@ -1,0 +1,316 @@
+"""Compiled integration of one chamber over shaft angle: one implicit step, one revolution.
+
+Method: ESDIRK4(3)6L[2]SA of Kennedy and Carpenter (2003), Applied Numerical Mathematics 44, p. 139: order 4 with
+an embedded order 3, L-stable, stiffly accurate, stage order 2 (a chamber open to its port is stiff, and methods
+of stage order 1 get its flow wrong by 0.5 % there). The integrals below are advanced with the same weights as M,
+so what enters the chamber leaves it to round-off whatever the step. Steps are foreseen after Gustafsson (1994),
+ACM Transactions on Mathematical Software 20, p. 496: from how the error has grown over the last two.
+"""
+
+# mypy: allow-untyped-defs, allow-incomplete-defs, no-check-untyped-defs
+
+from __future__ import annotations
+
+import numba
+import numpy as np
+
+from system.pump.chamber.state_kernels import (
+    CAVITY_PRESSURE,
+    INTEGRALS,
+    PATHS,
+    WAYS,
+    cubics,
+    f8,
+    integral_rates,
+    oil_volume,
+    openings,
+    outflows,
+    records,
+    vector,
+    volume,
+)
+
+STAGES = 6
+LEFT, PRESSURE, DELIVERY, SUCTION = INTEGRALS, INTEGRALS + 1, INTEGRALS + 2, INTEGRALS + 3
+COLUMNS = INTEGRALS + 4
+"""Of a stage: what `fill_stage` fills, its integrals' rates, mass out by all paths per radian, pressure; then the
+areas of both ports."""
+KEPT = 3
+TRAIL = 2 + KEPT * STAGES
+"""Numbers of a step that is kept: where it begins and its length (rad), of each stage all from PRESSURE on."""
+
+# Butcher table: row i holds a_ij, the last row is also b; ERROR is b minus the embedded weights.
+GAMMA = 0.25
+WEIGHTS = np.array([82889 / 524892, 0.0, 15625 / 83664, 69875 / 102672, -2260 / 8211, 0.25])
+EMBEDDED = np.array(
+    [
+        4586570599 / 29645900160,
+        0.0,
+        178811875 / 945068544,
+        814220225 / 1159782912,
+        -3700637 / 11593932,
+        61727 / 225920,
+    ]
+)
+TABLEAU = np.array(
+    [
+        [0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
+        [0.25, 0.25, 0.0, 0.0, 0.0, 0.0],
+        [8611 / 62500, -1743 / 31250, 0.25, 0.0, 0.0, 0.0],
+        [5012029 / 34652500, -654441 / 2922500, 174375 / 388108, 0.25, 0.0, 0.0],
+        [15267082809 / 155376265600, -71443401 / 120774400, 730878875 / 902184768, 2285395 / 8070912, 0.25, 0.0],
+        list(WEIGHTS),
+    ]
+)
+NODES = np.array([0.0, 0.5, 83 / 250, 31 / 50, 17 / 20, 1.0])
+ERROR = WEIGHTS - EMBEDDED
+FORESEEN = np.array(
+    [
+        [
+            np.prod([(NODES[stage] - NODES[k]) / (NODES[j] - NODES[k]) for k in range(stage) if k != j])
+            if j < stage
+            else 0.0
+            for j in range(STAGES)
+        ]
+        for stage in range(STAGES)
+    ]
+)
+"""Weights of the stages before it in the polynomial that foresees the pressure of a stage."""
+
+OK, NO_STAGE, STEP_TOO_SMALL = 0, 1, 2
+NEWTON_LIMIT = 100
+NEWTON_SHARE = 1e-2  # of the error of a step: the last change of a stage's pressure, which flows follow
+NEWTON_TOLERANCE = 1e-12  # of the bulk modulus: the same where that is larger; some mPa, well above round-off
+SMALLEST_STEP = 1e-12  # rad
+SAFETY = 0.8  # of the step whose error would be just what it may be
+FIRST_STEP = 1e-3  # rad
+CAVITY_STEP = 1e-4  # rad; no longer step may open or close a cavity, where dp/dphi jumps unseen by the mass
+
+_matrix = numba.f8[:, ::1]
+
+
+@numba.njit(
+    numba.types.Tuple((f8, f8, f8, numba.b1))(records, f8, f8, f8, f8, f8, vector, vector),
+    cache=True,
+    error_model="numpy",
+)
+def stage_pressure(chamber, guess, content, mass, weight, close, ways, flows):
+    """Pressure with V = s(p) (mass - weight sum(q)/s_liquid(p)), s there, its stiffness ratio, and success.
+
+    `weight` is gamma times the step over the shaft speed; `flows` holds the path flows at the pressure returned.
+    The equation rises strictly with p wherever anything depends on p at all, so Newton inside a shrinking bracket
+    finds its one root; a change of at most `close` (Pa) is the last, and s and flows follow it by their slopes.
+    """
+    bulk = chamber[0].bulk_modulus
+    low, high, pressure, sharp = -np.inf, np.inf, guess, NEWTON_TOLERANCE * bulk
+    for _ in range(NEWTON_LIMIT):
+        delivery, suction, slope = outflows(chamber, pressure, ways, flows)
+        total = flows[0] + flows[1] + flows[2] + flows[3] + flows[4]
+        specific, liquid, compressibility = oil_volume(pressure, bulk)
+        mixed = specific / liquid if pressure < CAVITY_PRESSURE else 1.0
+        rest = content - mass * specific + weight * total * mixed
+        if rest > 0.0:
+            high = pressure
+        else:
+            low = pressure
+        stiff = weight * slope * mixed
+        soft = mass * compressibility
+        if mixed > 1.0:
+            soft -= weight * total * mixed * compressibility / specific
+        if soft + stiff <= 0.0:
+            break
+        change = rest / (soft + stiff)
+        new = pressure - min(max(change, -0.1 * bulk), 0.1 * bulk)
+        crosses = (new < CAVITY_PRESSURE) != (pressure < CAVITY_PRESSURE)
+        if abs(change) <= (sharp if crosses else max(close, sharp)):
+            flows[0] -= delivery * change
+            flows[1] -= suction * change
+            for gap in range(3):
+                flows[2 + gap] -= ways[gap] * change
+            return new, specific + compressibility * change, stiff / max(soft, 1e-300), True
+        if new <= low or new >= high:
+            new = 0.5 * (low + high)
+        pressure = new
+    return pressure, 0.0, 0.0, False
+
+
+@numba.njit(numba.void(records, f8, f8, f8, vector, vector, vector), cache=True, error_model="numpy")
+def fill_stage(chamber, pressure, specific, swell, ways, flows, out):
+    """A row of the stages that `step` needs."""
+    integral_rates(chamber, pressure, specific, swell, ways, flows, out)
+    out[LEFT] = out[0] + out[1] + out[2] + out[3] + out[4]
+    out[PRESSURE] = pressure
+
+
+@numba.njit(
+    numba.types.Tuple((f8, f8, numba.b1))(records, cubics, cubics, f8, f8, f8, f8, f8, _matrix, vector, vector),
+    cache=True,
+    error_model="numpy",
+)
+def step(chamber, table, ports, shaft_angle, length, mass, slope, close, stages, ways, flows):
+    """One step: new mass, error of the mass (filtered for stiffness), success.
+
+    `stages` (STAGES, COLUMNS) brings the start in its first row and holds every stage after: rates of the
+    integrals, LEFT, PRESSURE; the last row is the solution at the step's end. `slope`: dp/dphi foreseen at the
+    start; `ways` and `flows` are room to work in.
+    """
+    speed = chamber[0].shaft_speed
+    weight = GAMMA * length / speed
+    stiffness = 0.0
+    for stage in range(1, STAGES):
+        angle = shaft_angle + NODES[stage] * length
+        content, swell = volume(chamber, table, angle)
+        openings(chamber, table, ports, angle, ways)
+        base = 0.0
+        guess = NODES[1] * length * slope if stage == 1 else 0.0
+        for earlier in range(stage):
+            base += TABLEAU[stage, earlier] * stages[earlier, LEFT]
+            guess += FORESEEN[stage, earlier] * stages[earlier, PRESSURE]
+        pressure, specific, stiffness, found = stage_pressure(
+            chamber, guess, content, mass - length * base, weight, close, ways, flows
+        )
+        if not found:
+            return mass, 0.0, False
+        fill_stage(chamber, pressure, specific, swell, ways, flows, stages[stage])
+        stages[stage, DELIVERY], stages[stage, SUCTION] = ways[12], ways[13]
+    out, error = 0.0, 0.0
+    for stage in range(STAGES):
+        out += WEIGHTS[stage] * stages[stage, LEFT]
+        error -= ERROR[stage] * stages[stage, LEFT]
+    return mass - length * out, length * error / (1.0 + stiffness), True
+
+
+@numba.njit(numba.types.Tuple((f8, numba.b1))(records, cubics, cubics, f8), cache=True, error_model="numpy")
+def slaved_pressure(chamber, table, ports, shaft_angle):
+    """Pressure at which the outflow just equals the displacement, and whether there is one.
+
+    What an open port forces on the chamber whatever it did before: where a revolution is best begun.
+    """
+    c = chamber[0]
+    ways, flows = np.empty(WAYS), np.empty(PATHS)
+    openings(chamber, table, ports, shaft_angle, ways)
+    swept = volume(chamber, table, shaft_angle)[1] * c.shaft_speed
+    pressure, _, _, found = stage_pressure(chamber, c.inlet_pressure, swept, 0.0, 1.0, 0.0, ways, flows)
+    return pressure, found
+
+
+@numba.njit(f8(records, cubics, f8, f8, f8, f8, f8), cache=True, error_model="numpy")
+def to_cavity(chamber, table, shaft_angle, length, mass, new_mass, left):
+    """Way in rad into a step, to less than its length, until a cavity opens or has filled.
+
+    The void, V less the liquid at CAVITY_PRESSURE, as a parabola: its value at both ends of the step, its slope at
+    the start where oil leaves at the rate `left`.
+    """
+    liquid = oil_volume(CAVITY_PRESSURE, chamber[0].bulk_modulus)[0]
+    content, swell = volume(chamber, table, shaft_angle)
+    void, rate = content - liquid * mass, swell + liquid * left
+    last = volume(chamber, table, shaft_angle + length)[0] - liquid * new_mass
+    if void * last >= 0.0:
+        return 0.2 * length
+    bend = (last - void - rate * length) / (length * length)
+    q = -0.5 * (rate + np.copysign(np.sqrt(rate * rate - 4.0 * bend * void), rate))
+    way = void / q
+    return way if 0.0 < way < length else q / bend
+
+
+@numba.njit(f8(f8, f8, _matrix), cache=True, error_model="numpy")
+def step_size(mass_error, work, stages):
+    """Error of a step, of what it may be: that of the mass as given, those of the energies times `work`."""
+    size = mass_error
+    for k in range(5, 8):
+        slip = 0.0
+        for stage in range(STAGES):
+            slip += ERROR[stage] * stages[stage, k]
+        size = max(size, abs(slip) * work)
+    return size
+
+
+@numba.njit(numba.void(f8, f8, _matrix, vector), cache=True, error_model="numpy")
+def keep(angle, length, stages, out):
+    """A step as a row of the trail."""
+    out[0], out[1] = angle, length
+    for stage in range(STAGES):
+        for k in range(KEPT):
+            out[2 + KEPT * stage + k] = stages[stage, PRESSURE + k]
+
+
+@numba.njit(
+    numba.types.Tuple((f8, numba.i8, numba.i8, numba.i8))(
+        records, cubics, cubics, vector, f8, f8, vector, _matrix, _matrix, vector, _matrix
+    ),
+    cache=True,
+    error_model="numpy",
+)
+def revolution(chamber, table, ports, nodes, pressure, tolerance, pressures, path_rates, passed, totals, trail):
+    """One turn from a pressure at nodes[0]: mass at the end less that at the start, steps taken, refused, status.
+
+    Steps end on every node (ascending shaft angles over one turn, breaks of the ports among them). `pressures`,
+    `path_rates` (mass per radian by path) and `passed` (mass by path since nodes[0]) receive the solution at
+    nodes[1:], `totals` (2 x INTEGRALS) the integrals and the sums of their local error estimates, `trail` (any
+    number, TRAIL) the first steps taken. Every step keeps
+    the error of p, and of the work and throttling energy relative to one stroke's, below `tolerance` times the
+    port pressure difference.
+    """
+    c = chamber[0]
+    scale = tolerance * (abs(c.delivery_pressure - c.inlet_pressure) + 1e5)
+    work_scale = scale * c.piston_area * 2.0 * c.stroke_scale
+    stages, ways, flows = np.empty((STAGES, COLUMNS)), np.empty(WAYS), np.empty(PATHS)
+    content, swell = volume(chamber, table, nodes[0])
+    specific = oil_volume(pressure, c.bulk_modulus)[0]
+    openings(chamber, table, ports, nodes[0], ways)
+    outflows(chamber, pressure, ways, flows)
+    fill_stage(chamber, pressure, specific, swell, ways, flows, stages[0])
+    stages[0, DELIVERY], stages[0, SUCTION] = ways[12], ways[13]
+    begin = content / specific
+    mass, slope = begin, 0.0
+    totals[:] = 0.0
+    taken, refused, wish = 0, 0, FIRST_STEP
+    last_length, last_size = 0.0, 1.0
+    for node in range(1, nodes.size):
+        angle = nodes[node - 1]
+        while angle < nodes[node]:
+            length = min(wish, nodes[node] - angle)
+            pressure = stages[0, PRESSURE]
+            new_mass, error, fine = step(
+                chamber, table, ports, angle, length, mass, slope, NEWTON_SHARE * scale, stages, ways, flows
+            )
+            size = step_size(c.bulk_modulus * abs(error) / new_mass / scale, length / work_scale, stages)
+            crosses = (pressure < CAVITY_PRESSURE) != (stages[STAGES - 1, PRESSURE] < CAVITY_PRESSURE)
+            if fine and crosses and length > CAVITY_STEP:
+                way = to_cavity(chamber, table, angle, length, mass, new_mass, stages[0, LEFT])
+                wish = max(min(way, 0.9 * length) - 0.5 * CAVITY_STEP, CAVITY_STEP)
+                refused += 1
+                continue
+            if not fine or size > 1.0:
+                refused += 1
+                wish = length * (max(0.2, SAFETY * size**-0.25) if fine else 0.25)
+                if wish < SMALLEST_STEP:
+                    return mass - begin, taken, refused, STEP_TOO_SMALL if fine else NO_STAGE
+                continue
+            for stage in range(STAGES):
+                share, doubt = length * WEIGHTS[stage], length * ERROR[stage]
+                for k in range(INTEGRALS):
+                    totals[k] += share * stages[stage, k]
+                    totals[INTEGRALS + k] += doubt * stages[stage, k]
+            if taken < trail.shape[0]:
+                keep(angle, length, stages, trail[taken])
+            end = STAGES - 1
+            slope = (stages[end, PRESSURE] - stages[end - 1, PRESSURE]) / ((NODES[end] - NODES[end - 1]) * length)
+            for k in range(COLUMNS):
+                stages[0, k] = stages[end, k]
+            mass = new_mass
+            taken += 1
+            angle = nodes[node] if length >= nodes[node] - angle else angle + length
+            size = max(size, 1e-4)
+            grown = length * min(4.0, SAFETY * size**-0.25)
+            if size > 1e-2 and taken > 1:
+                grown = min(
+                    grown, SAFETY * length * size**-0.25 * (length / last_length) * (last_size / size) ** 0.25
+                )
+            last_length, last_size = length, size
+            wish = max(wish, grown) if length < wish else grown
+        pressures[node - 1] = stages[0, PRESSURE]
+        for path in range(PATHS):
+            path_rates[node - 1, path] = stages[0, path]
+            passed[node - 1, path] = totals[path]
+    return mass - begin, taken, refused, OK

@@ -1,0 +1,109 @@
+"""Compiled periodic revolutions of one chamber at many operating points, one after the other."""
+
+# mypy: allow-untyped-defs, allow-incomplete-defs, no-check-untyped-defs
+
+from __future__ import annotations
+
+import numba
+import numpy as np
+
+from system.pump.chamber.kernels import OK, TRAIL, revolution, slaved_pressure
+from system.pump.chamber.state_kernels import INTEGRALS, PATHS, oil_change
+from system.pump.chamber.trail_kernels import NOT_PERIODIC, RUN_IN, follow_turn, sample
+
+ROOM = 256
+"""Steps of a turn that are kept at first; more are made room for."""
+
+
+@numba.njit(cache=True, error_model="numpy")
+def chamber_map(constants, tables, ports, nodes, firsts, control, pressures, totals, statuses):
+    """The periodic revolution of the chamber at each of P points: `chamber.solve_cycle`'s without its checks.
+
+    constants (P,) of CHAMBER, tables (P, N, 7, 4), ports (P, M, 2, 4): the points' constants; nodes: their nodes
+    end to end, those of point i from firsts[i] to firsts[i + 1]; control: tolerance, periodicity, turns. A point
+    is periodic when `oil_change` over a turn is no more than `periodicity` times its port pressure difference,
+    within `turns`. Filled: pressures (P, samples) Pa at equidistant angles from 0, totals (P, 2
+    INTEGRALS), statuses (P,). Returned: the steps of all points end to end, (T, TRAIL), and where each one's
+    begin, (P + 1,).
+    """
+    trail, begins = np.empty((ROOM * constants.size, TRAIL)), np.zeros(constants.size + 1, np.int64)
+    for point in range(constants.size):
+        given = constants[point : point + 1], tables[point], ports[point]
+        own = nodes[firsts[point] : firsts[point + 1]]
+        begin = begins[point]
+        steps, statuses[point] = periodic(given, own, control, totals[point], trail[begin:])
+        if begin + steps > trail.shape[0]:
+            trail = np.concatenate((trail[:begin], np.empty((2 * (begin + steps), TRAIL))))
+            steps, statuses[point] = periodic(given, own, control, totals[point], trail[begin:])
+        begins[point + 1] = begin + steps
+        if statuses[point] == OK:
+            sample(trail[begin : begin + steps], pressures[point])
+    return trail[: begins[-1]].copy(), begins
+
+
+@numba.njit(cache=True, error_model="numpy")
+def beside_map(constants, tables, ports, nodes, firsts, control, trail, begins, pressures, totals, statuses):
+    """`chamber_map` of chambers that differ little from those whose `trail` and `begins` it has returned.
+
+    They go along those steps; points that these do not lead well are solved for themselves. Returned: how many.
+    """
+    along, alone = np.empty((np.max(np.diff(begins)), TRAIL)), 0
+    for point in range(constants.size):
+        given = constants[point : point + 1], tables[point], ports[point]
+        steps = trail[begins[point] : begins[point + 1]]
+        limit = turn_limit(constants[point], control[1])
+        own = totals[point, :INTEGRALS]
+        statuses[point] = follow_turn(given, steps, control[0], limit, control[2], along, own)
+        if statuses[point] == OK:
+            sample(along[: steps.shape[0]], pressures[point])
+        else:
+            own_nodes = firsts[point : point + 2] - firsts[point]
+            begin = nodes[firsts[point] : firsts[point + 1]]
+            one = slice(point, point + 1)
+            chamber_map(
+                constants[one], tables[one], ports[one], begin, own_nodes, control, pressures[one], totals[one],
+                statuses[one],
+            )  # fmt: skip
+            alone += 1
+    return alone
+
+
+@numba.njit(cache=True, error_model="numpy")
+def turn_limit(chamber, periodicity):
+    """`oil_change` over a turn (Pa) of one that is periodic."""
+    return periodicity * (abs(chamber.delivery_pressure - chamber.inlet_pressure) + 1e5)
+
+
+@numba.njit(cache=True, error_model="numpy")
+def periodic(given, nodes, control, totals, trail):
+    """The periodic revolution of one chamber: steps of its last turn, status; totals and trail are filled."""
+    tolerance, periodicity, turns = control
+    count = nodes.size - 1
+    filled = np.empty(count), np.empty((count, PATHS)), np.empty((count, PATHS)), totals, trail
+    limit = turn_limit(given[0][0], periodicity)
+    start = run_in(given, nodes, tolerance, totals)
+    steps = 0
+    for _ in range(turns):
+        _, steps, _, status = revolution(*given, nodes, start, tolerance, *filled)
+        if status != OK:
+            return steps, status
+        change = oil_change(start, filled[0][count - 1], given[0][0].bulk_modulus)
+        start = filled[0][count - 1]
+        if abs(change) <= limit:
+            return steps, OK
+    return steps, NOT_PERIODIC
+
+
+@numba.njit(cache=True, error_model="numpy")
+def run_in(given, nodes, tolerance, totals):
+    """A pressure at nodes[0] that an open port has already made its own; the inlet's where there is none."""
+    begin = nodes[-1] - RUN_IN
+    before = np.concatenate((np.array([begin]), nodes[nodes > begin])) - 2.0 * np.pi
+    start, found = slaved_pressure(*given, before[0])
+    if found:
+        count = before.size - 1
+        filled = np.empty(count), np.empty((count, PATHS)), np.empty((count, PATHS)), totals, np.empty((0, TRAIL))
+        status = revolution(*given, before, start, tolerance, *filled)[3]
+        if status == OK:
+            return filled[0][count - 1]
+    return given[0][0].inlet_pressure

@@ -1,0 +1,94 @@
+"""What one displacement chamber is and meets over a turn: geometry, oil, ports, leaking gaps, at one point."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Generic
+
+import numpy as np
+
+from reynolds.numerics.arrays import Array
+from system.pump.chamber import state_kernels as chamber_state
+from system.pump.laws.kinematics import Number, SwashDrive
+from system.pump.ports.areas import PortOpening
+
+
+@dataclass(frozen=True)
+class LeakTable:
+    """Leakage of the piston, slipper and valve-plate gap of one chamber (rows 0, 1, 2) over one turn: (3, N).
+
+    Of P operating points at once: (P, 3, N).
+
+    Columns: N equidistant shaft angles 2 pi j/N from 0; conductance in m3/(s Pa), all >= 0, carried_flow in m3/s,
+    both for flow out of the chamber. Between the columns runs a periodic cubic spline: with two continuous
+    derivatives it keeps the integrator's order, and steps need not end on the table's angles; a linear one would
+    bend at each of them. Raises ValueError for a wrong shape or a negative conductance.
+    """
+
+    conductance: Array
+    carried_flow: Array
+
+    def __post_init__(self) -> None:
+        shape = self.conductance.shape
+        if len(shape) not in (2, 3) or shape[-2] != 3 or shape[-1] < 4 or self.carried_flow.shape != shape:
+            raise ValueError(
+                f"leak table: found shapes {shape} and {self.carried_flow.shape}, expected (3, N) with N >= 4"
+            )
+        if np.any(self.conductance < 0.0):
+            raise ValueError(
+                f"leak table: found conductance {self.conductance.min():.3g} m3/(s Pa), expected 0 or more"
+            )
+
+
+@dataclass(frozen=True)
+class PortPressure:
+    """Pressures behind delivery and suction port over one turn, (N,) Pa each at N equidistant shaft angles from 0.
+
+    Between them runs a periodic cubic spline. Raises ValueError for other shapes or fewer than 4 angles.
+    """
+
+    delivery: Array
+    suction: Array
+
+    def __post_init__(self) -> None:
+        shapes = self.delivery.shape, self.suction.shape
+        if len(shapes[0]) != 1 or shapes[0][0] < 4 or shapes[1] != shapes[0]:
+            raise ValueError(f"port pressures: found shapes {shapes[0]} and {shapes[1]}, expected (N,), N >= 4")
+
+
+@dataclass(frozen=True)
+class ChamberProblem(Generic[Number]):
+    """One chamber at one operating point: SI units, pressures gauge, oil properties constant.
+
+    delivery_pressure and inlet_pressure are the ports' means over the turn; without `port_pressure` they are held.
+    growth (N,) m3 at N equidistant shaft angles from 0: what the parts' own small motion adds to the volume.
+
+    ChamberProblem[Array]: at P operating points, each value a column (P, 1); so may the ports' `dead_centre` be.
+    """
+
+    drive: SwashDrive[Number]
+    shaft_speed: Number
+    piston_area: float
+    dead_volume: Number
+    delivery_pressure: Number
+    inlet_pressure: Number
+    case_pressure: Number
+    bulk_modulus: float
+    density: float
+    kinematic_viscosity: Number
+    flow_coefficient: float
+    critical_reynolds: float
+    delivery_port: PortOpening[Number]
+    suction_port: PortOpening[Number]
+    leaks: LeakTable
+    port_pressure: PortPressure | None = None
+    growth: Array | None = None
+
+    def specific_volume(self, pressure: float) -> float:
+        """Volume of the oil at a pressure in Pa over its volume at zero gauge pressure."""
+        return float(chamber_state.oil_volume(pressure, self.bulk_modulus)[0])
+
+    @property
+    def pressure_span(self) -> Number:
+        """Pressure difference of the ports and 1 bar, Pa: the size by which pressures are judged."""
+        return abs(self.delivery_pressure - self.inlet_pressure) + 1e5

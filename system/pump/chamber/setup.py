@@ -1,0 +1,122 @@
+"""One revolution of a chamber as the compiled integration takes it: constants, tables, nodes, what it fills."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from reynolds.numerics.arrays import Array
+from system.inputs.units import TURN
+from system.pump.chamber import kernels as kernel
+from system.pump.chamber import state_kernels as chamber_state
+from system.pump.chamber.problem import ChamberProblem
+from system.pump.ports.areas import PortOpening, as_array, break_angles
+
+Constants = tuple[np.ndarray, Array, Array]
+"""The record of the chamber's constants, the table of its gaps and that of its ports."""
+
+
+def constants(problem: ChamberProblem) -> Constants:
+    """A chamber problem as `chamber_kernel` reads it."""
+    return _record(problem), _gap_cubics(problem), _port_cubics(problem)
+
+
+def turn_nodes(suction: PortOpening, delivery: PortOpening, samples: int) -> tuple[Array, np.ndarray]:
+    """One turn of angles that steps must end on, and where in nodes[1:] the samples from angle 0 lie.
+
+    The turn begins at the sample nearest the middle of the open suction kidney: the port holds the pressure there.
+    """
+    middle = suction.dead_centre + 0.5 * (suction.kidney_full_start + suction.kidney_full_end)
+    first = round(middle / TURN * samples) % samples
+    grid = TURN * (first + np.arange(samples + 1)) / samples
+    breaks = np.concatenate([break_angles(suction), break_angles(delivery)])
+    breaks = (breaks - grid[0]) % TURN + grid[0]
+    apart = np.min(np.abs(breaks[:, None] - grid), axis=1) > 1e-9
+    nodes = np.unique(np.concatenate([grid, breaks[apart]]))
+    return nodes, np.roll(np.searchsorted(nodes, grid[1:]) - 1, first + 1)
+
+
+@dataclass(frozen=True)
+class Course:
+    """What `chamber_kernel.revolution` fills: pressures, path rates, oil passed at nodes[1:], and the totals."""
+
+    pressures: Array
+    rates: Array
+    passed: Array
+    totals: Array
+
+    @classmethod
+    def over(cls, nodes: Array) -> Course:
+        """An empty one for a revolution over these nodes."""
+        paths = (nodes.size - 1, chamber_state.PATHS)
+        return cls(
+            np.empty(nodes.size - 1), np.empty(paths), np.empty(paths), np.empty(2 * chamber_state.INTEGRALS)
+        )
+
+    def run(self, given: Constants, nodes: Array, start: float, tolerance: float) -> tuple[float, int, int, int]:
+        """Fill it from a pressure at nodes[0]; what `revolution` returns."""
+        out = (self.pressures, self.rates, self.passed, self.totals, np.empty((0, kernel.TRAIL)))
+        found: tuple[float, int, int, int] = kernel.revolution(*given, nodes, start, tolerance, *out)
+        return found
+
+    def at(self, nodes: Array, where: np.ndarray) -> Course:
+        """The same at the places `where` in nodes[1:], of the oil passed only what goes beyond the mean flow."""
+        turned = (nodes[1:] - nodes[0]) / TURN
+        surge = self.passed - turned[:, None] * self.totals[: chamber_state.PATHS]
+        return Course(self.pressures[where], self.rates[where], surge[where] - surge[where[0]], self.totals)
+
+
+def _record(problem: ChamberProblem) -> np.ndarray:
+    chamber = np.zeros(1, dtype=chamber_state.CHAMBER)
+    chamber["stroke_scale"] = problem.drive.stroke_scale
+    chamber["cone_swash_product"] = problem.drive.cone_swash_product
+    chamber["delivery_port"] = as_array(problem.delivery_port)
+    chamber["suction_port"] = as_array(problem.suction_port)
+    for name in chamber_state.CHAMBER.names or ():
+        if name not in ("stroke_scale", "cone_swash_product", "delivery_port", "suction_port"):
+            chamber[name] = getattr(problem, name)
+    return chamber
+
+
+def _gap_cubics(problem: ChamberProblem) -> Array:
+    """The gaps' table and the growth of the volume as the kernel reads them, (N, 7, 4)."""
+    leaks = problem.leaks
+    count = leaks.conductance.shape[1]
+    growth = np.zeros(count) if problem.growth is None else problem.growth
+    if growth.shape != (count,):
+        raise ValueError(
+            f"growth of the chamber: found shape {growth.shape}, expected the leak table's ({count},)"
+        )
+    return periodic_cubics(np.concatenate([leaks.conductance, leaks.carried_flow, growth[None]]))
+
+
+def _port_cubics(problem: ChamberProblem) -> Array:
+    """The pressures behind delivery and suction port as the kernel reads them, (M, 2, 4)."""
+    if problem.port_pressure is None:
+        held = np.zeros((1, 2, 4))
+        held[0, :, 0] = problem.delivery_pressure, problem.inlet_pressure
+        return held
+    return periodic_cubics(np.stack([problem.port_pressure.delivery, problem.port_pressure.suction]))
+
+
+def periodic_cubics(rows: Array) -> Array:
+    """Periodic cubic splines of rows (n, N) at N equidistant angles in unit cells, shape (N, n, 4).
+
+    Solved by Fourier transform.
+    """
+    waves = TURN * np.fft.rfftfreq(rows.shape[1])
+    bend = 6.0 * (np.cos(waves) - 1.0) / (np.cos(waves) + 2.0)
+    curvature = np.fft.irfft(np.fft.rfft(rows) * bend, rows.shape[1])
+    after, curvature_after = np.roll(rows, -1, axis=1), np.roll(curvature, -1, axis=1)
+    slope = after - rows - (2.0 * curvature + curvature_after) / 6.0
+    cubic = np.stack([rows, slope, curvature / 2.0, (curvature_after - curvature) / 6.0], axis=-1)
+    return np.ascontiguousarray(cubic.transpose(1, 0, 2))
+
+
+def periodic_values(rows: Array, samples: int) -> Array:
+    """The periodic cubic splines of rows (n, N) at `samples` equidistant angles from 0, shape (n, samples)."""
+    place = np.arange(samples) * (rows.shape[1] / samples)
+    cell = place.astype(int)
+    cubic, x = periodic_cubics(rows)[cell], (place - cell)[:, None]
+    return np.asarray((cubic[..., 0] + x * (cubic[..., 1] + x * (cubic[..., 2] + x * cubic[..., 3]))).T)

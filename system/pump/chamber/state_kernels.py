@@ -1,0 +1,204 @@
+"""Compiled state of one chamber at a shaft angle: oil, volume, what lets oil out, flows and their energy.
+
+State: mass over reference density M = V/s(p) in m3, with s(p) the specific volume of the oil relative to zero
+gauge pressure, s = exp(-p/K) while it is liquid. Then dM/dphi = -sum(q)/(s w) is conservation of mass and,
+divided by M, the corrected Eq. (14). Every q > 0 leaves the chamber and is a volume of liquid at chamber pressure:
+beside a cavity too it is liquid that passes ports and gaps, so its mass is q over the s of the liquid.
+
+What varies over the turn comes as periodic cubics on equal intervals of shaft angle, in unit cells: `table` (N, 7,
+4) has the gaps' conductances (0-2) and carried flows (3-5) and the growth of the volume by the parts' own motion
+(6, m3); `ports` (M, 2, 4) the pressures of delivery and suction port, M = 1 where held.
+"""
+
+# mypy: allow-untyped-defs, allow-incomplete-defs, no-check-untyped-defs
+
+from __future__ import annotations
+
+import numba
+import numpy as np
+
+from system.pump.ports.areas import FLOW_FROM, PORT_SIZE, orifice, orifice_coefficients, section_area
+from system.pump.ports.flow_coefficients import flow_scale, with_factor
+
+CHAMBER = np.dtype(
+    [
+        ("shaft_speed", "f8"),
+        ("piston_area", "f8"),
+        ("stroke_scale", "f8"),
+        ("cone_swash_product", "f8"),
+        ("dead_volume", "f8"),
+        ("bulk_modulus", "f8"),
+        ("density", "f8"),
+        ("kinematic_viscosity", "f8"),
+        ("flow_coefficient", "f8"),
+        ("critical_reynolds", "f8"),
+        ("delivery_pressure", "f8"),
+        ("inlet_pressure", "f8"),
+        ("case_pressure", "f8"),
+        ("delivery_port", "f8", (PORT_SIZE,)),
+        ("suction_port", "f8", (PORT_SIZE,)),
+    ],
+    align=True,
+)
+"""Constants of one chamber at one operating point, SI, as the compiled code reads them."""
+
+PATHS = 5
+"""Ways out of the chamber: delivery port, suction port, then the gaps of piston, slipper, valve plate."""
+INTEGRALS = 16
+"""Mass out by each path (0-4), work -p dV (5), energy left in each path (6-10), work of moving walls (11-13),
+energy carried into delivery and suction port (14, 15)."""
+WAYS = 16
+
+CAVITY_PRESSURE = 1e3 - 101325.0
+"""Gauge pressure in Pa at which a cavity opens (1 kPa absolute): oil bears no tension. Its vapour pressure is
+lower still, and dissolved air leaves it earlier; neither moves a chamber pressure that is shown in bar."""
+CAVITY_SOFTNESS = 1e3
+"""Fall of the pressure in Pa below CAVITY_PRESSURE while the void grows to the oil's own volume."""
+
+records = numba.from_dtype(CHAMBER)[::1]
+f8, vector, cubics = numba.f8, numba.f8[::1], numba.f8[:, :, ::1]
+
+
+@numba.njit(numba.types.UniTuple(f8, 3)(f8, f8), cache=True, error_model="numpy")
+def oil_volume(pressure, bulk_modulus):
+    """Specific volumes (relative) of the oil with its cavity and of its liquid, and -ds/dp of the former in 1/Pa.
+
+    Liquid of constant bulk modulus; below CAVITY_PRESSURE oil and cavity together, nearly at that pressure. What
+    passes ports and gaps is liquid.
+    """
+    if pressure >= CAVITY_PRESSURE:
+        specific = np.exp(-pressure / bulk_modulus)
+        return specific, specific, specific / bulk_modulus
+    liquid = np.exp(-CAVITY_PRESSURE / bulk_modulus)
+    compressibility = liquid / CAVITY_SOFTNESS
+    return liquid + compressibility * (CAVITY_PRESSURE - pressure), liquid, compressibility
+
+
+@numba.njit(f8(f8, f8, f8), cache=True, error_model="numpy")
+def oil_change(start, end, bulk_modulus):
+    """Change of a chamber's oil over a turn that leads from one pressure to another, in Pa.
+
+    Of liquid that of its pressure. Beside a cavity the pressure hardly knows how much oil there is, so that it
+    counts as the change of pressure by which liquid would hold as much more: K dM/M.
+    """
+    return bulk_modulus * (oil_volume(start, bulk_modulus)[0] / oil_volume(end, bulk_modulus)[0] - 1.0)
+
+
+@numba.njit(f8(f8, f8, f8, f8), cache=True, error_model="numpy")
+def oil_energy(pressure, specific, liquid, bulk_modulus):
+    """Flow energy h = integral of s dp in Pa from zero gauge pressure, of oil of these specific volumes."""
+    energy = bulk_modulus * (1.0 - liquid)
+    if pressure >= CAVITY_PRESSURE:
+        return energy
+    return energy - 0.5 * (CAVITY_PRESSURE - pressure) * (liquid + specific)
+
+
+@numba.njit(f8(f8, f8), cache=True, error_model="numpy")
+def energy_at(pressure, bulk_modulus):
+    """`oil_energy` at a pressure."""
+    specific, liquid, _ = oil_volume(pressure, bulk_modulus)
+    return oil_energy(pressure, specific, liquid, bulk_modulus)
+
+
+@numba.njit(numba.types.Tuple((numba.i8, f8))(numba.i8, f8), cache=True, error_model="numpy")
+def cell(count, shaft_angle):
+    """The one of `count` equal intervals of a turn that an angle lies in, and where in it, 0 to 1."""
+    x = shaft_angle * (count / (2.0 * np.pi))
+    whole = int(np.floor(x))
+    return whole % count, x - whole
+
+
+@numba.njit(f8(cubics, numba.i8, numba.i8, f8), cache=True, error_model="numpy")
+def cubic(table, at, row, x):
+    """Value of a row of periodic cubics, x of the way through interval `at`."""
+    return table[at, row, 0] + x * (table[at, row, 1] + x * (table[at, row, 2] + x * table[at, row, 3]))
+
+
+@numba.njit(numba.types.UniTuple(f8, 2)(records, cubics, f8), cache=True, error_model="numpy")
+def volume(chamber, table, shaft_angle):
+    """Chamber volume V0 + Ap S + growth in m3 and dV/dphi in m3/rad; Eqs. (18), (6), (7)."""
+    c = chamber[0]
+    t = c.cone_swash_product
+    cosine = np.cos(shaft_angle)
+    swing = 1.0 + t * cosine
+    scale = c.piston_area * c.stroke_scale
+    count = table.shape[0]
+    at, x = cell(count, shaft_angle)
+    swell = (table[at, 6, 1] + x * (2.0 * table[at, 6, 2] + 3.0 * x * table[at, 6, 3])) * count / (2.0 * np.pi)
+    content = c.dead_volume + scale * (1.0 - cosine) / ((1.0 + t) * swing)
+    return content + cubic(table, at, 6, x), scale * np.sin(shaft_angle) / (swing * swing) + swell
+
+
+@numba.njit(numba.void(records, f8, f8, vector), cache=True, error_model="numpy")
+def port_ways(chamber, delivery_area, suction_area, out):
+    """Of `ways_out` what the ports' areas (m2) give: 6-9 and 12-15."""
+    c = chamber[0]
+    law = (c.flow_coefficient, c.density, c.kinematic_viscosity, c.critical_reynolds)
+    out[6], out[7] = orifice_coefficients(delivery_area, *law)
+    out[8], out[9] = orifice_coefficients(suction_area, *law)
+    out[12], out[13] = delivery_area, suction_area
+    out[14] = flow_scale(delivery_area, c.density, c.kinematic_viscosity, c.delivery_port[FLOW_FROM:])
+    out[15] = flow_scale(suction_area, c.density, c.kinematic_viscosity, c.suction_port[FLOW_FROM:])
+
+
+@numba.njit(numba.void(records, cubics, cubics, f8, f8, f8, vector), cache=True, error_model="numpy")
+def ways_out(chamber, table, ports, shaft_angle, delivery_area, suction_area, out):
+    """What lets oil out at a shaft angle at which the ports open these areas (m2), WAYS numbers.
+
+    Conductances (0-2) and carried flows (3-5) of the gaps; then both orifice coefficients of the delivery (6, 7)
+    and of the suction port (8, 9), the pressures in Pa behind them (10, 11), their areas (12, 13) and their
+    `flow_scale` (14, 15).
+    """
+    at, x = cell(table.shape[0], shaft_angle)
+    for row in range(6):
+        out[row] = cubic(table, at, row, x)
+    at, x = cell(ports.shape[0], shaft_angle)
+    out[10], out[11] = cubic(ports, at, 0, x), cubic(ports, at, 1, x)
+    port_ways(chamber, delivery_area, suction_area, out)
+
+
+@numba.njit(numba.void(records, cubics, cubics, f8, vector), cache=True, error_model="numpy")
+def openings(chamber, table, ports, shaft_angle, out):
+    """`ways_out` at a shaft angle, the ports as far open as they are there."""
+    c = chamber[0]
+    delivery, suction = section_area(shaft_angle, c.delivery_port), section_area(shaft_angle, c.suction_port)
+    ways_out(chamber, table, ports, shaft_angle, delivery, suction, out)
+
+
+@numba.njit(numba.types.UniTuple(f8, 3)(records, f8, vector, vector), cache=True, error_model="numpy")
+def outflows(chamber, pressure, ways, flows):
+    """Fill the volume flows in m3/s of the five paths; return the slopes in m3/(s Pa) of the ports' and of all."""
+    c = chamber[0]
+    case, ahead, behind = c.case_pressure, pressure - ways[10], pressure - ways[11]
+    flow, slope = orifice(ahead, ways[6], ways[7])
+    flows[0], delivery = with_factor(flow, slope, ahead, ways[14], ways[12], c.delivery_port[FLOW_FROM:])
+    flow, slope = orifice(behind, ways[8], ways[9])
+    flows[1], suction = with_factor(flow, slope, behind, ways[15], ways[13], c.suction_port[FLOW_FROM:])
+    for gap in range(3):
+        flows[2 + gap] = ways[gap] * (pressure - case) + ways[3 + gap]
+    return delivery, suction, delivery + suction + ways[0] + ways[1] + ways[2]
+
+
+@numba.njit(numba.void(records, f8, f8, f8, vector, vector, vector), cache=True, error_model="numpy")
+def integral_rates(chamber, pressure, specific, swell, ways, flows, out):
+    """Rates per radian of the integrals, in the order of INTEGRALS; `swell` is dV/dphi.
+
+    The energy left in a path is its mass flow times h(p) - h(p_outside): what throttling and leaking turn into
+    heat. Walls that carry oil do the same work on the carried part, kept apart because it is not a loss.
+    """
+    c = chamber[0]
+    bulk = c.bulk_modulus
+    liquid = specific if pressure >= CAVITY_PRESSURE else np.exp(-CAVITY_PRESSURE / bulk)
+    energy = oil_energy(pressure, specific, liquid, bulk)
+    case = energy - energy_at(c.case_pressure, bulk)
+    per_radian = 1.0 / (liquid * c.shaft_speed)
+    for path in range(PATHS):
+        out[path] = flows[path] * per_radian
+        out[6 + path] = out[path] * case
+    for port in range(2):
+        behind = energy_at(ways[10 + port], bulk)
+        out[6 + port] = out[port] * (energy - behind)
+        out[14 + port] = out[port] * behind
+    for gap in range(3):
+        out[11 + gap] = ways[3 + gap] * per_radian * case
+    out[5] = -pressure * swell

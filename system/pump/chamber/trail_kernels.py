@@ -1,0 +1,162 @@
+"""Compiled use of the steps that a revolution has taken: the pressure between their ends, and chambers beside.
+
+A chamber that differs little from one that is solved goes along its steps: none is refused, the ports' areas are
+known, every stage knows nearly its pressure. What it changes is a difference at equal steps, in which their errors
+cancel (internal numerical differentiation; Bock 1981, Springer Series in Chemical Physics 18, p. 102).
+"""
+
+# mypy: allow-untyped-defs, allow-incomplete-defs, no-check-untyped-defs
+
+from __future__ import annotations
+
+import numba
+import numpy as np
+
+from system.pump.chamber.kernels import (
+    COLUMNS,
+    ERROR,
+    GAMMA,
+    KEPT,
+    LEFT,
+    NEWTON_SHARE,
+    NO_STAGE,
+    NODES,
+    OK,
+    PRESSURE,
+    STAGES,
+    TABLEAU,
+    WEIGHTS,
+    fill_stage,
+    stage_pressure,
+    step_size,
+)
+from system.pump.chamber.state_kernels import (
+    INTEGRALS,
+    PATHS,
+    WAYS,
+    oil_change,
+    oil_volume,
+    outflows,
+    volume,
+    ways_out,
+)
+
+NOT_PERIODIC, TOO_ROUGH = 3, 4
+"""Statuses beside those of `chamber_kernel`."""
+RUN_IN = np.pi / 9.0
+"""Angle (rad) over which an open port makes the pressure its own, whatever it was."""
+ROUGH = 4.0
+"""Error of a step that another chamber's steps lead to, of what it may be: a few such do not show in a turn."""
+BETWEEN = np.array([0, 2, 3, 4, 5])
+"""Stages that the pressure within a step runs through; the second is less exact."""
+
+
+@numba.njit(cache=True, error_model="numpy")
+def sample(trail, pressures):
+    """Fill the pressures at equidistant angles from 0, by the stages' pressures of a turn (T, TRAIL)."""
+    samples = pressures.size
+    spacing = 2.0 * np.pi / samples
+    first = round(trail[0, 0] / spacing)
+    row = 0
+    for number in range(1, samples + 1):
+        angle = (first + number) * spacing
+        while row < trail.shape[0] - 1 and angle > trail[row, 0] + trail[row, 1] * (1.0 + 1e-9):
+            row += 1
+        pressures[(first + number) % samples] = within(trail[row], (angle - trail[row, 0]) / trail[row, 1])
+
+
+@numba.njit(cache=True, error_model="numpy")
+def within(step, share):
+    """Pressure at a share of the way through a step: the polynomial through the stages in BETWEEN."""
+    pressure = 0.0
+    for one in BETWEEN:
+        weight = 1.0
+        for other in BETWEEN:
+            if other != one:
+                weight *= (share - NODES[other]) / (NODES[one] - NODES[other])
+        pressure += weight * step[2 + KEPT * one]
+    return pressure
+
+
+@numba.njit(cache=True, error_model="numpy")
+def follow(chamber, table, ports, trail, pressure, tolerance, along, totals):
+    """The steps of a trail (T, TRAIL) from a pressure at their beginning: pressure at the end, status.
+
+    Filled: `along` (T, TRAIL), the steps as this chamber takes them, and totals (INTEGRALS,).
+    """
+    c = chamber[0]
+    scale = tolerance * (abs(c.delivery_pressure - c.inlet_pressure) + 1e5)
+    work_scale = scale * c.piston_area * 2.0 * c.stroke_scale
+    stages, ways, flows = np.empty((STAGES, COLUMNS)), np.empty(WAYS), np.empty(PATHS)
+    content, swell = volume(chamber, table, trail[0, 0])
+    specific = oil_volume(pressure, c.bulk_modulus)[0]
+    ways_out(chamber, table, ports, trail[0, 0], trail[0, 3], trail[0, 4], ways)
+    outflows(chamber, pressure, ways, flows)
+    fill_stage(chamber, pressure, specific, swell, ways, flows, stages[0])
+    mass = content / specific
+    totals[:] = 0.0
+    for row in range(trail.shape[0]):
+        length = trail[row, 1]
+        mass, error, fine = step_along(
+            chamber, table, ports, trail[row], mass, NEWTON_SHARE * scale, stages, ways, flows
+        )
+        if not fine:
+            return stages[0, PRESSURE], NO_STAGE
+        if step_size(c.bulk_modulus * abs(error) / mass / scale, length / work_scale, stages) > ROUGH:
+            return stages[0, PRESSURE], TOO_ROUGH
+        along[row, :2] = trail[row, :2]
+        for stage in range(STAGES):
+            share = length * WEIGHTS[stage]
+            along[row, 2 + KEPT * stage] = stages[stage, PRESSURE]
+            for k in range(INTEGRALS):
+                totals[k] += share * stages[stage, k]
+        stages[0] = stages[STAGES - 1]
+    return stages[0, PRESSURE], OK
+
+
+@numba.njit(cache=True, error_model="numpy")
+def follow_turn(given, trail, tolerance, limit, turns, along, totals):
+    """The periodic turn of a chamber beside that whose turn `trail` is, as `follow`: its status.
+
+    Periodic when `oil_change` over it is no more than `limit`; the first is run in where the other's ends.
+    """
+    last = trail.shape[0] - 1
+    while last > 0 and trail[last, 0] > trail[-1, 0] + trail[-1, 1] - RUN_IN:
+        last -= 1
+    start, status = follow(*given, trail[last:], trail[last, 2], tolerance, along, totals)
+    for _ in range(turns):
+        if status != OK:
+            return status
+        end, status = follow(*given, trail, start, tolerance, along, totals)
+        change, start = oil_change(start, end, given[0][0].bulk_modulus), end
+        if abs(change) <= limit:
+            return status
+    return NOT_PERIODIC
+
+
+@numba.njit(cache=True, error_model="numpy")
+def step_along(chamber, table, ports, kept, mass, close, stages, ways, flows):
+    """`chamber_kernel.step` with the ports' areas and the first guesses of a step that another has taken."""
+    angle, length = kept[0], kept[1]
+    weight = GAMMA * length / chamber[0].shaft_speed
+    stiffness = 0.0
+    for stage in range(1, STAGES):
+        at = angle + NODES[stage] * length
+        content, swell = volume(chamber, table, at)
+        own = 2 + KEPT * stage
+        ways_out(chamber, table, ports, at, kept[own + 1], kept[own + 2], ways)
+        base = 0.0
+        for earlier in range(stage):
+            base += TABLEAU[stage, earlier] * stages[earlier, LEFT]
+        guess = kept[own] + stages[stage - 1, PRESSURE] - kept[own - KEPT]
+        pressure, specific, stiffness, found = stage_pressure(
+            chamber, guess, content, mass - length * base, weight, close, ways, flows
+        )
+        if not found:
+            return mass, 0.0, False
+        fill_stage(chamber, pressure, specific, swell, ways, flows, stages[stage])
+    out, error = 0.0, 0.0
+    for stage in range(STAGES):
+        out += WEIGHTS[stage] * stages[stage, LEFT]
+        error -= ERROR[stage] * stages[stage, LEFT]
+    return mass - length * out, length * error / (1.0 + stiffness), True

@@ -1,0 +1,1 @@
+"""Closed laws of the pump: kinematics, retainer, leakage, seven friction pairs."""

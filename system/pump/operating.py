@@ -1,0 +1,54 @@
+"""The operating point: what is asked of the pump, and the viscosity its oil then has."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Generic
+
+from reynolds.laws.oil import dynamic_viscosity
+from system.description.pump import PumpDescription
+from system.pump.laws.kinematics import Number
+
+
+@dataclass(frozen=True)
+class OperatingPoint(Generic[Number]):
+    """One steady point. Speed in rad/s, pressures in Pa gauge, temperature in K, viscosity in Pa s.
+
+    OperatingPoint[Array]: N points at once, each value a column (N, 1).
+    """
+
+    shaft_speed: Number
+    delivery_pressure: Number
+    inlet_pressure: Number
+    case_pressure: Number
+    displacement_ratio: Number
+    temperature: Number
+    viscosity: Number
+
+
+def operating_point(
+    pump: PumpDescription,
+    *,
+    shaft_speed: float | None = None,
+    delivery_pressure: float | None = None,
+    inlet_pressure: float | None = None,
+    case_pressure: float | None = None,
+    displacement_ratio: float | None = None,
+    temperature: float | None = None,
+) -> OperatingPoint:
+    """Return the operating point of the description's [operating] table, with what is given in its place.
+
+    The viscosity is that of the pump's oil at the temperature, at case pressure. Raises ValueError where
+    the oil's law is void; `system.pump_file.operating.check_operating_point` holds the rest to reason.
+    """
+    stated = pump.operating
+    kelvin = stated.temperature if temperature is None else temperature
+    return OperatingPoint(
+        shaft_speed=stated.speed if shaft_speed is None else shaft_speed,
+        delivery_pressure=stated.pressure if delivery_pressure is None else delivery_pressure,
+        inlet_pressure=stated.inlet_pressure if inlet_pressure is None else inlet_pressure,
+        case_pressure=stated.case_pressure if case_pressure is None else case_pressure,
+        displacement_ratio=stated.displacement_ratio if displacement_ratio is None else displacement_ratio,
+        temperature=kelvin,
+        viscosity=dynamic_viscosity(pump.oil.fluid, kelvin),
+    )

@@ -1,0 +1,1 @@
+"""Port opening areas and orifice laws."""

@@ -1,0 +1,1 @@
+"""A pump file read and checked: every check has a name."""

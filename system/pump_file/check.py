@@ -1,0 +1,92 @@
+"""Named checks of a pump description: what cannot be, and what is doubtful, each with number, limit and remedy.
+
+One check is one function. It says which values it needs, so that it runs on every description in which these
+could be read, however much else is wrong. `system.pump_file.geometry`, `system.pump_file.films` and
+`system.pump_file.operating` hold them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Iterable, Iterator
+from dataclasses import dataclass
+
+from system.description.pump import PumpDescription
+from system.inputs.faults import Fault
+from system.inputs.units import Dimension, format_quantity
+
+
+@dataclass(frozen=True)
+class CheckWarning:
+    """A value that can be, but is doubtful: where, the number, the limit, and what to do about it."""
+
+    path: str
+    value: str
+    limit: str
+    remedy: str
+
+    def __str__(self) -> str:
+        return f"{self.path}: {self.value}, limit {self.limit}; {self.remedy}"
+
+
+Finding = Fault | CheckWarning
+
+
+@dataclass(frozen=True)
+class CheckReport:
+    """What the checks found: faults forbid a run, warnings do not."""
+
+    faults: tuple[Fault, ...]
+    warnings: tuple[CheckWarning, ...]
+
+
+@dataclass(frozen=True)
+class Check:
+    """A named check: the paths of the values it needs, and the function that yields its findings."""
+
+    name: str
+    needs: frozenset[str]
+    findings: Callable[[PumpDescription], Iterator[Finding]]
+
+
+def needs(*paths: str) -> Callable[[Callable[[PumpDescription], Iterator[Finding]]], Check]:
+    """Make a check of a function, given the paths (`section.key`) of the values it reads."""
+
+    def named(function: Callable[[PumpDescription], Iterator[Finding]]) -> Check:
+        return Check(function.__name__, frozenset(paths), function)
+
+    return named
+
+
+def run_checks(
+    checks: Iterable[Check], pump: PumpDescription, trusted: Collection[str] | None = None
+) -> CheckReport:
+    """Run the checks of a pump and sort their findings.
+
+    With `trusted`, only the checks all of whose values are among these paths are run: the description may
+    then be one that lacks the others.
+    """
+    found = [
+        finding
+        for check in checks
+        if trusted is None or check.needs <= set(trusted)
+        for finding in check.findings(pump)
+    ]
+    return CheckReport(
+        faults=tuple(item for item in found if isinstance(item, Fault)),
+        warnings=tuple(item for item in found if isinstance(item, CheckWarning)),
+    )
+
+
+def length(value: float) -> str:
+    """Return a length as people read it, to four digits."""
+    return format_quantity(value, Dimension.LENGTH, digits=4)
+
+
+def angle(value: float) -> str:
+    """Return an angle as people read it, to four digits."""
+    return format_quantity(value, Dimension.ANGLE, digits=4)
+
+
+def pressure(value: float) -> str:
+    """Return a gauge pressure as people read it, to four digits."""
+    return format_quantity(value, Dimension.PRESSURE, digits=4)

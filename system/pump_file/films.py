@@ -1,0 +1,79 @@
+"""Checks of the films at their given positions: are they films, thin against their lands and open everywhere?"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+from system.description.pump import PumpDescription
+from system.inputs.faults import Fault
+from system.pump_file.check import CheckWarning, Finding, angle, length, needs
+
+THIN_FILM = 0.01  # film thickness / land width; above it Reynolds' equation loses percents
+
+
+@needs("piston.radial_clearance", "piston.engaged_length")
+def piston_film_is_thin(pump: PumpDescription) -> Iterator[Finding]:
+    """The piston's clearance is small against its engaged length (Reynolds' thin-film assumption)."""
+    yield from _thin("piston.radial_clearance", pump.piston.radial_clearance, pump.piston.engaged_length)
+
+
+@needs("slipper.film_thickness", "slipper.land_inner_radius", "slipper.land_outer_radius")
+def slipper_film_is_thin(pump: PumpDescription) -> Iterator[Finding]:
+    """The slipper's film is small against its land width (Reynolds' thin-film assumption)."""
+    width = pump.slipper.land_outer_radius - pump.slipper.land_inner_radius
+    yield from _thin("slipper.film_thickness", pump.slipper.film_thickness, width)
+
+
+@needs("valve_plate.film_thickness", "valve_plate.land_radius_1", "valve_plate.land_radius_2")
+def valve_plate_film_is_thin(pump: PumpDescription) -> Iterator[Finding]:
+    """The valve plate's film is small against its inner land width (Reynolds' thin-film assumption)."""
+    width = pump.valve_plate.land_radius_2 - pump.valve_plate.land_radius_1
+    yield from _thin("valve_plate.film_thickness", pump.valve_plate.film_thickness, width)
+
+
+def _thin(path: str, film: float, width: float) -> Iterator[Finding]:
+    if width > 0.0 and film > THIN_FILM * width:
+        yield CheckWarning(
+            path,
+            f"{length(film)} on a land of {length(width)}",
+            f"{length(THIN_FILM * width)} (1 % of the land: above it the film is no thin film)",
+            "check the unit: um, not mm?",
+        )
+
+
+@needs("slipper.film_thickness", "slipper.land_outer_radius", "slipper.tilt_radial", "slipper.tilt_tangential")
+def slipper_film_is_open(pump: PumpDescription) -> Iterator[Finding]:
+    """The slipper at its given film thickness and tilts does not touch the swash plate."""
+    part = pump.slipper
+    tilts = {"tilt_radial": part.tilt_radial, "tilt_tangential": part.tilt_tangential}
+    yield from _open("slipper", part.film_thickness, part.land_outer_radius, tilts)
+
+
+@needs("valve_plate.film_thickness", "valve_plate.land_radius_4", "valve_plate.tilt_x", "valve_plate.tilt_y")
+def valve_plate_film_is_open(pump: PumpDescription) -> Iterator[Finding]:
+    """The block at its given film thickness and tilts does not touch the valve plate."""
+    part = pump.valve_plate
+    tilts = {"tilt_x": part.tilt_x, "tilt_y": part.tilt_y}
+    yield from _open("valve_plate", part.film_thickness, part.land_radius_4, tilts)
+
+
+def _open(table: str, film: float, radius: float, tilts: dict[str, float]) -> Iterator[Finding]:
+    fall = radius * math.hypot(*(math.tan(tilt) for tilt in tilts.values()))
+    if fall >= film:
+        worst = max(tilts, key=lambda key: abs(tilts[key]))
+        yield Fault(
+            f"{table}.{worst}",
+            f"{angle(tilts[worst])}: over a radius of {length(radius)} the tilts take {length(fall)} of the film",
+            f"less than film_thickness, {length(film)}",
+            f"tilts below {angle(math.atan(film / radius))} together, or a larger film_thickness",
+        )
+
+
+FILM_CHECKS = (
+    piston_film_is_thin,
+    slipper_film_is_thin,
+    valve_plate_film_is_thin,
+    slipper_film_is_open,
+    valve_plate_film_is_open,
+)

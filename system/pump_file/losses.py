@@ -1,0 +1,128 @@
+"""Checks of the files by which lands and bores lose: are they such files, and do they hold for this pump?"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import replace
+from itertools import pairwise
+from pathlib import Path
+
+from system.description.pump import PumpDescription, SlipperSection
+from system.inputs.coefficients.loss_files import LossFactors, groove_losses, step_losses
+from system.inputs.faults import Fault, InputFaults
+from system.inputs.units import Dimension, format_quantity
+from system.pump.ports.flow_coefficients import coefficients_of
+from system.pump_file.check import CheckWarning, Finding, needs
+
+DEEP = 10.0
+"""Thickness over the film's from which a step or groove is deep: more changes its losses by some percent."""
+WIDE = 10.0
+"""Width over the film from which a groove is two edges of their own: beyond a file's last such row is no doubt."""
+NO_GROOVES = "grooves in the land, [slipper] grooves, that lie ahead of any vented one"
+
+
+_LANDS = ("slipper.land_inner_radius", "slipper.land_outer_radius")
+
+
+@needs("slipper.pocket_file")
+def pocket_losses_are_of_steps(pump: PumpDescription) -> Iterator[Finding]:
+    """The file of the slipper's edges is such a file, of deep steps."""
+    yield from _read("slipper.pocket_file", pump.slipper.pocket_file, step_losses, _shallow)
+
+
+@needs("valve_plate.kidney_file")
+def kidney_losses_are_of_steps(pump: PumpDescription) -> Iterator[Finding]:
+    """The file of the valve plate's edges is such a file, of deep steps."""
+    yield from _read("valve_plate.kidney_file", pump.valve_plate.kidney_file, step_losses, _shallow)
+
+
+@needs("slipper.groove_file", "slipper.film_thickness", *_LANDS)
+def groove_losses_are_of_grooves(pump: PumpDescription) -> Iterator[Finding]:
+    """The file of the slipper's grooves is such a file, of deep grooves as wide as these; and there are some."""
+    part = pump.slipper
+    if part.groove_file is None:
+        return
+    widths = groove_widths(part)
+    if not widths:
+        yield Fault("slipper.groove_file", "a slipper without closed grooves", NO_GROOVES)
+    ratios = [width / part.film_thickness for width in widths]
+    yield from _read(
+        "slipper.groove_file", part.groove_file, groove_losses, lambda key, found: _unlike(key, found, ratios)
+    )
+
+
+@needs("slipper.orifice_file", "slipper.orifice_diameter")
+def bore_coefficients_are_a_table(pump: PumpDescription) -> Iterator[Finding]:
+    """The file of the slipper's bore is one of flow coefficients, at its opening, in place of a coefficient."""
+    part, key = pump.slipper, "slipper.orifice_file"
+    if part.orifice_file is None:
+        return
+    if part.orifice_flow_coefficient is not None:
+        yield Fault(key, "orifice_flow_coefficient beside it", "one of the two")
+    try:
+        openings = coefficients_of(part.orifice_file).opening
+    except InputFaults as reason:
+        yield from (replace(fault, path=key, found=f"{fault.path}: {fault.found}") for fault in reason.faults)
+        return
+    own = 0.25 * math.pi * part.orifice_diameter**2
+    if len(openings) > 1 and not 0.999 * openings[0] <= own <= 1.001 * openings[-1]:
+        ends = " to ".join(_area(size) for size in openings[[0, -1]])
+        yield CheckWarning(key, f"a bore of {_area(own)}", ends, "its edge is taken; give rows for this opening")
+
+
+def groove_widths(slipper: SlipperSection) -> tuple[float, ...]:
+    """Widths in m of the closed grooves between the sealing lands."""
+    return tuple(two[0] - one[1] for one, two in pairwise(slipper.lands.sealing))
+
+
+def _read(
+    key: str,
+    path: Path | None,
+    read: Callable[[Path], LossFactors],
+    doubts: Callable[[str, LossFactors], Iterator[Finding]],
+) -> Iterator[Finding]:
+    """The faults of a file at its key, or what is doubtful about it."""
+    if path is None:
+        return
+    try:
+        found = read(path)
+    except InputFaults as reason:
+        yield from (replace(fault, path=key, found=f"{fault.path}: {fault.found}") for fault in reason.faults)
+    else:
+        yield from doubts(key, found)
+
+
+def _shallow(key: str, found: LossFactors) -> Iterator[Finding]:
+    """A warning where the deepest steps are not deep."""
+    least, most = (float(found.sizes[row, 0]) for row in (0, -1))
+    if least > 1.0 / DEEP or most < DEEP:
+        told = f"steps of film_ratio {least:g} and {most:g} at most"
+        remedy = "they stand for pocket, kidney and case; give rows of deeper steps"
+        yield CheckWarning(key, told, f"{1.0 / DEEP:g} and {DEEP:g}", remedy)
+
+
+def _unlike(key: str, found: LossFactors, widths: Sequence[float]) -> Iterator[Finding]:
+    """A warning where the deepest grooves are not deep, and where the pump's (widths / film) are others."""
+    ratio, width = found.sizes.T
+    if ratio.max() < DEEP:
+        told = f"grooves of film_ratio {ratio.max():g} at most"
+        yield CheckWarning(key, told, f"{DEEP:g}", "they stand for the slipper's; give rows of deeper grooves")
+    ends = width[ratio == ratio.max()]
+    for own in widths:
+        if own < ends.min() or own > ends.max() < WIDE:
+            limit = f"width_ratio {ends.min():g} to {ends.max():g}"
+            remedy = "the nearest is taken; give rows for it"
+            yield CheckWarning(key, f"a groove {own:.3g} films wide", limit, remedy)
+
+
+def _area(size: float) -> str:
+    return format_quantity(size, Dimension.AREA, digits=4)
+
+
+LOSS_CHECKS = (
+    pocket_losses_are_of_steps,
+    kidney_losses_are_of_steps,
+    groove_losses_are_of_grooves,
+    bore_coefficients_are_a_table,
+)

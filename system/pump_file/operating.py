@@ -1,0 +1,254 @@
+"""Checks of the operating point: can the pump be run there, and is it within its rating and its model?"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+from reynolds.errors import FilmInputError
+from reynolds.laws.oil import walther
+from system.description.lines import LineKind, ripple_faults
+from system.description.parts import RetainerKind
+from system.description.pump import OperatingSection, PumpDescription
+from system.inputs.faults import Fault
+from system.inputs.units import Dimension, format_quantity, to_absolute, to_gauge
+from system.pump.laws.kinematics import (
+    ball_acceleration_along_bore,
+    crossed_drive,
+    drive_at_ratio,
+    least_ratio,
+)
+from system.pump.lumped import SAMPLES_PER_PITCH, block_spring, piston_area
+from system.pump.operating import OperatingPoint
+from system.pump_file.check import (
+    CheckReport,
+    CheckWarning,
+    Finding,
+    angle,
+    needs,
+    pressure,
+    run_checks,
+)
+
+# Below this an oil has given off its dissolved air and its light fractions boil; a mineral oil itself boils below
+# 0.1 kPa at 50 degC. The model is one of liquid oil: assumption, order of magnitude.
+CAVITATION_PRESSURE_ABS = 5e3
+# What makers of axial piston pumps ask of a suction line, 0.8 bar absolute: below it chambers fill in part.
+FILLING_PRESSURE_ABS = 80e3
+# Of its volume; a mineral oil (1.4 to 2 GPa, stiffer as it is pressed) is not pressed so far by any pump.
+LARGE_COMPRESSION = 0.1
+
+_PRESSURES = ("pressure", "inlet_pressure", "case_pressure")
+
+
+def _above_cavitation(path: str, value: float) -> Iterator[Finding]:
+    if to_absolute(value) <= CAVITATION_PRESSURE_ABS:
+        yield Fault(
+            path,
+            f"{pressure(value)} gauge, {pressure(to_absolute(value))} absolute: the oil cavitates",
+            f"more than {pressure(to_gauge(CAVITATION_PRESSURE_ABS))} gauge "
+            f"({pressure(CAVITATION_PRESSURE_ABS)} absolute)",
+            "pressures are gauge (atmosphere = 0) unless the key ends in _abs",
+        )
+
+
+@needs("operating.pressure")
+def delivery_is_above_cavitation(pump: PumpDescription) -> Iterator[Finding]:
+    """Liquid oil at the delivery port."""
+    yield from _above_cavitation("operating.pressure", pump.operating.pressure)
+
+
+@needs("operating.inlet_pressure")
+def inlet_is_above_cavitation(pump: PumpDescription) -> Iterator[Finding]:
+    """Liquid oil at the inlet, and enough pressure there to fill the chambers."""
+    value = pump.operating.inlet_pressure
+    yield from _above_cavitation("operating.inlet_pressure", value)
+    if CAVITATION_PRESSURE_ABS < to_absolute(value) < FILLING_PRESSURE_ABS:
+        yield CheckWarning(
+            "operating.inlet_pressure",
+            f"{pressure(to_absolute(value))} absolute",
+            f"{pressure(FILLING_PRESSURE_ABS)} absolute (chambers may fill in part, which is not modelled)",
+            "raise the inlet pressure, or take flow as an upper bound",
+        )
+
+
+@needs("operating.case_pressure")
+def case_is_above_cavitation(pump: PumpDescription) -> Iterator[Finding]:
+    """Liquid oil in the case, where every film ends."""
+    yield from _above_cavitation("operating.case_pressure", pump.operating.case_pressure)
+
+
+@needs("operating.pressure", "operating.inlet_pressure")
+def pump_raises_pressure(pump: PumpDescription) -> Iterator[Finding]:
+    """The delivery pressure is above the inlet pressure: the machine pumps."""
+    delivery, inlet = pump.operating.pressure, pump.operating.inlet_pressure
+    if delivery <= inlet:
+        yield Fault(
+            "operating.pressure",
+            f"{pressure(delivery)} gauge",
+            f"more than inlet_pressure, {pressure(inlet)} gauge (motoring is not modelled)",
+        )
+
+
+@needs("operating.pressure", "pump.rated_pressure")
+def pressure_is_within_rating(pump: PumpDescription) -> Iterator[Finding]:
+    """The delivery pressure does not exceed the rated one."""
+    if pump.operating.pressure > pump.pump.rated_pressure:
+        yield CheckWarning(
+            "operating.pressure",
+            f"{pressure(pump.operating.pressure)} gauge",
+            f"rated_pressure, {pressure(pump.pump.rated_pressure)}",
+            "films and coefficients are extrapolated there",
+        )
+
+
+@needs("operating.pressure", "oil.bulk_modulus")
+def oil_is_little_compressed(pump: PumpDescription) -> Iterator[Finding]:
+    """The delivery pressure is small against the bulk modulus, which is taken as constant."""
+    ratio = pump.operating.pressure / pump.oil.bulk_modulus
+    if ratio > LARGE_COMPRESSION:
+        yield CheckWarning(
+            "oil.bulk_modulus",
+            f"{format_quantity(pump.oil.bulk_modulus, Dimension.MODULUS, digits=4)}, {1.0 / ratio:.3g} times the "
+            f"delivery pressure of {pressure(pump.operating.pressure)}",
+            f"{1.0 / LARGE_COMPRESSION:g} times (oil pressed by a tenth: its modulus is no constant there)",
+            "check the unit: GPa, not MPa?",
+        )
+
+
+@needs("operating.speed", "pump.rated_speed")
+def speed_is_within_rating(pump: PumpDescription) -> Iterator[Finding]:
+    """The shaft turns, and not faster than rated."""
+    speed, rated = pump.operating.speed, pump.pump.rated_speed
+    shown = format_quantity(speed, Dimension.ANGULAR_SPEED, digits=4)
+    if not speed > 0.0:
+        yield Fault("operating.speed", shown, "more than 0 rpm")
+    elif speed > rated:
+        limit = format_quantity(rated, Dimension.ANGULAR_SPEED, digits=4)
+        yield CheckWarning(
+            "operating.speed", shown, f"rated_speed, {limit}", "films and coefficients are extrapolated there"
+        )
+
+
+@needs("operating.displacement_ratio")
+def displacement_ratio_is_possible(pump: PumpDescription) -> Iterator[Finding]:
+    """The displacement ratio is above 0 (no stroke, no pump) and at most 1 (full swash angle)."""
+    ratio = pump.operating.displacement_ratio
+    if not 0.0 < ratio <= 1.0:
+        yield Fault("operating.displacement_ratio", f"{ratio:g}", "more than 0 and at most 1 (full displacement)")
+
+
+@needs(
+    "operating.displacement_ratio", "pump.cross_angle", "pump.swash_angle_max", "pump.bore_cone_angle",
+    "pump.pitch_radius",
+)  # fmt: skip
+def cross_angle_leaves_the_displacement(pump: PumpDescription) -> Iterator[Finding]:
+    """The cross angle cannot be set back: with it alone the pistons still move."""
+    part, ratio = pump.pump, pump.operating.displacement_ratio
+    cross = abs(part.cross_angle or 0.0)
+    if math.tan(part.bore_cone_angle) * math.hypot(math.tan(part.swash_angle_max), math.tan(cross)) >= 1.0:
+        return
+    least = least_ratio(crossed_drive(part.pitch_radius, part.bore_cone_angle, part.swash_angle_max, cross))
+    if ratio < least:
+        expected = f"at least {least:.4g}, what the cross angle of {angle(cross)} displaces alone"
+        yield Fault("operating.displacement_ratio", f"{ratio:g}", expected)
+
+
+@needs(
+    "oil.kinematic_viscosity_40C",
+    "oil.kinematic_viscosity_100C",
+    "operating.temperature",
+    "oil.density",
+    "oil.bulk_modulus",
+    "oil.specific_heat",
+)
+def oil_has_a_viscosity(pump: PumpDescription) -> Iterator[Finding]:
+    """The oil thins from 40 to 100 degC, and Walther's law holds at the operating temperature."""
+    temperature = pump.operating.temperature
+    try:
+        fluid = pump.oil.fluid
+    except FilmInputError as reason:
+        yield Fault("oil.kinematic_viscosity_100C", f"no oil: {reason}", "an oil that thins from 40 to 100 degC")
+        return
+    try:
+        walther(temperature, fluid)
+    except FilmInputError as reason:
+        shown = format_quantity(temperature, Dimension.TEMPERATURE, digits=4)
+        yield Fault("operating.temperature", shown, f"where the oil's law holds: {reason.expected}")
+
+
+@needs("pump.pistons", "operating.speed")
+def impedances_reach_the_ripple(pump: PumpDescription) -> Iterator[Finding]:
+    """A line of given impedance is known at all harmonics of the ripple that the sampled angles resolve."""
+    lowest = pump.pump.pistons * pump.operating.speed / (2.0 * math.pi)
+    for name in ("delivery_line", "suction_line"):
+        yield from ripple_faults(name, getattr(pump, name), lowest, lowest * (SAMPLES_PER_PITCH // 2))
+
+
+@needs("operating.inlet_pressure")
+def suction_flows_from_its_tank(pump: PumpDescription) -> Iterator[Finding]:
+    """A suction orifice of free area lies between a tank and a lower inlet pressure."""
+    line, inlet = pump.suction_line, pump.operating.inlet_pressure
+    tank = line.tank_pressure
+    if line.kind is LineKind.ORIFICE and line.orifice_area is None and tank is not None and tank <= inlet:
+        yield Fault("suction_line.tank_pressure", pressure(tank), f"more than inlet_pressure, {pressure(inlet)}")
+
+
+@needs(
+    "operating.speed", "operating.displacement_ratio", "operating.inlet_pressure", "operating.case_pressure",
+    "pump.pistons", "pump.piston_diameter", "pump.pitch_radius", "pump.swash_angle_max", "pump.bore_cone_angle",
+    "pump.cross_angle", "piston.mass", "slipper.mass", "ball_guide.spring_preload", "ball_guide.spring_stiffness",
+    "ball_guide.spring_compression", "retainer.kind",
+)  # fmt: skip
+def spring_holds_the_slippers(pump: PumpDescription) -> Iterator[Finding]:
+    """The spring's share exceeds what pulls a slipper off the plate as its piston sets out from the inner dead
+    centre: inertia, and the case's pressure on the piston over the inlet's.
+    """
+    part, at = pump.pump, pump.operating
+    cross = part.cross_angle or 0.0
+    try:
+        full = crossed_drive(part.pitch_radius, part.bore_cone_angle, part.swash_angle_max, cross)
+        drive = drive_at_ratio(full, at.displacement_ratio)
+    except ValueError:  # other checks tell a plate that cannot stand so
+        return
+    inertia = (pump.piston.mass + pump.slipper.mass) * float(ball_acceleration_along_bore(drive, 0.0, at.speed))
+    pull = inertia + piston_area(pump) * (at.case_pressure - at.inlet_pressure)
+    held = block_spring(pump) / part.pistons
+    if pull > held and pump.retainer.kind is not RetainerKind.CLEARANCE:
+        yield CheckWarning(
+            "ball_guide.spring_preload",
+            f"inertia and the case's pressure over the inlet's pull a slipper off its plate with {pull:.4g} N at "
+            "the inner dead centre",
+            f"the spring's share, {held:.4g} N",
+            "a stiffer spring, a lower case_pressure, or retainer.kind = 'clearance'",
+        )
+
+
+OPERATING_CHECKS = (
+    delivery_is_above_cavitation,
+    inlet_is_above_cavitation,
+    case_is_above_cavitation,
+    pump_raises_pressure,
+    pressure_is_within_rating,
+    oil_is_little_compressed,
+    speed_is_within_rating,
+    displacement_ratio_is_possible,
+    oil_has_a_viscosity,
+    cross_angle_leaves_the_displacement,
+    impedances_reach_the_ripple,
+    suction_flows_from_its_tank,
+    spring_holds_the_slippers,
+)
+
+
+def check_operating_point(pump: PumpDescription, point: OperatingPoint) -> CheckReport:
+    """Return what is wrong with and doubtful about running the pump at a point, all at once."""
+    stated = OperatingSection.model_construct(
+        speed=point.shaft_speed,
+        pressure=point.delivery_pressure,
+        displacement_ratio=point.displacement_ratio,
+        temperature=point.temperature,
+        inlet_pressure=point.inlet_pressure,
+        case_pressure=point.case_pressure,
+    )
+    return run_checks(OPERATING_CHECKS, pump.model_copy(update={"operating": stated}))

@@ -1,0 +1,188 @@
+"""Checks of the valve plate's ports: do kidneys and relief grooves open and shut one after the other?"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+from functools import wraps
+from itertools import pairwise
+from operator import itemgetter
+
+from system.description.pump import PortsSection, PumpDescription
+from system.inputs.faults import Fault, InputFaults
+from system.inputs.units import Dimension, format_quantity
+from system.pump.ports.described import groove_faults, throats
+from system.pump.ports.flow_coefficients import coefficients_of
+from system.pump.ports.webs import MOST_WEBS
+from system.pump_file.check import CheckWarning, Finding, angle, needs
+
+PORT_TOLERANCE = math.radians(1.0)
+_KIDNEY_ANGLES = ("groove_end", "kidney_full_start", "kidney_full_end", "kidney_end")
+_KIDNEY = tuple(f"ports.{name}" for name in _KIDNEY_ANGLES)
+
+
+def of_sides(findings: Callable[[PumpDescription], Iterator[Finding]]) -> Callable[..., Iterator[Finding]]:
+    """The findings of a port, of suction and delivery side where these differ; each told at its own keys."""
+
+    @wraps(findings)
+    def of_both(pump: PumpDescription) -> Iterator[Finding]:
+        suction, delivery = (pump.model_copy(update={"ports": side}) for side in pump.ports.sides)
+        found = list(findings(suction))
+        yield from found
+        if pump.ports.delivery is not None:
+            yield from (_at_delivery(pump, finding) for finding in findings(delivery) if finding not in found)
+
+    return of_both
+
+
+def _at_delivery(pump: PumpDescription, finding: Finding) -> Finding:
+    """A finding of the delivery side told at the table that brought it."""
+    key = finding.path.removeprefix("ports.").partition(".")[0]
+    if getattr(pump.ports.delivery, key, None) in (None, ()):
+        return finding
+    return replace(finding, path=finding.path.replace("ports.", "ports.delivery.", 1))
+
+
+@needs(*_KIDNEY)
+@of_sides
+def ports_open_in_order(pump: PumpDescription) -> Iterator[Finding]:
+    """The angles of a port grow."""
+    angles = _angles(pump.ports)
+    for before, after in pairwise(angles):
+        if angles[before] >= angles[after]:
+            yield Fault(f"ports.{after}", angle(angles[after]), f"more than {before}, {angle(angles[before])}")
+
+
+@needs(*_KIDNEY)
+def ports_shut_before_the_other_opens(pump: PumpDescription) -> Iterator[Finding]:
+    """Each port is shut before the other, half a turn later, opens."""
+    names, sides = ("suction", "delivery"), pump.ports.sides
+    told = set()
+    for k, side in enumerate(sides):
+        other = sides[1 - k]
+        last, first = _last(side), _first(other)
+        shut, opens = last[1], math.pi + first[1]
+        if shut >= opens and (last, first) not in told:
+            told.add((last, first))
+            yield _at_delivery(
+                pump,
+                Fault(
+                    f"ports.{last[0]}",
+                    f"{angle(shut)}: {names[k]} is still open when {names[1 - k]} opens",
+                    f"less than {angle(opens)} (180 deg + {first[0]}), else the ports are short-circuited",
+                    f"a smaller {last[0]} or a larger {first[0]}",
+                ),
+            )
+
+
+def _angles(ports: PortsSection) -> dict[str, float]:
+    """Angles of a port that grow, by key."""
+    start = {} if ports.groove_start is None else {"groove_start": ports.groove_start}
+    return start | {name: getattr(ports, name) for name in _KIDNEY_ANGLES}
+
+
+def _last(ports: PortsSection) -> tuple[str, float]:
+    """Key and angle at which a port shuts."""
+    ends = {f"grooves.{n}.end": groove.end for n, groove in enumerate(ports.grooves, start=1)}
+    return max(({"kidney_end": ports.kidney_end} | ends).items(), key=itemgetter(1))
+
+
+def _first(ports: PortsSection) -> tuple[str, float]:
+    """Key and angle at which a port begins to open."""
+    starts = {f"grooves.{n}.start": groove.start for n, groove in enumerate(ports.grooves, start=1)}
+    return min((_angles(ports) | starts).items(), key=itemgetter(1))
+
+
+@needs("valve_plate.kidney_arc", *_KIDNEY)
+@of_sides
+def ports_belong_to_the_kidney(pump: PumpDescription) -> Iterator[Finding]:
+    """A kidney opens and shuts over its own arc, and that leaves a port between."""
+    arc, ports = pump.valve_plate.kidney_arc, pump.ports
+    if ports.kidney_end - ports.groove_end <= arc:
+        yield Fault(
+            "ports.kidney_end",
+            f"{angle(ports.kidney_end)} for a kidney of {angle(arc)} that opens at {angle(ports.groove_end)}",
+            f"more than {angle(ports.groove_end + arc)} (groove_end + kidney_arc), so that a port is left",
+        )
+        return
+    for key, follows in (
+        ("kidney_full_start", ports.groove_end + arc),
+        ("kidney_full_end", ports.kidney_end - arc),
+    ):
+        stated = getattr(ports, key)
+        if abs(stated - follows) > PORT_TOLERANCE:
+            yield CheckWarning(
+                f"ports.{key}",
+                f"{angle(stated)}, where the kidney's arc of {angle(arc)} gives {angle(follows)}",
+                f"{angle(PORT_TOLERANCE)} apart (the film's ports follow groove_end and kidney_end)",
+                f"{key} = '{angle(follows)}', or another kidney_arc",
+            )
+
+
+@needs(*_KIDNEY)
+@of_sides
+def grooves_fit_the_port(pump: PumpDescription) -> Iterator[Finding]:
+    """Grooves have the keys of their shapes and lie ahead of the kidney or behind it."""
+    yield from groove_faults(pump.ports)
+
+
+@needs("ports.kidney_area", "valve_plate.kidney_pitch_radius", *_KIDNEY)
+@of_sides
+def grooves_are_smaller_than_the_kidney(pump: PumpDescription) -> Iterator[Finding]:
+    """The relief grooves on either side open less than the kidney does."""
+    ports = pump.ports
+    if any(groove_faults(ports)):
+        return
+    largest, kidney = max(throats(ports, pump.valve_plate.kidney_pitch_radius)), ports.kidney_area
+    if largest >= kidney:
+        yield Fault(
+            "ports.grooves" if ports.grooves else "ports.groove_area",
+            format_quantity(largest, Dimension.AREA, digits=4),
+            f"less than kidney_area, {format_quantity(kidney, Dimension.AREA, digits=4)}",
+        )
+
+
+@needs("ports.webs", "valve_plate.kidney_arc", "ports.groove_end", "ports.kidney_end")
+@of_sides
+def webs_part_the_port(pump: PumpDescription) -> Iterator[Finding]:
+    """Webs lie inside the port with kidneys between them, each narrower than the kidney of the block."""
+    arc, spans = pump.valve_plate.kidney_arc, pump.ports.web_spans
+    last, end = pump.ports.groove_end + 0.5 * arc, pump.ports.kidney_end - 0.5 * arc
+    if len(spans) > MOST_WEBS:
+        yield Fault("ports.webs", f"{len(spans)} webs", f"at most {MOST_WEBS} a port")
+    for number, (start, stop) in enumerate(spans, start=1):
+        if not 0.0 < stop - start < arc:
+            found = f"web {number}, {angle(stop - start)} wide"
+            yield Fault("ports.webs", found, f"more than 0 and less than kidney_arc, {angle(arc)}")
+        elif start <= last or stop >= end:
+            found = f"web {number} from {angle(start)} to {angle(stop)}"
+            within = f"within {angle(last)} to {angle(end)}, in growing order, with port on both sides"
+            yield Fault("ports.webs", found, within)
+        last = max(last, stop)
+
+
+@needs("ports.delivery.coefficient_file")
+def delivery_coefficients_are_a_table(pump: PumpDescription) -> Iterator[Finding]:
+    """A file of the delivery port's own is such a file, and stands beside one of [ports]."""
+    own = pump.ports.delivery.coefficient_file if pump.ports.delivery else None
+    if own is None:
+        return
+    key = "ports.delivery.coefficient_file"
+    if pump.ports.coefficient_file is None:
+        yield Fault(key, "without ports.coefficient_file", "one of [ports] too, or of [ports] alone")
+    try:
+        coefficients_of(own)
+    except InputFaults as reason:
+        yield from (replace(fault, path=key, found=f"{fault.path}: {fault.found}") for fault in reason.faults)
+
+
+PORT_CHECKS = (
+    delivery_coefficients_are_a_table,
+    ports_open_in_order,
+    ports_shut_before_the_other_opens,
+    ports_belong_to_the_kidney,
+    grooves_fit_the_port,
+    grooves_are_smaller_than_the_kidney,
+    webs_part_the_port,
+)

@@ -1,0 +1,1 @@
+"""Work in parts: processes, cluster, kept results, sampled points, progress."""

@@ -1,0 +1,152 @@
+"""Results of parts kept in a folder, one file a part, named by content: what was done once is not done again."""
+
+from __future__ import annotations
+
+import json
+import logging
+import os
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import asdict, dataclass
+from functools import partial
+from importlib.metadata import version
+from pathlib import Path
+from typing import TypeVar
+
+from reynolds.errors import FilmInputError
+from system.inputs.faults import Fault, InputFaults, nearest_path
+from system.work.processes import WorkerDied
+from system.work.progress import Report, silent
+from system.work.tasks import Hands, Outcome, Status, Work, done_part, internal_reason
+
+FORMAT = 1
+POINTS = "points"
+"""Folder of a run's points inside the run's."""
+LOG = logging.getLogger(__name__)
+Part = TypeVar("Part")
+
+
+@dataclass(frozen=True)
+class KeptPoints:
+    """A folder of outcomes; `keeps`: of which kinds. Others would come out otherwise another time."""
+
+    folder: Path
+    keeps: frozenset[Status] = frozenset({Status.SOLVED, Status.NOT_CONVERGED})
+
+    def get(self, key: str) -> Outcome | None:
+        """The outcome of that name, None where there is none; a file that is broken is none, and the log tells."""
+        place = self.folder / f"{key}.json"
+        if not place.is_file():
+            return None
+        try:
+            values = json.loads(place.read_text("utf-8"))
+            if values["format"] != FORMAT:
+                return None
+            fields = (values[name] for name in ("reason", "record", "seconds", "worker"))
+            return Outcome(key, Status(values["status"]), *fields)
+        except (OSError, ValueError, KeyError, TypeError) as fault:
+            LOG.warning("%s is broken (%r): done anew", place, fault)
+            return None
+
+    def put(self, outcome: Outcome) -> None:
+        """Keep an outcome of a kind that is kept: written beside and moved into place, no reader meets half of it.
+
+        Raises FilmInputError where the folder cannot be written.
+        """
+        if outcome.status not in self.keeps:
+            return
+        record = {"format": FORMAT, **asdict(outcome), "status": outcome.status.value}
+        text = json.dumps(record | {"package": version("swashfilm")}, allow_nan=False)
+        beside = self.folder / f"{outcome.key}.{os.getpid()}.tmp"
+        try:
+            self.folder.mkdir(parents=True, exist_ok=True)
+            beside.write_text(text + "\n", encoding="utf-8")
+            beside.replace(self.folder / f"{outcome.key}.json")
+        except OSError as fault:
+            raise FilmInputError(
+                "kept points", f"{self.folder}: {fault.strerror}", "a folder to write in"
+            ) from fault
+
+
+def points_of_run(folder: Path) -> KeptPoints:
+    """The points of another run, finished or broken off; raises InputFaults where the folder has none."""
+    if not (folder / POINTS).is_dir():
+        found, near = f"{folder}, which holds no {POINTS}", nearest_path(folder)
+        fault = Fault("--resume", found, "the folder of a run in points that was begun", near)
+        raise InputFaults("command line", [fault])
+    return KeptPoints(folder / POINTS)
+
+
+@dataclass(frozen=True)
+class Kept:
+    """All outcomes in the order of the parts, and how many of them were there before."""
+
+    outcomes: tuple[Outcome, ...]
+    known: int
+
+
+def run_kept(
+    work: Work[Part],
+    parts: Sequence[Part],
+    store: KeptPoints,
+    hands: Hands,
+    *,
+    earlier: KeptPoints | None = None,
+    batch: int = 1,
+    told: Callable[[Part, Outcome], str] = lambda part, outcome: outcome.status.value,
+    report: Report = silent,
+) -> Kept:
+    """Every part's outcome; each lies in `store` as soon as it is known here: a break costs what was at work.
+
+    What `store` or `earlier` holds is taken from there. `batch` parts go to a process at a time. No part's failure
+    ends the others; parts of a batch whose process dies are tried each by itself.
+    """
+    found = {index: outcome for index, part in enumerate(parts) if (outcome := _known(work, part, store, earlier))}
+    known, todo = len(found), [index for index in range(len(parts)) if index not in found]
+    report(0, len(todo), f"{known} points kept" if known else "solving")
+    for index, outcome in _outcomes(work, parts, todo, hands, batch):
+        found[index] = outcome
+        store.put(outcome)
+        report(len(found) - known, len(todo), told(parts[index], outcome))
+    return Kept(tuple(found[index] for index in range(len(parts))), known)
+
+
+def _known(work: Work[Part], part: Part, store: KeptPoints, earlier: KeptPoints | None) -> Outcome | None:
+    """The outcome of a part that is kept somewhere, afterwards in `store`; unnamed where nothing is kept."""
+    if not store.folder.is_dir() and earlier is None:
+        return None
+    try:
+        key = work.key(part)
+    except (InputFaults, FilmInputError):
+        return None  # told when the part is tried
+    if (own := store.get(key)) is not None or earlier is None:
+        return own
+    if (taken := earlier.get(key)) is not None:
+        store.put(taken)
+    return taken
+
+
+def _outcomes(
+    work: Work[Part], parts: Sequence[Part], todo: Sequence[int], hands: Hands, batch: int
+) -> Iterator[tuple[int, Outcome]]:
+    """Index and outcome of the parts that are to do, as they are done."""
+    groups = [[(k, parts[k]) for k in todo[at : at + batch]] for at in range(0, len(todo), batch)]
+    again: list[list[tuple[int, Part]]] = []
+    for single in (False, True):
+        for attempt in hands.attempts(partial(_done, work), again if single else groups):
+            if attempt.result is not None:
+                yield from attempt.result
+            elif isinstance(attempt.fault, WorkerDied) and len(attempt.part) > 1:
+                again.extend([one] for one in attempt.part)
+            else:
+                yield from ((index, _lost(attempt.fault)) for index, _ in attempt.part)
+
+
+def _done(work: Work[Part], group: list[tuple[int, Part]]) -> list[tuple[int, Outcome]]:
+    return [(index, done_part(work, part)) for index, part in group]
+
+
+def _lost(fault: Exception | None) -> Outcome:
+    """The outcome of a part that has come back without one."""
+    died = isinstance(fault, WorkerDied)
+    reason = str(fault) if died or fault is None else internal_reason(fault)
+    return Outcome("", Status.WORKER_DIED if died else Status.INTERNAL, reason, {}, 0.0, "")
