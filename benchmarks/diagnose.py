@@ -12,7 +12,7 @@ import tempfile
 from pathlib import Path
 from time import perf_counter
 
-from diagnosis.scant_pump import load_known_pump
+from diagnosis.study.scaled_pump import load_known_pump
 from swashfilm.diagnose_run import checked_recording, run_diagnosis
 
 

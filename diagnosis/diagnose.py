@@ -8,24 +8,24 @@ from math import inf
 
 import numpy as np
 
-from diagnosis.bent import without_stand_ins
-from diagnosis.detect import Detection, confirmed, detect, holds
-from diagnosis.growth import coordinates
-from diagnosis.heldout import held_out
-from diagnosis.hypotheses import hypotheses
-from diagnosis.judge import Verdict, judge
-from diagnosis.locate import Location, locate, of_explanation, without_explanation
-from diagnosis.note_words import note_text
-from diagnosis.pairs import combine
-from diagnosis.refit import refit_all, try_refit
-from diagnosis.repair import repair
-from diagnosis.screen import screen, unknown_gain
-from diagnosis.shortlist import is_settled, shortlist, wrong_parameters
-from diagnosis.study import Study
+from diagnosis.checks.notes import note_text
+from diagnosis.detect.mismatch import Detection, confirmed, detect, holds
+from diagnosis.explain.combinations import combine
+from diagnosis.explain.explained import repair
+from diagnosis.explain.held_out import held_out
+from diagnosis.explain.hypotheses import hypotheses
+from diagnosis.explain.ranked import Weighed, with_probabilities
+from diagnosis.explain.refit import refit_all, try_refit
+from diagnosis.explain.scaling import Scaling, scaling
+from diagnosis.explain.screen import screen, unknown_gain
+from diagnosis.explain.shortlist import is_settled, shortlist, wrong_parameters
+from diagnosis.study.model import Study
 from diagnosis.thresholds import Thresholds
-from diagnosis.unknown import Scaling, scaling
-from diagnosis.verdict import Diagnosis, Status
-from diagnosis.weighed import Weighed, with_probabilities
+from diagnosis.verdict.diagnosis import Diagnosis, Status
+from diagnosis.verdict.judge import Verdict, judge
+from diagnosis.verdict.locate import Location, locate, of_explanation, without_explanation
+from diagnosis.verdict.stand_ins import without_stand_ins
+from diagnosis.verdict.trend import coordinates
 from reynolds.numerics.arrays import Array
 from system.effects.effect import Kind
 from system.estimation.posterior import Effort, Posterior, settled

@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from diagnosis.bench_units import channel_unit, difference, difference_unit, reading
-from diagnosis.table_rows import table_rows
+from diagnosis.recording.units import channel_unit, difference, difference_unit, reading
+from diagnosis.verdict.row_numbers import table_rows
 from swashfilm.calibrate_run import Calibration
 from swashfilm.diagnose_files import write_rows
 from swashfilm.run_folder import write_json

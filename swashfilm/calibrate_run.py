@@ -6,16 +6,16 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from time import process_time
 
-from diagnosis.data_checks import too_few
-from diagnosis.hypotheses import hypotheses
-from diagnosis.inputs import bench_points
-from diagnosis.note_words import note_text
-from diagnosis.prepare import prepare
-from diagnosis.recording import Recording
-from diagnosis.refit import refit
-from diagnosis.study import Study, study_of
+from diagnosis.checks.check import too_few
+from diagnosis.checks.notes import note_text
+from diagnosis.explain.hypotheses import hypotheses
+from diagnosis.explain.ranked import Weighed
+from diagnosis.explain.refit import refit
+from diagnosis.recording.model import Recording
+from diagnosis.study.inputs import bench_points
+from diagnosis.study.model import Study, study_of
+from diagnosis.study.prepare import prepare
 from diagnosis.thresholds import Thresholds, load_thresholds
-from diagnosis.weighed import Weighed
 from reynolds.errors import FilmInputError
 from system.bench.calibration.equation_21 import (
     EqFit,

@@ -58,8 +58,8 @@ def run_calibrate_command(options: argparse.Namespace) -> int:
 
 
 def _calibrate(options: argparse.Namespace, models: Sequence[LossModelName]) -> int:
-    from diagnosis.recording import NoteKind
-    from diagnosis.scant_pump import load_known_pump
+    from diagnosis.recording.model import NoteKind
+    from diagnosis.study.scaled_pump import load_known_pump
     from swashfilm.calibrate_files import CALIBRATED, write_calibration_files
     from swashfilm.calibrate_page import headline, held_out_table, pair_table
     from swashfilm.calibrate_run import calibrate

@@ -47,7 +47,7 @@ def run_check_command(options: argparse.Namespace) -> int:
             )
             raise InputFaults(options.file, [fault])
     if is_pump:
-        from diagnosis.scant_pump import load_known_pump
+        from diagnosis.study.scaled_pump import load_known_pump
 
         known = load_known_pump(options.file)
         show(resolved_toml(known.pump))

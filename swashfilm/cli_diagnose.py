@@ -12,7 +12,7 @@ from swashfilm.terminal import show, show_table
 from system.inputs.faults import Fault, InputFaults
 
 if TYPE_CHECKING:
-    from diagnosis.recording import Recording
+    from diagnosis.recording.model import Recording
 
 DIAGNOSE_OPTIONS = ["--apply", "--workers", "--film-tables"]
 MOST_WORKERS = 64
@@ -52,10 +52,10 @@ def run_diagnose_command(options: argparse.Namespace) -> int:
     workers, apply = _workers(options, faults), _apply(options, faults)
     if faults:
         raise InputFaults("command line", faults)
-    from diagnosis.diagnosis_file import read_diagnosis
-    from diagnosis.recording import NoteKind
-    from diagnosis.scant_pump import load_known_pump
-    from diagnosis.words import paragraphs
+    from diagnosis.recording.model import NoteKind
+    from diagnosis.report.json_file import read_diagnosis
+    from diagnosis.report.text import paragraphs
+    from diagnosis.study.scaled_pump import load_known_pump
     from swashfilm.diagnose_page import CHANNEL_HEAD, channel_rows, read_summary, remarks
     from swashfilm.diagnose_run import EXTENDED, checked_recording, other_pump, run_diagnosis
     from swashfilm.progress import progress
@@ -92,7 +92,7 @@ def is_recording(path: Path, tables: Sequence[str]) -> bool:
 
 def check_recording_command(path: Path) -> None:
     """Show a recording as understood; raises InputFaults with every fault of its files and readings at once."""
-    from diagnosis.note_words import note_text
+    from diagnosis.checks.notes import note_text
     from swashfilm.diagnose_run import checked_recording
 
     recording = checked_recording(path)
@@ -108,8 +108,8 @@ def _channel_rows(recording: Recording) -> Sequence[tuple[str, ...]]:
     """(channel, readings, least to largest, sigma) of all steady channels."""
     import numpy as np
 
-    from diagnosis.bench_units import channel_unit, difference, difference_unit, reading
-    from diagnosis.recording import reading_sigma
+    from diagnosis.recording.model import reading_sigma
+    from diagnosis.recording.units import channel_unit, difference, difference_unit, reading
 
     rows = []
     for channel in recording.channels:

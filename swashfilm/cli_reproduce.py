@@ -13,7 +13,7 @@ from swashfilm.terminal import show, show_table
 from system.inputs.faults import Fault, InputFaults, nearest_choice
 
 if TYPE_CHECKING:
-    from diagnosis.recording import Recording
+    from diagnosis.recording.model import Recording
     from swashfilm.reproduce_run import ReproduceAsked
 
 REPRODUCE_OPTIONS = ["--fidelity", "--pump", "--recording", "--page", "--workers", "--steps", "--finer", *SWITCHES]

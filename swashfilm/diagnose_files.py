@@ -9,9 +9,10 @@ from typing import Any
 
 import numpy as np
 
-from diagnosis.bench_units import reading
-from diagnosis.diagnosis_file import write_diagnosis
-from diagnosis.diagnosis_tables import (
+from diagnosis.checks.notes import note_text
+from diagnosis.recording.units import reading
+from diagnosis.report.json_file import write_diagnosis
+from diagnosis.report.tables import (
     hypothesis_rows,
     next_point_rows,
     parameter_rows,
@@ -19,11 +20,10 @@ from diagnosis.diagnosis_tables import (
     residual_rows,
     steady_rows,
 )
-from diagnosis.note_words import note_text
-from diagnosis.study import Study
+from diagnosis.report.trace_tables import trace_residual_rows
+from diagnosis.study.model import Study
 from diagnosis.thresholds import Thresholds
-from diagnosis.trace_tables import trace_residual_rows
-from diagnosis.verdict import Diagnosis
+from diagnosis.verdict.diagnosis import Diagnosis
 from swashfilm.diagnose_runs import NOTHING, Told
 from swashfilm.run_folder import write_json
 from system.inputs.channels import ChannelName

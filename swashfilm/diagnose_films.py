@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from diagnosis.diagnosis_tables import Row
+from diagnosis.report.tables import Row
 from reynolds.errors import FilmInputError, FilmNotConverged
 from swashfilm.figure_png import figure_of, png_of
 from swashfilm.maps import MapField, draw_map

@@ -10,8 +10,8 @@ from typing import Any
 
 import numpy as np
 
-from diagnosis.diagnosis_file import read_diagnosis
-from diagnosis.shown import chance
+from diagnosis.report.format import chance
+from diagnosis.report.json_file import read_diagnosis
 from reynolds.numerics.arrays import Array
 from swashfilm import diagnose_plots
 from swashfilm.diagnose_files import NO_NEXT_POINT, TRACES, read_rows

@@ -6,19 +6,19 @@ from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 
-from diagnosis.ask import with_next_point
-from diagnosis.data_checks import check_recording, too_few, too_smooth
+from diagnosis.checks.check import check_recording, too_few, too_smooth
+from diagnosis.checks.notes import point_ranges
 from diagnosis.diagnose import diagnose_study
-from diagnosis.inputs import bench_points
-from diagnosis.note_words import point_ranges
-from diagnosis.prepare import prepare
-from diagnosis.recording import DataNote, NoteKind, Recording
-from diagnosis.recording_reader import read_recording
-from diagnosis.scant_pump import KnownPump, load_known_pump
-from diagnosis.study import Study
-from diagnosis.table_rows import by_table_rows
+from diagnosis.next_test import with_next_point
+from diagnosis.recording.model import DataNote, NoteKind, Recording
+from diagnosis.recording.reader import read_recording
+from diagnosis.study.inputs import bench_points
+from diagnosis.study.model import Study
+from diagnosis.study.prepare import prepare
+from diagnosis.study.scaled_pump import KnownPump, load_known_pump
 from diagnosis.thresholds import Thresholds, load_thresholds
-from diagnosis.verdict import Diagnosis, Status
+from diagnosis.verdict.diagnosis import Diagnosis, Status
+from diagnosis.verdict.row_numbers import by_table_rows
 from reynolds.errors import FilmInputError
 from reynolds.laws.oil import walther
 from swashfilm.diagnose_files import NO_NEXT_POINT, write_diagnosis_files

@@ -10,13 +10,13 @@ from typing import Any
 
 import numpy as np
 
-from diagnosis.bench_units import channel_unit, reading
-from diagnosis.diagnosis_tables import Row, added_by_claim
-from diagnosis.inputs import bench_points
-from diagnosis.study import Study
-from diagnosis.table_rows import table_rows
+from diagnosis.recording.units import channel_unit, reading
+from diagnosis.report.tables import Row, added_by_claim
+from diagnosis.study.inputs import bench_points
+from diagnosis.study.model import Study
 from diagnosis.thresholds import Thresholds
-from diagnosis.verdict import Diagnosis
+from diagnosis.verdict.diagnosis import Diagnosis
+from diagnosis.verdict.row_numbers import table_rows
 from reynolds.errors import FilmInputError
 from swashfilm.diagnose_films import FilmsTold, films_of_both
 from swashfilm.fidelity import Fidelity

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from diagnosis.recording import Recording
-from diagnosis.scant_pump import load_known_pump
+from diagnosis.recording.model import Recording
+from diagnosis.study.scaled_pump import load_known_pump
 from swashfilm.calibrate_run import calibrate
 from swashfilm.diagnose_run import checked_recording
 from system.bench.calibration.equation_21 import LOSS_CHANNELS

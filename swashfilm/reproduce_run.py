@@ -8,7 +8,7 @@ from pathlib import Path
 from time import process_time
 from typing import Any
 
-from diagnosis.recording import Recording
+from diagnosis.recording.model import Recording
 from reynolds.numerics.cache import cache_folder
 from swashfilm.recorded_coefficients import recorded_fig13
 from swashfilm.reproduce_files import claim_rows, figure_row, write_reproduction

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from diagnosis.study import Study
+from diagnosis.study.model import Study
 from reynolds.numerics.arrays import Array
 from system.inputs.channels import ChannelName
 

@@ -8,7 +8,7 @@ from typing import TypeVar
 
 import numpy as np
 
-from diagnosis.next_point import PROMISED, SETTLED
+from diagnosis.next_point.choose import PROMISED, SETTLED
 
 from .calibration import brier, calibration_error, wilson
 from .judged import in_set, is_grave, is_named, is_right, is_wrong_name, rank

@@ -6,13 +6,13 @@ from functools import reduce
 
 import numpy as np
 
-from diagnosis.heldout import held_out
-from diagnosis.hypotheses import together
-from diagnosis.refit import refit
-from diagnosis.study import Study
+from diagnosis.explain.held_out import held_out
+from diagnosis.explain.hypotheses import together
+from diagnosis.explain.ranked import Weighed
+from diagnosis.explain.refit import refit
+from diagnosis.study.model import Study
 from diagnosis.thresholds import Thresholds
-from diagnosis.verdict import Diagnosis
-from diagnosis.weighed import Weighed
+from diagnosis.verdict.diagnosis import Diagnosis
 from system.inputs.errors import NotConverged
 
 from .outcome import Outcome

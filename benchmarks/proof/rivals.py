@@ -12,10 +12,10 @@ from scipy.linalg import cho_factor, cho_solve
 from scipy.special import log_softmax
 from scipy.stats import chi2
 
-from diagnosis.hypotheses import Hypothesis, hypotheses
-from diagnosis.multiplicity import family_chance, log_chances
-from diagnosis.screen import screen
-from diagnosis.study import Study
+from diagnosis.detect.multiplicity import family_chance, log_chances
+from diagnosis.explain.hypotheses import Hypothesis, hypotheses
+from diagnosis.explain.screen import screen
+from diagnosis.study.model import Study
 from diagnosis.thresholds import Thresholds
 from reynolds.numerics.arrays import Array
 from system.effects.effect import Kind
@@ -69,7 +69,7 @@ def _screened(study: Study, thresholds: Thresholds, single: list[Hypothesis] | N
 
 
 def _chance(study: Study, thresholds: Thresholds) -> float:
-    """As `diagnosis.detect` has it, with fewer draws."""
+    """As `diagnosis.detect.mismatch` has it, with fewer draws."""
     found = np.array([score(study.base, each.column).z for each in study.candidates])
     strongest = log_chances(found, study.candidates)
     return family_chance(study.base, study.candidates, strongest, DRAWS, thresholds.seeds.detect)
@@ -127,7 +127,8 @@ def _largest(study: Study, residual: Array) -> Rival:
 def _stepwise(study: Study) -> Rival:
     """Columns of the catalogue added while Schwarz' criterion (1978) falls, of either sign, without priors.
 
-    With g = V^T r and G = V^T P V of all columns (`diagnosis.screen`), a column's score beside those taken.
+    With g = V^T r and G = V^T P V of all columns (`diagnosis.explain.screen`), a column's score beside those
+    taken.
     """
     base = study.base
     columns = np.stack([each.column for each in study.candidates], axis=1)

@@ -15,9 +15,15 @@ from .outcome import Outcome, as_plain, from_plain
 HERE = Path(__file__).resolve().parent
 PACKAGES = ("diagnosis", "system", "gaps", "reynolds")
 ASKED = (
-    "diagnosis.ask", "diagnosis.data_checks", "diagnosis.diagnose", "diagnosis.inputs", "diagnosis.prepare",
-    "diagnosis.recording_reader", "diagnosis.scant_pump", "system.description.tolerances",
-)  # fmt: skip
+    "diagnosis.checks.check",
+    "diagnosis.diagnose",
+    "diagnosis.next_test",
+    "diagnosis.recording.reader",
+    "diagnosis.study.inputs",
+    "diagnosis.study.prepare",
+    "diagnosis.study.scaled_pump",
+    "system.description.tolerances",
+)
 """Modules that a diagnosis is made of; all that they import counts, too."""
 TRIERS = (
     "trial.py",

@@ -10,17 +10,17 @@ from time import process_time
 
 import numpy as np
 
-from diagnosis.ask import with_next_point
 from diagnosis.diagnose import diagnose_study
-from diagnosis.inputs import bench_points
-from diagnosis.locate import Location
-from diagnosis.map_axes import axis_values, inside
-from diagnosis.prepare import prepare
-from diagnosis.scant_pump import load_known_pump
-from diagnosis.study import Study
+from diagnosis.explain.ranked import Weighed
+from diagnosis.next_test import with_next_point
+from diagnosis.study.inputs import bench_points
+from diagnosis.study.map_axes import axis_values, inside
+from diagnosis.study.model import Study
+from diagnosis.study.prepare import prepare
+from diagnosis.study.scaled_pump import load_known_pump
 from diagnosis.thresholds import load_thresholds
-from diagnosis.verdict import Claim, Diagnosis
-from diagnosis.weighed import Weighed
+from diagnosis.verdict.diagnosis import Claim, Diagnosis
+from diagnosis.verdict.locate import Location
 from reynolds.errors import FilmInputError
 from reynolds.laws.oil import walther
 from swashfilm.diagnose_run import checked_recording

@@ -8,13 +8,13 @@ from math import log
 
 import numpy as np
 
-from diagnosis.ask import contender, rivals
-from diagnosis.bench_box import BenchBox
-from diagnosis.forecast import forecasts, log_density
-from diagnosis.next_point import READINGS
-from diagnosis.study import Study
+from diagnosis.next_point.choose import READINGS
+from diagnosis.next_point.forecast import forecasts, log_density
+from diagnosis.next_point.operating_box import BenchBox
+from diagnosis.next_test import contender, rivals
+from diagnosis.study.model import Study
 from diagnosis.thresholds import Thresholds
-from diagnosis.verdict import Diagnosis
+from diagnosis.verdict.diagnosis import Diagnosis
 from system.bench.points import BenchPoints
 from system.description.pump import PumpDescription
 from system.inputs.units import STANDARD_ATMOSPHERE

@@ -5,8 +5,8 @@ from __future__ import annotations
 import pytest
 from made_diagnosis import its_study, named_diagnosis
 
-from diagnosis.study import Study
-from diagnosis.verdict import Diagnosis
+from diagnosis.study.model import Study
+from diagnosis.verdict.diagnosis import Diagnosis
 
 
 @pytest.fixture(scope="module")

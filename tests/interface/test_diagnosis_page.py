@@ -9,13 +9,13 @@ import numpy as np
 import pytest
 from made_diagnosis import LPM, PRESSURE, Q, agreeing
 
-from diagnosis.diagnosis_file import diagnosis_record
-from diagnosis.diagnosis_tables import pull_sums
-from diagnosis.study import Study
+from diagnosis.detect.time_scan import TimeKind, TimeMark
+from diagnosis.explain.ranked import HeldOut
+from diagnosis.report.json_file import diagnosis_record
+from diagnosis.report.tables import pull_sums
+from diagnosis.study.model import Study
 from diagnosis.thresholds import load_thresholds
-from diagnosis.time_scan import TimeKind, TimeMark
-from diagnosis.verdict import Claim, Diagnosis
-from diagnosis.weighed import HeldOut
+from diagnosis.verdict.diagnosis import Claim, Diagnosis
 from swashfilm.__main__ import main
 from swashfilm.diagnose_files import read_rows, write_diagnosis_files
 from swashfilm.diagnose_films import FilmsTold

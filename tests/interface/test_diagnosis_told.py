@@ -12,13 +12,13 @@ import numpy as np
 import pytest
 from made_diagnosis import Q, agreeing, hypothesis
 
-from diagnosis.angle_scan import AngleWindow
-from diagnosis.diagnosis_file import diagnosis_record, read_diagnosis, write_diagnosis
-from diagnosis.recording import DataNote, NoteKind
-from diagnosis.table_rows import by_table_rows
-from diagnosis.time_scan import TimeKind, TimeMark
-from diagnosis.verdict import Claim, Diagnosis, Estimate, Status
-from diagnosis.words import next_point_text, paragraphs, statement
+from diagnosis.detect.angle_scan import AngleWindow
+from diagnosis.detect.time_scan import TimeKind, TimeMark
+from diagnosis.recording.model import DataNote, NoteKind
+from diagnosis.report.json_file import diagnosis_record, read_diagnosis, write_diagnosis
+from diagnosis.report.text import next_point_text, paragraphs, statement
+from diagnosis.verdict.diagnosis import Claim, Diagnosis, Estimate, Status
+from diagnosis.verdict.row_numbers import by_table_rows
 from system.description.gap import Gap
 from system.effects.components import Component
 from system.effects.effect import EffectId, Kind

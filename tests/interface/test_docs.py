@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from diagnosis.recording_reader import read_recording
+from diagnosis.recording.reader import read_recording
 from swashfilm.cli import build_parser, run_command
 from swashfilm.fidelity import Fidelity
 from swashfilm.film_case import load_case

@@ -5,11 +5,18 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from diagnosis.diagnosis_tables import steady_rows
-from diagnosis.inputs import bench_points, complete, measured, taken_parameters
-from diagnosis.readings import observations
-from diagnosis.recording import Circuit, NoteKind, RecordedChannel, Recording, SteadyTable, TraceBlock
-from diagnosis.table_rows import table_rows
+from diagnosis.recording.model import (
+    Circuit,
+    NoteKind,
+    RecordedChannel,
+    Recording,
+    SteadyTable,
+    TraceBlock,
+)
+from diagnosis.report.tables import steady_rows
+from diagnosis.study.inputs import bench_points, complete, measured, taken_parameters
+from diagnosis.study.readings import observations
+from diagnosis.verdict.row_numbers import table_rows
 from reynolds.errors import FilmInputError
 from system.bench.sensors import actual
 from system.description.pump import PumpDescription

@@ -5,8 +5,15 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from diagnosis.data_checks import check_recording, too_few
-from diagnosis.recording import Circuit, NoteKind, RecordedChannel, Recording, SteadyTable, TraceBlock
+from diagnosis.checks.check import check_recording, too_few
+from diagnosis.recording.model import (
+    Circuit,
+    NoteKind,
+    RecordedChannel,
+    Recording,
+    SteadyTable,
+    TraceBlock,
+)
 from system.inputs.channels import INPUTS, OUTPUTS, ChannelName
 
 DISPLACEMENT = 90e-6  # m3/rev
@@ -247,7 +254,7 @@ def test_gaps_and_too_few_readings_are_told():
 
 
 def test_bench_recordings_tell_nothing(shared):
-    from diagnosis.recording_reader import read_recording
+    from diagnosis.recording.reader import read_recording
 
     for folder in sorted((shared / "recordings" / "bench").glob("open-*")):
         recording = read_recording(folder)

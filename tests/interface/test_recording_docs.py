@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from diagnosis.recording_form import read_form
+from diagnosis.recording.form import read_form
 from swashfilm.__main__ import main
 from system.inputs.channels import ChannelName
 from system.inputs.toml_table import Table

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from diagnosis.recording_reader import read_recording
+from diagnosis.recording.reader import read_recording
 from system.inputs.faults import Fault, InputFaults
 
 HEAD = 'format = 1\npressure_reference = "gauge"\n'

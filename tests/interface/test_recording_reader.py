@@ -7,8 +7,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from diagnosis.recording import Circuit, NoteKind, reading_sigma
-from diagnosis.recording_reader import read_recording
+from diagnosis.recording.model import Circuit, NoteKind, reading_sigma
+from diagnosis.recording.reader import read_recording
 from system.inputs.channels import ChannelName
 from system.inputs.faults import InputFaults
 

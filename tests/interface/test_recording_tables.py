@@ -9,8 +9,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.io import savemat
 
-from diagnosis.table import TableFault, TableSource
-from diagnosis.tables import read_columns
+from diagnosis.recording.tables.read import read_columns
+from diagnosis.recording.tables.table import TableFault, TableSource
 
 SPEED = np.array([1001.4, 998.25, 1500.0, 2100.5, -3.0])
 TORQUE = np.array([28.968, 53.0, np.nan, 1e-3, 7.25e2])

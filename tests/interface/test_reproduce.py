@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from diagnosis.scant_pump import load_known_pump
+from diagnosis.study.scaled_pump import load_known_pump
 from swashfilm.__main__ import main
 from swashfilm.diagnose_run import checked_recording
 from swashfilm.reproduce_files import claim_rows

@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from diagnosis.scant_pump import load_known_pump
+from diagnosis.study.scaled_pump import load_known_pump
 from system.description.tolerances import tolerances
 from system.inputs.faults import InputFaults
 from system.pump.laws.kinematics import SwashDrive, displacement, stroke

@@ -5,9 +5,9 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from diagnosis.recording import TraceBlock
-from diagnosis.study import TraceMisfit
-from diagnosis.trace_tables import trace_residual_rows
+from diagnosis.recording.model import TraceBlock
+from diagnosis.report.trace_tables import trace_residual_rows
+from diagnosis.study.model import TraceMisfit
 from swashfilm.diagnose_files import with_stated
 from swashfilm.diagnose_page import strongest_courses
 from swashfilm.diagnose_trace_plots import trace_residuals, worst_points

@@ -6,9 +6,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from diagnosis.data_checks import check_recording
-from diagnosis.recording import NoteKind
-from diagnosis.recording_reader import read_recording
+from diagnosis.checks.check import check_recording
+from diagnosis.recording.model import NoteKind
+from diagnosis.recording.reader import read_recording
 from system.inputs.channels import ChannelName
 
 RIG = runpy.run_path(str(Path(__file__).parents[2] / "examples" / "uci_hydraulic" / "rig.py"))

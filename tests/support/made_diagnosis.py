@@ -7,17 +7,24 @@ from typing import Any
 
 import numpy as np
 
-from diagnosis.bench_box import BenchBox
-from diagnosis.detect import ChannelMisfit, Detection
-from diagnosis.hypotheses import Hypothesis
-from diagnosis.locate import Location
-from diagnosis.next_point import NextPoint
-from diagnosis.recording import Circuit, DataNote, NoteKind, RecordedChannel, Recording, SteadyTable
-from diagnosis.regions import Region
-from diagnosis.study import Study
-from diagnosis.unknown import Scaling
-from diagnosis.verdict import Claim, Diagnosis, Estimate, Status
-from diagnosis.weighed import HeldOut, Weighed
+from diagnosis.detect.mismatch import ChannelMisfit, Detection
+from diagnosis.detect.regions import Region
+from diagnosis.explain.hypotheses import Hypothesis
+from diagnosis.explain.ranked import HeldOut, Weighed
+from diagnosis.explain.scaling import Scaling
+from diagnosis.next_point.choose import NextPoint
+from diagnosis.next_point.operating_box import BenchBox
+from diagnosis.recording.model import (
+    Circuit,
+    DataNote,
+    NoteKind,
+    RecordedChannel,
+    Recording,
+    SteadyTable,
+)
+from diagnosis.study.model import Study
+from diagnosis.verdict.diagnosis import Claim, Diagnosis, Estimate, Status
+from diagnosis.verdict.locate import Location
 from reynolds.numerics.arrays import Array
 from system.description.gap import Gap
 from system.effects.components import Component

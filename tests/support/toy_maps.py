@@ -6,8 +6,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from diagnosis.map_axes import AXES
-from diagnosis.recording import Circuit, Recording, SteadyTable
+from diagnosis.recording.model import Circuit, Recording, SteadyTable
+from diagnosis.study.map_axes import AXES
 from diagnosis.thresholds import load_thresholds
 from reynolds.numerics.arrays import Array
 from system.bench.points import BenchPoints

@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from diagnosis.inputs import bench_points
-from diagnosis.readings import observations
-from diagnosis.recording_reader import read_recording
+from diagnosis.recording.reader import read_recording
+from diagnosis.study.inputs import bench_points
+from diagnosis.study.readings import observations
 from system.bench.outputs import SIMULATED
 from system.bench.parameters import base_parameters
 from system.bench.sensors import sensor_parameters

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 from scipy.signal import lfilter
 
-from diagnosis.angle_scan import AngleWindow, scan_angles
-from diagnosis.recording import TraceBlock
-from diagnosis.study import PortEvent, TraceMisfit
+from diagnosis.detect.angle_scan import AngleWindow, scan_angles
+from diagnosis.recording.model import TraceBlock
+from diagnosis.study.model import PortEvent, TraceMisfit
 from diagnosis.thresholds import load_thresholds
 
 STEPS = 360

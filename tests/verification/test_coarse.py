@@ -7,9 +7,9 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from diagnosis.coarse import PLACED_BY, TRUE_TO, class_gap, place_gap, shared_out
+from diagnosis.explain.model_error import PLACED_BY, TRUE_TO, class_gap, place_gap, shared_out
+from diagnosis.explain.ranked import Weighed, with_probabilities
 from diagnosis.thresholds import load_thresholds
-from diagnosis.weighed import Weighed, with_probabilities
 from system.effects.effect import EffectId, Kind
 
 LIMITS = load_thresholds()

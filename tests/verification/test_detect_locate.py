@@ -11,17 +11,17 @@ import numpy as np
 import pytest
 from toy_maps import LIMITS, SIGMA, ToySimulator, toy_observations, toy_recording
 
-from diagnosis.component_evidence import ComponentGroup
-from diagnosis.contrasts import contrasts, misfit
-from diagnosis.detect import Detection, detect
-from diagnosis.locate import Location, locate, of_explanation
-from diagnosis.map_axes import axis_values, inside, scaled_axes
-from diagnosis.multiplicity import family_chance, holm, log_chances
-from diagnosis.noise_memory import noise_memory
-from diagnosis.recording import Recording
-from diagnosis.regions import EDGES, strongest_region
-from diagnosis.study import Study, concerned, study_of
-from diagnosis.time_scan import TimeKind
+from diagnosis.detect.component_evidence import ComponentGroup
+from diagnosis.detect.contrasts import contrasts, misfit
+from diagnosis.detect.mismatch import Detection, detect
+from diagnosis.detect.multiplicity import family_chance, holm, log_chances
+from diagnosis.detect.regions import EDGES, strongest_region
+from diagnosis.detect.time_scan import TimeKind
+from diagnosis.recording.model import Recording
+from diagnosis.study.map_axes import axis_values, inside, scaled_axes
+from diagnosis.study.model import Study, concerned, study_of
+from diagnosis.study.noise_correlation import noise_memory
+from diagnosis.verdict.locate import Location, locate, of_explanation
 from reynolds.numerics.arrays import Array
 from system.effects.components import Component
 from system.effects.effect import EffectId, Kind

@@ -10,21 +10,21 @@ import numpy as np
 import pytest
 from toy_maps import LIMITS, SIGMA, ToySimulator, toy_observations, toy_recording
 
-from diagnosis.detect import confirmed, detect
+from diagnosis.detect.mismatch import confirmed, detect
 from diagnosis.diagnose import diagnose_study
-from diagnosis.growth import misgrown
-from diagnosis.heldout import held_out, regions, speak_against
-from diagnosis.hypotheses import TOLERATED, hypotheses, simulator_of
-from diagnosis.judge import judge
-from diagnosis.left_over import left_over
-from diagnosis.map_axes import AXES, scaled_axes
-from diagnosis.recording import Recording
-from diagnosis.refit import refit
-from diagnosis.screen import joint_evidence, screen
-from diagnosis.study import Candidate, Study, study_of
-from diagnosis.unknown import scaling
-from diagnosis.verdict import Diagnosis, Status
-from diagnosis.weighed import Weighed, with_probabilities
+from diagnosis.explain.held_out import held_out, regions, speak_against
+from diagnosis.explain.hypotheses import TOLERATED, hypotheses, simulator_of
+from diagnosis.explain.ranked import Weighed, with_probabilities
+from diagnosis.explain.refit import refit
+from diagnosis.explain.scaling import scaling
+from diagnosis.explain.screen import joint_evidence, screen
+from diagnosis.recording.model import Recording
+from diagnosis.study.map_axes import AXES, scaled_axes
+from diagnosis.study.model import Candidate, Study, study_of
+from diagnosis.verdict.diagnosis import Diagnosis, Status
+from diagnosis.verdict.judge import judge
+from diagnosis.verdict.residue import left_over
+from diagnosis.verdict.trend import misgrown
 from reynolds.numerics.arrays import Array
 from system.description.gap import Gap
 from system.effects.components import Component

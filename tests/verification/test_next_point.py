@@ -11,11 +11,11 @@ import pytest
 from scipy.special import softmax
 from scipy.stats import norm
 
-from diagnosis.bench_box import BenchBox, rig_box
-from diagnosis.forecast import Contender, brought, forecasts, independent, log_density
-from diagnosis.next_point import READINGS, SETTLED, NextPoint, gains_at, next_point
-from diagnosis.recording import Circuit, RecordedChannel, Recording, SteadyTable
-from diagnosis.study import Study
+from diagnosis.next_point.choose import READINGS, SETTLED, NextPoint, gains_at, next_point
+from diagnosis.next_point.forecast import Contender, brought, forecasts, independent, log_density
+from diagnosis.next_point.operating_box import BenchBox, rig_box
+from diagnosis.recording.model import Circuit, RecordedChannel, Recording, SteadyTable
+from diagnosis.study.model import Study
 from reynolds.numerics.arrays import Array
 from system.bench.parameters import base_parameters
 from system.bench.points import BenchPoints

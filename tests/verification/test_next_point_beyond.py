@@ -9,11 +9,11 @@ from typing import Any
 import numpy as np
 import pytest
 
-import diagnosis.ask as ask
-from diagnosis.bench_box import BenchBox, ordinary_box, rig_box
-from diagnosis.forecast import Contender
-from diagnosis.own_leak import LEAKS, own_leak
-from diagnosis.recording import Circuit, RecordedChannel, Recording, SteadyTable
+import diagnosis.next_test as ask
+from diagnosis.gap_leak_test import LEAKS, own_leak
+from diagnosis.next_point.forecast import Contender
+from diagnosis.next_point.operating_box import BenchBox, ordinary_box, rig_box
+from diagnosis.recording.model import Circuit, RecordedChannel, Recording, SteadyTable
 from reynolds.numerics.arrays import Array
 from system.bench.points import BenchPoints
 from system.description.gap import Gap

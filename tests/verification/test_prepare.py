@@ -8,14 +8,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from diagnosis.detect import detect
-from diagnosis.locate import locate
-from diagnosis.prepare import prepare
-from diagnosis.recording import Recording
-from diagnosis.recording_reader import read_recording
-from diagnosis.study import Study
+from diagnosis.detect.mismatch import detect
+from diagnosis.recording.model import Recording
+from diagnosis.recording.reader import read_recording
+from diagnosis.study.model import Study
+from diagnosis.study.prepare import prepare
+from diagnosis.study.trace_misfits import port_events
 from diagnosis.thresholds import load_thresholds
-from diagnosis.trace_misfits import port_events
+from diagnosis.verdict.locate import locate
 from reynolds.errors import FilmInputError
 from system.description.tolerances import tolerances
 from system.inputs.channels import ChannelName

@@ -9,9 +9,9 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from diagnosis.bench_box import BenchBox
-from diagnosis.hypotheses import Hypothesis, together
-from diagnosis.weighed import Weighed
+from diagnosis.explain.hypotheses import Hypothesis, together
+from diagnosis.explain.ranked import Weighed
+from diagnosis.next_point.operating_box import BenchBox
 from system.description.gap import Gap
 from system.effects.catalogue.entries import entry_of
 from system.effects.effect import EffectId, Kind

@@ -12,8 +12,8 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from diagnosis.recording import reading_sigma
-from diagnosis.recording_reader import read_recording
+from diagnosis.recording.model import reading_sigma
+from diagnosis.recording.reader import read_recording
 from system.inputs.channels import ChannelName
 
 
@@ -34,7 +34,7 @@ def test_an_outcome_is_of_another_program_once_anything_that_made_it_changes(pro
     taken = {node.module for node in ast.walk(tree) if isinstance(node, ast.ImportFrom) and not node.level}
     assert {name for name in taken if name and name.split(".")[0] in proof.store.PACKAGES} <= counted
     assert {
-        "diagnosis.data_checks",
+        "diagnosis.checks.check",
         "system.effects.laws.film",
         "system.bench.simulator",
         "reynolds.laws.oil",

@@ -9,10 +9,10 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from diagnosis.data_checks import check_recording
-from diagnosis.prepare import prepare
-from diagnosis.recording_reader import read_recording
-from diagnosis.study import Study
+from diagnosis.checks.check import check_recording
+from diagnosis.recording.reader import read_recording
+from diagnosis.study.model import Study
+from diagnosis.study.prepare import prepare
 from diagnosis.thresholds import load_thresholds
 from system.description.tolerances import tolerances
 from system.pump_file.file import load_pump

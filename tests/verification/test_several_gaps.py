@@ -4,8 +4,8 @@ from types import SimpleNamespace
 
 import numpy as np
 
-from diagnosis.hypotheses import Hypothesis, simulator_of, together
-from diagnosis.pairs import _apart
+from diagnosis.explain.combinations import _apart
+from diagnosis.explain.hypotheses import Hypothesis, simulator_of, together
 from system.bench.calibration.extended_pump import extended_pump
 from system.bench.outputs import SIMULATED
 from system.bench.points import BenchPoints

@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
-from diagnosis.replicates import repeatability, set_points
-from diagnosis.series_points import on_raster
-from diagnosis.steadiness import SteadyRule, effective_number, is_steady, steady_stretches
-from diagnosis.table import TableFault
-from diagnosis.traces import synchronous_mean
+from diagnosis.recording.replicates import repeatability, set_points
+from diagnosis.recording.series_points import on_raster
+from diagnosis.recording.steadiness import SteadyRule, effective_number, is_steady, steady_stretches
+from diagnosis.recording.tables.table import TableFault
+from diagnosis.recording.traces import synchronous_mean
 from system.inputs.units import TURN
 
 RULE = SteadyRule(samples=100, limit=3.0)

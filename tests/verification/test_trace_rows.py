@@ -7,13 +7,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from diagnosis.angle_scan import scan_angles
-from diagnosis.recording import RecordedChannel, TraceBlock
+from diagnosis.detect.angle_scan import scan_angles
+from diagnosis.recording.model import RecordedChannel, TraceBlock
+from diagnosis.study.trace_fit import settled_traces
+from diagnosis.study.trace_misfits import trace_misfits
+from diagnosis.study.trace_rows import WINDOWS, shrunk_covariance, trace_rows, windows
+from diagnosis.study.traced_bench import TracedBench, traced_bench
 from diagnosis.thresholds import load_thresholds
-from diagnosis.trace_fit import settled_traces
-from diagnosis.trace_misfits import trace_misfits
-from diagnosis.trace_rows import WINDOWS, shrunk_covariance, trace_rows, windows
-from diagnosis.traced_bench import TracedBench, traced_bench
 from system.bench.parameters import base_parameters, groove_parameters
 from system.bench.points import BenchPoints
 from system.bench.sensors import encoder_parameter, read_turns, transducer_parameters

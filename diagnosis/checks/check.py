@@ -1,0 +1,109 @@
+"""What the readings of a recording tell about themselves before any simulation: faults, readings put aside."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import replace
+
+import numpy as np
+
+from diagnosis.checks.outliers import outliers
+from diagnosis.checks.readings import impossible
+from diagnosis.checks.sensors import coarse, copies, noiseless, repeated_rows, stuck, stuck_inputs
+from diagnosis.checks.units import implausible, trace_sizes
+from diagnosis.recording.model import DataNote, NoteKind, Recording
+from system.bench.outputs import SIMULATED
+from system.inputs.channels import OUTPUTS, ChannelName
+
+VARIED = 2.0
+"""Of flow over displacement ratio from point to point: more than leakage makes, so that the speed varied."""
+LEAST_CHI2 = 0.2
+"""Of chi-square per reading: chance makes less of 20 readings once in twenty thousand recordings."""
+
+
+def check_recording(recording: Recording, displacement: float | None) -> Recording:
+    """Return the recording with what its readings tell: notes added, readings that are put aside made nan.
+
+    displacement: of the pump in m3/rev, against which flow and torque are held; None where it is not known.
+    FAULT: nothing can be made of the recording before it is put right (units, a channel that copies another, no
+    noise at all). REMOVED: these readings are not used (outliers, a stuck sensor). TOLD: to be borne in mind.
+    """
+    recording = _noted(recording, [*_gaps(recording), *impossible(recording)])
+    with np.errstate(divide="ignore", invalid="ignore"):
+        recording = _noted(recording, [*implausible(recording, displacement), *trace_sizes(recording)])
+    recording = _noted(recording, _speed(recording))
+    for find in (coarse, stuck, stuck_inputs, repeated_rows, copies, noiseless, outliers):
+        recording = _noted(recording, find(recording))
+    return recording
+
+
+def too_few(recording: Recording, parameters: int) -> DataNote | None:
+    """Return the fault of a recording with no more readings of outputs than parameters; None where it has more."""
+    readings = sum(int(np.isfinite(recording.steady.column(name)).sum()) for name in OUTPUTS)
+    if readings > parameters:
+        return None
+    return DataNote(
+        NoteKind.FAULT, None, (), f"{readings} readings for {parameters} parameters: record more points than these"
+    )
+
+
+def too_smooth(chi2: float, readings: int) -> DataNote | None:
+    """Return the fault of readings that scatter about a fit by far less than their noise; None where they scatter.
+
+    chi2: of all readings; below `LEAST_CHI2` of their number they are simulated, smoothed, or better than said.
+    """
+    if chi2 >= LEAST_CHI2 * readings:
+        return None
+    return DataNote(
+        NoteKind.FAULT,
+        None,
+        (),
+        f"chi2 {chi2 / readings:.2g} per reading: they scatter by far less than their repeatability. Simulated or "
+        "smoothed readings tell nothing of noise; of measured ones, state the sigma that repeats show",
+    )
+
+
+def _noted(recording: Recording, notes: Iterable[DataNote]) -> Recording:
+    """The recording with notes added and, of those that remove, the readings of their channel made nan."""
+    found = tuple(notes)
+    values = recording.steady.values.copy()
+    for note in found:
+        if note.kind is NoteKind.REMOVED and note.channel is not None:
+            values[list(note.points), list(ChannelName).index(note.channel)] = np.nan
+    steady = replace(recording.steady, values=values)
+    return replace(recording, steady=steady, notes=(*recording.notes, *found))
+
+
+def _speed(recording: Recording) -> Iterable[DataNote]:
+    """A recording without its speed is of one speed; a flow that says otherwise is a fault."""
+    if recording.channel(ChannelName.SPEED) is not None or recording.channel(ChannelName.Q_OUT) is None:
+        return
+    ratio = recording.steady.column(ChannelName.DISPLACEMENT_RATIO)
+    flow = recording.steady.column(ChannelName.Q_OUT) / np.where(np.isfinite(ratio), ratio, 1.0)
+    known = flow[np.isfinite(flow) & (flow > 0.0)]
+    if known.size and known.max() > VARIED * known.min():
+        text = (
+            f"speed is not recorded, and Q_out over displacement_ratio varies {known.max() / known.min():.1f} "
+            "times: more than leakage makes. Add the speed, or keep to points of one speed"
+        )
+        yield DataNote(NoteKind.FAULT, ChannelName.SPEED, (), text)
+
+
+def _gaps(recording: Recording) -> Iterable[DataNote]:
+    """Tell of channels with missing readings; a channel without a single one is a fault, as is no output."""
+    if not any(recording.channel(name) is not None for name in SIMULATED):
+        names = ", ".join(name.value for name in SIMULATED)
+        yield DataNote(
+            NoteKind.FAULT, None, (), f"none of {names}, which are simulated; record one of them at least"
+        )
+    for channel in recording.channels:
+        if channel.name in (ChannelName.ANGLE, ChannelName.P_CHAMBER):
+            continue
+        missing = np.flatnonzero(~np.isfinite(recording.steady.column(channel.name)))
+        count = len(recording.steady.values)
+        if len(missing) == count:
+            yield DataNote(NoteKind.FAULT, channel.name, (), f"{channel.name.value} holds no number at all")
+        elif len(missing):
+            points = tuple(int(point) for point in missing)
+            text = f"{channel.name.value} is missing at {len(missing)} of {count} points"
+            yield DataNote(NoteKind.TOLD, channel.name, points, text)

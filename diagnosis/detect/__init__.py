@@ -1,0 +1,1 @@
+"""Detection: mismatch, its channel, region, component, shaft angle, time."""

@@ -1,0 +1,127 @@
+"""At which shaft angles a recorded chamber pressure differs from the simulated one."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.linalg import cho_factor, cho_solve
+from scipy.signal import lfilter
+
+from diagnosis.study.model import PortEvent, TraceMisfit
+from diagnosis.thresholds import LocateLimits
+from reynolds.numerics.arrays import Array
+from system.inputs.units import TURN
+
+SIGMA_OF_MEDIAN = 1.4826  # of a normal distribution, over its median deviation
+MOST_MEMORY = 0.95  # lag-1 correlation of a trace's noise: above it the trace is too short to tell
+SETTLING = 100  # samples of drawn noise thrown away
+
+
+@dataclass(frozen=True)
+class AngleWindow:
+    """Shaft angles in rad from start to end where a trace stands out, and the events of the ports within.
+
+    end < start where the window holds the inner dead centre.
+    """
+
+    start: float
+    end: float
+    p_value: float
+    events: tuple[str, ...]
+
+
+def scan_angles(
+    traces: Sequence[TraceMisfit], events: Sequence[PortEvent], limits: LocateLimits, seed: int
+) -> AngleWindow | None:
+    """The window of shaft angle that stands out most among all traces, or None above the threshold of p.
+
+    Traces are taken at equal steps of angle over one turn. p counts all windows and all traces.
+    """
+    found = [_scan(trace, limits, seed + number) for number, trace in enumerate(traces)]
+    if not found:
+        return None
+    start, end, p_value = min(found, key=lambda window: window[2])
+    p_value = min(1.0, p_value * len(found))
+    if p_value > limits.p_value:
+        return None
+    margin = limits.windows[0]
+    width = (end - start) % TURN
+    within = tuple(event.text for event in events if (event.angle - start + margin) % TURN <= width + 2 * margin)
+    return AngleWindow(start, end, p_value, within)
+
+
+def _scan(trace: TraceMisfit, limits: LocateLimits, seed: int) -> tuple[float, float, float]:
+    """Start, end and p of the window of one trace whose mean stands out the most.
+
+    Means over all windows (2 to 60 degrees, each sqrt 2 wider than the last) over their own sigma; p by the
+    greatest of drawn noise (Westfall and Young 1993).
+    """
+    steps = len(trace.residual)
+    residual = _without_nuisances(trace, trace.residual[:, None] / trace.sigma[:, None])[:, 0]
+    widths = _widths(steps, limits)
+    noise = _noise(trace, residual, limits, seed)
+    drawn = np.stack([_window_sums(noise, width) for width in widths])
+    spread = np.sqrt((drawn**2).mean(axis=2, keepdims=True))
+    observed = np.stack([_window_sums(residual[:, None], width) for width in widths]) / spread
+    chance = np.abs(drawn / spread).max(axis=(0, 1))
+    which, first = np.unravel_index(int(np.abs(observed).argmax()), observed.shape[:2])
+    p_value = (1 + np.count_nonzero(chance >= np.abs(observed).max())) / (limits.draws + 1)
+    start = float(trace.block.angle[first])
+    step = TURN / steps
+    return start, (start + (int(widths[which]) - 1) * step) % TURN, float(p_value)
+
+
+def _noise(trace: TraceMisfit, residual: Array, limits: LocateLimits, seed: int) -> Array:
+    """Drawn noise (K, draws), whitened, nuisances taken out: sign flips of the cycles, or what the trace shows."""
+    random = np.random.default_rng(seed)
+    factor = trace.block.covariance_factor
+    if factor is not None:
+        signs = random.choice([-1.0, 1.0], size=(factor.shape[1], limits.draws))
+        return _without_nuisances(trace, factor @ signs / trace.sigma[:, None])
+    memory, scale = _memory(residual, limits)
+    fresh = random.standard_normal((len(residual) + SETTLING, limits.draws)) * np.sqrt(1.0 - memory**2)
+    drawn = lfilter([1.0], [1.0, -memory], fresh, axis=0)[SETTLING:]
+    return _without_nuisances(trace, scale * drawn)
+
+
+def _memory(residual: Array, limits: LocateLimits) -> tuple[float, float]:
+    """Lag-1 correlation and scale of a trace's noise (Yule 1927), from what lies off its most striking window.
+
+    The scale is at least one stated sigma, and more where the whole trace scatters by more: then only what stands
+    out of the rest of the turn counts.
+    """
+    sums = [
+        _window_sums(residual[:, None], width)[:, 0] / np.sqrt(width) for width in _widths(len(residual), limits)
+    ]
+    which, first = np.unravel_index(int(np.abs(np.stack(sums)).argmax()), (len(sums), len(residual)))
+    rest = np.roll(residual, -int(first))[int(_widths(len(residual), limits)[which]) :]
+    centred = rest - np.median(rest)
+    scale = SIGMA_OF_MEDIAN * float(np.median(np.abs(centred)))
+    memory = float(centred[1:] @ centred[:-1] / (centred @ centred)) if scale > 0 else 0.0
+    return min(max(memory, 0.0), MOST_MEMORY), max(scale, 1.0)
+
+
+def _without_nuisances(trace: TraceMisfit, whitened: Array) -> Array:
+    """Whitened columns (K, m) less what parameters, each of prior N(0, 1), take up."""
+    columns = trace.nuisances / trace.sigma[:, None]
+    factor = cho_factor(columns.T @ columns + np.eye(columns.shape[1]))
+    left: Array = whitened - columns @ cho_solve(factor, columns.T @ whitened)
+    return left
+
+
+def _widths(steps: int, limits: LocateLimits) -> NDArray[np.int64]:
+    """Widths of the windows, in samples."""
+    narrowest, widest = (max(round(width / TURN * steps), 1) for width in limits.windows)
+    count = 1 + int(2.0 * np.log2(max(widest / narrowest, 1.0)))
+    return np.unique(np.round(narrowest * np.sqrt(2.0) ** np.arange(count)).astype(np.int64))
+
+
+def _window_sums(columns: Array, width: int) -> Array:
+    """Sums (K, m) over the `width` samples from each sample on, around the turn."""
+    around = np.concatenate([np.zeros((1, columns.shape[1])), columns, columns[: width - 1]])
+    total = np.cumsum(around, axis=0)
+    sums: Array = total[width:] - total[:-width]
+    return sums

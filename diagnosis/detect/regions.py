@@ -1,0 +1,180 @@
+"""Parts of the map: thirds of each axis that stand out, and the box in which a channel's mismatch lies."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.stats import norm
+
+from diagnosis.detect.contrasts import Contrasts
+from diagnosis.study.map_axes import bound_text, inside
+from reynolds.numerics.arrays import Array
+from system.inputs.channels import ChannelName
+
+Places = NDArray[np.int64]
+Marks = NDArray[np.bool_]
+
+EDGES = 6  # parts of equal size between whose edges boxes are looked for
+LEAST_POINTS = 3  # of a part: fewer are single readings
+HALF = 0.5  # of the most that an explanation adds: what adds less lies outside its region
+BOUND = 0.05  # of overlap, that a bound has to bring
+
+
+@dataclass(frozen=True)
+class Region:
+    """A part of the map where a channel stands out: bounds in SI by input name, contrast in sigma, and words."""
+
+    channel: ChannelName
+    lower: Mapping[str, float]
+    upper: Mapping[str, float]
+    contrast: float
+    text: str
+
+
+def flagged(
+    by_channel: Mapping[ChannelName, Contrasts], axes: Mapping[ChannelName, Array], rate: float
+) -> tuple[Region, ...]:
+    """The thirds of all axes and channels that stand out, strongest first; `rate` of them falsely, at most.
+
+    Benjamini and Hochberg (1995), two-sided.
+    """
+    regions = [
+        region
+        for channel, found in by_channel.items()
+        for axis, values in axes.items()
+        for region in _thirds(channel, found, axis, values)
+    ]
+    ranked = sorted(regions, key=lambda region: -abs(region.contrast))
+    p_values = np.array([2.0 * norm.sf(abs(region.contrast)) for region in ranked])
+    allowed = rate * np.arange(1, len(ranked) + 1) / max(len(ranked), 1)
+    holds = np.flatnonzero(p_values <= allowed)
+    return tuple(ranked[: holds[-1] + 1]) if holds.size else ()
+
+
+def densest_region(
+    channel: ChannelName, found: Contrasts, pattern: Array, axes: Mapping[ChannelName, Array], share: float
+) -> Region | None:
+    """The box of half lines in which the channel's mismatch lies; None where it fills the map.
+
+    Of all boxes whose z^2 is at least `share` of the best, those of fewest bounds; of these the greatest z^2.
+    A zero that is free makes a box and its complement one contrast: only those count within which `pattern` (N,),
+    what is missing in sigma, is the greater.
+    """
+    if not axes:
+        return None
+    sides = [_half_lines(axis, values) for axis, values in axes.items()]
+    chosen, marks = _all_boxes(sides, axes)
+    z = found.z(marks.astype(float))
+    count = marks.sum(axis=0)
+    within = pattern**2 @ marks >= np.mean(pattern**2) * count
+    squares = np.where(within & (count >= LEAST_POINTS), z**2, 0.0)
+    bounds = (chosen > 0).sum(axis=0)
+    good = squares >= share * squares.max()
+    best = int(np.argmax(np.where(good & (bounds == bounds[good].min()), squares, -1.0)))
+    picked = [side[number] for side, number in zip(sides, chosen[:, best], strict=True)]
+    return _region(channel, picked, float(z[best]))
+
+
+def strongest_region(
+    channel: ChannelName, found: Contrasts, pattern: Array, axes: Mapping[ChannelName, Array]
+) -> Region | None:
+    """The box of half lines that comes nearest to the points at which `pattern` (N,) is at least half its most.
+
+    pattern: what an explanation adds to the channel, in sigma. Nearest: points in both over points in one (Jaccard
+    1912), less BOUND for each bound. None where no box is nearer than the whole map.
+    """
+    if not axes:
+        return None
+    sides = [_half_lines(axis, values) for axis, values in axes.items()]
+    chosen, marks = _all_boxes(sides, axes)
+    strong = np.abs(pattern) >= HALF * np.abs(pattern).max()
+    both = strong.astype(float) @ marks
+    count = marks.sum(axis=0)
+    overlap = both / (count + strong.sum() - both) - BOUND * (chosen > 0).sum(axis=0)
+    best = int(np.argmax(np.where(count >= LEAST_POINTS, overlap, -np.inf)))
+    picked = [side[number] for side, number in zip(sides, chosen[:, best], strict=True)]
+    return _region(channel, picked, float(found.z(marks[:, best : best + 1].astype(float))[0]))
+
+
+@dataclass(frozen=True)
+class _HalfLine:
+    """Part of an axis: all of it, below an edge, or above."""
+
+    axis: ChannelName
+    lower: float | None = None
+    upper: float | None = None
+
+    @property
+    def bounded(self) -> bool:
+        return self.lower is not None or self.upper is not None
+
+    @property
+    def text(self) -> str:
+        return bound_text(self.axis, self.lower, self.upper)
+
+
+def _region(channel: ChannelName, picked: Sequence[_HalfLine], contrast: float) -> Region | None:
+    """The box of one part of each axis, None where it is the whole map."""
+    bounded = [part for part in picked if part.bounded]
+    if not bounded:
+        return None
+    lower = {part.axis.value: part.lower for part in bounded if part.lower is not None}
+    upper = {part.axis.value: part.upper for part in bounded if part.upper is not None}
+    return Region(channel, lower, upper, contrast, ", ".join(part.text for part in bounded))
+
+
+def _half_lines(axis: ChannelName, values: Array) -> list[_HalfLine]:
+    edges = _edges(values)
+    return [
+        _HalfLine(axis),
+        *(_HalfLine(axis, lower=edge) for edge in edges),
+        *(_HalfLine(axis, upper=edge) for edge in edges),
+    ]
+
+
+def _edges(values: Array) -> list[float]:
+    """Edges that part the points into some EDGES of about the same number, each in the widest gap near by."""
+    ordered = np.sort(values)
+    gaps = np.diff(ordered)
+    reach = max(len(values) // (2 * EDGES), 1)
+    found = set()
+    for part in range(1, EDGES):
+        middle = part * len(values) // EDGES
+        first = max(middle - reach, 0)
+        near = gaps[first : middle + reach]
+        if near.size and near.max() > 0:
+            at = first + int(near.argmax())
+            found.add(float(0.5 * (ordered[at] + ordered[at + 1])))
+    return sorted(found)
+
+
+def _all_boxes(sides: list[list[_HalfLine]], axes: Mapping[ChannelName, Array]) -> tuple[Places, Marks]:
+    """All combinations of half lines: numbers (axes, boxes), 0 for a whole axis, and points within (N, boxes)."""
+    numbers = np.indices([len(side) for side in sides]).reshape(len(sides), -1)
+    patterns = np.ones((len(next(iter(axes.values()))), numbers.shape[1]), dtype=bool)
+    for side, number in zip(sides, numbers, strict=True):
+        patterns &= np.stack([_holds(part, axes) for part in side], axis=1)[:, number]
+    return numbers, patterns
+
+
+def _holds(part: _HalfLine, axes: Mapping[ChannelName, Array]) -> Marks:
+    lower = {} if part.lower is None else {part.axis.value: part.lower}
+    upper = {} if part.upper is None else {part.axis.value: part.upper}
+    return inside(axes, lower, upper)
+
+
+def _thirds(channel: ChannelName, found: Contrasts, axis: ChannelName, values: Array) -> list[Region]:
+    edges = np.linspace(values.min(), values.max(), 4)[1:3]
+    regions = []
+    for lower, upper in ((None, edges[0]), (edges[0], edges[1]), (edges[1], None)):
+        low = {} if lower is None else {axis.value: float(lower)}
+        high = {} if upper is None else {axis.value: float(upper)}
+        within = inside({axis: values}, low, high)
+        if within.sum() >= LEAST_POINTS:
+            contrast = float(found.z(within.astype(float)[:, None])[0])
+            text = bound_text(axis, low.get(axis.value), high.get(axis.value))
+            regions.append(Region(channel, low, high, contrast, text))
+    return regions

@@ -1,0 +1,104 @@
+"""Whether a mismatch goes with time: a drift or an onset in the order in which the points were taken."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import Enum
+
+import numpy as np
+from scipy.stats import norm
+
+from diagnosis.detect.contrasts import Contrasts, contrasts
+from diagnosis.study.map_axes import smooth_shapes
+from diagnosis.study.model import Study
+from diagnosis.thresholds import Thresholds
+from reynolds.numerics.arrays import Array
+from system.estimation.evidence import multiplier_evidence
+from system.inputs.channels import ChannelName
+
+SMOOTH = 30.0  # sigma: prior width of a smooth mismatch over the map, which a drift must stand out of
+EDGE = 3  # points at either end after which no onset is looked for
+
+
+class TimeKind(Enum):
+    """How a mismatch goes with the order of the points."""
+
+    DRIFT = "drift"
+    ONSET = "onset"
+
+
+@dataclass(frozen=True)
+class TimeMark:
+    """A drift, or an onset at point `at` of the order, of a channel; `parameter`: what wanders with it, if any."""
+
+    kind: TimeKind
+    channel: ChannelName
+    at: int
+    p_value: float
+    parameter: str | None
+
+
+def scan_time(study: Study, thresholds: Thresholds) -> TimeMark | None:
+    """The drift or onset of least p among all channels and places, or None above the threshold.
+
+    Contrasts of a straight line and of steps (Page 1954) along the rows. A smooth mismatch over the map is fitted
+    too, so that an effect of pressure is no drift because pressure rose with time, and contrasts are in units of
+    what the channel scatters then, so that what no smooth law explains is none either. p: the greatest contrast
+    against that of drawn readings (Westfall and Young 1993), or Bonferroni's bound where it is less.
+    """
+    limits = thresholds.locate
+    patterns = _patterns(len(study.observations.values))
+    shapes = smooth_shapes(study.axes)
+    found = []
+    for at, name in enumerate(study.channels):
+        own = contrasts(study.base, at, beside=_smooth_columns(study, at, shapes))
+        found.append((name, own, own.z(patterns) / own.scatter))
+    best = max(found, key=lambda each: np.abs(each[2]).max())
+    channel, own, z = best
+    p_value = min(1.0, len(found) * _greatest_p(own, patterns, z, limits.draws, thresholds.seeds.locate))
+    if p_value > limits.p_value:
+        return None
+    place = int(np.abs(z).argmax())
+    kind = TimeKind.DRIFT if place == 0 else TimeKind.ONSET
+    return TimeMark(kind, channel, 0 if place == 0 else place - 1 + EDGE, p_value, wandering(study, thresholds))
+
+
+def wandering(study: Study, thresholds: Thresholds) -> str | None:
+    """The parameter that explains most by a random walk along the rows, where that is `odds` nats or more.
+
+    Steps of one size at every point, each of prior N(0, w^2): what a Kalman filter would find, all at once.
+    """
+    base = study.base
+    steps = np.tri(len(study.observations.values)) / np.sqrt(len(study.observations.values))
+    rows = base.whitening.rows[:, 0]
+    widths = [width * thresholds.name.fault_factor for width in thresholds.name.mixture_widths]
+    evidence = [multiplier_evidence(base, column[:, None] * steps[rows], widths) for column in base.slopes.T]
+    best = int(np.argmax(evidence))
+    return base.parameters[best].name if evidence[best] >= thresholds.name.odds else None
+
+
+def _patterns(points: int) -> Array:
+    """(N, m): a straight line, then a step at each point but those near the ends."""
+    order = np.arange(points)
+    steps = order[:, None] >= order[None, EDGE : points - EDGE + 1]
+    return np.column_stack([np.linspace(-0.5, 0.5, points), steps.astype(float)])
+
+
+def _smooth_columns(study: Study, channel: int, shapes: Array) -> Array:
+    whitening = study.base.whitening
+    columns = np.zeros((*whitening.measured.shape, shapes.shape[1]))
+    columns[:, channel] = SMOOTH * whitening.sigma[:, channel, None] * shapes
+    return whitening.whiten(columns)
+
+
+def _greatest_p(own: Contrasts, patterns: Array, z: Array, draws: int, seed: int) -> float:
+    """Chance of as great a contrast among all patterns of one channel where nothing goes with time."""
+    greatest = float(np.abs(z).max())
+    level, axes = np.linalg.eigh(own.content)
+    root = axes * np.sqrt(np.maximum(level, 0.0))
+    drawn = root @ np.random.default_rng(seed).standard_normal((len(root), draws))
+    content = np.einsum("nm,nm->m", patterns, own.content @ patterns)
+    size = np.sqrt(np.where(content > 0, content, np.inf))
+    chance = np.abs(patterns.T @ drawn / size[:, None]).max(axis=0)
+    counted = (1 + np.count_nonzero(chance >= greatest)) / (draws + 1)
+    return float(min(counted, 2.0 * norm.sf(greatest) * patterns.shape[1]))

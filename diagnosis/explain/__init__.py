@@ -1,0 +1,1 @@
+"""Explanations: hypotheses screened, refitted, combined, held out."""

@@ -1,0 +1,111 @@
+"""Two and three effects at once: which to add to the best so far, judged in the linear model, then refitted."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import combinations
+
+from diagnosis.explain.hypotheses import Hypothesis, candidates_of, together
+from diagnosis.explain.ranked import Weighed
+from diagnosis.explain.refit import refit_all
+from diagnosis.explain.screen import joint_evidence, linear_gain
+from diagnosis.study.model import Study
+from diagnosis.thresholds import Thresholds
+from system.description.gap import Gap
+from system.effects.effect import EffectId
+from system.estimation.posterior import Posterior, settled
+from system.work.processes import Crew
+from system.work.progress import Report
+
+REFITTED = 2  # of the additions to the best, and of the pairs at the prior mean
+MOST_REFITTED = 4  # where more stand within the gap of a class: what cannot be told apart is told together
+MOST_EFFECTS = 3
+
+
+def combine(
+    study: Study, weighed: Sequence[Weighed], thresholds: Thresholds, hands: Crew, report: Report
+) -> tuple[tuple[Weighed, ...], tuple[str, ...]]:
+    """Explanations of several effects that were worth a refit, and what could not be refitted.
+
+    Effects are added to the best explanation while that gains more than the odds of a name. Besides, all pairs of
+    the best singles are looked at about the prior mean: a third effect may imitate two.
+    """
+    known = [each for each in weighed if each.hypothesis.effects and each.hypothesis.component is None]
+    if not known:
+        return (), ()
+    best = max((each for each in known if each.posterior is not None), key=_weight, default=None)
+    found: list[Weighed] = []
+    failed: list[str] = []
+    while best is not None and len(best.hypothesis.effects) < MOST_EFFECTS:
+        tried = _additions(study, best, known, thresholds)
+        if len(best.hypothesis.effects) == 1:
+            tried += [each for each in _pairs(study, known, thresholds) if not _holds(tried, each)]
+        done, reasons = refit_all(study, tried, thresholds, hands, report)
+        failed += reasons
+        refitted = [each for each in done if each.posterior is not None]
+        found += refitted
+        ahead = max(refitted, key=_weight, default=None)
+        gained = ahead is not None and ahead.log_weight - best.log_weight > thresholds.name.odds
+        best = ahead if gained else None
+    return tuple(found), tuple(failed)
+
+
+def _weight(weighed: Weighed) -> float:
+    return weighed.log_weight
+
+
+def _additions(study: Study, best: Weighed, known: Sequence[Weighed], thresholds: Thresholds) -> list[Weighed]:
+    """The likeliest additions to the best explanation, about its refit; those that gain nothing are left out."""
+    if best.posterior is None:
+        return []
+    posterior = settled(best.posterior)
+    found = []
+    for each in known:
+        if _apart(best.hypothesis, each.hypothesis):
+            both = together(best.hypothesis, each.hypothesis, thresholds.prior.pair_penalty)
+            gain = linear_gain(study, posterior, each.hypothesis, thresholds)
+            found.append(Weighed(both, best.log_evidence + gain, True, None, 0.0, 0.0, None))
+    return _likeliest([each for each in found if each.log_weight > best.log_weight], thresholds)
+
+
+def _pairs(study: Study, known: Sequence[Weighed], thresholds: Thresholds) -> list[Weighed]:
+    """The likeliest pairs of the best singles in the linear model; none unless ahead of the best single there."""
+    singles = sorted(known, key=lambda each: each.log_evidence, reverse=True)[: thresholds.name.shortlist]
+    alone = [linear_gain(study, study.base, each.hypothesis, thresholds) for each in singles]
+    found = []
+    for one, other in combinations(singles, 2):
+        if _apart(one.hypothesis, other.hypothesis):
+            both = together(one.hypothesis, other.hypothesis, thresholds.prior.pair_penalty)
+            gain = _best_member(study, study.base, both, thresholds)
+            found.append(Weighed(both, study.base.log_evidence + gain, True, None, 0.0, 0.0, None))
+    least = study.base.log_evidence + max(
+        gain + each.hypothesis.log_prior for gain, each in zip(alone, singles, strict=True)
+    )
+    return _likeliest([each for each in found if each.log_weight > least], thresholds)
+
+
+def _likeliest(found: Sequence[Weighed], thresholds: Thresholds) -> list[Weighed]:
+    """The first REFITTED, and what stands within the gap of a class behind the first, MOST_REFITTED in all."""
+    ranked = sorted(found, key=_weight, reverse=True)[:MOST_REFITTED]
+    near = [each for each in ranked if ranked[0].log_weight - each.log_weight <= thresholds.name.class_gap]
+    return ranked[: max(REFITTED, len(near))]
+
+
+def _best_member(study: Study, posterior: Posterior, both: Hypothesis, thresholds: Thresholds) -> float:
+    widths = thresholds.name.mixture_widths
+    return max(joint_evidence(posterior, candidates_of(study, member), widths).evidence for member in both.members)
+
+
+def _apart(one: Hypothesis, other: Hypothesis) -> bool:
+    """Whether two explanations set different things free: other effects, or one law at other gaps."""
+    return not set(one.open_names) & set(other.open_names) and not _acting(one) & _acting(other)
+
+
+def _acting(one: Hypothesis) -> set[tuple[EffectId, Gap | None]]:
+    places = (None if isinstance(subject, str) else subject.pair for subject in one.subjects)
+    return set(zip(one.effects, places, strict=True))
+
+
+def _holds(tried: Sequence[Weighed], other: Weighed) -> bool:
+    names = set(other.hypothesis.open_names)
+    return any(set(each.hypothesis.open_names) == names for each in tried)

@@ -1,0 +1,78 @@
+"""What an explanation adds to the readings, and what is left: the mismatch as the explanation sees it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from diagnosis.detect.component_evidence import likeliest_multiplier, multiplier_columns
+from diagnosis.explain.hypotheses import Hypothesis, simulator_of
+from diagnosis.explain.ranked import Weighed
+from diagnosis.recording.model import TraceBlock
+from diagnosis.study.map_axes import smooth_shapes
+from diagnosis.study.model import Study, TraceMisfit
+from diagnosis.thresholds import Thresholds
+from reynolds.numerics.arrays import Array
+from system.effects.components import Component
+from system.estimation.evidence import project
+from system.estimation.posterior import Posterior, values_at
+
+
+@dataclass(frozen=True)
+class Repair:
+    """added: what the explanation adds to the predictions; left: reading less prediction with it; (N, C) in SI."""
+
+    added: Array
+    left: Array
+
+    @property
+    def mismatch(self) -> Array:
+        """(N, C), what the readings show of it: nan where nothing was measured."""
+        return self.added + self.left
+
+
+def repair(study: Study, weighed: Weighed, thresholds: Thresholds) -> Repair:
+    """The repair by a refitted explanation, or by a component's law bent freely. Raises NotConverged."""
+    if weighed.hypothesis.component is not None:
+        return _bent(study, weighed.hypothesis.component, thresholds)
+    posterior, own = weighed.posterior, weighed.hypothesis
+    if posterior is None:
+        nothing = np.zeros_like(study.base.predictions)
+        return Repair(nothing, study.observations.values - study.base.predictions)
+    simulator = simulator_of(study, own, thresholds.name.fault_factor)
+    without = simulator.predict(_closed(posterior, own))
+    return Repair(posterior.predictions - without, study.observations.values - posterior.predictions)
+
+
+def unexplained_traces(study: Study, weighed: Weighed, thresholds: Thresholds) -> tuple[TraceMisfit, ...]:
+    """The study's traces less those of an explanation's refit that has the explanation taken out.
+
+    Raises NotConverged.
+    """
+    posterior, own = weighed.posterior, weighed.hypothesis
+    if posterior is None:
+        return study.traces
+    simulator = simulator_of(study, own, thresholds.name.fault_factor)
+    values = _closed(posterior, own)
+
+    def left(block: TraceBlock) -> Array:
+        return block.mean - np.asarray(simulator.traces(values, (block.point,), block.angle)[0])
+
+    return tuple(replace(trace, residual=left(trace.block)) for trace in study.traces)
+
+
+def _closed(posterior: Posterior, own: Hypothesis) -> Array:
+    """Values (k,) of a refit with what its hypothesis sets free at nothing."""
+    free = np.array([each.name in own.open_names for each in posterior.parameters])
+    return values_at(posterior.parameters, np.where(free, 0.0, posterior.xi))
+
+
+def _bent(study: Study, component: Component, thresholds: Thresholds) -> Repair:
+    """The component's law times 1 + Phi beta, beta at its most likely in the linear model."""
+    base = study.base
+    beta = likeliest_multiplier(study, component, thresholds)
+    added = study.components[component] * (smooth_shapes(study.axes) @ beta)[:, None]
+    apart = project(base, multiplier_columns(study, base, component))
+    left = base.whitening.unwhiten(base.residual - apart @ beta)
+    return Repair(added, np.where(study.observations.measured, left, np.nan))

@@ -1,0 +1,109 @@
+"""How explanations foretell points that took no part in their fit: regions that veto, and random fifths."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.special import logsumexp
+
+from diagnosis.explain.model_error import by_form
+from diagnosis.explain.ranked import HeldOut
+from diagnosis.study.model import Study
+from diagnosis.thresholds import HeldOutLimits, Thresholds
+from reynolds.numerics.arrays import Array
+from system.estimation.folds import left_out
+from system.estimation.posterior import Posterior
+from system.estimation.predictive import log_predictive
+from system.inputs.channels import ChannelName
+
+Marks = NDArray[np.bool_]
+
+LEAST_POINTS = 3
+THIRD = 1.0 / 3.0  # of a scaled axis -1 .. 1: what lies beyond it is an outer third
+PARTS = 5
+OPEN = 0.9  # of its prior variance: a parameter known no better is open
+HALF = 0.5  # of that: a fold that brings so much alone tests the prior, not the model
+
+
+def held_out(study: Study, null: Posterior, own: Posterior, thresholds: Thresholds) -> HeldOut:
+    """Gains of an explanation over the null in regions left out, and residuals of random fifths left out.
+
+    The gain of a fold is the ln ratio of the two joint predictive densities of its readings, each fit repeated
+    without them by one linear step. They veto (`speak_against`) as far as they are more than the law's form makes
+    of what the explanation gains (`by_form`). RMS in SI; `noise` is what repeatability and inputs alone make.
+    """
+    folds = regions(study, (null, own))
+    gains = {name: _density(own, points) - _density(null, points) for name, points in folds.items()}
+    coarse = by_form(own.log_evidence - null.log_evidence, thresholds)
+    vetoed = speak_against(np.array(list(gains.values())) / coarse, thresholds.heldout)
+    fifths = _fifths(len(study.axes), thresholds.seeds.locate)
+    measured = study.observations.measured
+
+    def rms(residual: Array) -> dict[ChannelName, float]:
+        return {
+            name: float(np.sqrt(np.mean(residual[measured[:, at], at] ** 2)))
+            for at, name in enumerate(study.channels)
+            if measured[:, at].any()
+        }
+
+    how = f"gains: left out one by one: {', '.join(folds) or 'no region'}; residuals: random fifths of the points"
+    after = left_out(own, fifths)
+    return HeldOut(gains, rms(left_out(null, fifths)), rms(after), rms(own.whitening.sigma), vetoed, how)
+
+
+def regions(study: Study, fits: tuple[Posterior, ...]) -> Mapping[str, Marks]:
+    """Points (N,) of each region by name: outer thirds of the map's axes, at most half of all points.
+
+    Left out are regions without which a parameter of one of the fits would be open: they test its prior.
+    """
+    speed, pressure, stroke, warmth = study.axes.T
+    all_regions = {
+        "high pressure": pressure > THIRD,
+        "low speed": speed < -THIRD,
+        "high speed": speed > THIRD,
+        "part stroke": stroke < -THIRD,
+        "hot": warmth > THIRD,
+        "cold": warmth < -THIRD,
+    }
+    return {
+        name: points
+        for name, points in all_regions.items()
+        if LEAST_POINTS <= points.sum() <= len(points) / 2
+        and not any(_tests_a_prior(fit, _rows(fit, points)) for fit in fits)
+    }
+
+
+def speak_against(gains: Array, limits: HeldOutLimits) -> bool:
+    """Whether regions veto: more than one of so many would by chance, or several that the others do not outweigh.
+
+    Under a true explanation exp(-gain) has a mean of at most 1 in each region, and so has its mean over all
+    regions: it exceeds K with a chance of 1/K at most (Markov), however many regions there are.
+    """
+    if not gains.size:
+        return False
+    negative = np.count_nonzero(gains < limits.negative_gain)
+    outweighed = negative >= limits.veto_regions and gains.sum() < 0.0
+    return bool(outweighed or logsumexp(-gains) - np.log(gains.size) > -limits.veto_gain)
+
+
+def _rows(posterior: Posterior, points: Marks) -> Marks:
+    """Whitened rows (n,) of the points."""
+    return points[posterior.whitening.rows[:, 0]]
+
+
+def _tests_a_prior(posterior: Posterior, rows: Marks) -> bool:
+    rest = posterior.slopes[~rows]
+    without = np.diag(np.linalg.inv(rest.T @ rest + np.eye(rest.shape[1])))
+    return bool(np.any((without > OPEN) & (np.diag(posterior.covariance) < HALF * without)))
+
+
+def _density(posterior: Posterior, points: Marks) -> float:
+    """ln of the joint density of the points' readings in SI, but for a constant that all fits share."""
+    white = np.log(np.einsum("nii->ni", posterior.whitening.factors))[points]
+    return log_predictive(posterior, _rows(posterior, points)) + float(white.sum())
+
+
+def _fifths(points: int, seed: int) -> NDArray[np.int64]:
+    return np.random.default_rng(seed).permutation(np.arange(points) % PARTS)

@@ -1,0 +1,59 @@
+"""A hypothesis weighed: evidence, probability, and how it predicts points that took no part in the fit."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from scipy.special import log_softmax
+
+from diagnosis.explain.hypotheses import Hypothesis
+from system.estimation.posterior import Posterior
+from system.inputs.channels import ChannelName
+
+
+@dataclass(frozen=True)
+class HeldOut:
+    """Held-out points: gain in nats of each fold over the null; RMS residuals before, after and of noise, SI.
+
+    `how` says in words how the points were split.
+    """
+
+    gains: Mapping[str, float]
+    before: Mapping[ChannelName, float]
+    after: Mapping[ChannelName, float]
+    noise: Mapping[ChannelName, float]
+    vetoed: bool
+    how: str
+
+
+@dataclass(frozen=True, eq=False)
+class Weighed:
+    """A hypothesis with its evidence (natural logarithm), from the linear model or from a refit (`posterior`).
+
+    z: score of the linear model, or the size over its sigma of a refit. Compared by identity.
+    """
+
+    hypothesis: Hypothesis
+    log_evidence: float
+    linear: bool
+    posterior: Posterior | None
+    z: float
+    probability: float
+    heldout: HeldOut | None
+
+    @property
+    def log_weight(self) -> float:
+        """ln evidence plus ln prior: what hypotheses are ranked by."""
+        return self.log_evidence + self.hypothesis.log_prior
+
+
+def with_probabilities(weighed: Sequence[Weighed], temperature: float) -> tuple[Weighed, ...]:
+    """The same with probabilities that sum to 1, the likeliest first.
+
+    P ~ exp((ln evidence + ln prior) / temperature).
+    """
+    logs = log_softmax(np.array([each.log_weight for each in weighed]) / temperature)
+    told = [replace(each, probability=float(np.exp(one))) for each, one in zip(weighed, logs, strict=True)]
+    return tuple(sorted(told, key=lambda each: -each.log_weight))

@@ -1,0 +1,263 @@
+"""Hypotheses fitted in full: the coupled simulator, all nuisances, and what a hypothesis sets free."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import partial
+from math import inf, log
+
+import numpy as np
+from scipy.linalg import cho_factor, cho_solve
+from scipy.special import logsumexp
+
+from diagnosis.explain.hypotheses import Hypothesis, candidates_of, simulator_of
+from diagnosis.explain.ranked import Weighed
+from diagnosis.explain.screen import joint_evidence
+from diagnosis.study.model import Study
+from diagnosis.thresholds import Thresholds
+from reynolds.numerics.arrays import Array
+from system.estimation.bounded_step import Bounds
+from system.estimation.fit import FitLimits, maximum_posterior
+from system.estimation.parameters import Parameter
+from system.estimation.posterior import Posterior, values_at
+from system.estimation.simulator import Simulator
+from system.inputs.errors import NotConverged
+from system.work.processes import Crew
+from system.work.progress import Report
+
+SIZES = (0.1, 0.3, 1.0, 2.0)  # spreads that a start is looked for at
+BESIDE = (0.75, 0.9)  # of the best size: tried too, and their inverses
+ROUGHLY = (0.3, 1.0)  # the same for a first look
+REACH = 3.0  # xi of a nuisance where a fit may start: the linear model knows no bounds
+FARTHER = 10.0  # times the fault factor: the wider prior of what is out of order
+LIMITS = FitLimits(change=0.1)  # of the objective: a twentieth of a nat decides nothing, and costs sixfold less
+GRID_MEMBERS = 2  # of a grid that are refitted: the likeliest
+GROSS = 3.0  # of the objective per reading, from which on slopes about the prior mean tell little
+
+
+def refit(study: Study, hypothesis: Hypothesis, thresholds: Thresholds, hopeless: float = inf) -> Weighed:
+    """The hypothesis at the peak of its posterior; of a grid the best member, its evidence averaged over all.
+
+    What is out of order is so by no multiple of its tolerance: of a widened parameter that would go farther than
+    REACH the prior is a mixture, with a tenth of its mass ten times as wide (a size as likely in each decade).
+    hopeless: an objective above which a fit is left where it stands. Raises NotConverged where no member comes to
+    a peak.
+    """
+    near = _refitted(study, replace(hypothesis, reach=1.0), thresholds, hopeless)
+    if not _strained(near):
+        return near
+    try:
+        far = _refitted(study, replace(hypothesis, reach=FARTHER), thresholds, hopeless)
+    except NotConverged:
+        return near
+    shares = near.log_evidence + log(1.0 - 1.0 / FARTHER), far.log_evidence - log(FARTHER)
+    return replace(max((near, far), key=lambda each: each.log_evidence), log_evidence=float(np.logaddexp(*shares)))
+
+
+def _strained(weighed: Weighed) -> bool:
+    """Whether a widened parameter lies where even its wide prior hardly lets it."""
+    posterior = weighed.posterior
+    return posterior is not None and any(
+        abs(posterior.xi[posterior.index(name)]) > REACH for name in weighed.hypothesis.widened
+    )
+
+
+def _refitted(study: Study, hypothesis: Hypothesis, thresholds: Thresholds, hopeless: float) -> Weighed:
+    """The same with one width of prior.
+
+    Members of a grid that are not refitted count as nothing, so that their average is never too high.
+    """
+    limits = replace(LIMITS, hopeless=inf if _gross(study) else hopeless)
+    members = _likeliest(study, hypothesis, thresholds)
+    found: list[tuple[Hypothesis, Posterior]] = []
+    failed: list[NotConverged] = []
+    for member in members:
+        simulator = simulator_of(study, member, thresholds.name.fault_factor)
+        try:
+            start = _start(study, simulator, member.open_names, SIZES)[1]
+            lent = _lent_slopes(study, simulator, member.open_names, start)
+            found.append((member, maximum_posterior(simulator, study.observations, start, limits, lent)))
+        except NotConverged as reason:
+            failed.append(reason)
+    if not found:
+        raise failed[0]
+    best, posterior = max(found, key=lambda each: each[1].log_evidence)
+    evidence = float(logsumexp([each.log_evidence for _, each in found])) - log(len(hypothesis.members))
+    return Weighed(best, evidence, False, posterior, _size_over_sigma(posterior, best), 0.0, None)
+
+
+def _gross(study: Study) -> bool:
+    return study.base.objective > GROSS * study.base.residual.size
+
+
+def try_refit(
+    study: Study, linear: Weighed, thresholds: Thresholds, hopeless: float = inf
+) -> tuple[Weighed, str | None]:
+    """The hypothesis refitted; where that fails as it stands in the linear model, with what failed in words."""
+    try:
+        return replace(refit(study, linear.hypothesis, thresholds, hopeless), heldout=linear.heldout), None
+    except NotConverged as reason:
+        return linear, f"{linear.hypothesis.text} could not be refitted: {reason}"
+
+
+def refit_all(
+    study: Study,
+    listed: Sequence[Weighed],
+    thresholds: Thresholds,
+    hands: Crew,
+    report: Report,
+    hopeless: float = inf,
+) -> tuple[tuple[Weighed, ...], tuple[str, ...]]:
+    """The refits of some hypotheses in their order, by a crew, and what could not be refitted."""
+    if not listed:
+        return (), ()
+    task = partial(_numbered, study, thresholds, hopeless)
+    found: dict[int, tuple[Weighed, str | None]] = {}
+    report(0, len(listed), f"fitting {', '.join(each.hypothesis.text for each in listed[: hands.workers])}")
+    for number, done in hands.do(task, list(enumerate(listed))):
+        found[number] = done
+        report(len(found), len(listed), f"fitted {done[0].hypothesis.text}")
+    ordered = [found[number] for number in range(len(listed))]
+    return tuple(each for each, _ in ordered), tuple(reason for _, reason in ordered if reason is not None)
+
+
+def _numbered(
+    study: Study, thresholds: Thresholds, hopeless: float, part: tuple[int, Weighed]
+) -> tuple[int, tuple[Weighed, str | None]]:
+    """One refit with its place in the list."""
+    number, linear = part
+    return number, try_refit(study, linear, thresholds, hopeless)
+
+
+def _likeliest(study: Study, hypothesis: Hypothesis, thresholds: Thresholds) -> list[Hypothesis]:
+    """The members of a grid that are refitted, by the linear model; where it is gross, by sizes tried in full."""
+    members = hypothesis.members
+    if len(members) <= 1:
+        return list(members)
+
+    def promised(member: Hypothesis) -> float:
+        simulator = simulator_of(study, member, thresholds.name.fault_factor)
+        return _start(study, simulator, member.open_names, SIZES)[0]
+
+    if _gross(study):
+        return sorted(members, key=promised)[:GRID_MEMBERS]
+    widths = thresholds.name.mixture_widths
+
+    def evidence(member: Hypothesis) -> float:
+        return joint_evidence(study.base, candidates_of(study, member), widths).evidence
+
+    return sorted(members, key=evidence, reverse=True)[:GRID_MEMBERS]
+
+
+@dataclass(frozen=True)
+class Look:
+    """A hypothesis glanced at: the least objective that the linear model promises, and one reached in full."""
+
+    promised: float
+    reached: float
+
+
+def first_look(study: Study, hypothesis: Hypothesis, thresholds: Thresholds) -> Look:
+    """What a few sizes of that which a hypothesis sets free leave, the nuisances linear: no fit.
+
+    For parameters whose slope tells little of what a large change does.
+    """
+    simulator = simulator_of(study, hypothesis, thresholds.name.fault_factor)
+    promised, xi = _start(study, simulator, hypothesis.open_names, ROUGHLY)
+    predicted = simulator.predict(values_at(simulator.parameters, xi))
+    left = study.base.whitening.whiten(study.observations.values - predicted)
+    return Look(promised, float(left @ left + xi @ xi))
+
+
+def _lent_slopes(study: Study, simulator: Simulator, names: tuple[str, ...], start: Array) -> Array:
+    """Slopes (N, C, k) to set out with: of nuisances at the prior mean, of what is free at the start."""
+    base = study.base
+    at_base = base.whitening.unwhiten(base.slopes)
+    known = {parameter.name for parameter in base.parameters} - set(names)
+    values = values_at(simulator.parameters, start)
+    fresh = [parameter for parameter in simulator.parameters if parameter.name not in known]
+    columns = {one.name: simulator.slopes(values, (one.name,))[..., 0] for one in fresh}
+    return np.stack(
+        [
+            at_base[..., base.index(parameter.name)]
+            if parameter.name in known
+            else columns[parameter.name] * parameter.stretch(float(xi))
+            for parameter, xi in zip(simulator.parameters, start, strict=True)
+        ],
+        axis=-1,
+    )
+
+
+def _start(
+    study: Study, simulator: Simulator, names: tuple[str, ...], sizes: tuple[float, ...]
+) -> tuple[float, Array]:
+    """The objective and xi where a fit starts: of the sizes tried what leaves least, the nuisances linear.
+
+    What a hypothesis sets free is tried one after the other, in full; its slope at nothing may tell little of it
+    (a threshold, a film twice as thick). The best size is tried again a little smaller and larger.
+    """
+    nuisances = _Nuisances(study, simulator, names)
+    least, start = nuisances.settled(np.zeros(len(simulator.parameters)))
+    for name in names:
+        at = [parameter.name for parameter in simulator.parameters].index(name)
+        rest = np.where(nuisances.free, 0.0, start)
+        for size in _signed(sizes, simulator.parameters[at]):
+            least, start = _better(nuisances, _with(rest, at, size), least, start)
+        for beside in BESIDE if start[at] != rest[at] else ():
+            for size in (beside * start[at], start[at] / beside):
+                least, start = _better(nuisances, _with(rest, at, size), least, start)
+    return least, start
+
+
+def _with(xi: Array, at: int, size: float) -> Array:
+    changed = xi.copy()
+    changed[at] = size
+    return changed
+
+
+def _better(nuisances: _Nuisances, trial: Array, least: float, start: Array) -> tuple[float, Array]:
+    """The trial's objective and xi with the nuisances settled where that is less, else those so far."""
+    try:
+        objective, settled = nuisances.settled(nuisances.bounds.within(trial))
+    except NotConverged:
+        return least, start
+    return (objective, settled) if objective < least else (least, start)
+
+
+def _signed(sizes: tuple[float, ...], parameter: Parameter) -> list[float]:
+    tried = [size for one in sizes for size in (one, -one)]
+    return [size for size in tried if parameter.lowest <= size <= parameter.highest]
+
+
+class _Nuisances:
+    """What the null has and a hypothesis does not set free, with its slopes at the prior mean."""
+
+    def __init__(self, study: Study, simulator: Simulator, names: tuple[str, ...]) -> None:
+        self.study, self.simulator = study, simulator
+        known = {parameter.name for parameter in study.base.parameters} - set(names)
+        self.free = np.array([parameter.name in known for parameter in simulator.parameters])
+        kept = [parameter.name for parameter in simulator.parameters if parameter.name in known]
+        self.slopes = study.base.slopes[:, [study.base.index(name) for name in kept]]
+        self.factor = cho_factor(self.slopes.T @ self.slopes + np.eye(len(kept)))
+        self.bounds = Bounds.of(simulator.parameters)
+
+    def settled(self, xi: Array) -> tuple[float, Array]:
+        """The objective and xi once the nuisances, 0 in `xi`, follow in the linear model.
+
+        Raises NotConverged where the simulator does.
+        """
+        predicted = self.simulator.predict(values_at(self.simulator.parameters, xi))
+        offset = self.study.base.whitening.whiten(self.study.observations.values - predicted)
+        taken = cho_solve(self.factor, self.slopes.T @ offset)
+        left = offset - self.slopes @ taken
+        settled = xi.copy()
+        settled[self.free] = np.clip(taken, -REACH, REACH)
+        return float(left @ left + taken @ taken + xi @ xi), self.bounds.within(settled)
+
+
+def _size_over_sigma(posterior: Posterior, hypothesis: Hypothesis) -> float:
+    """xi over its sigma of what a hypothesis sets free, the largest."""
+    places = [posterior.index(name) for name in hypothesis.open_names]
+    sizes = [float(posterior.xi[at] / np.sqrt(posterior.covariance[at, at])) for at in places]
+    return max(sizes, key=abs, default=0.0)

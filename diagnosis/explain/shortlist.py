@@ -1,0 +1,74 @@
+"""Which explanations are worth a refit."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from scipy.stats import chi2
+
+from diagnosis.detect.mismatch import Detection
+from diagnosis.explain.ranked import Weighed, with_probabilities
+from diagnosis.explain.refit import Look, first_look
+from diagnosis.study.model import Study
+from diagnosis.thresholds import Thresholds
+from system.effects.effect import Kind
+from system.inputs.errors import NotConverged
+
+PARAMETERS = 4  # wrong parameters that are refitted in any case where there is a mismatch
+
+
+def is_settled(detection: Detection, null: Weighed, thresholds: Thresholds) -> bool:
+    """Whether nothing speaks against the null's own refit: no candidate's score, no goodness of fit."""
+    fit = null.posterior
+    if fit is None:
+        return False
+    p_value = float(chi2.sf(fit.objective, fit.residual.size))
+    limits = thresholds.mismatch
+    return detection.chance >= limits.suspicion and p_value >= limits.chance
+
+
+def shortlist(screened: Sequence[Weighed], settled: bool, thresholds: Thresholds) -> tuple[Weighed, ...]:
+    """The explanations of the catalogue to refit: those within the gap of the best in the linear model.
+
+    Where the null holds, only those that gain on it, and none while the null is not improbable: a verdict needs
+    both.
+    """
+    limits = thresholds.name
+    ranked = _ranked(screened)
+    null = next(each for each in with_probabilities(screened, limits.temperature) if _is_null(each))
+    if not ranked or (settled and null.probability >= thresholds.mismatch.null_probability):
+        return ()
+    least = max(
+        ranked[0].log_evidence - limits.shortlist_gap,
+        null.log_evidence if settled else -float("inf"),
+    )
+    return tuple(each for each in ranked[: limits.shortlist] if each.log_evidence > least)
+
+
+def wrong_parameters(
+    study: Study, screened: Sequence[Weighed], thresholds: Thresholds
+) -> tuple[tuple[Weighed, Look], ...]:
+    """Wrong parameters to refit where there is a mismatch, each with its first look.
+
+    Large changes of a film move the slopes of all others, so that the linear model puts them anywhere; those that
+    leave least at a first look are refitted.
+    """
+    wrong = [each for each in _ranked(screened) if each.hypothesis.kind is Kind.WRONG_PARAMETER]
+    looks = [(each, _look(study, each, thresholds)) for each in wrong]
+    return tuple(sorted(looks, key=lambda look: look[1].promised)[:PARAMETERS])
+
+
+def _ranked(screened: Sequence[Weighed]) -> list[Weighed]:
+    """Those of the catalogue, the likeliest in the linear model first."""
+    return sorted((each for each in screened if each.hypothesis.open_names), key=lambda each: -each.log_weight)
+
+
+def _is_null(each: Weighed) -> bool:
+    return each.hypothesis.kind is Kind.NO_MISMATCH
+
+
+def _look(study: Study, wrong: Weighed, thresholds: Thresholds) -> Look:
+    try:
+        return first_look(study, wrong.hypothesis, thresholds)
+    except NotConverged:
+        return Look(float("inf"), float("inf"))

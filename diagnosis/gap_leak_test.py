@@ -1,0 +1,110 @@
+"""The leak of one gap measured by itself: what tells two explanations apart that no point of a bench does.
+
+Explanations that act at different gaps move the case drain alike: each takes from one gap what the other gives to
+it, within what is known of the films.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from diagnosis.next_point.choose import READINGS, SETTLED
+from diagnosis.next_point.forecast import Contender, Forecast
+from diagnosis.next_point.operating_box import BenchBox
+from diagnosis.recording.units import channel_unit, difference, reading
+from diagnosis.report.format import PLACES
+from diagnosis.study.model import Study
+from reynolds.numerics.arrays import Array
+from system.bench.points import BenchPoints
+from system.description.gap import Gap
+from system.effects.components import Component
+from system.estimation.posterior import values_at
+from system.inputs.channels import ChannelName
+
+LEAKS: Mapping[Gap, Component] = {
+    Gap.PISTON: Component.PISTON_LEAKAGE,
+    Gap.SLIPPER: Component.SLIPPER_LEAKAGE,
+    Gap.VALVE_PLATE: Component.PLATE_LEAKAGE,
+}
+RELATIVE = 0.01  # one sigma of such a measurement, beside that of the case drain's meter
+STEP = 0.1  # of slopes, in spreads of a parameter
+
+
+@dataclass(frozen=True)
+class OwnLeak:
+    """Leak of one gap at a point as two explanations have it, SI, with one sigma of a reading; nats it brings."""
+
+    gap: Gap
+    point: BenchPoints
+    leaks: tuple[float, float]
+    sigma: float
+    gain: float
+
+    @property
+    def text(self) -> str:
+        """What to measure, where, and what is to be expected."""
+        drain, unit = ChannelName.Q_CASE, channel_unit(ChannelName.Q_CASE)
+        one, other = (f"{reading(drain, leak):.3g}" for leak in self.leaks)
+        at = {
+            ChannelName.SPEED: self.point.speed,
+            ChannelName.P_OUT: self.point.p_out,
+            ChannelName.T_CASE: self.point.T_case,
+        }
+        where = ", ".join(f"{each.value} {reading(each, v[0]):.4g} {channel_unit(each)}" for each, v in at.items())
+        return (
+            f"The leak of {PLACES[self.gap]} by itself would, by a drain of its own or a gauge of the film: at "
+            f"{where} it is {one} {unit} by the one and {other} {unit} by the other, to be known to "
+            f"{difference(drain, self.sigma):.2g} {unit}."
+        )
+
+
+def own_leak(study: Study, box: BenchBox, first: Contender, second: Contender) -> OwnLeak | None:
+    """The gap whose leak tells the two apart best at the box's highest pressure; None where none settles them.
+
+    Settled: by READINGS readings odds of 20 to 1 on average, whichever of the two is true. None too where the case
+    drain is not measured: its meter's noise is that of the leak's.
+    """
+    meter = study.recording.channel(ChannelName.Q_CASE)
+    if meter is None or ChannelName.Q_CASE not in study.channels:
+        return None
+    place = _loaded(box)
+    known = [_leaks(study, contender, place) for contender in (first, second)]
+    found = []
+    for at, gap in enumerate(LEAKS):
+        (one, one_spread), (other, other_spread) = ((leak[at], spread[at]) for leak, spread in known)
+        sigma = meter.sigma + RELATIVE * abs(one)
+        first_spread, second_spread = (np.array([[each @ each / sigma**2]]) for each in (one_spread, other_spread))
+        gain = Forecast(np.array([(other - one) / sigma]), first_spread, second_spread).gain(READINGS)
+        found.append(OwnLeak(gap, place, (float(one), float(other)), float(sigma), gain))
+    best = max(found, key=lambda each: each.gain)
+    return best if best.gain >= SETTLED else None
+
+
+def _loaded(box: BenchBox) -> BenchPoints:
+    """The point of highest pressure and displacement at the middle of speeds and temperatures."""
+    speed, pressure, ratio, temperature = box.ends
+    levels = (sum(speed) / 2.0, pressure[1], ratio[1], sum(temperature) / 2.0)
+    return box.points(tuple(np.array([level]) for level in levels))
+
+
+def _leaks(study: Study, contender: Contender, point: BenchPoints) -> tuple[Array, Array]:
+    """Leaks (3,) in SI at a point, and the factor (3, k) of the covariance that the parameters give them."""
+    there, xi = contender.simulator.elsewhere(point), contender.posterior.xi
+    drain = study.channels.index(ChannelName.Q_CASE)
+
+    def leaks(numbers: Array) -> Array:
+        parts = there.components(values_at(there.parameters, numbers))
+        return np.array([parts[component][0, drain] for component in LEAKS.values()])
+
+    def columns(here: Array) -> Iterator[Array]:
+        for at in range(xi.size):
+            moved = xi.copy()
+            moved[at] += STEP if there.parameters[at].highest >= xi[at] + STEP else -STEP
+            yield (leaks(moved) - here) / (moved[at] - xi[at])
+
+    here = leaks(xi)
+    slopes = np.stack(list(columns(here)), axis=1)
+    return here, slopes @ np.linalg.cholesky(contender.posterior.covariance)

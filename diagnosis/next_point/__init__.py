@@ -1,0 +1,1 @@
+"""The next operating point to record: operating box, forecast, choice."""

@@ -1,0 +1,152 @@
+"""The next point to record: where two explanations part the most, and whether three readings there settle them.
+
+What readings at a point would tell is the divergence of the two predictive distributions (Kullback and Leibler
+1951; Box and Hill 1967).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import log
+
+import numpy as np
+
+from diagnosis.next_point.forecast import Contender, Forecast, forecasts, foretold, readings
+from diagnosis.next_point.operating_box import BenchBox, rows
+from diagnosis.study.model import Study
+from reynolds.numerics.arrays import Array
+from system.bench.points import BenchPoints, operating_at
+from system.description.pump import PumpDescription
+from system.effects.effect import EffectId
+from system.inputs.units import Dimension, format_quantity
+from system.pump.operating import OperatingPoint
+
+READINGS = 3  # at the point that is asked for
+SETTLED = log(20.0)  # nats: odds of 20 to 1
+PROMISED = 0.8  # chance of that, from which a point is said to settle a pair
+ENOUGH = 5.0  # nats: odds of 150 to 1, that readings at the point are to bring
+MOST_REPEATS = 20
+LOOKED_AT = 48  # points whose slopes are asked for: those where the predictions part the most
+LEVELS = (6, 6, 3, 3)  # of speed, delivery pressure, displacement ratio, case temperature over the box
+
+
+@dataclass(frozen=True)
+class Gained:
+    """A point and what READINGS readings there bring at least, in nats; temperatures as of a `NextPoint`."""
+
+    point: OperatingPoint
+    inlet_temperature: float
+    gain: float
+
+
+@dataclass(frozen=True)
+class NextPoint:
+    """The best point of a box for two explanations, and what READINGS readings there do to their odds.
+
+    point.temperature is that of the case; inlet_temperature, in K, what it goes with in the recording. between:
+    the two in words, the likelier first; separates: their ids. before: ln odds of the first against the second by
+    the recording; gain: nats that the readings bring on average, whichever of the two is true; after: ln odds for
+    the true one that they lead to on average, and chance of odds of 20 to 1 for it, each the lesser of both cases.
+    repeats: readings that bring ENOUGH nats, None where MOST_REPEATS do not;
+    why: in words; ranked: all points whose gain was asked for, this one first; instead: what would settle the two
+    where the point does not, in words; beyond: the box goes beyond what was recorded.
+    """
+
+    box: BenchBox
+    point: OperatingPoint
+    inlet_temperature: float
+    between: tuple[str, str]
+    separates: tuple[EffectId, ...]
+    before: float
+    gain: float
+    after: float
+    chance: float
+    repeats: int | None
+    why: str
+    ranked: tuple[Gained, ...] = ()
+    beyond: bool = False
+    instead: str = ""
+
+    @property
+    def settles(self) -> bool:
+        """Whether the point is said to settle the two: odds of 20 to 1 are likely, whichever of them is true."""
+        return self.chance >= PROMISED
+
+    @property
+    def is_open(self) -> bool:
+        """Whether the recording leaves the odds of the two below 20 to 1."""
+        return abs(self.before) < SETTLED
+
+
+def next_point(
+    study: Study, pump: PumpDescription, box: BenchBox, first: Contender, second: Contender
+) -> NextPoint:
+    """The point of a box at which READINGS readings separate two explanations best."""
+    points = box.points(tuple(_levels(*ends, count) for ends, count in zip(box.ends, LEVELS, strict=True)))
+    best = np.sort(np.argsort(_parting(study, first, second, points))[::-1][:LOOKED_AT])
+    some = rows(points, best)
+    found = list(forecasts(study, first, second, some))
+    gains = [forecast.gain(READINGS) for forecast in found]
+    order = np.argsort(gains)[::-1]
+    at = int(order[0])
+    ranked = tuple(
+        Gained(operating_at(pump, some, place), float(some.T_in[place]), gains[place]) for place in order
+    )
+    before = log(first.probability / second.probability)
+    after, chance = _led_to(found[at], before)
+    return NextPoint(
+        box=box,
+        point=ranked[0].point,
+        inlet_temperature=ranked[0].inlet_temperature,
+        between=(first.text, second.text),
+        separates=tuple(dict.fromkeys((*first.effects, *second.effects))),
+        before=before,
+        gain=gains[at],
+        after=after,
+        chance=chance,
+        repeats=next((n for n in range(1, MOST_REPEATS + 1) if found[at].gain(n) >= ENOUGH), None),
+        why=_why(study, first, second, rows(some, np.array([at]))),
+        ranked=ranked,
+    )
+
+
+def gains_at(study: Study, first: Contender, second: Contender, points: BenchPoints) -> Array:
+    """(N,), nats that READINGS readings at each of the points bring at least, whichever of the two is true."""
+    return np.array([forecast.gain(READINGS) for forecast in forecasts(study, first, second, points)])
+
+
+def _led_to(forecast: Forecast, before: float) -> tuple[float, float]:
+    """ln odds for the true one after READINGS readings, chance of SETTLED, each the lesser of both cases."""
+    cases = list(zip((before, -before), forecast.brought(READINGS), strict=True))
+    after = min(odds + told.mean for odds, told in cases)
+    return after, min(told.chance(SETTLED - odds) for odds, told in cases)
+
+
+def _levels(lower: float, upper: float, count: int) -> Array:
+    return np.linspace(lower, upper, count) if upper > lower else np.array([lower])
+
+
+def _parting(study: Study, first: Contender, second: Contender, points: BenchPoints) -> Array:
+    """(N,), sum over the channels of the squared difference of the two predictions, in sigma of a reading."""
+    one, other = (foretold(contender, points) for contender in (first, second))
+    read = readings(study, one)
+    squares = np.where(read.measured, ((one - other) / read.sigma) ** 2, 0.0)
+    return np.asarray(squares.sum(axis=1), dtype=float)
+
+
+def _why(study: Study, first: Contender, second: Contender, point: BenchPoints) -> str:
+    """In words: the channel in which the two part the most at the point, and by how much."""
+    one, other = (foretold(contender, point)[0] for contender in (first, second))
+    read = readings(study, one[None])
+    apart = np.where(read.measured[0], np.abs(other - one) / read.sigma[0], 0.0)
+    most = int(np.argmax(apart))
+    channel = read.channels[most]
+    told = [_told(value[most], channel.dimension) for value in (one, other)]
+    return (
+        f"there {channel.name} is {told[0]} by {first.text} and {told[1]} by {second.text}, "
+        f"{apart[most]:.1f} sigma of one reading apart"
+    )
+
+
+def _told(value: float, dimension: Dimension | None) -> str:
+    return f"{value:.4g}" if dimension is None else format_quantity(float(value), dimension, digits=4)

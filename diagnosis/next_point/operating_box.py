@@ -1,0 +1,112 @@
+"""The box of operating points that the rig of a recording can be asked for, and points in it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from diagnosis.recording.model import Recording
+from diagnosis.study.inputs import bench_points, measured
+from reynolds.numerics.arrays import Array
+from system.bench.points import BenchPoints
+from system.description.pump import PumpDescription
+from system.inputs.channels import INPUTS, ChannelName
+
+BEYOND = 0.1  # of a range as recorded, beyond each of its ends
+SLOW, UNLOADED, SWIVELLED = 0.25, 0.1, 0.2  # of rated speed, rise of pressure, displacement: least on a bench
+COLD, HOT = 303.15, 353.15  # K: inlet temperatures that a bench with heater and cooler holds
+VARIED = 0.05  # of the greatest displacement ratio: a pump that was swivelled so far can be
+
+
+@dataclass(frozen=True)
+class BenchBox:
+    """Ends of speed, delivery pressure, displacement ratio, case temperature, SI; all else is held.
+
+    inlet_pressure, case_pressure in Pa gauge; warmer: case over inlet temperature in K; last: order and hours of
+    the recording's end.
+    """
+
+    ends: tuple[tuple[float, float], ...]
+    inlet_pressure: float
+    case_pressure: float
+    warmer: float
+    last: tuple[float, float]
+
+    def points(self, levels: Sequence[Array]) -> BenchPoints:
+        """Every combination of levels of the four axes, taken after the recording's last point."""
+        speed, pressure, ratio, temperature = (axis.ravel() for axis in np.meshgrid(*levels, indexing="ij"))
+        order, hours = self.last
+        return BenchPoints(
+            speed=speed,
+            displacement_ratio=ratio,
+            p_out=pressure,
+            p_in=np.full(speed.size, self.inlet_pressure),
+            p_case=np.full(speed.size, self.case_pressure),
+            T_case=temperature,
+            T_in=temperature - self.warmer,
+            hours=np.full(speed.size, hours),
+            order=np.full(speed.size, order),
+        )
+
+
+def rows(points: BenchPoints, chosen: NDArray[np.int64]) -> BenchPoints:
+    """Some of the points."""
+    return replace(points, **{name: values[chosen] for name, values in vars(points).items()})
+
+
+def rig_box(recording: Recording, pump: PumpDescription) -> BenchBox:
+    """The ranges of a recording and a tenth beyond each end, within the pump's rating and its full displacement.
+
+    Delivery pressure is counted from the inlet's: a pump raises it. What was not measured is as a simulation of
+    the recording takes it (`diagnosis.study.readings.bench_points`); other pressures and the difference of case
+    and inlet temperature stay at their median.
+    """
+    points, _ = bench_points(recording, pump)
+    rated, inlet = pump.pump, float(np.median(points.p_in))
+    least, most = _ends(points.p_out - inlet, rated.rated_pressure - inlet)
+    return BenchBox(
+        ends=(
+            _ends(points.speed, rated.rated_speed),
+            (inlet + least, inlet + most),
+            _ends(points.displacement_ratio, 1.0),
+            _ends(points.T_case, np.inf),
+        ),
+        inlet_pressure=inlet,
+        case_pressure=float(np.median(points.p_case)),
+        warmer=float(np.median(points.T_case - points.T_in)),
+        last=(float(points.order.max()) + 1.0, float(points.hours.max())),
+    )
+
+
+def ordinary_box(recording: Recording, pump: PumpDescription) -> BenchBox:
+    """The box of `rig_box`, widened to what an ordinary bench reaches along each axis that was measured.
+
+    From a quarter of the rated speed and a tenth of the rated rise of pressure to both, displacement from a fifth
+    to all where the pump was swivelled, the inlet at 30 to 80 degC.
+    """
+    box, rated = rig_box(recording, pump), pump.pump
+    known = set(measured(recording, INPUTS))
+    least_ratio, most_ratio = box.ends[2]
+    swivels = most_ratio - least_ratio > VARIED * most_ratio
+    wide = (
+        (SLOW * rated.rated_speed, rated.rated_speed),
+        (box.inlet_pressure + UNLOADED * (rated.rated_pressure - box.inlet_pressure), rated.rated_pressure),
+        (SWIVELLED, 1.0) if swivels else box.ends[2],
+        (COLD + box.warmer, HOT + box.warmer),
+    )
+    axes = (ChannelName.SPEED, ChannelName.P_OUT, ChannelName.DISPLACEMENT_RATIO, ChannelName.T_CASE)
+    ends = tuple(
+        (min(own[0], more[0]), max(own[1], more[1])) if axis in known else own
+        for axis, own, more in zip(axes, box.ends, wide, strict=True)
+    )
+    return replace(box, ends=ends)
+
+
+def _ends(values: Array, rating: float) -> tuple[float, float]:
+    """A range widened: not beyond the rating unless the recording went there itself, not below half its least."""
+    lower, upper = float(values.min()), float(values.max())
+    more = BEYOND * (upper - lower)
+    return max(lower - more, 0.5 * lower), min(upper + more, max(rating, upper))

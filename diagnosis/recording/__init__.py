@@ -1,0 +1,1 @@
+"""A recording folder read: channels, steady points, traces."""

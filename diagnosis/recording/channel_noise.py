@@ -1,0 +1,111 @@
+"""Noise and calibration of a channel: what the recording states, else what its data or its class tell."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from diagnosis.recording.channel_form import AccuracyClass, ChannelForm
+from diagnosis.recording.model import RecordedChannel
+from reynolds.numerics.arrays import Array
+from system.inputs.channels import ChannelName
+from system.inputs.units import Dimension
+
+LEAST_GAIN = 1e-3
+SETTING_SHARE = 5e-4  # of full displacement: how well a swash angle is set where nothing is stated
+ENCODER = math.radians(0.3)
+FEWEST_READINGS = 20  # different ones from which a step is read off
+
+# Limits of the classes A, B, C of ISO 4409 as they are commonly quoted. The standard's own table was not at hand
+# to hold them against: a calibration that matters is better stated by the recording than by a class.
+_SHARES = {AccuracyClass.A: 0.005, AccuracyClass.B: 0.01, AccuracyClass.C: 0.02}
+_FLOW_SHARES = {AccuracyClass.A: 0.005, AccuracyClass.B: 0.015, AccuracyClass.C: 0.025}
+_KELVIN = {AccuracyClass.A: 0.5, AccuracyClass.B: 1.0, AccuracyClass.C: 2.0}
+_LOW_PRESSURE = {AccuracyClass.A: 1e3, AccuracyClass.B: 3e3, AccuracyClass.C: 5e3}
+LOW_PRESSURE = 2e5  # Pa gauge, below which a class gives a pressure and no share
+
+
+def recorded_channel(form: ChannelForm, readings: Array, found: float | None) -> RecordedChannel | None:
+    """Return a channel with noise and calibration in SI; None where its repeatability is neither stated nor found.
+
+    found: repeatability from the data (replicates, window scatter), or None. Calibration that is not stated is
+    that of the accuracy class, else gain = max(sigma_relative, 0.1 %) and zero = sigma, or class A where sigma is
+    not stated either (scatter says nothing of calibration); a displacement ratio of sigma 0 is a setting, good to
+    0.05 % of full. `assumed` names every field so taken.
+    """
+    assumed = []
+    sigma, relative = form.sigma, form.sigma_relative
+    if sigma is None and relative is None:
+        sigma = 0.0 if form.name is ChannelName.DISPLACEMENT_RATIO else found
+        if sigma is None:
+            return None
+        assumed.append("sigma")
+    sigma, relative = sigma or 0.0, relative or 0.0
+    if form.name.dimension is Dimension.PRESSURE:
+        sigma -= relative * form.offset  # a share of the reading, which may be absolute
+    quantum = form.quantum
+    commanded = form.name is ChannelName.DISPLACEMENT_RATIO and sigma == 0.0
+    if quantum is None:
+        quantum = 0.0 if commanded else reading_step(readings, form)  # round levels are no steps of a reading
+        assumed += ["quantum"] if quantum else []
+    gain, zero = form.gain, form.zero
+    usual_gain, usual_zero = _calibration(form, sigma, relative, readings)
+    assumed += ["gain"] if gain is None and usual_gain else []
+    assumed += ["zero"] if zero is None and usual_zero else []
+    return RecordedChannel(
+        name=form.name,
+        column=form.column,
+        unit=form.unit,
+        sigma=float(sigma),
+        sigma_relative=relative,
+        quantum=quantum,
+        lag=form.lag or 0.0,
+        gain_sigma=usual_gain if gain is None else gain,
+        zero_sigma=usual_zero if zero is None else zero,
+        assumed=tuple(assumed),
+    )
+
+
+def reading_step(readings: Array, form: ChannelForm) -> float:
+    """Return the step of a channel's readings in SI, 0 where none is seen.
+
+    The largest of 1, 2, 2.5 and 5 times a power of ten, in the file's unit, of which every reading is a multiple;
+    told from at least `FEWEST_READINGS` different ones.
+    """
+    known = np.unique(readings[np.isfinite(readings)])
+    if len(known) < FEWEST_READINGS:
+        return 0.0
+    numbers = (known - form.offset) / form.factor
+    top = math.floor(math.log10(max(float(np.max(np.abs(numbers))), 1e-300)))
+    for power in range(top, top - 8, -1):
+        for digit in (5.0, 2.5, 2.0, 1.0):
+            steps = numbers / (digit * 10.0**power)
+            if np.all(np.abs(steps - np.round(steps)) < 1e-6 * np.maximum(np.abs(steps), 1.0) + 1e-6):
+                return digit * 10.0**power * form.factor
+    return 0.0
+
+
+def _calibration(form: ChannelForm, sigma: float, relative: float, readings: Array) -> tuple[float, float]:
+    """One sigma of gain and zero where none is stated.
+
+    A class gives limits (see above); a limit L of even likelihood within has one sigma of L/sqrt 3 (GUM 4.3.7).
+    """
+    name, dimension = form.name, form.name.dimension
+    if name is ChannelName.ANGLE:
+        return 0.0, ENCODER
+    accuracy = form.accuracy
+    if accuracy is None and form.sigma is None and form.sigma_relative is None:
+        accuracy = AccuracyClass.A
+    if accuracy is not None and dimension is not None:
+        low = dimension is Dimension.PRESSURE and np.nanmax(np.abs(readings)) < LOW_PRESSURE
+        if dimension is Dimension.TEMPERATURE:
+            return 0.0, _KELVIN[accuracy] / math.sqrt(3.0)
+        if low:
+            return 0.0, _LOW_PRESSURE[accuracy] / math.sqrt(3.0)
+        wide = dimension in (Dimension.VOLUME_FLOW, Dimension.PRESSURE)
+        return (_FLOW_SHARES if wide else _SHARES)[accuracy] / math.sqrt(3.0), 0.0
+    if name is ChannelName.DISPLACEMENT_RATIO:
+        return 0.0, max(sigma, SETTING_SHARE)
+    gain = 0.0 if dimension is Dimension.TEMPERATURE else max(relative, LEAST_GAIN)
+    return gain, sigma

@@ -1,0 +1,46 @@
+"""Tables and columns that a recording names: found, or told as faults; what the tables tell is noted."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from diagnosis.recording.model import DataNote, NoteKind
+from diagnosis.recording.tables.read import read_columns
+from diagnosis.recording.tables.table import Columns, TableFault, TableSource
+from reynolds.numerics.arrays import Array
+from system.inputs.faults import Fault, nearest_choice
+
+
+@dataclass
+class ColumnReader:
+    """Gathers faults and notes of one recording while its tables are read."""
+
+    faults: list[Fault]
+    notes: list[DataNote] = field(default_factory=list)
+
+    def fault(self, path: str, found: str, expected: str, nearest: str = "") -> None:
+        """Tell of one fault."""
+        self.faults.append(Fault(path, found, expected, nearest))
+
+    def note(self, text: str) -> None:
+        """Note what was done with the data, which is no fault."""
+        self.notes.append(DataNote(NoteKind.TOLD, None, (), text))
+
+    def columns(self, section: str, source: TableSource) -> Columns | None:
+        """The columns of a section's table; None with the fault told."""
+        try:
+            columns = read_columns(source)
+        except TableFault as reason:
+            self.fault(f"{section}.file", reason.found, reason.expected, reason.nearest)
+            return None
+        for words in columns.told:
+            self.note(f"{source.path.name}: {words}")
+        return columns
+
+    def column(self, path: str, name: str, columns: Columns) -> Array | None:
+        """A column by name, for the key at `path`; None with the fault told."""
+        if name in columns.values:
+            return columns.values[name]
+        expected = f"one of the columns {', '.join(columns.values)}"
+        self.fault(path, repr(name), expected, nearest_choice(name, columns.values))
+        return None

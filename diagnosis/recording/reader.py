@@ -1,0 +1,188 @@
+"""A recording from its folder: form, tables, units, noise, traces; everything that is wrong at once."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from diagnosis.recording.channel_form import ChannelForm
+from diagnosis.recording.channel_noise import recorded_channel
+from diagnosis.recording.columns import ColumnReader
+from diagnosis.recording.form import RecordingForm, SeriesForm, SteadyForm, read_form
+from diagnosis.recording.model import RecordedChannel, Recording, SteadyTable
+from diagnosis.recording.replicates import repeatability, set_points
+from diagnosis.recording.series_points import series_points
+from diagnosis.recording.tables.table import Columns, TableFault
+from diagnosis.recording.trace_reader import ReadTraces, read_traces
+from reynolds.numerics.arrays import Array
+from system.inputs.channels import INPUTS, ChannelName
+from system.inputs.faults import Fault, InputFaults, nearest_path
+from system.inputs.toml_table import Table, fault_lines, read_toml
+from system.inputs.units import QuantityError, unit_scale
+
+FILE = "recording.toml"
+
+
+def read_recording(path: Path) -> Recording:
+    """Return a recording as understood, in SI with gauge pressures: from its folder, its `recording.toml`, or a
+    table that has a `recording.toml` beside it (then the table's file need not be stated, and is that one).
+
+    Raises InputFaults with everything that is wrong with the file, its tables and their columns. What the readings
+    themselves tell is for `data_checks.check_recording`.
+    """
+    if not path.exists():
+        expected = f"a recording's folder, its {FILE}, or a table beside one"
+        raise InputFaults(str(path), [Fault("file", "no such file", expected, nearest_path(path))])
+    stated, data = _places(path)
+    text, tables = read_toml(stated)
+    top = Table("", tables, [])
+    form = read_form(top, stated.parent, data)
+    reader = ColumnReader(top.faults)
+    recording = None if form is None else _recording(form, reader)
+    if recording is None or top.faults:
+        raise InputFaults(str(stated), top.faults, fault_lines(text, top.faults))
+    return recording
+
+
+def _places(path: Path) -> tuple[Path, Path | None]:
+    """The recording.toml that belongs to a path, and the table that the path is, if it is one."""
+    if path.is_dir():
+        return path / FILE, None
+    if path.suffix.lower() == ".toml":
+        return path, None
+    return path.parent / FILE, path
+
+
+@dataclass(frozen=True)
+class _Points:
+    """Readings (N, C) by channel of the form; set points, hours, samples behind each, their standard errors (N, C)
+    where they are means, and the table's own columns where its rows are the points.
+    """
+
+    readings: Array
+    numbers: NDArray[np.int64]
+    hours: Array
+    effective: Array
+    errors: Array | None
+    columns: Mapping[str, Array]
+
+
+def _recording(form: RecordingForm, reader: ColumnReader) -> Recording | None:
+    """The recording of a form; None with the faults told."""
+    section = "steady" if isinstance(form.points, SteadyForm) else "series"
+    columns = reader.columns(section, form.points.source)
+    points = None if columns is None else _points(section, form, columns, reader)
+    if points is None:
+        return None
+    if not form.reference_stated and any(channel.is_pressure for channel in form.channels):
+        reader.note("pressure_reference is not stated: pressures are taken as gauge")
+    channels = _channels(form.channels, points, reader)
+    traces = ReadTraces()
+    if form.traces is not None:
+        rows = points.columns.get(form.traces.point)
+        traces = read_traces(form.traces, reader, rows, len(points.readings))
+    values = np.full((len(points.readings), len(ChannelName)), np.nan)
+    values[:, [list(ChannelName).index(channel.name) for channel in form.channels]] = points.readings
+    steady = SteadyTable(values, points.numbers, points.hours, points.effective)
+    channels += traces.channels
+    for channel in channels:
+        if channel.assumed:
+            reader.note(_assumed(channel))
+    return Recording(
+        form.title, form.pump, form.oil, form.circuit, channels, steady, traces.blocks, tuple(reader.notes)
+    )
+
+
+def _points(section: str, form: RecordingForm, columns: Columns, reader: ColumnReader) -> _Points | None:
+    """The steady points; None with the faults told."""
+    found = [reader.column(f"channel.{c.name.value}.column", c.column, columns) for c in form.channels]
+    timed = form.points.time
+    time = None if timed is None else reader.column(f"{section}.time.column", timed.column, columns)
+    _hold_units(form.channels, columns, reader)
+    known = [column for column in found if column is not None]
+    if len(known) < len(found) or (timed is not None and time is None):
+        return None
+    readings = np.stack([c.si(column) for c, column in zip(form.channels, known, strict=True)], axis=1)
+    seconds = None if timed is None or time is None else timed.factor * time
+    if isinstance(form.points, SteadyForm):
+        return _steady_points(form.points, readings, seconds, columns, reader)
+    return None if seconds is None else _series_points(form.points, readings, seconds, form.channels, reader)
+
+
+def _hold_units(channels: Sequence[ChannelForm], columns: Columns, reader: ColumnReader) -> None:
+    """Note each channel of which the table itself says another unit than is stated."""
+    for channel in channels:
+        told, dimension = columns.units.get(channel.column, ""), channel.name.dimension
+        try:
+            own = unit_scale(told, dimension) if told and dimension else None
+        except QuantityError:
+            continue
+        if own is not None and dimension and not math.isclose(own[0], unit_scale(channel.unit, dimension)[0]):
+            reader.note(f"{channel.name.value}: read in {channel.unit} as stated; the table says {told}")
+
+
+def _steady_points(
+    form: SteadyForm, readings: Array, seconds: Array | None, columns: Columns, reader: ColumnReader
+) -> _Points | None:
+    """Rows of a steady table as they stand."""
+    count = len(readings)
+    marks = reader.column("steady.repeats", form.repeats, columns) if form.repeats else None
+    if form.repeats and marks is None:
+        return None
+    numbers = np.arange(count, dtype=np.int64) if marks is None else set_points(marks)
+    hours = np.full(count, np.nan) if seconds is None else (seconds - seconds[0]) / 3600.0
+    return _Points(readings, numbers, hours, np.ones(count), None, columns.values)
+
+
+def _series_points(
+    form: SeriesForm, readings: Array, seconds: Array, channels: Sequence[ChannelForm], reader: ColumnReader
+) -> _Points | None:
+    """Means over the steady stretches of a series."""
+    try:
+        series = series_points(form, seconds, readings, channels)
+    except TableFault as reason:
+        reader.fault("series", reason.found, reason.expected, reason.nearest)
+        return None
+    reader.note(series.told)
+    numbers = np.arange(len(series.means), dtype=np.int64)
+    return _Points(series.means, numbers, series.hours, series.effective, series.errors, {})
+
+
+def _channels(forms: Sequence[ChannelForm], points: _Points, reader: ColumnReader) -> tuple[RecordedChannel, ...]:
+    """Channels with their noise; a fault for each whose repeatability is not to be had."""
+    inputs = points.readings[:, [k for k, form in enumerate(forms) if form.name in INPUTS]]
+    channels = []
+    for k, form in enumerate(forms):
+        followed = inputs[:, :0] if form.name in INPUTS else inputs
+        found = repeatability(points.readings[:, k], followed, points.numbers)
+        if found is None and points.errors is not None:
+            found = float(np.sqrt(np.nanmean(points.errors[:, k] ** 2)))
+        channel = recorded_channel(form, points.readings[:, k], found)
+        if channel is None:
+            reader.fault(
+                f"channel.{form.name.value}.sigma",
+                "no such key, and too few repeated set points to tell",
+                "sigma and sigma_relative (one sigma of repeatability), or repeats with 5 or more repeats",
+            )
+        else:
+            channels.append(channel)
+    return tuple(channels)
+
+
+def _assumed(channel: RecordedChannel) -> str:
+    """What was taken for a channel, in words and in its file's unit."""
+    dimension = channel.name.dimension
+    factor = 1.0 if dimension is None else unit_scale(channel.unit, dimension)[0]
+    unit = "" if dimension is None else f" {channel.unit}"
+    values = {
+        "sigma": f"repeatability from its scatter, {channel.sigma / factor:.3g}{unit}",
+        "quantum": f"step of its readings {channel.quantum / factor:.3g}{unit}",
+        "gain": f"gain good to {channel.gain_sigma:.2%}",
+        "zero": f"zero good to {channel.zero_sigma / factor:.3g}{unit}",
+    }
+    return f"{channel.name.value}: not stated, taken: {'; '.join(values[name] for name in channel.assumed)}"

@@ -1,0 +1,1 @@
+"""Tables of numbers, one reader a file format."""

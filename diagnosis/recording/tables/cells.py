@@ -1,0 +1,126 @@
+"""Rows of cells, as text files and workbooks hold them, to named columns of numbers."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections import Counter
+from collections.abc import Iterable, Sequence
+from datetime import datetime
+
+import numpy as np
+
+from diagnosis.recording.tables.table import Columns, TableFault
+from reynolds.numerics.arrays import Array
+
+GAPS = frozenset({"", "-", "--", "nan", "na", "n/a", "null", "none", "#n/a", "inf", "-inf"})
+"""Cells, in small letters, that say that there is no reading."""
+SUMMARIES = frozenset({
+    "mean", "average", "avg", "median", "min", "minimum", "max", "maximum", "std", "stdev", "std dev", "sigma",
+    "rms", "sum", "total", "count", "range", "mittel", "mittelwert", "summe", "streuung", "moyenne", "media",
+    "promedio",
+})  # fmt: skip
+"""What rows below a table that are no readings are called, in small letters."""
+_POINT = re.compile(r"\s*[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?\s*", re.IGNORECASE)
+_IN_BRACKETS = re.compile(r"[\[(]([^\])]+)[\])]\s*$")
+_COMMA = re.compile(r"\s*[+-]?(\d+,?\d*|,\d+)(e[+-]?\d+)?\s*", re.IGNORECASE)
+
+
+def columns_of(rows: Iterable[Sequence[object]], decimal: str) -> Columns:
+    """Return the columns of rows of cells: text, numbers, times or None.
+
+    The head is the first row as long as most rows are that is text all through; what stands above it is left out,
+    and so are a row below it without any number (units, as loggers write them) and rows at the end that begin with
+    the name of a summary (`SUMMARIES`), where no row above does. A cell that is no number is nan; a
+    column of times (ISO 8601) becomes seconds from its first. Raises TableFault for no head or a name that stands
+    in it twice.
+    """
+    table = [[_bare(cell) for cell in row] for row in rows]
+    table = [row for row in table if any(cell != "" for cell in row)]
+    if not table:
+        raise TableFault("an empty table", "a head with column names and rows of numbers")
+    width = Counter(len(row) for row in table).most_common(1)[0][0]
+    start = next((k for k, row in enumerate(table) if len(row) == width and _is_head(row, decimal)), None)
+    if start is None:
+        raise TableFault(f"no head in rows of {width} cells", "a row of column names above the numbers")
+    head = [str(cell).strip() for cell in table[start]]
+    if twice := [name for name, count in Counter(head).items() if count > 1 and name]:
+        raise TableFault(f"the column {twice[0]!r} twice", "every column name once")
+    body, told = table[start + 1 :], []
+    units = {name: found[1] for name in head if (found := _IN_BRACKETS.search(name))}
+    if start:
+        told.append(f"{start} rows above the head left out")
+    if body and all(_number(cell, decimal) is None for cell in body[0]) and any(str(c).strip() for c in body[0]):
+        told.append(f"the row below the head holds no number and is left out: {', '.join(map(str, body[0]))}")
+        units |= {name: str(cell).strip("[]() ") for name, cell in zip(head, body[0], strict=False) if cell}
+        body = body[1:]
+    if below := _summaries(body):
+        names = ", ".join(str(next(filter(None, row))) for row in body[-below:])
+        told.append(f"{below} rows below the readings left out: {names}")
+        body = body[:-below]
+    if ragged := [k for k, row in enumerate(body, start=1) if len(row) != width]:
+        raise TableFault(f"row {ragged[0]} below the head with {len(body[ragged[0] - 1])} cells", f"{width} cells")
+    values = {}
+    for place, name in enumerate(head):
+        if name:
+            values[name], words = _column([row[place] for row in body], decimal)
+            told += [f"column {name!r}: {words}"] if words else []
+    return Columns(values, tuple(told), units)
+
+
+def _summaries(body: Sequence[Sequence[object]]) -> int:
+    """How many rows at the end are no readings but sums or means of those above."""
+    named = [str(next(filter(None, row), "")).lower().rstrip(":.") in SUMMARIES for row in body]
+    count = next((k for k, one in enumerate(reversed(named)) if not one), len(named))
+    return count if not any(named[: len(named) - count]) and count < len(named) else 0
+
+
+def is_number(cell: str, decimal: str) -> bool:
+    """True for the text of a number with this decimal sign."""
+    return (_COMMA if decimal == "," else _POINT).fullmatch(cell) is not None
+
+
+def _bare(cell: object) -> object:
+    """A cell, with an empty text for None and nan."""
+    if cell is None or (isinstance(cell, float) and math.isnan(cell)):
+        return ""
+    return cell.strip() if isinstance(cell, str) else cell
+
+
+def _is_head(row: Sequence[object], decimal: str) -> bool:
+    """True for a row of names: text in most cells, and no number."""
+    named = [cell for cell in row if isinstance(cell, str) and cell]
+    return len(named) > len(row) / 2 and all(_number(cell, decimal) is None for cell in row)
+
+
+def _number(cell: object, decimal: str) -> float | None:
+    if isinstance(cell, (bool, datetime)):
+        return None
+    if isinstance(cell, (int, float)):
+        return float(cell)
+    text = str(cell)
+    return float(text.replace(",", ".")) if is_number(text, decimal) else None
+
+
+def _column(cells: Sequence[object], decimal: str) -> tuple[Array, str]:
+    """A column's numbers, and what is to be told of it."""
+    numbers = [_number(cell, decimal) for cell in cells]
+    if cells and not any(number is not None for number in numbers):
+        times = [_time(cell) for cell in cells]
+        first = next((time for time in times if time is not None), None)
+        if first is not None:
+            seconds = [math.nan if time is None else (time - first).total_seconds() for time in times]
+            return np.array(seconds), "times, taken as seconds from the first"
+    odd = sorted({str(c) for c, n in zip(cells, numbers, strict=True) if n is None and str(c).lower() not in GAPS})
+    count = sum(n is None and str(c).lower() not in GAPS for c, n in zip(cells, numbers, strict=True))
+    words = f"{count} cells that are no number taken as gaps ({', '.join(odd[:3])})" if odd else ""
+    return np.array([math.nan if number is None else number for number in numbers], dtype=float), words
+
+
+def _time(cell: object) -> datetime | None:
+    if isinstance(cell, datetime):
+        return cell
+    try:
+        return datetime.fromisoformat(str(cell))
+    except ValueError:
+        return None

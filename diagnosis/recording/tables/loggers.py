@@ -1,0 +1,98 @@
+"""Tables in the files of measurement loggers: NI TDMS and ASAM MDF 4."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from diagnosis.recording.tables.table import Columns, TableFault, TableSource
+from diagnosis.recording.tables.workbooks import missing
+
+TIME = "time"
+"""Column of time in s that a logger's file holds without naming it."""
+APPLIED_SCALES = frozenset(
+    {
+        "Linear",
+        "Polynomial",
+        "RTD",
+        "Table",
+        "Thermocouple",
+        "Thermistor",
+        "Strain",
+        "Add",
+        "Subtract",
+        "AdvancedAPI",
+    }
+)
+"""Scale types that npTDMS 1.x applies; of a channel with any other it returns raw counts."""
+
+
+def read_tdms(source: TableSource) -> Columns:
+    """Return the channels of the stated group of a TDMS file, or of its only group, scaled.
+
+    A channel's own time base is the column `time`. Channels of another length than the most are left out and told.
+    Raises TableFault where npTDMS is not installed, for a group that is not there, and for a channel with a scale
+    that npTDMS does not apply (it would hand out raw counts: npTDMS issue 91).
+    """
+    try:
+        from nptdms import TdmsFile
+    except ImportError:
+        raise missing("npTDMS", "TDMS files") from None
+    try:
+        file = TdmsFile.read(source.path)
+    except (ValueError, OSError, EOFError) as reason:
+        raise TableFault(f"'{source.path.name}', unreadable: {reason}", "a TDMS file") from reason
+    names = [group.name for group in file.groups()]
+    if (source.group or len(names) != 1) and source.group not in names:
+        raise TableFault(f"the groups {', '.join(names)}", "group = the name of one of them")
+    channels = file[source.group or names[0]].channels()
+    for channel in channels:
+        _scaled(channel)
+    found = {c.name: np.asarray(c[:], dtype=float) for c in channels if np.asarray(c[:]).dtype.kind in "fiu"}
+    rows = _usual([len(column) for column in found.values()])
+    short = [name for name, column in found.items() if len(column) != rows]
+    values = {name: column for name, column in found.items() if len(column) == rows}
+    based = [c for c in channels if c.name in values and "wf_increment" in c.properties]
+    if based and TIME not in values:
+        values[TIME] = np.asarray(based[0].time_track(), dtype=float)
+    return Columns(values, (f"left out, since of another length: {', '.join(short)}",) if short else ())
+
+
+def _scaled(channel: Any) -> None:
+    """Raise TableFault for a channel whose numbers npTDMS would leave raw."""
+    count = int(channel.properties.get("NI_Number_Of_Scales", 0))
+    for k in range(count):
+        kind = channel.properties.get(f"NI_Scale[{k}]_Scale_Type")
+        if kind is not None and kind not in APPLIED_SCALES:
+            raise TableFault(
+                f"channel {channel.name!r} with the scale {kind!r}, which npTDMS does not apply",
+                f"a scale of {', '.join(sorted(APPLIED_SCALES))}",
+                "export the scaled values, for instance as CSV",
+            )
+
+
+def read_mdf(source: TableSource) -> Columns:
+    """Return the number channels of an MDF file over the union of their times, interpolated, as physical values.
+
+    The column `time` holds s from the start. Raises TableFault where asammdf is not installed or cannot read.
+    """
+    try:
+        from asammdf import MDF
+        from asammdf.blocks.utils import MdfException
+    except ImportError:
+        raise missing("asammdf", "MDF files") from None
+    try:
+        with MDF(source.path) as file:
+            frame = file.to_dataframe(time_from_zero=False, use_interpolation=True)
+    except (MdfException, OSError, ValueError) as reason:
+        raise TableFault(f"'{source.path.name}', unreadable: {reason}", "an MDF file") from reason
+    values = {str(name): frame[name].to_numpy(dtype=float) for name in frame if frame[name].dtype.kind in "fiu"}
+    left_out = [str(name) for name in frame if str(name) not in values]
+    values.setdefault(TIME, frame.index.to_numpy(dtype=float))
+    return Columns(values, (f"left out, since not numbers: {', '.join(left_out)}",) if left_out else ())
+
+
+def _usual(lengths: list[int]) -> int:
+    """The most frequent length."""
+    return max(set(lengths), key=lengths.count, default=0)

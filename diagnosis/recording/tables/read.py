@@ -1,0 +1,40 @@
+"""A file of numbers as named columns, whatever program wrote it: what a table is, and which reader takes it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+
+from diagnosis.recording.tables.loggers import read_mdf, read_tdms
+from diagnosis.recording.tables.matlab import read_matlab
+from diagnosis.recording.tables.table import Columns, TableFault, TableSource
+from diagnosis.recording.tables.text import read_text
+from diagnosis.recording.tables.workbooks import read_parquet, read_workbook
+from system.inputs.faults import nearest_path
+
+_READERS: Mapping[str, Callable[[TableSource], Columns]] = {
+    **dict.fromkeys((".csv", ".txt", ".tsv", ".dat"), read_text),
+    ".xlsx": read_workbook,
+    ".parquet": read_parquet,
+    ".mat": read_matlab,
+    ".tdms": read_tdms,
+    **dict.fromkeys((".mf4", ".mdf"), read_mdf),
+}
+"""Readers by file ending."""
+
+
+def read_columns(source: TableSource) -> Columns:
+    """Return the columns of a table, numbers as they stand in the file.
+
+    Read by ending: .csv .txt .tsv .dat as text, .xlsx, .parquet, .mat, .tdms, .mf4 and .mdf. Raises TableFault
+    for a file that is absent, of another kind, damaged, without rows, or whose library is not installed.
+    """
+    path = source.path
+    if not path.is_file():
+        raise TableFault(f"'{path}', which is no file", "the path of a table", nearest_path(path))
+    reader = _READERS.get(path.suffix.lower())
+    if reader is None:
+        raise TableFault(f"'{path.name}'", f"a file that ends in one of {', '.join(_READERS)}")
+    columns = reader(source)
+    if columns.rows == 0:
+        raise TableFault(f"no row of numbers in '{path.name}'", "a head with column names and rows of numbers")
+    return columns

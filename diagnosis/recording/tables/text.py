@@ -1,0 +1,74 @@
+"""Tables in text files: separator and decimal sign are found from the text and told, unless they are stated."""
+
+from __future__ import annotations
+
+import csv
+from collections import Counter
+from dataclasses import replace
+
+from diagnosis.recording.tables.cells import columns_of, is_number
+from diagnosis.recording.tables.table import Columns, TableFault, TableSource
+
+SEPARATORS = {";": "semicolon", "\t": "tab", ",": "comma", "|": "bar"}
+_SIGNS = {".": "point", ",": "comma"}
+LOOKED_AT = 200  # lines from which the form is found
+
+
+def read_text(source: TableSource) -> Columns:
+    """Return the columns of a text table; lines that begin with # are left out.
+
+    The separator is the one that parts most lines into the same number of cells, at least two (else the table has
+    one column); the decimal sign the one with which more cells are numbers, a comma only where it does not part.
+    Raises TableFault for text that cannot be decoded or a sign that is neither point nor comma.
+    """
+    text, encoding = _decoded(source)
+    lines = [line for line in text.splitlines() if line.strip() and not line.lstrip().startswith("#")]
+    separator = source.separator or _separator(lines[:LOOKED_AT])
+    decimal = source.decimal or _decimal(lines[:LOOKED_AT], separator)
+    if decimal not in _SIGNS or decimal == separator:
+        raise TableFault(
+            f"decimal = {decimal!r}, separator = {separator!r}", "a point or a comma, and another sign"
+        )
+    if len(separator) != 1:
+        raise TableFault(f"separator = {separator!r}", "one sign, such as ';'")
+    columns = columns_of(csv.reader(lines, delimiter=separator), decimal)
+    found = []
+    if not source.separator:
+        found.append(f"cells parted by {SEPARATORS[separator]}")
+    if not source.decimal:
+        found.append(f"decimal {_SIGNS[decimal]}")
+    if encoding != "utf-8-sig":
+        found.append(f"read as {encoding}, since it is no UTF-8")
+    plain = found == ["cells parted by comma", "decimal point"]
+    return columns if plain or not found else replace(columns, told=(", ".join(found), *columns.told))
+
+
+def _decoded(source: TableSource) -> tuple[str, str]:
+    """The text of a file, and in which encoding it was read."""
+    raw = source.path.read_bytes()
+    if b"\0" in raw[:4096]:
+        raise TableFault(f"'{source.path.name}', which is no text", "a text table in UTF-8")
+    try:
+        return raw.decode("utf-8-sig"), "utf-8-sig"
+    except UnicodeDecodeError:
+        return raw.decode("latin-1"), "latin-1"
+
+
+def _separator(lines: list[str]) -> str:
+    """The sign that parts most lines alike; of equal ones the first of SEPARATORS."""
+
+    def agreement(sign: str) -> int:
+        counts = Counter(len(row) for row in csv.reader(lines, delimiter=sign))
+        return max((count for cells, count in counts.items() if cells > 1), default=0)
+
+    best = max(SEPARATORS, key=agreement)
+    return best if agreement(best) else ","
+
+
+def _decimal(lines: list[str], separator: str) -> str:
+    """The decimal sign with which more cells are numbers."""
+    if separator == ",":
+        return "."
+    cells = [cell for row in csv.reader(lines, delimiter=separator) for cell in row if cell.strip()]
+    point, comma = (sum(is_number(cell, sign) for cell in cells) for sign in (".", ","))
+    return "," if comma > point else "."

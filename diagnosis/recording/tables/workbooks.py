@@ -1,0 +1,71 @@
+"""Tables in Excel workbooks and Parquet files."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from diagnosis.recording.tables.cells import columns_of
+from diagnosis.recording.tables.table import Columns, TableFault, TableSource
+
+INSTALL = "pip install '.[recordings]' in the checkout"
+
+
+def read_workbook(source: TableSource) -> Columns:
+    """Return the columns of the stated sheet of an .xlsx workbook, or of its only sheet.
+
+    Formulas count with the value that the last program to save them left. Raises TableFault where openpyxl is not
+    installed, for a sheet that is not there, and for several sheets none of which is stated.
+    """
+    try:
+        from openpyxl import load_workbook
+    except ImportError:
+        raise missing("openpyxl", "Excel workbooks") from None
+    try:
+        book = load_workbook(source.path, read_only=True, data_only=True)
+    except Exception as reason:  # zip, XML and key errors of a damaged book have no common class
+        raise TableFault(f"'{source.path.name}', unreadable: {reason}", "an .xlsx workbook") from reason
+    try:
+        names = book.sheetnames
+        if not source.sheet and len(names) > 1:
+            raise TableFault(f"the sheets {', '.join(names)}", "sheet = the name of one of them", f'"{names[0]}"')
+        if source.sheet and source.sheet not in names:
+            raise TableFault(f"no sheet {source.sheet!r}", f"one of {', '.join(names)}")
+        rows: list[tuple[Any, ...]] = list(book[source.sheet or names[0]].iter_rows(values_only=True))
+    finally:
+        book.close()
+    return columns_of(rows, source.decimal or ".")
+
+
+def read_parquet(source: TableSource) -> Columns:
+    """Return the number columns of a Parquet file; a column of times in seconds from its first.
+
+    Raises TableFault where pyarrow is not installed or the file is no Parquet file.
+    """
+    try:
+        import pyarrow
+        from pyarrow import parquet
+    except ImportError:
+        raise missing("pyarrow", "Parquet files") from None
+    try:
+        table = parquet.read_table(source.path)
+    except pyarrow.ArrowException as reason:
+        raise TableFault(f"'{source.path.name}', unreadable: {reason}", "a Parquet file") from reason
+    values, told = {}, []
+    for name, column in zip(table.column_names, table.columns, strict=True):
+        kind = column.type
+        if pyarrow.types.is_timestamp(kind):
+            nanoseconds = column.cast(pyarrow.timestamp("ns")).to_numpy()
+            values[name] = (nanoseconds - nanoseconds[0]) / np.timedelta64(1, "s")
+            told.append(f"column {name!r}: times, taken as seconds from the first")
+        elif pyarrow.types.is_integer(kind) or pyarrow.types.is_floating(kind) or pyarrow.types.is_decimal(kind):
+            values[name] = column.cast(pyarrow.float64()).to_numpy().astype(float)
+        else:
+            told.append(f"column {name!r} holds no numbers ({kind}) and is left out")
+    return Columns(values, tuple(told))
+
+
+def missing(library: str, what: str) -> TableFault:
+    """The fault of a file that only an optional library reads."""
+    return TableFault(f"no library {library}, with which {what} are read", "the extra 'recordings'", INSTALL)

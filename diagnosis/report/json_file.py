@@ -1,0 +1,184 @@
+"""diagnosis.json, format 1: a diagnosis as other programs read it, every number with its unit."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from math import degrees, isfinite
+from pathlib import Path
+from typing import Any
+
+from diagnosis.detect.time_scan import TimeKind, TimeMark
+from diagnosis.explain.ranked import HeldOut, Weighed
+from diagnosis.next_point.choose import READINGS, NextPoint
+from diagnosis.recording.units import difference, difference_unit, reading
+from diagnosis.report.format import last_word
+from diagnosis.report.text import paragraphs, statement
+from diagnosis.verdict.diagnosis import Claim, Diagnosis, Estimate
+from system.effects.effect import Kind
+from system.inputs.channels import ChannelName
+from system.inputs.faults import Fault, InputFaults
+
+FORMAT = 1
+KEYS = (
+    "format", "verdict", "status", "statement", "details", "mismatch", "where", "effects", "hypotheses", "fit",
+    "scaling", "next_test", "not_identifiable", "notes",
+)  # fmt: skip
+
+
+def write_diagnosis(path: Path, diagnosis: Diagnosis) -> None:
+    """Write a diagnosis as JSON (docs/files.md). Raises ValueError for nan or inf."""
+    text = json.dumps(diagnosis_record(diagnosis), indent=1, allow_nan=False)
+    path.write_text(text + "\n", encoding="utf-8")
+
+
+def read_diagnosis(path: Path) -> dict[str, Any]:
+    """Read a diagnosis.json of format 1; raises InputFaults for a file that is none."""
+    try:
+        record = json.loads(path.read_text("utf-8"))
+    except (OSError, ValueError) as reason:
+        raise InputFaults(str(path), [Fault("file", str(reason), "a diagnosis.json of a finished run")]) from None
+    if not isinstance(record, dict) or record.get("format") != FORMAT:
+        found = record.get("format") if isinstance(record, dict) else type(record).__name__
+        raise InputFaults(str(path), [Fault("format", repr(found), str(FORMAT))])
+    missing = [key for key in KEYS if key not in record]
+    if missing:
+        raise InputFaults(str(path), [Fault(key, "nothing", "a key of every diagnosis.json") for key in missing])
+    return record
+
+
+def diagnosis_record(diagnosis: Diagnosis) -> dict[str, Any]:
+    """What diagnosis.json holds, as plain values."""
+    return {
+        "format": FORMAT,
+        "verdict": diagnosis.kind.value,
+        "status": diagnosis.status.value,
+        "statement": statement(diagnosis),
+        "details": list(paragraphs(diagnosis)[1:]),
+        "mismatch": _mismatch(diagnosis),
+        "where": _where(diagnosis),
+        "effects": [_claim(claim) for claim in diagnosis.effects],
+        "hypotheses": [_weighed(one, diagnosis) for one in diagnosis.hypotheses],
+        "fit": {"heldout": _held_out(diagnosis.fit), "held_out": diagnosis.fit.how},
+        "scaling": _scaling(diagnosis),
+        "next_test": _next_test(diagnosis.next_point) if diagnosis.next_point else None,
+        "not_identifiable": list(diagnosis.not_identifiable),
+        "notes": list(diagnosis.notes),
+    }
+
+
+def _mismatch(diagnosis: Diagnosis) -> dict[str, Any]:
+    found = diagnosis.detection
+    return {
+        "p_value": found.p_value,
+        "chi2_per_dof": found.chi2_per_dof,
+        "channels": {
+            channel.value: {"chi2_per_dof": misfit.chi2_per_dof, "share": misfit.share}
+            for channel, misfit in found.channels.items()
+        },
+    }
+
+
+def _where(diagnosis: Diagnosis) -> dict[str, Any]:
+    location, agrees = diagnosis.location, diagnosis.kind is Kind.NO_MISMATCH
+    pair = diagnosis.effects[0].pair if diagnosis.effects else None
+    angle = location.angle
+    return {
+        "channels": [] if agrees else [one.value for one in location.channels],
+        "pair": pair.value if pair else None,
+        "region": location.region.text if location.region and not agrees else None,
+        "shaft_angle_deg": [degrees(angle.start), degrees(angle.end)] if angle else None,
+        "components": [] if agrees else [one.value for one in location.tie],
+        "time": _time(location.time) if location.time else None,
+    }
+
+
+def _time(mark: TimeMark) -> dict[str, Any]:
+    point = mark.at + 1 if mark.kind is TimeKind.ONSET else None
+    return {"kind": mark.kind.value, "channel": mark.channel.value, "point": point}
+
+
+def _claim(claim: Claim) -> dict[str, Any]:
+    return {
+        "id": claim.effect.value,
+        "pair": claim.pair.value if claim.pair else None,
+        "probability": claim.probability,
+        "equivalent": [one.value for one in claim.equivalent],
+        "other_pairs": {gap.value: part for gap, part in claim.elsewhere},
+        "parameters": [_estimate(one) for one in claim.parameters],
+    }
+
+
+def _estimate(estimate: Estimate) -> dict[str, Any]:
+    unit = estimate.dimension.si_unit if estimate.dimension else "1"
+    name = last_word(estimate.name).replace(" ", "_")
+    return {"name": name, "value": estimate.value, "sigma": estimate.sigma, "unit": unit}
+
+
+def _weighed(one: Weighed, diagnosis: Diagnosis) -> dict[str, Any]:
+    """heldout_rmse: of the channel named first in `where`, in its unit of `fit`; bic: -2 ln evidence (Schwarz)."""
+    told = diagnosis.location.channels[:1]
+    after = one.heldout.after if one.heldout else {}
+    return {
+        "effects": [effect.value for effect in one.hypothesis.effects],
+        "pair": one.hypothesis.pair.value if one.hypothesis.pair else None,
+        "probability": one.probability,
+        "heldout_rmse": next((_number(channel, after) for channel in told), None),
+        "bic": -2.0 * one.log_evidence,
+        "refitted": not one.linear,
+        "z": one.z,
+    }
+
+
+def _held_out(fit: HeldOut) -> dict[str, Any]:
+    return {
+        channel.value: {
+            "before": _number(channel, fit.before),
+            "after": _number(channel, fit.after),
+            "noise": _number(channel, fit.noise),
+            "unit": difference_unit(channel),
+        }
+        for channel in fit.after
+    }
+
+
+def _number(channel: ChannelName, values: Mapping[ChannelName, float]) -> float | None:
+    """A residual in its unit; None where there is none."""
+    value = values.get(channel)
+    return None if value is None or not isfinite(value) else difference(channel, value)
+
+
+def _scaling(diagnosis: Diagnosis) -> dict[str, Any] | None:
+    scaling = diagnosis.scaling
+    if scaling is None:
+        return None
+    return {
+        "channel": scaling.channel.value,
+        "above": scaling.above,
+        "exponents": dict(scaling.exponents),
+        "sigma": dict(scaling.sigma),
+    }
+
+
+def _next_test(found: NextPoint) -> dict[str, Any]:
+    point = found.point
+    return {
+        "point": {
+            "speed_rpm": reading(ChannelName.SPEED, point.shaft_speed),
+            "p_out_bar": reading(ChannelName.P_OUT, point.delivery_pressure),
+            "displacement_ratio": point.displacement_ratio,
+            "T_in_degC": reading(ChannelName.T_IN, found.inlet_temperature),
+            "T_case_degC": reading(ChannelName.T_CASE, point.temperature),
+        },
+        "separates": [effect.value for effect in found.separates],
+        "between": list(found.between),
+        "settles": found.settles,
+        "chance": found.chance,
+        "readings": READINGS,
+        "gain_nats": found.gain,
+        "log_odds": {"now": found.before, "foretold": found.after},
+        "beyond_recorded": found.beyond,
+        "repeats": found.repeats,
+        "why": found.why,
+        "instead": found.instead,
+    }

@@ -1,0 +1,174 @@
+"""The tables of a diagnosis, as rows of text by column: what was measured and simulated, parameters, hypotheses.
+
+A number's unit stands in brackets in its column's name, or in the row's column `unit` (of differences of degC: K);
+probabilities, scores, pulls and counts have none.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+
+import numpy as np
+
+from diagnosis.explain.explained import repair
+from diagnosis.next_point.choose import NextPoint
+from diagnosis.recording.model import Recording
+from diagnosis.recording.units import channel_unit, difference, reading
+from diagnosis.study.model import Study
+from diagnosis.thresholds import Thresholds
+from diagnosis.verdict.diagnosis import Diagnosis
+from diagnosis.verdict.row_numbers import table_rows
+from reynolds.numerics.arrays import Array
+from system.estimation.parameters import Parameter
+from system.estimation.posterior import Posterior
+from system.inputs.channels import ChannelName
+from system.inputs.units import Dimension
+
+AXES = (ChannelName.SPEED, ChannelName.P_OUT, ChannelName.DISPLACEMENT_RATIO, ChannelName.T_CASE)
+Row = Mapping[str, str]
+
+
+def steady_rows(recording: Recording) -> Iterator[Row]:
+    """The steady points as understood: row, from 1, and every channel that was measured, in its reading unit."""
+    table = recording.steady
+    names = list(ChannelName)
+    seen = [name for name in names if np.any(np.isfinite(table.values[:, names.index(name)]))]
+    for number, values in zip(table_rows(recording), table.values, strict=True):
+        row = {"point": str(number)}
+        for name in seen:
+            row[f"{name.value} [{channel_unit(name)}]"] = _reading(name, float(values[names.index(name)]))
+        yield row
+
+
+def added_by_claim(study: Study, diagnosis: Diagnosis, thresholds: Thresholds) -> Array:
+    """(N, C) in SI, what the claimed effects add to the simulated readings, all else as fitted; 0 for no claim."""
+    if not diagnosis.effects:
+        return np.zeros_like(study.observations.values)
+    return repair(study, diagnosis.hypotheses[0], thresholds).added
+
+
+def residual_rows(study: Study, diagnosis: Diagnosis, thresholds: Thresholds) -> Iterator[Row]:
+    """Each reading: row from 1, where it was taken, measured and simulated by the null and by what is claimed.
+
+    sigma is that of a reading, the noise of the point's inputs included; pull = (measured - simulated) / sigma;
+    added: what the claimed effects have in the reading simulated after.
+    """
+    order, added = list(ChannelName), added_by_claim(study, diagnosis, thresholds)
+    sigma = diagnosis.before.whitening.sigma
+    before, after = diagnosis.before.predictions, diagnosis.after.predictions
+    numbers = table_rows(study.recording)
+    for point, at in np.argwhere(study.observations.measured[:, : len(study.channels)]):
+        channel = study.channels[at]
+        measured, one = study.observations.values[point, at], sigma[point, at]
+        place = {
+            f"{axis.value} [{channel_unit(axis)}]": _reading(
+                axis, float(study.recording.steady.values[point, order.index(axis)])
+            )
+            for axis in AXES
+        }
+        yield {
+            "point": str(numbers[point]),
+            "channel": channel.value,
+            "unit": channel_unit(channel),
+            **place,
+            "measured": _text(reading(channel, measured)),
+            "before": _text(reading(channel, before[point, at])),
+            "after": _text(reading(channel, after[point, at])),
+            "added": _text(difference(channel, added[point, at])),
+            "sigma": _text(difference(channel, one)),
+            "pull_before": _text((measured - before[point, at]) / one),
+            "pull_after": _text((measured - after[point, at]) / one),
+        }
+
+
+def hypothesis_rows(diagnosis: Diagnosis) -> Iterator[Row]:
+    """What was weighed: odds in nats behind the best, probability, score, gain of the folds held out."""
+    best = max((one.log_evidence for one in diagnosis.hypotheses), default=0.0)
+    for one in diagnosis.hypotheses:
+        heldout = one.heldout
+        yield {
+            "hypothesis": one.hypothesis.text,
+            "effects": " + ".join(effect.value for effect in one.hypothesis.effects),
+            "pair": one.hypothesis.pair.value if one.hypothesis.pair else "",
+            "kind": one.hypothesis.kind.value,
+            "probability": _text(one.probability),
+            "behind [nats]": _text(best - one.log_evidence),
+            "refitted": "no" if one.linear else "yes",
+            "z": _text(one.z),
+            "held_out_gain [nats]": _text(sum(heldout.gains.values())) if heldout else "",
+            "vetoed": ("yes" if heldout.vetoed else "no") if heldout else "",
+        }
+
+
+def parameter_rows(diagnosis: Diagnosis) -> Iterator[Row]:
+    """Every parameter of the claimed fit: prior, value and pull by the null's fit and by the claimed one.
+
+    Of what is claimed to be wrong the prior is the stated one, and no pull stands after: it was set free of it.
+    """
+    before, after = diagnosis.before, diagnosis.after
+    known = {parameter.name for parameter in before.parameters}
+    free = set(_set_free(before, after))
+    for at, fitted in enumerate(after.parameters):
+        had = before.index(fitted.name) if fitted.name in known else None
+        parameter = fitted if had is None else before.parameters[had]
+        yield {
+            "name": parameter.name,
+            "unit": _unit(parameter),
+            "role": parameter.role.value,
+            "prior": _text(parameter.centre),
+            "prior_sigma": _text(abs(parameter.stretch(0.0))),
+            "before": _text(float(before.values[had])) if had is not None else "",
+            "after": _text(float(after.values[at])),
+            "sigma": _text(after.sigma(parameter.name)),
+            "pull_before": _text(float(before.pulls[had])) if had is not None else "",
+            "pull_after": "" if parameter.name in free else _text(float(after.pulls[at])),
+            "source": parameter.source,
+        }
+
+
+def next_point_rows(found: NextPoint | None) -> Iterator[Row]:
+    """Points of the rig's box by what three readings there would tell, in nats, the best first."""
+    for one in () if found is None else found.ranked:
+        point = one.point
+        yield {
+            "speed [rpm]": _reading(ChannelName.SPEED, point.shaft_speed),
+            "p_out [bar]": _reading(ChannelName.P_OUT, point.delivery_pressure),
+            "displacement_ratio [1]": _text(point.displacement_ratio),
+            "T_in [degC]": _reading(ChannelName.T_IN, one.inlet_temperature),
+            "T_case [degC]": _reading(ChannelName.T_CASE, point.temperature),
+            "gain [nats]": _text(one.gain),
+        }
+
+
+def pull_sums(before: Posterior, after: Posterior) -> tuple[float, float]:
+    """Sum of the squared pulls of what both fits hold to what is stated: it falls where a name is right."""
+    names = {one.name for one in before.parameters} & {one.name for one in after.parameters}
+    names -= set(_set_free(before, after))
+
+    def total(fit: Posterior) -> float:
+        return float(sum(fit.pulls[fit.index(name)] ** 2 for name in names))
+
+    return total(before), total(after)
+
+
+def _set_free(before: Posterior, after: Posterior) -> Iterator[str]:
+    """Names of the parameters whose prior is another after: those that the claim widened."""
+    stated = {one.name: one for one in before.parameters}
+    for one in after.parameters:
+        if one.name in stated and one.spread != stated[one.name].spread:
+            yield one.name
+
+
+def _reading(channel: ChannelName, value: float) -> str:
+    """A reading in SI in its unit, empty where there is none."""
+    return _text(reading(channel, value)) if np.isfinite(value) else ""
+
+
+def _unit(parameter: Parameter) -> str:
+    if parameter.dimension is Dimension.TEMPERATURE:
+        return "K"
+    return parameter.dimension.si_unit if parameter.dimension else "1"
+
+
+def _text(value: float) -> str:
+    return f"{value:.6g}" if np.isfinite(value) else ""

@@ -1,0 +1,319 @@
+"""A diagnosis in plain words: where, what, how much, how sure, and what to record next."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+from math import exp
+
+from diagnosis.detect.time_scan import TimeKind
+from diagnosis.explain.hypotheses import Hypothesis
+from diagnosis.explain.ranked import Weighed
+from diagnosis.explain.scaling import Scaling
+from diagnosis.next_point.choose import READINGS, NextPoint
+from diagnosis.recording.units import channel_unit, difference, difference_unit, reading
+from diagnosis.report.format import (
+    CHANNELS,
+    PLACES,
+    chance,
+    channel_words,
+    effect_words,
+    estimate_text,
+    last_word,
+    listed,
+    odds_text,
+)
+from diagnosis.study.model import SUBJECTS
+from diagnosis.verdict.diagnosis import Diagnosis, Status
+from diagnosis.verdict.locate import Location
+from diagnosis.verdict.trend import FLAT
+from system.effects.catalogue.entries import entry_of
+from system.effects.effect import Kind
+from system.inputs.channels import ChannelName
+
+RIVALS = 3  # told by name at most
+WORTH_TELLING = 0.01  # probability of a rival
+OTHER = 0.05  # share of the probability of an effect's other places, from which they are told
+
+
+def statement(diagnosis: Diagnosis) -> str:
+    """One to three sentences: where, what, how much, how sure; and at which shaft angles traces stand out."""
+    angles = "" if diagnosis.kind is Kind.NO_MISMATCH else _angles(diagnosis.location)
+    return f"{_verdict(diagnosis)}{angles}"
+
+
+def _verdict(diagnosis: Diagnosis) -> str:
+    if diagnosis.status is Status.SUSPICION:
+        return f"{_where(diagnosis)}: {_suspicion(diagnosis)}."
+    if diagnosis.kind is Kind.NO_MISMATCH:
+        return f"Simulation and recording agree within noise and tolerance ({_misfit(diagnosis)})."
+    if diagnosis.kind is Kind.UNKNOWN_PHYSICS:
+        unknown = _unknown(diagnosis)
+        return f"{_where(diagnosis)}. {unknown[0].upper()}{unknown[1:]}."
+    said = "; besides, ".join(_claim(at, diagnosis) for at in range(len(diagnosis.effects)))
+    ends = " ".join(filter(None, (_class(diagnosis), _incomplete(diagnosis))))
+    return f"{_where(diagnosis)}. {said[0].upper()}{said[1:]}. {ends}".rstrip()
+
+
+def paragraphs(diagnosis: Diagnosis) -> tuple[str, ...]:
+    """The statement, and behind it what was held out, rivals, what cannot be told, and the next point."""
+    told = (
+        statement(diagnosis),
+        held_out_text(diagnosis),
+        _rivals(diagnosis),
+        next_point_text(diagnosis.next_point) if diagnosis.next_point else "",
+    )
+    return tuple(text for text in told if text)
+
+
+def held_out_text(diagnosis: Diagnosis) -> str:
+    """What the repaired simulation does on points that took no part in the fit, channel by channel."""
+    fit = diagnosis.fit
+    channels = [channel for channel in diagnosis.location.channels if channel in fit.after] or list(fit.after)
+    if not diagnosis.effects or not channels:
+        return ""
+    parts = [
+        f"{CHANNELS.get(channel, channel.value)} {_number(channel, fit.before[channel])} -> "
+        f"{_number(channel, fit.after[channel])} (noise {_number(channel, fit.noise[channel])}) "
+        f"{difference_unit(channel)}"
+        for channel in channels
+    ]
+    return f"Error on points held out, rms: {'; '.join(parts)}."
+
+
+def next_point_text(found: NextPoint) -> str:
+    """What to record next, with units, and what three readings there bring; or that no point settles it."""
+    first, second = found.between
+    ahead, behind = (first, second) if found.before >= 0.0 else (second, first)
+    pair = f"{ahead} from {behind} (odds now {_odds(abs(found.before))})"
+    times = f"{_point(found)}, {READINGS} times"
+    if found.settles:
+        beyond = ", outside the range recorded," if found.beyond else ""
+        sure = f"1:20 or better with a chance of {chance(found.chance)}"
+        return (
+            f"To separate {pair}, record{beyond} {times}: odds of {_odds(found.after)} are foretold, {sure}, "
+            f"whichever is true; {found.why}."
+        )
+    factor = f"multiplies the odds for the true one by {exp(found.gain):.2g} on average"
+    if not found.is_open:
+        return (
+            f"To be surer of {ahead} than {_odds(abs(found.before))} against {behind}, record {times}: {factor}."
+        )
+    more = f", and it takes {found.repeats} to be sure" if found.repeats else ""
+    return (
+        f"No point that an ordinary bench runs is likely to separate {pair}: the best of the range recorded, "
+        f"{times}, {factor}{more}; {found.why}.{' ' if found.instead else ''}{found.instead}"
+    )
+
+
+def _point(found: NextPoint) -> str:
+    point = found.point
+    values = {
+        ChannelName.SPEED: point.shaft_speed,
+        ChannelName.P_OUT: point.delivery_pressure,
+        ChannelName.DISPLACEMENT_RATIO: point.displacement_ratio,
+        ChannelName.T_IN: found.inlet_temperature,
+        ChannelName.T_CASE: point.temperature,
+    }
+    told = [
+        f"{channel.value} {reading(channel, value):.4g} {channel_unit(channel)}".removesuffix(" 1")
+        for channel, value in values.items()
+    ]
+    return ", ".join(told)
+
+
+def _odds(nats: float) -> str:
+    return odds_text(1.0, exp(-nats))
+
+
+def _where(diagnosis: Diagnosis) -> str:
+    """Channels, whether they read more or less, part of the map, time; what the difference grows with."""
+    location, scaling = diagnosis.location, diagnosis.scaling
+    channels = listed(map(channel_words, location.channels)) or "no single channel"
+    place = ", ".join([channels[0].upper() + channels[1:], *_places(location)])
+    if scaling is None:
+        return place
+    side = "higher" if scaling.above else "lower"
+    return f"{place}: {scaling.channel.value} reads {side} than simulated, by what {_course(scaling)}"
+
+
+def _places(location: Location) -> Iterator[str]:
+    if location.region is not None:
+        yield location.region.text
+    time = location.time
+    if time is not None:
+        drifts = time.kind is TimeKind.DRIFT
+        since = "drifting in the course of the recording" if drifts else f"from point {time.at + 1} on"
+        yield f"{time.channel.value} {since}"
+
+
+def _angles(location: Location) -> str:
+    """A sentence of its own: what stands out in a trace need not be what is claimed."""
+    if location.angle is None:
+        return ""
+    start, end = (reading(ChannelName.ANGLE, angle) for angle in (location.angle.start, location.angle.end))
+    events = f" ({listed(location.angle.events)})" if location.angle.events else ""
+    return f" The chamber's pressure stands out at shaft angle {start:.3g} to {end:.3g} deg{events}."
+
+
+def _claim(at: int, diagnosis: Diagnosis) -> str:
+    """What acts, where, how much, how sure."""
+    claim = diagnosis.effects[at]
+    sizes = listed(estimate_text(estimate) for estimate in claim.parameters)
+    place = f", {'most likely ' if claim.elsewhere else ''}at {PLACES[claim.pair]}" if claim.pair else ""
+    return (
+        f"{entry_of(claim.effect).sentence} ({claim.effect.value}){place}"
+        f"{': ' if sizes else ''}{sizes}, probability {chance(claim.probability)}{_of_which(at, diagnosis)}"
+    )
+
+
+def _of_which(at: int, diagnosis: Diagnosis) -> str:
+    """Of a value that several pairs have, each its own: which of those without a gap it may be as well."""
+    own = diagnosis.hypotheses[0].hypothesis
+    if at >= len(own.subjects) or not isinstance(own.subjects[at], str):
+        return ""
+    first = last_word(str(own.subjects[at]))
+    shares = {first: 0.0}
+    for one in diagnosis.hypotheses:
+        which = last_word(str(one.hypothesis.subjects[at])) if one.hypothesis.effects == own.effects else ""
+        if which == first or (which and _named_apart(one.hypothesis, at)):
+            shares[which] = shares.get(which, 0.0) + one.probability
+    parts = {which: share / (sum(shares.values()) or 1.0) for which, share in shares.items()}
+    others = [f"{which} ({chance(part)})" for which, part in parts.items() if which != first and part >= OTHER]
+    return f", most likely of {first} ({chance(parts[first])}), else of {listed(others, 'or')}" if others else ""
+
+
+def _class(diagnosis: Diagnosis) -> str:
+    """What the recording cannot tell: ids from each other, a gap from others; empty where it can."""
+    alike = [
+        f"{claim.effect.value} from {listed((one.value for one in claim.equivalent), 'or')}"
+        for claim in diagnosis.effects
+        if claim.equivalent
+    ]
+    alike += [
+        f"{PLACES[claim.pair]} ({chance(1.0 - sum(part for _, part in claim.elsewhere))}) from "
+        f"{listed((f'{PLACES[gap]} ({chance(part)})' for gap, part in claim.elsewhere), 'or')}"
+        for claim in diagnosis.effects
+        if claim.pair and claim.elsewhere
+    ]
+    return f"This recording cannot tell {listed(alike)}." if alike else ""
+
+
+def _incomplete(diagnosis: Diagnosis) -> str:
+    """That a part is left, and whether the names stand beside it."""
+    if diagnosis.status is not Status.INCOMPLETE:
+        return ""
+    if _class(diagnosis):
+        return "A part of the mismatch remains besides that none of them explains."
+    names, they = ("The names are", "they do") if len(diagnosis.effects) > 1 else ("The name is", "it does")
+    return f"{names} sure, but a part of the mismatch remains that {they} not explain."
+
+
+def _suspicion(diagnosis: Diagnosis) -> str:
+    likely = _likeliest(diagnosis)
+    verb = "are" if len(likely) > 1 else "is"
+    thought = f"; likeliest {verb} {listed(likely)}" if likely else ""
+    return f"a mismatch short of proof ({_misfit(diagnosis)}{_striking(diagnosis)}), nothing is claimed{thought}"
+
+
+def _striking(diagnosis: Diagnosis) -> str:
+    """The strongest candidate, and how often one is as strong where nothing is there."""
+    found = diagnosis.detection
+    return "".join(
+        f"; {effect_words([candidate.entry.id])} stands out by {abs(score.z):.1f} sigma, as some effect does in a "
+        f"recording of none with a chance of {chance(found.chance)}"
+        for candidate, score in found.strongest[:1]
+    )
+
+
+def _unknown(diagnosis: Diagnosis) -> str:
+    parts = listed((one.value.replace("_", " ") for one in diagnosis.location.tie), "or")
+    place = f", most like a change of the {parts}" if parts else ""
+    return f"no effect of the catalogue explains the mismatch ({_misfit(diagnosis)}){place}"
+
+
+def _course(scaling: Scaling) -> str:
+    """What the difference grows with, and along what it stays, where exponents are known well enough to say."""
+    powers = [
+        f"{name}^({exponent:.2g} +- {scaling.sigma[name]:.1g})"
+        for name, exponent in scaling.exponents.items()
+        if abs(exponent) > max(2.0 * scaling.sigma[name], FLAT)
+    ]
+    same = [
+        name
+        for name, exponent in scaling.exponents.items()
+        if abs(exponent) <= FLAT and scaling.sigma[name] <= FLAT
+    ]
+    grows = [f"grows as {' '.join(powers)}"] if powers else []
+    alike = (
+        [f"{'' if powers else 'is the same '}at every {listed(same)}{' alike' if powers else ''}"] if same else []
+    )
+    return ", ".join([*grows, *alike]) or "follows no power law that can be told"
+
+
+def _misfit(diagnosis: Diagnosis) -> str:
+    found = diagnosis.detection
+    chance_of_it = f"p {found.p_value:.2g}" if found.p_value > 0.0 else "p too small to be a number"
+    return f"chi2 {found.chi2_per_dof:.3g} per reading, {chance_of_it}"
+
+
+def _likeliest(diagnosis: Diagnosis) -> list[str]:
+    """The likeliest hypotheses with an effect, with their probabilities."""
+    listed_so = [one for one in _explained(diagnosis) if one.probability >= WORTH_TELLING][:RIVALS]
+    return [f"{explanation_words(one.hypothesis)} ({chance(one.probability)})" for one in listed_so]
+
+
+def _rivals(diagnosis: Diagnosis) -> str:
+    """Which rivals still stand and which are excluded, each with its odds against the first explanation."""
+    if diagnosis.status is Status.SUSPICION or not diagnosis.effects:
+        return ""
+    first, *others = _explained(diagnosis, bent=False)
+    told = [(explanation_words(one.hypothesis), one.probability) for one in others][: 2 * RIVALS]
+    odds = [(words, odds_text(first.probability, each), each >= WORTH_TELLING) for words, each in told]
+    standing = [f"{words} ({against})" for words, against, stands in odds if stands]
+    excluded = [f"{words} ({against})" for words, against, stands in odds if not stands][:RIVALS]
+    parts = [f"Still possible, odds to the first: {listed(standing)}." if standing else ""]
+    parts += [f"Excluded: {listed(excluded)}." if excluded else ""]
+    return " ".join(part for part in parts if part)
+
+
+def _explained(diagnosis: Diagnosis, *, bent: bool = True) -> list[Weighed]:
+    """Hypotheses of an effect, the claimed first, then by probability; of those told by the same words the best.
+
+    Unknown physics, weighed once for each component, counts by all of them; bent: bent laws are told, too.
+    """
+    first = diagnosis.hypotheses[:1]
+    others = sorted(diagnosis.hypotheses[1:], key=lambda one: -one.probability)
+    others = [one for one in others if bent or not one.hypothesis.bent]
+    unknown = sum(one.probability for one in diagnosis.hypotheses if one.hypothesis.component is not None)
+    found: dict[str, Weighed] = {}
+    for one in (*first, *others):
+        if one.hypothesis.component is not None:
+            one = replace(one, probability=unknown)
+        if one.hypothesis.effects:
+            found.setdefault(explanation_words(one.hypothesis), one)
+    ranked = list(found.values())
+    return [*ranked[:1], *sorted(ranked[1:], key=lambda one: -one.probability)]
+
+
+def explanation_words(own: Hypothesis) -> str:
+    """An explanation in words, each effect with its own place: "churning and film thickness at the slippers"."""
+    if len(own.effects) == 1:
+        return effect_words(own.effects, own.pair) + _which(own, 0)
+    each = enumerate(zip(own.effects, own.places, strict=True))
+    return listed(effect_words([effect], place) + _which(own, at) for at, (effect, place) in each)
+
+
+def _which(own: Hypothesis, at: int) -> str:
+    """The parameter that an effect is about, where it has several that are not told by gaps."""
+    return f" ({last_word(str(own.subjects[at]))})" if _named_apart(own, at) else ""
+
+
+def _named_apart(own: Hypothesis, at: int) -> bool:
+    """Whether an effect is about one of several values that pairs have, each its own."""
+    subject = own.subjects[at]
+    return isinstance(subject, str) and subject not in ("", SUBJECTS.get(own.effects[at])) and not own.places[at]
+
+
+def _number(channel: ChannelName, value: float) -> str:
+    return f"{difference(channel, value):.3g}"

@@ -1,0 +1,1 @@
+"""Recording and simulator joined: readings, axes, traces, linear posterior."""

@@ -1,0 +1,121 @@
+"""The points of a bench by the inputs that were recorded, and what stands for those that were not."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from diagnosis.recording.model import Circuit, DataNote, NoteKind, Recording
+from diagnosis.recording.units import channel_unit, difference, difference_unit, reading
+from reynolds.numerics.arrays import Array
+from system.bench.points import BenchPoints
+from system.bench.sensors import taken_parameter
+from system.description.pump import PumpDescription
+from system.estimation.parameters import Parameter
+from system.inputs.channels import INPUTS, ChannelName
+
+WARMER = 5.0  # K, of case and inlet one for the other: a case is warmer by the losses
+WARMTH = 10.0  # K, where neither is measured
+DRIVE, SETTING = 0.02, 0.01  # of a speed: the slip of a motor; of a stroke that a stop holds
+RELIEF = 0.1  # of a pressure that a relief valve holds: charge, delivery
+TANK, DRAIN = 0.1e5, 0.5e5  # Pa: level and suction line, drain line
+
+
+@dataclass(frozen=True)
+class Taken:
+    """What stands for an input: its value in SI, or the channel that is read for it; one sigma of it in SI."""
+
+    channel: ChannelName
+    value: float | ChannelName
+    sigma: float
+
+    @property
+    def text(self) -> str:
+        """It in words, with one sigma."""
+        name = self.channel
+        sigma = f"+- {difference(name, self.sigma):.2g}"
+        if isinstance(self.value, ChannelName):
+            return f"{name.value} is not measured: taken as {self.value.value} {sigma} {difference_unit(name)}"
+        unit = "" if channel_unit(name) == "1" else f" {channel_unit(name)}"
+        return f"{name.value} is not measured: taken {reading(name, self.value):.4g} {sigma}{unit}"
+
+
+def measured(recording: Recording, names: Iterable[ChannelName]) -> tuple[ChannelName, ...]:
+    """Those of the channels that the recording has a sigma and a reading of."""
+    return tuple(
+        name
+        for name in names
+        if recording.channel(name) is not None and np.any(np.isfinite(recording.steady.column(name)))
+    )
+
+
+def complete(recording: Recording) -> Recording:
+    """The recording without points at which an input that was measured elsewhere is missing; each is told."""
+    missing = np.zeros(len(recording.steady.values), dtype=bool)
+    for name in measured(recording, INPUTS):
+        missing |= ~np.isfinite(recording.steady.column(name))
+    if not missing.any():
+        return recording
+    gone = tuple(int(point) for point in np.flatnonzero(missing))
+    lost = " (with a trace)" if any(missing[trace.point] for trace in recording.traces) else ""
+    note = DataNote(NoteKind.REMOVED, None, gone, f"an input of these points is missing{lost}")
+    place = np.cumsum(~missing) - 1
+    steady = replace(
+        recording.steady, **{name: values[~missing] for name, values in vars(recording.steady).items()}
+    )
+    traces = tuple(
+        replace(trace, point=int(place[trace.point])) for trace in recording.traces if not missing[trace.point]
+    )
+    return replace(recording, steady=steady, traces=traces, notes=(*recording.notes, note))
+
+
+def taken_inputs(recording: Recording, pump: PumpDescription) -> tuple[Taken, ...]:
+    """What is taken for every input that the recording lacks.
+
+    As [operating] of the pump states it; an inlet pressure of an open circuit is that around; of case and inlet
+    temperature the one stands for the other.
+    """
+    known = measured(recording, INPUTS)
+    return tuple(_taken(recording, pump, name, known) for name in INPUTS if name not in known)
+
+
+def taken_parameters(recording: Recording, pump: PumpDescription) -> tuple[Parameter, ...]:
+    """CHANNEL.zero of every input that the recording lacks: by how much too high it is taken, at all points."""
+    return tuple(taken_parameter(one.channel, one.sigma) for one in taken_inputs(recording, pump))
+
+
+def bench_points(recording: Recording, pump: PumpDescription) -> tuple[BenchPoints, tuple[DataNote, ...]]:
+    """The points to simulate, by readings and `taken_inputs`, and these in words."""
+    count = len(recording.steady.values)
+    columns: dict[str, Array] = {name.value: recording.steady.column(name) for name in measured(recording, INPUTS)}
+    taken = taken_inputs(recording, pump)
+    for one in taken:
+        value = one.value
+        stands = recording.steady.column(value) if isinstance(value, ChannelName) else np.full(count, value)
+        columns[one.channel.value] = stands
+    points = BenchPoints(**columns, hours=recording.steady.hours, order=np.arange(count, dtype=float))
+    return points, tuple(DataNote(NoteKind.TOLD, one.channel, (), one.text) for one in taken)
+
+
+def _taken(
+    recording: Recording, pump: PumpDescription, name: ChannelName, known: tuple[ChannelName, ...]
+) -> Taken:
+    stated = pump.operating
+    match name:
+        case ChannelName.SPEED:
+            return Taken(name, stated.speed, DRIVE * stated.speed)
+        case ChannelName.DISPLACEMENT_RATIO:
+            return Taken(name, stated.displacement_ratio, SETTING)
+        case ChannelName.P_OUT:
+            return Taken(name, stated.pressure, RELIEF * stated.pressure)
+        case ChannelName.P_IN if recording.circuit is Circuit.OPEN:
+            return Taken(name, 0.0, TANK)
+        case ChannelName.P_IN:
+            return Taken(name, stated.inlet_pressure, max(RELIEF * stated.inlet_pressure, TANK))
+        case ChannelName.P_CASE:
+            return Taken(name, stated.case_pressure, DRAIN)
+        case _:
+            other = ChannelName.T_IN if name is ChannelName.T_CASE else ChannelName.T_CASE
+            return Taken(name, other, WARMER) if other in known else Taken(name, stated.temperature, WARMTH)

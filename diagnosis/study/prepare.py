@@ -1,0 +1,92 @@
+"""From a pump and a recording to the study of both."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from diagnosis.recording.model import DataNote, NoteKind, Recording
+from diagnosis.study.inputs import bench_points, complete, measured, taken_parameters
+from diagnosis.study.map_axes import scaled_axes
+from diagnosis.study.model import Study, study_of
+from diagnosis.study.noise_correlation import noise_memory
+from diagnosis.study.readings import observations
+from diagnosis.study.trace_misfits import port_events, trace_misfits, trace_parameters
+from diagnosis.study.traced_bench import traced_bench
+from diagnosis.thresholds import Thresholds
+from reynolds.errors import FilmInputError
+from system.bench.outputs import SIMULATED
+from system.bench.parameters import base_parameters
+from system.bench.sensors import drift_parameter, lag_parameter, sensor_parameters
+from system.bench.simulator import LumpedBench
+from system.description.pump import PumpDescription
+from system.description.tolerances import Tolerances
+from system.effects.catalogue.entries import CATALOGUE
+from system.effects.extension import Entry
+from system.estimation.parameters import Parameter
+from system.inputs.channels import INPUTS, OUTPUTS, ChannelName
+
+LAG = 1.0  # s, one sigma of a flow meter's lag where none is stated
+
+
+def prepare(
+    pump: PumpDescription,
+    recording: Recording,
+    tolerances: Tolerances,
+    thresholds: Thresholds,
+    catalogue: tuple[Entry, ...] = CATALOGUE,
+) -> Study:
+    """The study of a recording of a pump, by the lumped fidelity, with the whole catalogue as candidates.
+
+    Chamber traces are readings of it as the steady ones are, some tens of numbers each (`TracedBench`).
+    What the recording leaves out is taken and told in the notes of the study's recording. Raises FilmInputError
+    for a recording without an output that the simulation knows, NotConverged where a point cannot be simulated.
+    """
+    usable = complete(recording)
+    channels, inputs = measured(usable, SIMULATED), measured(usable, INPUTS)
+    if not channels:
+        names = ", ".join(channel.value for channel in SIMULATED)
+        raise FilmInputError("recording", "none of the simulated outputs", f"at least one of {names}")
+    points, taken = bench_points(usable, pump)
+    unused = tuple(
+        DataNote(NoteKind.TOLD, name, (), f"{name.value} is recorded, but the simulation does not give it")
+        for name in measured(usable, OUTPUTS)
+        if name not in SIMULATED
+    )
+    usable = replace(usable, notes=(*usable.notes, *taken, *unused))
+    parameters = (
+        *base_parameters(pump, tolerances), *_sensors(usable, channels), *taken_parameters(usable, pump),
+        *trace_parameters(usable),
+    )  # fmt: skip
+    bench = LumpedBench(pump, points, channels, parameters, inputs=inputs)
+    found, axes = observations(usable, channels, inputs), scaled_axes(usable)
+    traces = usable.channel(ChannelName.P_CHAMBER) if usable.traces else None
+    study = study_of(usable, bench, found, axes, () if traces else catalogue, thresholds)
+    memory = noise_memory(study, thresholds.mismatch.memory)
+    if memory:
+        told = (
+            f"what is left goes on from point to point: noise taken as correlated by {memory[0]:.2f} in the order"
+        )
+        usable = replace(usable, notes=(*usable.notes, DataNote(NoteKind.TOLD, None, (), told)))
+        found = replace(found, memory=memory)
+    if traces:
+        traced = traced_bench(bench, usable.traces, traces)
+        study = study_of(usable, traced, traced.observations(found), axes, catalogue, thresholds)
+        study = replace(study, traces=trace_misfits(traced, traces, thresholds.mismatch.pull))
+    elif memory:
+        study = study_of(usable, bench, found, axes, catalogue, thresholds)
+    return replace(study, events=port_events(pump))
+
+
+def _sensors(recording: Recording, channels: tuple[ChannelName, ...]) -> tuple[Parameter, ...]:
+    """Calibrations of what is simulated or set; the drain meter may drift by its zero's sigma, flow meters lag."""
+    known = [channel for channel in recording.channels if channel.name in (*channels, *INPUTS)]
+    found = list(sensor_parameters(known))
+    drain = recording.channel(ChannelName.Q_CASE)
+    if drain is not None and drain.name in channels and drain.zero_sigma > 0:
+        found.append(drift_parameter(drain.name, drain.zero_sigma))
+    delivery = recording.channel(ChannelName.Q_OUT)
+    if delivery is not None and delivery.name in channels and np.all(np.isfinite(recording.steady.hours)):
+        found.append(lag_parameter(delivery.name, delivery.lag or LAG))
+    return tuple(found)

@@ -1,0 +1,78 @@
+"""Recorded traces fitted by themselves, by what a chamber's pressure hangs on and as far as tolerance lets it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from diagnosis.study.traced_bench import TracedBench
+from reynolds.numerics.arrays import Array
+from system.bench.parameters import GROOVE_NAMES
+from system.bench.sensors import TRACE_NAMES
+from system.estimation.fit import FitLimits, maximum_posterior
+from system.estimation.parameters import Parameter
+from system.inputs.errors import NotConverged
+
+MOVING = frozenset({
+    "bulk_modulus", "dead_volume", "flow_coefficient", "stand_out_share", "p_out.zero", "film_thickness.piston",
+    "film_thickness.slipper", "film_thickness.valve_plate", "viscosity", *GROOVE_NAMES, *TRACE_NAMES,
+})  # fmt: skip
+"""Parameters that a chamber's pressure over the turn hangs on, as it is read."""
+LIMITS = FitLimits(change=0.1)  # of the objective
+
+
+@dataclass(frozen=True, eq=False)
+class ChamberBench:
+    """The traces of a bench alone: a simulator of their numbers (T, F) with the parameters they hang on.
+
+    All others stay at their prior mean.
+    """
+
+    traced: TracedBench
+    parameters: tuple[Parameter, ...]
+
+    def predict(self, values: Array) -> Array:
+        """Numbers (T, F) of the traces. Raises NotConverged."""
+        return self.traced.numbers(self._all(values))
+
+    def slopes(self, values: Array, names: tuple[str, ...]) -> Array:
+        """d numbers / d value of the named parameters, (T, F, len(names)), by differences."""
+        return self.traced.number_slopes(self._all(values), names)
+
+    def input_slopes(self, values: Array) -> Array:
+        """(T, F, 0): what was set is taken as known, but for the parameter p_out.zero."""
+        return np.zeros((*self.traced.recorded.shape, 0))
+
+    def with_parameters(self, parameters: tuple[Parameter, ...]) -> ChamberBench:
+        """The same with these parameters: replaced where a name is there already, added where not."""
+        given = {one.name: one for one in (*self.parameters, *parameters)}
+        return ChamberBench(self.traced.with_parameters(parameters), tuple(given.values()))
+
+    def _all(self, values: Array) -> Array:
+        own = {one.name: value for one, value in zip(self.parameters, values, strict=True)}
+        return np.array([own.get(one.name, one.value(0.0)) for one in self.traced.parameters])
+
+
+def settled_traces(traced: TracedBench, reach: float) -> Array:
+    """xi (k,) of the bench's parameters at which its traces fit best, none farther than `reach` from its mean.
+
+    A flank is no straight function of what moves it: tolerance that is taken out by slopes at the prior mean
+    leaves it standing. What tolerance cannot explain, `reach` keeps it from following. A simulation that fails
+    on the way leaves the mean.
+    """
+    moving = [one for one in traced.parameters if one.name in MOVING]
+    chamber = ChamberBench(traced, tuple(_within(one, reach) for one in moving))
+    xi = np.zeros(len(traced.parameters))
+    try:
+        found = maximum_posterior(chamber, traced.trace_observations(), limits=LIMITS)
+    except NotConverged:
+        return xi
+    xi[[one.name in MOVING for one in traced.parameters]] = found.xi
+    return xi
+
+
+def _within(parameter: Parameter, reach: float) -> Parameter:
+    """The same, cut to `reach` either side of its mean."""
+    lower, upper = max(parameter.lowest, -reach), min(parameter.highest, reach)
+    return replace(parameter, lower=parameter.value(lower), upper=parameter.value(upper))

@@ -1,0 +1,73 @@
+"""The verdict: what is claimed, how sure, what cannot be told apart."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import Enum
+
+from diagnosis.detect.mismatch import Detection
+from diagnosis.explain.ranked import HeldOut, Weighed
+from diagnosis.explain.scaling import Scaling
+from diagnosis.next_point.choose import NextPoint
+from diagnosis.verdict.locate import Location
+from system.description.gap import Gap
+from system.effects.effect import EffectId, Kind
+from system.estimation.posterior import Effort, Posterior
+from system.inputs.units import Dimension
+
+
+class Status(Enum):
+    """How far a verdict goes."""
+
+    NAMED = "named"
+    CLASS = "class"
+    SUSPICION = "suspicion"
+    INCOMPLETE = "incomplete"
+
+
+@dataclass(frozen=True)
+class Estimate:
+    """A parameter with one sigma, SI; dimension None: a pure number."""
+
+    name: str
+    value: float
+    sigma: float
+    dimension: Dimension | None
+
+
+@dataclass(frozen=True)
+class Claim:
+    """One effect that is claimed, at its likeliest gap.
+
+    equivalent: the ids that this recording cannot tell from it; elsewhere: other gaps that it cannot tell from
+    `pair`, each with its share of the probability.
+    """
+
+    effect: EffectId
+    pair: Gap | None
+    probability: float
+    equivalent: tuple[EffectId, ...]
+    parameters: tuple[Estimate, ...]
+    elsewhere: tuple[tuple[Gap, float], ...] = ()
+
+
+@dataclass(frozen=True)
+class Diagnosis:
+    """The whole finding. hypotheses: all that were weighed, claimed first; before: the null's own fit, after: the
+    claimed one's; fit: held-out residuals; not_identifiable: pairs of things this recording cannot tell, in words.
+    """
+
+    kind: Kind
+    status: Status
+    detection: Detection
+    location: Location
+    effects: tuple[Claim, ...]
+    hypotheses: tuple[Weighed, ...]
+    before: Posterior
+    after: Posterior
+    fit: HeldOut
+    scaling: Scaling | None
+    next_point: NextPoint | None
+    not_identifiable: tuple[str, ...]
+    notes: tuple[str, ...]
+    effort: Effort

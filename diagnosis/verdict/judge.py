@@ -1,0 +1,250 @@
+"""From weighed explanations to a verdict: what is claimed, and how far."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.special import logsumexp
+from scipy.stats import chi2, norm
+
+from diagnosis.detect.mismatch import Detection
+from diagnosis.explain.hypotheses import Hypothesis
+from diagnosis.explain.model_error import class_gap, place_gap, shared_out
+from diagnosis.explain.ranked import Weighed
+from diagnosis.study.model import Study
+from diagnosis.thresholds import Thresholds
+from diagnosis.verdict.bend_chance import BendChance, chance_of_bend
+from diagnosis.verdict.diagnosis import Claim, Estimate, Status
+from diagnosis.verdict.equivalence import agrees, equivalents
+from diagnosis.verdict.residue import left_over
+from diagnosis.verdict.row_numbers import table_rows
+from reynolds.numerics.arrays import Array
+from system.description.gap import Gap
+from system.effects.effect import Kind
+from system.estimation.posterior import Posterior
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """What is claimed: kind, status, claims (none where nothing is), its class, and why not more, in words.
+
+    ranked: all explanations, the likeliest first.
+    """
+
+    kind: Kind
+    status: Status
+    claims: tuple[Claim, ...]
+    members: tuple[Weighed, ...]
+    reasons: tuple[str, ...]
+    ranked: tuple[Weighed, ...]
+
+
+def judge(
+    study: Study,
+    detection: Detection,
+    weighed: Sequence[Weighed],
+    along: Mapping[str, Array],
+    thresholds: Thresholds,
+) -> Verdict:
+    """The verdict on explanations with their probabilities, the likeliest first, the null among them.
+
+    along: coordinates (N,) with which an effect may grow, by name (`diagnosis.verdict.trend`).
+
+    A mismatch needs both a candidate (or a free bend) as striking as chance hardly makes one and an improbable
+    null; one of the two, or a candidate that is striking enough, is a suspicion, of the likeliest kind, and claims
+    nothing. A name needs probability, odds to all that claim something else, sizes that are sure, no veto of
+    held-out regions; it is incomplete while something is left over.
+    """
+    limits = thresholds.mismatch
+    null = next(each for each in weighed if each.hypothesis.kind is Kind.NO_MISMATCH)
+    if null.probability >= limits.null_probability:
+        if detection.chance >= limits.suspicion:
+            return Verdict(Kind.NO_MISMATCH, Status.NAMED, (), (), (), tuple(weighed))
+        return _suspicion(weighed, (_half_seen(detection, null),))
+    bend = _bend(study, null, weighed, thresholds)
+    if min(detection.chance, bend.chance) >= limits.chance:
+        return _suspicion(weighed, (_half_seen(detection, null),))
+    best = _simplest(max((each for each in weighed if each is not null), key=_weight), weighed, thresholds)
+    if best.hypothesis.kind is Kind.UNKNOWN_PHYSICS:
+        return _unknown(study, bend, weighed, thresholds)
+    members = equivalents(best, weighed, class_gap(weighed, thresholds), place_gap(weighed, thresholds))
+    weighed, members = shared_out(weighed, members, thresholds)
+    best = members[0]
+    against = _objections(best, members, weighed, thresholds)
+    if against:
+        return _suspicion(weighed, against)
+    left = left_over(study, null, best, along, thresholds)
+    claims = _claims(members, weighed, thresholds)
+    alike = any(claim.equivalent or claim.elsewhere for claim in claims)
+    status = Status.INCOMPLETE if left else Status.CLASS if alike else Status.NAMED
+    return Verdict(best.hypothesis.kind, status, claims, members, left, weighed)
+
+
+def _bend(study: Study, null: Weighed, weighed: Sequence[Weighed], thresholds: Thresholds) -> BendChance:
+    """The chance of unknown physics beside a null, seen from the prior mean alone where that has no fit."""
+    unknown = [each.hypothesis for each in weighed if each.hypothesis.component is not None]
+    return chance_of_bend(study, null.posterior or study.base, unknown, thresholds)
+
+
+def _weight(each: Weighed) -> float:
+    return each.log_weight
+
+
+def _simplest(best: Weighed, weighed: Sequence[Weighed], thresholds: Thresholds) -> Weighed:
+    """Of the best and of what claims a part of the same within the odds of a name: that of fewest effects."""
+    names = set(best.hypothesis.open_names)
+    near = [
+        each
+        for each in weighed
+        if each.hypothesis.open_names
+        and set(each.hypothesis.open_names) <= names
+        and best.log_weight - each.log_weight < thresholds.name.odds
+    ]
+    return min((best, *near), key=lambda each: (len(each.hypothesis.effects), -each.log_weight))
+
+
+def _half_seen(detection: Detection, null: Weighed) -> str:
+    return (
+        f"a candidate as striking as the strongest has a chance of {detection.chance:.2g} where nothing is there, "
+        f"and nothing a probability of {null.probability:.2g}: a mismatch needs both to be small"
+    )
+
+
+def _suspicion(weighed: Sequence[Weighed], reasons: tuple[str, ...]) -> Verdict:
+    """Of the likeliest kind of mismatch."""
+    kinds = {each.hypothesis.kind for each in weighed} - {Kind.NO_MISMATCH}
+    likeliest = max(kinds, key=lambda kind: _probability(weighed, kind))
+    return Verdict(likeliest, Status.SUSPICION, (), (), reasons, tuple(weighed))
+
+
+def _probability(weighed: Sequence[Weighed], kind: Kind) -> float:
+    return sum(each.probability for each in weighed if each.hypothesis.kind is kind)
+
+
+def _unknown(study: Study, bend: BendChance, weighed: Sequence[Weighed], thresholds: Thresholds) -> Verdict:
+    """Unknown physics is the verdict, without an effect, when its hypotheses together are sure, and striking."""
+    probability = _probability(weighed, Kind.UNKNOWN_PHYSICS)
+    against = []
+    if probability < thresholds.name.probability:
+        against.append(f"unknown physics at a probability of {probability:.2f} only")
+    if bend.chance >= thresholds.mismatch.chance:
+        row = table_rows(study.recording)[bend.point]
+        against.append(
+            f"without point {row}, on which it rests most, unknown physics as far ahead of nothing has a chance "
+            f"of {bend.chance:.2g} where nothing is there: read that point again"
+        )
+    if against:
+        return _suspicion(weighed, tuple(against))
+    return Verdict(Kind.UNKNOWN_PHYSICS, Status.NAMED, (), (), (), tuple(weighed))
+
+
+def _objections(
+    best: Weighed, members: Sequence[Weighed], weighed: Sequence[Weighed], thresholds: Thresholds
+) -> tuple[str, ...]:
+    """Why the class may not be named. Its members weigh together: the prior of one id is shared by its gaps."""
+    limits = thresholds.name
+    probability = sum(each.probability for each in weighed if agrees(each, members))
+    others = [each for each in weighed if each not in members and not agrees(each, members)]
+    rival = max(others, key=_weight)
+    ahead = float(logsumexp([each.log_weight for each in members])) - rival.log_weight
+    found = []
+    if probability < limits.probability:
+        found.append(f"a probability of {probability:.2f} only")
+    if ahead < limits.odds:
+        found.append(f"{rival.hypothesis.text} stands {ahead:.1f} nats behind")
+    if best.posterior is None:
+        found.append("it could not be refitted")
+    elif not _sure(best.posterior, best.hypothesis, thresholds):
+        found.append("its size is not sure")
+    if best.heldout is not None and best.heldout.vetoed:
+        gains = ", ".join(
+            f"{name} {gain:+.1f}"
+            for name, gain in best.heldout.gains.items()
+            if gain < thresholds.heldout.negative_gain
+        )
+        found.append(f"regions held out speak against it (nats): {gains}")
+    return tuple(found)
+
+
+def _sure(posterior: Posterior, hypothesis: Hypothesis, thresholds: Thresholds) -> bool:
+    """Each law with sizes more than some sigma from nothing; each wrong parameter beyond its stated tolerance.
+
+    Several sizes of one law together: none may be sure alone where readings tell their sum.
+    """
+    for law in hypothesis.laws:
+        if _chance_of(posterior, [one.name for one in law.parameters]) > 2.0 * norm.sf(thresholds.name.sure):
+            return False
+    for name in hypothesis.widened:
+        beyond = abs(posterior.xi[posterior.index(name)]) * thresholds.name.fault_factor * hypothesis.reach
+        if beyond <= thresholds.mismatch.pull or _sigmas(posterior, name) <= thresholds.name.sure:
+            return False
+    return True
+
+
+def _chance_of(posterior: Posterior, names: Sequence[str]) -> float:
+    """The chance that all of these are nothing: of xi^T C^-1 xi, chi2 of as many degrees of freedom."""
+    at = [posterior.index(name) for name in names]
+    xi = posterior.xi[at]
+    return float(chi2.sf(xi @ np.linalg.solve(posterior.covariance[np.ix_(at, at)], xi), len(at)))
+
+
+def _sigmas(posterior: Posterior, name: str) -> float:
+    at = posterior.index(name)
+    return float(abs(posterior.xi[at]) / np.sqrt(posterior.covariance[at, at]))
+
+
+def _claims(members: Sequence[Weighed], weighed: Sequence[Weighed], thresholds: Thresholds) -> tuple[Claim, ...]:
+    """One claim for each effect of the best member: its probability counts all that claim it too."""
+    best = members[0]
+    own = best.hypothesis
+    rivals = {effect for each in members for effect in each.hypothesis.effects} - set(own.effects)
+    shared = set.intersection(*(set(each.hypothesis.effects) for each in members))
+    claims = []
+    for at, effect in enumerate(own.effects):
+        probability = sum(each.probability for each in weighed if effect in each.hypothesis.effects)
+        equivalent = () if effect in shared else tuple(sorted(rivals, key=lambda one: one.value))
+        claims.append(
+            Claim(
+                effect,
+                own.places[at],
+                probability,
+                equivalent,
+                _estimates(best, at),
+                _elsewhere(at, members, thresholds),
+            )
+        )
+    return tuple(claims)
+
+
+def _elsewhere(at: int, members: Sequence[Weighed], thresholds: Thresholds) -> tuple[tuple[Gap, float], ...]:
+    """Other gaps where one effect of the first member may sit, each with its share, where its own is not sure."""
+    own = members[0].hypothesis
+    same = [each for each in members if each.hypothesis.effects == own.effects]
+    total = sum(each.probability for each in same)
+    share: dict[Gap | None, float] = {}
+    for each in same:
+        place = each.hypothesis.places[at]
+        share[place] = share.get(place, 0.0) + each.probability / total
+    if share[own.places[at]] >= thresholds.name.probability:
+        return ()
+    return tuple((gap, part) for gap, part in share.items() if gap is not None and gap is not own.places[at])
+
+
+def _estimates(best: Weighed, at: int) -> tuple[Estimate, ...]:
+    """The parameters of one effect as found; of a law by the last part of their path."""
+    posterior, own = best.posterior, best.hypothesis
+    if posterior is None:
+        return ()
+    subject = own.subjects[at]
+    if isinstance(subject, str):
+        return (_estimate(posterior, subject, False),)
+    return tuple(_estimate(posterior, one.name, True) for one in subject.free)
+
+
+def _estimate(posterior: Posterior, name: str, short: bool) -> Estimate:
+    at = posterior.index(name)
+    told = name.rpartition(".")[2] if short else name
+    dimension = posterior.parameters[at].dimension
+    return Estimate(told, float(posterior.values[at]), posterior.sigma(name), dimension)

@@ -1,0 +1,109 @@
+"""Where a mismatch sits: channel and region, component, shaft angle, time. Needs no catalogue."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from functools import partial
+
+import numpy as np
+
+from diagnosis.detect.angle_scan import AngleWindow, scan_angles
+from diagnosis.detect.component_evidence import (
+    ComponentGroup,
+    component_evidences,
+    group_evidences,
+    missing_pattern,
+    tied,
+)
+from diagnosis.detect.contrasts import Contrasts, contrasts
+from diagnosis.detect.regions import Region, densest_region, strongest_region
+from diagnosis.detect.time_scan import TimeMark, scan_time
+from diagnosis.explain.explained import unexplained_traces
+from diagnosis.explain.ranked import Weighed
+from diagnosis.study.map_axes import axis_values
+from diagnosis.study.model import Study
+from diagnosis.thresholds import Thresholds
+from reynolds.numerics.arrays import Array
+from system.effects.components import Component
+from system.inputs.channels import ChannelName
+
+_Box = Callable[[ChannelName, Contrasts, Array, Mapping[ChannelName, Array]], Region | None]
+
+
+@dataclass(frozen=True)
+class Location:
+    """Channels in which it shows, most first, and the region of the first (None: everywhere).
+
+    components, groups: ln evidence of each, best first; tie: components that cannot be told from the best. Where
+    no component is ahead of nothing there are no channels, no region and no tie.
+    """
+
+    channels: tuple[ChannelName, ...]
+    region: Region | None
+    components: tuple[tuple[Component, float], ...]
+    groups: tuple[tuple[ComponentGroup, float], ...]
+    tie: tuple[Component, ...]
+    angle: AngleWindow | None
+    time: TimeMark | None
+
+
+def locate(study: Study, thresholds: Thresholds) -> Location:
+    """Where the readings part from the simulation. Means something only where `detect` finds that they do."""
+    limits = thresholds.locate
+    ranking = component_evidences(study, thresholds)
+    tie = tied(ranking, thresholds.name.odds)
+    pattern = missing_pattern(study, tie[0], thresholds) if tie else np.zeros(study.observations.values.shape)
+    channels = _channels(study, pattern, limits.channel_share)
+    densest = partial(densest_region, share=limits.region_share)
+    return Location(
+        channels=channels,
+        region=_region(study, channels[0], pattern, densest) if channels else None,
+        components=ranking,
+        groups=group_evidences(ranking),
+        tie=tie,
+        angle=scan_angles(study.traces, study.events, limits, thresholds.seeds.locate),
+        time=scan_time(study, thresholds),
+    )
+
+
+def of_explanation(study: Study, location: Location, added: Array, thresholds: Thresholds) -> Location:
+    """The same with channels and strongest region of what an explanation adds to the readings, (N, C) in SI.
+
+    A law's free multiplier knows its level only up to what films and zeros take up: whether too much leaks at low
+    pressure or too little at high, only the explanation tells. Components are told by steady readings: none are
+    where it adds to traces alone.
+    """
+    whitening = study.base.whitening
+    sigma = np.where(whitening.measured, whitening.sigma, np.inf)
+    pattern = added / sigma
+    channels = _channels(study, pattern, thresholds.locate.channel_share)
+    region = _region(study, channels[0], pattern, strongest_region) if channels else None
+    tie = location.tie if set(channels) & set(study.channels) else ()
+    return replace(location, channels=channels, region=region, tie=tie)
+
+
+def without_explanation(study: Study, location: Location, weighed: Weighed, thresholds: Thresholds) -> Location:
+    """The same with the shaft angle at which traces part from a refit that has its explanation taken out.
+
+    Where it shows in the chamber: tolerance alone may well follow it (a worn groove is one cut too long).
+    """
+    traces = unexplained_traces(study, weighed, thresholds)
+    angle = scan_angles(traces, study.events, thresholds.locate, thresholds.seeds.locate)
+    return replace(location, angle=angle)
+
+
+def _channels(study: Study, pattern: Array, least_share: float) -> tuple[ChannelName, ...]:
+    """Those in which the best component's missing part shows: raw excess would count every channel's noise."""
+    energy = study.by_shown((pattern**2).sum(axis=0))
+    order = np.argsort(-energy)
+    least = least_share * energy.sum()
+    return tuple(study.shown_channels[at] for at in order if energy[at] > 0 and energy[at] >= least)
+
+
+def _region(study: Study, channel: ChannelName, pattern: Array, box: _Box) -> Region | None:
+    """The box of a pattern (N, C) in a channel; None for what has no place in the map."""
+    if channel not in study.channels:
+        return None
+    at = study.channels.index(channel)
+    return box(channel, contrasts(study.base, at), pattern[:, at], axis_values(study.recording))

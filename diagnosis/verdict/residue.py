@@ -1,0 +1,132 @@
+"""What the best explanation leaves: enough of the mismatch to say that the name is not all."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+
+import numpy as np
+from scipy.stats import norm
+
+from diagnosis.detect.component_evidence import MEMBERS, ComponentGroup, multiplier_columns
+from diagnosis.detect.contrasts import contrasts
+from diagnosis.detect.mismatch import most_striking
+from diagnosis.detect.regions import flagged
+from diagnosis.explain.explained import repair
+from diagnosis.explain.hypotheses import Hypothesis
+from diagnosis.explain.ranked import Weighed
+from diagnosis.study.map_axes import axis_values
+from diagnosis.study.model import Study
+from diagnosis.thresholds import Thresholds
+from diagnosis.verdict.trend import misgrown
+from reynolds.numerics.arrays import Array
+from system.estimation.evidence import multiplier_evidence
+from system.estimation.parameters import Role
+from system.estimation.posterior import Posterior, settled
+from system.inputs.errors import NotConverged
+
+MATERIAL = 0.1  # of the mismatch in square: what explains nine tenths of it is all of it, but for its form
+BROADER = 5.44  # n times the variance of a squared scale from the median (Rousseeuw and Croux 1993)
+MEDIAN = float(norm.isf(0.25))  # of |r| in sigma
+
+
+def left_over(
+    study: Study, null: Weighed, best: Weighed, along: Mapping[str, Array], thresholds: Thresholds
+) -> tuple[str, ...]:
+    """What the best explanation leaves of the mismatch, in words; () where it is complete.
+
+    Parts of the map and candidates that stand out of what is left tell of it where chance hardly makes one and its
+    square is MATERIAL of what is explained in its channel: a law of another form than the pump's leaves a little
+    at any size.
+    along: coordinates (N,) with which an effect may grow, by name.
+    """
+    after, before = best.posterior, null.posterior
+    if after is None or before is None:
+        return ()
+    found = list(_bent(best.hypothesis))
+    found += _scatter(after.residual, thresholds)
+    least = np.sqrt(MATERIAL * max(before.objective - after.objective, 0.0) * _shares(study, best, thresholds))
+    found += _regions(study, after, least, thresholds)
+    found += _striking(study, after, best.hypothesis, least, thresholds)
+    found += [growth.text for growth in misgrown(study, best, along, thresholds)[:1]]
+    if _pulls(after, best.hypothesis) - _pulls(before, best.hypothesis) > 2.0 * thresholds.name.odds:
+        found.append("parameters move farther from their stated values than without it")
+    if _allowed_gain(study, before, after, thresholds) < thresholds.name.odds:
+        found.append(f"errors of form of {thresholds.name.allowance:.1%} would explain as much")
+    return tuple(found)
+
+
+def _bent(hypothesis: Hypothesis) -> Iterator[str]:
+    if not hypothesis.bent:
+        return
+    beside = " and ".join(each.value for each in hypothesis.stand_ins)
+    stands = (
+        f"; {beside} beside it would do so too, but takes up no more than its form may leave" if beside else ""
+    )
+    yield f"its law explains more if it is bent over the map{stands}"
+
+
+def _scatter(residual: Array, thresholds: Thresholds) -> Iterator[str]:
+    """The breadth of what is left, from its median: tails and steps of the noise are no mismatch."""
+    broad = float(np.median(np.abs(residual)) / MEDIAN) ** 2
+    if norm.sf((broad - 1.0) / np.sqrt(BROADER / residual.size)) < thresholds.mismatch.chance:
+        yield f"what is left scatters {np.sqrt(broad):.2f} times as wide as the noise"
+
+
+def _shares(study: Study, best: Weighed, thresholds: Thresholds) -> Array:
+    """By shown channel, of the square of what the explanation adds, in sigma; 0 where that is not known."""
+    try:
+        added = repair(study, best, thresholds).added / study.base.whitening.sigma
+    except NotConverged:
+        return np.zeros(len(study.shown_channels))
+    squares = np.where(study.observations.measured, added**2, 0.0).sum(axis=0)
+    squares = study.by_shown(squares)
+    return np.asarray(squares / squares.sum()) if squares.any() else np.zeros_like(squares)
+
+
+def _regions(study: Study, after: Posterior, least: Array, thresholds: Thresholds) -> Iterator[str]:
+    """The first two parts of the map that stand out of what is left."""
+    by_channel = {name: contrasts(after, at) for at, name in enumerate(study.channels)}
+    flags = flagged(by_channel, axis_values(study.recording), thresholds.mismatch.flag_rate)
+    for flag in flags[:2]:
+        if abs(flag.contrast) > least[study.channels.index(flag.channel)]:
+            yield f"{flag.channel.value} stays {flag.contrast:+.1f} sigma off at {flag.text}"
+
+
+def _striking(
+    study: Study, after: Posterior, hypothesis: Hypothesis, least: Array, thresholds: Thresholds
+) -> Iterator[str]:
+    """The candidate that stands out of what is left."""
+    others = [each for each in study.candidates if each.entry.id not in hypothesis.effects]
+    chance, strongest = most_striking(settled(after), others, thresholds)
+    if chance >= thresholds.mismatch.chance:
+        return
+    candidate, found = strongest[0]
+    squares = np.zeros(len(study.observations.channels))
+    np.add.at(squares, after.whitening.rows[:, 1], candidate.column**2)
+    channel = study.by_shown(squares).argmax()
+    if abs(found.z) > least[channel]:
+        yield f"{candidate.entry.id.value} stands out of what is left by {abs(found.z):.1f} sigma"
+
+
+def _pulls(posterior: Posterior, hypothesis: Hypothesis) -> float:
+    """Sum of xi^2 over what the null has too and the hypothesis does not set free."""
+    kept = np.array(
+        [each.role is not Role.EXTENSION and each.name not in hypothesis.widened for each in posterior.parameters]
+    )
+    return float((posterior.xi[kept] ** 2).sum())
+
+
+def _allowed_gain(study: Study, before: Posterior, after: Posterior, thresholds: Thresholds) -> float:
+    """ln evidence over the null if every leakage and friction law may be bent over the map by the allowance."""
+    laws = (*MEMBERS[ComponentGroup.FILM_LEAKAGE], *MEMBERS[ComponentGroup.FRICTION])
+    bent = [component for component in laws if component in study.components]
+
+    def evidence(posterior: Posterior) -> float:
+        if not bent:
+            return posterior.log_evidence
+        columns = np.hstack([multiplier_columns(study, posterior, component) for component in bent])
+        return posterior.log_evidence + multiplier_evidence(
+            settled(posterior), columns, (thresholds.name.allowance,)
+        )
+
+    return evidence(after) - evidence(before)

@@ -1,0 +1,35 @@
+"""Rows of a recording's own table: readers find a point there, though some rows may have taken no part."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from diagnosis.recording.model import NoteKind, Recording
+from diagnosis.verdict.diagnosis import Diagnosis
+
+
+def table_rows(recording: Recording) -> NDArray[np.int64]:
+    """The row, from 1, of each of the N points in the table (or windows of the series) that was read.
+
+    Skipped are the rows that lacked an input, as the recording's notes have them: `inputs.complete`.
+    """
+    gone = {
+        point
+        for note in recording.notes
+        if note.kind is NoteKind.REMOVED and note.channel is None
+        for point in note.points
+    }
+    whole = np.arange(len(recording.steady.values) + len(gone))
+    return np.setdiff1d(whole, np.array(sorted(gone), dtype=np.int64)) + 1
+
+
+def by_table_rows(found: Diagnosis, recording: Recording) -> Diagnosis:
+    """The diagnosis with the place of a drift or an onset by the table's rows (from 0, as it counts)."""
+    time = found.location.time
+    if time is None:
+        return found
+    row = int(table_rows(recording)[time.at]) - 1
+    return replace(found, location=replace(found.location, time=replace(time, at=row)))

@@ -1,0 +1,78 @@
+"""Whether an explanation grows with speed, pressure, displacement and viscosity as the readings ask."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.stats import norm
+
+from diagnosis.explain.explained import repair
+from diagnosis.explain.ranked import Weighed
+from diagnosis.explain.scaling import LEAST_RANGE
+from diagnosis.study.map_axes import AXES
+from diagnosis.study.model import Study
+from diagnosis.thresholds import Thresholds
+from reynolds.numerics.arrays import Array
+from system.estimation.evidence import score
+from system.estimation.posterior import settled
+from system.inputs.channels import ChannelName
+from system.inputs.errors import NotConverged
+
+FLAT = 0.25  # of a power: what grows by less more or less grows alike
+
+
+@dataclass(frozen=True)
+class Growth:
+    """By which power of a coordinate more than it does an explanation would have to grow, with one sigma."""
+
+    coordinate: str
+    power: float
+    sigma: float
+
+    @property
+    def text(self) -> str:
+        """ "it would have to grow with speed by a power more of 1.3 +- 0.5"."""
+        more = "more" if self.power > 0 else "less"
+        size = f"{abs(self.power):.2g} +- {self.sigma:.1g}"
+        return f"it would have to grow with {self.coordinate} by a power {more} of {size}"
+
+
+def coordinates(study: Study, viscosity: Array) -> Mapping[str, Array]:
+    """Speed, pressure, displacement, viscosity (N,) in SI: those that are known at all points."""
+    values, order = study.recording.steady.values, list(ChannelName)
+    speed, pressure, stroke = (values[:, order.index(axis)] for axis in AXES[:3])
+    found = {"speed": speed, "pressure": pressure, "displacement": stroke, "viscosity": viscosity}
+    return {name: x for name, x in found.items() if np.all(np.isfinite(x))}
+
+
+def misgrown(
+    study: Study, weighed: Weighed, along: Mapping[str, Array], thresholds: Thresholds
+) -> tuple[Growth, ...]:
+    """The powers by which a refitted explanation's growth differs from what the readings ask; most often none.
+
+    What it adds to the readings, d, becomes d x^b: to first order b d ln x, whose score (Rao 1948) is taken about
+    the refit, one coordinate x at a time. Of explanations of the right form at most one in twenty is told (rate of
+    false flags; Holm 1979), and no power below FLAT. The pattern is of one direction, and so sees what a free
+    bend, paid for in all directions, does not. Empty where nothing was refitted.
+    """
+    posterior = weighed.posterior
+    logs = {name: np.log(x / np.median(x)) for name, x in along.items() if x.min() > 0 and _moves(x)}
+    if posterior is None or not logs:
+        return ()
+    try:
+        added = repair(study, weighed, thresholds).added
+    except NotConverged:
+        return ()
+    fit = settled(posterior)
+    scores = {name: score(fit, fit.whitening.whiten(added * x[:, None])) for name, x in logs.items()}
+    least = float(norm.isf(0.5 * thresholds.mismatch.flag_rate / len(logs)))
+    told = [(name, found) for name, found in scores.items() if abs(found.z) > least and abs(found.size) > FLAT]
+    return tuple(
+        Growth(name, found.size, found.sigma) for name, found in sorted(told, key=lambda one: -abs(one[1].z))
+    )
+
+
+def _moves(values: Array) -> bool:
+    return bool(values.max() > LEAST_RANGE * values.min())
