@@ -13,7 +13,7 @@ from pathlib import Path
 from time import perf_counter
 
 from diagnosis.study.scaled_pump import load_known_pump
-from swashfilm.diagnose_run import checked_recording, run_diagnosis
+from swashfilm.runs.diagnose.run import checked_recording, run_diagnosis
 
 
 def main() -> None:

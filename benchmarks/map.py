@@ -18,8 +18,8 @@ from pathlib import Path
 from rich.console import Console
 from rich.table import Table
 
-from swashfilm.fidelity import Fidelity
-from swashfilm.map_run import MapAsked, run_map
+from swashfilm.console.fidelity import Fidelity
+from swashfilm.runs.map.run import MapAsked, run_map
 from system.maps.plan import MapAxis, MapInput, MapPlan, map_plan, paper_axes
 from system.pump_file.file import load_pump
 from system.work.processes import crew

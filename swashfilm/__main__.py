@@ -27,8 +27,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     for name in _THREADS:  # films are small: threads cost more than they give, and two runs share the cores
         os.environ.setdefault(name, "1")
     from reynolds.errors import FilmInputError, FilmNotConverged
-    from swashfilm.cli import run_command
-    from swashfilm.run_folder import Interrupted
+    from swashfilm.cli.app import run_command
+    from swashfilm.output.run_folder import Interrupted
     from system.inputs.errors import NotConverged
     from system.inputs.faults import InputFaults
 

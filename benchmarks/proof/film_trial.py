@@ -9,7 +9,7 @@ from time import process_time
 
 from diagnosis.study.scaled_pump import load_known_pump
 from diagnosis.verdict.diagnosis import Claim, Diagnosis
-from swashfilm.diagnose_run import checked_recording, run_diagnosis
+from swashfilm.runs.diagnose.run import checked_recording, run_diagnosis
 from system.effects.catalogue.entries import CATALOGUE, with_films_solved
 from system.work.progress import silent
 

@@ -23,7 +23,7 @@ from diagnosis.verdict.diagnosis import Claim, Diagnosis
 from diagnosis.verdict.locate import Location
 from reynolds.errors import FilmInputError
 from reynolds.laws.oil import walther
-from swashfilm.diagnose_run import checked_recording
+from swashfilm.runs.diagnose.run import checked_recording
 from system.description.pump import PumpDescription
 from system.description.tolerances import tolerances
 from system.effects.effect import EffectId, Kind

@@ -3,8 +3,8 @@
 import pytest
 
 from swashfilm.__main__ import main
-from swashfilm.gap_case import GapCase
-from swashfilm.study_case import StudyCase, load_film
+from swashfilm.case.gap.instant import GapCase
+from swashfilm.case.study import StudyCase, load_film
 from system.inputs.faults import InputFaults
 
 GAP = 'format = 1\n[film]\ngap = "piston"\npump = "ref90"\n'

@@ -14,8 +14,8 @@ import xarray
 
 from reynolds.errors import FilmNotConverged
 from reynolds.linear.factor import ITERATIVE_TOLERANCE
-from swashfilm import film_run
 from swashfilm.__main__ import main
+from swashfilm.runs.film import run as film_run
 from system.pump_file.file import load_pump, resolved_toml
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -215,7 +215,7 @@ def test_ctrl_c_before_anything_is_done_leaves_nothing(monkeypatch, capsys):
 
 def test_an_internal_error_says_so_without_a_traceback_unless_asked():
     broken = (
-        "import swashfilm.cli as c, swashfilm.__main__ as m\n"
+        "import swashfilm.cli.app as c, swashfilm.__main__ as m\n"
         "c._COMMANDS['doctor'] = lambda options: 1 / 0\nsys.exit(m.main())"
     )
     plain = child(broken, "doctor")

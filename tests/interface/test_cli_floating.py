@@ -4,10 +4,10 @@ import pytest
 
 from gaps.films.physics import Effect
 from swashfilm.__main__ import main
-from swashfilm.cli import build_parser
-from swashfilm.cli_floating import floating_faults, floating_options
-from swashfilm.physics_switches import SWITCHES
-from swashfilm.physics_told import physics_told
+from swashfilm.case.gap.physics_switches import SWITCHES
+from swashfilm.case.gap.physics_told import physics_told
+from swashfilm.cli.app import build_parser
+from swashfilm.console.floating_options import floating_faults, floating_options
 from system.points.floating_gaps import FloatingOptions
 from system.pump_file.file import load_pump
 

@@ -94,7 +94,7 @@ def test_a_map_by_a_cluster_has_the_same_numbers(local_cluster, tmp_path):
 
 def test_nothing_else_needs_dask():
     code = (
-        "import sys, swashfilm.map_run, system.work.cluster; "
+        "import sys, swashfilm.runs.map.run, system.work.cluster; "
         "sys.exit(bool({'distributed', 'dask'} & set(sys.modules)))"
     )
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0

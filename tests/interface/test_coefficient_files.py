@@ -6,8 +6,8 @@ import json
 
 import pytest
 
-from swashfilm.cli import run_command
-from swashfilm.coefficients_told import share_beyond
+from swashfilm.cli.app import run_command
+from swashfilm.runs.pump.flow_coefficients import share_beyond
 from system.inputs.coefficients.flow_files import read_flow_coefficients
 from system.inputs.coefficients.loss_files import read_step_losses
 from system.inputs.csv_table import read_table

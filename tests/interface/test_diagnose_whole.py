@@ -16,9 +16,9 @@ import pytest
 from recording_heads import HEAD
 
 from reynolds.numerics.arrays import Array
-from swashfilm import diagnose_run
 from swashfilm.__main__ import main
-from swashfilm.diagnose_files import read_rows
+from swashfilm.runs.diagnose import run as diagnose_run
+from swashfilm.runs.diagnose.files import read_rows
 from system.bench.points import BenchPoints
 from system.bench.simulator import LumpedBench
 from system.effects.catalogue.entries import entry_of

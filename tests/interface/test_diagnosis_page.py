@@ -17,9 +17,10 @@ from diagnosis.study.model import Study
 from diagnosis.thresholds import load_thresholds
 from diagnosis.verdict.diagnosis import Claim, Diagnosis
 from swashfilm.__main__ import main
-from swashfilm.diagnose_files import read_rows, write_diagnosis_files
-from swashfilm.diagnose_films import FilmsTold
-from swashfilm.diagnose_page import (
+from swashfilm.runs.diagnose.before_after import NOTHING, Told, run_both
+from swashfilm.runs.diagnose.files import read_rows, write_diagnosis_files
+from swashfilm.runs.diagnose.films import FilmsTold
+from swashfilm.runs.diagnose.page import (
     AXES,
     claim_rows,
     next_point_words,
@@ -27,8 +28,7 @@ from swashfilm.diagnose_page import (
     strongest_courses,
     write_diagnose_page,
 )
-from swashfilm.diagnose_plots import effect_courses, residual_maps
-from swashfilm.diagnose_runs import NOTHING, Told, run_both
+from swashfilm.runs.diagnose.plots import effect_courses, residual_maps
 from system.effects.effect import EffectId, Kind
 from system.inputs.channels import ChannelName
 from system.pump_file.file import load_pump

@@ -10,19 +10,19 @@ from pathlib import Path
 import pytest
 
 from diagnosis.recording.reader import read_recording
-from swashfilm.cli import build_parser, run_command
-from swashfilm.fidelity import Fidelity
-from swashfilm.film_case import load_case
-from swashfilm.film_run import run_case
-from swashfilm.film_study import solve_case
-from swashfilm.film_summary import film_dataset, film_summary
-from swashfilm.gap_study import GapStudy, PositionSource, gap_warnings
-from swashfilm.gap_table_case import load_gap_table
-from swashfilm.pump_data import films_dataset, point_dataset
-from swashfilm.pump_page import headline_rows
-from swashfilm.pump_run import run_pump
-from swashfilm.pump_summary import pump_summary
-from swashfilm.study_case import load_film
+from swashfilm.case.file import load_case
+from swashfilm.case.study import load_film
+from swashfilm.cli.app import build_parser, run_command
+from swashfilm.console.fidelity import Fidelity
+from swashfilm.runs.film.run import run_case
+from swashfilm.runs.film.solve.gap import GapStudy, PositionSource, gap_warnings
+from swashfilm.runs.film.solve.study import solve_case
+from swashfilm.runs.film.summary import film_dataset, film_summary
+from swashfilm.runs.pump.data import films_dataset, point_dataset
+from swashfilm.runs.pump.page import headline_rows
+from swashfilm.runs.pump.run import run_pump
+from swashfilm.runs.pump.summary import pump_summary
+from swashfilm.runs.table.gap_case import load_gap_table
 from system.description.gap import Gap
 from system.description.pump import section_models
 from system.description.values import units_shown
@@ -247,7 +247,8 @@ def test_warnings_are_explained(films):
     stands = GapStudy(films.gaps.valve_plate[0].gap, PositionSource.GIVEN, ())
     assert {warning["name"] for warning in gap_warnings(stands)} <= explained
     sources = "".join(
-        (ROOT / name).read_text("utf-8") for name in ("swashfilm/film_warnings.py", "swashfilm/gap_study.py")
+        (ROOT / name).read_text("utf-8")
+        for name in ("swashfilm/runs/film/validity.py", "swashfilm/runs/film/solve/gap.py")
     )
     assert set(re.findall(r'"name": "(\w+)"', sources)) <= explained
     checks = "".join(

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from swashfilm.expressions import LONGEST, ExpressionError, parse_expression
+from swashfilm.case.fields.expressions import LONGEST, ExpressionError, parse_expression
 
 X, Y = np.array([0.1, 0.5, 2.0]), np.array([-1.0, 0.3, 4.0])
 

@@ -8,10 +8,10 @@ import pytest
 
 from reynolds.film import Cavitation
 from swashfilm.__main__ import main
-from swashfilm.film_case import FilmCase, load_case
-from swashfilm.film_study import solve_case
-from swashfilm.film_summary import film_summary
-from swashfilm.gap_case import GapCase
+from swashfilm.case.file import FilmCase, load_case
+from swashfilm.case.gap.instant import GapCase
+from swashfilm.runs.film.solve.study import solve_case
+from swashfilm.runs.film.summary import film_summary
 from system.inputs.faults import InputFaults
 
 MESH = '{ kind = "rectangle", size = ["10 mm", "10 mm"], cells = [8, 4] }'

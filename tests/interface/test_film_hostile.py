@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 from swashfilm.__main__ import main
-from swashfilm.film_case import load_case
-from swashfilm.film_study import solve_case
-from swashfilm.film_summary import film_summary
+from swashfilm.case.file import load_case
+from swashfilm.runs.film.solve.study import solve_case
+from swashfilm.runs.film.summary import film_summary
 
 CASE = """format = 1
 [film]

@@ -6,8 +6,8 @@ from pathlib import Path
 import pytest
 
 from swashfilm.__main__ import main
-from swashfilm.film_case import FilmCase, load_case
-from swashfilm.study_case import StudyCase, load_film
+from swashfilm.case.file import FilmCase, load_case
+from swashfilm.case.study import StudyCase, load_film
 from system.inputs.faults import InputFaults
 
 GOOD = """

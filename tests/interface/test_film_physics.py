@@ -13,10 +13,10 @@ from reynolds.film import Cavitation
 from reynolds.laws.density import DOWSON_HIGGINSON, BulkModulus, RationalDensity, Tait
 from reynolds.laws.viscosity import Barus, Roelands
 from swashfilm.__main__ import main
-from swashfilm.film_case import FilmCase, load_case
-from swashfilm.film_in_time import fields_over_time
-from swashfilm.film_study import solve_case
-from swashfilm.film_summary import film_summary
+from swashfilm.case.file import FilmCase, load_case
+from swashfilm.runs.film.history import fields_over_time
+from swashfilm.runs.film.solve.study import solve_case
+from swashfilm.runs.film.summary import film_summary
 from system.inputs.faults import InputFaults
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -208,7 +208,7 @@ def test_a_transient_leaves_its_films_and_its_history(tmp_path, monkeypatch):
 
 
 def test_a_long_series_is_thinned_and_told(read, monkeypatch):
-    from swashfilm import film_warnings
+    from swashfilm.runs.film import validity as film_warnings
 
     study = solve_case(read(GIVEN + TIME))
     films = 4 * film_warnings.MOST_FIELDS * 8 * len(study.solution.problem.space.vertices)

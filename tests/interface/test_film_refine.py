@@ -12,7 +12,7 @@ from reynolds.fem.mesh import Cell, annulus, mesh_from_file, rectangle
 from reynolds.fem.mesh_check import mesh_faults
 from reynolds.fem.refine import refine_mesh
 from swashfilm.__main__ import main
-from swashfilm.convergence import Verdict, convergence
+from swashfilm.output.convergence import Verdict, convergence
 
 SLIDER = """
 format = 1

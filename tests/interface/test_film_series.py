@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 import xarray
 
-from swashfilm import film_series
 from swashfilm.__main__ import main
-from swashfilm.study_case import StudyCase, _axis, load_film
+from swashfilm.case.study import StudyCase, _axis, load_film
+from swashfilm.runs.film.series import points as film_series
 from system.inputs.faults import InputFaults
 from system.inputs.toml_table import Table
 

@@ -8,9 +8,9 @@ import pyvista
 import xarray
 
 from gaps.revolution.schedule import Accuracy
-from swashfilm.fidelity import Fidelity
-from swashfilm.pump_page import write_pump_page
-from swashfilm.pump_run import run_pump
+from swashfilm.console.fidelity import Fidelity
+from swashfilm.runs.pump.page import write_pump_page
+from swashfilm.runs.pump.run import run_pump
 from system.films.problems import RIGID
 from system.points.floating_gaps import FloatingOptions
 from system.pump_file.file import load_pump

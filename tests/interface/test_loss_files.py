@@ -7,8 +7,8 @@ import json
 import numpy as np
 import pytest
 
-from swashfilm.cli import run_command
-from swashfilm.losses_told import loss_records, losses_left_out
+from swashfilm.cli.app import run_command
+from swashfilm.runs.pump.edge_losses import loss_records, losses_left_out
 from system.inputs.coefficients.loss_files import read_groove_losses, read_step_losses
 from system.inputs.faults import InputFaults
 from system.maps.point import LumpedSolver, MapWork

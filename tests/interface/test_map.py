@@ -10,9 +10,9 @@ import pytest
 import xarray
 
 from swashfilm.__main__ import main
-from swashfilm.cli_levels import map_axis
-from swashfilm.map_files import read_map
-from swashfilm.map_plots import efficiency_levels
+from swashfilm.console.levels import map_axis
+from swashfilm.runs.map.files import read_map
+from swashfilm.runs.map.plots import efficiency_levels
 from system.inputs.errors import NotConverged
 from system.inputs.faults import Fault
 from system.maps import point as map_point
@@ -216,7 +216,7 @@ def test_solved_points_outlive_an_error(tmp_path, monkeypatch, capsys):
     def broken(*_):
         raise ZeroDivisionError("a bug")
 
-    monkeypatch.setattr("swashfilm.map_run.write_tables", broken)
+    monkeypatch.setattr("swashfilm.runs.map.run.write_tables", broken)
     words = ["map", "ref90", *SMALL[:2], "--speeds", "1000rpm", *SMALL[4:], "-o", str(tmp_path / "run")]
     with pytest.raises(ZeroDivisionError):
         main(words)

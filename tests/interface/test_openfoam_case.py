@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from swashfilm.cli import run_command
+from swashfilm.cli.app import run_command
 from system.inputs.coefficients.flow_files import read_flow_coefficients
 from system.inputs.coefficients.loss_files import GROOVE_HEADS, STEP_HEADS
 from system.inputs.coefficients.openfoam_case import read_case_flow

@@ -9,10 +9,10 @@ import xarray
 
 from gaps.films.physics import Effect, Physics
 from swashfilm.__main__ import main
-from swashfilm.diagnose_films import FIELDS_FILE, OF_FILMS, film_pictures, films_of_both
-from swashfilm.film_oil_state import oil_state
-from swashfilm.pump_data import PICTURED_TURN
-from swashfilm.pump_summary import pump_summary
+from swashfilm.runs.diagnose.films import FIELDS_FILE, OF_FILMS, film_pictures, films_of_both
+from swashfilm.runs.pump.data import PICTURED_TURN
+from swashfilm.runs.pump.oil_fields import oil_state
+from swashfilm.runs.pump.summary import pump_summary
 from system.description.effects import PhysicsSection
 from system.effects.effect import EffectId
 from system.films.cycle import SMOOTH

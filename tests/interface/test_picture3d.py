@@ -6,7 +6,7 @@ import meshio
 import numpy as np
 import pytest
 
-from swashfilm.picture3d import THICKNESS, draw
+from swashfilm.output.picture3d import THICKNESS, draw
 
 
 @pytest.fixture

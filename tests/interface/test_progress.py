@@ -6,8 +6,8 @@ import re
 
 import pytest
 
-from swashfilm import progress as module
-from swashfilm.progress import progress
+from swashfilm.console import progress as module
+from swashfilm.console.progress import progress
 
 
 @pytest.fixture

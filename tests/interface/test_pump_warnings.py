@@ -11,7 +11,7 @@ from gaps.films.piston import PistonDrive, PistonFilm, PistonShape, standing_pis
 from gaps.standing.reports import piston_told
 from reynolds.floating.rest import held_at
 from reynolds.solve.solver import FilmSolver
-from swashfilm.pump_warnings import coarse_angles, impossible_pressures, uncarried_loads
+from swashfilm.runs.pump.validity import coarse_angles, impossible_pressures, uncarried_loads
 from system.films.cycle import PLAIN, SMOOTH, GapPhysics
 
 

@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from swashfilm.cli import run_command
-from swashfilm.reference_case import ReferenceKind, load_reference
+from swashfilm.cli.app import run_command
+from swashfilm.runs.reference.case import ReferenceKind, load_reference
 from system.inputs.coefficients.flow_files import read_flow_coefficients
 from system.inputs.coefficients.loss_files import read_step_losses
 from system.inputs.faults import InputFaults

@@ -12,10 +12,10 @@ import pytest
 
 from diagnosis.study.scaled_pump import load_known_pump
 from swashfilm.__main__ import main
-from swashfilm.diagnose_run import checked_recording
-from swashfilm.reproduce_files import claim_rows
-from swashfilm.reproduce_plots import figure_picture
-from swashfilm.reproduce_run import about, paper_points
+from swashfilm.runs.diagnose.run import checked_recording
+from swashfilm.runs.reproduce.files import claim_rows
+from swashfilm.runs.reproduce.plots import figure_picture
+from swashfilm.runs.reproduce.run import about, paper_points
 from system.paper.figure import Figure
 from system.paper.figures.floating_films import FLOATING_RATIOS, FloatingWork, floating_figures
 from system.paper.judge import Verdict

@@ -10,11 +10,11 @@ import pytest
 import xarray
 
 from gaps.films.physics import Effect
-from swashfilm import film_series
 from swashfilm.__main__ import main
-from swashfilm.revolution_case import RevolutionCase
-from swashfilm.revolution_study import revolution_summary, solve_revolution
-from swashfilm.study_case import load_film
+from swashfilm.case.gap.revolution import RevolutionCase
+from swashfilm.case.study import load_film
+from swashfilm.runs.film.revolution.solve import revolution_summary, solve_revolution
+from swashfilm.runs.film.series import points as film_series
 from system.inputs.faults import InputFaults
 from system.points.lumped import lumped_point
 

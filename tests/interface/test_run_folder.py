@@ -2,7 +2,7 @@
 
 import pytest
 
-from swashfilm.run_folder import run_folder
+from swashfilm.output.run_folder import run_folder
 from system.inputs.faults import InputFaults
 
 

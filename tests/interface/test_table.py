@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from swashfilm.__main__ import main
-from swashfilm.cli_table import TABLE_OPTIONS
+from swashfilm.runs.table.command import TABLE_OPTIONS
 from system.points.lumped import lumped_point
 from system.points.table import sources as table_sources
 from system.points.table.means import GAP_PAIRS, MEANINGS, SolvedPoint, given_films

@@ -8,9 +8,9 @@ import pytest
 from diagnosis.recording.model import TraceBlock
 from diagnosis.report.trace_tables import trace_residual_rows
 from diagnosis.study.model import TraceMisfit
-from swashfilm.diagnose_files import with_stated
-from swashfilm.diagnose_page import strongest_courses
-from swashfilm.diagnose_trace_plots import trace_residuals, worst_points
+from swashfilm.runs.diagnose.files import with_stated
+from swashfilm.runs.diagnose.page import strongest_courses
+from swashfilm.runs.diagnose.trace_plots import trace_residuals, worst_points
 
 ANGLE = 2.0 * np.pi * np.arange(72) / 72
 SIGMA = 0.4e5  # Pa

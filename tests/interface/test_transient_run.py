@@ -9,8 +9,8 @@ from pathlib import Path
 import pandas
 import pytest
 
-from swashfilm.cli import run_command
-from swashfilm.transient_case import load_transient
+from swashfilm.cli.app import run_command
+from swashfilm.runs.transient.case import load_transient
 from system.inputs.faults import InputFaults
 
 ROOT = Path(__file__).parents[2]

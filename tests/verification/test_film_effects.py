@@ -10,7 +10,7 @@ from gaps.walls.pair import BoreWalls, PlateWalls
 from gaps.walls.pose import Stand
 from gaps.walls.springs import SpringBore, SpringPlates
 from reynolds.errors import FilmInputError
-from swashfilm.film_oil_state import oil_state
+from swashfilm.runs.pump.oil_fields import oil_state
 from system.description.effects import PhysicsSection
 from system.description.gap import Gap
 from system.effects.catalogue.entries import EXTENSIONS

@@ -14,7 +14,7 @@ from gaps.films.slipper import retainer_force
 from gaps.revolution.reports import Active
 from gaps.revolution.schedule import Accuracy
 from reynolds.errors import FilmNotConverged
-from swashfilm.revolution_warnings import pulled_together
+from swashfilm.runs.film.revolution.validity import pulled_together
 from system.films.drives import drives, no_rubbing, slipper_retainer
 from system.films.parts import floating_parts
 from system.films.problems import RIGID

@@ -1,0 +1,1 @@
+"""Fields of a case: quantity, formula or mesh data."""

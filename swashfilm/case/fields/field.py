@@ -1,0 +1,247 @@
+"""Fields of a case file: a quantity, a formula of x, y and t, or data that the mesh file brings along."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+
+from reynolds.fem.mesh import FilmMesh, read_mesh_file
+from reynolds.fem.refine import RefinedMesh
+from reynolds.fem.space import FilmSpace
+from reynolds.numerics.arrays import Array
+from swashfilm.case.fields.expressions import (
+    CONSTANTS,
+    IN_TIME,
+    NO_CONSTANTS,
+    PLACE,
+    Expression,
+    ExpressionError,
+    parse_expression,
+)
+from system.inputs.faults import nearest_choice
+from system.inputs.units import Dimension, QuantityError, format_quantity, parse_quantity, with_point
+
+_WITH_UNIT = re.compile(r"[+-]?(?>(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*[A-Za-zµμ°].*")
+_NAME = re.compile(r"[^\W\d]\w*")
+
+
+@dataclass(frozen=True)
+class MeshData:
+    """Scalar data of a mesh file by name: at points (vertices,) and in cells (cells,), SI by agreement."""
+
+    point: Mapping[str, Array] = field(default_factory=dict)
+    cell: Mapping[str, Array] = field(default_factory=dict)
+
+    def refined(self, finer: RefinedMesh) -> MeshData:
+        """The same data on a finer mesh: interpolated at points, inherited by cells."""
+        return MeshData(
+            {name: finer.point_data(values) for name, values in self.point.items()},
+            {name: finer.cell_data(values) for name, values in self.cell.items()},
+        )
+
+
+@dataclass(frozen=True)
+class Uniform:
+    """The same value everywhere, SI."""
+
+    value: float
+    dimension: Dimension
+
+    def sample(self, space: FilmSpace, t: float = 0.0) -> Array:
+        """(1, 1)."""
+        return space.sample(self.value)
+
+    def at_vertices(self, space: FilmSpace, t: float = 0.0) -> Array | None:
+        """The value, (vertices,)."""
+        return np.full(len(space.vertices), self.value)
+
+    def at_time(self, t: float) -> float:
+        """The value at any time."""
+        return self.value
+
+    def on(self, data: MeshData) -> Uniform:
+        """The same on any mesh."""
+        return self
+
+    def __str__(self) -> str:
+        """As a case file writes it."""
+        return format_quantity(self.value, self.dimension)
+
+
+@dataclass(frozen=True)
+class Formula:
+    """A formula of x, y and t, SI; a jump within a cell is blurred over that cell, along cell edges exact."""
+
+    expression: Expression
+
+    def sample(self, space: FilmSpace, t: float = 0.0) -> Array:
+        """At the quadrature points, (cells, points)."""
+        return space.sample_ruled(lambda x, y: self.expression(x, y, t))
+
+    def at_vertices(self, space: FilmSpace, t: float = 0.0) -> Array | None:
+        """At the vertices, (vertices,)."""
+        x, y = space.vertices.T
+        return self.expression(x, y, t)
+
+    def at_time(self, t: float) -> float:
+        """The value at a time (s) of a formula that holds no place."""
+        return float(self.expression(np.zeros(1), np.zeros(1), t)[0])
+
+    def on(self, data: MeshData) -> Formula:
+        """The same on any mesh."""
+        return self
+
+    def __str__(self) -> str:
+        """As a case file writes it."""
+        return self.expression.text
+
+
+@dataclass(frozen=True)
+class PointData:
+    """Continuous data of the mesh file's points, SI."""
+
+    name: str
+    values: Array = field(repr=False)
+
+    def sample(self, space: FilmSpace, t: float = 0.0) -> Array:
+        """Interpolated to the quadrature points, (cells, points)."""
+        return space.sample_vertices(self.values)
+
+    def at_vertices(self, space: FilmSpace, t: float = 0.0) -> Array | None:
+        """As the file has it, (vertices,)."""
+        return self.values
+
+    def on(self, data: MeshData) -> PointData:
+        """The same name's data on another mesh."""
+        return PointData(self.name, data.point[self.name])
+
+    def __str__(self) -> str:
+        """As a case file writes it."""
+        return self.name
+
+
+@dataclass(frozen=True)
+class CellData:
+    """Data of the mesh file's cells, which jumps between cells, SI."""
+
+    name: str
+    values: Array = field(repr=False)
+
+    def sample(self, space: FilmSpace, t: float = 0.0) -> Array:
+        """(cells, 1)."""
+        return space.sample_cells(self.values)
+
+    def at_vertices(self, space: FilmSpace, t: float = 0.0) -> Array | None:
+        """None: it has no one value where cells meet."""
+        return None
+
+    def on(self, data: MeshData) -> CellData:
+        """The same name's data on another mesh."""
+        return CellData(self.name, data.cell[self.name])
+
+    def __str__(self) -> str:
+        """As a case file writes it."""
+        return self.name
+
+
+Field = Uniform | Formula | PointData | CellData
+InTime = Uniform | Formula
+
+
+def read_field(
+    raw: object,
+    dimension: Dimension,
+    data: MeshData,
+    variables: Sequence[str] = PLACE,
+    constants: Mapping[str, float] = NO_CONSTANTS,
+) -> Field:
+    """The field that an entry of a case file means.
+
+    A number with a unit is a quantity, a name of the mesh file's data that data, everything else a formula of
+    `variables` and `constants` whose value is in the SI unit of `dimension`. Raises QuantityError: what was found
+    and expected.
+    """
+    expected = (
+        f"{dimension.noun} with its unit, such as '{dimension.example}', a formula of "
+        f"{', '.join(variables) or 'constants'} in "
+        f"{dimension.si_unit} (text in quotes), or the name of data in the mesh file"
+    )
+    if isinstance(raw, bool) or not isinstance(raw, str):
+        nearest = f'"{raw} {dimension.si_unit}"' if isinstance(raw, (int, float)) else ""
+        raise QuantityError(repr(raw), expected, nearest)
+    text = raw.strip()
+    if not text:
+        raise QuantityError("empty text", expected)
+    meanings = [
+        what
+        for what, names in (
+            ("point data of the mesh file", data.point),
+            ("cell data of the mesh file", data.cell),
+            ("a constant", constants),
+        )
+        if text in names
+    ]
+    if len(meanings) > 1:
+        raise QuantityError(f"'{text}', which is {' and '.join(meanings)}", "a name of one meaning", "rename one")
+    if text in data.point:
+        return PointData(text, data.point[text])
+    if text in data.cell:
+        return CellData(text, data.cell[text])
+    if _WITH_UNIT.fullmatch(text):
+        return Uniform(parse_quantity(text, dimension), dimension)
+    if may_be_data(text) and text not in constants:
+        raise _no_such_data(text, data, constants)
+    try:
+        return Formula(parse_expression(text, variables, constants))
+    except ExpressionError as reason:
+        raise QuantityError(reason.found, reason.expected, reason.nearest or with_point(text)) from None
+
+
+def may_be_data(raw: object) -> bool:
+    """True for a text that can only be the name of data in a mesh file."""
+    return (
+        isinstance(raw, str) and bool(_NAME.fullmatch(raw.strip())) and raw.strip() not in (*IN_TIME, *CONSTANTS)
+    )
+
+
+def mesh_data(path: Path, film_mesh: FilmMesh) -> MeshData:
+    """The scalar data of a mesh file that `reynolds.fem.mesh.mesh_from_file` has read."""
+    raw = read_mesh_file(path)
+    mesh = film_mesh.mesh
+    kind = "triangle" if mesh.t.shape[0] == 3 else "quad"
+    blocks = [index for index, block in enumerate(raw.cells) if block.type == kind]
+    return MeshData(
+        {name: scalar for name, values in raw.point_data.items() if (scalar := _scalar(values)) is not None},
+        {
+            name: scalar
+            for name, parts in raw.cell_data.items()
+            if (scalar := _scalar(np.concatenate([parts[index] for index in blocks]))) is not None
+        },
+    )
+
+
+def _scalar(values: Array) -> Array | None:
+    flat = np.asarray(values)
+    if flat.ndim == 2 and flat.shape[1] == 1:
+        flat = flat[:, 0]
+    return flat.astype(float) if flat.ndim == 1 and np.issubdtype(flat.dtype, np.number) else None
+
+
+def _no_such_data(name: str, data: MeshData, constants: Mapping[str, float]) -> QuantityError:
+    names = [*data.point, *data.cell]
+    known = (*PLACE, *CONSTANTS, *constants)
+    if not names:
+        return QuantityError(
+            f"unknown name {name}",
+            f"{', '.join(known)}, or data of the mesh (this mesh has none)",
+            nearest_choice(name, list(constants)),
+        )
+    return QuantityError(
+        f"'{name}', no data of the mesh file",
+        f"point data ({', '.join(data.point) or 'none'}) or cell data ({', '.join(data.cell) or 'none'}) of it",
+        nearest_choice(name, [*names, *constants]),
+    )

@@ -1,0 +1,139 @@
+"""One gap of a pump over the revolution as a film case: its chamber's pressure, its physics, its steps."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Protocol
+
+from gaps.revolution.schedule import Accuracy
+from swashfilm.case.gap.chamber_pressure import ChamberPressure, read_chamber_pressure
+from swashfilm.case.gap.instant import FORMAT
+from swashfilm.case.gap.physics import physics_rows, read_physics
+from swashfilm.case.gap.pump import CasePump, operating_rows, own_rows, read_case_pump
+from system.description.gap import Gap
+from system.films.rotor import Rotor
+from system.inputs.toml_table import Table, quoted
+from system.points.floating_gaps import MARCHED, USUAL, FloatingOptions, usual_finer
+
+STEPS = 360
+FILMS, RING_FILMS = 36, 180  # kept of a turn; the ring's repeat with the pitch
+_MOST = 7200  # steps or films of a turn
+FINER = (0.25, 8.0)
+_LARGEST_TOLERANCE = 0.1
+
+
+class GapCase(Protocol):
+    """What a gap over the turn is of: a case, or a gap of a pump that floats as a whole."""
+
+    @property
+    def name(self) -> str:
+        """Of the case or pump."""
+
+    @property
+    def gap(self) -> Gap:
+        """Which of the three."""
+
+    @property
+    def rotor(self) -> Rotor:
+        """The pump at its operating point."""
+
+    @property
+    def options(self) -> FloatingOptions:
+        """Physics, steps, accuracy and mesh."""
+
+
+@dataclass(frozen=True)
+class RevolutionCase:
+    """A gap over the turn, validated: its name, the file's text, the same resolved, and what it is of (SI).
+
+    chamber_pressure: of one chamber over its own angle; options: physics, steps, accuracy and mesh.
+    """
+
+    name: str
+    text: str
+    resolved: str
+    gap: Gap
+    rotor: Rotor
+    chamber_pressure: ChamberPressure
+    options: FloatingOptions
+
+    def refined(self) -> RevolutionCase:
+        """The same gap on a mesh twice finer."""
+        return replace(self, options=replace(self.options, finer=2 * self.options.finer))
+
+
+def read_revolution_case(name: str, text: str, top: Table, film: Table, folder: Path) -> RevolutionCase | None:
+    """The case of a file whose [film] names a gap and says `revolution = true`; None with its faults told.
+
+    What it leaves out: the pump's operating point, the lumped cycle of its chamber, all physics, STEPS a turn.
+    """
+    gap = film.choice("gap", Gap)
+    if film.get("revolution") is not True:
+        film.fault("revolution", repr(film.get("revolution")), "true, or false for a single instant")
+    if film is top:
+        top.fault("gap", "a revolution outside a table", "gap, pump and revolution in a table [film]")
+        return None
+    pump = read_case_pump(top, film, folder)
+    pressure = read_chamber_pressure(film, folder)
+    _refuse_instants(top, film)
+    table = top.table("revolution") or Table("revolution", {}, top.faults)
+    options = _options(table, gap, pump)
+    for part in (film, table):
+        part.close()
+    if gap is None or pump is None or pressure is None or options is None:
+        return None
+    case = RevolutionCase(name, text, "", gap, pump.rotor, pressure, options)
+    return replace(case, resolved=_resolved(case, pump))
+
+
+def _refuse_instants(top: Table, film: Table) -> None:
+    """Fault what only a single instant has."""
+    for table, keys in ((film, ("shaft_angle",)), (top, ("position", "load"))):
+        for key in keys:
+            if table.get(key) is not None:
+                table.fault(key, f"'{key}' beside revolution = true", "none: forces over the turn find the film")
+
+
+def _options(table: Table, gap: Gap | None, pump: CasePump | None) -> FloatingOptions | None:
+    faults = len(table.faults)
+    steps = _whole(table, "steps", STEPS, 24, _MOST)
+    films = _whole(table, "films", RING_FILMS if gap is Gap.VALVE_PLATE else FILMS, 1, _MOST)
+    physics = read_physics(table, USUAL)
+    tolerance, finer = table.number("tolerance", MARCHED.step), table.number("finer", usual_finer(physics))
+    if tolerance is not None and not 0.0 < tolerance <= _LARGEST_TOLERANCE:
+        table.fault("tolerance", repr(tolerance), f"above 0, at most {_LARGEST_TOLERANCE:g} of the least film")
+    if finer is not None and not FINER[0] <= finer <= FINER[1]:
+        table.fault("finer", repr(finer), f"{FINER[0]:g} to {FINER[1]:g} times the usual cells each way")
+    pistons = pump.rotor.pump.pump.pistons if pump else 1
+    if steps and gap is Gap.VALVE_PLATE and steps % pistons:
+        nearest = max(1, round(steps / pistons)) * pistons
+        table.fault("steps", str(steps), f"a multiple of the {pistons} pistons", str(nearest))
+    if len(table.faults) > faults or not (steps and finer and films and tolerance):
+        return None
+    distinct = steps // pistons if gap is Gap.VALVE_PLATE else steps
+    return FloatingOptions(physics, steps, Accuracy(step=tolerance), finer, min(max(1, steps // films), distinct))
+
+
+def _whole(table: Table, key: str, usual: int, least: int, most: int) -> int | None:
+    raw = table.get(key)
+    if raw is None:
+        return usual
+    if type(raw) is int and least <= raw <= most:
+        return raw
+    table.fault(key, repr(raw), f"a whole number, {least} to {most}")
+    return None
+
+
+def _resolved(case: RevolutionCase, pump: CasePump) -> str:
+    """A case file that gives this very case."""
+    options = case.options
+    rows = [
+        f"format = {FORMAT}", "", "[film]", f'gap = "{case.gap.value}"', f"pump = {quoted(pump.source)}",
+        "revolution = true", f"chamber_pressure = {case.chamber_pressure.text}", *own_rows(pump.stated), "",
+        *operating_rows(case.rotor.point), "", "[revolution]", f"steps = {options.steps}",
+        f"tolerance = {options.accuracy.step!r}  # of the least film, a step's error",
+        f"finer = {options.finer!r}  # times the usual cells each way",
+        f"films = {options.steps // options.keep}", *physics_rows(options.physics),
+    ]  # fmt: skip
+    return "\n".join(rows) + "\n"

@@ -1,0 +1,62 @@
+"""From what a film case states to the film problem: fields sampled on the mesh."""
+
+from __future__ import annotations
+
+from reynolds.errors import FilmInputError
+from reynolds.fem.space import FilmSpace, film_space
+from reynolds.film import Film, FilmProblem, Held
+from reynolds.laws.fluid import CONSTANT, Fluid
+from reynolds.numerics.arrays import Array
+from swashfilm.case.fields.field import Field
+from swashfilm.case.fields.reader import field_fault
+from swashfilm.case.statement import FilmStatement
+
+
+def film_problem(stated: FilmStatement, space: FilmSpace | None = None, t: float = 0.0) -> FilmProblem:
+    """The problem that a case states at a time (s), on its mesh (`space`, where it is there already).
+
+    Raises FilmInputError for a field without a value somewhere, for a thickness or viscosity not above zero, and
+    for an elastic body that does not lie under the film.
+    """
+    space = space or film_space(stated.mesh.film_mesh, degree=stated.order)
+    u, v = (_sampled("film.velocity", part, space, t) for part in stated.velocity)
+    u_fixed, v_fixed = (_sampled("film.velocity_fixed", part, space, t) for part in stated.velocity_fixed)
+    film = Film(
+        thickness=_sampled("film.thickness", stated.thickness, space, t, positive=stated.load is None),
+        viscosity=_sampled("film.viscosity", stated.viscosity, space, t, positive=True),
+        velocity_moving=(u, v),
+        velocity_fixed=(u_fixed, v_fixed),
+        squeeze=_sampled("film.squeeze", stated.squeeze, space, t),
+        thickness_at_vertices=stated.thickness.at_vertices(space, t),
+    )
+    return FilmProblem(
+        space=space,
+        film=film,
+        boundary=held(stated, t),
+        cavitation=stated.cavitation,
+        cavitation_pressure=stated.cavitation_pressure,
+        fluid=_fluid(stated),
+        walls=stated.elastic.walls(space) if stated.elastic else None,
+        surface=stated.rough.surface if stated.rough else None,
+        asperities=stated.rough.asperities if stated.rough else None,
+    )
+
+
+def held(stated: FilmStatement, t: float) -> dict[str, Held]:
+    """The boundaries at a time (s)."""
+    return {name: Held(entry.pressure.at_time(t), entry.film_fraction) for name, entry in stated.boundary.items()}
+
+
+def _fluid(stated: FilmStatement) -> Fluid:
+    """The oil's laws in pressure; of a film with temperature the viscosity is the thermal solve's."""
+    if stated.oil is None:
+        return CONSTANT
+    fluid = Fluid(density=stated.oil.density_law) if stated.thermal else stated.oil.fluid
+    return CONSTANT if fluid == CONSTANT else fluid
+
+
+def _sampled(where: str, field: Field, space: FilmSpace, t: float, *, positive: bool = False) -> Array:
+    """A field at the quadrature points, found possible there."""
+    if fault := field_fault(field, space, t, positive=positive):
+        raise FilmInputError(where, *fault)
+    return field.sample(space, t)

@@ -1,0 +1,60 @@
+"""What a film case states, read and in SI: the film before it has a mesh's quadrature points."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, fields, replace
+from typing import Any
+
+from reynolds.film import Cavitation
+from reynolds.floating.load_search import RigidLoad
+from swashfilm.case.fields.field import CellData, Field, Formula, MeshData, PointData, Uniform
+from swashfilm.case.fields.mesh import CaseMesh
+from swashfilm.case.tables.boundary import BoundaryStatement
+from swashfilm.case.tables.elastic import ElasticStatement
+from swashfilm.case.tables.oil import OilStatement
+from swashfilm.case.tables.roughness import RoughWalls
+from swashfilm.case.tables.thermal import ThermalStatement
+from swashfilm.case.tables.time_steps import TimeStatement
+
+Velocity = tuple[Field, Field]
+
+
+@dataclass(frozen=True)
+class FilmStatement:
+    """A free film as its case states it, every default filled in; `cavitation_pressure` in Pa.
+
+    `viscosity` is that at the oil's temperature and without pressure. `initial_film_fraction` is that of a
+    transient; tables that a case does not have are None. With `load` the thickness is a shape.
+    """
+
+    mesh: CaseMesh
+    order: int
+    thickness: Field
+    velocity: Velocity
+    velocity_fixed: Velocity
+    squeeze: Field
+    viscosity: Field
+    cavitation: Cavitation
+    cavitation_pressure: float
+    boundary: Mapping[str, BoundaryStatement]
+    initial_film_fraction: Field
+    oil: OilStatement | None = None
+    thermal: ThermalStatement | None = None
+    elastic: ElasticStatement | None = None
+    rough: RoughWalls | None = None
+    time: TimeStatement | None = None
+    load: RigidLoad | None = None
+    constants: Mapping[str, float] = field(default_factory=dict)
+
+    def refined(self) -> FilmStatement:
+        """The same film on a mesh twice finer, data of a mesh file carried along."""
+        mesh = self.mesh.finer()
+        moved = {part.name: _on(getattr(self, part.name), mesh.data) for part in fields(self)}
+        return replace(self, **(moved | {"mesh": mesh}))
+
+
+def _on(value: Any, data: MeshData) -> Any:
+    if isinstance(value, tuple):
+        return tuple(_on(part, data) for part in value)
+    return value.on(data) if isinstance(value, (Uniform, Formula, PointData, CellData)) else value

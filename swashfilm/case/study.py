@@ -1,0 +1,346 @@
+"""The [study] table of a film case: which keys vary over what, and the cases that come of it."""
+
+from __future__ import annotations
+
+import copy
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from enum import Enum
+from itertools import product
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from swashfilm.case.file import Case, read_case
+from swashfilm.case.gap.physics_switches import switch_of
+from system.inputs.faults import Fault, InputFaults, nearest_choice
+from system.inputs.toml_table import Table, fault_lines, quoted, read_toml
+from system.inputs.units import Dimension, QuantityError, format_quantity, parse_quantity
+
+MOST_POINTS = 10_000
+_STEP = re.compile(r"([^\[\].]+)(?:\[(\d+)\])?")
+Point = tuple[int, ...]
+
+
+class Combine(Enum):
+    """How several keys vary: every value of one with every value of the others, or all in step."""
+
+    ALL = "all"
+    TOGETHER = "together"
+
+
+class Spacing(Enum):
+    """Steps of a range: of equal difference or of equal ratio."""
+
+    LINEAR = "linear"
+    LOG = "log"
+
+
+@dataclass(frozen=True)
+class Axis:
+    """One varied key: its values as a case writes them and, where these are numbers, as SI with their unit."""
+
+    key: str
+    values: tuple[Any, ...]
+    numbers: tuple[float, ...] | None
+    unit: str
+
+    @property
+    def labels(self) -> tuple[str, ...]:
+        """The values as text."""
+        return tuple(str(value) for value in self.values)
+
+
+@dataclass(frozen=True)
+class StudyCase:
+    """A study: the case's tables without [study], the varied keys, and how they combine.
+
+    `path` and `text` are those of the file, `where` the table that holds the keys.
+    """
+
+    name: str
+    path: Path
+    text: str
+    tables: Mapping[str, Any]
+    axes: tuple[Axis, ...]
+    combine: Combine
+    where: str = "study"
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """Number of points along each direction of the study: one a key, or one for all in step."""
+        lengths = tuple(len(axis.values) for axis in self.axes)
+        return lengths if self.combine is Combine.ALL else lengths[:1]
+
+    @property
+    def points(self) -> list[Point]:
+        """Index of each point's value of each key; the last key varies fastest."""
+        if self.combine is Combine.TOGETHER:
+            return [(k,) * len(self.axes) for k in range(self.shape[0])]
+        return list(product(*(range(len(axis.values)) for axis in self.axes)))
+
+    def values(self, point: Point) -> dict[str, Any]:
+        """The varied keys of a point and their values as a case writes them."""
+        return {axis.key: axis.values[k] for axis, k in zip(self.axes, point, strict=True)}
+
+    def case(self, point: Point) -> Case:
+        """The case of a point; raises InputFaults with what is wrong with it."""
+        return self.case_with(self.values(point))
+
+    def case_with(self, values: Mapping[str, Any]) -> Case:
+        """The case with any values of its keys; raises InputFaults with what is wrong with it."""
+        tables = copy.deepcopy(dict(self.tables))
+        for key, value in values.items():
+            _put(tables, key, value)
+        text = "".join(f"# {self.where}: {key} = {value}\n" for key, value in values.items()) + self.text
+        return read_case(self.path, text, tables)
+
+
+def load_film(path: Path, switched: Mapping[str, str] | None = None) -> Case | StudyCase:
+    """What a film case file holds: a film, a pump gap, or a study of one. Raises InputFaults with every fault.
+
+    `switched`: values of [revolution], by key, that the command line puts in place of the file's.
+    """
+    text, tables = read_switched(path, switched or {})
+    if "table" in tables:
+        fault = Fault("table", "ranges to learn over", "no such table beside a film", f"swashfilm table {path}")
+        raise InputFaults(str(path), [fault], fault_lines(text, [fault]))
+    return read_study(path, text, tables) if "study" in tables else read_case(path, text, tables)
+
+
+def read_switched(path: Path, switched: Mapping[str, str]) -> tuple[str, dict[str, Any]]:
+    """Text and tables of a case file with values of [revolution], by key, in place of the file's.
+
+    Raises InputFaults as `read_toml`, and for a case that has no revolution.
+    """
+    text, tables = read_toml(path)
+    if switched:
+        _switch(tables, switched)
+        text = "".join(
+            [f"{text.rstrip()}\n", *(f"# command line: revolution.{k} = {v}\n" for k, v in switched.items())]
+        )
+    return text, tables
+
+
+def _switch(tables: dict[str, Any], switched: Mapping[str, str]) -> None:
+    """Put values in [revolution]; raises InputFaults for a case that has no revolution."""
+    film = tables.get("film")
+    if not isinstance(film, dict) or film.get("revolution") is not True:
+        case = "a case with revolution = true in [film]"
+        faults = [Fault(switch_of(key), "a switch of floating gaps", case) for key in switched]
+        raise InputFaults("command line", faults)
+    for key, value in switched.items():
+        _put(tables, f"revolution.{key}", value)
+
+
+def read_study(path: Path, text: str, tables: Mapping[str, Any]) -> StudyCase:
+    """The study of a file with a table [study].
+
+    Raises InputFaults for faults of the table, for a key that no case has, and where not one of the points makes
+    a case; a single point with a fault is no fault of the study.
+    """
+    table = Table("study", tables["study"] if isinstance(tables["study"], dict) else {}, [])
+    if not isinstance(tables["study"], dict):
+        table.faults.append(Fault("study", repr(tables["study"]), "a table [study]"))
+    combine = table.choice("combine", Combine, Combine.ALL)
+    axes = [_axis(table, key) for key in table.values if key != "combine"]
+    if not axes and not table.faults:
+        table.faults.append(Fault("study", "no key that varies", '"film.KEY" = [...] or { from, to, points }'))
+    base = {key: value for key, value in tables.items() if key != "study"}
+    found = [axis for axis in axes if axis]
+    study = StudyCase(path.stem, path, text, base, tuple(found), combine or Combine.ALL)
+    if not table.faults:
+        _check_size(table, study)
+    hold_to_case(study, table.faults)
+    return study
+
+
+def hold_to_case(study: StudyCase, faults: list[Fault]) -> None:
+    """Raise InputFaults with `faults` and, where there are none, for keys that no case has, or no point at all."""
+    told = [*faults, *_unknown_constants(study), *_beyond_lists(study)] or _case_faults(study)
+    if told:
+        raise InputFaults(str(study.path), told, fault_lines(study.text, told))
+
+
+def _axis(table: Table, key: str) -> Axis | None:
+    raw = table.get(key)
+    if not is_key_of_case(table, key):
+        return None
+    if isinstance(raw, list) and raw:
+        return _listed(key, raw)
+    if isinstance(raw, dict):
+        return _ranged(Table(_named(table.path, key), raw, table.faults), key)
+    expected = "a list of values, or a range { from, to, points }"
+    table.faults.append(Fault(_named(table.path, key), repr(raw), expected))
+    return None
+
+
+def is_key_of_case(table: Table, key: str) -> bool:
+    """Whether a key of [study] or [table] is written as a dotted key of the case; its fault is told."""
+    if "." in key and all(_STEP.fullmatch(step) for step in key.split(".")):
+        return True
+    expected = 'a key of the case in quotes, such as "film.thickness"'
+    table.faults.append(Fault(_named(table.path, key), f"'{key}'", expected))
+    return False
+
+
+def _listed(key: str, values: Sequence[Any]) -> Axis:
+    """Values as they are; numbers where all are bare numbers or quantities of one dimension."""
+    if all(isinstance(value, (int, float)) and not isinstance(value, bool) for value in values):
+        return Axis(key, tuple(values), tuple(float(value) for value in values), "")
+    dimension = _dimension(values)
+    if dimension is None:
+        return Axis(key, tuple(values), None, "")
+    numbers = tuple(parse_quantity(value, dimension) for value in values)
+    return Axis(key, tuple(values), numbers, dimension.si_unit)
+
+
+@dataclass(frozen=True)
+class Ends:
+    """A range of one key, SI: its ends, the dimension of both (None: bare numbers), and how it is stepped."""
+
+    low: float
+    high: float
+    dimension: Dimension | None
+    spacing: Spacing
+
+
+def read_ends(table: Table) -> Ends | None:
+    """The range that `from`, `to` and `spacing` of a table give; None with the faults told."""
+    ends, spacing = [table.get(end) for end in ("from", "to")], table.choice("spacing", Spacing, Spacing.LINEAR)
+    plain = all(isinstance(end, (int, float)) and not isinstance(end, bool) for end in ends)
+    dimension = None if plain else _dimension(ends)
+    if not plain and dimension is None:
+        found = f"from {ends[0]!r} to {ends[1]!r}"
+        table.faults.append(Fault(table.path, found, "two quantities of one kind, or two bare numbers"))
+        return None
+    low, high = (float(end) if dimension is None else parse_quantity(end, dimension) for end in ends)
+    if spacing is Spacing.LOG and min(low, high) <= 0.0:
+        table.fault("spacing", "'log' over a range that is not above zero", "'linear', or two ends above zero")
+        return None
+    return Ends(low, high, dimension, spacing) if spacing else None
+
+
+def _ranged(table: Table, key: str) -> Axis | None:
+    points, ends = table.get("points"), read_ends(table)
+    table.close()
+    if type(points) is not int or not 2 <= points <= MOST_POINTS:
+        table.fault(
+            "points", "no such key" if points is None else repr(points), f"a whole number, 2 to {MOST_POINTS}"
+        )
+        return None
+    if ends is None:
+        return None
+    steps = (np.geomspace if ends.spacing is Spacing.LOG else np.linspace)(ends.low, ends.high, points)
+    return stepped(key, [float(f"{step:.12g}") for step in steps], ends.dimension)
+
+
+def stepped(key: str, numbers: Sequence[float], dimension: Dimension | None) -> Axis:
+    """An axis of such numbers, SI, as a case writes them."""
+    if dimension is None:
+        return Axis(key, tuple(numbers), tuple(numbers), "")
+    texts = [format_quantity(number, dimension, digits=12) for number in numbers]
+    return Axis(key, tuple(texts), tuple(parse_quantity(text, dimension) for text in texts), dimension.si_unit)
+
+
+def _dimension(values: Sequence[Any]) -> Dimension | None:
+    """The first dimension that all the texts are quantities of."""
+    for dimension in Dimension:
+        try:
+            for value in values:
+                parse_quantity(value if isinstance(value, str) else None, dimension)
+        except QuantityError:
+            continue
+        return dimension
+    return None
+
+
+def _unknown_constants(study: StudyCase) -> list[Fault]:
+    """Faults of varied constants that the case has not: nothing would come of them."""
+    constants = study.tables.get("constants")
+    known = [f"constants.{name}" for name in constants] if isinstance(constants, dict) else []
+    expected = f"one of {', '.join(known)}" if known else "a table [constants] that has it"
+    return [
+        Fault(_named(study.where, axis.key), "no such constant", expected, nearest_choice(axis.key, known))
+        for axis in study.axes
+        if axis.key.startswith("constants.") and axis.key not in known
+    ]
+
+
+def _beyond_lists(study: StudyCase) -> list[Fault]:
+    """Faults of varied entries, such as `film.velocity[7]`, that a list of the case has not."""
+    faults = []
+    for axis in study.axes:
+        at: Any = study.tables
+        path, _, index = axis.key.rstrip("]").partition("[")
+        for step in path.split("."):
+            at = at.get(step) if isinstance(at, dict) else None
+        if index.isdecimal() and isinstance(at, list) and int(index) >= len(at):
+            expected = f"an entry from 0 to {len(at) - 1}"
+            faults.append(Fault(_named(study.where, axis.key), f"entry {index} of {path}", expected))
+    return faults
+
+
+def _check_size(table: Table, study: StudyCase) -> None:
+    lengths = {axis.key: len(axis.values) for axis in study.axes}
+    if study.combine is Combine.TOGETHER and len(set(lengths.values())) > 1:
+        found = ", ".join(f"{count} of {key}" for key, count in lengths.items())
+        table.faults.append(Fault("study.combine", f"'together' with {found}", "as many values of each key"))
+    elif (count := int(np.prod(study.shape))) > MOST_POINTS:
+        table.faults.append(Fault("study", f"{count} points", f"at most {MOST_POINTS}"))
+
+
+def _case_faults(study: StudyCase) -> list[Fault]:
+    """Faults of the first point, where a varied key is unknown or where no point at all makes a case."""
+    first: list[Fault] = []
+    for point in study.points:
+        try:
+            study.case(point)
+        except InputFaults as reason:
+            told = [_at_study(fault, study) for fault in reason.faults]
+            first = first or told
+            if any(fault.found == "unknown key" and fault.path.startswith(f"{study.where}.") for fault in told):
+                return told
+            continue
+        return []
+    return first
+
+
+def _at_study(fault: Fault, study: StudyCase) -> Fault:
+    """A fault of a varied key told at the study's key."""
+    for axis in study.axes:
+        if axis.key == fault.path:
+            near = fault.nearest
+            if fault.found == "unknown key" and near:
+                near = f'"{axis.key.rpartition(".")[0]}.{near}"'
+            return replace(fault, path=_named(study.where, axis.key), nearest=near)
+        head, _, rest = axis.key.partition(".")
+        if fault.path == head and head not in study.tables:
+            near = nearest_choice(head, list(study.tables))
+            nearest = f'"{near}.{rest}"' if near else ""
+            return Fault(_named(study.where, axis.key), "unknown key", fault.expected, nearest)
+    return fault
+
+
+def _put(tables: dict[str, Any], key: str, value: Any) -> None:
+    """Set a dotted key, `film.velocity[0]` too, making the tables on the way to it."""
+    at: Any = tables
+    steps = [match.groups() for step in key.split(".") if (match := _STEP.fullmatch(step))]
+    for name, _ in steps[:-1]:
+        if not isinstance(at.get(name), dict):
+            at[name] = {}
+        at = at[name]
+    name, index = steps[-1]
+    if index is None:
+        at[name] = value
+    elif isinstance(at.get(name), list) and int(index) < len(at[name]):
+        at[name][int(index)] = value
+    else:
+        # Filled up so that the reader of the key says what is missing.
+        at[name] = [None] * int(index) + [value]
+
+
+def _named(where: str, key: str) -> str:
+    return f"{where}.{quoted(key)}"

@@ -1,0 +1,1 @@
+"""Readers of the case file, one a table."""

@@ -1,0 +1,1 @@
+"""Command line: the parser, and the commands without a run."""

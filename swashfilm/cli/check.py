@@ -1,0 +1,78 @@
+"""The command `swashfilm check`: what a file says, and what is wrong with it, without running it."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from swashfilm.console.terminal import show
+from swashfilm.runs.diagnose.command import check_recording_command, is_recording
+from system.inputs.faults import Fault, InputFaults
+
+
+def run_check_command(options: argparse.Namespace) -> int:
+    """Run `swashfilm check` and return its exit code; raises InputFaults with what is wrong in the file."""
+    from system.inputs.toml_table import read_toml
+    from system.pump_file.file import builtin_pumps, check_pump, resolved_toml
+
+    is_pump = options.file in builtin_pumps()
+    if not is_pump:
+        path = Path(options.file)
+        tables = {} if is_recording(path, ()) else read_toml(path)[1]
+        if is_recording(path, list(tables)):
+            check_recording_command(path)
+            show(f"{path}: ok")
+            return 0
+        if "transient" in tables:
+            from swashfilm.runs.transient.case import load_transient
+
+            show(load_transient(path).resolved)
+            show(f"{path}: ok")
+            return 0
+        if "reference" in tables:
+            from swashfilm.runs.reference.case import load_reference
+
+            show("\n".join(passage.words for passage in load_reference(path).passages))
+            show(f"{path}: ok")
+            return 0
+        is_film = bool({"film", "gap"} & set(tables))
+        is_pump = isinstance(tables.get("pump"), dict) and not is_film
+        if not is_pump and not is_film:
+            fault = Fault(
+                "file",
+                f"tables {', '.join(tables) or 'none'}",
+                "[pump] (a pump file), [film] (a film case), [transient], [reference] or [channel] (a recording)",
+            )
+            raise InputFaults(options.file, [fault])
+    if is_pump:
+        from diagnosis.study.scaled_pump import load_known_pump
+
+        known = load_known_pump(options.file)
+        show(resolved_toml(known.pump))
+        for warning in check_pump(known.pump).warnings:
+            show(f"warning: {warning}")
+        if known.scant:
+            show("a pump of which little is known: what its file leaves out is that of ref90, scaled, as above;")
+            show("diagnose and calibrate take it, all else needs a complete file")
+    else:
+        show(_checked_film(Path(options.file), tables))
+    show(f"{options.file}: ok")
+    return 0
+
+
+def _checked_film(path: Path, tables: Mapping[str, Any]) -> str:
+    """The film case of a file as resolved, of a study or table at its first point; raises InputFaults."""
+    from swashfilm.case.study import StudyCase, load_film
+    from swashfilm.runs.table.gap_case import load_gap_table
+
+    if "table" in tables:
+        asked = load_gap_table(path)
+        show(f"a table over {len(asked.axes)} keys")
+        return asked.study.case(asked.study.points[0]).resolved
+    case = load_film(path)
+    if isinstance(case, StudyCase):
+        show(f"a study of {len(case.points)} points")
+        return case.case(case.points[0]).resolved
+    return case.resolved

@@ -1,0 +1,62 @@
+"""The command `swashfilm report`: the page of a run folder made anew, by what kind of run it holds."""
+
+from __future__ import annotations
+
+import argparse
+import json
+from collections.abc import Callable
+from importlib import import_module
+from pathlib import Path
+
+from swashfilm.console.inputs import COMMAND_LINE
+from swashfilm.console.terminal import show
+from system.inputs.faults import Fault, InputFaults, nearest_path
+
+PAGES = {
+    "calibration": "runs.calibrate.page.write_calibrate_page",
+    "diagnosis": "runs.diagnose.page.write_diagnose_page",
+    "film": "runs.film.page.write_film_page",
+    "film_revolution": "runs.film.revolution.page.write_revolution_page",
+    "film_study": "runs.film.series.page.write_study_page",
+    "pump": "runs.pump.page.write_pump_page",
+    "comparison": "runs.map.compare_run.write_compare_page",
+    "duty": "runs.map.duty_run.write_duty_page",
+    "map": "runs.map.page.write_map_page",
+    "gap_table": "runs.table.page.write_table_page",
+    "reference": "runs.reference.page.write_reference_page",
+    "reproduction": "runs.reproduce.page.write_reproduce_page",
+    "response_table": "runs.table.page.write_table_page",
+    "transient": "runs.transient.page.write_transient_page",
+}
+"""What makes the page of a run, by the `kind` of its summary.json."""
+
+
+def run_report(options: argparse.Namespace) -> int:
+    """Run `swashfilm report` and return its exit code; raises InputFaults for a folder of no finished run."""
+    folder = options.folder
+    try:
+        page = _page_of(folder)(folder)
+    except (KeyError, OSError) as reason:
+        expected = "the files of a finished run of this version, in a folder that can be written"
+        raise InputFaults(str(folder), [Fault("DIR", repr(reason), expected)]) from None
+    show(f"report in {page}")
+    return 0
+
+
+def _page_of(folder: Path) -> Callable[[Path], Path]:
+    """What writes the page of a run folder."""
+    summary = folder / "summary.json"
+    try:
+        kind = json.loads(summary.read_text("utf-8"))["kind"]
+    except FileNotFoundError:
+        fault = Fault("DIR", f"no {summary}", "the folder of a finished run", nearest_path(folder))
+        raise InputFaults(COMMAND_LINE, [fault]) from None
+    except (OSError, ValueError, KeyError, TypeError) as reason:
+        fault = Fault("summary.json", f"cannot be read: {reason!r}", "the summary that a run wrote")
+        raise InputFaults(str(folder), [fault]) from None
+    if kind not in PAGES:
+        expected = f"one of {', '.join(PAGES)}"
+        raise InputFaults(str(folder), [Fault("summary.json", f"kind {kind!r}", expected)])
+    module, _, name = PAGES[kind].rpartition(".")
+    writer: Callable[[Path], Path] = getattr(import_module(f"swashfilm.{module}"), name)
+    return writer

@@ -1,0 +1,97 @@
+"""What the command line says of a run whose gaps float: its steps, and its physics."""
+
+from __future__ import annotations
+
+import argparse
+from dataclasses import replace
+
+from gaps.films.physics import Effect
+from reynolds.errors import FilmInputError
+from swashfilm.case.gap.physics_switches import SWITCHES
+from swashfilm.case.gap.revolution import FINER
+from swashfilm.console.fidelity import Fidelity
+from system.description.pump import SINGLE_PARTS, PumpDescription
+from system.effects.switched import hold_plain
+from system.inputs.faults import Fault
+from system.points.floating_gaps import FloatingOptions, usual_finer
+from system.pump.chamber_kinds import kinds
+
+ALIKE = "chambers that are alike; where they differ: swashfilm run with --fidelity lumped or floating"
+FEWEST_STEPS, MOST_STEPS = 24, 7200
+_INCLUDED = {"--heat": Effect.HEAT}
+_LEFT_OUT = {
+    "--rigid": Effect.ELASTIC_WALLS,
+    "--isoviscous": Effect.PRESSURE_VISCOSITY,
+    "--smooth": Effect.ROUGHNESS,
+    "--no-cavitation": Effect.CAVITATION,
+}
+
+
+def floating_options(options: argparse.Namespace) -> FloatingOptions:
+    """How the gaps float by a command line without faults: the usual way but for what it states."""
+    usual = FloatingOptions()
+    steps = usual.steps if options.steps is None else int(options.steps)
+    switched = _switched(options)
+    physics = usual.physics.without(*(_LEFT_OUT[switch] for switch in switched if switch in _LEFT_OUT))
+    physics = physics.including(*(_INCLUDED[switch] for switch in switched if switch in _INCLUDED))
+    finer = usual_finer(physics) if options.finer is None else float(options.finer)
+    return replace(
+        usual, steps=steps, physics=physics, finer=finer, keep=max(1, usual.keep * steps // usual.steps)
+    )
+
+
+def floating_faults(
+    options: argparse.Namespace, pump: PumpDescription, chosen: str, by: str = "--fidelity"
+) -> list[Fault]:
+    """What is wrong with the options that only floating gaps have, and with what they do not read of the pump.
+
+    Option `by` has chosen a fidelity.
+    """
+    numbers = {"--steps": options.steps, "--finer": options.finer}
+    stated = [option for option, text in numbers.items() if text is not None] + _switched(options)
+    if chosen != Fidelity.FLOATING.value:
+        wanted = f"{by} {Fidelity.FLOATING.value} beside it"
+        return [Fault(option, f"{by} {chosen}", wanted) for option in stated]
+    return _steps_faults(options, pump) + _finer_faults(options) + _physics_faults(pump)
+
+
+def _physics_faults(pump: PumpDescription) -> list[Fault]:
+    try:
+        hold_plain(pump)
+    except FilmInputError as reason:
+        return [Fault(reason.where, reason.found, reason.expected)]
+    return []
+
+
+def alike_faults(pump: PumpDescription) -> list[Fault]:
+    """The single parts of a pump, where what is asked for needs chambers that are alike."""
+    singles = [f"{name}.{number}" for name in SINGLE_PARTS for number, _ in getattr(pump, f"single_{name}s")]
+    return [] if kinds(pump).alike else [Fault(part, "a single part", ALIKE) for part in singles]
+
+
+def _steps_faults(options: argparse.Namespace, pump: PumpDescription) -> list[Fault]:
+    if options.steps is None:
+        return []
+    pistons = pump.pump.pistons
+    expected = f"a whole multiple of the {pistons} pistons, {FEWEST_STEPS} to {MOST_STEPS}"
+    if not options.steps.isdecimal():
+        return [Fault("--steps", repr(options.steps), expected)]
+    steps = int(options.steps)
+    if steps % pistons or not FEWEST_STEPS <= steps <= MOST_STEPS:
+        within = min(max(steps, FEWEST_STEPS), MOST_STEPS)
+        nearest = min(max(round(within / pistons), -(-FEWEST_STEPS // pistons)), MOST_STEPS // pistons) * pistons
+        return [Fault("--steps", options.steps, expected, str(nearest))]
+    return []
+
+
+def _finer_faults(options: argparse.Namespace) -> list[Fault]:
+    try:
+        fits = options.finer is None or FINER[0] <= float(options.finer) <= FINER[1]
+    except ValueError:
+        fits = False
+    expected = f"a number, {FINER[0]:g} to {FINER[1]:g}, times the usual cells each way"
+    return [] if fits else [Fault("--finer", repr(options.finer), expected)]
+
+
+def _switched(options: argparse.Namespace) -> list[str]:
+    return [switch for switch in SWITCHES if getattr(options, switch[2:].replace("-", "_"))]

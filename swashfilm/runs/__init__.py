@@ -1,0 +1,1 @@
+"""Runs, one room a command: options, solution, run folder, page."""

@@ -1,0 +1,91 @@
+"""The command `swashfilm calibrate`: pump and recording in, coefficients with their widths out."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from swashfilm.console.terminal import show, show_table
+from system.inputs.faults import Fault, InputFaults, nearest_choice
+
+if TYPE_CHECKING:
+    from system.bench.loss_models.model import LossModelName
+
+CALIBRATE_OPTIONS = ["--laws", "--models"]
+LAWS = ("mixed_friction", "none")
+ALL, NONE = "all", "none"
+
+
+def add_calibrate_options(command: argparse.ArgumentParser) -> None:
+    """The words that `swashfilm calibrate` takes."""
+    command.add_argument("pump", metavar="PUMP", help="built-in name (ref90) or pump file, which may know little")
+    command.add_argument(
+        "recording", type=Path, metavar="RECORDING", help="folder of a recording.toml, or a table beside one"
+    )
+    command.add_argument(
+        "--laws",
+        metavar=f"{{{','.join(LAWS)}}}",
+        default=LAWS[0],
+        help="what is tried beside constant coefficients: friction over the Hersey number, or nothing",
+    )
+    command.add_argument(
+        "--models",
+        metavar="NAME,..",
+        default=ALL,
+        help="loss models compared in the same splits: names with commas between, all, or none",
+    )
+
+
+def run_calibrate_command(options: argparse.Namespace) -> int:
+    """Run `swashfilm calibrate` and return its exit code."""
+    from system.bench.loss_models.model import LossModelName
+
+    faults: list[Fault] = []
+    if options.laws not in LAWS:
+        nearest = nearest_choice(options.laws, LAWS)
+        faults.append(Fault("--laws", repr(options.laws), f"one of {', '.join(LAWS)}", nearest))
+    known = [name.value for name in LossModelName]
+    asked = {ALL: known, NONE: []}.get(options.models, options.models.split(","))
+    for name in asked:
+        if name not in known:
+            expected = f"{ALL}, {NONE}, or of {', '.join(known)}"
+            faults.append(Fault("--models", repr(name), expected, nearest_choice(name, known)))
+    if faults:
+        raise InputFaults("command line", faults)
+    return _calibrate(options, [LossModelName(name) for name in asked])
+
+
+def _calibrate(options: argparse.Namespace, models: Sequence[LossModelName]) -> int:
+    from diagnosis.recording.model import NoteKind
+    from diagnosis.study.scaled_pump import load_known_pump
+    from swashfilm.console.progress import progress
+    from swashfilm.output.run_folder import final_folder, run_folder
+    from swashfilm.runs.calibrate.files import CALIBRATED, write_calibration_files
+    from swashfilm.runs.calibrate.page import headline, held_out_table, pair_table
+    from swashfilm.runs.calibrate.run import calibrate
+    from swashfilm.runs.diagnose.run import checked_recording, other_pump
+
+    known = load_known_pump(options.pump)
+    recording = checked_recording(options.recording, known)
+    title = recording.title or options.recording.stem
+    with (
+        run_folder(f"calibrate-{title}", options.output) as folder,
+        progress(1, f"calibrate {known.pump.name}") as report,
+    ):
+        found = calibrate(known.pump, recording, models, options.laws == LAWS[0], report)
+        assumptions = tuple(str(one) for one in known.assumptions)
+        write_calibration_files(folder, known.pump, found, title, assumptions)
+        told, pairs, compared = headline(folder), pair_table(folder), held_out_table(folder)
+    for text in (*(note.text for note in other_pump(recording, known)), *told):
+        show(text)
+    show_table("Friction coefficients: prior, fitted, sigma over the prior's", pairs)
+    if len(compared) > 1:
+        show_table("What models get wrong at levels left out", compared)
+    for note in found.notes:
+        if note.startswith(NoteKind.REMOVED.value):
+            show(note)
+    show(f"the fitted pump is {final_folder(folder) / CALIBRATED}")
+    show(f"results in {final_folder(folder)}")
+    return 0

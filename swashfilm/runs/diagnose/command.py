@@ -1,0 +1,146 @@
+"""The command `swashfilm diagnose`: pump and recording in, a verdict in words out; and `check` of a recording."""
+
+from __future__ import annotations
+
+import argparse
+import shutil
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from swashfilm.console.terminal import show, show_table
+from system.inputs.faults import Fault, InputFaults
+
+if TYPE_CHECKING:
+    from diagnosis.recording.model import Recording
+
+DIAGNOSE_OPTIONS = ["--apply", "--workers", "--film-tables"]
+MOST_WORKERS = 64
+USUAL_WORKERS = 4  # at most, where not stated: more wait for each other
+
+
+def add_diagnose_options(command: argparse.ArgumentParser) -> None:
+    """The words that `swashfilm diagnose` takes."""
+    command.add_argument("pump", metavar="PUMP", help="built-in name (ref90) or pump file, which may know little")
+    command.add_argument(
+        "recording",
+        type=Path,
+        metavar="RECORDING",
+        help="folder of a recording.toml, or a table beside one",
+    )
+    command.add_argument(
+        "--apply",
+        type=Path,
+        metavar="FILE.toml",
+        help="write the pump as fitted, with what is found: for `swashfilm run FILE.toml --fidelity lumped`",
+    )
+    command.add_argument(
+        "--workers",
+        metavar="N",
+        help=f"processes that fit hypotheses side by side (as many as cores, {USUAL_WORKERS} at most)",
+    )
+    command.add_argument(
+        "--film-tables",
+        action="store_true",
+        help="elastic walls as the film solver has them; films are solved once a pump, in about a minute",
+    )
+
+
+def run_diagnose_command(options: argparse.Namespace) -> int:
+    """Run `swashfilm diagnose` and return its exit code, 0 whatever the verdict."""
+    faults: list[Fault] = []
+    workers, apply = _workers(options, faults), _apply(options, faults)
+    if faults:
+        raise InputFaults("command line", faults)
+    from diagnosis.recording.model import NoteKind
+    from diagnosis.report.json_file import read_diagnosis
+    from diagnosis.report.text import paragraphs
+    from diagnosis.study.scaled_pump import load_known_pump
+    from swashfilm.console.progress import progress
+    from swashfilm.output.run_folder import final_folder, run_folder
+    from swashfilm.runs.diagnose.page import CHANNEL_HEAD, channel_rows, read_summary, remarks
+    from swashfilm.runs.diagnose.run import EXTENDED, checked_recording, other_pump, run_diagnosis
+    from system.effects.catalogue.entries import CATALOGUE, with_films_solved
+    from system.effects.effect import Kind
+
+    known = load_known_pump(options.pump)
+    recording = checked_recording(options.recording, known)
+    name = f"diagnose-{recording.title or options.recording.stem}"
+    with run_folder(name, options.output) as folder, progress(1, "diagnosis") as report:
+        catalogue = with_films_solved(known.pump, report) if options.film_tables else CATALOGUE
+        found = run_diagnosis(known, recording, folder, report, workers, catalogue)
+        record, summary = read_diagnosis(folder / "diagnosis.json"), read_summary(folder)
+    for text in (*(note.text for note in other_pump(recording, known)), *paragraphs(found)):
+        show(text)
+    show_table("Channels", [CHANNEL_HEAD, *channel_rows(record)])
+    for note in (*remarks(record, summary), *(n for n in found.notes if n.startswith(NoteKind.REMOVED.value))):
+        show(note)
+    if apply is not None and found.effects:
+        shutil.copyfile(final_folder(folder) / EXTENDED, apply)
+        what = "without the sensor's fault" if found.kind is Kind.SENSOR_FAULT else "with it"
+        show(f"the pump as fitted, {what}, is {apply}: swashfilm run {apply} --fidelity lumped")
+    elif apply is not None:
+        show(f"nothing is claimed: {apply} is not written")
+    show(f"results in {final_folder(folder)}")
+    return 0
+
+
+def is_recording(path: Path, tables: Sequence[str]) -> bool:
+    """Whether `check` is given a recording: a folder, a table of readings, or a TOML file with [channel]."""
+    return path.is_dir() or "channel" in tables or (path.suffix.lower() != ".toml" and path.is_file())
+
+
+def check_recording_command(path: Path) -> None:
+    """Show a recording as understood; raises InputFaults with every fault of its files and readings at once."""
+    from diagnosis.checks.notes import note_text
+    from swashfilm.runs.diagnose.run import checked_recording
+
+    recording = checked_recording(path)
+    show(f"{recording.title or path.stem}: {len(recording.steady.values)} points")
+    show_table(
+        "Channels: readings, range, one sigma of repeatability at mid range", list(_channel_rows(recording))
+    )
+    for note in recording.notes:
+        show(note_text(note))
+
+
+def _channel_rows(recording: Recording) -> Sequence[tuple[str, ...]]:
+    """(channel, readings, least to largest, sigma) of all steady channels."""
+    import numpy as np
+
+    from diagnosis.recording.model import reading_sigma
+    from diagnosis.recording.units import channel_unit, difference, difference_unit, reading
+
+    rows = []
+    for channel in recording.channels:
+        values = recording.steady.column(channel.name)
+        known = values[np.isfinite(values)]
+        if known.size:
+            ends = (f"{reading(channel.name, float(end)):.4g}" for end in (known.min(), known.max()))
+            sigma = difference(channel.name, float(reading_sigma(channel, np.median(known, keepdims=True))[0]))
+            span = f"{' to '.join(ends)} {channel_unit(channel.name)}".removesuffix(" 1")
+            told = f"{sigma:.2g} {difference_unit(channel.name)}".removesuffix(" 1")
+            rows.append((channel.name.value, str(known.size), span, told))
+    return rows
+
+
+def _workers(options: argparse.Namespace, faults: list[Fault]) -> int:
+    from system.work.processes import cores
+
+    text = options.workers
+    if text is None:
+        return min(cores(), USUAL_WORKERS)
+    if not (text.isdecimal() and 1 <= int(text) <= MOST_WORKERS):
+        faults.append(Fault("--workers", repr(text), f"a number of processes, 1 to {MOST_WORKERS}"))
+        return 1
+    return int(text)
+
+
+def _apply(options: argparse.Namespace, faults: list[Fault]) -> Path | None:
+    """Where the found pump goes: a file that is not there yet, in a folder that is."""
+    path: Path | None = options.apply
+    if path is not None and path.exists():
+        faults.append(Fault("--apply", f"{path}, which is there already", "a new file: nothing is overwritten"))
+    elif path is not None and not path.resolve().parent.is_dir():
+        faults.append(Fault("--apply", f"{path}, in no folder", "a file in a folder that is there"))
+    return path

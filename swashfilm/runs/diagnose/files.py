@@ -1,0 +1,105 @@
+"""The run folder of a diagnosis: what was found as files that programs and the page read."""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from diagnosis.checks.notes import note_text
+from diagnosis.recording.units import reading
+from diagnosis.report.json_file import write_diagnosis
+from diagnosis.report.tables import (
+    hypothesis_rows,
+    next_point_rows,
+    parameter_rows,
+    pull_sums,
+    residual_rows,
+    steady_rows,
+)
+from diagnosis.report.trace_tables import trace_residual_rows
+from diagnosis.study.model import Study
+from diagnosis.thresholds import Thresholds
+from diagnosis.verdict.diagnosis import Diagnosis
+from swashfilm.output.run_folder import write_json
+from swashfilm.runs.diagnose.before_after import NOTHING, Told
+from system.inputs.channels import ChannelName
+
+KIND = "diagnosis"
+TRACES = "trace_residuals.csv"
+"""In the run folder of a recording with traces: what residuals.csv is of steady readings."""
+NO_NEXT_POINT = "no next point is foretold"
+"""How the note begins that says why."""
+
+
+def write_diagnosis_files(
+    folder: Path,
+    study: Study,
+    diagnosis: Diagnosis,
+    thresholds: Thresholds,
+    assumptions: Sequence[str] = (),
+    told: Told = NOTHING,
+) -> None:
+    """Write diagnosis.json, summary.json, and seven tables (of traces an eighth) into a run folder.
+
+    assumptions: what was taken of the pump; told: of the pump run without and with the finding.
+    """
+    write_rows(folder / "steady.csv", steady_rows(study.recording))
+    write_rows(folder / "residuals.csv", residual_rows(study, diagnosis, thresholds))
+    if study.traces:
+        write_rows(folder / TRACES, with_stated(study, trace_residual_rows(study, diagnosis, thresholds)))
+    write_rows(folder / "hypotheses.csv", hypothesis_rows(diagnosis))
+    write_rows(folder / "parameters.csv", parameter_rows(diagnosis))
+    write_rows(folder / "next_points.csv", next_point_rows(diagnosis.next_point))
+    write_rows(folder / "changes.csv", told.rows)
+    write_rows(folder / "films.csv", told.films.rows)
+    write_diagnosis(folder / "diagnosis.json", diagnosis)
+    summary = diagnosis_summary(study, diagnosis, thresholds, assumptions)
+    write_json(folder / "summary.json", summary | {"runs": told.text, "films": told.films.text})
+
+
+def with_stated(study: Study, rows: Iterable[Mapping[str, str]]) -> Iterator[Mapping[str, str]]:
+    """The rows of the traces, in their order, with what the pump as described gives: nothing fitted."""
+    stated = np.concatenate([trace.block.mean - trace.residual for trace in study.traces])
+    for row, pressure in zip(rows, stated, strict=True):
+        yield {**row, "stated [bar]": f"{reading(ChannelName.P_CHAMBER, float(pressure)):.6g}"}
+
+
+def diagnosis_summary(
+    study: Study, diagnosis: Diagnosis, thresholds: Thresholds, assumptions: Sequence[str]
+) -> dict[str, Any]:
+    """What the page needs beside diagnosis.json: the recording, its data notes, what was taken, what decides."""
+    before, after = pull_sums(diagnosis.before, diagnosis.after)
+    recording = study.recording
+    return {
+        "format": 1,
+        "kind": KIND,
+        "name": recording.title,
+        "pump": recording.pump,
+        "oil": recording.oil,
+        "points": len(recording.steady.values),
+        "channels": [channel.name.value for channel in recording.channels],
+        "data_notes": [note_text(note) for note in recording.notes],
+        "assumptions": list(assumptions),
+        "squared_pulls": {"before": before, "after": after},
+        "thresholds_sha256": thresholds.digest,
+        "seconds": diagnosis.effort.seconds,
+    }
+
+
+def write_rows(path: Path, rows: Iterable[Mapping[str, str]]) -> None:
+    """Write rows of one set of columns as CSV."""
+    listed = list(rows)
+    with path.open("w", encoding="utf-8", newline="") as file:
+        writer = csv.DictWriter(file, list(listed[0]) if listed else [], lineterminator="\n")
+        writer.writeheader()
+        writer.writerows(listed)
+
+
+def read_rows(path: Path) -> list[dict[str, str]]:
+    """Read what `write_rows` wrote."""
+    with path.open(encoding="utf-8", newline="") as file:
+        return list(csv.DictReader(file))

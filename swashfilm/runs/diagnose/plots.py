@@ -1,0 +1,207 @@
+"""Pictures of a diagnosis, drawn from the tables of its run folder."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from reynolds.numerics.arrays import Array
+from swashfilm.output.figure_png import figure_of, png_of
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+Row = Mapping[str, str]
+BEFORE, AFTER, NOISE = "#b55a00", "#3c7a8c", "#9aa4ab"
+WIDTH = 10.0  # inches, of every picture that is as wide as the page
+MOST_BARS = 12
+MOST_LEVELS = 4
+SEEN = 0.05  # % of the shaft power, below which a loss is not drawn
+RATIO_STEP = 0.1
+"""Points whose displacement ratios differ by less are drawn together."""
+
+
+def residual_maps(rows: Sequence[Row]) -> bytes:
+    """Pulls over speed and pressure by channel and displacement, before beside after on one scale.
+
+    Of more than two displacements before stands over after, so that a reader sees each.
+    """
+    channels = list(dict.fromkeys(row["channel"] for row in rows))
+    levels = _levels(_column(rows, "displacement_ratio [1]"))
+    both = ("pull_before", "pull_after")
+    kinds = [both] if len(levels) < 3 else [(key,) for key in both]
+    lines = [(channel, keys) for channel in channels for keys in kinds]
+    columns = len(levels) * len(kinds[0])
+    figure = figure_of(1.5 + 2.3 * columns, 0.6 + (2.1 if len(levels) < 3 else 1.5) * len(lines))
+    grid = figure.subplots(len(lines), columns, squeeze=False, sharex=True, sharey=True)
+    most = max(3.0, float(np.nanpercentile(np.abs(_column(rows, "pull_before")), 98)))
+    drawn: Any = None
+    for line, (channel, keys) in zip(grid, lines, strict=True):
+        places = [(level, key) for level in levels for key in keys]
+        for axes, (level, key) in zip(line, places, strict=True):
+            own = [row for row in rows if row["channel"] == channel and _of_level(row, level)]
+            drawn = _map(axes, own, key, most)
+            axes.set_title(f"{_when(key)}{_title(level)}", fontsize=8, pad=3)
+        line[0].set_ylabel(f"{channel}\np_out / bar", fontsize=8)
+    for axes in grid[-1]:
+        axes.set_xlabel("speed / rpm", fontsize=8)
+    bar = figure.colorbar(
+        drawn, ax=grid.ravel().tolist(), shrink=min(0.8, 6.0 / (1.5 * len(lines))), extend="both"
+    )
+    bar.set_label("(measured - simulated) / sigma", fontsize=8)
+    return png_of(figure)
+
+
+def held_out_bars(held_out: Mapping[str, Mapping[str, Any]]) -> bytes:
+    """RMS of held-out residuals before and after, in units of each channel's noise."""
+    names = list(held_out)
+    figure = figure_of(WIDTH, 1.2 + 0.5 * len(names))
+    axes, places = figure.subplots(), np.arange(len(names))
+    for shift, (key, colour) in enumerate((("before", BEFORE), ("after", AFTER))):
+        sizes = [held_out[name][key] / held_out[name]["noise"] for name in names]
+        axes.barh(places + 0.38 * shift - 0.19, sizes, 0.36, color=colour, label=key)
+    axes.axvline(1.0, color=NOISE, linestyle="--", label="noise")
+    axes.set_yticks(places, names)
+    axes.set_xlabel("rms of held-out residuals / noise")
+    axes.invert_yaxis()
+    _legend_above(axes)
+    axes.grid(visible=True, axis="x", alpha=0.3)
+    return png_of(figure)
+
+
+def hypothesis_bars(rows: Sequence[Row]) -> bytes:
+    """The likeliest hypotheses: probability, and how far behind the best each lies."""
+    ranked = sorted(rows, key=lambda row: -float(row["probability"]))[:MOST_BARS]
+    figure = figure_of(WIDTH, 1.0 + 0.34 * len(ranked))
+    axes, places = figure.subplots(), np.arange(len(ranked))
+    axes.barh(places, [float(row["probability"]) for row in ranked], 0.6, color=AFTER)
+    for place, row in enumerate(ranked):
+        size = f", z {float(row['z']):.3g}" if float(row["z"] or 0.0) else ""  # the unknown has no one size
+        text = f"{float(row['behind [nats]']):.3g} nats behind{size}"
+        axes.text(float(row["probability"]) + 0.01, place, text, va="center", fontsize=8)
+    axes.set_yticks(places, [row["hypothesis"].replace("_", " ") for row in ranked], fontsize=8)
+    axes.set(xlim=(0.0, 1.35), xlabel="probability", xticks=np.linspace(0, 1, 6))
+    axes.invert_yaxis()
+    return png_of(figure)
+
+
+def pull_changes(rows: Sequence[Row]) -> bytes:
+    """Pulls of the parameters that either fit drags the most, from before to after, of those that both hold."""
+    common = [row for row in rows if row["pull_before"] and row["pull_after"]]
+    ranked = sorted(common, key=lambda row: -max(abs(float(row[key])) for key in ("pull_before", "pull_after")))
+    ranked = ranked[:MOST_BARS]
+    figure = figure_of(WIDTH, 1.0 + 0.3 * len(ranked))
+    axes, places = figure.subplots(), np.arange(len(ranked))
+    ends = [np.array([float(row[key]) for row in ranked]) for key in ("pull_before", "pull_after")]
+    axes.axvspan(-2, 2, color=NOISE, alpha=0.2)
+    axes.hlines(places, ends[0], ends[1], color=NOISE)
+    for values, colour, label in zip(ends, (BEFORE, AFTER), ("before", "after"), strict=True):
+        axes.plot(values, places, "o", color=colour, label=label)
+    axes.set_yticks(places, [row["name"] for row in ranked], fontsize=8)
+    axes.set_xlabel("pull; grey: within two, as of most values that are stated rightly")
+    axes.invert_yaxis()
+    _legend_above(axes)
+    return png_of(figure)
+
+
+def effect_courses(rows: Sequence[Row], courses: Sequence[tuple[str, str]]) -> bytes:
+    """What is claimed adds to channels, each over an axis, beside what the simulation without it leaves."""
+    figure = figure_of(WIDTH, 4.0)
+    for axes, (channel, axis) in zip(figure.subplots(1, len(courses), squeeze=False)[0], courses, strict=True):
+        own = [row for row in rows if row["channel"] == channel and row[axis]]
+        place, added = _column(own, axis), _column(own, "added")
+        left = _column(own, "measured") - (_column(own, "after") - added)
+        axes.errorbar(
+            place, left, _column(own, "sigma"), fmt="o", markersize=4, color=BEFORE, markerfacecolor="none",
+            ecolor=NOISE, label="measured less simulated without it", alpha=0.8,
+        )  # fmt: skip
+        axes.plot(place, added, "x", color=AFTER, markeredgewidth=1.8, label="what it adds", zorder=3)
+        axes.axhline(0.0, color="#1c2328", linewidth=0.8)
+        name, _, unit = axis.partition(" [")
+        axes.set_xlabel(f"{name} / {unit.rstrip(']')}")
+        axes.set_ylabel(f"{channel} / {own[0]['unit'].replace('degC', 'K')}")
+        axes.grid(visible=True, alpha=0.3)
+    _legend_above(axes)
+    return png_of(figure)
+
+
+def loss_bars(rows: Sequence[Row], whole: Mapping[str, float]) -> bytes:
+    """Where the shaft power goes, without and with the finding, in % of each one's shaft power; `whole` in W."""
+    runs = tuple(whole)
+    shares = {row["quantity"]: [100.0 * float(row[run]) / whole[run] for run in runs] for row in rows}
+    shown = {name: both for name, both in shares.items() if max(map(abs, both)) >= SEEN}
+    figure = figure_of(WIDTH, 1.0 + 0.36 * len(shown))
+    axes, places = figure.subplots(), np.arange(len(shown))
+    for at, (run, colour) in enumerate(zip(runs, (BEFORE, AFTER), strict=True)):
+        axes.barh(places + 0.38 * at - 0.19, [both[at] for both in shown.values()], 0.36, color=colour, label=run)
+    axes.set_yticks(places, list(shown), fontsize=8)
+    axes.set_xlabel("share of the shaft power / %")
+    axes.invert_yaxis()
+    _legend_above(axes)
+    axes.grid(visible=True, axis="x", alpha=0.3)
+    return png_of(figure)
+
+
+def _legend_above(axes: Axes) -> None:
+    """The legend in a row over the axes, where it hides nothing."""
+    axes.legend(fontsize=8, ncols=3, loc="lower right", bbox_to_anchor=(1.0, 1.0), frameon=False)
+
+
+def _map(axes: Axes, rows: Sequence[Row], key: str, most: float) -> Any:
+    """One map of pulls; points at one place (of other temperatures) stand side by side."""
+    speed, pressure = _place(axes, rows, "speed [rpm]", 0.02), _place(axes, rows, "p_out [bar]", 0.1)
+    warm = _column(rows, "T_case [degC]")
+    spread = np.ptp(warm[np.isfinite(warm)]) if np.any(np.isfinite(warm)) else 0.0
+    shift = np.nan_to_num((warm - np.nanmean(warm)) / spread) if spread > 0 else 0.0
+    width = 0.1 * (float(np.ptp(pressure)) if pressure.size else 0.0) or 1.0
+    axes.tick_params(labelsize=7)
+    return axes.scatter(
+        speed, pressure + width * shift, c=_column(rows, key), cmap="RdBu_r", vmin=-most, vmax=most,
+        s=float(np.clip(1200.0 / max(len(rows), 1), 14.0, 45.0)),
+        edgecolors="#6b747a", linewidths=0.3,
+    )  # fmt: skip
+
+
+def _place(axes: Axes, rows: Sequence[Row], key: str, height: float) -> Array:
+    """Where points stand along an axis; all at one place of what was not recorded, which is written there."""
+    place = _column(rows, key)
+    if place.size and not np.any(np.isfinite(place)):
+        text = f"{key.partition(' ')[0]} not recorded"
+        axes.text(0.5, height, text, transform=axes.transAxes, fontsize=7, ha="center")
+        return np.zeros_like(place)
+    return place
+
+
+def _levels(ratios: Array) -> list[tuple[float, float]]:
+    """Groups of displacement ratios: ends of each; one group of everything where there are too many."""
+    known = np.unique(ratios[np.isfinite(ratios)])
+    if known.size == 0:
+        return [(-np.inf, np.inf)]
+    groups = np.split(known, np.flatnonzero(np.diff(known) > RATIO_STEP) + 1)
+    ends = [(float(group[0]), float(group[-1])) for group in groups]
+    return ends if len(ends) <= MOST_LEVELS else [(float(known[0]), float(known[-1]))]
+
+
+def _of_level(row: Row, level: tuple[float, float]) -> bool:
+    lower, upper = level
+    text = row["displacement_ratio [1]"]
+    return not text or lower <= float(text) <= upper
+
+
+def _when(key: str) -> str:
+    return key.removeprefix("pull_")
+
+
+def _title(level: tuple[float, float]) -> str:
+    """What is written behind the time: of which displacements the points are, nothing of all."""
+    if not np.all(np.isfinite(level)):
+        return ""
+    lower, upper = level
+    one = f"{(lower + upper) / 2:.2g}" if upper - lower < RATIO_STEP / 2 else f"{lower:.2g} to {upper:.2g}"
+    return f", displacement {one}"
+
+
+def _column(rows: Sequence[Row], key: str) -> Array:
+    return np.array([float(row[key]) if row[key] else np.nan for row in rows])

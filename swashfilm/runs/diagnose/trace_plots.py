@@ -1,0 +1,80 @@
+"""Pictures of recorded chamber pressures beside simulated ones, from the table of a diagnosis's run folder."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from reynolds.numerics.arrays import Array
+from swashfilm.output.figure_png import figure_of, png_of
+
+Row = Mapping[str, str]
+FITS = {
+    "stated [bar]": ("#a274ad", "pump as described"),
+    "before [bar]": ("#b55a00", "before: fitted without the finding"),
+    "after [bar]": ("#3c7a8c", "after"),
+}
+NOISE, WINDOW = "#9aa4ab", "#e8d9a0"
+MOST_TRACES = 4
+QUARTERS = np.arange(0, 361, 90)
+
+
+def trace_residuals(rows: Sequence[Row], window: Sequence[float] | None, settings: Mapping[str, str]) -> bytes:
+    """The traces that part most before: recorded pressure, and what simulated ones lack of it, on one scale.
+
+    window: shaft angles in deg between which they stand out; settings: by point, what is written over it.
+    """
+    points = worst_points(rows)
+    rows = [row for row in rows if row["point"] in points]
+    figure = figure_of(10.0, 0.8 + 1.9 * len(points))
+    most = max(float(np.max(np.abs(_residual(rows, key)))) for key in FITS)
+    grid = figure.subplots(len(points), 2, squeeze=False, sharex=True, sharey="col", width_ratios=(1, 2))
+    for line, point in zip(grid, points, strict=True):
+        own = [row for row in rows if row["point"] == point]
+        angle, measured, sigma = (_column(own, key) for key in ("angle [deg]", "measured [bar]", "sigma [bar]"))
+        line[0].plot(angle, measured, color="#1c2328", linewidth=1.0)
+        line[0].set_ylabel("p_chamber / bar", fontsize=8)
+        line[0].set_title(settings.get(point, ""), fontsize=8, loc="left")
+        line[1].fill_between(angle, -2 * sigma, 2 * sigma, color=NOISE, alpha=0.35, linewidth=0, label="two sigma")
+        for key, (colour, label) in FITS.items():
+            line[1].plot(angle, _residual(own, key), color=colour, linewidth=1.2, label=label)
+        line[1].set_ylabel("residual / bar", fontsize=8)
+        line[1].set_ylim(-1.1 * most, 1.1 * most)
+        for axes in line:
+            for start, end in _spans(window):
+                axes.axvspan(start, end, color=WINDOW, alpha=0.5, zorder=0)
+            axes.set(xlim=(0.0, 360.0), xticks=QUARTERS)
+            axes.tick_params(labelsize=8)
+            axes.grid(visible=True, alpha=0.3)
+    grid[0, 1].legend(fontsize=8, ncols=4, loc="lower right", bbox_to_anchor=(1.0, 1.0), frameon=False)
+    for axes in grid[-1]:
+        axes.set_xlabel("shaft angle from the inner dead centre / deg", fontsize=8)
+    return png_of(figure)
+
+
+def _residual(rows: Sequence[Row], key: str) -> Array:
+    """Measured less simulated, bar."""
+    found: Array = _column(rows, "measured [bar]") - _column(rows, key)
+    return found
+
+
+def _spans(window: Sequence[float] | None) -> list[tuple[float, float]]:
+    """The window between 0 and 360 deg, parted where it goes over the inner dead centre."""
+    if not window:
+        return []
+    start, end = window
+    return [(start, end)] if start <= end else [(start, 360.0), (0.0, end)]
+
+
+def worst_points(rows: Sequence[Row]) -> list[str]:
+    """Points of the traces with the largest misfit before, in the order of the recording."""
+    misfit: dict[str, float] = {}
+    for row in rows:
+        misfit[row["point"]] = misfit.get(row["point"], 0.0) + float(row["pull_before"]) ** 2
+    worst = sorted(misfit, key=lambda point: -misfit[point])[:MOST_TRACES]
+    return sorted(worst, key=int)
+
+
+def _column(rows: Sequence[Row], key: str) -> Array:
+    return np.array([float(row[key]) for row in rows])

@@ -1,0 +1,1 @@
+"""`swashfilm film`: one film."""

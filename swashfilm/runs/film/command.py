@@ -1,0 +1,147 @@
+"""The command `swashfilm film`: a single film, a film on finer meshes, or a study of one."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from swashfilm.case.gap.physics_switches import SWITCHES, add_switches, switched_keys
+from swashfilm.console.inputs import COMMAND_LINE, expect
+from swashfilm.console.terminal import show, show_table
+from system.inputs.faults import Fault, InputFaults
+
+if TYPE_CHECKING:
+    from swashfilm.case.file import Case
+    from swashfilm.case.gap.revolution import RevolutionCase
+    from swashfilm.case.study import StudyCase
+
+FILM_OPTIONS = ["--refine", "--csv", "--resume", "--workers", "--animate", *SWITCHES]
+SOFT_PRICE = (
+    "walls that give way take some ten times as long as with --rigid --isoviscous; a smaller 'finer' costs less"
+)
+
+
+def add_film_options(command: argparse.ArgumentParser) -> None:
+    """Give the command what it takes."""
+    command.add_argument("case", type=Path, metavar="CASE.toml", help="the film case")
+    command.add_argument(
+        "--refine", metavar="N", help="solve on N meshes, each twice finer, and tell order and limit"
+    )
+    command.add_argument(
+        "--resume", type=Path, metavar="DIR", help="of a study: take finished points from this folder"
+    )
+    command.add_argument("--workers", metavar="N", help="of a study: processes that solve points side by side (1)")
+    command.add_argument("--csv", action="store_true", help="write the fields as a table too, fields.csv")
+    command.add_argument(
+        "--animate", action="store_true", help="of a revolution: a moving picture, animation.gif (.mp4 by ffmpeg)"
+    )
+    add_switches(command)
+
+
+def run_film(options: argparse.Namespace) -> int:
+    """Run `swashfilm film` and return its exit code; raises InputFaults with what is wrong in words or file."""
+    from swashfilm.case.gap.revolution import RevolutionCase
+    from swashfilm.case.study import StudyCase, load_film
+    from swashfilm.console.progress import progress
+    from swashfilm.output.run_folder import final_folder, run_folder
+    from swashfilm.runs.film.page import summary_rows
+    from swashfilm.runs.film.refine import check_refinement, refinement_head, refinement_rows
+    from swashfilm.runs.film.run import run_case
+
+    expect(options.case, "film", "run")
+    meshes = _count("--refine", options.refine, "a number of meshes", 2, 5)
+    workers = _count("--workers", options.workers, "a number of processes", 1, 64)
+    case = load_film(options.case, switched_keys(options))
+    _check_options(options, case)
+    if isinstance(case, StudyCase):
+        return _study(case, options, workers)
+    if isinstance(case, RevolutionCase):
+        return _revolution(case, options, meshes)
+    if meshes > 1:
+        check_refinement(case, meshes)
+    with run_folder(case.name, options.output) as folder, progress(3, f"film {case.name}") as report:
+        summary = run_case(case, folder, report, meshes=meshes, as_table=options.csv)
+    show_table(f"Film {case.name}", summary_rows(summary))
+    if found := summary.get("refinement"):
+        show_table("On finer meshes", [refinement_head(found), *refinement_rows(found)])
+    for warning in summary["warnings"]:
+        show(f"warning: {warning['name']}: {warning['text']}")
+    show(f"results in {final_folder(folder)}")
+    return 0
+
+
+def _revolution(case: RevolutionCase, options: argparse.Namespace, meshes: int) -> int:
+    from gaps.films.physics import Effect
+    from swashfilm.console.progress import progress
+    from swashfilm.output.run_folder import final_folder, run_folder
+    from swashfilm.runs.film.refine import refinement_head, refinement_rows
+    from swashfilm.runs.film.revolution.page import revolution_rows
+    from swashfilm.runs.film.revolution.run import run_revolution_case
+
+    if Effect.ELASTIC_WALLS not in case.options.physics.left_out:
+        show(SOFT_PRICE)
+    label = f"film {case.name}"
+    with run_folder(case.name, options.output) as folder, progress(case.options.steps, label) as report:
+        summary = run_revolution_case(case, folder, report, meshes=meshes, animated=options.animate)
+    show_table(f"Film {case.name}", revolution_rows(summary))
+    if found := summary.get("refinement"):
+        show_table("On finer meshes", [refinement_head(found), *refinement_rows(found)])
+    for warning in summary["warnings"]:
+        show(f"warning: {warning['name']}: {warning['text']}")
+    show(f"results in {final_folder(folder)}")
+    return 0
+
+
+def _study(study: StudyCase, options: argparse.Namespace, workers: int) -> int:
+    from swashfilm.console.points import ended
+    from swashfilm.console.progress import progress
+    from swashfilm.output.run_folder import final_folder, run_folder
+    from swashfilm.runs.film.series.page import failed_rows, run_study, span_rows
+
+    label = f"study {study.name}"
+    with run_folder(study.name, options.output) as folder, progress(len(study.points), label) as report:
+        summary = run_study(study, folder, report, resumed=options.resume, workers=workers)
+    head = ("", "least", "at", "largest", "at")
+    show_table(
+        f"Study {study.name}: {summary['solved']} of {summary['points']} points", [head, *span_rows(summary)]
+    )
+    if summary["failed"]:
+        show_table("Points without a result", failed_rows(summary))
+    for warning in summary["warnings"]:
+        show(f"warning: {warning['name']}: {warning['text']}")
+    show(f"results in {final_folder(folder)}")
+    return ended(summary)
+
+
+def _check_options(options: argparse.Namespace, case: Case | StudyCase) -> None:
+    """Raise InputFaults for options that are not for this kind of case."""
+    from swashfilm.case.gap.revolution import RevolutionCase
+    from swashfilm.case.study import StudyCase
+
+    single, study, turn = "a single film", "a study", "a single case with revolution = true"
+    for_study = {"--resume": options.resume, "--workers": options.workers}
+    for_turn, for_instant = {"--animate": options.animate or None}, {"--csv": options.csv or None}
+    match case:
+        case StudyCase():
+            kind, unfit = study, [({"--refine": options.refine} | for_instant, single), (for_turn, turn)]
+        case RevolutionCase():
+            kind, unfit = turn, [(for_study, study), (for_instant, "a film at one instant")]
+        case _:
+            kind, unfit = single, [(for_study, study), (for_turn, turn)]
+    faults = [
+        Fault(name, f"an option beside {kind}", fit)
+        for stated, fit in unfit
+        for name, given in stated.items()
+        if given is not None
+    ]
+    if faults:
+        raise InputFaults(COMMAND_LINE, faults)
+
+
+def _count(option: str, text: str | None, what: str, least: int, most: int) -> int:
+    if text is None:
+        return 1
+    if not (text.isdecimal() and least <= int(text) <= most):
+        raise InputFaults(COMMAND_LINE, [Fault(option, repr(text), f"{what}, {least} to {most}")])
+    return int(text)

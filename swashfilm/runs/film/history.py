@@ -1,0 +1,48 @@
+"""The fields of a film for results.nc: one film, or those of a transient over time, bounded in size."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from swashfilm.runs.film.solve.study import FilmStudy
+from swashfilm.runs.film.solve.transient import Moment
+from swashfilm.runs.film.summary import film_dataset
+from swashfilm.runs.film.validity import thinned_by
+
+if TYPE_CHECKING:
+    import xarray
+
+
+def fields_over_time(study: FilmStudy) -> xarray.Dataset:
+    """Fields as `film_dataset`; of a transient those of the films written, over `time` (s), the last one always.
+
+    Where they would be larger than `film_warnings.MOST_BYTES` only every so many of them are taken.
+    """
+    import xarray
+
+    moments = written(study.history)
+    every = thinned_by(study)
+    taken = moments[::-1][::every][::-1]
+    if len(taken) < 2:
+        return film_dataset(study)
+    films = [film_dataset(at_moment(study, moment)) for moment in taken]
+    time = xarray.IndexVariable("time", [moment.time for moment in taken], {"units": "s"})
+    varying = [name for name in films[0].data_vars if name != "cells"]
+    return xarray.concat(films, time, data_vars=varying, coords="minimal", compat="override")
+
+
+def written(history: tuple[Moment, ...]) -> list[Moment]:
+    """The moments of which films are written."""
+    return [moment for moment in history if moment.solution]
+
+
+def at_moment(study: FilmStudy, moment: Moment) -> FilmStudy:
+    """The study with the film of a moment that is written."""
+    assert moment.solution is not None
+    return replace(study, solution=moment.solution, heat=moment.heat)
+
+
+def last_of(fields: xarray.Dataset) -> xarray.Dataset:
+    """The fields of the end, of one film the film's own."""
+    return fields.isel(time=-1) if "time" in fields.dims else fields

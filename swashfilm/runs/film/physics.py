@@ -1,0 +1,130 @@
+"""What temperature, walls that give way and time add to a film: numbers of its summary and fields."""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from reynolds.equation.rough_overlap import vertex_thickness
+from reynolds.laws.contact import boundary_shear, contact_area, contact_pressure, lambda_ratio
+from reynolds.laws.roughness import beyond_range
+from swashfilm.output.headline import titled
+from swashfilm.runs.film.solve.transient import Moment
+
+if TYPE_CHECKING:
+    from swashfilm.runs.film.solve.study import FilmStudy
+
+
+def physics_summary(study: FilmStudy) -> dict[str, Any]:
+    """Numbers of a summary, SI, the unit in the key, of what the case switches on."""
+    found: dict[str, Any] = {}
+    if study.heat:
+        found |= _heat_summary(study)
+    if study.solution.problem.walls is not None:
+        found["deformation_max_m"] = float(study.solution.opening.max())
+    if study.solution.problem.surface is not None:
+        found |= _rough_summary(study)
+    if study.history:
+        steps = study.history
+        found |= {
+            "time_s": steps[-1].time,
+            "time_steps": len(steps),
+            "load_of_time_max_N": max(step.loads.load for step in steps),
+            "load_of_time_min_N": min(step.loads.load for step in steps),
+            "pressure_of_time_max_Pa": max(step.loads.pressure_max for step in steps),
+            "film_thickness_of_time_min_m": min(step.loads.film_thickness_min for step in steps),
+            "mass_balance_error_of_time": max(step.loads.mass_balance_error for step in steps),
+        }
+        if study.heat:
+            found["temperature_of_time_max_K"] = max(step.temperature_max or 0.0 for step in steps)
+    return found
+
+
+def _heat_summary(study: FilmStudy) -> dict[str, Any]:
+    heat, space = study.heat, study.solution.problem.space
+    assert heat is not None
+    hottest = int(np.argmax(heat.temperature.max(axis=1)[space.vertex_dofs]))
+    return {
+        "temperature_max_K": float(heat.temperature.max()),
+        "temperature_max_at_m": [float(part) for part in space.vertices[hottest]],
+        "temperature_mean_K": float(np.average(heat.mean, weights=space.lumped(np.ones(space.area.shape)))),
+        "wall_heat_W": {"fixed": heat.to_fixed, "moving": heat.to_moving},
+        "oil_heat_W": heat.carried_out,
+        "heat_balance_error": heat.energy_balance_error,
+    }
+
+
+def _rough_summary(study: FilmStudy) -> dict[str, Any]:
+    """Least lambda ratio, and what the asperities bear: contact load N and the friction of the contacts N."""
+    problem, film = study.solution.problem, study.solution.film
+    assert problem.surface is not None
+    ratio = lambda_ratio(study.loads.film_thickness_min, problem.surface.composite_roughness)
+    found: dict[str, Any] = {
+        "lambda_ratio_min": float(ratio),
+        "beyond_flow_factors_area_fraction": beyond_range(film.thickness, problem.surface).fraction,
+    }
+    if problem.asperities is not None:
+        area = problem.space.area
+        pressed = contact_pressure(problem.asperities, film.thickness).value
+        sheared = boundary_shear(problem.asperities, pressed).value
+        found["contact_load_N"] = study.loads.contact_load
+        both = study.loads.contact_load + study.loads.load
+        found["contact_load_fraction"] = study.loads.contact_load / both if both > 0.0 else None
+        found["contact_pressure_max_Pa"] = float(np.max(pressed))
+        found["contact_friction_N"] = float(np.sum(sheared * area))
+        found["contact_area_fraction"] = float(
+            np.sum(contact_area(problem.asperities, film.thickness).value * area) / area.sum()
+        )
+    return found
+
+
+def history_columns(history: Sequence[Moment]) -> dict[str, list[float]]:
+    """Headline numbers of every step of a transient, by key; `time_s` first."""
+    columns = {"time_s": [step.time for step in history]}
+    for key, of in (
+        ("load_N", lambda loads: loads.load),
+        ("pressure_max_Pa", lambda loads: loads.pressure_max),
+        ("film_thickness_min_m", lambda loads: loads.film_thickness_min),
+        ("cavitated_area_fraction", lambda loads: loads.cavitated_area_fraction),
+        ("friction_force_moving_N.x", lambda loads: loads.friction_moving[0]),
+        ("friction_force_moving_N.y", lambda loads: loads.friction_moving[1]),
+        ("friction_torque_moving_Nm", lambda loads: loads.friction_torque_moving),
+        ("dissipation_W", lambda loads: loads.dissipation),
+        ("mass_balance_error", lambda loads: loads.mass_balance_error),
+    ):
+        columns[key] = [of(step.loads) for step in history]
+    if history[0].temperature_max is not None:
+        columns["temperature_max_K"] = [float(step.temperature_max or 0.0) for step in history]
+    for name in history[0].loads.flow:
+        columns[f"flow_m3_per_s.{name}"] = [step.loads.flow[name] for step in history]
+    return columns
+
+
+def write_history(path: Path, history: Sequence[Moment]) -> None:
+    """A CSV of one line a step: time and headline numbers, SI, units in the titles."""
+    columns = history_columns(history)
+    with path.open("w", newline="", encoding="utf-8") as file:
+        table = csv.writer(file)
+        table.writerow([titled(key) for key in columns])
+        table.writerows(zip(*columns.values(), strict=True))
+
+
+def vertex_fields(study: FilmStudy) -> dict[str, tuple[np.ndarray, str]]:
+    """Fields at the vertices and their units: film fraction, temperatures, the walls' opening."""
+    solution = study.solution
+    at = solution.problem.space.vertex_dofs
+    found = {"film_fraction": (solution.film_fraction[at], "1")}
+    if study.heat:
+        found["temperature"] = (study.heat.mean[at], "K")
+        found["temperature_fixed_wall"] = (study.heat.fixed_wall[at], "K")
+        found["temperature_moving_wall"] = (study.heat.moving_wall[at], "K")
+    if solution.problem.walls is not None:
+        found["deformation"] = (solution.opening, "m")
+    if solution.problem.asperities is not None:
+        pressed = contact_pressure(solution.problem.asperities, vertex_thickness(solution)).value
+        found["contact_pressure"] = (pressed, "Pa")
+    return found

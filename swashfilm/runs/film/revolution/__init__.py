@@ -1,0 +1,1 @@
+"""A gap over the turn."""

@@ -1,0 +1,187 @@
+"""A gap over the revolution as data: series over the shaft angle and kept films for results.nc, and its tables."""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from gaps.revolution.reports import Active
+from gaps.revolution.turn import GapInstant
+from reynolds.equation.rough_overlap import vertex_thickness
+from reynolds.numerics.arrays import Array
+from swashfilm.runs.film.revolution.solve import RevolutionStudy, friction_power, tilt
+from system.description.gap import Gap
+from system.films.rotor import engaged_share
+
+if TYPE_CHECKING:
+    import xarray
+
+POSITIONS = {
+    Gap.PISTON: ("eccentricity_x_inner", "eccentricity_y_inner", "eccentricity_x_case", "eccentricity_y_case"),
+    Gap.SLIPPER: ("film_thickness_under_ball", "rise_x", "rise_y"),
+    Gap.VALVE_PLATE: ("film_thickness_on_axis", "rise_x", "rise_y"),
+}
+"""Names of a gap's coordinates, m; rises over the outer radius of the last land."""
+PISTON_END = ("eccentricity_x_end", "eccentricity_y_end")
+"""Eccentricity of the piston's axis at the inner end of its film, m."""
+
+
+@dataclass(frozen=True)
+class Shown:
+    """How tables and pictures show numbers in SI: in a unit, (value - zero) x factor."""
+
+    unit: str
+    factor: float = 1.0
+    zero: float = 0.0
+
+    def of(self, values: Array) -> Array:
+        """Values in SI in the unit that is shown."""
+        return (values - self.zero) * self.factor
+
+
+SHOWN = {
+    "m": Shown("um", 1e6), "rad": Shown("mrad", 1e3), "m3/s": Shown("L/min", 6e4), "W": Shown("W"),
+    "N": Shown("N"), "Pa": Shown("MPa", 1e-6), "K": Shown("degC", 1.0, 273.15), "1": Shown("-"),
+}  # fmt: skip
+"""By the unit in SI."""
+Instant = GapInstant[Any]
+
+
+@dataclass(frozen=True)
+class Series:
+    """A number over the shaft angle: its unit (SI) and where an instant has it."""
+
+    unit: str
+    value: Callable[[Instant], float]
+
+
+SERIES = {
+    "film_thickness_min": Series("m", lambda at: at.film_thickness_min),
+    "film_thickness_mean": Series("m", lambda at: at.mean_film),
+    "least_gap": Series("m", lambda at: at.least_gap),
+    "leakage_flow": Series("m3/s", lambda at: at.seen.leakage),
+    "chamber_flow": Series("m3/s", lambda at: float(at.seen.flow.sum())),
+    "contact_load": Series("N", lambda at: at.seen.contact_load),
+    "cavitated_area_fraction": Series("1", lambda at: at.cavitated_area_fraction),
+    "film_pressure_max": Series("Pa", lambda at: at.pressure_max),
+    "heat": Series("W", lambda at: at.seen.heat.total),
+    "rubbing": Series("W", lambda at: at.seen.heat.rubbing),
+}
+
+
+def revolution_dataset(study: RevolutionStudy) -> xarray.Dataset:
+    """Series over `shaft_angle` (rad), one variable of 0 or 1 a kind of `Active`, and films over `film_angle`."""
+    import xarray
+
+    found, instants = study.revolution, study.revolution.turn.instants
+    positions = zip(POSITIONS[study.case.gap], found.positions.T, strict=True)
+    numbers: dict[str, tuple[Any, str]] = {name: (values, "m") for name, values in positions}
+    numbers |= {name: ([one.value(at) for at in instants], one.unit) for name, one in SERIES.items()}
+    if study.case.gap is Gap.PISTON:
+        numbers |= {name: (values, "m") for name, values in zip(PISTON_END, piston_end(study), strict=True)}
+    numbers |= {
+        "tilt": (tilt(study), "rad"),
+        "friction_power": ([friction_power(study, at.seen) for at in instants], "W"),
+        "chamber_pressure": (study.chamber_pressure, "Pa"),
+    }  # fmt: skip
+    if (warmth := found.warmth) is not None:
+        numbers |= {
+            "film_temperature_mean": (warmth.mean_at(found.angles), "K"),
+            "film_temperature_max": (warmth.hottest_at(found.angles), "K"),
+        }
+    active = {kind: [float(kind in at.seen.active) for at in instants] for kind in Active}
+    numbers |= {f"active_{kind.value}": (values, "1") for kind, values in active.items()}
+    return xarray.Dataset(
+        {name: ("shaft_angle", np.array(values), {"units": unit}) for name, (values, unit) in numbers.items()}
+        | _films(study),
+        coords={"shaft_angle": ("shaft_angle", found.angles, {"units": "rad"})},
+        attrs={
+            "name": study.case.name,
+            "kind": "film_revolution",
+            "gap": study.case.gap.value,
+            "pressures": "gauge",
+            "clearance_m": study.case.rotor.pump.piston.radial_clearance,
+            **_walls(study),
+        },
+    )
+
+
+def _walls(study: RevolutionStudy) -> dict[str, float]:
+    """Temperatures (K) of the walls of a gap that warms."""
+    warmth = study.revolution.warmth
+    if warmth is None:
+        return {}
+    return {
+        f"{wall}_wall_temperature_K": float(at) for wall, at in zip(("fixed", "moving"), warmth.walls, strict=True)
+    }
+
+
+def piston_end(study: RevolutionStudy) -> Array:
+    """Eccentricity (2, n) m of the piston's axis where its film ends inside: at its own end, or the guide's."""
+    guide = study.parts.piston.guide_length
+    share = engaged_share(study.case.rotor, guide, study.revolution.angles)
+    inner, case = study.revolution.positions.T[:2], study.revolution.positions.T[2:]
+    return np.asarray(case + (inner - case) * share)
+
+
+def _films(study: RevolutionStudy) -> dict[str, tuple[Any, ...]]:
+    """Pressure and thickness of the kept films at the vertices, whose places (m) may move with the angle.
+
+    Of films that warm their temperature too, mean over the thickness.
+    """
+    films, warm = list(study.revolution.turn.films.values()), film_temperatures(study)
+    spaces = [film.problem.space for film in films]
+    nodes = ("film_angle", "vertex")
+    pressure = np.array([film.pressure[film.problem.space.vertex_dofs] for film in films])
+    return {
+        "film_angle": ("film_angle", np.array(list(study.revolution.turn.films)), {"units": "rad"}),
+        "x": (nodes, np.array([space.vertices[:, 0] for space in spaces]), {"units": "m"}),
+        "y": (nodes, np.array([space.vertices[:, 1] for space in spaces]), {"units": "m"}),
+        "film_pressure": (nodes, pressure, {"units": "Pa"}),
+        "film_thickness": (nodes, np.array([vertex_thickness(film) for film in films]), {"units": "m"}),
+        "cells": (("cell", "corner"), spaces[0].cells),
+    } | ({} if warm is None else {"film_temperature": (nodes, warm, {"units": "K"})})
+
+
+def film_temperatures(study: RevolutionStudy) -> Array | None:
+    """Temperature (k, vertices) K of the kept films, mean over the thickness; None where films do not warm."""
+    warmth, films = study.revolution.warmth, study.revolution.turn.films
+    if warmth is None:
+        return None
+    return np.array([warmth.film_at(angle)[film.problem.space.vertex_dofs] for angle, film in films.items()])
+
+
+def write_series(path: Path, data: xarray.Dataset) -> None:
+    """A table (CSV) of the series: a line a shaft angle, the unit in each head; `active` names what limits it."""
+    names = [str(name) for name in data.data_vars if data[name].dims == ("shaft_angle",)]
+    numbers = [name for name in names if not name.startswith("active_")]
+    with path.open("w", newline="", encoding="utf-8") as file:
+        table = csv.writer(file)
+        shown = {name: SHOWN[data[name].attrs["units"]] for name in numbers}
+        table.writerow(["shaft_angle [deg]", *(f"{name} [{how.unit}]" for name, how in shown.items()), "active"])
+        columns = [how.of(data[name].values) for name, how in shown.items()]
+        for k, angle in enumerate(np.degrees(data["shaft_angle"].values)):
+            row = [f"{value:.8g}" for value in (angle, *(column[k] for column in columns))]
+            table.writerow([*row, active_at(data, k)])
+
+
+def active_at(data: xarray.Dataset, k: int) -> str:
+    """What limits the k-th instant, in words joined by +."""
+    return "+".join(kind.value for kind in Active if data[f"active_{kind.value}"].values[k])
+
+
+def write_convergence(path: Path, study: RevolutionStudy) -> None:
+    """A table (CSV) of the turns: by how much each changed the position, and the multipliers of the last one."""
+    closing = study.revolution.closing
+    sizes = sorted(np.abs(closing.multipliers), reverse=True)
+    with path.open("w", newline="", encoding="utf-8") as file:
+        table = csv.writer(file)
+        table.writerow(["turn", "change [um]", *(f"multiplier_{k + 1} [-]" for k in range(len(sizes)))])
+        for turn, change in enumerate(closing.changes, start=1):
+            last = turn == closing.turns
+            table.writerow([turn, f"{change * 1e6:.6g}", *(f"{size:.6g}" if last else "" for size in sizes)])

@@ -1,0 +1,215 @@
+"""Pictures of a gap over the revolution, drawn from results.nc alone."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from gaps.revolution.reports import Active
+from swashfilm.output.field_maps import draw_map
+from swashfilm.output.figure_png import figure_of, png_of
+from swashfilm.runs.film.revolution.data import PISTON_END, POSITIONS, SHOWN
+from system.description.gap import Gap
+
+if TYPE_CHECKING:
+    import xarray
+
+EDGES = (0.15, 0.85)  # of the span, beyond which a label stands beside its place
+THINNEST = 0.01  # um: a film below it is not told in figures
+MAPS = 4  # kept films shown as maps
+TEMPERATURE = "film_temperature"
+MAPPED = {
+    "film_pressure": ("pressure", "viridis"), "film_thickness": ("film", "cividis"),
+    TEMPERATURE: ("temperature", "inferno"),
+}  # fmt: skip
+"""Fields of the maps, their words and colours."""
+LEAST_SHOWN = {"contact_load": 1.0, "cavitated_area_fraction": 0.01, "film_pressure_max": 0.1}
+"""Ends of axes where there is less: what is next to nothing looks so."""
+INK, FILM, SECOND, THIRD = "#1c2328", "#3c7a8c", "#b8862b", "#8c5a3c"
+BANDS = {
+    Active.CONTACT: "#b33a3a", Active.CAVITATION: "#7fb2d6", Active.RETAINER: "#b8862b", Active.LIFT: "#5b9a5b",
+}  # fmt: skip
+MEANING = {
+    Active.CONTACT: "contact bears", Active.CAVITATION: "film cavitates", Active.RETAINER: "retainer presses",
+    Active.LIFT: "the film alone",
+}  # fmt: skip
+
+
+def revolution_plots(data: xarray.Dataset) -> dict[str, bytes]:
+    """A PNG of each picture, by its name: film, path, losses, contact, maps; temperature of films that warm."""
+    warm = {"temperature": _temperature(data)} if TEMPERATURE in data else {}
+    return warm | {
+        "film": _film(data),
+        "path": _path(data),
+        "losses": _losses(data),
+        "contact": _contact(data),
+        "maps": _maps(data),
+    }
+
+
+def film_text(thickness: float) -> str:
+    """A film (um) in words; between rough walls pressed together hardly any is left."""
+    return f"{thickness:.3g} um" if thickness >= THINNEST else f"under {THINNEST:g} um"
+
+
+def _film(data: xarray.Dataset) -> bytes:
+    """Least to mean film (um) over the shaft angle, the chamber's pressure beside it, what limits it below."""
+    figure = figure_of(9.0, 4.6)
+    axes, bands = figure.subplots(2, 1, sharex=True, height_ratios=(5, 1))
+    angle = degrees(data)
+    least, mean = (shown(data, name) for name in ("film_thickness_min", "film_thickness_mean"))
+    axes.fill_between(angle, least, mean, color=FILM, alpha=0.2, linewidth=0.0)
+    axes.plot(angle, mean, color=FILM, label="mean film")
+    axes.plot(angle, least, color=INK, label="least film")
+    at = int(np.argmin(least))
+    axes.plot(angle[at], least[at], "v", color=INK)
+    side = ("left", "center", "right")[np.searchsorted(EDGES, angle[at] / span(data))]
+    axes.annotate(f"{film_text(least[at])} at {angle[at]:.0f} deg", (angle[at], least[at]), (0, 8), ha=side,
+                  fontsize=8, textcoords="offset points")  # fmt: skip
+    axes.set(ylabel="film / um", ylim=(0.0, None))
+    beside = axes.twinx()
+    beside.plot(angle, shown(data, "chamber_pressure"), color=SECOND, linewidth=0.9, linestyle="--")
+    beside.set_ylabel("chamber pressure, gauge / MPa", color=SECOND)
+    figure.legend(loc="outside upper right", fontsize=8, ncols=2)
+    draw_bands(bands, data)
+    bands.set(xlabel="shaft angle from inner dead centre / deg", xlim=(0.0, span(data)))
+    return png_of(figure)
+
+
+def draw_bands(axes: Any, data: xarray.Dataset) -> None:
+    """A row for each limit that is active somewhere, coloured where it is."""
+    ends = degrees(data)[1:]
+    steps = np.diff(degrees(data))
+    kinds = [kind for kind in BANDS if data[f"active_{kind.value}"].values.any()]
+    for row, kind in enumerate(kinds):
+        on = data[f"active_{kind.value}"].values.astype(bool)
+        bars = list(zip(ends[on] - steps[on], steps[on], strict=True))
+        axes.broken_barh(bars, (row - 0.4, 0.8), color=BANDS[kind])
+    axes.set_yticks(range(len(kinds)), [MEANING[kind] for kind in kinds], fontsize=8)
+    axes.set_ylim(len(kinds) - 0.4, -0.6)
+
+
+def _path(data: xarray.Dataset) -> bytes:
+    """The piston's two ends in the clearance circle (um), or the tilt of slipper or block as rises (um)."""
+    figure = figure_of(9.0, 4.4)
+    gap, angle = Gap(data.attrs["gap"]), degrees(data)
+    names = POSITIONS[gap]
+    if gap is Gap.PISTON:
+        clearance = data.attrs["clearance_m"] * 1e6
+        circle = np.linspace(0.0, 2.0 * np.pi, 181)
+        ends = zip(("at the film's inner end", "at the bore's case edge"), (PISTON_END, names[2:]), strict=True)
+        for axes, (title, pair) in zip(figure.subplots(1, 2), ends, strict=True):
+            axes.plot(clearance * np.cos(circle), clearance * np.sin(circle), color="#9aa4ab", linewidth=1.0)
+            _orbit(axes, shown(data, pair[0]), shown(data, pair[1]), angle)
+            axes.set(title=title, xlabel="eccentricity, to inner dead centre / um", ylabel="across / um")
+        return png_of(figure)
+    orbit, course = figure.subplots(1, 2)
+    _orbit(orbit, shown(data, "rise_x"), shown(data, "rise_y"), angle)
+    orbit.set(title="tilt", xlabel="rise along x over the rim's radius / um", ylabel="rise along y / um")
+    for name, colour in zip(names, (INK, FILM, SECOND), strict=True):
+        course.plot(angle, shown(data, name), color=colour, label=name.replace("_", " "))
+    course.set(xlabel="shaft angle / deg", ylabel="coordinate / um", xlim=(0.0, span(data)))
+    course.legend(fontsize=8)
+    return png_of(figure)
+
+
+def _orbit(axes: Any, x: np.ndarray, y: np.ndarray, angle: np.ndarray) -> None:
+    """A closed path with its angle as colour and four of them written on it."""
+    axes.plot(x, y, color="#c9d0d5", linewidth=0.8)
+    dots = axes.scatter(x, y, c=angle, cmap="twilight_shifted", s=9, vmin=0.0, vmax=angle[-1])
+    for at in angle[-1] * np.array([0.25, 0.5, 0.75, 1.0]):
+        k = int(np.argmin(np.abs(angle - at)))
+        axes.annotate(f"{angle[k]:.0f}", (x[k], y[k]), (4, 4), fontsize=7, textcoords="offset points")
+    axes.axhline(0.0, color="#e3e7ea", linewidth=0.8, zorder=0)
+    axes.axvline(0.0, color="#e3e7ea", linewidth=0.8, zorder=0)
+    axes.set_aspect("equal", adjustable="datalim")
+    axes.figure.colorbar(dots, ax=axes, label="shaft angle / deg", shrink=0.8)
+
+
+def _losses(data: xarray.Dataset) -> bytes:
+    """Tilt (mrad), leakage (L/min) and friction (W) over the shaft angle."""
+    figure = figure_of(9.0, 5.6)
+    tilt, leakage, friction = figure.subplots(3, 1, sharex=True)
+    angle = degrees(data)
+    tilt.plot(angle, shown(data, "tilt"), color=INK)
+    tilt.set_ylabel("tilt / mrad")
+    leakage.plot(angle, shown(data, "leakage_flow"), color=FILM, label="into the case")
+    leakage.plot(angle, shown(data, "chamber_flow"), color=SECOND, linewidth=0.9, label="out of the chambers")
+    leakage.set_ylabel("flow / L/min")
+    leakage.legend(fontsize=8)
+    friction.plot(angle, shown(data, "friction_power"), color=THIRD, label="walls' power")
+    friction.plot(angle, shown(data, "rubbing"), color="#b33a3a", linewidth=0.9, label="of it contact")
+    friction.set_ylabel("friction / W")
+    friction.legend(fontsize=8)
+    friction.set(xlabel="shaft angle / deg", xlim=(0.0, span(data)))
+    return png_of(figure)
+
+
+def _contact(data: xarray.Dataset) -> bytes:
+    """Contact load (N), cavitated share of the area and largest film pressure (MPa) over the shaft angle."""
+    figure = figure_of(9.0, 5.0)
+    rows = {
+        "contact_load": ("contact / N", "#b33a3a"),
+        "cavitated_area_fraction": ("cavitated share", "#4d8bb8"),
+        "film_pressure_max": ("highest pressure / MPa", INK),
+    }
+    for axes, (name, (title, colour)) in zip(figure.subplots(3, 1, sharex=True), rows.items(), strict=True):
+        axes.fill_between(degrees(data), shown(data, name), color=colour, alpha=0.25, linewidth=0.0)
+        axes.plot(degrees(data), shown(data, name), color=colour)
+        most = max(1.05 * float(shown(data, name).max()), LEAST_SHOWN[name])
+        axes.set(ylabel=title, ylim=(0.0, most), xlim=(0.0, span(data)))
+    axes.set_xlabel("shaft angle / deg")
+    return png_of(figure)
+
+
+def _maps(data: xarray.Dataset) -> bytes:
+    """Film pressure (MPa), thickness (um) and, of films that warm, temperature (degC) at some kept angles."""
+    count = data.sizes["film_angle"]
+    chosen = np.unique(np.linspace(0, count - 1, min(MAPS, count)).round().astype(int))
+    fields = [name for name in MAPPED if name in data]
+    figure = figure_of(3.3 * len(chosen), 2.8 * len(fields))
+    rows = figure.subplots(len(fields), len(chosen), squeeze=False)
+    for column, k in enumerate(chosen):
+        for row, name in enumerate(fields):
+            draw_film(rows[row, column], data, int(k), name)
+    return png_of(figure)
+
+
+def _temperature(data: xarray.Dataset) -> bytes:
+    """Mean and highest temperature of the film (degC) over the shaft angle, and the walls', which stay."""
+    figure = figure_of(9.0, 3.4)
+    axes, angle = figure.subplots(), degrees(data)
+    axes.plot(angle, shown(data, "film_temperature_max"), color=BANDS[Active.CONTACT], label="hottest place")
+    axes.plot(angle, shown(data, "film_temperature_mean"), color=FILM, label="mean of the film")
+    for wall, style in (("fixed", "--"), ("moving", ":")):
+        at = float(SHOWN["K"].of(data.attrs[f"{wall}_wall_temperature_K"]))
+        axes.axhline(at, color=INK, linestyle=style, linewidth=0.9, label=f"{wall} wall")
+    axes.set(xlabel="shaft angle / deg", ylabel="temperature / degC", xlim=(0.0, span(data)))
+    figure.legend(loc="outside upper right", fontsize=8, ncols=4)
+    axes.grid(visible=True, alpha=0.3)
+    return png_of(figure)
+
+
+def draw_film(axes: Any, data: xarray.Dataset, k: int, name: str) -> None:
+    """Map of a field of the k-th kept film."""
+    place = data["x"].values[k] * 1e3, data["y"].values[k] * 1e3
+    how, (words, colours) = SHOWN[data[name].attrs["units"]], MAPPED[name]
+    title = f"{words} / {how.unit}, {np.degrees(data['film_angle'].values[k]):.0f} deg"
+    draw_map(axes, place, data["cells"].values, how.of(data[name].values[k]), title, colours=colours)
+
+
+def shown(data: xarray.Dataset, name: str) -> np.ndarray:
+    """A series in the unit that people read it in, from 0 to the end of the turn, where it begins again."""
+    values = SHOWN[data[name].attrs["units"]].of(data[name].values)
+    return np.append(values[-1], values)
+
+
+def degrees(data: xarray.Dataset) -> np.ndarray:
+    """Shaft angles of `shown`, deg: 0 and the reported ones."""
+    return np.append(0.0, np.degrees(data["shaft_angle"].values))
+
+
+def span(data: xarray.Dataset) -> float:
+    """Shaft angle after which all repeats, deg."""
+    return float(degrees(data)[-1])

@@ -1,0 +1,52 @@
+"""One gap over the revolution as a run: solved, and left in a run folder as tables, fields and a page."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from swashfilm.case.gap.revolution import RevolutionCase
+from swashfilm.output.run_folder import write_json
+from swashfilm.runs.film.refine import refinement_summary, write_refinement
+from swashfilm.runs.film.revolution.data import revolution_dataset, write_convergence, write_series
+from swashfilm.runs.film.revolution.fields import write_revolution_fields
+from swashfilm.runs.film.revolution.refine import refine_revolution
+from swashfilm.runs.film.revolution.solve import revolution_summary, solve_revolution
+from system.work.progress import Report
+
+
+def run_revolution_case(
+    case: RevolutionCase, folder: Path, report: Report, *, meshes: int = 1, animated: bool = False
+) -> dict[str, Any]:
+    """Solve a case and write its tables (<gap>.csv, convergence.csv), results.nc, fields/, <gap>.pvd and its page.
+
+    With more than one of `meshes` the case is solved on finer ones too, and refinement.csv tells what its numbers
+    tend to; fields and numbers stay those of the case's own mesh. `animated`: animation.gif of the kept films, and
+    animation.mp4 where ffmpeg is there. Returns the summary. Raises FilmNotConverged; then only input.toml and
+    resolved.toml are there.
+    """
+    (folder / "input.toml").write_text(case.text, encoding="utf-8")
+    (folder / "resolved.toml").write_text(case.resolved, encoding="utf-8")
+    study = solve_revolution(case, report)
+    summary = revolution_summary(study)
+    if meshes > 1:
+        found = refine_revolution(case, study, meshes, report)
+        summary["refinement"] = refinement_summary(found)
+        write_refinement(folder / "refinement.csv", found)
+    report(0, 1, "writing fields")
+    data = revolution_dataset(study)
+    data.to_netcdf(folder / "results.nc", engine="h5netcdf")
+    write_series(folder / f"{case.gap.value}.csv", data)
+    write_convergence(folder / "convergence.csv", study)
+    write_revolution_fields(folder, study)
+    write_json(folder / "summary.json", summary)
+    report(0, 1, "drawing")
+    from swashfilm.runs.film.revolution.page import write_revolution_page
+
+    write_revolution_page(folder)
+    if animated:
+        from swashfilm.runs.film.revolution.animation import write_animation
+
+        write_animation(folder, data, report)
+    report(1, 1, "done")
+    return summary

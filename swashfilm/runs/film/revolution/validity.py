@@ -1,0 +1,114 @@
+"""What to doubt about a gap over the revolution: number, limit and remedy of each warning."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+
+from gaps.films.physics import Effect
+from gaps.films.slipper import retainer_force
+from gaps.revolution.march import GapRevolution
+from swashfilm.case.gap.revolution import GapCase
+from swashfilm.output.gap_names import LARGEST_RIGID_PRESSURE
+from system.description.gap import Gap
+from system.films.drives import slipper_retainer
+from system.films.parts import FloatingParts
+from system.pump_file.check import run_checks
+from system.pump_file.floating import block_tips, slipper_has_a_wedge
+
+LARGEST_OVERLAP = 3.0  # standard deviations of the summits: beyond, asperities would be pressed flat
+LARGEST_STEP_ERROR = 2.0  # of what a step is allowed
+LARGEST_BALANCE_ERROR = 0.01
+_CHECKS = {Gap.SLIPPER: (slipper_has_a_wedge,), Gap.VALVE_PLATE: (block_tips,), Gap.PISTON: ()}
+
+
+def revolution_warnings(
+    case: GapCase, parts: FloatingParts, found: GapRevolution[Any], balance: float
+) -> list[dict[str, str]]:
+    """Name and text of each warning; `balance` is the turn's mass balance error."""
+    told = [
+        (check.name, str(warning))
+        for check in _CHECKS[case.gap]
+        for warning in run_checks((check,), case.rotor.pump).warnings
+    ]
+    told += [*_contact(case, parts, found), *_pressures(case, found), *_motion(case, found, balance)]
+    if case.gap is Gap.SLIPPER:
+        told += pulled_together(case, parts, found)
+    return [{"name": name, "text": text} for name, text in told]
+
+
+def _contact(case: GapCase, parts: FloatingParts, found: GapRevolution[Any]) -> Iterator[tuple[str, str]]:
+    """Mean planes that overlap by more than roughness can be pressed together."""
+    laws = {
+        Gap.PISTON: parts.piston.laws, Gap.SLIPPER: parts.slipper.laws, Gap.VALVE_PLATE: parts.block.laws,
+    }[case.gap]  # fmt: skip
+    least = min(instant.least_gap for instant in found.turn.instants)
+    if laws.asperities is None or Effect.ROUGHNESS in case.options.physics.left_out:
+        return
+    limit = LARGEST_OVERLAP * laws.asperities.height
+    if least < -limit:
+        yield (
+            "contact_beyond_roughness",
+            f"the mean planes of the walls overlap by {-least * 1e6:.2g} um (limit {limit * 1e6:.2g} um, "
+            f"{LARGEST_OVERLAP:g} times the composite roughness): such contact wears or bends the parts; "
+            "elastic walls, or a shape that is run in",
+        )
+
+
+def pulled_together(case: GapCase, parts: FloatingParts, found: GapRevolution[Any]) -> Iterator[tuple[str, str]]:
+    """Slippers that together pull at a plate that the spring presses with more than tips it."""
+    retainer, z = slipper_retainer(case.rotor, parts), case.rotor.pump.pump.pistons
+    angles, span = found.angles, float(found.angles[-1])
+    pulls = [-float(retainer_force(retainer, instant.position).force[0]) for instant in found.turn.instants]
+    together = sum(np.interp(angles + k * span / z, angles, pulls, period=span) for k in range(z))
+    if (most := float(np.max(together))) > retainer.limit:
+        yield (
+            "retainer_gives_way",
+            f"slippers that leave their plate pull at the retainer with {most:.4g} N beyond their shares (limit "
+            f"{retainer.limit:.4g} N: one that pulls so tips it): the spring holds less than it was counted for; "
+            "a stiffer spring, or retainer.kind = 'clearance'",
+        )
+
+
+def _pressures(case: GapCase, found: GapRevolution[Any]) -> Iterator[tuple[str, str]]:
+    """Pressures that rigid walls and constant viscosity may not claim, and those below a cavity's."""
+    left_out, turn = case.options.physics.left_out, found.turn
+    peak = max(instant.pressure_max for instant in turn.instants)
+    if Effect.ELASTIC_WALLS in left_out and peak > LARGEST_RIGID_PRESSURE:
+        yield (
+            "film_pressure_beyond_rigid",
+            f"film pressure up to {peak * 1e-6:.0f} MPa (limit {LARGEST_RIGID_PRESSURE * 1e-6:.0f} MPa for rigid "
+            "walls: they give way by micrometres); elastic walls",
+        )
+    lowest = min(float(film.pressure.min()) for film in turn.films.values())
+    cavity = next(iter(turn.films.values())).problem.cavitation_pressure
+    if Effect.CAVITATION in left_out and lowest < cavity:
+        yield (
+            "pressure_below_cavitation",
+            f"the film is pulled down to {lowest:.4g} Pa, below its cavitation pressure {cavity:.4g} Pa: oil "
+            "would cavitate; cavitation = 'jfo'",
+        )
+
+
+def _motion(case: GapCase, found: GapRevolution[Any], balance: float) -> Iterator[tuple[str, str]]:
+    """A motion that a disturbance would leave, steps that are too long, and oil that is lost between angles."""
+    if (grows := found.closing.largest_multiplier) > 1.0:
+        yield (
+            "motion_unstable",
+            f"of a small disturbance a turn leaves {grows:.3g} times as much (limit 1): the part would not stay "
+            "on this motion; another one may exist beside it",
+        )
+    if (error := found.turn.step_error) > LARGEST_STEP_ERROR:
+        yield (
+            "steps_too_long",
+            f"a step's error is {error:.2g} times what it is allowed (limit {LARGEST_STEP_ERROR:g}, of "
+            f"{case.options.accuracy.step:g} of the least film); more steps",
+        )
+    if balance > LARGEST_BALANCE_ERROR:
+        yield (
+            "coarse_angles",
+            f"by the reported angles {balance:.2%} of the oil is lost over the turn (limit "
+            f"{LARGEST_BALANCE_ERROR:.0%}; the march itself loses none); more steps",
+        )

@@ -1,0 +1,88 @@
+"""One film run: solve a case, and leave its fields, its summary and its page in a run folder."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from reynolds.numerics.arrays import Array
+from reynolds.solve.export import write_pvd, write_vtu
+from swashfilm.case.file import FilmCase
+from swashfilm.case.gap.instant import GapCase
+from swashfilm.output.run_folder import write_json
+from swashfilm.runs.film.history import at_moment, fields_over_time, last_of, written
+from swashfilm.runs.film.physics import vertex_fields, write_history
+from swashfilm.runs.film.refine import (
+    check_refinement,
+    refine_study,
+    refinement_summary,
+    write_refinement,
+)
+from swashfilm.runs.film.solve.gap import true_place
+from swashfilm.runs.film.solve.study import FilmStudy, solve_case
+from swashfilm.runs.film.summary import film_summary
+from system.work.progress import Report
+
+if TYPE_CHECKING:
+    import xarray
+
+_STAGES = 3
+
+
+def run_case(
+    case: FilmCase | GapCase, folder: Path, report: Report, *, meshes: int = 1, as_table: bool = False
+) -> dict[str, Any]:
+    """Solve a case and write input.toml, resolved.toml, film.vtu, film.pvd, results.nc, summary.json, report.html.
+
+    With more than one of `meshes` the case is solved on finer ones too, and refinement.csv tells what its numbers
+    tend to; fields and numbers stay those of the case's own mesh. `as_table`: fields.csv, the fields at the
+    vertices. Returns the summary. Raises FilmNotConverged; then only the two TOML files are there.
+    """
+    if meshes > 1:
+        check_refinement(case, meshes)
+    (folder / "input.toml").write_text(case.text, encoding="utf-8")
+    (folder / "resolved.toml").write_text(case.resolved, encoding="utf-8")
+    stages = _STAGES + meshes - 1
+    report(0, stages, "solving")
+    study = solve_case(case, lambda done, steps, what: report(0, stages, f"solving, {what} ({done} of {steps})"))
+    summary = film_summary(study)
+    if meshes > 1:
+        found = refine_study(case, study, meshes, lambda done, _, what: report(done, stages, what))
+        summary["refinement"] = refinement_summary(found)
+        write_refinement(folder / "refinement.csv", found)
+    report(stages - 2, stages, "writing fields")
+    _write_films(folder, study, true_place(case) if isinstance(case, GapCase) else None)
+    fields = fields_over_time(study)
+    fields.to_netcdf(folder / "results.nc", engine="h5netcdf")
+    if as_table:
+        _write_table(folder / "fields.csv", last_of(fields))
+    write_json(folder / "summary.json", summary)
+    report(stages - 1, stages, "drawing")
+    from swashfilm.runs.film.page import write_film_page
+
+    write_film_page(folder)
+    report(stages, stages, "done")
+    return summary
+
+
+def _write_table(path: Path, fields: xarray.Dataset) -> None:
+    """The fields at the vertices as a table, the unit in each head."""
+    table = fields.drop_dims(["cell", "corner"])
+    units = {name: array.attrs.get("units") for name, array in table.variables.items()}
+    heads = {name: f"{name} / {unit}" for name, unit in units.items() if unit and unit != "1"}
+    table.to_dataframe().rename(columns=heads).to_csv(path, index=False)
+
+
+def _write_films(folder: Path, study: FilmStudy, place: Callable[[Array], Array] | None) -> None:
+    """film.vtu, and of a transient film_NNNN.vtu over time, film.pvd of them all; history.csv of its steps."""
+    write_vtu(folder / "film.vtu", study.solution, place, {k: v for k, (v, _) in vertex_fields(study).items()})
+    entries = [(0.0, 0, "film.vtu")]
+    if study.history:
+        write_history(folder / "history.csv", study.history)
+        kept = written(study.history)
+        entries = [(moment.time, 0, f"film_{number:04d}.vtu") for number, moment in enumerate(kept, start=1)]
+        for (_, _, name), moment in zip(entries, kept, strict=True):
+            now = at_moment(study, moment)
+            write_vtu(folder / name, now.solution, None, {k: v for k, (v, _) in vertex_fields(now).items()})
+    write_pvd(folder / "film.pvd", entries)

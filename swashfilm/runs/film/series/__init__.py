@@ -1,0 +1,1 @@
+"""A study: a series of film cases."""

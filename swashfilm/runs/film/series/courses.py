@@ -1,0 +1,76 @@
+"""What a study of revolutions has over the shaft angle: a curve of each point, as data and as pictures."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from itertools import product
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from swashfilm.case.study import StudyCase
+from swashfilm.output.headline import named
+from swashfilm.runs.film.revolution.data import SHOWN
+from swashfilm.runs.film.series.plots import COURSES, MOST_LINES, figure_axes, png, where
+from swashfilm.runs.film.series.points import COURSE, Outcome
+
+if TYPE_CHECKING:
+    import xarray
+
+ANGLE = "shaft_angle_deg"
+LEGEND_LINE = 0.17  # inches a line of the legend takes
+
+
+def course_variables(
+    study: StudyCase, outcomes: Sequence[Outcome], dims: Sequence[str]
+) -> dict[str, tuple[Any, ...]]:
+    """Variables `course_KEY` over the study's dimensions and the shaft angle (deg); none of other films.
+
+    The angles are those of the first point that has a course; another point's are interpolated to them, linear
+    and periodic. NaN where a point has no course.
+    """
+    courses: list[Mapping[str, Any]] = [outcome.summary.get(COURSE, {}) for outcome in outcomes]
+    first = next((course for course in courses if course), None)
+    if first is None:
+        return {}
+    angles = np.array(first[ANGLE])
+    found: dict[str, tuple[Any, ...]] = {ANGLE: (ANGLE, angles, {"units": "deg"})}
+    for key in first:
+        if key == ANGLE:
+            continue
+        curves = [_at(angles, course, key) for course in courses]
+        values = np.array(curves).reshape(*study.shape, len(angles))
+        found[COURSES + key] = ((*dims, ANGLE), values, {"units": named(key)[1]})
+    return found
+
+
+def _at(angles: np.ndarray, course: Mapping[str, Any], key: str) -> np.ndarray:
+    if not course:
+        return np.full(len(angles), np.nan)
+    return np.interp(angles, course[ANGLE], course[key], period=course[ANGLE][-1])
+
+
+def course_plots(data: xarray.Dataset) -> dict[str, bytes]:
+    """A PNG of each course by its key: a line over the shaft angle for each point, up to MOST_LINES of them."""
+    names = [str(name) for name in data.data_vars if str(name).startswith(COURSES)]
+    return {name: _picture(data, name) for name in names}
+
+
+def _picture(data: xarray.Dataset, name: str) -> bytes:
+    figure, axes = figure_axes()
+    field = data[name]
+    how = SHOWN[field.attrs["units"]]
+    dims = [str(dim) for dim in field.dims if dim != ANGLE]
+    points = list(product(*(range(data.sizes[dim]) for dim in dims)))
+    for index in points[:MOST_LINES]:
+        at = dict(zip(dims, index, strict=True))
+        axes.plot(data[ANGLE].values, how.of(field.isel(at).values), linewidth=1.2, label=where(data, at))
+    words, _ = named(name.removeprefix(COURSES))
+    axes.set(xlabel="shaft angle / deg", ylabel=f"{words} / {how.unit}", title=f"{words} over the revolution")
+    axes.grid(visible=True, alpha=0.3)
+    lines = min(len(points), MOST_LINES)
+    title = None if lines == len(points) else f"{lines} of {len(points)} points"
+    width, height = figure.get_size_inches()
+    figure.set_size_inches(width, height + LEGEND_LINE * lines)
+    figure.legend(fontsize=7, title=title, loc="outside lower center")
+    return png(figure)

@@ -1,0 +1,126 @@
+"""The results of a study as tables: NetCDF over the varied keys, CSV by point, and a summary."""
+
+from __future__ import annotations
+
+import csv
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from swashfilm.case.study import Combine, StudyCase
+from swashfilm.output.headline import headline_numbers, named, titled
+from swashfilm.runs.film.series.courses import course_variables
+from swashfilm.runs.film.series.points import Outcome, Status
+
+if TYPE_CHECKING:
+    import xarray
+
+
+def study_dataset(study: StudyCase, outcomes: Sequence[Outcome]) -> xarray.Dataset:
+    """Every headline number over the varied keys (over `point` where they vary together); NaN where none is.
+
+    Coordinates are SI numbers with their unit, or texts; `status` and `reason` tell of each point.
+    """
+    import xarray
+
+    rows = [headline_numbers(outcome.summary) for outcome in outcomes]
+    keys = list(dict.fromkeys(key for row in rows for key in row))
+    together = study.combine is Combine.TOGETHER
+    dims = ["point"] if together else [axis.key for axis in study.axes]
+    variables: dict[str, Any] = {
+        key: (
+            dims,
+            np.array([row.get(key, np.nan) for row in rows]).reshape(study.shape),
+            {"units": named(key)[1]},
+        )
+        for key in keys
+    }
+    for name, texts in (("status", [o.status.value for o in outcomes]), ("reason", [o.reason for o in outcomes])):
+        variables[name] = (dims, np.array(texts, dtype=object).reshape(study.shape))
+    variables |= course_variables(study, outcomes, dims)
+    coordinates = {
+        axis.key: (
+            "point" if together else axis.key,
+            np.array(axis.labels, dtype=object) if axis.numbers is None else np.array(axis.numbers),
+            {"units": axis.unit} if axis.unit else {},
+        )
+        for axis in study.axes
+    }
+    attributes = {"name": study.name, "kind": "film_study", "combine": study.combine.value}
+    return xarray.Dataset(variables, coords=coordinates, attrs=attributes)
+
+
+def study_summary(study: StudyCase, outcomes: Sequence[Outcome]) -> dict[str, Any]:
+    """What varied, what was solved, the span of every number, the points without a result and the warnings."""
+    solved = [outcome for outcome in outcomes if outcome.status is Status.SOLVED]
+    rows = [headline_numbers(outcome.summary) for outcome in solved]
+    keys = list(dict.fromkeys(key for row in rows for key in row))
+    return {
+        "format": 1,
+        "kind": "film_study",
+        "name": study.name,
+        "combine": study.combine.value,
+        "axes": [
+            {"key": a.key, "values": list(a.labels), "numbers": a.numbers and list(a.numbers), "unit": a.unit}
+            for a in study.axes
+        ],
+        "points": len(outcomes),
+        "solved": len(solved),
+        "numbers": {
+            key: _span([(row[key], k) for k, row in enumerate(rows) if key in row], study, solved) for key in keys
+        },
+        "failed": [
+            {"values": study.values(o.point), "status": o.status.value, "reason": o.reason}
+            for o in outcomes
+            if o.status is not Status.SOLVED
+        ],
+        "mass_balance_error_max": max((o.summary["mass_balance_error"] for o in solved), default=0.0),
+        "solve_seconds": sum(o.summary["solve_seconds"] for o in solved),
+        "assumptions": list(dict.fromkeys(one for o in solved for one in o.summary.get("assumptions", []))),
+        "warnings": _warnings(solved),
+    }
+
+
+def _span(found: list[tuple[float, int]], study: StudyCase, solved: Sequence[Outcome]) -> dict[str, Any]:
+    (least, at_least), (most, at_most) = min(found), max(found)
+    return {
+        "min": least,
+        "max": most,
+        "min_at": study.values(solved[at_least].point),
+        "max_at": study.values(solved[at_most].point),
+    }
+
+
+def _warnings(solved: Sequence[Outcome]) -> list[dict[str, str]]:
+    """Each warning once, with the text of the first point it stands at."""
+    texts: dict[str, str] = {}
+    count = Counter(warning["name"] for outcome in solved for warning in outcome.summary["warnings"])
+    for outcome in solved:
+        for warning in outcome.summary["warnings"]:
+            texts.setdefault(warning["name"], warning["text"])
+    return [
+        {"name": name, "text": f"at {count[name]} points; at the first: {text}"} for name, text in texts.items()
+    ]
+
+
+def write_study_table(path: Path, study: StudyCase, outcomes: Sequence[Outcome]) -> None:
+    """A CSV of one line a point: varied keys, headline numbers (SI, units in the titles), status and reason."""
+    rows: list[Mapping[str, float]] = [headline_numbers(outcome.summary) for outcome in outcomes]
+    keys = list(dict.fromkeys(key for row in rows for key in row))
+    with path.open("w", newline="", encoding="utf-8") as file:
+        table = csv.writer(file)
+        axes = [f"{axis.key} / {_bracketed(axis.unit)}" if axis.unit else axis.key for axis in study.axes]
+        table.writerow([*axes, *(titled(key) for key in keys), "status", "reason"])
+        for outcome, row in zip(outcomes, rows, strict=True):
+            values = [
+                axis.labels[k] if axis.numbers is None else axis.numbers[k]
+                for axis, k in zip(study.axes, outcome.point, strict=True)
+            ]
+            table.writerow([*values, *(row.get(key, "") for key in keys), outcome.status.value, outcome.reason])
+
+
+def _bracketed(unit: str) -> str:
+    return f"({unit})" if any(sign in unit for sign in " /") else unit

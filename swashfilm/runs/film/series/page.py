@@ -1,0 +1,92 @@
+"""A study's run folder: run it, write its tables and plots, and make its page."""
+
+from __future__ import annotations
+
+import base64
+import json
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+from swashfilm.case.study import StudyCase
+from swashfilm.output.headline import named
+from swashfilm.output.run_folder import write_json
+from swashfilm.runs.film.series.courses import course_plots
+from swashfilm.runs.film.series.data import study_dataset, study_summary, write_study_table
+from swashfilm.runs.film.series.plots import study_plots
+from swashfilm.runs.film.series.points import run_points
+from system.inputs.faults import Fault, InputFaults
+from system.work.progress import Report
+
+
+def run_study(
+    study: StudyCase, folder: Path, report: Report, *, resumed: Path | None = None, workers: int = 1
+) -> dict[str, Any]:
+    """Run a study and write input.toml, points/, study.csv, study.nc, summary.json, plots/ and report.html.
+
+    Returns the summary. Raises InputFaults as `run_points`; a point that fails is told in the tables.
+    """
+    (folder / "input.toml").write_text(study.text, encoding="utf-8")
+    outcomes = run_points(study, folder, report, resumed=resumed, workers=workers)
+    write_study_table(folder / "study.csv", study, outcomes)
+    study_dataset(study, outcomes).to_netcdf(folder / "study.nc", engine="h5netcdf")
+    summary = study_summary(study, outcomes)
+    write_json(folder / "summary.json", summary)
+    write_study_page(folder)
+    return summary
+
+
+def write_study_page(folder: Path) -> Path:
+    """Write report.html and plots/ of a study's run folder from its summary.json, study.nc and input.toml."""
+    import xarray
+    from jinja2 import Environment, PackageLoader
+
+    missing = [name for name in ("summary.json", "study.nc", "input.toml") if not (folder / name).is_file()]
+    if missing:
+        raise InputFaults(str(folder), [Fault(name, "no such file", "a study's run folder") for name in missing])
+    summary = json.loads((folder / "summary.json").read_text("utf-8"))
+    with xarray.open_dataset(folder / "study.nc", engine="h5netcdf") as data:
+        data.load()
+    pictures = course_plots(data) | study_plots(data)
+    (folder / "plots").mkdir(exist_ok=True)
+    for key, png in pictures.items():
+        (folder / "plots" / f"{key}.png").write_bytes(png)
+    template = Environment(loader=PackageLoader("swashfilm.output"), autoescape=True).get_template(
+        "study.html.jinja"
+    )
+    page = template.render(
+        name=summary["name"],
+        warnings=summary["warnings"],
+        pictures={key: base64.b64encode(png).decode("ascii") for key, png in pictures.items()},
+        rows=list(span_rows(summary)),
+        failed=list(failed_rows(summary)),
+        case=(folder / "input.toml").read_text("utf-8"),
+        summary=summary,
+    )
+    path = folder / "report.html"
+    path.write_text(page, encoding="utf-8")
+    return path
+
+
+def span_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:
+    """(number, least with its unit, where, largest, where) of every number of a study."""
+    for key, span in summary["numbers"].items():
+        words, unit = named(key)
+        yield (
+            words,
+            *(
+                text
+                for end in ("min", "max")
+                for text in (f"{span[end]:.6g} {unit}".strip(), _where(span[f"{end}_at"]))
+            ),
+        )
+
+
+def failed_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:
+    """(where, what became of it, why) of every point without a result."""
+    for point in summary["failed"]:
+        yield _where(point["values"]), point["status"], point["reason"]
+
+
+def _where(values: Mapping[str, Any]) -> str:
+    return ", ".join(f"{key} = {value}" for key, value in values.items())

@@ -1,0 +1,207 @@
+"""Plots of a study: each number over what varied, and the Stribeck curve."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Mapping
+from itertools import product
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from swashfilm.output.headline import sizes, titled
+
+if TYPE_CHECKING:
+    import xarray
+
+LEAST_CHANGE = 1e-5  # of the size of such numbers: one that varies less is not drawn
+LOG_FROM = 30.0  # ratio of an axis' ends from which it is drawn in logarithms
+LOG_TO = 1e6  # ratio beyond which the small end is nothing
+MOST_LINES = 12
+STRIBECK = ("friction_coefficient", "hersey_number_m")
+CONTACT = "contact_load_fraction"
+COURSES = "course_"  # curves over the shaft angle, drawn by `series_courses`
+
+
+def study_plots(data: xarray.Dataset) -> dict[str, bytes]:
+    """A PNG of every number that varies, by its key: lines over one key, maps over two that are numbers.
+
+    Three keys and more are lines over the first, one for each value of the others. `stribeck`, where the Hersey
+    number varies, is the friction coefficient over it.
+    """
+    ordered = data.sortby([dim for dim in data.dims if dim in data.coords and _is_numeric(data[dim].values)])
+    told = [str(key) for key in data.data_vars if key not in ("status", "reason")]
+    numbers = {key: data[key].values for key in told if not key.startswith(COURSES)}
+    size = sizes({key: float(np.nanmax(np.abs(values))) for key, values in numbers.items()}, {})
+    keys = [
+        key for key, values in numbers.items() if np.nanmax(values) - np.nanmin(values) > LEAST_CHANGE * size[key]
+    ]
+    first = {"stribeck": _stribeck(ordered)} if set(STRIBECK) <= set(keys) else {}
+    return first | {key: _picture(ordered, key) for key in keys}
+
+
+def _is_numeric(values: np.ndarray) -> bool:
+    return bool(np.issubdtype(values.dtype, np.number))
+
+
+def _picture(data: xarray.Dataset, key: str) -> bytes:
+    figure, axes = figure_axes()
+    field = data[key]
+    numeric = [_is_numeric(data[dim].values) for dim in field.dims if dim in data.coords]
+    if field.ndim == 2 and len(numeric) == 2 and all(numeric) and min(field.shape) > 1:
+        _map(figure, axes, data, key)
+    else:
+        _lines(axes, data, key)
+    axes.set_title(titled(key), fontsize=10)
+    return png(figure)
+
+
+def _lines(axes: Any, data: xarray.Dataset, key: str) -> None:
+    field = data[key]
+    along, *others = field.dims
+    places, labels = _places(data, str(along))
+    lines = list(product(*(range(data.sizes[dim]) for dim in others)))
+    for index in lines[:MOST_LINES]:
+        at = dict(zip(others, index, strict=True))
+        axes.plot(places, field.isel(at).values, "o-", markersize=3.5, label=where(data, at) or None)
+    if others:
+        axes.legend(fontsize=7, title=None if len(lines) <= MOST_LINES else f"{MOST_LINES} of {len(lines)} lines")
+    if labels:
+        axes.set_xticks(places, labels, rotation=20, ha="right", fontsize=7)
+    elif _is_geometric(places):
+        axes.set_xscale("log")
+    if _is_wide(field.values):
+        axes.set_yscale("log")
+    axes.set(xlabel=_axis_title(data, str(along)), ylabel=titled(key))
+    axes.grid(visible=True, alpha=0.3)
+
+
+def _map(figure: Any, axes: Any, data: xarray.Dataset, key: str) -> None:
+    """Colours over two keys, in logarithms where the number spans so much, with lines of equal value."""
+    across, along = (str(dim) for dim in data[key].dims)
+    x, y, values = data[across].values, data[along].values, data[key].values.T
+    for places, scale in ((x, axes.set_xscale), (y, axes.set_yscale)):
+        if _is_geometric(places):
+            scale("log")
+    norm = "log" if _is_wide(values) else "linear"
+    whole = np.isfinite(values).all() and min(values.shape) > 2
+    drawn = axes.pcolormesh(x, y, values, shading="gouraud" if whole else "nearest", norm=norm)
+    if whole:
+        lines = axes.contour(x, y, values, levels=_levels(values), colors="white", linewidths=0.7)
+        axes.clabel(lines, fontsize=7, fmt="%.3g")
+        axes.plot(*(part.ravel() for part in np.meshgrid(x, y)), ".", color="black", markersize=1.5)
+    axes.set(xlabel=_axis_title(data, across), ylabel=_axis_title(data, along))
+    figure.colorbar(drawn, ax=axes)
+
+
+def _levels(values: np.ndarray) -> np.ndarray:
+    """Some seven round values within."""
+    from matplotlib.ticker import LogLocator, MaxNLocator
+
+    least, most = float(values.min()), float(values.max())
+    if not _is_wide(values):
+        found = np.asarray(MaxNLocator(7).tick_values(least, most))
+        return found[(found > least + 1e-3 * (most - least)) & (found < most)]
+    steps = (1.0, 3.0) if most > 300.0 * least else (1.0, 2.0, 5.0)
+    return np.asarray(LogLocator(subs=steps, numticks=12).tick_values(least, most))
+
+
+def _stribeck(data: xarray.Dataset) -> bytes:
+    """Friction coefficient over the Hersey number: one line with the contact's share, or many."""
+    figure, axes = figure_axes()
+    friction, hersey = (data[key].transpose(*data[STRIBECK[0]].dims) for key in STRIBECK)
+    along, *others = (str(dim) for dim in friction.dims)
+    lines = list(product(*(range(data.sizes[dim]) for dim in others)))[:MOST_LINES]
+    for index in lines:
+        at = dict(zip(others, index, strict=True))
+        y, x = friction.isel(at).values, hersey.isel(at).values
+        order = np.argsort(x)
+        axes.plot(x[order], y[order], "o-", markersize=3.5, label=where(data, at) or None)
+    axes.set_xscale("log")
+    if _is_wide(friction.values):
+        axes.set_yscale("log")
+    axes.margins(y=0.15)
+    axes.set(xlabel="Hersey number mu U/p_mean / m", ylabel="friction coefficient", title="Stribeck curve")
+    axes.grid(visible=True, alpha=0.3)
+    if others:
+        axes.legend(fontsize=7)
+    else:
+        _with_least_and_contact(axes, data, along)
+    return png(figure)
+
+
+def _with_least_and_contact(axes: Any, data: xarray.Dataset, along: str) -> None:
+    sorted_by_hersey = data.isel({along: np.argsort(data[STRIBECK[1]].values)})
+    friction, hersey = (sorted_by_hersey[key].values for key in STRIBECK)
+    least = int(np.nanargmin(friction))
+    if 0 < least < len(friction) - 1:
+        axes.plot(hersey[least], friction[least], "v", color="black")
+        axes.annotate(
+            f"least {friction[least]:.3g}", (hersey[least], friction[least]), (0, -14), ha="center", fontsize=8,
+            textcoords="offset points",
+        )  # fmt: skip
+    if CONTACT in data:
+        beside = axes.twinx()
+        beside.plot(hersey, sorted_by_hersey[CONTACT].values, "--", color="tab:orange", linewidth=1.0)
+        beside.set_ylim(-0.02, 1.02)
+        beside.set_ylabel("contact's share of the load", color="tab:orange")
+
+
+def where(data: xarray.Dataset, at: Mapping[Any, int]) -> str:
+    """The values of the keys that a line is of, with their units."""
+    return ", ".join(
+        f"{dim} = {_text(data[dim].values[k])} {data[dim].attrs.get('units', '')}".strip() for dim, k in at.items()
+    )
+
+
+def _places(data: xarray.Dataset, dim: str) -> tuple[np.ndarray, list[str]]:
+    """Where a dimension's points are drawn, and the labels they need where they are texts."""
+    values = data[dim].values if dim in data.coords else None
+    if values is not None and _is_numeric(values):
+        return values, []
+    count = data.sizes[dim]
+    if values is not None:
+        return np.arange(count), [_text(value) for value in values]
+    along = [name for name in data.coords if data[name].dims == (dim,)]
+    return np.arange(count), [", ".join(_text(data[name].values[k]) for name in along) for k in range(count)]
+
+
+def _axis_title(data: xarray.Dataset, dim: str) -> str:
+    if dim not in data.coords:
+        return ", ".join(_axis_title(data, str(name)) for name in data.coords if data[name].dims == (dim,))
+    unit = data[dim].attrs.get("units", "")
+    return f"{dim} / {f'({unit})' if '/' in unit or ' ' in unit else unit}" if unit else dim
+
+
+def _text(value: object) -> str:
+    shown = f"{value:.4g}" if isinstance(value, (float, np.floating)) else str(value)
+    return shown if len(shown) <= 24 else f"{shown[:23]}..."
+
+
+def _is_wide(values: np.ndarray) -> bool:
+    known = values[np.isfinite(values)]
+    if not known.size or not known.min() > 0.0:
+        return False
+    return bool(LOG_FROM < known.max() / known.min() < LOG_TO)
+
+
+def _is_geometric(places: np.ndarray) -> bool:
+    """True for places of equal ratio, and for any that span much."""
+    if len(places) < 3 or not places.min() > 0.0:
+        return _is_wide(places)
+    return _is_wide(places) or bool(np.ptp(np.diff(np.log(places))) < 1e-6)
+
+
+def figure_axes() -> tuple[Any, Any]:
+    """A figure of a study's size, with its axes."""
+    from matplotlib.figure import Figure
+
+    figure = Figure(figsize=(5.2, 3.7), layout="constrained")
+    return figure, figure.subplots()
+
+
+def png(figure: Any) -> bytes:
+    """The figure as a PNG."""
+    picture = io.BytesIO()
+    figure.savefig(picture, format="png", dpi=110)
+    return picture.getvalue()

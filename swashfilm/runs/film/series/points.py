@@ -1,0 +1,99 @@
+"""A study run: every point a film of its own, kept as it is done, told of where it fails."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from swashfilm.case.file import Case
+from swashfilm.case.gap.instant import GapCase
+from swashfilm.case.gap.revolution import RevolutionCase
+from swashfilm.case.study import Point, StudyCase
+from swashfilm.runs.film.revolution.solve import (
+    revolution_course,
+    revolution_summary,
+    solve_revolution,
+)
+from swashfilm.runs.film.solve.study import solve_case
+from swashfilm.runs.film.summary import film_summary
+from system.work.kept_results import POINTS, KeptPoints, points_of_run, run_kept
+from system.work.processes import crew
+from system.work.progress import Report
+from system.work.tasks import Outcome as WorkOutcome
+from system.work.tasks import Status
+
+COURSE = "course"
+"""Of a revolution, beside its summary: what a study compares over the shaft angle."""
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """A point of a study: its film's summary, or why there is none."""
+
+    point: Point
+    status: Status
+    reason: str
+    summary: Mapping[str, Any]
+
+
+@dataclass(frozen=True)
+class StudyWork:
+    """The points of a study as work in parts."""
+
+    study: StudyCase
+
+    def key(self, point: Point) -> str:
+        """The digest of the point's case; raises InputFaults where it is none."""
+        return digest(self.study.case(point))
+
+    def solve(self, point: Point) -> dict[str, Any]:
+        """The summary of the point's film; raises as its solver."""
+        return solved_summary(self.study.case(point))
+
+    def told(self, point: Point, outcome: WorkOutcome) -> str:
+        """Where the point is, and what became of it."""
+        values = ", ".join(f"{key} = {value}" for key, value in self.study.values(point).items())
+        return f"{values}: {outcome.status.value}"
+
+
+def run_points(
+    study: StudyCase, folder: Path, report: Report, *, resumed: Path | None = None, workers: int = 1
+) -> list[Outcome]:
+    """All points, in their order; each is kept in `folder`/points as soon as it is done.
+
+    Points that `resumed`/points holds already, of the very same resolved case, are taken from there. Raises
+    InputFaults where `resumed` holds no points.
+    """
+    work, store = StudyWork(study), KeptPoints(folder / POINTS)
+    earlier = points_of_run(resumed) if resumed else None
+    with crew(workers) as hands:
+        kept = run_kept(work, study.points, store, hands, earlier=earlier, told=work.told, report=report)
+    return [
+        Outcome(point, found.status, found.reason, found.record)
+        for point, found in zip(study.points, kept.outcomes, strict=True)
+    ]
+
+
+def solved_summary(case: Case) -> dict[str, Any]:
+    """The summary of a case solved here, that of a revolution with its course; raises as its solver."""
+    if isinstance(case, RevolutionCase):
+        study = solve_revolution(case)
+        return revolution_summary(study) | {COURSE: revolution_course(study)}
+    return film_summary(solve_case(case))
+
+
+def digest(case: Case) -> str:
+    """A name for the content of a case: its resolved text, and what that takes from other files."""
+    content = hashlib.sha256(case.resolved.encode())
+    if isinstance(case, GapCase):
+        content.update(repr((case.rotor.pump, case.position, case.load)).encode())
+    elif isinstance(case, RevolutionCase):
+        content.update(repr((case.rotor.pump, case.chamber_pressure)).encode())
+    else:
+        film = case.problem.film
+        for part in (case.problem.space.vertices, film.thickness, film.viscosity):
+            content.update(part.tobytes())
+    return content.hexdigest()[:24]

@@ -1,0 +1,1 @@
+"""A film case solved: free, loaded, in time, gap of a pump."""

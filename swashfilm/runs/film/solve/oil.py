@@ -1,0 +1,115 @@
+"""A film solved with the oil that its case states: its temperature and its thinning by shear."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, cast
+
+import numpy as np
+
+from reynolds.errors import FilmInputError, FilmNotConverged
+from reynolds.fem.space import FilmSpace
+from reynolds.film import FilmProblem, FilmSolution
+from reynolds.numerics.arrays import Array
+from reynolds.solve.solver import FilmSolver
+from reynolds.solve.transient import Instant, march_with
+from reynolds.thermal.coupling import Coupled
+from reynolds.thermal.energy import FilmTemperature, Heat
+from reynolds.thermal.film import ThermalViscosity, march_thermal, solve_thermal
+from reynolds.thermal.shear_thinning import newtonian, solve_shear
+from swashfilm.case.fields.field import Uniform
+
+if TYPE_CHECKING:
+    from swashfilm.case.statement import FilmStatement
+
+Found = FilmSolution | Coupled[FilmTemperature] | Coupled[None]
+_OIL_REMEDY = "a thicker film, a lower speed or load, walls that take more heat, or an oil for that range"
+
+
+def film_of(found: Found) -> FilmSolution:
+    """The film of what was solved."""
+    return found.film if isinstance(found, Coupled) else found
+
+
+def heat_of(found: Found) -> FilmTemperature | None:
+    """Its temperature; None where none was solved for."""
+    return found.heat if isinstance(found, Coupled) else None
+
+
+@dataclass(frozen=True)
+class OilSolver:
+    """Solves films of one case on one space, with what its oil does there; `heat` None: at one temperature."""
+
+    stated: FilmStatement
+    solver: FilmSolver
+    heat: Heat | None
+
+    def solve(self, problem: FilmProblem, start: Found | None = None) -> Found:
+        """The film of `problem`, warmed by `start`.
+
+        Raises FilmNotConverged, and FilmInputError where the oil leaves the range of its laws.
+        """
+        stated, warm = self.stated, start if isinstance(start, Coupled) else None
+        shear = stated.oil.shear_law if stated.oil else None
+        if self.heat is not None:
+            assert stated.thermal is not None
+            return solve_thermal(
+                problem, self.heat, _viscosity(stated), shear=shear or newtonian, count=stated.thermal.levels,
+                solver=self.solver, start=warm,
+            )  # fmt: skip
+        if shear is not None:
+            return solve_shear(problem, shear, solver=self.solver, start=warm)
+        return self.solver.solve(problem, None if start is None else film_of(start))
+
+    def march(
+        self, problem_at: Callable[[float], FilmProblem], end: float, step: float, held: Array
+    ) -> Iterator[Instant[Found]]:
+        """The film in time, as `reynolds.solve.transient.march_with`; its temperature begins as what flows in has
+        it.
+        """
+        if self.heat is None:
+            return march_with(self._step, problem_at, end, step, held=held)
+        stated = self.stated
+        assert stated.thermal is not None
+        assert stated.oil is not None
+        found = march_thermal(
+            problem_at, self.heat, _viscosity(stated), end, step, temperature=stated.thermal.inlet(stated.oil),
+            shear=stated.oil.shear_law or newtonian, count=stated.thermal.levels, solver=self.solver, held=held,
+        )  # fmt: skip
+        return cast("Iterator[Instant[Found]]", found)
+
+    def _step(self, problem: FilmProblem, last: Found | None) -> Found:
+        try:
+            return self.solve(problem, last)
+        except (
+            FilmNotConverged
+        ):  # a cavity that opens everywhere at once is nearer to nothing than to the last film
+            return self.solve(problem)
+
+
+def oil_solver(stated: FilmStatement, space: FilmSpace) -> OilSolver:
+    """What solves the films of a case; raises FilmInputError for a body that does not lie under the film."""
+    heat = None
+    if stated.thermal is not None:
+        assert stated.oil is not None
+        temperatures = {name: entry.temperature for name, entry in stated.boundary.items()}
+        heat = stated.thermal.heat(stated.oil, temperatures, stated.elastic, space)
+    return OilSolver(stated, FilmSolver(space), heat)
+
+
+def _viscosity(stated: FilmStatement) -> ThermalViscosity:
+    """Viscosity (Pa s) at temperature (K) and pressure (Pa) by the oil's laws."""
+    oil = stated.oil
+    assert oil is not None
+    assert isinstance(stated.viscosity, Uniform)
+    at_oil_temperature = stated.viscosity.value
+
+    def viscosity(temperature: Array, pressure: Array) -> Array:
+        try:
+            cold = oil.at_temperature(temperature, at_oil_temperature)
+            return np.asarray(oil.viscosity_law(pressure, cold)[0])
+        except FilmInputError as reason:
+            raise FilmInputError(reason.where, reason.found, f"{reason.expected}: {_OIL_REMEDY}") from None
+
+    return viscosity

@@ -1,0 +1,68 @@
+"""A film in time: implicit Euler steps of what it holds, from a state that its case gives."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from reynolds.errors import FilmInputError, FilmNotConverged
+from reynolds.film import FilmProblem, FilmSolution
+from reynolds.solve.loads import Loads, loads
+from reynolds.solve.transient import oil_held
+from reynolds.thermal.energy import FilmTemperature
+from swashfilm.case.problem import film_problem
+from swashfilm.runs.film.solve.oil import film_of, heat_of, oil_solver
+from system.work.progress import Report
+
+if TYPE_CHECKING:
+    from swashfilm.case.statement import FilmStatement
+
+
+@dataclass(frozen=True)
+class Moment:
+    """The film at a time (s): its integrals, and, only where it is written, its solution and temperature."""
+
+    time: float
+    solution: FilmSolution | None
+    heat: FilmTemperature | None
+    temperature_max: float | None
+    loads: Loads
+
+
+def transient(stated: FilmStatement, report: Report) -> list[Moment]:
+    """Every step of a transient, in time; the last one has its solution.
+
+    Each step meets d(oil held)/dt + outflow = 0 with the film and the boundaries at its end (implicit Euler, first
+    order in the step). At the start the film holds film.initial_film_fraction of its thickness. A step that does
+    not settle is taken as shorter ones. Raises FilmNotConverged with the time that was reached, FilmInputError
+    where a field has no possible value or a law does not hold.
+    """
+    assert stated.time is not None
+    first = film_problem(stated)
+    space, rigid = first.space, replace(stated, elastic=None)
+    now = 0.0
+
+    def problem_at(t: float) -> FilmProblem:
+        nonlocal now
+        now = t
+        return replace(film_problem(rigid, space, t), walls=first.walls)
+
+    filled = space.to_unknowns(np.broadcast_to(stated.initial_film_fraction.sample(space), space.area.shape))
+    found: list[Moment] = []
+    try:
+        held = oil_held(first, np.minimum(filled, 1.0))  # a mean of ones may be above one by round-off
+        for instant in oil_solver(stated, space).march(problem_at, stated.time.end, stated.time.step_taken, held):
+            film, heat = film_of(instant.solution), heat_of(instant.solution)
+            hottest = None if heat is None else float(heat.temperature.max())
+            kept = stated.time.is_output(instant.time, instant.step)
+            found.append(
+                Moment(instant.time, film if kept else None, heat if kept else None, hottest, loads(film))
+            )
+            report(stated.time.number(instant.time), stated.time.steps, f"t = {instant.time:.4g} s")
+    except FilmNotConverged as reason:
+        raise FilmNotConverged(f"at t = {now:.6g} s: {reason.what}", f"a smaller step; {reason.remedy}") from None
+    except FilmInputError as reason:
+        raise FilmInputError(f"at t = {now:.6g} s, {reason.where}", reason.found, reason.expected) from None
+    return found

@@ -1,0 +1,118 @@
+"""Summary and fields of a solved film study."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from reynolds.equation.rough_overlap import vertex_thickness
+from reynolds.film import FilmSolution
+from reynolds.solve.loads import Loads, point_fields
+from swashfilm.runs.film.physics import physics_summary, vertex_fields
+from swashfilm.runs.film.solve.gap import gap_summary
+from swashfilm.runs.film.solve.loaded import carried_summary
+from swashfilm.runs.film.solve.study import FilmStudy
+from swashfilm.runs.film.validity import film_warnings
+
+if TYPE_CHECKING:
+    import xarray
+
+LARGEST_COEFFICIENT = 1e6  # of friction; beyond, what is carried is the solver's round-off, as of a parallel film
+
+
+def film_summary(study: FilmStudy) -> dict[str, Any]:
+    """Every headline number of a film in SI, the unit in the key, and the solver's own checks.
+
+    Forces and moments as `reynolds.solve.loads.Loads` has them; leakage_flow is all that leaves the film.
+    """
+    solution, integrals = study.solution, study.loads
+    return {
+        "format": 1,
+        "kind": "film",
+        "name": study.name,
+        "load_N": integrals.load,
+        "moment_x_Nm": integrals.moment_x,
+        "moment_y_Nm": integrals.moment_y + 0.0,  # no negative zero
+        "pressure_max_Pa": integrals.pressure_max,
+        "pressure_max_at_m": list(integrals.pressure_max_at),
+        "film_thickness_min_m": integrals.film_thickness_min,
+        "flow_m3_per_s": dict(integrals.flow),
+        "leakage_flow_m3_per_s": sum(max(flow, 0.0) for flow in integrals.flow.values()),
+        "friction_force_moving_N": list(integrals.friction_moving),
+        "friction_force_fixed_N": list(integrals.friction_fixed),
+        "friction_torque_moving_Nm": integrals.friction_torque_moving,
+        "dissipation_W": integrals.dissipation,
+        **_stribeck(solution, integrals),
+        "cavitated_area_fraction": integrals.cavitated_area_fraction,
+        "film_fraction_min": float(solution.film_fraction.min()),
+        "cavity_flow_m3_per_s": integrals.cavity_flow + 0.0,  # no negative zero
+        "mass_balance_error": integrals.mass_balance_error,
+        "energy_balance_error": integrals.energy_balance_error,
+        "imbalance": solution.imbalance,
+        "dofs": solution.problem.space.size,
+        "iterations": solution.iterations,
+        "solve_seconds": study.solve_seconds,
+        **(carried_summary(study.carried) if study.carried else {}),
+        **physics_summary(study),
+        **(gap_summary(study.gap) if study.gap else {}),
+        "warnings": film_warnings(study),
+    }
+
+
+def _stribeck(solution: FilmSolution, integrals: Loads) -> dict[str, float | None]:
+    """Friction coefficient and Hersey number mu U/p_mean (m); none where nothing slides or no load is carried.
+
+    The friction is the walls' power over their mean sliding speed, so that it is one of turning films too; mu and
+    U are means over the film, p_mean is the load over its area.
+    """
+    film, area = solution.film, solution.problem.space.area
+    fields = point_fields(solution)
+    (u1, v1), (u2, v2) = film.velocity_moving, film.velocity_fixed
+    total = float(area.sum())
+    speed = float(np.sum(np.hypot(u1 - u2, v1 - v2) * area)) / total
+    carried = integrals.load + integrals.contact_load
+    if speed == 0.0 or not carried > 0.0:
+        return {"friction_coefficient": None, "hersey_number_m": None}
+    power = sum(
+        float(np.sum(shear * velocity * area))
+        for shear, velocity in zip((*fields.shear_moving, *fields.shear_fixed), (u1, v1, u2, v2), strict=True)
+    )
+    viscosity = float(np.sum(film.viscosity * area)) / total
+    if abs(power) > LARGEST_COEFFICIENT * speed * carried:
+        return {"friction_coefficient": None, "hersey_number_m": None}
+    return {
+        "friction_coefficient": abs(power) / (speed * carried),
+        "hersey_number_m": viscosity * speed * total / carried,
+    }
+
+
+def film_dataset(study: FilmStudy) -> xarray.Dataset:
+    """Fields over vertices and cells with their units; `cells` (cell, corner) are numbers of vertices from 0."""
+    import xarray
+
+    space = study.solution.problem.space
+    thickness = np.broadcast_to(study.solution.film.thickness, space.area.shape)
+    cell_area = space.area.sum(axis=1)
+    shear = point_fields(study.solution).shear_moving
+
+    def mean(field: np.ndarray) -> np.ndarray:
+        return (np.broadcast_to(field, space.area.shape) * space.area).sum(axis=1) / cell_area
+
+    pressure = study.solution.pressure[space.vertex_dofs]
+    return xarray.Dataset(
+        {
+            "film_pressure": ("vertex", pressure, {"units": "Pa"}),
+            "film_thickness": ("vertex", vertex_thickness(study.solution), {"units": "m"}),
+            **{name: ("vertex", values, {"units": unit}) for name, (values, unit) in vertex_fields(study).items()},
+            "film_thickness_cell": ("cell", mean(thickness), {"units": "m"}),
+            "wall_shear_x": ("cell", mean(shear[0]), {"units": "Pa", "wall": "moving"}),
+            "wall_shear_y": ("cell", mean(shear[1]), {"units": "Pa", "wall": "moving"}),
+            "cells": (("cell", "corner"), space.cells),
+        },
+        coords={
+            "x": ("vertex", space.vertices[:, 0], {"units": "m"}),
+            "y": ("vertex", space.vertices[:, 1], {"units": "m"}),
+        },
+        attrs={"name": study.name, "kind": "film"},
+    )

@@ -1,0 +1,1 @@
+"""`swashfilm map`, `duty` and `compare`."""

@@ -1,0 +1,194 @@
+"""The command `swashfilm map`: what it takes, and what it prints."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from swashfilm.console.fidelity import Fidelity
+from swashfilm.console.inputs import COMMAND_LINE, expect, given_text
+from swashfilm.console.terminal import show, show_table
+from system.inputs.faults import Fault, InputFaults, nearest_choice
+
+if TYPE_CHECKING:
+    from swashfilm.runs.map.run import MapAsked
+    from system.maps.plan import MapAxis, MapPlan
+    from system.work.tasks import Hands
+
+LEVELS = {
+    "--speeds": ("SPEED", "1000,1300,1700,2100rpm", "shaft speeds"),
+    "--pressures": ("PRESSURE", "5..35MPa:7", "delivery pressures, gauge"),
+    "--displacements": ("RATIO", "0.28,0.51,0.77,1.0", "shares of the full displacement"),
+    "--temperatures": ("TEMPERATURE", "30,50,70degC", "temperatures of the oil in the case"),
+    "--inlet-pressures": ("INLET_PRESSURE", "25bar", "inlet pressures, gauge"),
+}
+"""Member of `MapInput`, example and meaning of each axis of a map."""
+FIDELITIES = (Fidelity.LUMPED, Fidelity.FILMS, Fidelity.TABLE)
+PLANS = ("paper", "point")
+MAP_OPTIONS = [
+    *LEVELS, "--plan", "--fidelity", "--table", "--direct", "--check", "--workers", "--cluster", "--resume",
+]  # fmt: skip
+
+
+def add_map_options(command: argparse.ArgumentParser) -> None:
+    """Give the command what it takes."""
+    command.add_argument("pump", nargs="?", default="ref90", metavar="PUMP", help="built-in name or pump file")
+    for option, (_, example, what) in LEVELS.items():
+        command.add_argument(option, metavar=example, help=f"{what}; a..b:n are n of them; one value holds it")
+    command.add_argument(
+        "--plan", metavar=f"{{{','.join(PLANS)}}}", default="paper",
+        help="where an axis is left out: the paper's 112 points (paper), or the pump's own point (point)",
+    )  # fmt: skip
+    command.add_argument(
+        "--fidelity", metavar=f"{{{','.join(one.value for one in FIDELITIES)}}}", default=Fidelity.FILMS.value,
+        help="films of given thickness, solved at given positions by a table that is built first (films), or by "
+        "a table that is there",
+    )  # fmt: skip
+    command.add_argument("--table", type=Path, metavar="FILE.json", help="of --fidelity table: this one")
+    command.add_argument("--direct", action="store_true", help="of --fidelity films: solve each point, no table")
+    command.add_argument("--check", metavar="N", help="fresh points that show the error between levels (40)")
+    command.add_argument("--workers", metavar="N", help="processes that solve points side by side (all cores)")
+    command.add_argument("--cluster", metavar="ADDRESS", help="of a Dask scheduler, whose workers solve points")
+    command.add_argument("--resume", type=Path, metavar="DIR", help="take points that this run has from there")
+
+
+def run_map_command(options: argparse.Namespace) -> int:
+    """Run `swashfilm map` and return its exit code; raises InputFaults with what is wrong in words and file."""
+    from swashfilm.console.points import ended
+    from swashfilm.console.progress import progress
+    from swashfilm.output.run_folder import final_folder, run_folder
+    from swashfilm.runs.map.page import axis_rows, best_rows, displacement_rows, failed_rows
+    from swashfilm.runs.map.run import run_map
+
+    asked = _asked(options)
+    pump = asked.plan.pump
+    early = [*asked.plan.checked().warnings.values()]
+    for warning in early:
+        show(f"warning: {warning}")
+    with (
+        _hands(options, asked) as hands,
+        run_folder(f"map-{pump.name}", options.output) as folder,
+        progress(len(asked.plan.points), f"map {pump.name}") as report,
+    ):
+        (folder / "input.toml").write_text(given_text(options.pump, {}), encoding="utf-8")
+        summary = run_map(asked, folder, hands, report)
+    show_table(f"Map of {pump.name}, {summary['solver']}", axis_rows(summary))
+    if summary["best"]:
+        show_table("Best points", best_rows(summary))
+    show_table("Displacement", displacement_rows(summary))
+    if summary["failed"]:
+        show_table("Points without a result", failed_rows(summary))
+    for warning in summary["warnings"]:
+        if warning not in early:
+            show(f"warning: {warning}")
+    show(f"results in {final_folder(folder)}")
+    return ended(summary)
+
+
+@contextmanager
+def _hands(options: argparse.Namespace, asked: MapAsked) -> Iterator[Hands]:
+    """Who does the points: processes of this machine, as many as are worth their start, or a cluster's workers."""
+    from swashfilm.runs.map.run import worth_starting
+    from system.work.processes import cores, crew
+
+    if options.cluster is not None:
+        from system.work.cluster import cluster
+
+        with cluster(options.cluster) as hands:
+            yield hands
+        return
+    wanted = cores() if options.workers is None else int(options.workers)
+    with crew(worth_starting(asked, wanted)) as hands:
+        yield hands
+
+
+def _asked(options: argparse.Namespace) -> MapAsked:
+    """What a command line means; raises InputFaults with every fault at once."""
+    from swashfilm.runs.map.run import MapAsked
+    from system.maps.plan import map_plan
+    from system.pump_file.file import load_pump
+
+    faults = [*_word_faults(options)]
+    axes = _axes(options, faults)
+    expect(options.pump, "pump", "film")
+    try:
+        pump = load_pump(options.pump)
+    except InputFaults as reason:
+        raise InputFaults(reason.source, [*faults, *reason.faults], reason.lines) from None
+    plan = map_plan(pump, axes)
+    faults += [*plan.checked().faults, *_solver_faults(options, plan)]
+    if faults:
+        raise InputFaults(COMMAND_LINE, faults)
+    checks = None if options.check is None else int(options.check)
+    fidelity = Fidelity(options.fidelity)
+    return MapAsked(plan, fidelity, options.table, options.direct, checks, options.resume)
+
+
+def _axes(options: argparse.Namespace, faults: list[Fault]) -> list[MapAxis]:
+    """The stated axes over those of --plan; what is wrong with any goes to `faults`."""
+    from swashfilm.console.levels import map_axis
+    from system.maps.plan import MapInput, paper_axes
+
+    axes = {axis.input: axis for axis in paper_axes()} if options.plan == "paper" else {}
+    for option, (name, example, _) in LEVELS.items():
+        text = getattr(options, option[2:].replace("-", "_"))
+        if text is None:
+            continue
+        found = map_axis(option, text, MapInput[name], example)
+        if isinstance(found, Fault):
+            faults.append(found)
+        else:
+            axes[found.input] = found
+    return list(axes.values())
+
+
+def _word_faults(options: argparse.Namespace) -> Iterator[Fault]:
+    """What is wrong with words and numbers of the command line, whatever the pump."""
+    names = [fidelity.value for fidelity in FIDELITIES]
+    for option, known in (("--plan", PLANS), ("--fidelity", names)):
+        word = getattr(options, option[2:])
+        if word not in known:
+            yield Fault(option, repr(word), f"one of {', '.join(known)}", nearest_choice(word, known))
+    for option, least, most in (("--check", 0, 10000), ("--workers", 1, 256)):
+        text = getattr(options, option[2:])
+        if text is not None and not (text.isdecimal() and least <= int(text) <= most):
+            yield Fault(option, repr(text), f"a number, {least} to {most}")
+    if options.table and options.fidelity != Fidelity.TABLE.value:
+        yield Fault("--table", f"beside --fidelity {options.fidelity}", "no table, or --fidelity table")
+    if options.direct and options.fidelity != Fidelity.FILMS.value:
+        yield Fault("--direct", f"beside --fidelity {options.fidelity}", "--fidelity films")
+    if options.cluster is not None and options.workers is not None:
+        yield Fault("--workers", "beside --cluster", "one of the two: a cluster has its own workers")
+    if options.resume is not None:
+        yield from _resume_faults(options.resume)
+
+
+def _resume_faults(folder: Path) -> Iterator[Fault]:
+    from system.work.kept_results import points_of_run
+
+    try:
+        points_of_run(folder)
+    except InputFaults as reason:
+        yield from reason.faults
+
+
+def _solver_faults(options: argparse.Namespace, plan: MapPlan) -> Iterator[Fault]:
+    """What a fidelity does not solve, told before the work begins."""
+    from swashfilm.console.floating_options import alike_faults
+    from system.maps.plan import MapInput
+
+    if options.fidelity == Fidelity.LUMPED.value:
+        return
+    yield from alike_faults(plan.pump)
+    if plan.pump.physics.on and not options.direct:
+        expected = "--fidelity lumped, or --fidelity films --direct"
+        yield Fault("physics", "effects that a response table does not hold", expected)
+    levels = {axis.input: len(axis.values) for axis in plan.axes}
+    if not options.direct and levels[MapInput.INLET_PRESSURE] > 1:
+        found = f"{levels[MapInput.INLET_PRESSURE]} levels; a response table holds one"
+        seconds = 2.0 * len(plan.points)
+        expected = "one inlet pressure a map, --fidelity lumped, or --direct"
+        yield Fault("--inlet-pressures", found, expected, f"--direct takes some {seconds:.0f} s of processor time")

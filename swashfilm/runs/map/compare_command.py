@@ -1,0 +1,123 @@
+"""The command `swashfilm compare`: what it takes, and what it prints."""
+
+from __future__ import annotations
+
+import argparse
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from swashfilm.console.terminal import show, show_table
+from system.inputs.faults import Fault, InputFaults, nearest_choice, nearest_path
+
+if TYPE_CHECKING:
+    from swashfilm.runs.map.compare_run import Known
+    from system.description.pump import PumpDescription
+    from system.maps.plan import MapAxis
+
+COMPARE_OPTIONS = ["--cycle"]
+
+
+def add_compare_options(command: argparse.ArgumentParser) -> None:
+    """Give the command what it takes."""
+    for name, words in (("one", "A"), ("other", "B")):
+        command.add_argument(
+            name, metavar=words, help="run folder of a map or its map.nc; or a pump, whose lumped map is made"
+        )
+    command.add_argument("--cycle", type=Path, metavar="CYCLE.csv", help="compare over this duty cycle too")
+
+
+def run_compare_command(options: argparse.Namespace) -> int:
+    """Run `swashfilm compare` and return its exit code; raises InputFaults with what is wrong in either."""
+    from swashfilm.output.run_folder import final_folder, run_folder
+    from swashfilm.runs.map.compare_run import (
+        DIFFERENCE_HEAD,
+        DUTY_HEAD,
+        difference_rows,
+        duty_rows,
+        run_compare,
+    )
+    from swashfilm.runs.map.cycle_file import read_cycle
+    from system.maps.compare import common_axes, compare
+
+    one, other = _both(options.one, options.other)
+    cycle = None
+    if options.cycle is not None:
+        cycle = read_cycle(options.cycle, common_axes(one[0], other[0]))
+    found = compare(one[0], other[0], (one[1], other[1]))
+    with run_folder(f"compare-{one[0].name}-{other[0].name}", options.output) as folder:
+        summary = run_compare(found, (options.one, options.other), (one, other), cycle, folder)
+    for warning in summary["warnings"]:
+        show(f"warning: {warning}")
+    show_table(f"{options.one} and {options.other}", [DIFFERENCE_HEAD, *difference_rows(summary)])
+    if summary["duty"]:
+        show_table("Over the cycle", [DUTY_HEAD, *duty_rows(summary)])
+    show(f"results in {final_folder(folder)}")
+    return 0
+
+
+def _both(one: str, other: str) -> tuple[Known, Known]:
+    """Both maps; a pump's is made over the axes of the other, or of the paper's plan.
+
+    Raises InputFaults with what is wrong with either.
+    """
+    from system.maps.plan import paper_axes
+
+    loaded: list[Known | PumpDescription] = []
+    wrong: list[InputFaults] = []
+    for name in (one, other):
+        try:
+            loaded.append(_pump_of(name) if _is_pump(name) else _map_of(name))
+        except InputFaults as reason:
+            wrong.append(reason)
+    if len(wrong) == 1:
+        raise wrong[0]
+    if wrong:
+        told = [
+            replace(fault, path=f"{letter}: {fault.path}")
+            for letter, reason in zip("AB", wrong, strict=True)
+            for fault in reason.faults
+        ]
+        raise InputFaults(f"{one} and {other}", told)
+    axes = next((known[0].axes for known in loaded if isinstance(known, tuple)), paper_axes())
+    maps = [known if isinstance(known, tuple) else _lumped_map(known, axes) for known in loaded]
+    return maps[0], maps[1]
+
+
+def _is_pump(name: str) -> bool:
+    from system.pump_file.file import builtin_pumps
+
+    path = Path(name)
+    if name in builtin_pumps() or path.suffix == ".toml":
+        return True
+    if not path.exists():
+        near = nearest_choice(name, builtin_pumps()) or nearest_path(path)
+        fault = Fault("map or pump", f"'{name}'", "the run folder of a map, its map.nc, or a pump", near)
+        raise InputFaults("command line", [fault])
+    return False
+
+
+def _pump_of(name: str) -> PumpDescription:
+    from system.pump_file.file import load_pump
+
+    return load_pump(name)
+
+
+def _map_of(name: str) -> Known:
+    from swashfilm.runs.map.files import map_file, read_map
+
+    return read_map(map_file(Path(name)))
+
+
+def _lumped_map(pump: PumpDescription, axes: tuple[MapAxis, ...]) -> Known:
+    """A pump's map, solved here; raises InputFaults where a point cannot be."""
+    from system.maps.data import map_data
+    from system.maps.plan import map_plan
+    from system.maps.point import LumpedSolver, MapWork
+    from system.work.tasks import done_part
+
+    plan = map_plan(pump, axes)
+    if faults := plan.checked().faults:
+        raise InputFaults(pump.name, faults)
+    work = MapWork(pump, LumpedSolver())
+    return map_data(plan, work, tuple(done_part(work, point) for point in plan.points)), None

@@ -1,0 +1,140 @@
+"""Two maps side by side as a run: differences with what interpolation may have made of them, pictures, a page."""
+
+from __future__ import annotations
+
+import csv
+import json
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+from swashfilm.output.kept_pictures import keep_pictures, kept_pictures
+from swashfilm.output.run_folder import write_json
+from swashfilm.runs.map.compare_plots import compare_plots
+from swashfilm.runs.map.duty_run import duty_summary
+from system.maps.compare import Comparison
+from system.maps.data import MapData
+from system.maps.duty import Cycle, duty
+from system.maps.interpolation import MapError, MapInterpolant, left_out_error
+from system.maps.plan import MapInput
+
+PICTURES = "compare"
+DIFFERENCE_HEAD = ("", "A, mean", "B, mean", "largest difference, B - A", "at", "interpolation may miss there")
+DUTY_HEAD = ("", "A", "B", "B - A", "error of both")
+_SCALES = {"W": (1e-3, "kW"), "m3/s": (6e4, "L/min"), "1": (100.0, "%"), "N m": (1.0, "N m")}
+
+Known = tuple[MapData, MapError | None]
+
+
+def run_compare(
+    found: Comparison, names: tuple[str, str], both: tuple[Known, Known], cycle: Cycle | None, folder: Path
+) -> dict[str, Any]:
+    """Write differences.csv, summary.json, plots and report.html of a comparison; return the summary."""
+    summary = {
+        "format": 1,
+        "kind": "comparison",
+        "names": list(names),
+        "pumps": [data.name for data, _ in both],
+        "solvers": [data.words for data, _ in both],
+        "warnings": list(_warnings(both)),
+        "box": [
+            {
+                "words": axis.input.words,
+                "from": axis.input.text(axis.values[0]),
+                "to": axis.input.text(axis.values[-1]),
+            }
+            for axis in found.one.axes
+        ],
+        "differences": [
+            {
+                "words": one.words,
+                "unit": one.unit,
+                "one": one.one,
+                "other": one.other,
+                "largest": one.largest,
+                "at": {given.value: value for given, value in one.at.items()},
+                "error": one.error,
+                "told": one.told,
+            }
+            for one in found.differences
+        ],
+        "duty": [] if cycle is None else [_duty(data, error, cycle) for data, error in both],
+    }
+    write_json(folder / "summary.json", summary)
+    _write_table(folder / "differences.csv", summary)
+    keep_pictures(folder, PICTURES, compare_plots(found))
+    write_compare_page(folder)
+    return summary
+
+
+def _warnings(both: tuple[Known, Known]) -> Iterator[str]:
+    """What a reader of the differences must know."""
+    one, other = (data.words for data, _ in both)
+    if one != other:
+        yield f"A is {one}, B is {other}: part of every difference is that of the fidelities, not of the pumps"
+
+
+def _duty(data: MapData, error: MapError | None, cycle: Cycle) -> dict[str, Any]:
+    known = error or left_out_error(data)
+    if known is None:
+        raise ValueError("a map without three levels of any input is of no use to a cycle")
+    return duty_summary(data, duty(MapInterpolant(data), cycle, known))
+
+
+def difference_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:
+    """(number, mean of either, largest difference, where, what interpolation misses at most)."""
+    varied = {box["words"] for box in summary["box"] if box["from"] != box["to"]}
+    for row in summary["differences"]:
+        scale, unit = _SCALES[row["unit"]]
+        at = ", ".join(f"{given.text(row['at'][given.value])}" for given in MapInput if given.words in varied)
+        means = (f"{row[which] * scale:.5g} {unit}" for which in ("one", "other"))
+        error = f"{row['error'] * scale:.2g} {unit}" if row["error"] else "nothing: same levels"
+        yield row["words"], *means, f"{row['largest'] * scale:+.4g} {unit}", at, error
+
+
+def duty_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:
+    """(energy, of either, difference, error of both)."""
+    one, other = (side["energy_J"] for side in summary["duty"])
+    for words in dict.fromkeys([*one, *other]):
+        nothing = {"value": 0.0, "error": 0.0}
+        mine, theirs = one.get(words, nothing), other.get(words, nothing)
+        values = mine["value"], theirs["value"], theirs["value"] - mine["value"]
+        yield (
+            words,
+            *(f"{value * 1e-3:.5g} kJ" for value in values),
+            f"{(mine['error'] + theirs['error']) * 1e-3:.2g} kJ",
+        )
+
+
+def _write_table(path: Path, summary: Mapping[str, Any]) -> None:
+    places = [f"at {given.words} [{given.unit}]" for given in MapInput]
+    with path.open("w", newline="", encoding="utf-8") as file:
+        table = csv.writer(file)
+        heads = "number", "unit", "A mean", "B mean", "largest B - A", "interpolation may miss there"
+        table.writerow([*heads, *places])
+        for row in summary["differences"]:
+            numbers = [row[name] for name in ("one", "other", "largest", "error")]
+            at = [row["at"][given.value] for given in MapInput]
+            table.writerow([row["words"], row["unit"], *(f"{number:.8g}" for number in (*numbers, *at))])
+
+
+def write_compare_page(folder: Path) -> Path:
+    """Write report.html of a comparison's run folder from its summary.json and plots/."""
+    from jinja2 import Environment, PackageLoader
+
+    summary = json.loads((folder / "summary.json").read_text("utf-8"))
+    template = Environment(loader=PackageLoader("swashfilm.output"), autoescape=True).get_template(
+        "compare.html.jinja"
+    )
+    page = template.render(
+        summary=summary,
+        box=[(box["words"], f"{box['from']} .. {box['to']}") for box in summary["box"]],
+        differences=list(difference_rows(summary)),
+        difference_head=DIFFERENCE_HEAD,
+        duty=list(duty_rows(summary)) if summary["duty"] else [],
+        duty_head=DUTY_HEAD,
+        pictures=kept_pictures(folder, PICTURES),
+    )
+    path = folder / "report.html"
+    path.write_text(page, encoding="utf-8")
+    return path

@@ -1,0 +1,152 @@
+"""A duty cycle as a run: energies by a map, with their errors, in a folder with tables and a page."""
+
+from __future__ import annotations
+
+import csv
+import json
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from swashfilm.output.kept_pictures import keep_pictures
+from swashfilm.output.run_folder import write_json
+from swashfilm.runs.map.duty_plots import duty_plots
+from system.inputs.faults import Fault, InputFaults
+from system.maps.data import MapData
+from system.maps.duty import Cycle, Duty, Energy, duty
+from system.maps.interpolation import MapError, MapInterpolant, left_out_error
+from system.maps.plan import MapInput
+
+COURSE = "course.csv"
+ENERGY_HEAD = ("", "energy", "error", "mean power", "of the loss")
+EFFICIENCY_HEAD = ("definition", "mean efficiency", "error", "overall, volumetric")
+FINE = 400
+"""Places over time of the course that is written and drawn."""
+
+
+def run_duty(data: MapData, error: MapError | None, cycle: Cycle, folder: Path) -> dict[str, Any]:
+    """Run a cycle by a map and write course.csv, summary.json and report.html; return the summary.
+
+    The error is that of the map's file; without one, what inner levels left out show. Raises InputFaults
+    for a cycle that leaves the map, and for a map that is not whole.
+    """
+    interpolant = MapInterpolant(data)
+    known = error or left_out_error(data)
+    if known is None:
+        expected = "a map with three levels of an input, or checked at fresh points (--check N)"
+        raise InputFaults(data.name, [Fault("map", "nothing that shows what it misses between levels", expected)])
+    found = duty(interpolant, cycle, known)
+    _write_course(folder / COURSE, interpolant, cycle)
+    summary = duty_summary(data, found)
+    write_json(folder / "summary.json", summary)
+    write_duty_page(folder)
+    return summary
+
+
+def duty_summary(data: MapData, found: Duty) -> dict[str, Any]:
+    """What a cycle takes, SI."""
+    return {
+        "format": 1,
+        "kind": "duty",
+        "name": data.name,
+        "solver": data.words,
+        "duration_s": found.duration,
+        "shown_by": found.shown_by,
+        "volume_m3": _energy(found.volume),
+        "energy_J": {words: _energy(energy) for words, energy in found.energies.items()},
+        "efficiency": {
+            definition.value: _energy(energy) | {"label": definition.label, "formula": definition.formula}
+            for definition, energy in found.efficiency.items()
+        },
+        "marked": dict(found.marked),
+    }
+
+
+def _energy(energy: Energy) -> dict[str, float]:
+    return {"value": energy.value, "error": energy.error}
+
+
+def energy_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:
+    """(what, energy, error, mean power, share of the loss)."""
+    duration, loss = summary["duration_s"], summary["energy_J"]["loss"]["value"]
+    for words, energy in summary["energy_J"].items():
+        share = "" if words in ("shaft", "hydraulic", "loss") else f"{100.0 * energy['value'] / loss:.2f} %"
+        yield (
+            words,
+            f"{energy['value'] * 1e-3:.5g} kJ",
+            f"{energy['error'] * 1e-3:.2g} kJ",
+            f"{energy['value'] / duration * 1e-3:.4g} kW",
+            share,
+        )
+    volume = summary["volume_m3"]
+    yield "delivered", f"{volume['value'] * 1e3:.5g} L", f"{volume['error'] * 1e3:.2g} L", "", ""
+
+
+def efficiency_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:
+    """(definition, mean efficiency, error, formula): energies, not the mean of ratios."""
+    for one in summary["efficiency"].values():
+        yield one["label"], f"{100.0 * one['value']:.3f} %", f"{100.0 * one['error']:.2g} %", one["formula"]
+
+
+def marked_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
+    """(warning, part of the time next to points that have it)."""
+    for name, part in summary["marked"].items():
+        yield name, f"{100.0 * part:.1f} % of the time"
+
+
+def _write_course(path: Path, interpolant: MapInterpolant, cycle: Cycle) -> None:
+    """Inputs, loss and efficiency over time, evenly and at every row of the cycle: of a step both."""
+    even = np.setdiff1d(np.linspace(cycle.time[0], cycle.time[-1], FINE), cycle.time)
+    before = np.searchsorted(cycle.time, even)
+    time = np.insert(cycle.time, before, even)
+    inputs = {
+        given: np.insert(values, before, np.interp(even, cycle.time, values))
+        for given, values in cycle.inputs.items()
+    }
+    told = interpolant.at(inputs)
+    shown = {"time [s]": time}
+    for given, values in inputs.items():
+        shown[f"{given.words} [{given.unit}]"] = values
+    power = {"shaft power [W]": told["shaft_power"], "hydraulic power [W]": told["hydraulic_power"]}
+    power["loss [W]"] = told["shaft_power"] - told["hydraulic_power"]
+    power["sum p Q / shaft power [1]"] = told["hydraulic_power"] / told["shaft_power"]
+    power["delivery flow [m3/s]"] = told["delivery_flow"]
+    with path.open("w", newline="", encoding="utf-8") as file:
+        table = csv.writer(file)
+        table.writerow([*shown, *power])
+        for row in zip(*(np.broadcast_to(one, time.shape) for one in (shown | power).values()), strict=True):
+            table.writerow([f"{value:.8g}" for value in row])
+
+
+def write_duty_page(folder: Path) -> Path:
+    """Write report.html and plots/ of a duty's run folder from its summary.json and course.csv."""
+    from jinja2 import Environment, PackageLoader
+
+    summary = json.loads((folder / "summary.json").read_text("utf-8"))
+    with (folder / COURSE).open(encoding="utf-8") as file:
+        head, *rows = csv.reader(file)
+    course = dict(zip(head, np.array(rows, dtype=float).T, strict=True))
+    pictures = duty_plots(course, summary)
+    template = Environment(loader=PackageLoader("swashfilm.output"), autoescape=True).get_template(
+        "duty.html.jinja"
+    )
+    page = template.render(
+        summary=summary,
+        energies=list(energy_rows(summary)),
+        energy_head=ENERGY_HEAD,
+        efficiencies=list(efficiency_rows(summary)),
+        efficiency_head=EFFICIENCY_HEAD,
+        marked=list(marked_rows(summary)),
+        pictures=keep_pictures(folder, "duty", pictures),
+    )
+    path = folder / "report.html"
+    path.write_text(page, encoding="utf-8")
+    return path
+
+
+def held_inputs(data: MapData) -> str:
+    """What the map holds at one level, in words."""
+    held = [axis for axis in data.axes if len(axis.values) == 1 and axis.input is not MapInput.RATIO]
+    return ", ".join(f"{axis.input.words} {axis.input.text(axis.values[0])}" for axis in held)

@@ -1,0 +1,101 @@
+"""The page of an operating map: report.html made from the run folder's own files."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+from swashfilm.output.kept_pictures import keep_pictures
+from swashfilm.runs.map.files import MAP, read_map
+from swashfilm.runs.map.plots import map_plots
+from system.inputs.faults import Fault, InputFaults
+
+FILES = ("summary.json", "resolved.toml", MAP)
+CM3 = 1e6
+BEST_HEAD = ("definition", "overall efficiency", "at", "overall, volumetric")
+DISPLACEMENT_HEAD = ("displacement ratio", "geometric", "swept", "by Toet (ISO 8426-1)")
+ERROR_HEAD = ("number", "rms", "largest", "of the map's largest")
+_SHOWN = {"W": (1e-3, "kW"), "Nm": (1.0, "N m"), "m3_per_s": (6e4, "L/min")}
+
+
+def write_map_page(folder: Path) -> Path:
+    """Write report.html and plots/ of a map's folder; raises InputFaults where one of its files is missing."""
+    from jinja2 import Environment, PackageLoader
+
+    missing = [name for name in FILES if not (folder / name).is_file()]
+    if missing:
+        raise InputFaults(str(folder), [Fault(name, "no such file", "a map's run folder") for name in missing])
+    summary = json.loads((folder / "summary.json").read_text("utf-8"))
+    pictures = map_plots(read_map(folder / MAP)[0]) if summary["solved"] else {}
+    template = Environment(loader=PackageLoader("swashfilm.output"), autoescape=True).get_template(
+        "map.html.jinja"
+    )
+    page = template.render(
+        summary=summary,
+        axes=list(axis_rows(summary)),
+        best=list(best_rows(summary)),
+        best_head=BEST_HEAD,
+        displacement=list(displacement_rows(summary)),
+        displacement_head=DISPLACEMENT_HEAD,
+        errors=list(error_rows(summary)),
+        error_head=ERROR_HEAD,
+        table_errors=[(name, f"{100.0 * error:.3g} %") for name, error in (summary["table_error"] or {}).items()],
+        failed=list(failed_rows(summary)),
+        pictures=keep_pictures(folder, "map", pictures),
+        resolved=(folder / "resolved.toml").read_text("utf-8"),
+    )
+    path = folder / "report.html"
+    path.write_text(page, encoding="utf-8")
+    return path
+
+
+def axis_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
+    """(what, value): the axes, how many points were solved, kept and failed, and what they cost."""
+    for axis in summary["axes"]:
+        yield axis["words"], axis["levels"]
+    failed = len(summary["failed"])
+    told = f"{summary['solved']} of {summary['points']} solved" + (f", {failed} failed" if failed else "")
+    yield "points", told + (f", {summary['kept']} taken from what was kept" if summary["kept"] else "")
+    if summary["loss"]:
+        loss = summary["loss"]
+        yield "shaft power less p Q", f"{loss['least_W'] * 1e-3:.3g} .. {loss['largest_W'] * 1e-3:.4g} kW"
+    yield "largest energy balance error", f"{100.0 * summary['energy_balance_error_max']:.2g} % of the shaft power"
+    if summary["seconds_a_point"] is not None:
+        one = f"{summary['seconds_a_point']:.2g} s of processor time a point"
+        yield "cost", f"{one}, {summary['wall_s']:.3g} s in all by {summary['workers']} at a time"
+
+
+def best_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:
+    """(definition, efficiency, where, formula) of each best point."""
+    for best in summary["best"]:
+        yield best["label"], f"{100.0 * best['overall']:.2f} %", best["at"], best["formula"]
+
+
+def displacement_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:
+    """(setting, geometric, swept, by Toet) in cm3 a revolution."""
+    for row in summary["displacement"]:
+        toet, sigma = row["toet_m3_per_rev"], row["toet_sigma_m3_per_rev"]
+        told = "void" if toet is None else f"{toet * CM3:.3f}" + (f" +- {sigma * CM3:.2g}" if sigma else "")
+        yield (
+            row["at"],
+            *(f"{row[name] * CM3:.3f} cm3/rev" for name in ("geometric_m3_per_rev", "swept_m3_per_rev")),
+            f"{told} cm3/rev" if toet is not None else told,
+        )
+
+
+def error_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:
+    """(number, rms, largest, of the map's largest) of what the map misses between its levels."""
+    found = summary["interpolation"]
+    for key, row in (found["numbers"] if found else {}).items():
+        name, unit = next((key.removesuffix(f"_{end}"), end) for end in _SHOWN if key.endswith(f"_{end}"))
+        scale, shown = _SHOWN[unit]
+        errors = (f"{row[kind] * scale:.3g} {shown}" for kind in ("rms", "largest"))
+        yield name.replace("_", " "), *errors, f"{100.0 * row['largest'] / row['of']:.2g} %"
+
+
+def failed_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:
+    """(where, what became of it, why) of every point without a result."""
+    for point in summary["failed"]:
+        yield point["at"], point["status"], point["reason"]

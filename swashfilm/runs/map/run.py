@@ -1,0 +1,204 @@
+"""An operating map as a run: points solved and kept as they are done, then its tables, pictures and page."""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from swashfilm.console.fidelity import Fidelity
+from swashfilm.output.run_folder import write_json
+from swashfilm.runs.map.files import write_map, write_tables
+from swashfilm.runs.map.summary import map_summary
+from system.description.pump import PumpDescription
+from system.inputs.faults import Fault, InputFaults
+from system.maps.data import MapData, map_data
+from system.maps.interpolation import (
+    CHECKED,
+    MapError,
+    MapInterpolant,
+    check_points,
+    fresh_error,
+    left_out_error,
+)
+from system.maps.plan import MapInput, MapPlan, point_words
+from system.maps.point import DirectSolver, LumpedSolver, MapSolver, MapWork, TableSolver, columns
+from system.points.table.build import TableCase, build_table, table_axes
+from system.points.table.response_table import (
+    PRESSURE,
+    RATIO,
+    SPEED,
+    VISCOSITY,
+    ResponseTable,
+    point_text,
+)
+from system.points.table.sources import FilmsSolver
+from system.points.table.store import find_table, own_table
+from system.pump.operating import OperatingPoint
+from system.pump_file.file import resolved_toml
+from system.work.kept_results import POINTS, Kept, KeptPoints, points_of_run, run_kept
+from system.work.progress import Report
+from system.work.sampled_points import usual_counts
+from system.work.tasks import Hands, Outcome, Status
+
+FILMS_COST = 2.0
+"""Seconds of processor time that a point of the films fidelity takes, about (benchmarks/map.py)."""
+CHEAP = 0.1
+"""Seconds a point up to which fresh points are checked without being asked for."""
+START = 4.0
+"""Seconds that another process takes to start: each must have more to do."""
+PART = 0.2
+"""Seconds that a part should take, for what is sent with it to be nothing."""
+
+
+@dataclass(frozen=True)
+class MapAsked:
+    """What is asked for: a plan, how to solve it, fresh points to check (None: the usual), an earlier run."""
+
+    plan: MapPlan
+    fidelity: Fidelity
+    table: Path | None = None
+    direct: bool = False
+    checks: int | None = None
+    resume: Path | None = None
+
+    @property
+    def cost(self) -> float:
+        """Seconds of processor time, about."""
+        points = len(self.plan.points)
+        if self.fidelity is not Fidelity.FILMS:
+            return points * (LumpedSolver.cost if self.fidelity is Fidelity.LUMPED else TableSolver.cost)
+        solved = points if self.direct or not self.varied else sum(usual_counts(len(self.varied)))
+        return FILMS_COST * solved
+
+    @cached_property
+    def varied(self) -> frozenset[MapInput]:
+        """Inputs of several levels."""
+        return frozenset(axis.input for axis in self.plan.axes if len(axis.values) > 1)
+
+
+def worth_starting(asked: MapAsked, wanted: int) -> int:
+    """As many of the wanted processes as have enough to do to be worth their start."""
+    return max(1, min(wanted, math.floor(asked.cost / START)))
+
+
+def run_map(asked: MapAsked, folder: Path, hands: Hands, report: Report) -> dict[str, Any]:
+    """Solve a map's points and write points/, map.nc, map.csv, shares.csv, best.csv, summary.json and the page.
+
+    Returns the summary. A point that fails carries its reason. Raises InputFaults where the earlier run has no
+    points or no table holds all of them, and as `build_table`.
+    """
+    began, plan = time.monotonic(), asked.plan
+    (folder / "resolved.toml").write_text(resolved_toml(plan.pump), encoding="utf-8")
+    solver = _solver(asked, hands, report)
+    work = MapWork(plan.pump, solver)
+    count = (CHECKED if solver.cost <= CHEAP else 0) if asked.checks is None else asked.checks
+    fresh, size = check_points(plan, count), len(plan.points)
+    kept = _solved(work, (*plan.points, *fresh), asked.resume, folder, hands, report)
+    data = map_data(plan, work, kept.outcomes[:size])
+    error = _error(data, fresh, kept.outcomes[size:])
+    summary = map_summary(plan, work, data, kept, error) | {
+        "workers": hands.workers,
+        "wall_s": time.monotonic() - began,
+    }
+    write_map(folder / "map.nc", data, error, summary | {"resolved_toml": resolved_toml(plan.pump)})
+    write_tables(folder, data)
+    write_json(folder / "summary.json", summary)
+    from swashfilm.runs.map.page import write_map_page
+
+    write_map_page(folder)
+    return summary
+
+
+def _solved(
+    work: MapWork,
+    points: tuple[OperatingPoint, ...],
+    resume: Path | None,
+    folder: Path,
+    hands: Hands,
+    report: Report,
+) -> Kept:
+    """What becomes of all points; each is in points/ as soon as it is done."""
+    store, earlier = KeptPoints(folder / POINTS), points_of_run(resume) if resume else None
+    batch = max(1, round(PART / work.solver.cost))
+    return run_kept(work, points, store, hands, earlier=earlier, batch=batch, told=_told, report=report)
+
+
+def _told(point: OperatingPoint, outcome: Outcome) -> str:
+    return f"{point_words(point)}: {outcome.status.value}"
+
+
+def _solver(asked: MapAsked, hands: Hands, report: Report) -> MapSolver:
+    """What solves the points; a table of films is built first, over the plan's own box."""
+    match asked.fidelity:
+        case Fidelity.LUMPED:
+            return LumpedSolver()
+        case Fidelity.TABLE:
+            return TableSolver(_kept_table(asked))
+        case _ if asked.direct or not asked.varied:
+            return DirectSolver(FilmsSolver(), FILMS_COST)
+        case _:
+            case = _table_case(asked.plan)
+            return TableSolver(build_table(case, hands=hands, report=report))
+
+
+def _table_case(plan: MapPlan) -> TableCase:
+    """The response table over a plan's box; what has one level is held there."""
+    pump, ends = at_levels(plan), {axis.input: (axis.values[0], axis.values[-1]) for axis in plan.axes}
+    names = {
+        MapInput.SPEED: SPEED,
+        MapInput.PRESSURE: PRESSURE,
+        MapInput.RATIO: RATIO,
+        MapInput.TEMPERATURE: VISCOSITY,
+    }
+    held = [name for given, name in names.items() if ends[given][0] == ends[given][1]]
+    speeds, pressures, ratios, temperatures = (
+        None if name in held else ends[given] for given, name in names.items()
+    )
+    axes = table_axes(pump, speeds, pressures, ratios, temperatures, held)
+    return TableCase(pump, FilmsSolver(), axes, *usual_counts(len(axes)))
+
+
+def at_levels(plan: MapPlan) -> PumpDescription:
+    """The pump with the plan's first level of every input as its own operating point."""
+    first = plan.points[0]
+    own = plan.pump.operating.model_copy(
+        update={
+            "speed": first.shaft_speed,
+            "pressure": first.delivery_pressure,
+            "displacement_ratio": first.displacement_ratio,
+            "temperature": first.temperature,
+            "inlet_pressure": first.inlet_pressure,
+        }
+    )
+    return plan.pump.model_copy(update={"operating": own})
+
+
+def _kept_table(asked: MapAsked) -> ResponseTable:
+    """The table of a file, or a kept one that holds a point; raises InputFaults where it does not hold all."""
+    plan, pump = asked.plan, at_levels(asked.plan)
+    middle = plan.points[len(plan.points) // 2]
+    table = own_table(asked.table, pump) if asked.table else find_table(pump, middle)
+    out = [point for point in plan.points if not table.holds(point)]
+    if out:
+        found = f"{len(out)} of {len(plan.points)} points outside its box, the first: {point_text(out[0])}"
+        raise InputFaults("response table", [Fault("--table", found, "a table that holds the whole map")])
+    return table
+
+
+def _error(data: MapData, fresh: tuple[OperatingPoint, ...], found: tuple[Outcome, ...]) -> MapError | None:
+    """What the map misses between its levels, by fresh points or, without them, by its own levels."""
+    if not np.all(data.solved):
+        return None
+    good = [k for k, outcome in enumerate(found) if outcome.status is Status.SOLVED]
+    if not good:
+        return left_out_error(data)
+    rows: list[Mapping[str, float]] = [found[k].record["numbers"] for k in good]
+    numbers = {column: np.array([row[f"{column} [{unit}]"] for row in rows]) for column, unit, _ in columns()}
+    return fresh_error(MapInterpolant(data), [fresh[k] for k in good], numbers)

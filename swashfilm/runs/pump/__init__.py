@@ -1,0 +1,1 @@
+"""`swashfilm run`: one operating point of a pump."""

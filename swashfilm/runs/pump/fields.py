@@ -1,0 +1,51 @@
+"""The films of a pump for ParaView: surfaces in their true place, series over the shaft angle."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from reynolds.solve.export import write_pvd, write_vtu
+from swashfilm.output.gap_names import FIELDS, vtu_name
+from swashfilm.runs.pump.data import GAPS
+from swashfilm.runs.pump.oil_fields import oil_state
+from system.description.gap import Gap
+from system.films.places import place_of
+from system.points.films import FilmsPoint
+
+
+def write_fields(folder: Path, films: FilmsPoint) -> None:
+    """Write fields/*.vtu and, beside them, piston.pvd, slipper.pvd, valve_plate.pvd and pump.pvd.
+
+    A gap's PVD follows one piston or slipper, or the ring, over the turn (time = shaft angle in degrees);
+    pump.pvd shows all of them at once. Nine pistons are one piston shifted, so that their files are shared.
+    """
+    place = folder / FIELDS
+    place.mkdir()
+    viscosity = films.rotor.point.viscosity
+    series = {Gap.PISTON: films.gaps.piston, Gap.SLIPPER: films.gaps.slipper}
+    series[Gap.VALVE_PLATE] = tuple(ring.gap for ring in films.gaps.valve_plate)
+    for gap, told in series.items():
+        for k, film in enumerate(told):
+            at = place_of(gap, films.rotor, films.parts, films.gaps.shaft_angle[k])
+            oil = oil_state(films.rotor.pump, getattr(films.physics, gap.value), film.solution, viscosity)
+            write_vtu(place / vtu_name(gap.value, k), film.solution, at, oil)
+    _write_series(folder, films)
+
+
+def _write_series(folder: Path, films: FilmsPoint) -> None:
+    count, positions = len(films.gaps.shaft_angle), len(films.gaps.valve_plate)
+    degrees = np.degrees(films.gaps.shaft_angle)
+    names = {
+        gap: [f"{FIELDS}/{vtu_name(gap, k % positions if gap == 'valve_plate' else k)}" for k in range(count)]
+        for gap in GAPS
+    }
+    for gap in GAPS:
+        write_pvd(folder / f"{gap}.pvd", [(degrees[k], 0, names[gap][k]) for k in range(count)])
+    whole = []
+    for k in range(count):
+        chambers = [(k + shift) % count for shift in range(0, count, positions)]
+        parts = [names["valve_plate"][k], *(names[gap][j] for gap in ("piston", "slipper") for j in chambers)]
+        whole += [(degrees[k], part, name) for part, name in enumerate(parts)]
+    write_pvd(folder / "pump.pvd", whole)

@@ -1,0 +1,204 @@
+"""A pump whose gaps float, as a run leaves it: summary, tables, results and fields of the three gaps."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from gaps.revolution.march import GapRevolution, Leg
+from reynolds.solve.export import write_pvd
+from swashfilm.console.fidelity import Fidelity
+from swashfilm.console.terminal import show_table
+from swashfilm.output.gap_names import FIELDS, vtu_name
+from swashfilm.runs.film.revolution.data import revolution_dataset, write_convergence, write_series
+from swashfilm.runs.film.revolution.fields import write_revolution_fields
+from swashfilm.runs.film.revolution.solve import RevolutionStudy, revolution_summary
+from swashfilm.runs.pump.data import PICTURED_TURN
+from swashfilm.runs.pump.summary import pump_summary
+from system.description.gap import Gap
+from system.films.heat import all_taken
+from system.films.rotor import Rotor
+from system.points.floating import FloatingKind, FloatingPoint
+from system.points.floating_gaps import FloatingOptions
+
+RESULTS = "results.nc"
+Kept = dict[tuple[str, str], np.ndarray]
+"""Shaft angles (rad) of the films that are kept, by place in the run folder and gap."""
+_OF_PUMP = ("format", "kind", "name", "gap", "physics_left_out", "physics_seconds", "assumptions", "warnings")
+
+
+@dataclass(frozen=True)
+class FloatingGap:
+    """One gap of a pump that floats as a whole: a `GapCase`."""
+
+    name: str
+    gap: Gap
+    rotor: Rotor
+    options: FloatingOptions
+
+
+def floating_studies(found: FloatingPoint) -> dict[str, tuple[RevolutionStudy, ...]]:
+    """The gaps, each as if it were a case of its own, by where they go in the run folder.
+
+    Here (""): piston and slipper of the most common kind of chambers, and the block; of every other kind piston
+    and slipper, in chamber_<number of its first>.
+    """
+    most, *others = found.kinds
+    here = (Gap.PISTON, most.gaps.piston), (Gap.SLIPPER, most.gaps.slipper), (Gap.VALVE_PLATE, most.gaps.block)
+    studies = {"": tuple(_study(found, most, *gap) for gap in here)}
+    for kind in others:
+        own = (Gap.PISTON, kind.gaps.piston), (Gap.SLIPPER, kind.gaps.slipper)
+        studies[_place(kind)] = tuple(_study(found, kind, *gap) for gap in own)
+    return studies
+
+
+def _place(kind: FloatingKind) -> str:
+    return f"chamber_{kind.chambers[0] + 1}"
+
+
+def _study(found: FloatingPoint, kind: FloatingKind, gap: Gap, revolution: GapRevolution[Any]) -> RevolutionStudy:
+    chamber = kind.drives.piston.chamber_pressure
+    return RevolutionStudy(
+        FloatingGap(found.rotor.pump.name, gap, kind.rotor, found.options),
+        kind.parts,
+        revolution,
+        np.array([float(chamber(angle)) for angle in revolution.angles]),
+        revolution.seconds,
+    )
+
+
+def floating_summary(found: FloatingPoint, warnings: list[str]) -> dict[str, Any]:
+    """The summary of any fidelity's point with the gaps' own, how gaps and chambers agreed, and what was taken.
+
+    `warnings` come before those of the gaps. `unlike`: chambers that are not of the most common kind, their gaps.
+    """
+    studies = floating_studies(found)
+    by_place = {
+        place: {study.case.gap.value: revolution_summary(study) for study in own} for place, own in studies.items()
+    }
+    told = warnings + [
+        f"{one['name']}: {' '.join(filter(None, (place, gap))).replace('_', ' ')}: {one['text']}"
+        for place, gaps in by_place.items()
+        for gap, own in gaps.items()
+        for one in own["warnings"]
+    ]
+    here, *others = (
+        {gap: {key: own[key] for key in own if key not in _OF_PUMP} for gap, own in gaps.items()}
+        for gaps in by_place.values()
+    )
+    summary, last = pump_summary(found.rotor.pump, found.pump_point, None, told), found.rounds[-1]
+    checks = {
+        "coupling_rounds": len(found.rounds),
+        "coupling_pressure_change": last.pressure_change,
+        "coupling_friction_change": last.friction_change,
+        "coupling_spin_change": last.spin_change,
+        "films_solved": sum(taken.films_solved for taken in found.rounds),
+    }
+    return summary | {
+        "fidelity": Fidelity.FLOATING.value,
+        "gaps": here,
+        "spin_ratio": _spin_ratios(found.kinds[0].rotor),
+        "unlike": {
+            _place(kind): {"chambers": [k + 1 for k in kind.chambers], "gaps": gaps}
+            for kind, gaps in zip(found.kinds[1:], others, strict=True)
+        },
+        "checks": summary["checks"] | checks,
+        "cost": {
+            "solve_seconds": sum(taken.seconds for taken in found.rounds),
+            "rounds_seconds": [taken.seconds for taken in found.rounds],
+            "physics_seconds": {leg.value: time for leg, time in _spent(found).items() if time > 0.0},
+        },
+        "physics_left_out": [effect.value for effect in found.options.physics.left_out],
+        "assumptions": list(
+            dict.fromkeys(
+                str(taken)
+                for kind in found.kinds
+                for taken in all_taken(kind.rotor, kind.parts, found.options.physics)
+            )
+        ),
+    }
+
+
+def _spin_ratios(rotor: Rotor) -> dict[str, float]:
+    """Spins of piston and slipper over the shaft's, as pump files state them."""
+    return {part: spin / rotor.point.shaft_speed for part, spin in asdict(rotor.spins).items()}
+
+
+def _spent(found: FloatingPoint) -> dict[Leg, float]:
+    """Time (s) that the gaps spent on each leg, in all rounds."""
+    return {leg: sum(taken.spent[leg] for taken in found.rounds) for leg in Leg}
+
+
+def write_floating(folder: Path, found: FloatingPoint) -> dict[Path, list[Path]]:
+    """Write <gap>.csv, <gap>_convergence.csv, a group <gap> of results.nc, fields/ and PVDs; tell what to draw.
+
+    results.nc must be there with the pump's own series. A gap's PVD follows one piston or slipper over the turn,
+    or the block over what repeats; pump.pvd shows all of them. Of chambers that are not of the most common kind
+    the same in chamber_<number>. What to draw: a picture, and the fields on it.
+    """
+    kept: Kept = {}
+    for place, studies in floating_studies(found).items():
+        (folder / place).mkdir(exist_ok=True)
+        for study in studies:
+            gap, path = study.case.gap.value, Path(place) / study.case.gap.value
+            _write_gap(folder, path, study)
+            kept[place, gap] = np.array(list(study.revolution.turn.films))
+    of_chamber = [""] * found.rotor.pump.pump.pistons
+    for kind in found.kinds[1:]:
+        for k in kind.chambers:
+            of_chamber[k] = _place(kind)
+    whole = [
+        (float(np.degrees(angle)), part, path)
+        for angle in kept["", "piston"]
+        for part, path in enumerate(_in_pump(kept, float(angle), of_chamber))
+    ]
+    write_pvd(folder / "pump.pvd", whole)
+    pictured = 2.0 * np.pi * PICTURED_TURN
+    drawings = {
+        folder / place / f"{gap}.png": [folder / _nearest(kept, place, gap, pictured)] for place, gap in kept
+    }
+    drawings[folder / "pump.png"] = [folder / path for path in _in_pump(kept, pictured, of_chamber)]
+    return drawings
+
+
+def _write_gap(folder: Path, path: Path, study: RevolutionStudy) -> None:
+    """Series, turns and fields of one gap at folder/path."""
+    data = revolution_dataset(study)
+    data.to_netcdf(folder / RESULTS, mode="a", group=path.as_posix(), engine="h5netcdf")
+    write_series(folder / f"{path}.csv", data)
+    write_convergence(folder / f"{path}_convergence.csv", study)
+    write_revolution_fields(folder / path.parent, study)
+
+
+def _in_pump(kept: Kept, shaft_angle: float, of_chamber: list[str]) -> list[str]:
+    """Fields of the block and of all pistons and slippers at a shaft angle (rad), the nearest that are kept."""
+    chambers = shaft_angle + 2.0 * np.pi / len(of_chamber) * np.arange(len(of_chamber))
+    return [
+        _nearest(kept, "", "valve_plate", shaft_angle),
+        *(
+            _nearest(kept, place, gap, angle)
+            for gap in ("piston", "slipper")
+            for place, angle in zip(of_chamber, chambers, strict=True)
+        ),
+    ]
+
+
+def _nearest(kept: Kept, place: str, gap: str, angle: float) -> str:
+    """Field of a gap at the kept angle nearest to one, all repeating after the last."""
+    angles = kept[place, gap]
+    away = (angles - angle + 0.5 * angles[-1]) % angles[-1] - 0.5 * angles[-1]
+    return (Path(place) / FIELDS / vtu_name(gap, int(np.argmin(np.abs(away))))).as_posix()
+
+
+def show_floating(summary: Mapping[str, Any]) -> None:
+    """Print what a run's gaps did, with what physics and what that took."""
+    from swashfilm.case.gap.physics_told import PHYSICS_HEAD, physics_told
+    from swashfilm.runs.pump.floating_page import HEAD, floating_rows
+
+    show_table("Gaps that float: of one piston, one slipper, the block", [HEAD, *floating_rows(summary)])
+    told = physics_told(summary["physics_left_out"], summary["cost"]["physics_seconds"])
+    show_table("Their physics", [PHYSICS_HEAD, *told])

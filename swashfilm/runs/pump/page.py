@@ -1,0 +1,217 @@
+"""The page of an operating point: report.html from the run folder's own files, self-contained."""
+
+from __future__ import annotations
+
+import base64
+import json
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from swashfilm.console.fidelity import Fidelity
+from swashfilm.output.gap_names import TITLES
+from swashfilm.runs.pump import plots as pump_plots
+from swashfilm.runs.pump.data import GAPS
+from swashfilm.runs.pump.floating_page import floating_view
+from swashfilm.runs.pump.forces_page import forces_view
+from swashfilm.runs.pump.summary import ABBREVIATION
+from swashfilm.runs.table.summary import TOLD_HEAD, told_rows
+from system.inputs.faults import Fault, InputFaults
+from system.inputs.units import LPM
+from system.pump.laws.friction_pairs import Pair
+
+PICTURES = (*GAPS, "pump")
+Rows = list[tuple[str, ...]]
+
+
+def write_pump_page(folder: Path) -> Path:
+    """Write report.html of a pump's run folder from its summary.json, resolved.toml and results.nc.
+
+    3D pictures that lie in the folder are taken in. Raises InputFaults where one of the three is missing.
+    """
+    import xarray
+    from jinja2 import Environment, PackageLoader
+
+    missing = [name for name in ("summary.json", "resolved.toml", "results.nc") if not (folder / name).is_file()]
+    if missing:
+        raise InputFaults(str(folder), [Fault(name, "no such file", "a pump's run folder") for name in missing])
+    summary = json.loads((folder / "summary.json").read_text("utf-8"))
+    with xarray.open_dataset(folder / "results.nc", engine="h5netcdf") as data:
+        data.load()
+    floats = Fidelity(summary["fidelity"]) is Fidelity.FLOATING
+    template = Environment(loader=PackageLoader("swashfilm.output"), autoescape=True).get_template(
+        "pump.html.jinja"
+    )
+    page = template.render(
+        summary=summary,
+        headline=headline_rows(summary),
+        efficiencies=efficiency_rows(summary),
+        bench=bench_rows(summary),
+        pairs=pair_rows(summary),
+        power=power_rows(summary),
+        gaps=[] if floats else gap_rows(summary),
+        floating=floating_view(folder, summary) if floats else None,
+        told=list(told_rows(summary)) if "table" in summary else [],
+        told_head=TOLD_HEAD,
+        ripple=ripple_rows(summary),
+        checks=check_rows(summary),
+        forces=forces_view(folder, summary),
+        pictures=_pictures(data, summary),
+        gap_maps={map_caption(data, gap): _inline(png) for gap, png in pump_plots.gap_maps(data).items()},
+        solid=[(name.replace("_", " "), _inline(path.read_bytes())) for name, path in _drawn(folder)],
+        resolved=(folder / "resolved.toml").read_text("utf-8"),
+    )
+    path = folder / "report.html"
+    path.write_text(page, encoding="utf-8")
+    return path
+
+
+def map_caption(data: Any, gap: str) -> str:
+    """Title of a gap's maps and the shaft angle they stand at; the ring repeats after each pitch."""
+    k = pump_plots.pictured(data, gap)
+    angle = np.degrees(data[f"{gap}_angle"].values[k])
+    whose = "block" if gap == "valve_plate" else "shaft"
+    return f"{TITLES[gap]} at {whose} angle {angle:.0f} deg, position given"
+
+
+def headline_rows(summary: Mapping[str, Any]) -> Rows:
+    """(what, value with its unit): the operating point and what comes out of it."""
+    at, flow, torque = summary["operating_point"], summary["flow"], summary["torque"]
+    ripple, errors = summary["ripple"], summary["checks"]
+    return [
+        ("shaft speed", f"{at['shaft_speed_rad_per_s'] * 30 / np.pi:.1f} r/min"),
+        ("delivery pressure (gauge)", f"{at['delivery_pressure_Pa'] * 1e-6:.3f} MPa"),
+        ("inlet pressure (gauge)", f"{at['inlet_pressure_Pa'] * 1e-6:.3f} MPa"),
+        ("case pressure (gauge)", f"{at['case_pressure_Pa'] * 1e-6:.3f} MPa"),
+        ("displacement ratio", f"{at['displacement_ratio']:.3f}"),
+        ("swash angle", f"{np.degrees(at['swash_angle_rad']):.3f} deg"),
+        ("oil temperature", f"{at['temperature_K'] - 273.15:.1f} degC"),
+        ("oil viscosity", f"{at['viscosity_Pa_s'] * 1e3:.2f} mPa s"),
+        ("displacement, geometric", f"{summary['displacement']['geometric_m3_per_rev'] * 1e6:.2f} mL/r"),
+        ("displacement, derived", f"{summary['displacement']['derived_m3_per_rev'] * 1e6:.2f} mL/r"),
+        ("flow, geometric", f"{flow['geometric_m3_per_s'] * LPM:.2f} L/min"),
+        ("flow, delivery", f"{flow['delivery_m3_per_s'] * LPM:.2f} L/min"),
+        ("flow, inlet", f"{flow['inlet_m3_per_s'] * LPM:.2f} L/min"),
+        ("flow, case drain", f"{flow['case_m3_per_s'] * LPM:.4f} L/min"),
+        *((f"leakage, {TITLES[gap]}", f"{summary['leakage'][f'{gap}_m3_per_s'] * LPM:.4f} L/min") for gap in GAPS),
+        ("torque, shaft", f"{torque['shaft_Nm']:.2f} N m"),
+        ("torque, ideal at delivery pressure", f"{torque['ideal_delivery_Nm']:.2f} N m"),
+        ("torque, ideal at pressure difference", f"{torque['ideal_difference_Nm']:.2f} N m"),
+        (
+            "ripple, delivery pressure",
+            f"{ripple['delivery_pressure_peak_to_peak_Pa'] * 1e-6:.4f} MPa peak to peak",
+        ),
+        ("ripple, delivery flow", f"{ripple['delivery_flow_peak_to_peak_m3_per_s'] * LPM:.3f} L/min peak to peak"),
+        ("ripple, shaft torque", f"{ripple['shaft_torque_peak_to_peak_Nm']:.2f} N m peak to peak"),
+        ("energy balance error, torque from forces", f"{errors['energy_balance_error']:.2g} of the shaft power"),
+    ]
+
+
+def efficiency_rows(summary: Mapping[str, Any]) -> Rows:
+    """(efficiency, paper's in %, ISO's in %); none where the machine does not pump."""
+    norms = [summary["efficiency"][key] for key in ("paper", "iso_4409")]
+    return [
+        (f"{name} efficiency", *("none" if norm[name] is None else f"{100 * norm[name]:.2f} %" for norm in norms))
+        for name in ("overall", "volumetric", "hydromechanical")
+    ]
+
+
+def bench_rows(summary: Mapping[str, Any]) -> Rows:
+    """(loss, by the paper's Eqs. (1), (2), by the split that leaves the oil its compression energy)."""
+    paper, exact = summary["paper_loss"], summary["bench_split"]
+    return [
+        ("volumetric", f"{paper['volumetric_W']:.1f} W", f"{exact['leakage_W']:.1f} W"),
+        ("hydromechanical", f"{paper['hydromechanical_W']:.1f} W", f"{exact['hydromechanical_W']:.1f} W"),
+        ("stored in the oil", "counted as volumetric", f"{exact['elastic_W']:.1f} W"),
+    ]
+
+
+def pair_rows(summary: Mapping[str, Any]) -> Rows:
+    """(pair, abbreviation, Coulomb, viscous, total, share) of the seven friction pairs and their sum."""
+    rows: Rows = []
+    for pair in Pair:
+        loss = summary["pair_loss"][pair.value]
+        numbers = (f"{loss[key]:.1f} W" for key in ("coulomb_W", "viscous_W", "total_W"))
+        rows.append((pair.value.replace("_", " "), ABBREVIATION[pair], *numbers, f"{100 * loss['share']:.2f} %"))
+    total = {
+        key: sum(loss[key] for loss in summary["pair_loss"].values())
+        for key in ("coulomb_W", "viscous_W", "total_W")
+    }
+    return [*rows, ("all pairs", "", *(f"{value:.1f} W" for value in total.values()), "100 %")]
+
+
+def power_rows(summary: Mapping[str, Any]) -> Rows:
+    """(where the shaft power goes, W, share of it)."""
+    power = summary["power_balance"]
+    shaft = power["shaft_W"]
+    return [
+        (key.removesuffix("_W").replace("_", " "), f"{value:.1f} W", f"{100 * value / shaft:.3f} %")
+        for key, value in power.items()
+    ]
+
+
+def gap_rows(summary: Mapping[str, Any]) -> Rows:
+    """(gap, given film, leakage, power of the walls, statement)."""
+    rows: Rows = []
+    for gap, report in summary["gaps"].items():
+        rows.append(
+            (
+                TITLES[gap],
+                f"{report['film_thickness_mean_m'] * 1e6:.2f} um"
+                f" (least {report['film_thickness_min_m'] * 1e6:.2f} um)",
+                f"{report['leakage_flow_mean_m3_per_s'] * LPM:.4f} L/min",
+                f"{report['friction_power_mean_W']:.1f} W",
+                report["statement"],
+            )
+        )
+    return rows
+
+
+def ripple_rows(summary: Mapping[str, Any]) -> Rows:
+    """(what pulses, peak to peak, its orders z, 2 z and 3 z)."""
+    ripple = summary["ripple"]
+    units = {"Pa": (1e-6, "MPa"), "m3_per_s": (LPM, "L/min"), "Nm": (1.0, "N m")}
+    rows: Rows = []
+    for name, unit in (
+        ("delivery_pressure", "Pa"),
+        ("delivery_flow", "m3_per_s"),
+        ("inlet_pressure", "Pa"),
+        ("inlet_flow", "m3_per_s"),
+        ("shaft_torque", "Nm"),
+    ):
+        scale, shown = units[unit]
+        keys = [key for key in ripple if key.startswith(name)]
+        rows.append((name.replace("_", " "), *(f"{scale * ripple[key]:.3g} {shown}" for key in keys)))
+    return rows
+
+
+def check_rows(summary: Mapping[str, Any]) -> Rows:
+    """(check, value): balances, convergence and effort of the solvers, those of the gaps included."""
+    rows: Rows = [(key.replace("_", " "), f"{value:.3g}") for key, value in summary["checks"].items()]
+    for gap, report in summary["gaps"].items():
+        for key in ("mass_balance_error_max", "energy_balance_error_max", "unknowns"):
+            if key in report:
+                rows.append((f"{TITLES[gap]} film, {key.replace('_', ' ')}", f"{report[key]:.3g}"))
+    return rows
+
+
+def _pictures(data: Any, summary: Mapping[str, Any]) -> dict[str, str]:
+    pictures = {
+        "losses": pump_plots.loss_bar(summary),
+        "chamber": pump_plots.chamber_plot(data, summary),
+        "flows": pump_plots.flow_plot(data),
+        "ripple": pump_plots.ripple_plot(data),
+    }
+    if "piston_film_pressure" in data:
+        pictures["films"] = pump_plots.film_series(data)
+    return {name: _inline(png) for name, png in pictures.items()}
+
+
+def _drawn(folder: Path) -> list[tuple[str, Path]]:
+    return [(name, path) for name in PICTURES if (path := folder / f"{name}.png").is_file()]
+
+
+def _inline(png: bytes) -> str:
+    return base64.b64encode(png).decode("ascii")

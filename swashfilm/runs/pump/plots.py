@@ -1,0 +1,162 @@
+"""Pictures of an operating point, drawn from results.nc and summary.json alone."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from reynolds.numerics.arrays import Array
+from swashfilm.output.field_maps import MapField, draw_map
+from swashfilm.output.figure_png import figure_of, png_of
+from swashfilm.output.gap_names import TITLES
+from swashfilm.runs.pump.data import GAPS, PICTURED_TURN
+from swashfilm.runs.pump.summary import ABBREVIATION
+from system.inputs.units import LPM
+from system.pump.laws.friction_pairs import Pair
+
+if TYPE_CHECKING:
+    import xarray
+
+GAP_FIELDS = (
+    MapField("film_pressure", "film pressure / MPa", 1e-6),
+    MapField("film_thickness", "film thickness / um", 1e6, colours="cividis"),
+    MapField("film_viscosity", "viscosity of the oil / mPa s", 1e3, colours="YlGnBu"),
+    MapField("film_temperature", "film temperature, mean across / degC", zero=273.15, colours="inferno"),
+)
+"""Fields of a gap that a page draws where results.nc has them."""
+
+
+def loss_bar(summary: Mapping[str, Any]) -> bytes:
+    """Losses of the seven pairs (W) as one stacked bar each for Coulomb and viscous, share written on it."""
+    figure = figure_of(8.4, 3.4)
+    axes = figure.subplots()
+    names = [f"{ABBREVIATION[pair]}" for pair in Pair]
+    losses = [summary["pair_loss"][pair.value] for pair in Pair]
+    coulomb, viscous = ([loss[part] for loss in losses] for part in ("coulomb_W", "viscous_W"))
+    axes.barh(names, coulomb, color="#8c5a3c", label="Coulomb")
+    axes.barh(names, viscous, left=coulomb, color="#3c7a8c", label="viscous")
+    for row, loss in enumerate(losses):
+        axes.text(loss["total_W"], row, f"  {loss['total_W']:.0f} W, {loss['share']:.1%}", va="center")
+    axes.invert_yaxis()
+    axes.set(xlabel="loss / W", xlim=(0.0, 1.25 * max(loss["total_W"] for loss in losses)))
+    axes.legend(loc="lower right")
+    return png_of(figure)
+
+
+def chamber_plot(data: xarray.Dataset, summary: Mapping[str, Any]) -> bytes:
+    """Chamber pressure (MPa) and port openings (mm2) over the shaft angle, the dead-centre regions enlarged."""
+    figure = figure_of(10.0, 5.6)
+    wide, near = figure.subplots(2, 1)
+    angle = np.degrees(data["shaft_angle"].values)
+    pressure = data["chamber_pressure"].values * 1e-6
+    openings = [data[name].values * 1e6 for name in ("suction_area", "delivery_area")]
+    for axes in (wide, near):
+        areas = axes.twinx()
+        for opening, colour, name in zip(openings, ("#5b9a5b", "#b8862b"), ("suction", "delivery"), strict=True):
+            areas.fill_between(angle, opening, color=colour, alpha=0.22, label=f"{name} opening", step=None)
+        axes.plot(angle, pressure, color="#1c2328", label="chamber pressure")
+        axes.set(ylabel="pressure, gauge / MPa", xlim=(0, 360))
+        areas.set(ylabel="opening / mm2", ylim=(0, None))
+        axes.set_zorder(areas.get_zorder() + 1)
+        axes.patch.set_visible(False)
+    handles = [*wide.get_legend_handles_labels()[0], *areas.get_legend_handles_labels()[0]]
+    wide.legend(handles=handles, loc="upper left")
+    near.set(
+        xlabel="shaft angle from inner dead centre / deg", xlim=(160, 220), title="around the outer dead centre"
+    )
+    inlet = summary["operating_point"]["inlet_pressure_Pa"] * 1e-6
+    near.set_ylim(min(-0.5, inlet - 3.0), 1.08 * pressure.max())
+    return png_of(figure)
+
+
+def flow_plot(data: xarray.Dataset) -> bytes:
+    """Delivery flow of the pump and leakage of one chamber's gaps (L/min) over the shaft angle."""
+    figure = figure_of(10.0, 3.4)
+    left, right = figure.subplots(1, 2)
+    angle = np.degrees(data["shaft_angle"].values)
+    left.plot(angle, data["pump_delivery_flow"].values * LPM, color="#1c2328")
+    left.set(xlabel="shaft angle / deg", ylabel="delivery flow / L/min", xlim=(0, 360), title="pump, at its port")
+    for gap in GAPS:
+        right.plot(angle, data[f"{gap}_leakage"].values * LPM, label=TITLES[gap])
+    right.set(xlabel="shaft angle / deg", ylabel="flow out of one chamber / L/min", xlim=(0, 360), title="gaps")
+    right.legend()
+    return png_of(figure)
+
+
+def ripple_plot(data: xarray.Dataset) -> bytes:
+    """Port pressures (MPa, off their means), line flows (L/min) and shaft torque (N m) over two piston pitches."""
+    figure = figure_of(10.0, 3.4)
+    left, middle, right = figure.subplots(1, 3)
+    angle = np.degrees(data["shaft_angle"].values)
+    for name, colour in (("delivery", "#b8862b"), ("inlet", "#5b9a5b")):
+        pressure = data[f"{name}_pressure"].values * 1e-6
+        label = f"{name}, {pressure.mean():.2f} MPa"
+        left.plot(angle, pressure - pressure.mean(), color=colour, label=label)
+        middle.plot(angle, data[f"{name}_line_flow"].values * LPM, color=colour, label=name)
+    right.plot(angle, data["shaft_torque"].values, color="#1c2328")
+    left.set(ylabel="port pressure off its mean / MPa", title="ports")
+    middle.set(ylabel="flow / L/min", title="lines, at port pressure")
+    right.set(ylabel="torque / N m", title="shaft")
+    for axes in (left, middle, right):
+        axes.set(xlabel="shaft angle / deg", xlim=(0, 2.0 * data.attrs["pitch_deg"]))
+    for axes in (left, middle):  # below, where no curve runs
+        axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.22), ncols=2, fontsize="small", frameon=False)
+    return png_of(figure)
+
+
+def gap_maps(data: xarray.Dataset) -> dict[str, bytes]:
+    """Film pressure, film thickness and what is known of the oil, of each gap at the pictured angle, by gap."""
+    return {gap: _gap_map(data, gap) for gap in GAPS if f"{gap}_film_pressure" in data}
+
+
+def film_series(data: xarray.Dataset) -> bytes:
+    """Minimum film, carried share of the load and friction of one piston and one slipper over the turn."""
+    figure = figure_of(10.0, 3.4)
+    left, middle, right = figure.subplots(1, 3)
+    for gap in ("piston", "slipper"):
+        angle = np.degrees(data[f"{gap}_angle"].values)
+        film = data[f"{gap}_film_thickness_min"].values * 1e6
+        left.plot(angle, film, label=gap)
+        required = data[f"{gap}_required_load"].values
+        carried = np.full_like(required, np.nan)
+        np.divide(data[f"{gap}_carried_load"].values, required, out=carried, where=required > 0.0)
+        middle.plot(angle, np.clip(100.0 * carried, 0.0, 200.0), label=gap)
+        right.plot(angle, data[f"{gap}_friction_power"].values, label=gap)
+    left.set(ylabel="minimum film / um", title="position given", ylim=(0, None))
+    middle.set(ylabel="load carried / %", title="cut at 200 %")
+    right.set(ylabel="power of the walls / W", title="one piston, one slipper")
+    for axes in (left, middle, right):
+        axes.set(xlabel="shaft angle / deg", xlim=(0, 360))
+        axes.legend()
+    return png_of(figure)
+
+
+def pictured(data: xarray.Dataset, gap: str) -> int:
+    """Index of a gap's film at PICTURED_TURN; the ring's angles cover one pitch and repeat."""
+    return round(PICTURED_TURN * data.sizes["piston_angle"]) % data.sizes[f"{gap}_angle"]
+
+
+def gap_place(data: xarray.Dataset, gap: str, k: int) -> tuple[tuple[Array, Array], tuple[str, str]]:
+    """Vertices of a gap's k-th film as a page draws them, and what its axes are called."""
+    x, y = (data[f"{gap}_{axis}"].values[k] * 1e3 for axis in ("x", "y"))
+    if gap != "piston":
+        return (x, y), ("x / mm", "y / mm")
+    # Unrolled by the angle: cells across the seam would be drawn around the whole film.
+    named = ("angle from the inner dead centre's side / deg", "from the guide's inner end / mm")
+    return (360.0 * x / x.max(), y), named
+
+
+def _gap_map(data: xarray.Dataset, gap: str) -> bytes:
+    k = pictured(data, gap)
+    place, labels = gap_place(data, gap, k)
+    cells = data[f"{gap}_cells"].values
+    known = [field for field in GAP_FIELDS if f"{gap}_{field.name}" in data]
+    rows = (len(known) + 1) // 2
+    figure = figure_of(10.0, 3.9 * rows)
+    for number, field in enumerate(known, start=1):
+        axes = figure.add_subplot(rows, 2, number)
+        values = field.shown(data[f"{gap}_{field.name}"].values[k])
+        draw_map(axes, place, cells, values, field.title, labels, field.colours)
+    return png_of(figure)

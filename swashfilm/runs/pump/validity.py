@@ -1,0 +1,57 @@
+"""What a reader must doubt about the films of an operating point: each with its number, limit and remedy."""
+
+from __future__ import annotations
+
+from swashfilm.output.gap_names import LARGEST_RIGID_PRESSURE
+from swashfilm.runs.pump.data import gap_films
+from swashfilm.runs.pump.summary import gap_statement
+from system.points.films import FilmsPoint
+
+LARGEST_SAMPLING_ERROR = 0.02
+
+
+def films_warnings(films: FilmsPoint) -> list[str]:
+    """All warnings of a films point, `name: text` each."""
+    return [
+        *uncarried_loads(films),
+        *impossible_pressures(films),
+        *coarse_angles(films),
+    ]
+
+
+def uncarried_loads(films: FilmsPoint) -> list[str]:
+    """A warning for each gap whose film, at some angle, does not hold its load at the position given."""
+    return [
+        f"load_not_carried: {gap.replace('_', ' ')}: {gap_statement(series)}; contact, squeeze or another "
+        "position makes up the difference: --fidelity floating finds it"
+        for gap, series in gap_films(films).items()
+        if not all(film.holds_its_load for film in series)
+    ]
+
+
+def impossible_pressures(films: FilmsPoint) -> list[str]:
+    """A warning for each gap whose film pressure lies beyond what its rigid walls or plain oil may claim."""
+    found = []
+    for gap, series in gap_films(films).items():
+        physics = getattr(films.physics, gap)
+        if physics.elastic_walls and physics.pressure_viscosity:
+            continue
+        peak = max(film.loads.pressure_max for film in series)
+        if peak > LARGEST_RIGID_PRESSURE:
+            found.append(
+                f"film_pressure_beyond_rigid: {gap.replace('_', ' ')}: film pressure up to {peak * 1e-6:.0f} MPa "
+                f"(limit {LARGEST_RIGID_PRESSURE * 1e-6:.0f} MPa: walls give way and oil thickens before); give a "
+                "smaller eccentricity or tilt, a larger clearance, or both effects in [physics]: "
+                f"compliance in [physics.elastic_opening.{gap}] and [physics.viscosity_pressure]"
+            )
+    return found
+
+
+def coarse_angles(films: FilmsPoint) -> list[str]:
+    """A warning where the leakage still depends on the number of film angles."""
+    if films.sampling_error <= LARGEST_SAMPLING_ERROR:
+        return []
+    return [
+        f"film_angles_too_few: leakage changes by {films.sampling_error:.1%} when every second film angle is left "
+        f"out (limit {LARGEST_SAMPLING_ERROR:.0%}); from Python, films_point(pump, point, positions_per_pitch=8)"
+    ]

@@ -1,0 +1,1 @@
+"""`swashfilm reference` and `coefficients`."""

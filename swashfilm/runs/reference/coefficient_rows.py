@@ -1,0 +1,90 @@
+"""Rows of coefficient files made from computed flows: each below a comment with its case."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+
+import numpy as np
+
+from reynolds.numerics.arrays import Array
+from swashfilm.console.terminal import show
+from system.inputs.coefficients.film_passages import FilmLoss, FilmPassage
+from system.inputs.coefficients.flow_files import PORT_HEADS, SOURCE
+from system.inputs.coefficients.loss_files import GROOVE_HEADS, STEP_HEADS
+from system.inputs.csv_table import Heads, read_table
+from system.inputs.faults import Fault, InputFaults
+from system.inputs.units import Dimension
+
+IN_UNIT = {"opening": ("mm2", 1e6)}
+"""Unit in which a column is written, and what makes it of SI; all else are bare numbers."""
+SAME = 1e-5
+PRESSURES = "pressures: static, means over the patches of inlet and outlet"
+"""Where a row's pressure drop was taken: a coefficient means nothing without it."""
+
+
+def port_row(path: Path, case: Path, opening: float, reynolds: float, coefficient: float) -> None:
+    """Add a row to a file of flow coefficients, opening in m2; raises as `append_row`."""
+    values = {"opening": opening, "reynolds": reynolds, "flow_coefficient": coefficient}
+    append_row(path, case, PORT_HEADS, values, ("opening", "reynolds"))
+
+
+def loss_row(path: Path, case: Path, passage: FilmPassage, found: FilmLoss) -> None:
+    """Add a row to a file of what steps or grooves lose; raises as `append_row`."""
+    own = {"extra_length": found.extra_length, "loss_factor": found.loss_factor}
+    values = sizes_of(passage) | {"reynolds": found.reynolds} | own
+    append_row(path, case, _heads(passage), values, (*sizes_of(passage), "reynolds"))
+
+
+def known_extra_length(path: Path | None, passage: FilmPassage) -> float | None:
+    """The extra length that a file has of a passage; None where it has none, or is not there yet."""
+    if path is None or not path.exists():
+        return None
+    columns = read_table(path, _heads(passage)).columns
+    rows = np.flatnonzero(_alike(columns, sizes_of(passage)))
+    return float(columns["extra_length"][rows[0]]) if rows.size else None
+
+
+def sizes_of(passage: FilmPassage) -> dict[str, float]:
+    """The columns that say which passage it is."""
+    wide = {} if passage.width_ratio is None else {"width_ratio": passage.width_ratio}
+    return {"film_ratio": passage.film_ratio} | wide
+
+
+def append_row(path: Path, case: Path, heads: Heads, values: Mapping[str, float], key: tuple[str, ...]) -> None:
+    """Add a row of SI values below a comment with its case; a file that is absent gets source, pressures and head.
+
+    Raises InputFaults for a file of other columns, order or units, and for a row that it has by its `key`.
+    """
+    head = ", ".join(f"{name} [{_unit(heads, name)[0]}]" for name in heads)
+    cells = (f"{values[name] * _unit(heads, name)[1]:.6g}" for name in heads)
+    row = f"# case: {case.resolve()}\n{', '.join(cells)}\n"
+    if not path.exists():
+        ahead = f"# {SOURCE}: OpenFOAM, {case.resolve().name}\n# {PRESSURES}\n"
+        path.write_text(f"{ahead}{head}\n{row}", encoding="utf-8")
+    else:
+        found = read_table(path, heads)
+        if head not in path.read_text("utf-8-sig").splitlines():
+            raise InputFaults(str(path), [Fault("head", "other order or units", head)])
+        if np.any(_alike(found.columns, {name: values[name] for name in key})):
+            where = f"Re {values['reynolds']:.6g} of this passage"
+            raise InputFaults(str(path), [Fault("row", where, "a row that the file does not have yet")])
+        with path.open("a", encoding="utf-8") as file:
+            file.write(row)
+    show(f"row in {path}")
+
+
+def _heads(passage: FilmPassage) -> Heads:
+    return STEP_HEADS if passage.width_ratio is None else GROOVE_HEADS
+
+
+def _unit(heads: Heads, name: str) -> tuple[str, float]:
+    """Unit of a column, and what makes it of SI."""
+    return IN_UNIT[name] if isinstance(heads[name], Dimension) else ("1", 1.0)
+
+
+def _alike(columns: Mapping[str, Array], values: Mapping[str, float]) -> Array:
+    """Rows that have these values."""
+    return np.asarray(
+        np.logical_and.reduce([np.isclose(columns[name], own, rtol=SAME) for name, own in values.items()])
+    )

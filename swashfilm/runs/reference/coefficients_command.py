@@ -1,0 +1,158 @@
+"""The command `swashfilm coefficients`: what an OpenFOAM case says of a port, bore, step or groove, as a row."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from swashfilm.console.inputs import COMMAND_LINE
+from swashfilm.console.terminal import show_table
+from system.inputs.faults import Fault, InputFaults
+from system.inputs.units import Dimension, QuantityError, parse_quantity
+
+if TYPE_CHECKING:
+    from system.inputs.coefficients.film_passages import FilmPassage
+    from system.inputs.coefficients.openfoam_case import CaseFlow
+
+SIZES = {
+    "--throat-area": (Dimension.AREA, "narrowest section of the flow; of a film, that of the thinner one"),
+    "--density": (Dimension.DENSITY, "density of the liquid"),
+    "--viscosity": (Dimension.KINEMATIC_VISCOSITY, "its kinematic viscosity"),
+}
+FILM_SIZES = {
+    "--film": (Dimension.LENGTH, "of a step or groove: thickness of the thinner film"),
+    "--before": (Dimension.LENGTH, "length of the film from the inlet patch to the step or groove"),
+    "--behind": (Dimension.LENGTH, "length of the film from the step or groove to the outlet patch"),
+}
+FILM_RATIOS = {
+    "--film-ratio": "film behind / film before; of a groove: in the groove / film",
+    "--width-ratio": "of a groove: its width / film",
+}
+COEFFICIENT_OPTIONS = ["--inlet", "--outlet", *SIZES, *FILM_SIZES, *FILM_RATIOS]
+
+
+def add_coefficient_options(command: argparse.ArgumentParser) -> None:
+    """Give the command what it takes."""
+    command.add_argument("folder", type=Path, metavar="CASE", help="folder of an OpenFOAM case that has been run")
+    command.add_argument("--inlet", required=True, metavar="PATCH", help="patch where the flow enters")
+    command.add_argument("--outlet", required=True, metavar="PATCH", help="patch where it leaves")
+    for option, (dimension, what) in SIZES.items():
+        command.add_argument(option, required=True, metavar=f"'{dimension.example}'", help=what)
+    for option, (dimension, what) in FILM_SIZES.items():
+        command.add_argument(option, metavar=f"'{dimension.example}'", help=what)
+    for option, what in FILM_RATIOS.items():
+        command.add_argument(option, type=float, metavar="R", help=what)
+    command.add_argument(
+        "-o",
+        "--output",
+        type=Path,
+        metavar="FILE.csv",
+        help="coefficient file that gets the row, made where absent",
+    )
+
+
+def run_coefficients_command(options: argparse.Namespace) -> int:
+    """Run `swashfilm coefficients` and return its exit code; raises InputFaults with what is wrong."""
+    from system.inputs.coefficients.openfoam_case import read_case_flow
+
+    area, density, viscosity = _sizes(options, SIZES)
+    passage = _passage(options, area)
+    found = read_case_flow(options.folder, options.inlet, options.outlet, density)
+    rows = [
+        ("time", f"{found.time:g}"),
+        ("flow", f"{6e4 * found.flow:.5g} L/min"),
+        ("pressure drop", f"{1e-5 * found.pressure_drop:.5g} bar"),
+        ("outflow less inflow", f"{found.balance_error:.1e} of the inflow"),
+    ]
+    if passage is None:
+        _tell_port(options, found, rows, area, density, viscosity)
+    else:
+        _tell_film(options, found, rows, passage, density, viscosity)
+    return 0
+
+
+def _tell_port(
+    options: argparse.Namespace,
+    found: CaseFlow,
+    rows: list[tuple[str, str]],
+    area: float,
+    density: float,
+    viscosity: float,
+) -> None:
+    """Show and write the flow coefficient of a port or bore."""
+    from swashfilm.runs.reference.coefficient_rows import port_row
+
+    coefficient, number = found.flow_coefficient(area, density), found.reynolds(area, viscosity)
+    told = [("Reynolds number", f"{number:.5g}"), ("flow coefficient", f"{coefficient:.4f}")]
+    show_table(f"OpenFOAM case {options.folder}", [*rows, *told])
+    if options.output is not None:
+        port_row(options.output, options.folder, area, number, coefficient)
+
+
+def _tell_film(
+    options: argparse.Namespace,
+    found: CaseFlow,
+    rows: list[tuple[str, str]],
+    passage: FilmPassage,
+    density: float,
+    viscosity: float,
+) -> None:
+    """Show and write extra length and loss factor of a step or groove."""
+    from swashfilm.runs.reference.coefficient_rows import known_extra_length, loss_row
+    from system.inputs.coefficients.film_passages import film_loss
+
+    known = known_extra_length(options.output, passage)
+    loss = film_loss(passage, found, density, viscosity, known)
+    source = "of this flow" if known is None else "of the file"
+    told = [
+        ("Reynolds number", f"{loss.reynolds:.5g}"),
+        ("extra length / film", f"{loss.extra_length:.4f}, {source}"),
+        ("loss factor", f"{loss.loss_factor:.4f}" + (", of first order in Re" if known is None else "")),
+    ]
+    show_table(f"OpenFOAM case {options.folder}", [*rows, *told])
+    if options.output is not None:
+        loss_row(options.output, options.folder, passage, loss)
+
+
+def _passage(options: argparse.Namespace, area: float) -> FilmPassage | None:
+    """The step or groove that the options state, None where they state a port; raises InputFaults for a part."""
+    from system.inputs.coefficients.film_passages import FilmPassage
+
+    needed = (*FILM_SIZES, "--film-ratio")
+    stated = [option for option in (*needed, "--width-ratio") if _given(options, option) is not None]
+    if not stated:
+        return None
+    faults = [
+        Fault(option, "nothing", f"a value, as {stated[0]} is there") for option in needed if option not in stated
+    ]
+    ratio, width = options.film_ratio, options.width_ratio
+    if ratio is not None and not (ratio > 1.0 if width is not None else ratio > 0.0 and ratio != 1.0):
+        expected = "more than 1, of a groove" if width is not None else "above zero, not 1"
+        faults.append(Fault("--film-ratio", f"{ratio:g}", expected))
+    if width is not None and not width > 0.0:
+        faults.append(Fault("--width-ratio", f"{width:g}", "above zero"))
+    if faults:
+        raise InputFaults(COMMAND_LINE, faults)
+    film, before, behind = _sizes(options, FILM_SIZES)
+    return FilmPassage(film, area, ratio, before, behind, width)
+
+
+def _given(options: argparse.Namespace, option: str) -> object:
+    return getattr(options, option[2:].replace("-", "_"))
+
+
+def _sizes(options: argparse.Namespace, sizes: dict[str, tuple[Dimension, str]]) -> list[float]:
+    """The options' values in SI; raises InputFaults with every fault at once."""
+    found, faults = [], []
+    for option, (dimension, _) in sizes.items():
+        text = _given(options, option)
+        try:
+            found.append(parse_quantity(text, dimension))
+            if not found[-1] > 0.0:
+                faults.append(Fault(option, str(text), f"{dimension.noun} above zero"))
+        except QuantityError as reason:
+            faults.append(Fault(option, reason.found, reason.expected, reason.nearest))
+    if faults:
+        raise InputFaults(COMMAND_LINE, faults)
+    return found

@@ -1,0 +1,32 @@
+"""The command `swashfilm reference`: what it takes, and what it prints."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+from swashfilm.console.terminal import show, show_table
+
+
+def add_reference_options(command: argparse.ArgumentParser) -> None:
+    """Give the command what it takes."""
+    command.add_argument("case", type=Path, metavar="CASE.toml", help="a step, groove, orifice or slot")
+
+
+def run_reference_command(options: argparse.Namespace) -> int:
+    """Run `swashfilm reference` and return its exit code; raises InputFaults with what is wrong in the file."""
+    from swashfilm.console.progress import progress
+    from swashfilm.output.run_folder import final_folder, run_folder
+    from swashfilm.runs.reference.case import load_reference
+    from swashfilm.runs.reference.page import HEAD, reference_rows
+    from swashfilm.runs.reference.run import run_reference
+
+    case = load_reference(options.case)
+    with (
+        run_folder(f"reference-{case.name}", options.output) as folder,
+        progress(len(case.passages), f"reference {case.name}") as report,
+    ):
+        summary = run_reference(case, folder, report)
+    show_table(f"Reference {case.name}: {summary['holds_for']}", [HEAD, *reference_rows(summary)])
+    show(f"coefficients in {final_folder(folder) / summary['table']}")
+    return 0

@@ -1,0 +1,65 @@
+"""The page of `swashfilm reference`: report.html made from the run folder's own files."""
+
+from __future__ import annotations
+
+import base64
+import json
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+from swashfilm.runs.reference.plots import coefficient_plot
+from system.inputs.faults import Fault, InputFaults
+
+HEAD = (
+    "passage",
+    "Re",
+    "extra length / h",
+    "loss factor",
+    "flow coefficient",
+    "drop / film equation's",
+    "mesh error",
+)
+
+
+def write_reference_page(folder: Path) -> Path:
+    """Write report.html of a run folder; raises InputFaults where one of its files is not there."""
+    from jinja2 import Environment, PackageLoader
+
+    missing = [name for name in ("summary.json", "input.toml") if not (folder / name).is_file()]
+    if missing:
+        raise InputFaults(
+            str(folder), [Fault(name, "no such file", "a reference's run folder") for name in missing]
+        )
+    summary = json.loads((folder / "summary.json").read_text("utf-8"))
+    template = Environment(loader=PackageLoader("swashfilm.output"), autoescape=True).get_template(
+        "reference.html.jinja"
+    )
+    pictures = [coefficient_plot(summary), *(path.read_bytes() for path in sorted(folder.glob("flow_*.png")))]
+    page = template.render(
+        summary=summary,
+        head=HEAD,
+        rows=list(reference_rows(summary)),
+        coefficients=(folder / summary["table"]).read_text("utf-8"),
+        pictures=[base64.b64encode(png).decode("ascii") for png in pictures],
+        given=(folder / "input.toml").read_text("utf-8"),
+    )
+    path = folder / "report.html"
+    path.write_text(page, encoding="utf-8")
+    return path
+
+
+def reference_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:
+    """Rows of HEAD as text."""
+    for passage in summary["passages"]:
+        for row in passage["rows"]:
+            over, coefficient = row["pressure_drop_over_film_equation"], row["flow_coefficient"]
+            yield (
+                passage["words"],
+                f"{row['reynolds']:g}",
+                f"{passage['extra_length']:.4g}",
+                f"{row['loss_factor']:.3g}",
+                "-" if coefficient is None else f"{coefficient:.4f}",
+                "-" if over is None else f"{over:.3f}",
+                f"{100.0 * row['mesh_error']:.2g} %",
+            )

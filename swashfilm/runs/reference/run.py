@@ -1,0 +1,129 @@
+"""`swashfilm reference` as a run: flows solved, coefficients written with the range in which they hold."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from importlib.metadata import version
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from swashfilm.output.run_folder import write_json
+from swashfilm.runs.reference.case import FEWEST_CELLS, ReferenceCase, ReferenceKind
+from swashfilm.runs.reference.passages import Passage, Solved
+from system.inputs.csv_table import write_table
+from system.work.progress import Report
+
+if TYPE_CHECKING:
+    pass
+
+OF_PORTS = (ReferenceKind.ORIFICE, ReferenceKind.SLOT)
+FILES = {kind: "port_coefficient.csv" if kind in OF_PORTS else "loss_factor.csv" for kind in ReferenceKind}
+"""The table of coefficients that a kind writes."""
+LIMITS = {
+    ReferenceKind.STEP: "plane, laminar, steady flow; walls at rest; films developed on either side",
+    ReferenceKind.GROOVE: "plane, laminar, steady flow across; walls at rest; films developed on either side",
+    ReferenceKind.ORIFICE: "laminar, steady, even flow (jets waver from Re of some hundreds); sharp edges",
+    ReferenceKind.SLOT: "plane, laminar, steady, even flow (jets lean from Re of some tens); sharp edges",
+}
+"""For what flow the numbers hold."""
+
+
+def run_reference(case: ReferenceCase, folder: Path, report: Report) -> dict[str, Any]:
+    """Solve every passage and write input.toml, its table of coefficients, summary.json and report.html.
+
+    Returns the summary. Raises FilmNotConverged where a flow has no steady state that Newton's method finds.
+    """
+    (folder / "input.toml").write_text(case.text, encoding="utf-8")
+    solved = []
+    for number, passage in enumerate(case.passages):
+        report(number, len(case.passages), f"solving {passage.words}")
+        solved.append(_solved(case, passage))
+    write_coefficients(folder / FILES[case.kind], case, solved)
+    summary = reference_summary(case, solved)
+    write_json(folder / "summary.json", summary)
+    from swashfilm.runs.reference.page import write_reference_page
+    from swashfilm.runs.reference.plots import flow_plots
+
+    for name, png in flow_plots(solved).items():
+        (folder / name).write_bytes(png)
+    write_reference_page(folder)
+    report(len(case.passages), len(case.passages), "done")
+    return summary
+
+
+def _solved(case: ReferenceCase, passage: Passage) -> Solved:
+    coarse = passage.solve(case.reynolds, max(FEWEST_CELLS, case.cells // 2))
+    fine = passage.solve(case.reynolds, case.cells)
+    size = fine.resistance * (fine.length + fine.extra_length) + 0.5 * np.abs(fine.loss_factor) * fine.reynolds
+    return Solved(passage, fine, np.abs(coarse.drop - fine.drop) / size)
+
+
+def write_coefficients(path: Path, case: ReferenceCase, solved: Sequence[Solved]) -> None:
+    """Write the table that pump files read, below what it comes from and where it holds.
+
+    Of ports without the row of Re = 0, where the coefficient is zero.
+    """
+    columns: dict[str, list[float]] = {}
+    for row in _rows(case, solved):
+        for head, value in row.items():
+            columns.setdefault(head, []).append(value)
+    comments = {
+        "source": f"swashfilm {version('swashfilm')} reference {case.name}: Navier-Stokes by Taylor-Hood elements",
+        "of": "; ".join(one.passage.words for one in solved),
+        "holds for": LIMITS[case.kind],
+        "mesh error": f"{100.0 * max(one.mesh_error.max() for one in solved):.2g} % of the pressure drop at most",
+    }
+    write_table(path, comments, {head: np.array(values) for head, values in columns.items()})
+
+
+def _rows(case: ReferenceCase, solved: Sequence[Solved]) -> Iterator[dict[str, float]]:
+    for one in solved:
+        found = one.correction
+        for k, number in enumerate(found.reynolds):
+            row = one.passage.sizes | {"reynolds [1]": one.passage.scale * float(number)}
+            if case.kind not in OF_PORTS:
+                yield row | {
+                    "extra_length [1]": found.extra_length,
+                    "loss_factor [1]": float(found.loss_factor[k]),
+                }
+            elif number > 0.0:
+                yield row | {"flow_coefficient [1]": float(found.flow_coefficient[k])}
+
+
+def reference_summary(case: ReferenceCase, solved: Sequence[Solved]) -> dict[str, Any]:
+    """Every solved number: of each passage its sizes, extra length, and rows over the Reynolds number."""
+    return {
+        "format": 1,
+        "kind": "reference",
+        "name": case.name,
+        "passage": case.kind.value,
+        "holds_for": LIMITS[case.kind],
+        "cells": case.cells,
+        "table": FILES[case.kind],
+        "passages": [_passage_record(one, case.kind in OF_PORTS) for one in solved],
+        "warnings": [],
+    }
+
+
+def _passage_record(one: Solved, of_port: bool) -> dict[str, Any]:
+    found = one.correction
+    drops, film = found.drop, found.resistance * found.length
+    return {
+        "words": one.passage.words,
+        "unknowns": found.flow.problem.space.size,
+        "length_ratio": found.length,
+        "extra_length": found.extra_length,
+        "rows": [
+            {
+                "reynolds": float(found.reynolds[k]),
+                "loss_factor": float(found.loss_factor[k]),
+                "flow_coefficient": float(found.flow_coefficient[k]) if of_port else None,
+                "pressure_drop_over_film_equation": float(drops[k] / film) if film > 0.0 else None,
+                "whole_extra_length": float(drops[k] / found.resistance - found.length),
+                "mesh_error": float(one.mesh_error[k]),
+            }
+            for k in range(found.reynolds.size)
+        ],
+    }

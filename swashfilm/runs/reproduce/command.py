@@ -1,0 +1,167 @@
+"""The command `swashfilm reproduce`: the paper's figures and tables, its statements beside our numbers."""
+
+from __future__ import annotations
+
+import argparse
+import json
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from swashfilm.case.gap.physics_switches import SWITCHES, add_switches
+from swashfilm.console.inputs import COMMAND_LINE
+from swashfilm.console.terminal import show, show_table
+from system.inputs.faults import Fault, InputFaults, nearest_choice
+
+if TYPE_CHECKING:
+    from diagnosis.recording.model import Recording
+    from swashfilm.runs.reproduce.run import ReproduceAsked
+
+REPRODUCE_OPTIONS = ["--fidelity", "--pump", "--recording", "--page", "--workers", "--steps", "--finer", *SWITCHES]
+ALL, LIST = "all", "list"
+_LUMPED, _FLOATING = "lumped", "floating"
+_TUNED = "fig13"
+
+
+def add_reproduce_options(command: argparse.ArgumentParser) -> None:
+    """The words that `swashfilm reproduce` takes."""
+    command.add_argument(
+        "figure", nargs="?", default=ALL, metavar="FIGURE", help="fig2, table1, .., all of them (all), or list"
+    )
+    command.add_argument(
+        "--fidelity", metavar="{lumped,films,floating}", default=_LUMPED,
+        help="films of given thickness (seconds), solved at given positions (minutes), or floating (fig8, fig9)",
+    )  # fmt: skip
+    command.add_argument(
+        "--pump", metavar="PUMP", help="built-in name or pump file (ref90; whose gaps float: ref90_floating)"
+    )
+    command.add_argument(
+        "--recording", type=Path, metavar="RECORDING",
+        help="fig13: tune to this bench's readings (folder of a recording.toml), not to made ones",
+    )  # fmt: skip
+    command.add_argument("--page", type=Path, metavar="FILE.md", help="write the page there as Markdown too")
+    command.add_argument("--workers", metavar="N", help="processes that solve points side by side (1)")
+    command.add_argument("--steps", metavar="N", help="floating gaps: angles of a turn that are reported (360)")
+    command.add_argument("--finer", metavar="X", help="floating gaps: times the usual cells (.5; --rigid: 1)")
+    add_switches(command)
+
+
+def run_reproduce_command(options: argparse.Namespace) -> int:
+    """Run `swashfilm reproduce` and return its exit code; raises InputFaults with what is wrong in the words."""
+    if options.figure == LIST:
+        return _list()
+    asked, workers = _asked(options)
+    from swashfilm.console.progress import progress
+    from swashfilm.output.run_folder import final_folder, run_folder
+    from swashfilm.runs.reproduce.page import count_words, markdown_page, verdict_rows
+    from swashfilm.runs.reproduce.run import run_reproduce
+    from system.work.processes import crew
+
+    with (
+        crew(workers) as hands,
+        run_folder("reproduce", options.output) as folder,
+        progress(1, f"reproduce {options.figure}") as report,
+    ):
+        summary = run_reproduce(asked, hands, folder, report)
+        rows = json.loads((folder / "claims.json").read_text("utf-8"))["claims"]
+        if options.page is not None:
+            _write_page(options.page, markdown_page(folder, _command(options)))
+    head = ("statement", "reading", "the paper", "here", "verdict")
+    show_table(f"The paper by {asked.pump.name}, {asked.fidelity.value}", [head, *verdict_rows(rows)])
+    for figure in summary["figures"]:
+        if all(row["figure"] != figure["name"] for row in rows):
+            show(f"{figure['name']}: {' '.join(figure['remarks'])}")
+    if summary["about"]:
+        show(summary["about"])
+    show(count_words(rows))
+    show(f"results in {final_folder(folder)}")
+    return 0
+
+
+def _list() -> int:
+    from system.paper.figure import DRAWINGS, Figure
+
+    show_table("Figures and tables", [(figure.value, figure.title) for figure in Figure])
+    show_table("Drawings, without numbers", list(DRAWINGS.items()))
+    return 0
+
+
+def _asked(options: argparse.Namespace) -> tuple[ReproduceAsked, int]:
+    """What a command line means, and how many workers; raises InputFaults with every fault at once."""
+    from swashfilm.console.floating_options import alike_faults, floating_faults, floating_options
+    from swashfilm.runs.reproduce.run import ReproduceAsked
+    from system.paper.figure import Figure
+    from system.paper.reproduce import PaperFidelity
+    from system.pump_file.file import load_pump
+
+    faults = _word_faults(options)
+    try:
+        pump = load_pump(_pump_of(options))
+    except InputFaults as reason:
+        raise InputFaults(reason.source, [*faults, *reason.faults], reason.lines) from None
+    faults += floating_faults(options, pump, options.fidelity)
+    if options.fidelity != _LUMPED:
+        faults += alike_faults(pump)
+    if faults:
+        raise InputFaults(COMMAND_LINE, faults)
+    fidelity, recording = PaperFidelity(options.fidelity), _recording_of(options)
+    figures = fidelity.figures if options.figure == ALL else (Figure.named(options.figure),)
+    asked = ReproduceAsked(pump, figures, fidelity, floating_options(options), recording)
+    return asked, int(options.workers or 1)
+
+
+def _recording_of(options: argparse.Namespace) -> Recording | None:
+    """The recording that Fig. 13 is tuned to, checked; raises InputFaults where nothing can be made of it."""
+    if options.recording is None:
+        return None
+    from swashfilm.runs.reproduce.recorded_coefficients import recording_for_fig13
+
+    return recording_for_fig13(options.recording, _pump_of(options))
+
+
+def _pump_of(options: argparse.Namespace) -> str:
+    """The pump that is named, else the reference pump, of which floating takes the one whose parts can float."""
+    return options.pump or ("ref90_floating" if options.fidelity == _FLOATING else "ref90")
+
+
+def _word_faults(options: argparse.Namespace) -> list[Fault]:
+    """What is wrong with the words, whatever the pump."""
+    from system.paper.figure import DRAWINGS, Figure
+    from system.paper.reproduce import PaperFidelity
+
+    faults: list[Fault] = []
+    figures = [ALL, LIST, *(figure.value for figure in Figure)]
+    if options.figure in DRAWINGS:
+        told = f"one of {', '.join(figures)}"
+        faults.append(Fault("FIGURE", f"{options.figure}, a drawing ({DRAWINGS[options.figure]})", told))
+    elif options.figure not in figures:
+        near = nearest_choice(options.figure, figures)
+        faults.append(Fault("FIGURE", repr(options.figure), f"one of {', '.join(figures)}", near))
+    fidelities = [fidelity.value for fidelity in PaperFidelity]
+    if options.fidelity not in fidelities:
+        near = nearest_choice(options.fidelity, fidelities)
+        faults.append(Fault("--fidelity", repr(options.fidelity), f"one of {', '.join(fidelities)}", near))
+    if options.recording is not None and (options.figure not in (ALL, _TUNED) or options.fidelity != _LUMPED):
+        asked = f"with {options.figure}, --fidelity {options.fidelity}"
+        faults.append(Fault("--recording", asked, f"{_TUNED} or {ALL}, --fidelity {_LUMPED}: what is tuned to it"))
+    workers = options.workers
+    if workers is not None and not (workers.isdecimal() and 1 <= int(workers) <= 256):
+        faults.append(Fault("--workers", repr(workers), "a number, 1 to 256"))
+    return faults
+
+
+def _command(options: argparse.Namespace) -> str:
+    """The command that makes the same page again."""
+    words = ("--fidelity", "--pump", "--recording", "--steps", "--finer")
+    given = {name: getattr(options, name[2:]) for name in words}
+    said = [f" {name} {text}" for name, text in given.items() if text not in (None, _LUMPED)]
+    said += [f" {switch}" for switch in SWITCHES if getattr(options, switch[2:].replace("-", "_"))]
+    return f"swashfilm reproduce {options.figure}{''.join(said)} --page {options.page}"
+
+
+def _write_page(path: Path, text: str) -> None:
+    try:
+        path.write_text(text, encoding="utf-8")
+    except OSError as reason:
+        raise InputFaults(
+            COMMAND_LINE, [Fault("--page", f"{path}: {reason.strerror}", "a file to write")]
+        ) from None

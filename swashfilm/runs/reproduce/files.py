@@ -1,0 +1,123 @@
+"""Files of a reproduction: claims as JSON and table, the curves' numbers, and pictures."""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Iterator, Sequence
+from math import isfinite
+from pathlib import Path
+from typing import Any
+
+from swashfilm.output.run_folder import write_json
+from swashfilm.runs.reproduce.plots import figure_picture
+from system.paper.figure import Axis, Panel
+from system.paper.judge import FigureResult, Judged, Range
+
+CLAIMS, DATA, PLOTS = "claims.json", "data", "plots"
+Row = dict[str, Any]
+
+
+def write_reproduction(folder: Path, results: Sequence[FigureResult], summary: Row) -> None:
+    """Write claims.json, claims.csv, data/FIGURE.csv, plots/FIGURE.png and summary.json."""
+    rows = claim_rows(results, summary["fidelity"])
+    write_json(folder / CLAIMS, {"format": 1, "claims": rows})
+    _write_table(folder / "claims.csv", rows)
+    for result in (result for result in results if result.panels):
+        for name in (DATA, PLOTS):
+            (folder / name).mkdir(exist_ok=True)
+        _write_curves(folder / DATA / f"{result.figure.value}.csv", result.panels)
+        (folder / PLOTS / f"{result.figure.value}.png").write_bytes(figure_picture(result.panels))
+    write_json(folder / "summary.json", summary)
+
+
+def claim_rows(results: Sequence[FigureResult], fidelity: str) -> list[Row]:
+    """Each judged statement as claims.json has it, its readings together; an end that is none is null."""
+    by_claim: dict[str, list[Judged]] = {}
+    for result in results:
+        for one in result.judged:
+            by_claim.setdefault(one.claim.id, []).append(one)
+    return [_claim_row(one, fidelity) for readings in by_claim.values() for one in readings]
+
+
+def _claim_row(one: Judged, fidelity: str) -> Row:
+    claim, impossible = one.claim, one.impossible
+    return {
+        "id": claim.id,
+        "figure": claim.figure.value,
+        "words": claim.words,
+        "quantity": claim.quantity,
+        "unit": claim.unit.si,
+        "expected": _ends(claim.expected),
+        "expected_text": claim.expected.text(claim.unit, 5),
+        "taken": claim.taken,
+        "fidelity": fidelity,
+        "reading": one.reading.value if one.reading else "",
+        "found": _ends(one.found),
+        "found_text": one.found.text(claim.unit),
+        "verdict": one.verdict.value,
+        "reason": one.reason,
+        "impossible": None
+        if impossible is None
+        else {
+            "quantity": impossible.quantity,
+            "unit": impossible.unit.si,
+            "value": impossible.value,
+            "bound": _ends(impossible.bound),
+            "text": impossible.text,
+        },
+    }
+
+
+def _ends(of: Range) -> list[float | None]:
+    return [end if isfinite(end) else None for end in (of.low, of.high)]
+
+
+def figure_row(result: FigureResult) -> Row:
+    """A figure as summary.json has it."""
+    figure = result.figure
+    return {
+        "name": figure.value,
+        "title": figure.title,
+        "picture": bool(result.panels),
+        "remarks": list(result.remarks),
+    }
+
+
+def _write_table(path: Path, rows: Sequence[Row]) -> None:
+    """One row a statement and reading; ranges as two columns in SI."""
+    head = ["id", "figure", "words", "quantity", "unit", "expected low", "expected high", "fidelity", "reading",
+            "found low", "found high", "verdict", "reason", "impossible"]  # fmt: skip
+    with path.open("w", encoding="utf-8", newline="") as file:
+        writer = csv.writer(file)
+        writer.writerow(head)
+        for row in rows:
+            impossible = row["impossible"]["text"] if row["impossible"] else ""
+            plain = [row[name] for name in ("id", "figure", "words", "quantity", "unit")]
+            ends = [*row["expected"], row["fidelity"], row["reading"], *row["found"]]
+            writer.writerow([*plain, *ends, row["verdict"], row["reason"], impossible])
+
+
+def _write_curves(path: Path, panels: Sequence[Panel]) -> None:
+    """All points of all curves and fields, in the units they are drawn in."""
+    with path.open("w", encoding="utf-8", newline="") as file:
+        writer = csv.writer(file)
+        writer.writerow(["panel", "curve", "x", "x unit", "y", "y unit", "one sigma of y", "value", "value unit"])
+        for panel in panels:
+            writer.writerows(_points(panel))
+
+
+def _points(panel: Panel) -> Iterator[list[str]]:
+    for curve in panel.curves:
+        widths = [""] * len(curve.y) if curve.sigma is None else [_number(one, panel.y)[0] for one in curve.sigma]
+        for x, y, width in zip(curve.x, curve.y, widths, strict=True):
+            yield [panel.title, curve.name, *_number(x, panel.x), *_number(y, panel.y), width, "", ""]
+    if panel.field is not None:
+        field = panel.field
+        for y, row in zip(field.y, field.values, strict=True):
+            for x, value in zip(field.x, row, strict=True):
+                place = [*_number(x, panel.x), *_number(y, panel.y)]
+                yield [panel.title, field.axis.words, *place, "", *_number(value, field.axis)]
+
+
+def _number(value: float, axis: Axis) -> tuple[str, str]:
+    return f"{axis.unit.factor * value:.8g}", axis.unit.shown

@@ -1,0 +1,117 @@
+"""Pages of a reproduction, from its run folder's own files: report.html, and the same in Markdown."""
+
+from __future__ import annotations
+
+import base64
+import json
+from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
+from itertools import groupby
+from pathlib import Path
+from typing import Any
+
+from swashfilm.runs.reproduce.files import CLAIMS, PLOTS
+from system.inputs.faults import Fault, InputFaults
+from system.paper.judge import Verdict
+
+FILES = ("summary.json", CLAIMS, "resolved.toml")
+HEAD = """
+Each statement of the paper's text stands with the range that it is held to (a number in print is met where it
+agrees in its last digit; what a word without a number is taken for is said), what is found here, and the
+verdict: reached, missed, or contradicted by physics, which takes an impossibility that is computed anew.
+Losses are read two ways: with the films' shear beside Coulomb coefficients, REF90's loss model, and by mixed
+coefficients alone, as the paper has them. Pressures are gauge pressures at the delivery port."""
+Row = Mapping[str, Any]
+
+
+def write_reproduce_page(folder: Path) -> Path:
+    """Write report.html of a reproduction; raises InputFaults where one of its files is not there."""
+    from jinja2 import Environment, PackageLoader
+
+    missing = [name for name in FILES if not (folder / name).is_file()]
+    if missing:
+        faults = [Fault(name, "no such file", "a reproduction's run folder") for name in missing]
+        raise InputFaults(str(folder), faults)
+    summary, rows = _read(folder)
+    template = Environment(loader=PackageLoader("swashfilm.output"), autoescape=True).get_template(
+        "reproduce.html.jinja"
+    )
+    page = template.render(
+        summary=summary,
+        counts=count_words(rows),
+        claims={figure["name"]: list(statements(rows, figure["name"])) for figure in summary["figures"]},
+        pictures={
+            figure["name"]: base64.b64encode((folder / PLOTS / f"{figure['name']}.png").read_bytes()).decode(
+                "ascii"
+            )
+            for figure in summary["figures"]
+            if figure["picture"]
+        },
+        resolved=(folder / "resolved.toml").read_text("utf-8"),
+    )
+    path = folder / "report.html"
+    path.write_text(page, encoding="utf-8")
+    return path
+
+
+def _read(folder: Path) -> tuple[Row, list[Row]]:
+    summary = json.loads((folder / "summary.json").read_text("utf-8"))
+    return summary, json.loads((folder / CLAIMS).read_text("utf-8"))["claims"]
+
+
+def statements(rows: Sequence[Row], figure: str) -> Iterator[tuple[Row, list[Row]]]:
+    """The statements of a figure, each with what was found in each reading."""
+    own = (row for row in rows if row["figure"] == figure)
+    for _, found in groupby(own, key=lambda row: row["id"]):
+        listed = list(found)
+        yield listed[0], listed
+
+
+def verdict_rows(rows: Sequence[Row]) -> Iterator[tuple[str, ...]]:
+    """(statement, reading, what the paper says, what was found, verdict) for a terminal."""
+    for row in rows:
+        yield row["id"], row["reading"], row["expected_text"], row["found_text"], row["verdict"]
+
+
+def count_words(rows: Sequence[Row]) -> str:
+    """How many statements came out how, each reading by itself."""
+    found = Counter(row["verdict"] for row in rows)
+    return ", ".join(f"{found[verdict.value]} {verdict.value}" for verdict in Verdict)
+
+
+def why(row: Row) -> str:
+    """Reason and impossibility of a verdict, in words."""
+    impossible = row["impossible"]["text"] if row["impossible"] else ""
+    return "; ".join(text for text in (row["reason"], impossible) if text)
+
+
+def markdown_page(folder: Path, command: str) -> str:
+    """The page in Markdown, without pictures; `command` is what made it."""
+    summary, rows = _read(folder)
+    lines = [
+        f"# The paper, figure by figure: {summary['pump']}, {summary['fidelity']}",
+        "",
+        f"Written by `{command}`; nothing in it is typed by hand.",
+        HEAD,
+        *(["", summary["about"]] if summary["about"] else []),
+        "",
+        f"{count_words(rows)}; each reading counts by itself.",
+    ]
+    for figure in summary["figures"]:
+        lines += ["", f"## {figure['name']}: {figure['title']}", ""]
+        lines += [remark + "\n" for remark in figure["remarks"]]
+        for claim, found in statements(rows, figure["name"]):
+            lines += _statement(claim, found)
+    drawings = ", ".join(f"{name} ({title})" for name, title in summary["drawings"].items())
+    return "\n".join([*lines, "", "## Drawings", "", f"Without numbers, not reproduced: {drawings}."]) + "\n"
+
+
+def _statement(claim: Row, found: Sequence[Row]) -> Iterator[str]:
+    taken = f" ({claim['taken']})" if claim["taken"] else ""
+    yield f'**{claim["id"]}** "{claim["words"]}" - {claim["quantity"]}: held to {claim["expected_text"]}{taken}.'
+    yield ""
+    for row in found:
+        reading = f"{row['reading']}: " if row["reading"] else ""
+        reason = why(row)
+        yield f"- {reading}{row['found_text']}: **{row['verdict']}**" + (f"; {reason}." if reason else ".")
+    yield ""

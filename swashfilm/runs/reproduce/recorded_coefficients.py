@@ -1,0 +1,42 @@
+"""Fig. 13 of the paper by a recording: coefficients tuned to what a bench has read."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from diagnosis.recording.model import Recording
+from diagnosis.study.scaled_pump import load_known_pump
+from swashfilm.runs.calibrate.run import calibrate
+from swashfilm.runs.diagnose.run import checked_recording
+from system.bench.calibration.equation_21 import LOSS_CHANNELS
+from system.description.pump import PumpDescription
+from system.inputs.faults import Fault, InputFaults
+from system.paper.figures.coefficients import fig13_of
+from system.paper.judge import FigureResult
+from system.paper.points import Reading
+from system.work.progress import Report
+
+
+def recording_for_fig13(path: Path, pump: str) -> Recording:
+    """The recording of a path, checked against a pump by name or file; raises InputFaults where it will not do."""
+    recording = checked_recording(path, load_known_pump(pump))
+    missing = [one.value for one in LOSS_CHANNELS if recording.channel(one) is None]
+    if missing:
+        needed = f"{', '.join(one.value for one in LOSS_CHANNELS)}: Eq. (2) is made of them"
+        raise InputFaults(str(path), [Fault("[channel]", f"no {', '.join(missing)}", needed)])
+    return recording
+
+
+def recorded_fig13(pump: PumpDescription, recording: Recording, report: Report) -> FigureResult:
+    """Eq. (21) tuned to a checked recording as `swashfilm calibrate` does, all else of the pump as fitted.
+
+    Raises InputFaults where Eq. (2) cannot be had of it or it has too few readings, NotConverged.
+    """
+    found = calibrate(pump, recording, (), False, report)
+    title = recording.title or "recording"
+    if not found.equation:
+        raise InputFaults(title, [Fault("--recording", "; ".join(found.notes), "what Eq. (2) is made of")])
+    count = len(found.points.speed)
+    told = f'Tuned to the recording "{title}", {count} points; all else of the pump as it fits them.'
+    notes = f"What was taken: {'; '.join(found.notes)}."
+    return fig13_of({Reading.WITH_SHEAR: found.equation, Reading.MIXED: found.mixed}, (told, notes))

@@ -1,0 +1,1 @@
+"""`swashfilm table`: response tables."""

@@ -1,0 +1,254 @@
+"""The command `swashfilm table`: what it takes, and what it prints."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Callable, Collection
+from dataclasses import replace
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from swashfilm.case.gap.physics_switches import SWITCHES, add_switches, switched_keys
+from swashfilm.console.inputs import COMMAND_LINE
+from swashfilm.console.terminal import show, show_table
+from system.inputs.faults import Fault, InputFaults, nearest_choice
+from system.inputs.units import with_point
+
+if TYPE_CHECKING:
+    from swashfilm.runs.table.gap_case import GapTableCase
+    from system.description.pump import PumpDescription
+    from system.points.table.build import Range, TableCase
+    from system.work.progress import Report
+    from system.work.sampled_points import Asked
+
+_SOURCE = "films"
+RANGES = {
+    "--speed": ("operating.speed", "500rpm..2500rpm", "shaft speeds (0.2 .. 1.2 of the rated one)"),
+    "--pressure": (
+        "operating.pressure",
+        "5MPa..40MPa",
+        "delivery pressures, gauge (0.05 beyond inlet and case .. 1.15 of the rated one)",
+    ),
+    "--displacement": ("operating.displacement_ratio", "0.1..1.0", "shares of the full displacement (0.1 .. 1)"),
+    "--temperature": (
+        "operating.temperature",
+        "20degC..100degC",
+        "temperatures, for the oil's viscosity (20 .. 100 degC)",
+    ),
+}
+"""Path of a pump's key, example and meaning of what a table ranges over; a single value holds it."""
+HELD = {
+    "--inlet-pressure": ("operating.inlet_pressure", "25bar", "pressure at the inlet, gauge"),
+    "--case-pressure": ("operating.case_pressure", "1.5bar", "pressure in the case, gauge"),
+}
+TABLE_OPTIONS = [
+    *RANGES,
+    *HELD,
+    "--source",
+    "--points",
+    "--held-out",
+    "--workers",
+    "--steps",
+    "--finer",
+    *SWITCHES,
+]
+
+
+def add_table_options(command: argparse.ArgumentParser) -> None:
+    """Give the command what it takes."""
+    command.add_argument(
+        "pump", metavar="PUMP", help="built-in name (ref90) or pump file; or a gap's case with a table [table]"
+    )
+    for option, (_, example, what) in RANGES.items():
+        command.add_argument(option, metavar=example, help=f"{what}; one value holds it")
+    for option, (_, example, what) in HELD.items():
+        command.add_argument(option, metavar=example, help=f"{what}; the pump's own where left out")
+    command.add_argument(
+        "--source", metavar="{films,floating}", default=_SOURCE, help="fidelity to condense (films)"
+    )
+    command.add_argument("--steps", metavar="N", help="of floating gaps: steps a turn (360)")
+    command.add_argument("--finer", metavar="X", help="of floating gaps: times the usual cells (.5; --rigid: 1)")
+    add_switches(command)
+    command.add_argument(
+        "--points", metavar="N", help="points to learn from, corners of the box among them (120 of four inputs)"
+    )
+    command.add_argument("--held-out", metavar="N", help="points to take the error from (a quarter of these)")
+    command.add_argument("--workers", metavar="N", help="processes that solve points side by side (1)")
+
+
+def run_table_command(options: argparse.Namespace) -> int:
+    """Run `swashfilm table` and return its exit code; raises InputFaults with what is wrong in words and file."""
+    from swashfilm.runs.table.run import run_table
+
+    if is_film_case(options.pump):
+        from swashfilm.runs.table.gap_run import run_gap_table
+
+        asked, workers = _gap_case(options)
+        return _built(asked.name, asked, options, partial(run_gap_table, asked, workers=workers))
+    case, workers = _case(options)
+    return _built(case.pump.name, case, options, partial(run_table, case, workers=workers))
+
+
+def is_film_case(path: str) -> bool:
+    """Whether a file there is a film case and no pump."""
+    from system.inputs.toml_table import read_toml
+
+    return Path(path).is_file() and bool({"film", "gap"} & set(read_toml(Path(path))[1]))
+
+
+def _built(
+    of: str, asked: Asked, options: argparse.Namespace, run: Callable[[Path, Report], dict[str, Any]]
+) -> int:
+    """Run in a folder of its own and tell what came of it."""
+    from swashfilm.console.progress import progress
+    from swashfilm.output.run_folder import Interrupted, final_folder, run_folder
+    from swashfilm.runs.table.page import error_rows, held_rows, number_rows
+
+    with (
+        run_folder(f"table-{of}", options.output) as folder,
+        progress(asked.learnt + asked.held_out, f"table {of}") as report,
+    ):
+        try:
+            summary = run(folder, report)
+        except KeyboardInterrupt:
+            raise Interrupted(None, "points solved are kept; the same command goes on with them") from None
+    show_table(f"Table of {of}", held_rows(summary))
+    if numbers := [*number_rows(summary)]:
+        show_table(
+            "What runs by the table miss at held-out points", [("number", "rms", "largest", "at"), *numbers]
+        )
+    show_table("Error of held-out points", [("output", "rms", "largest", "at"), *error_rows(summary)])
+    for warning in summary["warnings"]:
+        show(f"warning: {warning}")
+    show(f"results in {final_folder(folder)}")
+    return 0
+
+
+def _gap_case(options: argparse.Namespace) -> tuple[GapTableCase, int]:
+    """The gap's table that a command line means, and how many workers; raises InputFaults with every fault."""
+    from swashfilm.runs.table.gap_case import load_gap_table
+
+    given = {option: _given(options, option) for option in [*RANGES, *HELD, "--steps", "--finer"]}
+    given["--source"] = None if options.source == _SOURCE else options.source
+    stated = "a key of [table] or of the case"
+    faults = [Fault(name, "an option beside a gap's case", stated) for name, text in given.items() if text]
+    case = load_gap_table(Path(options.pump), switched_keys(options))
+    learnt, held_out, workers = _counts(options, faults, len(case.axes))
+    if faults:
+        raise InputFaults(COMMAND_LINE, faults)
+    return replace(case, learnt=learnt, held_out=held_out), workers
+
+
+def _case(options: argparse.Namespace) -> tuple[TableCase, int]:
+    """The case that a command line means, and how many workers; raises InputFaults with every fault at once."""
+    from swashfilm.console.floating_options import alike_faults, floating_faults, floating_options
+    from system.points.table import sources as table_sources
+    from system.points.table.build import TableCase, table_axes
+    from system.points.table.response_table import INPUTS
+    from system.points.table.sources import Source
+
+    faults: list[Fault] = []
+    single = {option for option in RANGES if ".." not in (_given(options, option) or "..")}
+    counts = _counts(options, faults, max(1, len(RANGES) - len(single)))
+    ranges = _ranges(options, faults, single)
+    sources = [source.value for source in Source]
+    if options.source not in sources:
+        nearest = nearest_choice(options.source, sources)
+        faults.append(Fault("--source", repr(options.source), f"one of {', '.join(sources)}", nearest))
+    if len(single) == len(RANGES):
+        faults.append(Fault(", ".join(RANGES), "single values alone", "at least one range to learn over"))
+    pump = _pump(options, faults, single)
+    if faults := [*floating_faults(options, pump, options.source, "--source"), *alike_faults(pump)]:
+        raise InputFaults(COMMAND_LINE, faults)
+    solver = table_sources.solver_of(Source(options.source), floating_options(options))
+    held = [name for name, option in zip(INPUTS, RANGES, strict=True) if option in single]
+    speeds, pressures, ratios, temperatures = ranges
+    axes = table_axes(pump, speeds, pressures, ratios, temperatures, held)
+    return TableCase(pump, solver, axes, *counts[:2]), counts[2]
+
+
+def _counts(options: argparse.Namespace, faults: list[Fault], inputs: int) -> tuple[int, int, int]:
+    """Points to learn from and to hold out, and workers."""
+    from system.work.sampled_points import FEWEST_HELD_OUT, usual_counts
+
+    learnt, held_out = usual_counts(inputs)
+    return (
+        _count(faults, "--points", options.points, learnt, 2 ** (inputs + 1)),
+        _count(faults, "--held-out", options.held_out, held_out, FEWEST_HELD_OUT),
+        _count(faults, "--workers", options.workers, 1, 1),
+    )
+
+
+def _pump(options: argparse.Namespace, faults: list[Fault], single: Collection[str]) -> PumpDescription:
+    """The pump, with what a table holds; raises InputFaults where it or `faults` has any."""
+    from system.pump_file.file import load_pump
+
+    keys = HELD | {option: RANGES[option] for option in single}
+    stated: dict[str, object] = {
+        path: text for option, (path, *_) in keys.items() if (text := _given(options, option)) is not None
+    }
+    if "--displacement" in single:
+        try:
+            stated["operating.displacement_ratio"] = float(options.displacement)
+        except ValueError:
+            text = options.displacement
+            faults.append(Fault("--displacement", repr(text), "a bare number such as 0.8", with_point(text)))
+            del stated["operating.displacement_ratio"]
+    try:
+        pump = load_pump(options.pump, stated)
+    except InputFaults as reason:
+        option_of = {path: option for option, (path, *_) in keys.items()}
+        moved = [Fault(option_of.get(f.path, f.path), f.found, f.expected, f.nearest) for f in reason.faults]
+        raise InputFaults(reason.source, [*faults, *moved], reason.lines) from None
+    if faults:
+        raise InputFaults(COMMAND_LINE, faults)
+    return pump
+
+
+def _ranges(options: argparse.Namespace, faults: list[Fault], single: Collection[str]) -> list[Range | None]:
+    from system.inputs.units import Dimension
+
+    dimensions = (Dimension.ANGULAR_SPEED, Dimension.PRESSURE, None, Dimension.TEMPERATURE)
+    return [
+        _range(faults, option, text, dimension, example)
+        if option not in single and (text := _given(options, option)) is not None
+        else None
+        for (option, (_, example, _)), dimension in zip(RANGES.items(), dimensions, strict=True)
+    ]
+
+
+def _range(faults: list[Fault], option: str, text: str, dimension: object, example: str) -> Range | None:
+    """MIN..MAX in SI; None after a fault."""
+    from system.inputs.units import Dimension, QuantityError, parse_quantity
+
+    ends = text.split("..")
+    try:
+        if len(ends) != 2:
+            raise QuantityError(repr(text), "two ends with .. between them")
+        low, high = (
+            parse_quantity(end, dimension) if isinstance(dimension, Dimension) else float(end) for end in ends
+        )
+        if not low < high:
+            raise QuantityError(repr(text), "the lower end first")
+    except QuantityError as reason:
+        faults.append(Fault(option, reason.found, f"{reason.expected}: {example}", reason.nearest))
+    except ValueError:
+        faults.append(Fault(option, repr(text), f"two bare numbers: {example}"))
+    else:
+        return low, high
+    return None
+
+
+def _count(faults: list[Fault], option: str, text: str | None, default: int, least: int) -> int:
+    if text is None:
+        return default
+    if text.isdecimal() and least <= int(text) <= 10000:
+        return int(text)
+    faults.append(Fault(option, repr(text), f"a number, {least} to 10000"))
+    return default
+
+
+def _given(options: argparse.Namespace, option: str) -> str | None:
+    found: str | None = getattr(options, option[2:].replace("-", "_"))
+    return found

@@ -1,0 +1,106 @@
+"""The page of a response table: report.html made from the run folder's own files."""
+
+from __future__ import annotations
+
+import base64
+import json
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from gaps.response import Measure
+from swashfilm.output.headline import named
+from swashfilm.runs.table.plots import table_plots
+from system.inputs.faults import Fault, InputFaults
+from system.inputs.units import Dimension, format_quantity
+from system.points.table.store import read_response
+
+KINDS = NUMBERS, OUTPUTS = "numbers", "outputs"
+"""Of the rows of a summary: what a run of a pump's table tells, and what its response is learnt of."""
+FILES = ("summary.json", "resolved.toml", "table.json", "table.npz")
+
+
+def write_table_page(folder: Path) -> Path:
+    """Write report.html of a table's run folder; raises InputFaults where one of its files is not there."""
+    from jinja2 import Environment, PackageLoader
+
+    missing = [name for name in FILES if not (folder / name).is_file()]
+    if missing:
+        raise InputFaults(str(folder), [Fault(name, "no such file", "a table's run folder") for name in missing])
+    summary = json.loads((folder / "summary.json").read_text("utf-8"))
+    response = read_response(folder / "table.json", summary["table_format"], lambda _, response: response)
+    pictures = table_plots(response, summary)
+    template = Environment(loader=PackageLoader("swashfilm.output"), autoescape=True).get_template(
+        "table.html.jinja"
+    )
+    page = template.render(
+        summary=summary,
+        held=list(held_rows(summary)),
+        numbers=list(number_rows(summary)),
+        errors=list(error_rows(summary)),
+        meanings=[(_words(row), row["meaning"]) for kind in KINDS for row in summary.get(kind, [])],
+        failed=[(place_text(summary["axes"], one["at"]), one["reason"]) for one in summary["failed"]],
+        pictures={text: base64.b64encode(png).decode("ascii") for text, png in pictures.items()},
+        resolved=(folder / "resolved.toml").read_text("utf-8"),
+    )
+    path = folder / "report.html"
+    path.write_text(page, encoding="utf-8")
+    return path
+
+
+def held_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
+    """(what, value with its unit): where a table comes from, what it is held at, and its box."""
+    yield from summary["condensed"].items()
+    for axis in summary["axes"]:
+        yield (
+            axis["name"].replace("_", " "),
+            " .. ".join(input_text(axis, axis[end]) for end in ("lower", "upper")),
+        )
+    points = summary["points"]
+    failed = f", {len(summary['failed'])} failed" if summary["failed"] else ""
+    yield "points", f"{points['learnt']} learnt, {points['held_out']} held out{failed}"
+    yield "computing, a point", f"{summary['seconds']:.3g} s"
+
+
+def error_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:
+    """(output, rms, largest error of held-out points, where the largest is)."""
+    yield from _rows_of(summary, OUTPUTS)
+
+
+def number_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:
+    """The same of the pump's numbers by runs of the table; none of a gap's table."""
+    yield from _rows_of(summary, NUMBERS)
+
+
+def _rows_of(summary: Mapping[str, Any], kind: str) -> Iterator[tuple[str, ...]]:
+    for row in summary.get(kind, []):
+        errors = (_error_text(row["measure"], row[key]) for key in ("held_out_rms", "held_out_largest"))
+        yield _words(row), *errors, place_text(summary["axes"], row["held_out_worst_at"])
+
+
+def _words(row: Mapping[str, Any]) -> str:
+    return named(row["name"])[0].replace("_", " ")
+
+
+def _error_text(measure: str, error: float) -> str:
+    match Measure(measure):
+        case Measure.RELATIVE:
+            return f"{100.0 * error:.2f} %"
+        case Measure.OF_LARGEST:
+            return f"{100.0 * error:.2f} % of the largest"
+        case Measure.ABSOLUTE:
+            return f"{error:.4f}"
+
+
+def input_text(axis: Mapping[str, Any], value: float) -> str:
+    """A value of an axis (a row of the record's) as people read it."""
+    if axis["dimension"] is None:
+        return f"{value:.4g}"
+    return format_quantity(float(value), Dimension[axis["dimension"]], digits=4)
+
+
+def place_text(axes: Sequence[Mapping[str, Any]], at: Sequence[float]) -> str:
+    """A place in the box as people read it."""
+    return ", ".join(
+        f"{axis['name'].replace('_', ' ')} {input_text(axis, value)}" for axis, value in zip(axes, at, strict=True)
+    )

@@ -1,0 +1,160 @@
+"""Pictures of a response table: its error by output, held-out points, and its course over each input."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from gaps.response import Axis, Response, Spacing
+from reynolds.numerics.arrays import Array
+from swashfilm.output.figure_png import figure_of, png_of
+from swashfilm.output.headline import named
+from swashfilm.runs.film.revolution.data import SHOWN
+from system.inputs.units import Dimension, in_unit, reading_unit
+from system.points.table.response_table import LARGE_ERROR
+
+COLOURS = {"piston": "#3c7a8c", "slipper": "#8c5a3c", "valve_plate": "#5b9a5b", "socket": "#b8862b", "": "#3c7a8c"}
+COURSE = 80
+"""Points of a line."""
+COLUMNS = 5
+"""Pictures side by side."""
+Groups = Mapping[str, Sequence[tuple[str, int]]]
+"""What is drawn together: outputs of one kind, each by whose it is ("" for a gap alone) and its column."""
+
+
+def table_plots(response: Response, record: Mapping[str, Any]) -> dict[str, bytes]:
+    """Captions and PNGs of a table's pictures; `record` tells the axes' dimensions and the outputs' units."""
+    return {
+        "Error of held-out points, rms and largest; dashed: the limit from which an output is warned of": _errors(
+            response
+        ),
+        "Held-out points, solved and by the table": _parity(response, record),
+        "Course over each input through the middle of the box; dots: held-out points, wherever the other inputs "
+        "stand": _courses(response, record),
+    }
+
+
+def _groups(response: Response) -> Groups:
+    """`piston.leakage` and `slipper.leakage` together, `leakage_flow_m3_per_s` by itself; not what is nothing."""
+    found: dict[str, list[tuple[str, int]]] = {}
+    for column, output in enumerate(response.outputs):
+        whose, _, what = output.name.rpartition(".")
+        if not np.abs(response.learnt.values[:, column]).max() < output.least:
+            found.setdefault(what, []).append((whose, column))
+    return found
+
+
+def _words(name: str) -> str:
+    return named(name)[0].replace("_", " ")
+
+
+def _errors(response: Response) -> bytes:
+    figure = figure_of(9.0, max(2.4, 0.25 * len(response.outputs)))
+    axes = figure.subplots()
+    error, rows = response.held_out_error, np.arange(len(response.outputs))
+    axes.barh(rows - 0.2, np.maximum(error.largest, 1e-6), 0.38, color="#c8a27c", label="largest")
+    axes.barh(rows + 0.2, np.maximum(error.rms, 1e-6), 0.38, color="#3c7a8c", label="rms")
+    axes.axvline(LARGE_ERROR, color="#b55a00", linestyle="--")
+    axes.set_yticks(rows, [f"{_words(output.name)} ({output.measure.value})" for output in response.outputs])
+    axes.set(xscale="log", xlabel="error", xlim=(1e-5, max(0.1, 1.3 * float(error.largest.max()))))
+    axes.tick_params(axis="y", labelsize=8)
+    axes.invert_yaxis()
+    axes.legend(loc="best", fontsize=8)
+    axes.grid(visible=True, axis="x", alpha=0.3)
+    return png_of(figure)
+
+
+def _parity(response: Response, record: Mapping[str, Any]) -> bytes:
+    groups = _groups(response)
+    lines = -(-len(groups) // COLUMNS)
+    figure = figure_of(11.0, 2.6 * lines)
+    solved, told = response.held_out.values, response.at(response.held_out.points)
+    places = figure.subplots(lines, COLUMNS, squeeze=False).ravel()
+    for axes, (what, members) in zip(places, groups.items(), strict=False):
+        title, factor = _shown(what, members, record)
+        for whose, k in members:
+            axes.plot(
+                factor * solved[:, k], factor * told[:, k], "o", markersize=3.5, alpha=0.8, color=COLOURS[whose],
+                label=_words(whose),
+            )  # fmt: skip
+        ends = [*axes.get_xlim(), *axes.get_ylim()]
+        axes.plot([min(ends), max(ends)], [min(ends), max(ends)], color="#1c2328", linewidth=0.8)
+        axes.set_title(title, fontsize=8)
+        axes.set_xlabel("solved", fontsize=8)
+        axes.tick_params(labelsize=7)
+        axes.locator_params(nbins=3)
+    for axes in places[len(groups) :]:
+        axes.set_axis_off()
+    places[0].set_ylabel("by the table", fontsize=8)
+    _legend(figure)
+    return png_of(figure)
+
+
+def _courses(response: Response, record: Mapping[str, Any]) -> bytes:
+    groups = _groups(response)
+    figure = figure_of(max(5.0, 2.75 * len(response.axes)), 1.7 * len(groups))
+    grid = figure.subplots(len(groups), len(response.axes), sharey="row", squeeze=False)
+    middle = np.array([float(axis.from_unit(np.array(0.5))) for axis in response.axes])
+    for j, (axis, row) in enumerate(zip(response.axes, record["axes"], strict=True)):
+        along = np.tile(middle, (COURSE, 1))
+        along[:, j] = axis.from_unit(np.linspace(0.0, 1.0, COURSE))
+        told, label = response.at(along), _axis_words(axis, row)
+        places, dots = (_places(row, values[:, j]) for values in (along, response.held_out.points))
+        for i, (what, members) in enumerate(groups.items()):
+            title, factor = _shown(what, members, record)
+            axes = grid[i, j]
+            for whose, k in members:
+                axes.plot(places, factor * told[:, k], color=COLOURS[whose], label=_words(whose))
+                axes.plot(dots, factor * response.held_out.values[:, k], ".", color=COLOURS[whose], alpha=0.35)
+            if axis.spacing is Spacing.LOGARITHMIC:
+                _logarithmic(axes)
+            axes.grid(visible=True, alpha=0.3)
+            axes.tick_params(labelsize=7, which="both")
+            if j == 0:
+                axes.set_ylabel(title, fontsize=8)
+        grid[-1, j].set_xlabel(label, fontsize=8)
+    _legend(figure)
+    return png_of(figure)
+
+
+def _shown(what: str, members: Sequence[tuple[str, int]], record: Mapping[str, Any]) -> tuple[str, float]:
+    """Title of outputs that are drawn together, with the unit that they are shown in, and its factor on SI."""
+    how = SHOWN[record["outputs"][members[0][1]]["unit"]]
+    return (_words(what) if how.unit == "-" else f"{_words(what)} / {how.unit}"), how.factor
+
+
+def _axis_words(axis: Axis, row: Mapping[str, Any]) -> str:
+    words = axis.name.replace("_", " ")
+    return words if row["dimension"] is None else f"{words} / {_unit(row)}"
+
+
+def _unit(row: Mapping[str, Any]) -> str:
+    return reading_unit(row["lower"], Dimension[row["dimension"]])
+
+
+def _places(row: Mapping[str, Any], values: Array) -> Array:
+    """Values of an input in the unit that its axis is drawn in."""
+    if row["dimension"] is None:
+        return values
+    unit, dimension = _unit(row), Dimension[row["dimension"]]
+    return np.array([in_unit(float(value), unit, dimension) for value in values])
+
+
+def _legend(figure: Any) -> None:
+    """One legend of whose the curves are, where there is more than one."""
+    pairs = [axes.get_legend_handles_labels() for axes in figure.axes]
+    curves = {label: handle for handles, labels in pairs for handle, label in zip(handles, labels, strict=True)}
+    if len(curves) > 1:
+        figure.legend(curves.values(), curves, loc="outside upper center", ncols=len(curves), fontsize=8)
+
+
+def _logarithmic(axes: Any) -> None:
+    """Logarithms along x, plain numbers at 1, 2, 5, 10, .."""
+    from matplotlib.ticker import LogLocator, NullFormatter, ScalarFormatter
+
+    axes.set_xscale("log")
+    axes.xaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+    axes.xaxis.set_major_formatter(ScalarFormatter())
+    axes.xaxis.set_minor_formatter(NullFormatter())

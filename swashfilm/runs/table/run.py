@@ -1,0 +1,135 @@
+"""A response table as a run: built or completed, and left in a run folder with what it is worth."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from gaps.response import Region, Response
+from swashfilm.output.run_folder import write_json
+from swashfilm.runs.table.page import input_text, place_text
+from system.films.parts import floating_parts
+from system.inputs.units import Dimension
+from system.points.table.build import TableCase, build_table
+from system.points.table.means import MEANINGS
+from system.points.table.pump_numbers import NUMBERS
+from system.points.table.response_table import LARGE_ERROR, ResponseTable, axis_value
+from system.points.table.store import keep_table, table_record
+from system.pump_file.file import resolved_toml
+from system.work.processes import crew
+from system.work.progress import Report
+
+TABLE = "table"
+NARROW = 0.7
+"""Part of an axis within which a region of large error must lie for the axis to be named."""
+
+
+def run_table(case: TableCase, folder: Path, report: Report, *, workers: int = 1) -> dict[str, Any]:
+    """Build a table and write table.npz, table.json, points.csv, resolved.toml, summary.json and report.html.
+
+    The table itself is kept in the cache, point by point. Returns the summary. Raises as `build_table`.
+    """
+    with crew(workers) as hands:
+        table = build_table(case, hands=hands, report=report)
+    (folder / "resolved.toml").write_text(resolved_toml(case.pump), encoding="utf-8")
+    keep_table(table, folder / TABLE)
+    summary = table_summary(table) | {"assumptions": [str(taken) for taken in floating_parts(case.pump).taken]}
+    write_table_files(folder, table.response, summary)
+    return summary
+
+
+def write_table_files(folder: Path, response: Response, summary: Mapping[str, Any]) -> None:
+    """Write points.csv, summary.json and, from the folder's files, report.html."""
+    write_points(folder / "points.csv", response, summary)
+    write_json(folder / "summary.json", summary)
+    from swashfilm.runs.table.page import write_table_page
+
+    write_table_page(folder)
+
+
+def table_summary(table: ResponseTable) -> dict[str, Any]:
+    """What a table is worth: its origin and box, the error of each output, and warnings."""
+    record, origin = table_record(table), table.origin
+    held = dict(origin.held) | {"inlet_pressure": origin.inlet_pressure, "case_pressure": origin.case_pressure}
+    rows = [row | {"unit": "1", "meaning": MEANINGS[row["name"]]} for row in record["outputs"]]
+    return record | {
+        "format": 1,
+        "kind": "response_table",
+        "name": origin.pump,
+        "condensed": {
+            "condensed from": f"{origin.source.value} fidelity",
+            **origin.stated,
+            **{name.replace("_", " "): axis_value(name, value) for name, value in held.items()},
+        },
+        "outputs": rows,
+        "numbers": [row | {"meaning": NUMBERS[row["name"]]} for row in record["numbers"]],
+        "warnings": [*table_warnings(table.response, record), *_far_off(record)],
+    }
+
+
+def table_warnings(response: Response, record: Mapping[str, Any]) -> list[str]:
+    """Outputs that are learnt badly, with the region in which they are; points without a result."""
+    return [*_large_errors(response, record["axes"]), *_failures(record)]
+
+
+def _large_errors(response: Response, axes: Sequence[Mapping[str, Any]]) -> Iterator[str]:
+    for column, output in enumerate(response.outputs):
+        region = response.large_error(column, LARGE_ERROR)
+        if region is None:
+            continue
+        error = response.held_out_error
+        yield (
+            f"large_error: {output.name}: held-out points err by {error.largest[column]:.3g} at most, "
+            f"{error.rms[column]:.3g} rms ({output.measure.value}, limit {LARGE_ERROR:g}); above the limit "
+            f"{region.count} of {len(response.held_out.points)}, {region_text(response, region, axes)}; a smaller "
+            "box or more points"
+        )
+
+
+def _far_off(record: Mapping[str, Any]) -> Iterator[str]:
+    for row in record["numbers"]:
+        if row["held_out_largest"] > LARGE_ERROR:
+            yield (
+                f"large_error: runs by this table miss {row['name']} of held-out points by "
+                f"{row['held_out_largest']:.3g} at most, {row['held_out_rms']:.3g} rms ({row['measure']}, limit "
+                f"{LARGE_ERROR:g}), the most at {place_text(record['axes'], row['held_out_worst_at'])}; a smaller "
+                "box or more points"
+            )
+
+
+def region_text(response: Response, region: Region, axes: Sequence[Mapping[str, Any]]) -> str:
+    """Where a region lies, by the axes along which it is narrow."""
+    ends = []
+    for axis, row, low, high in zip(response.axes, axes, region.lower, region.upper, strict=True):
+        if np.ptp(axis.to_unit(np.array([low, high]))) < NARROW:
+            shown = dict.fromkeys((input_text(row, low), input_text(row, high)))
+            ends.append(f"{axis.name.replace('_', ' ')} {' .. '.join(shown)}")
+    return "at " + ", ".join(ends) if ends else "all over the box"
+
+
+def _failures(record: Mapping[str, Any]) -> Iterator[str]:
+    failed = record["failed"]
+    if failed:
+        yield (
+            f"points_failed: {len(failed)} points have no result and are not learnt from, such as "
+            f"{place_text(record['axes'], failed[0]['at'])}: {failed[0]['reason']}"
+        )
+
+
+def write_points(path: Path, response: Response, summary: Mapping[str, Any]) -> None:
+    """Write every point: learnt or held out, inputs with their units, outputs as solved and as the table says."""
+    inputs = [
+        f"{axis['name']} [{Dimension[axis['dimension']].si_unit if axis['dimension'] else '1'}]"
+        for axis in summary["axes"]
+    ]
+    outputs = [(row["name"], row["unit"]) for row in summary["outputs"]]
+    told = [f"{name} by table [{unit}]" for name, unit in outputs]
+    rows = [",".join(["set", *inputs, *(f"{name} [{unit}]" for name, unit in outputs), *told])]
+    for kind, samples in (("learnt", response.learnt), ("held out", response.held_out)):
+        by_table = response.at(samples.points)
+        for numbers in np.hstack([samples.points, samples.values, by_table]):
+            rows.append(",".join([kind, *(f"{value:.8g}" for value in numbers)]))
+    path.write_text("\n".join(rows) + "\n", encoding="utf-8")

@@ -1,0 +1,86 @@
+"""A pump's point by a response table: which table, what it says of the gaps, and how far to trust it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any
+
+from swashfilm.console.fidelity import Fidelity
+from system.description.pump import PumpDescription
+from system.films.parts import floating_parts
+from system.points.table.means import GAP_PAIRS
+from system.points.table.point import TablePoint, table_point
+from system.points.table.response_table import LARGE_ERROR, axis_value
+from system.points.table.store import find_table, own_table
+from system.pump.operating import OperatingPoint
+
+TOLD_HEAD = ("", "mean film", "least film", "share of contact", "missed at held-out points, at most")
+
+
+def told_point(pump: PumpDescription, point: OperatingPoint, path: Path | None) -> TablePoint:
+    """The point by the table in a file, or by the kept one that fits; raises InputFaults where there is none."""
+    return table_point(pump, point, own_table(path, pump) if path else find_table(pump, point))
+
+
+def told_summary(pump: PumpDescription, told: TablePoint) -> dict[str, Any]:
+    """Fidelity, the table's origin with the error of each output, the films that it tells, and what was taken."""
+    origin, response = told.table.origin, told.table.response
+    error = response.held_out_error
+    return {
+        "fidelity": Fidelity.TABLE.value,
+        "assumptions": [str(taken) for taken in floating_parts(pump).taken],
+        "table": {
+            "source": origin.source.value,
+            "stated": dict(origin.stated),
+            "points": {"learnt": len(response.learnt.points), "held_out": len(response.held_out.points)},
+            "held_out_rms_error": {one.name: float(error.rms[k]) for k, one in enumerate(response.outputs)},
+            "held_out_largest_error": {
+                one.name: float(error.largest[k]) for k, one in enumerate(response.outputs)
+            },
+            "numbers_largest_error": _numbers_largest(told),
+            "film_thickness_mean_m": asdict(told.film_mean),
+            "film_thickness_min_m": asdict(told.film_least),
+            "contact_share": asdict(told.contact_share),
+        },
+    }
+
+
+def told_warnings(told: TablePoint) -> Iterator[str]:
+    """Outputs that held-out points found more than LARGE_ERROR off, and a failed point next to this one."""
+    response, point = told.table.response, told.pump_point.point
+    largest = response.held_out_error.largest
+    errors = {output.name: float(largest[k]) for k, output in enumerate(response.outputs)}
+    missed = _numbers_largest(told) | errors
+    off = [f"{name} by up to {error:.2g}" for name, error in missed.items() if error > LARGE_ERROR]
+    if off:
+        yield (
+            f"table_error: held-out points of the table err beyond {LARGE_ERROR:g}: {', '.join(off)}; solve the "
+            f"point by the {told.table.origin.source.value} fidelity to be sure"
+        )
+    failed = told.table.beside_failed(point)
+    if failed:
+        at = zip(response.axes, failed.at, strict=True)
+        place = ", ".join(f"{axis.name.replace('_', ' ')} {axis_value(axis.name, value)}" for axis, value in at)
+        yield f"table_guesses: the nearest point of the table has no result ({place}: {failed.reason})"
+
+
+def _numbers_largest(told: TablePoint) -> dict[str, float]:
+    """Largest error of runs by the table at its held-out points, by number."""
+    numbers = told.table.numbers
+    return {} if numbers is None else numbers.largest()
+
+
+def told_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:
+    """(gap, mean film, least film, share of contact in its friction, what runs by the table miss at most)."""
+    table = summary["table"]
+    for gap in GAP_PAIRS:
+        errors = table["numbers_largest_error"]
+        yield (
+            gap.replace("_", " "),
+            f"{table['film_thickness_mean_m'][gap] * 1e6:.2f} um",
+            f"{table['film_thickness_min_m'][gap] * 1e6:.2f} um",
+            f"{table['contact_share'][gap]:.1%}",
+            f"leakage {errors[f'{gap}.leakage_flow']:.2%}, loss {errors[f'{gap}.loss']:.2%}",
+        )

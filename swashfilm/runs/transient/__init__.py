@@ -1,0 +1,1 @@
+"""`swashfilm transient`: displacement in time."""

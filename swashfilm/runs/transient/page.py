@@ -1,0 +1,87 @@
+"""The page of a transient: report.html made from the run folder's own files."""
+
+from __future__ import annotations
+
+import base64
+import json
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from swashfilm.runs.transient import plots as transient_plots
+from system.inputs.faults import Fault, InputFaults
+from system.inputs.units import LPM
+
+FILES = ("summary.json", "resolved.toml", "results.nc")
+
+
+def write_transient_page(folder: Path) -> Path:
+    """Write report.html of a transient's run folder; raises InputFaults where one of its files is not there."""
+    import xarray
+    from jinja2 import Environment, PackageLoader
+
+    missing = [name for name in FILES if not (folder / name).is_file()]
+    if missing:
+        expected = "a transient's run folder"
+        raise InputFaults(str(folder), [Fault(name, "no such file", expected) for name in missing])
+    summary = json.loads((folder / "summary.json").read_text("utf-8"))
+    with xarray.open_dataset(folder / "results.nc", engine="h5netcdf") as data:
+        data.load()
+    pictures = {
+        "Swash angle, and the pressures that move it": transient_plots.plate_plot(data),
+        "Moments on the plate by cause; positive tilts it further; thick, means over a piston pitch":
+            transient_plots.moment_plot(data),
+        "What the pump gives and takes; thick, means over a piston pitch": transient_plots.pump_plot(data),
+        "Pressure of the chambers": transient_plots.chamber_plot(data),
+    }  # fmt: skip
+    template = Environment(loader=PackageLoader("swashfilm.output"), autoescape=True)
+    page = template.get_template("transient.html.jinja").render(
+        summary=summary,
+        rows=transient_rows(summary),
+        turns=turn_rows(summary),
+        checks=check_rows(summary),
+        pictures={text: base64.b64encode(png).decode("ascii") for text, png in pictures.items()},
+        resolved=(folder / "resolved.toml").read_text("utf-8"),
+    )
+    path = folder / "report.html"
+    path.write_text(page, encoding="utf-8")
+    return path
+
+
+def transient_rows(summary: Mapping[str, Any]) -> list[tuple[str, str]]:
+    """(what, value with its unit): what the plate did."""
+    angle, stops, travel = summary["swash_angle"], summary["stops"], summary["travel_10_to_90_s"]
+    return [
+        ("swash angle at the start", f"{np.degrees(angle['start_rad']):.3f} deg"),
+        ("swash angle at the end", f"{np.degrees(angle['end_rad']):.3f} deg"),
+        ("least, largest", f"{np.degrees(angle['least_rad']):.3f}, {np.degrees(angle['largest_rad']):.3f} deg"),
+        ("displacement ratio, start", f"{summary['displacement_ratio_start']:.4f}"),
+        ("displacement ratio, end", f"{summary['displacement_ratio_end']:.4f}"),
+        ("10 to 90 % of the way", "the plate stays" if travel is None else f"{travel * 1e3:.1f} ms"),
+        ("fastest", f"{np.degrees(angle['fastest_rad_per_s']):.1f} deg/s"),
+        ("largest chamber pressure (gauge)", f"{summary['chamber_pressure_largest_Pa'] * 1e-6:.2f} MPa"),
+        ("largest actuator pressure (gauge)", f"{summary['actuator_pressure_largest_Pa'] * 1e-6:.2f} MPa"),
+        ("strikes of a stop", f"{stops['strikes']}, the hardest {stops['largest_impulse_Nms']:.3g} N m s"),
+        ("natural frequency of the plate on its oil", f"{summary['plate_frequency_Hz']:.0f} Hz"),
+    ]
+
+
+def turn_rows(summary: Mapping[str, Any]) -> list[tuple[str, ...]]:
+    """(what, mean over the first turn, over the last)."""
+    first, last = summary["first_turn"], summary["last_turn"]
+    shown = (
+        ("delivery flow", "delivery_flow_m3_per_s", LPM, "L/min"),
+        ("drive torque", "shaft_torque_Nm", 1.0, "N m"),
+        ("moment of the chambers' pressure on the plate", "pressure_moment_Nm", 1.0, "N m"),
+    )
+    return [
+        (name, *(f"{scale * turn[key]:.2f} {unit}" for turn in (first, last))) for name, key, scale, unit in shown
+    ]
+
+
+def check_rows(summary: Mapping[str, Any]) -> list[tuple[str, str]]:
+    """(check, value)."""
+    rows = [(name.replace("_", " "), f"{value:.2g}") for name, value in summary["checks"].items()]
+    return [*rows, ("steps", f"{summary['steps']} of {summary['step_s'] * 1e6:.2f} us")]

@@ -1,0 +1,103 @@
+"""Pictures of a transient, drawn from results.nc alone."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from reynolds.numerics.arrays import Array
+from swashfilm.output.figure_png import figure_of, png_of
+from system.inputs.units import LPM
+
+if TYPE_CHECKING:
+    import xarray
+
+NAMES = {
+    "pressure_moment": "pressure",
+    "inertia_moment": "inertia",
+    "piston_friction_moment": "piston friction",
+    "actuator_moment": "actuator",
+    "spring_moment": "spring",
+    "drag_moment": "damping, trunnion",
+    "stop_moment": "stop",
+}
+PALE = 0.25
+
+
+def over_a_pitch(data: xarray.Dataset, values: Array) -> Array:
+    """Running means over a piston pitch; nan within half a pitch of the ends."""
+    pitch = 2.0 * np.pi / data.sizes["chamber"]
+    count = max(1, round(pitch / float(data["shaft_angle"][1] - data["shaft_angle"][0])))
+    mean = np.full(values.shape, np.nan)
+    if values.size > count:
+        sums = np.cumsum(np.concatenate([[0.0], values]))
+        begins = count // 2
+        mean[begins : begins + values.size - count + 1] = (sums[count:] - sums[:-count]) / count
+    return mean
+
+
+def plate_plot(data: xarray.Dataset) -> bytes:
+    """Swash angle (deg) and displacement ratio; control and actuator pressure (MPa), over time (ms)."""
+    figure = figure_of(10.0, 3.4)
+    left, right = figure.subplots(1, 2)
+    time = data["time"].values * 1e3
+    left.plot(time, np.degrees(data["swash_angle"].values), color="#1c2328")
+    left.set(ylabel="swash angle / deg", title="plate")
+    right.plot(time, data["actuator_pressure"].values * 1e-6, color="#b8862b", alpha=PALE)
+    mean = over_a_pitch(data, data["actuator_pressure"].values)
+    right.plot(time, mean * 1e-6, color="#b8862b", label="actuator")
+    right.plot(time, data["control_pressure"].values * 1e-6, color="#1c2328", label="control")
+    right.set(ylabel="pressure, gauge / MPa", title="actuator")
+    right.legend()
+    for axes in (left, right):
+        axes.set(xlabel="time / ms", xlim=(time[0], time[-1]))
+    return png_of(figure)
+
+
+def moment_plot(data: xarray.Dataset) -> bytes:
+    """Moments on the plate by cause (N m) over time (ms); those that are nothing throughout are left out."""
+    figure = figure_of(10.0, 3.8)
+    axes = figure.subplots()
+    time = data["time"].values * 1e3
+    for name, label in NAMES.items():
+        values = data[name].values
+        if np.any(values):
+            (line,) = axes.plot(time, values, alpha=PALE)
+            axes.plot(time, over_a_pitch(data, values), color=line.get_color(), label=label)
+    axes.set(xlabel="time / ms", ylabel="moment on the plate / N m", xlim=(time[0], time[-1]))
+    axes.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0), frameon=False)
+    return png_of(figure)
+
+
+def pump_plot(data: xarray.Dataset) -> bytes:
+    """Flows at the ports (L/min) and drive torque (N m) over time (ms)."""
+    figure = figure_of(10.0, 3.4)
+    left, right = figure.subplots(1, 2)
+    time = data["time"].values * 1e3
+    for axes, name, scale, colour, label in (
+        (left, "delivery_flow", LPM, "#b8862b", "delivery"),
+        (left, "inlet_flow", LPM, "#5b9a5b", "inlet"),
+        (right, "shaft_torque", 1.0, "#1c2328", None),
+    ):
+        values = scale * data[name].values
+        axes.plot(time[1:], values[1:], color=colour, alpha=PALE)
+        axes.plot(time, over_a_pitch(data, values), color=colour, label=label)
+    left.set(ylabel="flow at its port / L/min", title="ports")
+    left.legend()
+    right.set(ylabel="torque / N m", title="shaft")
+    for axes in (left, right):
+        axes.set(xlabel="time / ms", xlim=(time[0], time[-1]))
+    return png_of(figure)
+
+
+def chamber_plot(data: xarray.Dataset) -> bytes:
+    """Pressure of chamber 1 and the span of all (MPa) over time (ms)."""
+    figure = figure_of(10.0, 3.0)
+    axes = figure.subplots()
+    time, pressure = data["time"].values * 1e3, data["chamber_pressure"].values * 1e-6
+    axes.fill_between(time, pressure.min(axis=1), pressure.max(axis=1), color="#b8862b", alpha=PALE, label="all")
+    axes.plot(time, pressure[:, 0], color="#1c2328", linewidth=0.7, label="chamber 1")
+    axes.set(xlabel="time / ms", ylabel="pressure, gauge / MPa", xlim=(time[0], time[-1]))
+    axes.legend(loc="upper right")
+    return png_of(figure)
