@@ -252,6 +252,7 @@ def test_warnings_are_explained(films):
     )
     assert set(re.findall(r'"name": "(\w+)"', sources)) <= explained
     checks = "".join(
-        (ROOT / "system" / f"{kind}_checks.py").read_text("utf-8") for kind in ("geometry", "port", "operating")
+        (ROOT / "system" / "pump_file" / f"{of}.py").read_text("utf-8")
+        for of in ("geometry", "ports", "operating")
     )
     assert set(re.findall(r'CheckWarning\(\s*"([\w.]+)"', checks)) <= explained

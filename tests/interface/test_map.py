@@ -34,8 +34,8 @@ def run(tmp_path_factory):
 
 @pytest.fixture(autouse=True)
 def no_pictures(run, monkeypatch):
-    for module, name in (("map_page", "map_plots"), ("duty_run", "duty_plots"), ("compare_run", "compare_plots")):
-        monkeypatch.setattr(f"swashfilm.{module}.{name}", lambda *_: {})
+    for module, name in (("page", "map_plots"), ("duty_run", "duty_plots"), ("compare_run", "compare_plots")):
+        monkeypatch.setattr(f"swashfilm.runs.map.{module}.{name}", lambda *_: {})
 
 
 @pytest.mark.parametrize(

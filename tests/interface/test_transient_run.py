@@ -127,6 +127,6 @@ def test_documented_keys_are_those_of_the_case():
     text = (ROOT / "docs" / "files.md").read_text("utf-8")
     part = text.split("### [transient]", 1)[1].split("\n## ", 1)[0]
     documented = set(re.findall(r"^\| `(\w+)` \|", part, re.MULTILINE))
-    source = (ROOT / "swashfilm" / "transient_case.py").read_text("utf-8")
+    source = (ROOT / "swashfilm" / "runs" / "transient" / "case.py").read_text("utf-8")
     read = set(re.findall(r'table\.(?:get|positive|choice)\("(\w+)"', source))
     assert documented == read | {"pump"}
