@@ -29,7 +29,7 @@ from reynolds.equation.balance import stiffness
 from reynolds.equation.coefficients import isotropic
 from reynolds.fem.mesh import Cell, FilmMesh, rectangle
 from reynolds.fem.space import FilmSpace, film_space
-from reynolds.film import ZERO, Cavitation, FilmProblem, Held, film
+from reynolds.problem import ZERO, Cavitation, FilmProblem, Held, film
 from reynolds.solve.loads import point_fields
 from reynolds.solve.solver import FilmSolver
 

@@ -9,7 +9,7 @@ from film import journal, journal_mesh
 from peer import asked, least, report
 
 from reynolds.fem.space import film_space
-from reynolds.film import Cavitation
+from reynolds.problem import Cavitation
 from reynolds.solve.loads import point_fields
 from reynolds.solve.solver import FilmSolver
 

@@ -16,7 +16,7 @@ HERE = Path(__file__).resolve().parent
 PACKAGES = ("diagnosis", "system", "gaps", "reynolds")
 ASKED = (
     "diagnosis.checks.check",
-    "diagnosis.diagnose",
+    "diagnosis.procedure",
     "diagnosis.next_test",
     "diagnosis.recording.reader",
     "diagnosis.study.inputs",

@@ -10,9 +10,9 @@ from time import process_time
 
 import numpy as np
 
-from diagnosis.diagnose import diagnose_study
 from diagnosis.explain.ranked import Weighed
 from diagnosis.next_test import with_next_point
+from diagnosis.procedure import diagnose_study
 from diagnosis.study.inputs import bench_points
 from diagnosis.study.map_axes import axis_values, inside
 from diagnosis.study.model import Study

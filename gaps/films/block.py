@@ -38,12 +38,12 @@ from reynolds.bodies.compliance import Walls
 from reynolds.errors import FilmInputError
 from reynolds.fem.space import FilmSpace
 from reynolds.fem.sphere import Sphere
-from reynolds.film import ZERO, Film, FilmProblem, FilmSolution, Held
 from reynolds.floating.coordinates import Modes, contact_force, modes_on
 from reynolds.floating.problem import Floating, Outer
 from reynolds.floating.step import Stage
 from reynolds.laws.contact import Asperities
 from reynolds.numerics.arrays import Array
+from reynolds.problem import ZERO, Film, FilmProblem, FilmSolution, Held
 
 LEAST_LEVERAGE = 1e-3  # 1 + s/R: below, what a tilt opens is lost in round-off and shape
 

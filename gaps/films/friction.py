@@ -11,9 +11,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from reynolds.film import FilmSolution
 from reynolds.laws.contact import Asperities, boundary_shear, contact_pressure
 from reynolds.numerics.arrays import Array
+from reynolds.problem import FilmSolution
 from reynolds.solve.loads import dissipated, point_fields
 
 Vector = tuple[Array, Array]

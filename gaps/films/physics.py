@@ -6,10 +6,10 @@ from dataclasses import dataclass, replace
 from enum import Enum
 
 from gaps.walls.pair import GapWalls
-from reynolds.film import Cavitation
 from reynolds.laws.contact import Asperities
 from reynolds.laws.fluid import CONSTANT, Fluid
 from reynolds.laws.roughness import Surface
+from reynolds.problem import Cavitation
 
 
 class Effect(Enum):
@@ -59,7 +59,7 @@ class Physics:
 
 @dataclass(frozen=True)
 class FilmLaws:
-    """Oil and walls of one gap: what `reynolds.film.FilmProblem` takes, the walls on any mesh."""
+    """Oil and walls of one gap: what `reynolds.problem.FilmProblem` takes, the walls on any mesh."""
 
     fluid: Fluid = CONSTANT
     surface: Surface | None = None

@@ -32,12 +32,12 @@ from reynolds.equation.rough_overlap import vertex_thickness
 from reynolds.errors import FilmInputError
 from reynolds.fem.mesh import Cell, rectangle, rename
 from reynolds.fem.space import FilmSpace, film_space
-from reynolds.film import ZERO, Film, FilmProblem, Held
 from reynolds.floating.problem import Floating, Outer, steady
 from reynolds.floating.step import Stage
 from reynolds.laws.contact import Asperities
 from reynolds.laws.law import require_positive
 from reynolds.numerics.arrays import Array
+from reynolds.problem import ZERO, Film, FilmProblem, Held
 from reynolds.solve.loads import evaluate
 
 

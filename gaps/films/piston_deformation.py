@@ -18,9 +18,9 @@ import numpy as np
 from gaps.walls.pair import BoreWalls
 from gaps.walls.pose import Stand
 from reynolds.bodies.compliance import full
-from reynolds.film import FilmSolution
 from reynolds.floating.step import Stage
 from reynolds.numerics.arrays import Array
+from reynolds.problem import FilmSolution
 from reynolds.solve.loads import evaluate
 
 

@@ -26,12 +26,12 @@ from gaps.walls.pair import while_turning
 from gaps.walls.pose import Stand
 from reynolds.bodies.compliance import Walls
 from reynolds.fem.space import FilmSpace, film_space
-from reynolds.film import ZERO, Boundary, Film, FilmProblem, Held, Pocket, no_feed
 from reynolds.floating.problem import Floating, Outer
 from reynolds.floating.step import Stage
 from reynolds.laws.contact import Asperities
 from reynolds.laws.law import Tangent, require_positive
 from reynolds.numerics.arrays import Array
+from reynolds.problem import ZERO, Boundary, Film, FilmProblem, Held, Pocket, no_feed
 
 RIM_PLACES = 48  # around a slipper, at which its retainer presses
 ROUND_OFF = 1e-13  # of a retainer's force

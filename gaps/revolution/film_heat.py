@@ -22,13 +22,13 @@ from gaps.revolution.schedule import Accuracy, Schedule
 from gaps.revolution.warmth import HeatFlows, ThinnedOver, Warmth, thinned
 from reynolds.equation.coefficients import at_points
 from reynolds.errors import FilmInputError, FilmNotConverged
-from reynolds.film import HALF, FilmProblem, FilmSolution
 from reynolds.floating.problem import Floating
 from reynolds.floating.start import seats_of
 from reynolds.floating.step import Stage
 from reynolds.laws.fluid import Fluid, isoviscous
 from reynolds.numerics.anderson import History
 from reynolds.numerics.arrays import Array
+from reynolds.problem import HALF, FilmProblem, FilmSolution
 from reynolds.solve.solver import FilmSolver
 from reynolds.thermal.coupling import Coupled, LocalLaw, Posed, agree, resting_viscosity
 from reynolds.thermal.energy import FilmTemperature, Heat

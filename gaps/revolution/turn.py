@@ -14,12 +14,12 @@ from gaps.revolution.step_means import Passed
 from reynolds.equation.rough_overlap import vertex_thickness
 from reynolds.errors import FilmNotConverged
 from reynolds.fem.space import FilmSpace
-from reynolds.film import FilmSolution
 from reynolds.floating.problem import Floating
 from reynolds.floating.start import pressed, restarted, seats_of, started
 from reynolds.floating.step import Stage, solve_stage
 from reynolds.numerics.arrays import Array
 from reynolds.numerics.dirk import State, Tableau, Taken, march, nodes_only
+from reynolds.problem import FilmSolution
 from reynolds.solve.loads import cavitated_fraction
 from reynolds.solve.solver import FilmSolver
 

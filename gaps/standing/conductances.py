@@ -13,9 +13,18 @@ import numpy as np
 
 from gaps.films.block import BlockFilm
 from gaps.films.slipper import SlipperFilm
-from reynolds.film import ZERO, Boundary, Cavitation, FilmProblem, FilmSolution, Held, Pocket, no_feed
 from reynolds.floating.step import Stage
 from reynolds.numerics.arrays import Array
+from reynolds.problem import (
+    ZERO,
+    Boundary,
+    Cavitation,
+    FilmProblem,
+    FilmSolution,
+    Held,
+    Pocket,
+    no_feed,
+)
 from reynolds.solve.loads import boundary_flows
 from reynolds.solve.solver import FilmSolver
 

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from gaps.revolution.reports import Active
-from reynolds.film import FilmSolution
 from reynolds.numerics.arrays import Array
+from reynolds.problem import FilmSolution
 from reynolds.solve.loads import Loads
 
 LOAD_TOLERANCE = 1e-3

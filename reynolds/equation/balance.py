@@ -31,10 +31,10 @@ from reynolds.equation.deformation_sparsity import Openings
 from reynolds.equation.hourglass import as_one, relieved, signs, twisting_slope
 from reynolds.fem import kernels
 from reynolds.fem.space import FilmSpace
-from reynolds.film import Cavitation, FilmProblem, Held, contents
 from reynolds.laws.fluid import CONSTANT
 from reynolds.numerics.array_kernels import all_equal
 from reynolds.numerics.arrays import Array
+from reynolds.problem import Cavitation, FilmProblem, Held, contents
 
 NOTHING = 1e-12  # of the largest flow
 NO_FLOW = 1e-9  # of the flow along an edge: less across it is round-off

@@ -14,12 +14,12 @@ import numpy as np
 from reynolds.equation.rough_overlap import film_between
 from reynolds.errors import FilmInputError, FilmNotConverged
 from reynolds.fem.space import FilmSpace
-from reynolds.film import ZERO, Film, FilmProblem
 from reynolds.laws.fluid import CONSTANT
 from reynolds.laws.law import Tangent
 from reynolds.laws.roughness import FlowFactors, Surface, flow_factors
 from reynolds.numerics.array_kernels import cubes
 from reynolds.numerics.arrays import Array
+from reynolds.problem import ZERO, Film, FilmProblem
 
 WIDEST = 1e6  # times the given film: walls that open further were meant to be stiffer
 ONE = np.ones((1, 1))

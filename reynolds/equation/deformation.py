@@ -17,12 +17,12 @@ from scipy.sparse.linalg import splu
 
 from reynolds.bodies.compliance import LowRank, Opens, WallMatrix, columns_of, full
 from reynolds.errors import FilmInputError, FilmNotConverged
-from reynolds.film import FilmProblem, Pocket
 from reynolds.laws.contact import LOWEST_RATIO, Asperities, contact_pressure
 from reynolds.laws.law import Tangent
 from reynolds.linear.elastic import Answer, dense_answer, singular
 from reynolds.numerics.array_kernels import norm
 from reynolds.numerics.arrays import Array
+from reynolds.problem import FilmProblem, Pocket
 
 MAX_STEPS = 15
 TOLERANCE = 1e-12  # of film thickness and asperities' height

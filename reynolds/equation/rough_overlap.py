@@ -10,10 +10,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from reynolds.film import FilmProblem, FilmSolution
 from reynolds.laws.law import Tangent
 from reynolds.laws.roughness import mean_thickness
 from reynolds.numerics.arrays import Array
+from reynolds.problem import FilmProblem, FilmSolution
 
 
 def film_between(problem: FilmProblem, gap: Array) -> Tangent:

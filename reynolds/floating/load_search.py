@@ -11,9 +11,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from reynolds.errors import FilmInputError, FilmNotConverged
-from reynolds.film import FilmProblem, FilmSolution
 from reynolds.laws.contact import contact_pressure
 from reynolds.numerics.arrays import Array
+from reynolds.problem import FilmProblem, FilmSolution
 from reynolds.solve.loads import pressure_integrals
 from reynolds.solve.solver import FilmSolver
 

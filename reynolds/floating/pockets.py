@@ -12,10 +12,10 @@ import numpy as np
 
 from reynolds.equation.balance import density
 from reynolds.errors import FilmInputError
-from reynolds.film import Boundary, FilmProblem, FilmSolution, Pocket
 from reynolds.floating.coordinates import Modes
 from reynolds.floating.problem import Floating
 from reynolds.numerics.arrays import Array
+from reynolds.problem import Boundary, FilmProblem, FilmSolution, Pocket
 
 DEPTH = 5e-5  # m, at q = 0: what a pocket holds must stay above zero; how far above is of no matter
 

@@ -7,10 +7,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from reynolds.equation.rough_overlap import film_between
-from reynolds.film import Film, FilmProblem, FilmSolution
 from reynolds.floating.coordinates import ContactForce, Modes, SoftContact
 from reynolds.laws.contact import LOWEST_RATIO, Asperities
 from reynolds.numerics.arrays import Array
+from reynolds.problem import Film, FilmProblem, FilmSolution
 
 THINNEST = 1e-9  # m: of a film between walls without asperities, some molecules of oil
 SOLID = 1.0 - 1e-6  # of the overlap at which the law of contact ends

@@ -16,8 +16,8 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from reynolds.film import FilmProblem
 from reynolds.numerics.arrays import Array
+from reynolds.problem import FilmProblem
 
 
 @dataclass(frozen=True)

@@ -11,12 +11,12 @@ from dataclasses import replace
 import numpy as np
 
 from reynolds.errors import FilmInputError, FilmNotConverged
-from reynolds.film import FilmSolution
 from reynolds.floating.problem import Floating
 from reynolds.floating.step import Stage, standing
 from reynolds.floating.trial import instant_of
 from reynolds.numerics.arrays import Array
 from reynolds.numerics.dirk import BACKWARD_EULER, S, StageSolver, State, Taken, advance
+from reynolds.problem import FilmSolution
 from reynolds.solve.solver import FilmSolver
 
 GROWTH = 4.0  # of a step after one that was solved

@@ -16,10 +16,10 @@ from reynolds.equation.balance import Operators, State, cavity_density, density,
 from reynolds.equation.coefficients import along, at_points
 from reynolds.equation.deformation import opening_slope
 from reynolds.equation.hourglass import signs, twisting_slope
-from reynolds.film import Cavitation, FilmSolution
 from reynolds.floating import coordinate_kernels as generalised_kernels
 from reynolds.linear.factor import ITERATIVE_TOLERANCE
 from reynolds.numerics.arrays import Array
+from reynolds.problem import Cavitation, FilmSolution
 from reynolds.solve.solver import FilmSolver
 
 

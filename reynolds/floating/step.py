@@ -10,7 +10,6 @@ import numpy as np
 
 from reynolds.equation.rough_overlap import as_shaped
 from reynolds.errors import FilmInputError, FilmNotConverged
-from reynolds.film import FilmSolution
 from reynolds.floating.coordinates import SoftContact, modes_on
 from reynolds.floating.pose import lowest_gap, posed
 from reynolds.floating.problem import Floating, Outer
@@ -27,6 +26,7 @@ from reynolds.floating.trial import (
     solved,
 )
 from reynolds.numerics.arrays import Array
+from reynolds.problem import FilmSolution
 from reynolds.solve.iterate import is_linear
 from reynolds.solve.solver import FilmSolver
 from reynolds.solve.transient import oil_held

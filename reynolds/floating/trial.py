@@ -8,7 +8,6 @@ import numpy as np
 
 from reynolds.equation.deformation import touch_at
 from reynolds.errors import FilmNotConverged
-from reynolds.film import Cavitation, FilmProblem, FilmSolution, Storage, holds_oil
 from reynolds.floating import coordinate_kernels as generalised_kernels
 from reynolds.floating.coordinates import (
     ContactForce,
@@ -25,6 +24,7 @@ from reynolds.floating.problem import Floating, Outer
 from reynolds.floating.sensitivity import Response, oil_slopes, response, thickness_load
 from reynolds.linear.factor import ITERATIVE_TOLERANCE
 from reynolds.numerics.arrays import Array
+from reynolds.problem import Cavitation, FilmProblem, FilmSolution, Storage, holds_oil
 from reynolds.solve.solver import FilmSolver, as_given
 
 LEAST_SHARE = 0.2  # of the least gap that a step may leave

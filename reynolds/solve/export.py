@@ -10,8 +10,8 @@ import numpy as np
 
 from reynolds.equation.rough_overlap import vertex_thickness
 from reynolds.fem.space import FilmSpace
-from reynolds.film import FilmSolution
 from reynolds.numerics.arrays import Array
+from reynolds.problem import FilmSolution
 from reynolds.solve.loads import point_fields
 
 

@@ -11,10 +11,10 @@ from reynolds.equation.balance import Balance, Operators, State, flow_balance, o
 from reynolds.equation.deformation import opening
 from reynolds.errors import FilmInputError, FilmNotConverged
 from reynolds.fem import kernels
-from reynolds.film import Cavitation, FilmProblem
 from reynolds.laws.fluid import CONSTANT
 from reynolds.numerics.array_kernels import all_finite, largest_share
 from reynolds.numerics.arrays import Array
+from reynolds.problem import Cavitation, FilmProblem
 from reynolds.solve.setting import Setting
 
 MOST_HALVINGS = 10

@@ -12,10 +12,10 @@ from reynolds.equation.coefficients import along, at_points, isotropic
 from reynolds.equation.hourglass import spared
 from reynolds.equation.rough_overlap import vertex_thickness
 from reynolds.fem import kernels
-from reynolds.film import Cavitation, FilmSolution, Pocket
 from reynolds.laws.contact import boundary_shear, contact_pressure
 from reynolds.laws.roughness import Directional, pressure_factors, shear_factors, sliding_factor
 from reynolds.numerics.arrays import Array
+from reynolds.problem import Cavitation, FilmSolution, Pocket
 
 
 @dataclass(frozen=True)

@@ -12,10 +12,10 @@ from reynolds.equation.balance import NOTHING, by_opening, flow_balance, slopes
 from reynolds.equation.deformation import opening_slope
 from reynolds.equation.deformation_sparsity import SoftPatterns
 from reynolds.fem import kernels
-from reynolds.film import Cavitation, FilmProblem
 from reynolds.linear.elastic import Answer, Balance, NearFactor, compliant_answer
 from reynolds.numerics.array_kernels import scaled_free
 from reynolds.numerics.arrays import Array
+from reynolds.problem import Cavitation, FilmProblem
 from reynolds.solve.iterate import Iterate, fixed_in, with_pockets
 from reynolds.solve.setting import Setting
 

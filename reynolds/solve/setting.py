@@ -8,9 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from reynolds.errors import FilmInputError
-from reynolds.film import Cavitation, FilmProblem, Held, Pocket
 from reynolds.numerics.array_kernels import all_finite
 from reynolds.numerics.arrays import Array
+from reynolds.problem import Cavitation, FilmProblem, Held, Pocket
 
 
 @dataclass(frozen=True)

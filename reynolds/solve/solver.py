@@ -17,12 +17,12 @@ from reynolds.equation.balance import Operators, State, operators, positive_shar
 from reynolds.equation.deformation_sparsity import SoftPatterns
 from reynolds.errors import FilmInputError, FilmNotConverged
 from reynolds.fem.space import FilmSpace
-from reynolds.film import LEAST_FRACTION, Cavitation, FilmProblem, FilmSolution
 from reynolds.laws.fluid import CONSTANT
 from reynolds.linear.elastic import NearFactor
 from reynolds.linear.factor import ITERATIVE_TOLERANCE, Factor, GeneralFactor, Solve, row_by_row
 from reynolds.linear.multigrid.grid import grid_of
 from reynolds.numerics.arrays import Array
+from reynolds.problem import LEAST_FRACTION, Cavitation, FilmProblem, FilmSolution
 from reynolds.solve.cavity_guess import COARSEST, Cascade, Obstacle, active_set
 from reynolds.solve.iterate import (
     Iterate,

@@ -14,8 +14,8 @@ import numpy as np
 from reynolds.equation.balance import State, density, operators
 from reynolds.equation.deformation import opening
 from reynolds.errors import FilmInputError, FilmNotConverged
-from reynolds.film import ZERO, FilmProblem, FilmSolution, Storage
 from reynolds.numerics.arrays import Array
+from reynolds.problem import ZERO, FilmProblem, FilmSolution, Storage
 from reynolds.solve.setting import spread
 from reynolds.solve.solver import FilmSolver
 

@@ -15,10 +15,10 @@ from typing import Generic, NamedTuple, TypeVar
 import numpy as np
 
 from reynolds.errors import FilmInputError, FilmNotConverged
-from reynolds.film import FilmProblem, FilmSolution
 from reynolds.laws.fluid import Fluid, ViscosityLaw, isoviscous
 from reynolds.numerics.anderson import History
 from reynolds.numerics.arrays import Array
+from reynolds.problem import FilmProblem, FilmSolution
 from reynolds.solve.solver import FilmSolver
 from reynolds.thermal.energy import FilmTemperature, Heat, solve_energy
 from reynolds.thermal.film_profile import Levels, Profile, dowson, film_with, scaled, shear_rate

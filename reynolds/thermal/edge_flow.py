@@ -17,8 +17,8 @@ from numpy.typing import NDArray
 from reynolds.equation.balance import State, cavity_density, density, operators
 from reynolds.errors import FilmInputError
 from reynolds.fem.space import FilmSpace
-from reynolds.film import FilmSolution, Pocket
 from reynolds.numerics.arrays import Array
+from reynolds.problem import FilmSolution, Pocket
 from reynolds.thermal import energy_kernels
 from reynolds.thermal.film_profile import Profile
 

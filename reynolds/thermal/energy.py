@@ -27,9 +27,9 @@ import numpy as np
 from reynolds.equation.balance import steep_gradient
 from reynolds.equation.coefficients import at_points
 from reynolds.errors import FilmInputError, FilmNotConverged
-from reynolds.film import FilmSolution
 from reynolds.numerics.anderson import History
 from reynolds.numerics.arrays import Array
+from reynolds.problem import FilmSolution
 from reynolds.solve.loads import dissipated
 from reynolds.thermal import energy_kernels
 from reynolds.thermal.edge_flow import EdgeFlow, edge_flow, open_unknowns

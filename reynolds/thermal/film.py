@@ -9,9 +9,9 @@ from typing import cast
 import numpy as np
 
 from reynolds.errors import FilmInputError
-from reynolds.film import FilmProblem
 from reynolds.laws.fluid import Fluid, ViscosityLaw, isoviscous
 from reynolds.numerics.arrays import Array
+from reynolds.problem import FilmProblem
 from reynolds.solve.solver import FilmSolver
 from reynolds.solve.transient import Instant, from_last_or_anew, march_with
 from reynolds.thermal.coupling import Coupled, Posed, agree

@@ -21,8 +21,8 @@ from numpy.polynomial import legendre
 
 from reynolds.errors import FilmInputError
 from reynolds.fem.space import FilmSpace
-from reynolds.film import Film, FilmSolution
 from reynolds.numerics.arrays import Array
+from reynolds.problem import Film, FilmSolution
 from reynolds.solve.loads import evaluate
 
 DEFAULT_LEVELS = 6

@@ -11,8 +11,8 @@ from typing import cast
 
 import numpy as np
 
-from reynolds.film import FilmProblem
 from reynolds.numerics.arrays import Array
+from reynolds.problem import FilmProblem
 from reynolds.solve.solver import FilmSolver
 from reynolds.thermal.coupling import Coupled, Posed, agree, resting_viscosity
 from reynolds.thermal.film_profile import DEFAULT_LEVELS, levels

@@ -9,7 +9,7 @@ from typing import Any
 
 from reynolds.errors import FilmInputError
 from reynolds.fem.space import film_space
-from reynolds.film import Cavitation, FilmProblem
+from reynolds.problem import Cavitation, FilmProblem
 from reynolds.solve.setting import check_pressures
 from swashfilm.case.fields.expressions import IN_TIME, PLACE
 from swashfilm.case.fields.field import Field, Uniform

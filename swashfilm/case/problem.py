@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from reynolds.errors import FilmInputError
 from reynolds.fem.space import FilmSpace, film_space
-from reynolds.film import Film, FilmProblem, Held
 from reynolds.laws.fluid import CONSTANT, Fluid
 from reynolds.numerics.arrays import Array
+from reynolds.problem import Film, FilmProblem, Held
 from swashfilm.case.fields.field import Field
 from swashfilm.case.fields.reader import field_fault
 from swashfilm.case.statement import FilmStatement

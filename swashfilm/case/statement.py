@@ -6,8 +6,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, fields, replace
 from typing import Any
 
-from reynolds.film import Cavitation
 from reynolds.floating.load_search import RigidLoad
+from reynolds.problem import Cavitation
 from swashfilm.case.fields.field import CellData, Field, Formula, MeshData, PointData, Uniform
 from swashfilm.case.fields.mesh import CaseMesh
 from swashfilm.case.tables.boundary import BoundaryStatement

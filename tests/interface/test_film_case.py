@@ -6,7 +6,7 @@ import meshio
 import numpy as np
 import pytest
 
-from reynolds.film import Cavitation
+from reynolds.problem import Cavitation
 from swashfilm.__main__ import main
 from swashfilm.case.file import FilmCase, load_case
 from swashfilm.case.gap.instant import GapCase

@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 import xarray
 
-from reynolds.film import Cavitation
 from reynolds.laws.density import DOWSON_HIGGINSON, BulkModulus, RationalDensity, Tait
 from reynolds.laws.viscosity import Barus, Roelands
+from reynolds.problem import Cavitation
 from swashfilm.__main__ import main
 from swashfilm.case.file import FilmCase, load_case
 from swashfilm.runs.film.history import fields_over_time

@@ -14,7 +14,7 @@ import pytest
 
 from reynolds.fem.mesh import Cell, rectangle
 from reynolds.fem.space import FilmSpace, film_space
-from reynolds.film import ZERO, FilmProblem, Held, film
+from reynolds.problem import ZERO, FilmProblem, Held, film
 from reynolds.solve.solver import FilmSolver
 
 CELLS = 144, 8  # around, over half of the length

@@ -20,8 +20,8 @@ from reynolds.bodies.wall import Body, body_wall
 from reynolds.equation.coefficients import at_points
 from reynolds.fem.mesh import Cell, rectangle
 from reynolds.fem.space import FilmSpace, film_space
-from reynolds.film import ZERO, FilmProblem, FilmSolution, Held, film
 from reynolds.laws.fluid import Fluid
+from reynolds.problem import ZERO, FilmProblem, FilmSolution, Held, film
 from reynolds.solve.loads import loads
 from reynolds.solve.solver import FilmSolver
 

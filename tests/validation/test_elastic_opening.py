@@ -17,7 +17,7 @@ from reynolds.bodies.elasticity import Elastic
 from reynolds.bodies.foundation import Compliance
 from reynolds.fem.mesh import Cell, rectangle
 from reynolds.fem.space import FilmSpace, film_space
-from reynolds.film import Cavitation, FilmProblem, Held, film
+from reynolds.problem import Cavitation, FilmProblem, Held, film
 from reynolds.solve.loads import loads
 from reynolds.solve.solver import FilmSolver
 

@@ -25,9 +25,9 @@ from reynolds.bodies.wall import Body, body_wall
 from reynolds.equation.coefficients import at_points
 from reynolds.fem.mesh import Cell, rectangle
 from reynolds.fem.space import FilmSpace, film_space
-from reynolds.film import ZERO, FilmProblem, FilmSolution, Held, film
 from reynolds.laws.contact import asperities_of
 from reynolds.laws.fluid import Fluid
+from reynolds.problem import ZERO, FilmProblem, FilmSolution, Held, film
 from reynolds.solve.loads import loads, point_fields
 from reynolds.solve.solver import FilmSolver
 

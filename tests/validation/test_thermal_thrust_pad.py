@@ -13,7 +13,7 @@ from skfem import MeshQuad
 
 from reynolds.fem.mesh import FilmMesh
 from reynolds.fem.space import FilmSpace, film_space
-from reynolds.film import Cavitation, FilmProblem, Held, film
+from reynolds.problem import Cavitation, FilmProblem, Held, film
 from reynolds.solve.loads import pressure_integrals
 from reynolds.solve.solver import FilmSolver
 from reynolds.thermal.energy import Heat

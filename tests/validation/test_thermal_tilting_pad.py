@@ -16,7 +16,7 @@ from skfem import MeshTri
 from reynolds.equation.coefficients import at_points
 from reynolds.fem.mesh import FilmMesh
 from reynolds.fem.space import FilmSpace, film_space
-from reynolds.film import ZERO, Cavitation, FilmProblem, FilmSolution, Held, film
+from reynolds.problem import ZERO, Cavitation, FilmProblem, FilmSolution, Held, film
 from reynolds.solve.solver import FilmSolver
 from reynolds.thermal.energy import FilmTemperature, Heat, solve_energy
 from reynolds.thermal.film_profile import dowson, film_with, levels

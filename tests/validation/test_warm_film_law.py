@@ -12,9 +12,9 @@ from gaps.films.block import standing_block
 from gaps.films.slipper import floating_slipper
 from gaps.revolution.film_heat import GapHeat, local_law, wall_image
 from gaps.standing.conductances import kidney_conductances, slipper_land_conductance
-from reynolds.film import HALF
 from reynolds.floating.rest import held_at
 from reynolds.laws.oil import dynamic_viscosity
+from reynolds.problem import HALF
 from reynolds.solve.solver import FilmSolver
 from reynolds.thermal.coupling import Posed, agree
 from reynolds.thermal.film_profile import levels

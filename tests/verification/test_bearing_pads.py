@@ -12,8 +12,8 @@ from gaps.films.physics import Effect, Physics
 from gaps.shapes.bearing_pads import EDGE, BearingPads
 from gaps.shapes.valve_plate_ring import Ring, ValvePlateGeometry
 from reynolds.errors import FilmInputError
-from reynolds.film import FilmSolution
 from reynolds.floating.coordinates import generalised_force, modes_on
+from reynolds.problem import FilmSolution
 from reynolds.solve.loads import loads
 from reynolds.solve.solver import FilmSolver
 from system.films.rotor import valve_plate_geometry

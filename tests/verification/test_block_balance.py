@@ -28,12 +28,12 @@ from gaps.films.physics import FilmLaws
 from gaps.loads.block_tipping import BlockBalance, land_lift
 from gaps.shapes.profiles import Profile, Waviness
 from gaps.shapes.valve_plate_ring import ValvePlateGeometry
-from reynolds.film import FilmProblem, Storage
 from reynolds.floating.coordinates import contact_force, generalised_force, modes_on
 from reynolds.floating.rest import held_at
 from reynolds.floating.start import seats_of
 from reynolds.floating.step import solve_stage, standing
 from reynolds.laws.contact import Asperities
+from reynolds.problem import FilmProblem, Storage
 from reynolds.solve.solver import FilmSolver
 
 RADII = (26.5e-3, 31.5e-3, 40.5e-3, 45.7e-3)

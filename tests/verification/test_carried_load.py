@@ -12,10 +12,10 @@ from reynolds.equation.rough_overlap import film_between
 from reynolds.errors import FilmInputError, FilmNotConverged
 from reynolds.fem.mesh import rectangle
 from reynolds.fem.space import film_space
-from reynolds.film import ZERO, Cavitation, FilmProblem, Held, film
 from reynolds.floating.load_search import RigidLoad, carry
 from reynolds.laws.contact import Asperities, contact_pressure
 from reynolds.laws.roughness import Surface
+from reynolds.problem import ZERO, Cavitation, FilmProblem, Held, film
 from reynolds.solve.loads import loads
 
 LENGTH, WIDTH, VISCOSITY, SPEED = 0.01, 0.002, 0.03, 1.0

@@ -22,12 +22,12 @@ from reynolds.bodies.wall import Body, body_wall, face_wall
 from reynolds.errors import FilmNotConverged
 from reynolds.fem.mesh import Cell, rectangle
 from reynolds.fem.space import FilmSpace, film_space
-from reynolds.film import ZERO, Cavitation, FilmProblem, FilmSolution, Held, film
 from reynolds.laws.contact import Asperities
 from reynolds.linear import elastic as compliant
 from reynolds.linear.elastic import Balance, compliant_answer
 from reynolds.numerics.arrays import Array
 from reynolds.numerics.gmres import gmres
+from reynolds.problem import ZERO, Cavitation, FilmProblem, FilmSolution, Held, film
 from reynolds.solve import solver as solve
 from reynolds.solve.loads import loads
 from reynolds.solve.solver import FilmSolver

@@ -14,7 +14,7 @@ import pytest
 from reynolds.errors import FilmInputError
 from reynolds.fem.mesh import Cell, rectangle
 from reynolds.fem.space import FilmSpace, film_space
-from reynolds.film import ZERO, Cavitation, Film, FilmProblem, Held, film
+from reynolds.problem import ZERO, Cavitation, Film, FilmProblem, Held, film
 from reynolds.solve.solver import FilmSolver
 from reynolds.thermal.energy import Heat, solve_energy
 from reynolds.thermal.film import ThermalSolution, solve_thermal

@@ -14,7 +14,7 @@ import pytest
 from reynolds.errors import FilmInputError, FilmNotConverged
 from reynolds.fem.mesh import Cell, rectangle
 from reynolds.fem.space import FilmSpace, film_space
-from reynolds.film import ZERO, Cavitation, FilmProblem, Held, Storage, film
+from reynolds.problem import ZERO, Cavitation, FilmProblem, Held, Storage, film
 from reynolds.solve.loads import loads
 from reynolds.solve.solver import FilmSolver
 from reynolds.thermal.energy import FilmTemperature, Heat, solve_energy

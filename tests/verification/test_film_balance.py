@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 
 from reynolds.fem.mesh import Cell, annulus, rectangle
 from reynolds.fem.space import FilmSpace, film_space
-from reynolds.film import Cavitation, Film, FilmProblem, FilmSolution, Held, film
+from reynolds.problem import Cavitation, Film, FilmProblem, FilmSolution, Held, film
 from reynolds.solve.loads import Loads, loads
 from reynolds.solve.solver import FilmSolver
 

@@ -7,7 +7,7 @@ import pytest
 
 from reynolds.fem.mesh import Cell, rectangle
 from reynolds.fem.space import FilmSpace, film_space
-from reynolds.film import ZERO, Cavitation, FilmProblem, FilmSolution, Held, Pocket, film, no_feed
+from reynolds.problem import ZERO, Cavitation, FilmProblem, FilmSolution, Held, Pocket, film, no_feed
 from reynolds.solve.cavity_guess import COARSEST, Cascade, Obstacle
 from reynolds.solve.loads import loads
 from reynolds.solve.solver import FilmSolver

@@ -23,7 +23,7 @@ from reynolds.bodies.wall import Body, body_wall
 from reynolds.errors import FilmNotConverged
 from reynolds.fem.mesh import Cell, rectangle
 from reynolds.fem.space import FilmSpace, film_space
-from reynolds.film import ZERO, Cavitation, FilmProblem, FilmSolution, Held, Pocket, film
+from reynolds.problem import ZERO, Cavitation, FilmProblem, FilmSolution, Held, Pocket, film
 from reynolds.solve.loads import loads
 from reynolds.solve.solver import FilmSolver
 from reynolds.solve.transient import march

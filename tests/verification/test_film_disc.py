@@ -8,7 +8,7 @@ import skfem
 
 from reynolds.fem.mesh import Cell, FilmMesh, annulus, loop_names
 from reynolds.fem.space import FilmSpace, film_space
-from reynolds.film import FilmProblem, Held, film
+from reynolds.problem import FilmProblem, Held, film
 from reynolds.solve.loads import Loads, loads
 from reynolds.solve.solver import FilmSolver
 

@@ -8,7 +8,7 @@ import pytest
 from reynolds.errors import FilmInputError, FilmNotConverged
 from reynolds.fem.mesh import Cell, rectangle
 from reynolds.fem.space import FilmSpace, film_space
-from reynolds.film import ZERO, Cavitation, Film, FilmProblem, Held, Pocket, film, no_feed
+from reynolds.problem import ZERO, Cavitation, Film, FilmProblem, Held, Pocket, film, no_feed
 from reynolds.solve import solver as solve
 from reynolds.solve.solver import FilmSolver
 

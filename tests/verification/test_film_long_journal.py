@@ -11,7 +11,7 @@ import pytest
 
 from reynolds.fem.mesh import Cell, rectangle
 from reynolds.fem.space import FilmSpace, film_space
-from reynolds.film import ZERO, Cavitation, FilmProblem, FilmSolution, Held, film
+from reynolds.problem import ZERO, Cavitation, FilmProblem, FilmSolution, Held, film
 from reynolds.solve.loads import Loads, loads, point_fields
 from reynolds.solve.solver import FilmSolver
 

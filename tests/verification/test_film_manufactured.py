@@ -10,7 +10,7 @@ import pytest
 
 from reynolds.fem.mesh import Cell, rectangle
 from reynolds.fem.space import FilmSpace, film_space
-from reynolds.film import FilmProblem, Held, film
+from reynolds.problem import FilmProblem, Held, film
 from reynolds.solve.loads import evaluate
 from reynolds.solve.solver import FilmSolver
 

@@ -12,7 +12,7 @@ from reynolds.equation.balance import Operators, State, operators, steep_gradien
 from reynolds.equation.hourglass import spared
 from reynolds.fem.mesh import Cell, annulus, rectangle
 from reynolds.fem.space import FilmSpace, film_space
-from reynolds.film import Cavitation, FilmProblem, Held, film
+from reynolds.problem import Cavitation, FilmProblem, Held, film
 
 SIZE = (0.02, 0.013)
 SPACES = {

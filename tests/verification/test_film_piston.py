@@ -11,7 +11,7 @@ import pytest
 
 from reynolds.fem.mesh import Cell, rectangle
 from reynolds.fem.space import film_space
-from reynolds.film import Cavitation, FilmProblem, Held, film
+from reynolds.problem import Cavitation, FilmProblem, Held, film
 from reynolds.solve.loads import loads, point_fields
 from reynolds.solve.solver import FilmSolver
 

@@ -9,7 +9,7 @@ import skfem
 from reynolds.errors import FilmInputError
 from reynolds.fem.mesh import Cell, FilmMesh, rectangle
 from reynolds.fem.space import film_space
-from reynolds.film import ZERO, Cavitation, Film, FilmProblem, Held, film
+from reynolds.problem import ZERO, Cavitation, Film, FilmProblem, Held, film
 from reynolds.solve.loads import loads
 from reynolds.solve.setting import check_pressures
 from reynolds.solve.solver import FilmSolver

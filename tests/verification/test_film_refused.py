@@ -10,7 +10,7 @@ import pytest
 from reynolds.errors import FilmInputError, FilmNotConverged
 from reynolds.fem.mesh import annulus, rectangle
 from reynolds.fem.space import film_space
-from reynolds.film import ZERO, Cavitation, FilmProblem, Held, Pocket, Storage, film
+from reynolds.problem import ZERO, Cavitation, FilmProblem, Held, Pocket, Storage, film
 from reynolds.solve.loads import loads
 from reynolds.solve.setting import check_pressures
 from reynolds.solve.solver import FilmSolver

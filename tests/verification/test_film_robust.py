@@ -18,7 +18,7 @@ from scipy.spatial import Delaunay
 from reynolds.errors import FilmInputError, FilmNotConverged
 from reynolds.fem.mesh import Cell, FilmMesh, annulus, box_names, rectangle
 from reynolds.fem.space import FilmSpace, film_space
-from reynolds.film import Cavitation, FilmProblem, FilmSolution, Held, Storage, film
+from reynolds.problem import Cavitation, FilmProblem, FilmSolution, Held, Storage, film
 from reynolds.solve.loads import loads
 from reynolds.solve.solver import FilmSolver
 

@@ -16,9 +16,9 @@ from scipy.stats import norm
 
 from reynolds.fem.mesh import Cell, rectangle
 from reynolds.fem.space import FilmSpace, film_space
-from reynolds.film import ZERO, Cavitation, FilmProblem, FilmSolution, Held, film
 from reynolds.laws.contact import Asperities
 from reynolds.laws.roughness import Surface
+from reynolds.problem import ZERO, Cavitation, FilmProblem, FilmSolution, Held, film
 from reynolds.solve.loads import Loads, loads
 from reynolds.solve.solver import FilmSolver
 from reynolds.solve.transient import march

@@ -10,7 +10,7 @@ import pytest
 
 from reynolds.fem.mesh import Cell, rectangle
 from reynolds.fem.space import FilmSpace, film_space
-from reynolds.film import ZERO, FilmProblem, FilmSolution, Held, film
+from reynolds.problem import ZERO, FilmProblem, FilmSolution, Held, film
 from reynolds.solve.loads import Loads, loads
 from reynolds.solve.solver import FilmSolver
 

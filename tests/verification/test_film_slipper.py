@@ -11,7 +11,7 @@ import pytest
 
 from reynolds.fem.mesh import Cell, FilmMesh, annulus, ring
 from reynolds.fem.space import film_space
-from reynolds.film import ZERO, Cavitation, FilmProblem, FilmSolution, Held, Pocket, film, no_feed
+from reynolds.problem import ZERO, Cavitation, FilmProblem, FilmSolution, Held, Pocket, film, no_feed
 from reynolds.solve.loads import Loads, loads
 from reynolds.solve.solver import FilmSolver
 

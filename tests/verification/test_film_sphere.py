@@ -14,7 +14,7 @@ from reynolds.errors import FilmInputError
 from reynolds.fem.mesh import annulus
 from reynolds.fem.space import FilmSpace, film_space
 from reynolds.fem.sphere import PLANE, Sphere
-from reynolds.film import Cavitation, FilmProblem, FilmSolution, Held, film
+from reynolds.problem import Cavitation, FilmProblem, FilmSolution, Held, film
 from reynolds.solve.loads import loads, pressure_integrals
 from reynolds.solve.solver import FilmSolver
 

@@ -19,10 +19,10 @@ from reynolds.bodies.foundation import Compliance, half_space, winkler
 from reynolds.errors import FilmInputError
 from reynolds.fem.mesh import Cell, rectangle
 from reynolds.fem.space import film_space
-from reynolds.film import ZERO, Cavitation, FilmProblem, Held, film
 from reynolds.laws.contact import Asperities
 from reynolds.laws.fluid import Fluid
 from reynolds.laws.roughness import Surface
+from reynolds.problem import ZERO, Cavitation, FilmProblem, Held, film
 from reynolds.solve import solver as solve
 from reynolds.solve.loads import loads
 from reynolds.solve.solver import FilmSolver

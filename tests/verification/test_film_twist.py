@@ -18,10 +18,10 @@ from reynolds.equation.coefficients import isotropic
 from reynolds.equation.deformation_sparsity import openings
 from reynolds.fem.mesh import Cell, annulus, rectangle
 from reynolds.fem.space import FilmSpace, film_space
-from reynolds.film import Cavitation, FilmProblem, Held, film
 from reynolds.floating.sensitivity import thickness_load
 from reynolds.laws.fluid import Fluid
 from reynolds.laws.roughness import Surface
+from reynolds.problem import Cavitation, FilmProblem, Held, film
 from reynolds.solve.loads import loads
 from reynolds.solve.solver import FilmSolver
 

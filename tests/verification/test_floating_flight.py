@@ -14,12 +14,12 @@ import pytest
 from reynolds.errors import FilmInputError
 from reynolds.fem.mesh import annulus
 from reynolds.fem.space import film_space
-from reynolds.film import ZERO, Boundary, Film, FilmProblem, Held, Pocket, no_feed
 from reynolds.floating.pockets import filled
 from reynolds.floating.problem import Floating, steady
 from reynolds.floating.start import started
 from reynolds.floating.step import solve_stage, standing
 from reynolds.numerics.dirk import ALEXANDER_2, advance
+from reynolds.problem import ZERO, Boundary, Film, FilmProblem, Held, Pocket, no_feed
 from reynolds.solve.solver import FilmSolver
 
 INNER, OUTER, VISCOSITY = 7e-3, 12e-3, 0.03

@@ -15,7 +15,6 @@ import pytest
 
 from reynolds.fem.mesh import Cell, rectangle
 from reynolds.fem.space import FilmSpace, film_space
-from reynolds.film import ZERO, Cavitation, FilmProblem, Held, film
 from reynolds.floating.problem import Floating, steady
 from reynolds.floating.start import started
 from reynolds.floating.step import Stage, solve_stage
@@ -29,6 +28,7 @@ from reynolds.numerics.dirk import (
     nodes_only,
     within,
 )
+from reynolds.problem import ZERO, Cavitation, FilmProblem, Held, film
 from reynolds.solve.loads import loads
 from reynolds.solve.solver import FilmSolver
 

@@ -16,7 +16,6 @@ from scipy.sparse import csr_array
 from reynolds.equation.rough_overlap import film_between
 from reynolds.fem.mesh import Cell, rectangle
 from reynolds.fem.space import FilmSpace, film_space
-from reynolds.film import ZERO, Film, FilmProblem, Held
 from reynolds.floating.coordinates import contact_force, generalised_force, modes_on
 from reynolds.floating.problem import Floating, Outer
 from reynolds.floating.sensitivity import oil_slopes, response, thickness_load
@@ -25,6 +24,7 @@ from reynolds.laws.contact import Asperities
 from reynolds.laws.fluid import Fluid
 from reynolds.laws.roughness import Surface, mean_thickness
 from reynolds.numerics.arrays import Array
+from reynolds.problem import ZERO, Film, FilmProblem, Held
 from reynolds.solve.solver import FilmSolver
 
 RADIUS, WIDTH, CLEARANCE, SPEED, VISCOSITY = 0.02, 0.02, 20e-6, 5.0, 0.03

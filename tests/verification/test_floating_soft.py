@@ -21,12 +21,12 @@ from reynolds.bodies.foundation import Compliance, half_space, winkler
 from reynolds.equation.rough_overlap import as_shaped
 from reynolds.fem.mesh import Cell, rectangle
 from reynolds.fem.space import FilmSpace, film_space
-from reynolds.film import ZERO, Film, FilmProblem, Held
 from reynolds.floating.problem import Floating, steady
 from reynolds.floating.step import Stage, solve_stage, standing
 from reynolds.laws.contact import Asperities, contact_pressure
 from reynolds.laws.roughness import Surface
 from reynolds.numerics.arrays import Array
+from reynolds.problem import ZERO, Film, FilmProblem, Held
 from reynolds.solve.solver import FilmSolver
 
 LENGTH, WIDE, VISCOSITY, STIFFNESS = 10e-3, 2.5e-3, 0.03, 1e13

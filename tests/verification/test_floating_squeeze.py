@@ -16,13 +16,13 @@ from scipy.optimize import brentq
 from reynolds.errors import FilmInputError, FilmNotConverged
 from reynolds.fem.mesh import Cell, FilmMesh, annulus, loop_names, rectangle
 from reynolds.fem.space import FilmSpace, film_space
-from reynolds.film import ZERO, Boundary, Film, FilmProblem, Held, Pocket, film
 from reynolds.floating.coordinates import generalised_force, modes_on
 from reynolds.floating.problem import Floating, Outer, steady
 from reynolds.floating.start import started
 from reynolds.floating.step import Stage, solve_stage, standing
 from reynolds.laws.contact import Asperities, contact_pressure
 from reynolds.numerics.dirk import ALEXANDER_2, BACKWARD_EULER, Tableau, advance
+from reynolds.problem import ZERO, Boundary, Film, FilmProblem, Held, Pocket, film
 from reynolds.solve.solver import FilmSolver
 
 VISCOSITY, LOAD, START, END = 0.03, 100.0, 20e-6, 10e-3

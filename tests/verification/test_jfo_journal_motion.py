@@ -13,7 +13,7 @@ import numpy as np
 
 from reynolds.fem.mesh import Cell, rectangle
 from reynolds.fem.space import FilmSpace, film_space
-from reynolds.film import ZERO, FilmProblem, FilmSolution, Held, Storage, film
+from reynolds.problem import ZERO, FilmProblem, FilmSolution, Held, Storage, film
 from reynolds.solve.loads import loads
 from reynolds.solve.solver import FilmSolver
 

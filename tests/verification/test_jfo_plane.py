@@ -19,10 +19,10 @@ from scipy.spatial import Delaunay
 
 from reynolds.fem.mesh import Cell, FilmMesh, box_names, rectangle
 from reynolds.fem.space import FilmSpace, film_space
-from reynolds.film import ZERO, Cavitation, FilmProblem, FilmSolution, Held, film
 from reynolds.laws.density import RationalDensity
 from reynolds.laws.fluid import CONSTANT, Fluid
 from reynolds.laws.viscosity import Barus
+from reynolds.problem import ZERO, Cavitation, FilmProblem, FilmSolution, Held, film
 from reynolds.solve.loads import evaluate, loads
 from reynolds.solve.solver import FilmSolver
 

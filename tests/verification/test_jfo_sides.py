@@ -10,7 +10,7 @@ import pytest
 
 from reynolds.fem.mesh import Cell, rectangle
 from reynolds.fem.space import film_space
-from reynolds.film import ZERO, FilmProblem, Held, film
+from reynolds.problem import ZERO, FilmProblem, Held, film
 from reynolds.solve.loads import loads
 from reynolds.solve.solver import FilmSolver
 

@@ -18,7 +18,7 @@ from scipy.spatial import Delaunay
 from reynolds.equation.coefficients import at_points
 from reynolds.fem.mesh import Cell, FilmMesh, box_names, rectangle
 from reynolds.fem.space import FilmSpace, film_space
-from reynolds.film import ZERO, FilmProblem, FilmSolution, Held, film
+from reynolds.problem import ZERO, FilmProblem, FilmSolution, Held, film
 from reynolds.solve.loads import Loads, loads
 from reynolds.solve.solver import FilmSolver
 

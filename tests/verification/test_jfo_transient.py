@@ -14,7 +14,7 @@ import pytest
 
 from reynolds.fem.mesh import Cell, rectangle
 from reynolds.fem.space import FilmSpace, film_space
-from reynolds.film import Cavitation, FilmProblem, FilmSolution, Held, Storage, film
+from reynolds.problem import Cavitation, FilmProblem, FilmSolution, Held, Storage, film
 from reynolds.solve.solver import FilmSolver
 
 SUPPLY = 0.025  # pressure at the ends

@@ -9,9 +9,9 @@ from reynolds.equation.coefficients import isotropic
 from reynolds.fem import kernels
 from reynolds.fem.mesh import Cell, rectangle
 from reynolds.fem.space import film_space
-from reynolds.film import ZERO, Cavitation, FilmProblem, Held, film
 from reynolds.linear import factor as linear
 from reynolds.linear.multigrid.grid import grid_of
+from reynolds.problem import ZERO, Cavitation, FilmProblem, Held, film
 from reynolds.solve.loads import loads
 from reynolds.solve.solver import FilmSolver
 

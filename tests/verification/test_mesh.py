@@ -13,7 +13,7 @@ import skfem
 from reynolds.errors import FilmInputError
 from reynolds.fem.mesh import Cell, FilmMesh, annulus, mesh_from_file, rectangle, rename, ring
 from reynolds.fem.space import film_space
-from reynolds.film import ZERO, FilmProblem, Held, film
+from reynolds.problem import ZERO, FilmProblem, Held, film
 from reynolds.solve.loads import loads
 from reynolds.solve.solver import FilmSolver
 

@@ -9,7 +9,7 @@ from reynolds.errors import FilmInputError
 from reynolds.fem.mesh import mesh_from_file
 from reynolds.fem.mesh_check import mesh_faults
 from reynolds.fem.space import film_space
-from reynolds.film import FilmProblem, Held, film
+from reynolds.problem import FilmProblem, Held, film
 from reynolds.solve.loads import loads
 from reynolds.solve.solver import FilmSolver
 

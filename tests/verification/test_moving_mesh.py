@@ -16,7 +16,7 @@ from gaps.films.physics import Effect, Physics
 from gaps.films.piston import PistonDrive, PistonFilm, PistonShape
 from gaps.shapes.profiles import Points, Profile, Waviness
 from reynolds.errors import FilmInputError
-from reynolds.film import FilmSolution, Held, Storage
+from reynolds.problem import FilmSolution, Held, Storage
 from reynolds.solve.loads import boundary_flows
 from reynolds.solve.solver import FilmSolver
 from reynolds.solve.transient import oil_held

@@ -11,13 +11,13 @@ import pytest
 from toy_maps import LIMITS, SIGMA, ToySimulator, toy_observations, toy_recording
 
 from diagnosis.detect.mismatch import confirmed, detect
-from diagnosis.diagnose import diagnose_study
 from diagnosis.explain.held_out import held_out, regions, speak_against
 from diagnosis.explain.hypotheses import TOLERATED, hypotheses, simulator_of
 from diagnosis.explain.ranked import Weighed, with_probabilities
 from diagnosis.explain.refit import refit
 from diagnosis.explain.scaling import scaling
 from diagnosis.explain.screen import joint_evidence, screen
+from diagnosis.procedure import diagnose_study
 from diagnosis.recording.model import Recording
 from diagnosis.study.map_axes import AXES, scaled_axes
 from diagnosis.study.model import Candidate, Study, study_of

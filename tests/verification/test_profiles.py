@@ -20,10 +20,10 @@ from gaps.shapes.profiles import (
     ring_grooves,
 )
 from reynolds.errors import FilmInputError
-from reynolds.film import Cavitation
 from reynolds.laws.contact import Asperities
 from reynolds.laws.fluid import CONSTANT
 from reynolds.laws.roughness import Surface
+from reynolds.problem import Cavitation
 
 LENGTH = 40e-3
 WORN = PointsAround(

@@ -17,12 +17,12 @@ from gaps.revolution.schedule import Accuracy, Schedule, evenly
 from reynolds.errors import FilmInputError, FilmNotConverged
 from reynolds.fem.mesh import Cell, rectangle, ring
 from reynolds.fem.space import FilmSpace, film_space
-from reynolds.film import ZERO, Cavitation, FilmProblem, Held, film
 from reynolds.floating.problem import Floating, Outer, steady
 from reynolds.floating.start import restarted, seats_of, started
 from reynolds.floating.step import Stage, solve_stage
 from reynolds.numerics.arrays import Array
 from reynolds.numerics.dirk import ALEXANDER_2, march, nodes_only, within
+from reynolds.problem import ZERO, Cavitation, FilmProblem, Held, film
 from reynolds.solve.loads import boundary_flows
 from reynolds.solve.solver import FilmSolver
 

@@ -17,10 +17,10 @@ from scipy.optimize import brentq, fsolve
 from reynolds.errors import FilmInputError
 from reynolds.fem.mesh import Cell, rectangle
 from reynolds.fem.space import FilmSpace, film_space
-from reynolds.film import ZERO, Cavitation, FilmProblem, Held, film
 from reynolds.laws.fluid import Fluid
 from reynolds.laws.rheology import Carreau, Cross, Eyring
 from reynolds.laws.viscosity import Barus
+from reynolds.problem import ZERO, Cavitation, FilmProblem, Held, film
 from reynolds.solve.loads import loads
 from reynolds.solve.solver import FilmSolver
 from reynolds.thermal.shear_thinning import newtonian, solve_shear

@@ -25,11 +25,11 @@ from gaps.films.slipper import (
 from gaps.shapes.profiles import EdgeRelief, Profile, Waviness
 from gaps.shapes.slipper_lands import SlipperLands, lands_between, slipper_mesh
 from reynolds.errors import FilmInputError
-from reynolds.film import FilmSolution, Held
 from reynolds.floating.coordinates import generalised_force, modes_on
 from reynolds.floating.start import started
 from reynolds.floating.step import Stage, solve_stage
 from reynolds.laws.contact import Asperities
+from reynolds.problem import FilmSolution, Held
 from reynolds.solve.loads import loads
 from reynolds.solve.solver import FilmSolver
 

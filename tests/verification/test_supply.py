@@ -7,7 +7,7 @@ import pytest
 
 from reynolds.fem.mesh import ring
 from reynolds.fem.space import film_space
-from reynolds.film import FilmProblem, Held, Pocket, film
+from reynolds.problem import FilmProblem, Held, Pocket, film
 from reynolds.solve.solver import FilmSolver
 from reynolds.solve.supply import Feed, pressure_sending
 

@@ -21,7 +21,6 @@ from reynolds.bodies.wall import body_wall, heated_wall
 from reynolds.errors import FilmInputError
 from reynolds.fem.mesh import Cell, rectangle
 from reynolds.fem.space import FilmSpace, film_space
-from reynolds.film import ZERO, Cavitation, FilmProblem, Held, film
 from reynolds.laws.contact import Asperities, boundary_shear, contact_pressure
 from reynolds.laws.fluid import Fluid
 from reynolds.laws.oil import ISO_GRADES, Oil, walther
@@ -29,6 +28,7 @@ from reynolds.laws.rheology import Carreau
 from reynolds.laws.roughness import Surface
 from reynolds.laws.viscosity import Barus, RoelandsIndex, barus
 from reynolds.numerics.arrays import Array
+from reynolds.problem import ZERO, Cavitation, FilmProblem, Held, film
 from reynolds.solve.loads import loads
 from reynolds.solve.solver import FilmSolver
 from reynolds.thermal.energy import Heat

@@ -28,11 +28,11 @@ from reynolds.errors import FilmInputError
 from reynolds.fem.mesh import annulus
 from reynolds.fem.space import film_space
 from reynolds.fem.sphere import Sphere
-from reynolds.film import FilmSolution
 from reynolds.floating.coordinates import generalised_force, modes_on
 from reynolds.floating.rest import held_at
 from reynolds.floating.step import solve_stage, standing
 from reynolds.laws.contact import Asperities
+from reynolds.problem import FilmSolution
 from reynolds.solve.loads import loads
 from reynolds.solve.solver import FilmSolver
 from system.films.rotor import valve_plate_geometry

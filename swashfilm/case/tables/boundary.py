@@ -8,7 +8,7 @@ from itertools import combinations
 
 import numpy as np
 
-from reynolds.film import Cavitation
+from reynolds.problem import Cavitation
 from swashfilm.case.fields.field import CellData, InTime, MeshData, PointData, Uniform, read_field
 from swashfilm.case.fields.reader import FieldReader
 from system.inputs.faults import nearest_choice

@@ -8,8 +8,8 @@ from pathlib import Path
 
 from diagnosis.checks.check import check_recording, too_few, too_smooth
 from diagnosis.checks.notes import point_ranges
-from diagnosis.diagnose import diagnose_study
 from diagnosis.next_test import with_next_point
+from diagnosis.procedure import diagnose_study
 from diagnosis.recording.model import DataNote, NoteKind, Recording
 from diagnosis.recording.reader import read_recording
 from diagnosis.study.inputs import bench_points

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from reynolds.film import FilmSolution
+from reynolds.problem import FilmSolution
 from reynolds.solve.loads import point_fields
 from swashfilm.case.fields.mesh import MOST_CELLS
 from swashfilm.case.file import FilmCase

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from reynolds.equation.rough_overlap import vertex_thickness
-from reynolds.film import FilmSolution
+from reynolds.problem import FilmSolution
 from reynolds.solve.loads import Loads, point_fields
 from swashfilm.runs.film.physics import physics_summary, vertex_fields
 from swashfilm.runs.film.solve.gap import gap_summary

@@ -6,10 +6,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from reynolds.film import Cavitation, FilmProblem, FilmSolution
 from reynolds.laws.contact import boundary_shear, contact_pressure, lambda_ratio
 from reynolds.laws.fluid import isoviscous
 from reynolds.laws.roughness import beyond_range
+from reynolds.problem import Cavitation, FilmProblem, FilmSolution
 from reynolds.solve.loads import dissipated
 from swashfilm.runs.film.solve.gap import gap_warnings
 

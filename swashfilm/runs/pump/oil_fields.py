@@ -8,9 +8,9 @@ import numpy as np
 
 from gaps.films.physics import Physics
 from gaps.shapes.valve_plate_ring import SEALED
-from reynolds.film import FilmSolution
 from reynolds.laws.oil import WALTHER_SHIFT, walther_coefficients
 from reynolds.numerics.arrays import Array
+from reynolds.problem import FilmSolution
 from reynolds.solve.loads import evaluate
 from system.description.pump import PumpDescription
 

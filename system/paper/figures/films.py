@@ -6,7 +6,7 @@ from math import pi
 
 import numpy as np
 
-from reynolds.film import FilmSolution
+from reynolds.problem import FilmSolution
 from system.description.pump import PumpDescription
 from system.paper.figure import Axis, Field, Figure, Panel, PanelKind, Unit
 from system.paper.judge import FigureResult, Range, judge

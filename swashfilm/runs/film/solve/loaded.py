@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from reynolds.errors import FilmNotConverged
-from reynolds.film import FilmProblem, FilmSolution
 from reynolds.floating.load_search import Carried, carry
+from reynolds.problem import FilmProblem, FilmSolution
 from swashfilm.runs.film.solve.oil import Found, OilSolver, film_of, oil_solver
 
 if TYPE_CHECKING:

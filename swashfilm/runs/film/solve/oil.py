@@ -10,8 +10,8 @@ import numpy as np
 
 from reynolds.errors import FilmInputError, FilmNotConverged
 from reynolds.fem.space import FilmSpace
-from reynolds.film import FilmProblem, FilmSolution
 from reynolds.numerics.arrays import Array
+from reynolds.problem import FilmProblem, FilmSolution
 from reynolds.solve.solver import FilmSolver
 from reynolds.solve.transient import Instant, march_with
 from reynolds.thermal.coupling import Coupled

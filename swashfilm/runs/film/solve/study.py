@@ -6,8 +6,8 @@ import time
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from reynolds.film import FilmSolution
 from reynolds.floating.load_search import Carried
+from reynolds.problem import FilmSolution
 from reynolds.solve.loads import Loads, loads
 from reynolds.thermal.energy import FilmTemperature
 from swashfilm.case.file import FilmCase

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from reynolds.errors import FilmInputError, FilmNotConverged
-from reynolds.film import FilmProblem, FilmSolution
+from reynolds.problem import FilmProblem, FilmSolution
 from reynolds.solve.loads import Loads, loads
 from reynolds.solve.transient import oil_held
 from reynolds.thermal.energy import FilmTemperature
