@@ -1,1 +1,5 @@
 """Simulation against recordings: where they differ, and which physics was left out."""
+
+import lazy_loader
+
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

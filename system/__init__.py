@@ -1,1 +1,5 @@
 """The pump: description, kinematics, chambers, ports, friction pairs, losses and the coupled revolution."""
+
+import lazy_loader
+
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

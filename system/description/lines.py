@@ -1,4 +1,4 @@
-"""[delivery_line] and [suction_line] of the pump description, and the lines of `system.pump.chamber.lines` that
+"""[delivery_line] and [suction_line] of the pump description, and the lines of `system.pump.ports.lines` that
 they mean.
 """
 

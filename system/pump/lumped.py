@@ -10,7 +10,6 @@ import numpy as np
 from reynolds.numerics.arrays import Array
 from system.description.pump import PortsSection, PumpDescription
 from system.inputs.units import TURN
-from system.pump.chamber.lines import Lines
 from system.pump.chamber.problem import ChamberProblem, LeakTable
 from system.pump.land_losses import land_losses
 from system.pump.laws import friction_pairs as pairs
@@ -37,6 +36,7 @@ from system.pump.operating import OperatingPoint
 from system.pump.ports.areas import PortOpening
 from system.pump.ports.described import line_of, relief_groove
 from system.pump.ports.flow_coefficients import FlowTable, port_table
+from system.pump.ports.lines import Lines
 from system.pump.ports.webs import PortWebs
 from system.pump.shaft_torque import GroupMasses
 

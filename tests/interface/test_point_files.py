@@ -10,9 +10,9 @@ from reynolds.errors import FilmInputError
 from system.films.parts import floating_parts
 from system.inputs.faults import InputFaults
 from system.points.lumped import lumped_point
-from system.pump.chamber.lines import ImpedanceLine
 from system.pump.lumped import port_lines
 from system.pump.operating import operating_point
+from system.pump.ports.lines import ImpedanceLine
 from system.pump_file.file import load_pump, resolved_toml
 
 HEAD = "place [mm],material taken off [um]\n"

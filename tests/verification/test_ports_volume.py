@@ -11,15 +11,6 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from system.inputs.errors import NotConverged
-from system.pump.chamber.lines import (
-    HeldPressure,
-    Impedance,
-    ImpedanceLine,
-    Line,
-    Lines,
-    OrificeLine,
-    volume_impedance,
-)
 from system.pump.chamber.port_coupling import SETTLED, PortedCycle, ported_cycle
 from system.pump.chamber.port_volume import Supply, line_power, port_balance
 from system.pump.chamber.problem import ChamberProblem, LeakTable
@@ -31,6 +22,15 @@ from system.pump.laws.kinematics import (
     stand_out,
 )
 from system.pump.ports.areas import PortOpening, opening_area, orifice_flow
+from system.pump.ports.lines import (
+    HeldPressure,
+    Impedance,
+    ImpedanceLine,
+    Line,
+    Lines,
+    OrificeLine,
+    volume_impedance,
+)
 from system.pump.ports.relief_grooves import ReliefGroove
 
 DEGREES = np.pi / 180.0

@@ -20,9 +20,9 @@ from reynolds.numerics.arrays import Array
 from system.inputs.errors import NotConverged
 from system.inputs.units import TURN
 from system.pump.chamber.cycle import flow_energy
-from system.pump.chamber.lines import ImpedanceLine, OrificeLine
 from system.pump.chamber.problem import ChamberProblem
 from system.pump.ports.areas import orifice, orifice_coefficients
+from system.pump.ports.lines import ImpedanceLine, OrificeLine
 
 AREA_LIMIT = 50
 AREA_TOLERANCE = 1e-13

@@ -13,8 +13,8 @@ from system.description.parts import GrooveSection, GrooveShape
 from system.description.pump import PortsSection
 from system.inputs.faults import Fault
 from system.inputs.units import Dimension, format_quantity
-from system.pump.chamber.lines import HeldPressure, Impedance, ImpedanceLine, Line, OrificeLine
 from system.pump.ports.areas import MOST_GROOVES
+from system.pump.ports.lines import HeldPressure, Impedance, ImpedanceLine, Line, OrificeLine
 from system.pump.ports.relief_grooves import ReliefGroove, round_groove, v_groove
 
 _KEYS = {
