@@ -1,0 +1,170 @@
+"""`swashfilm reproduce`: its run folder, its page in the docs, and what it refuses."""
+
+from __future__ import annotations
+
+import json
+import re
+import shutil
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from diagnosis.study.scaled_pump import load_known_pump
+from swashfilm.__main__ import main
+from swashfilm.runs.diagnose.run import checked_recording
+from swashfilm.runs.reproduce.files import claim_rows
+from swashfilm.runs.reproduce.plots import figure_picture
+from swashfilm.runs.reproduce.run import about, paper_points
+from system.paper.figure import Figure
+from system.paper.figures.floating_films import FLOATING_RATIOS, FloatingWork, floating_figures
+from system.paper.judge import Verdict
+from system.paper.points import PRESSURES, RATED, Place
+from system.paper.reproduce import Means, PaperFidelity, reproduce
+from system.paper.statements import CLAIMS
+from system.points.floating_gaps import FloatingOptions
+from system.pump_file.check import run_checks
+from system.pump_file.file import load_pump
+from system.pump_file.floating import slipper_has_a_wedge
+from system.work.kept_results import KeptPoints
+from system.work.processes import HERE
+from system.work.tasks import Outcome, Status
+
+ROOT = Path(__file__).parents[3]
+PAGE = ROOT / "docs" / "reproduction.md"
+EXAMPLE = ROOT / "examples" / "recordings" / "paper_points"
+FLOATING = {claim.id for claim in CLAIMS.values() if claim.figure in (Figure.FIG8, Figure.FIG9)}
+
+
+def _numbers(text):
+    return [float(number) for number in re.findall(r"-?\d+(?:\.\d+)?(?:e[-+]\d+)?", text)]
+
+
+def test_the_page_in_the_docs_is_the_program(monkeypatch, tmp_path):
+    """Every statement stands on the page with the number and verdict that the program finds now."""
+    monkeypatch.setenv("SWASHFILM_CACHE", str(tmp_path))
+    means = Means(paper_points(), HERE, FloatingOptions())
+    rows = claim_rows(reproduce(load_pump("ref90"), tuple(Figure), PaperFidelity.LUMPED, means), "lumped")
+    assert {row["id"] for row in rows} == set(CLAIMS) - FLOATING
+    page = PAGE.read_text("utf-8")
+    for row in rows:
+        part = page.split(f"**{row['id']}** ")[1].split("\n**")[0]
+        lead = f"- {row['reading']}: " if row["reading"] else "- "
+        found, verdict = re.search(rf"^{re.escape(lead)}(.*?): \*\*(.*?)\*\*", part, re.MULTILINE).groups()
+        assert verdict == row["verdict"], row["id"]
+        assert _numbers(found) == pytest.approx(_numbers(row["found_text"]), rel=2e-3), row["id"]
+
+
+def test_a_figure_leaves_a_run_folder(tmp_path, capsys):
+    folder, page = tmp_path / "run", tmp_path / "page.md"
+    assert main(["reproduce", "fig11", "-o", str(folder), "--page", str(page)]) == 0
+    assert "2 reached" in capsys.readouterr().out
+    for name in ("claims.json", "claims.csv", "data/fig11.csv", "plots/fig11.png", "resolved.toml", "report.html"):
+        assert (folder / name).is_file(), name
+    row = json.loads((folder / "claims.json").read_text("utf-8"))["claims"][0]
+    summary = json.loads((folder / "summary.json").read_text("utf-8"))
+    docs = (ROOT / "docs" / "files.md").read_text("utf-8")
+    part = docs.split("# A reproduction", 1)[1].split("\n## ", 1)[0]
+    assert set(row) | set(summary) <= set(re.findall(r"`([^`]+)`", part))
+    assert "**fig11.small**" in page.read_text("utf-8")
+    assert main(["report", str(folder)]) == 0
+
+
+def test_figures_are_listed(capsys):
+    assert main(["reproduce", "list"]) == 0
+    told = capsys.readouterr().out
+    assert all(figure.value in told for figure in Figure)
+    assert "co-simulation" in told
+
+
+def test_what_means_nothing_in_a_fidelity_says_so(tmp_path, capsys):
+    assert main(["reproduce", "fig9", "-o", str(tmp_path / "run")]) == 0
+    assert "only --fidelity floating" in capsys.readouterr().out
+    summary = json.loads((tmp_path / "run" / "summary.json").read_text("utf-8"))
+    assert "floating" in summary["figures"][0]["remarks"][0]
+
+
+def test_a_pump_that_is_not_the_papers_is_told_so(tmp_path, capsys):
+    pump, folder, page = ROOT / "examples" / "pumps" / "ref90_worn.toml", tmp_path / "run", tmp_path / "page.md"
+    assert main(["reproduce", "fig15", "--pump", str(pump), "-o", str(folder), "--page", str(page)]) == 0
+    assert "of the paper's own pump" in capsys.readouterr().out
+    assert f"--pump {pump}" in page.read_text("utf-8")
+    assert "of the paper's own pump" in page.read_text("utf-8")
+    assert about(load_pump("ref90")) == about(load_pump("ref90_floating")) == ""
+
+
+def test_floating_films_are_drawn_from_what_is_kept(tmp_path):
+    """Points kept by content make both figures: a slipper whose film falls, a piston tilted across its bore."""
+    pump, store = load_pump("ref90_floating"), KeptPoints(tmp_path)
+    work = FloatingWork(pump, FloatingOptions())
+    angle = np.linspace(0.0, 2.0 * np.pi, 9)
+    for ratio, film in zip(FLOATING_RATIOS, (9e-6, 8.7e-6, 8.4e-6, 8.2e-6), strict=True):
+        piston = {
+            "mean": 15.2e-6, "least": -1e-6, "contact": 3e3, "angle": angle.tolist(), "shown": 4.7,
+            "eccentricity": [[1.2e-5] * 9, [0.9e-5] * 9],
+            "field": [[0.0, 3.0, 6.0], [0.0, 1.0], [[1e-6, 15e-6, 29e-6], [29e-6, 15e-6, 1e-6]]],
+        }  # fmt: skip
+        record = {"slipper": {"mean": film, "least": 2e-6, "contact": 0.0}, "piston": piston}
+        key = work.key(Place(RATED, PRESSURES[-1], ratio))
+        store.put(Outcome(key, Status.SOLVED, "", record, 1.0, "test"))
+    figures = floating_figures(pump, work.options, store, HERE)
+    verdicts = {one.claim.id: one.verdict for figure in figures for one in figure.judged}
+    assert set(verdicts) == FLOATING
+    assert set(verdicts.values()) == {Verdict.REACHED}
+    for figure in figures:
+        assert figure_picture(figure.panels).startswith(b"\x89PNG")
+    assert "0.80 at the film's inner end" in figures[0].remarks[0]
+    assert not run_checks((slipper_has_a_wedge,), pump).warnings
+
+
+def test_the_example_recording_is_whole():
+    recording = checked_recording(EXAMPLE, load_known_pump("ref90"))
+    assert len(recording.steady.values) == 112
+
+
+def test_a_recording_that_lacks_what_the_loss_is_made_of_is_refused(tmp_path, capsys):
+    lacking = tmp_path / "lacking"
+    shutil.copytree(EXAMPLE, lacking)
+    head = lacking / "recording.toml"
+    kept = [line for line in head.read_text("utf-8").splitlines() if not line.startswith("torque")]
+    head.write_text("\n".join(kept), encoding="utf-8")
+    assert main(["reproduce", "fig13", "--recording", str(lacking), "-o", str(tmp_path / "run")]) == 2
+    assert "no torque" in capsys.readouterr().err
+
+
+@pytest.mark.slow
+def test_coefficients_are_tuned_to_a_recording(tmp_path):
+    """The example's planted coefficients within 4 sigma; one speed and displacement tell 2 or 3 of 7 apart."""
+    folder = tmp_path / "run"
+    assert main(["reproduce", "fig13", "--recording", str(EXAMPLE), "-o", str(folder)]) == 0
+    rows = json.loads((folder / "claims.json").read_text("utf-8"))["claims"]
+    solved = next(row for row in rows if row["id"] == "fig13.solved")
+    assert solved["verdict"] == "contradicted by physics"
+    assert solved["found"][1] < 4.0
+    told = " ".join(json.loads((folder / "summary.json").read_text("utf-8"))["figures"][0]["remarks"])
+    whole = told.split("All 112 points together, with shear", 1)[1]
+    prior = 0.5 * np.log(0.03 / 0.008)
+    planted = {"piston cylinder": 0.030, "slipper swash plate": 0.0070, "valve plate cylinder": 0.013}
+    for name, true in planted.items():
+        found, width = re.search(rf"{name} ([\d.]+) \((\d+) %\)", whole).groups()
+        assert abs(np.log(float(found) / true)) < 4.0 * float(width) / 100.0 * prior
+
+
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        (["fig2", "--recording", str(EXAMPLE)], "fig13 or all"),
+        (["fig13", "--fidelity", "films", "--recording", str(EXAMPLE)], "--fidelity lumped"),
+        (["fig13", "--recording", "no_such_folder"], "no_such_folder"),
+        (["fig2", "--pump", "ref9"], "ref90"),
+        (["fig7"], "a drawing (co-simulation model)"),
+        (["fig99"], "'fig99'"),
+        (["fig2", "--fidelity", "lumpd"], "lumped"),
+        (["fig2", "--workers", "none"], "--workers"),
+        (["fig2", "--steps", "36"], "--steps"),
+    ],
+)
+def test_words_that_mean_nothing_are_refused(words, told, tmp_path, capsys):
+    assert main(["reproduce", *words, "-o", str(tmp_path / "run")]) == 2
+    assert told in capsys.readouterr().err
+    assert not (tmp_path / "run").exists()

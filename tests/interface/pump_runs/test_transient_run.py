@@ -1,0 +1,132 @@
+"""`swashfilm transient`: the case's faults, its run folder, the way back from the resolved case."""
+
+from __future__ import annotations
+
+import json
+import re
+from pathlib import Path
+
+import pandas
+import pytest
+
+from swashfilm.cli.app import run_command
+from swashfilm.runs.transient.case import load_transient
+from system.inputs.faults import InputFaults
+
+ROOT = Path(__file__).parents[3]
+EXAMPLE = ROOT / "examples" / "transients" / "destroke.toml"
+SHORT = """format = 1
+[transient]
+pump = "ref90"
+end = "20 ms"
+control_pressure = [["0 s", "2.5 MPa"], ["5 ms", "0.6 MPa"]]
+[pump.actuator]
+area = "18 cm2"
+[pump.swash_plate]
+inertia = "0.02 kg m2"
+"""
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    place = tmp_path_factory.mktemp("transient")
+    (place / "short.toml").write_text(SHORT, "utf-8")
+    assert run_command(["transient", str(place / "short.toml"), "-o", str(place / "out")]) == 0
+    return place / "out"
+
+
+def faults_of(text: str, place: Path) -> dict[str, str]:
+    path = place / "case.toml"
+    path.write_text(text, "utf-8")
+    with pytest.raises(InputFaults) as raised:
+        load_transient(path)
+    return {fault.path: f"{fault.found} | {fault.expected}" for fault in raised.value.faults}
+
+
+def test_folder_holds_what_the_docs_say(folder):
+    names = {path.name for path in folder.iterdir()}
+    assert names == {"input.toml", "resolved.toml", "course.csv", "results.nc", "summary.json", "report.html"}
+    course = pandas.read_csv(folder / "course.csv")
+    assert all(re.search(r" \[(s|deg|deg/s|1|Pa|N m|m3/s)\]$", name) for name in course.columns)
+    assert course["time [s]"].iloc[-1] == pytest.approx(20e-3, abs=1e-4)
+    assert course["swash_angle [deg]"].iloc[-1] < course["swash_angle [deg]"].iloc[0]
+    found = json.loads((folder / "summary.json").read_text("utf-8"))
+    assert found["kind"] == "transient"
+    assert found["checks"]["mass_balance_error"] < 1e-12
+    assert not any("actuator.area" in taken for taken in found["assumptions"])
+    page = (folder / "report.html").read_text("utf-8")
+    assert page.count("<figure>") == 4
+    assert "swash_plate.damping" in page
+
+
+def test_report_is_made_anew_and_check_prints_the_case(folder, capsys):
+    (folder / "report.html").unlink()
+    assert run_command(["report", str(folder)]) == 0
+    assert (folder / "report.html").is_file()
+    assert run_command(["check", str(EXAMPLE)]) == 0
+    assert "[transient]" in capsys.readouterr().out
+
+
+def test_resolved_case_gives_the_same_case(folder):
+    first, again = load_transient(folder / "input.toml"), load_transient(folder / "resolved.toml")
+    assert again.asked.pump == first.asked.pump
+    assert again.asked.point == first.asked.point
+    assert (again.asked.control_pressure.values == first.asked.control_pressure.values).all()
+    assert again.resolved == first.resolved
+
+
+def test_every_fault_is_told_at_once(tmp_path):
+    text = """format = 2
+[transient]
+pump = "ref9"
+end = "20"
+control_presure = "2.5 MPa"
+course = "jump"
+"""
+    found = faults_of(text, tmp_path)
+    assert set(found) == {
+        "format", "transient.pump", "transient.end", "transient.course", "transient.control_presure",
+    }  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "path", "told"),
+    [
+        (
+            '[["0 s", "2.5 MPa"], ["5 ms", "0.6 MPa"]]',
+            '[["1 ms", "2.5 MPa"]]',
+            "control_pressure",
+            "rise from 0 s",
+        ),
+        ('"5 ms", "0.6 MPa"', '"5 ms", "6"', "control_pressure[1]", "with its unit"),
+        ('[["0 s", "2.5 MPa"], ["5 ms", "0.6 MPa"]]', "2.5", "control_pressure", "rows such as"),
+        ('"20 ms"', '"100 s"', "end", "at most 1000 turns"),
+        ('area = "18 cm2"', 'strokes = "sideways"', "pump.actuator.strokes", "'up'"),
+        ('inertia = "0.02 kg m2"', 'angle_min = "17 deg"', "swash_plate.angle_min", "to below 16.2 deg"),
+    ],
+)
+def test_faults_name_what_is_expected(tmp_path, old, new, path, told):
+    found = faults_of(SHORT.replace(old, new), tmp_path)
+    assert any(path in key and told in value for key, value in found.items()), found
+
+
+def test_start_below_the_lower_stop_is_refused(tmp_path):
+    text = SHORT.replace("inertia", 'angle_min = "8 deg"\ninertia') + "[operating]\ndisplacement_ratio = 0.2\n"
+    assert "angle_min" in faults_of(text, tmp_path)["transient.pump (operating.displacement_ratio)"]
+
+
+def test_a_step_too_long_is_told(tmp_path, capsys):
+    path = tmp_path / "long.toml"
+    path.write_text(SHORT.replace("[pump.actuator]", 'step = "5 deg"\n[pump.actuator]'), "utf-8")
+    with pytest.raises(Exception, match=r"transient.step.*at most"):
+        run_command(["transient", str(path), "-o", str(tmp_path / "none")])
+    assert not (tmp_path / "none").exists()
+
+
+def test_documented_keys_are_those_of_the_case():
+    text = (ROOT / "docs" / "files.md").read_text("utf-8")
+    part = text.split("### [transient]", 1)[1].split("\n## ", 1)[0]
+    documented = set(re.findall(r"^\| `(\w+)` \|", part, re.MULTILINE))
+    source = (ROOT / "swashfilm" / "runs" / "transient" / "case.py").read_text("utf-8")
+    read = set(re.findall(r'table\.(?:get|positive|choice)\("(\w+)"', source))
+    assert documented == read | {"pump"}

@@ -1,0 +1,243 @@
+"""A diagnosis told: the sentence of every status, the next point, and diagnosis.json."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+from made_diagnosis import Q, agreeing, hypothesis
+
+from diagnosis.detect.angle_scan import AngleWindow
+from diagnosis.detect.time_scan import TimeKind, TimeMark
+from diagnosis.recording.model import DataNote, NoteKind
+from diagnosis.report.json_file import diagnosis_record, read_diagnosis, write_diagnosis
+from diagnosis.report.text import next_point_text, paragraphs, statement
+from diagnosis.verdict.diagnosis import Claim, Diagnosis, Estimate, Status
+from diagnosis.verdict.row_numbers import by_table_rows
+from system.description.gap import Gap
+from system.effects.components import Component
+from system.effects.effect import EffectId, Kind
+from system.inputs.channels import ChannelName
+from system.inputs.faults import InputFaults
+from system.inputs.units import Dimension
+
+E = EffectId
+
+
+def test_a_named_effect_is_told_with_place_size_and_odds(named: Diagnosis) -> None:
+    text = statement(named)
+    for part in ("Q_case", "p_out above 250 bar", "film opens under pressure", "the valve plate",
+                 "22 +- 2 1/GPa", "0.93"):  # fmt: skip
+        assert part in text
+    told = " ".join(paragraphs(named))
+    for part in (
+        "0.06 -> 0.0156 (noise 0.015) L/min",
+        "film heating (1:16)",
+        "Error on points held out",
+        "999.8 rpm",
+        "370 bar",
+        "3 times",
+    ):
+        assert part in told, told
+
+
+def test_the_next_point_is_told_with_what_it_promises(named: Diagnosis) -> None:
+    """A promise with its odds; where none can be made so, with what would instead; where the odds do, no more."""
+    found = named.next_point
+    assert found is not None
+    text = next_point_text(found)
+    for part in (
+        "To separate elastic opening at the valve plate from film heating (odds now 1:16), record speed",
+        "3 times: odds of 1:74 are foretold, 1:20 or better with a chance of 0.87",
+    ):
+        assert part in text
+    assert "outside the range recorded" in next_point_text(replace(found, beyond=True))
+    poor = replace(found, chance=0.1, gain=0.7, repeats=None, instead="The leak would.")
+    text = next_point_text(poor)
+    assert text.startswith("No point that an ordinary bench runs is likely to separate")
+    assert "multiplies the odds for the true one by 2 on average" in text
+    assert text.endswith("The leak would.")
+    behind = next_point_text(replace(poor, before=-8.0))
+    assert behind.startswith("To be surer of film heating than 1:3000 against elastic opening at the valve plate")
+    record = diagnosis_record(replace(named, next_point=poor))["next_test"]
+    assert (record["settles"], record["chance"], record["readings"]) == (False, 0.1, 3)
+    assert record["log_odds"] == {"now": pytest.approx(np.log(15.5)), "foretold": 4.3}
+    assert (record["instead"], record["repeats"]) == ("The leak would.", None)
+
+
+@pytest.mark.parametrize("status", Status)
+@pytest.mark.parametrize("kind", Kind)
+def test_every_kind_and_status_has_a_sentence(named: Diagnosis, kind: Kind, status: Status) -> None:
+    claims = () if kind in (Kind.NO_MISMATCH, Kind.UNKNOWN_PHYSICS) else named.effects
+    claims = tuple(replace(claim, equivalent=(E.FILM_HEATING,)) for claim in claims)
+    text = statement(replace(named, kind=kind, status=status, effects=claims))
+    assert text.endswith(".")
+    assert "  " not in text
+    assert "None" not in text
+    if status is Status.SUSPICION:
+        assert "nothing is claimed" in text
+    elif claims and status in (Status.CLASS, Status.INCOMPLETE):
+        assert "cannot tell elastic_opening from film_heating" in text
+        assert ("A part of the mismatch remains besides" in text) == (status is Status.INCOMPLETE)
+        assert "is sure" not in text
+
+
+def test_an_incomplete_name_is_told_as_sure_where_it_is(named: Diagnosis) -> None:
+    one = replace(named, status=Status.INCOMPLETE)
+    assert "The name is sure, but a part of the mismatch remains that it does not explain." in statement(one)
+    two = replace(one, effects=(*one.effects, Claim(E.CHURNING, None, 0.99, (), ())))
+    assert "The names are sure, but a part of the mismatch remains that they do not explain." in statement(two)
+
+
+def test_of_which_pair_a_coefficient_is_is_told(named: Diagnosis) -> None:
+    """Coefficients of friction have no gap: a rival of the same id at another pair stands beside the claim."""
+    own = replace(hypothesis(E.FRICTION_COEFFICIENT), widened=("friction.rear_bearing",))
+    other = replace(own, widened=("friction.front_bearing",))
+    first, *_ = named.hypotheses
+    weighed = (replace(first, hypothesis=own, probability=0.6), replace(first, hypothesis=other, probability=0.4))
+    claim = Claim(E.FRICTION_COEFFICIENT, None, 0.99, (), ())
+    found = replace(named, kind=Kind.WRONG_PARAMETER, effects=(claim,), hypotheses=weighed)
+    assert "most likely of rear bearing (0.6), else of front bearing (0.4)" in statement(found)
+    assert "friction coefficient (front bearing) (1:1.5)" in " ".join(paragraphs(found))
+    sure = replace(found, hypotheses=weighed[:1])
+    assert "most likely" not in statement(sure)
+
+
+def test_rivals_that_act_together_stand_each_at_its_place(named: Diagnosis) -> None:
+    """Of an opening at the slippers beside churning, churning is at no gap."""
+    both = replace(hypothesis(E.FILM_THICKNESS, E.CHURNING, pair=Gap.SLIPPER), widened=("film_thickness.slipper",))
+    first, second, *_ = named.hypotheses
+    found = replace(named, hypotheses=(first, replace(second, hypothesis=both)))
+    assert "film thickness at the slippers and churning (1:16)" in " ".join(paragraphs(found))
+
+
+def test_unknown_physics_counts_by_all_its_components(named: Diagnosis) -> None:
+    first, second, *_ = named.hypotheses
+    unknown = [
+        replace(second, hypothesis=replace(hypothesis(E.UNKNOWN_PHYSICS), component=one), probability=0.2)
+        for one in (Component.PLATE_LEAKAGE, Component.DISPLACEMENT)
+    ]
+    found = replace(named, status=Status.SUSPICION, effects=(), hypotheses=(first, *unknown))
+    assert "unknown physics (0.4)" in statement(found)
+
+
+@pytest.mark.parametrize("effect", [effect for effect in E if effect is not E.UNKNOWN_PHYSICS])
+def test_every_effect_can_be_said(named: Diagnosis, effect: EffectId) -> None:
+    text = statement(replace(named, effects=(Claim(effect, None, 0.99, (), ()),)))
+    assert f"({effect.value})" in text
+
+
+def test_a_gap_that_cannot_be_told_is_told_with_its_rivals(named: Diagnosis) -> None:
+    claim = replace(named.effects[0], elsewhere=((Gap.SLIPPER, 0.22),))
+    found = replace(named, status=Status.CLASS, effects=(claim,))
+    text = statement(found)
+    assert "most likely at the valve plate" in text
+    assert "cannot tell the valve plate (0.78) from the slippers (0.22)" in text
+    assert diagnosis_record(found)["effects"][0]["other_pairs"] == {"slipper": 0.22}
+
+
+def test_unknown_physics_is_described_by_its_exponents(named: Diagnosis) -> None:
+    text = statement(replace(named, kind=Kind.UNKNOWN_PHYSICS, effects=()))
+    assert "pressure^(2.1 +- 0.1)" in text
+    assert "speed^" not in text
+    assert "plate leakage" in text
+
+
+def test_angles_and_times_are_part_of_where(named: Diagnosis) -> None:
+    angle = AngleWindow(0.1, 0.3, 1e-3, ("delivery groove opens",))
+    time = TimeMark(TimeKind.ONSET, Q, 39, 1e-4, None)
+    found = replace(named, location=replace(named.location, angle=angle, time=time))
+    assert "shaft angle 5.73 to 17.2 deg (delivery groove opens)" in statement(found)
+    where = diagnosis_record(found)["where"]
+    assert where["shaft_angle_deg"] == pytest.approx([5.7296, 17.1887], rel=1e-4)
+    assert where["time"] == {"kind": "onset", "channel": "Q_case", "point": 40}
+    assert "Q_case from point 40 on" in statement(found)
+    drift = replace(found, location=replace(found.location, time=replace(time, kind=TimeKind.DRIFT)))
+    assert "Q_case drifting in the course of the recording" in statement(drift)
+    assert diagnosis_record(drift)["where"]["time"] == {"kind": "drift", "channel": "Q_case", "point": None}
+    assert "shaft angle" not in statement(agreeing(found))
+    lacking = DataNote(NoteKind.REMOVED, None, (1,), "an input of these points is missing")
+    recording = SimpleNamespace(notes=(lacking,), steady=SimpleNamespace(values=np.zeros((60, 0))))
+    assert diagnosis_record(by_table_rows(found, recording))["where"]["time"]["point"] == 41
+
+
+def test_temperatures_off_are_told_as_differences(named: Diagnosis) -> None:
+    """An offset of 2 K is no temperature of -271 degC."""
+    off = Claim(E.T_CASE_OFFSET, None, 0.95, (), (Estimate("T_case.zero", 2.0, 0.3, Dimension.TEMPERATURE),))
+    assert "zero 2 +- 0.3 K" in statement(replace(named, kind=Kind.SENSOR_FAULT, effects=(off,)))
+    warm = replace(
+        named.fit, before={ChannelName.T_OUT: 2.0}, after={ChannelName.T_OUT: 0.5}, noise={ChannelName.T_OUT: 0.4}
+    )
+    row = diagnosis_record(replace(named, fit=warm))["fit"]["heldout"]["T_out"]
+    assert (row["before"], row["unit"]) == (pytest.approx(2.0), "K")
+
+
+def test_the_file_has_the_form_of_format_1(named: Diagnosis, tmp_path: Path) -> None:
+    """Keys, types and units of shared/recordings/README.md."""
+    path = tmp_path / "diagnosis.json"
+    write_diagnosis(path, named)
+    record = read_diagnosis(path)
+    assert record == json.loads(path.read_text("utf-8"))
+    assert (record["verdict"], record["status"]) == ("missing_physics", "named")
+    assert record["mismatch"]["channels"]["Q_case"] == {"chi2_per_dof": 17.0, "share": 0.97}
+    assert record["where"]["pair"] == "valve_plate"
+    assert record["effects"] == [
+        {
+            "id": "elastic_opening", "pair": "valve_plate", "probability": 0.93, "equivalent": [],
+            "other_pairs": {}, "parameters": [{"name": "opening", "value": 2.2e-8, "sigma": 2e-9, "unit": "1/Pa"}],
+        }
+    ]  # fmt: skip
+    assert record["hypotheses"][0]["heldout_rmse"] == pytest.approx(0.0156)
+    assert record["hypotheses"][0]["bic"] == 40.0
+    assert record["fit"]["heldout"]["Q_case"]["unit"] == "L/min"
+    assert record["fit"]["heldout"]["Q_case"]["before"] == pytest.approx(0.06)
+    assert record["next_test"]["point"]["p_out_bar"] == pytest.approx(370)
+    assert record["next_test"]["point"]["speed_rpm"] == pytest.approx(999.8, abs=0.1)
+    assert record["scaling"]["exponents"]["pressure"] == 2.1
+
+
+def test_the_file_has_every_key_of_the_stated_form(named: Diagnosis) -> None:
+    """The example of recordings/README.md: its keys at every level, values of its kinds."""
+    form = Path(__file__).parents[4] / "shared" / "recordings" / "README.md"
+    if not form.is_file():
+        pytest.skip("needs ../shared/recordings/README.md, which states the form")
+    text = form.read_text("utf-8")
+    example = json.loads(
+        text[text.index("```json") + 7 : text.index("```", text.index("```json") + 7)].replace("...", "")
+    )
+    _same_form(example, diagnosis_record(named))
+
+
+def _same_form(example: Any, record: Any, where: str = "diagnosis") -> None:
+    if isinstance(example, dict):
+        assert set(example) <= set(record), where
+        for key, value in example.items():
+            _same_form(value, record[key], f"{where}.{key}")
+    elif isinstance(example, list) and example:
+        assert record, where
+        _same_form(example[0], record[0], f"{where}[0]")
+    elif example is not None:
+        kinds = (int, float) if isinstance(example, int | float) else type(example)
+        assert isinstance(record, kinds), where
+
+
+def test_agreement_claims_nothing(named: Diagnosis, tmp_path: Path) -> None:
+    found = agreeing(named)
+    assert "agree within noise and tolerance" in statement(found)
+    record = diagnosis_record(found)
+    assert (record["effects"], record["next_test"], record["where"]["channels"]) == ([], None, [])
+
+
+@pytest.mark.parametrize(
+    ("text", "fault"), [("{}", "format"), ('{"format": 1}', "verdict"), ("[", "file"), ("[]", "list")]
+)
+def test_a_file_that_is_none_is_refused(tmp_path: Path, text: str, fault: str) -> None:
+    path = tmp_path / "diagnosis.json"
+    path.write_text(text, encoding="utf-8")
+    with pytest.raises(InputFaults, match=fault):
+        read_diagnosis(path)
