@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from swashfilm.output.figure_png import figure_of, png_of
+from swashfilm.output.figures import figure_of, png_of
 from system.bench.calibration.held_out import PHYSICS
 
 Row = Mapping[str, str]

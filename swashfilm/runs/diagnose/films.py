@@ -12,7 +12,7 @@ import numpy as np
 from diagnosis.report.tables import Row
 from reynolds.errors import FilmInputError, FilmNotConverged
 from swashfilm.output.field_maps import MapField, draw_map
-from swashfilm.output.figure_png import figure_of, png_of
+from swashfilm.output.figures import figure_of, png_of
 from swashfilm.runs.pump.data import GAPS, films_dataset
 from swashfilm.runs.pump.fields import write_fields
 from swashfilm.runs.pump.plots import GAP_FIELDS, gap_place, pictured

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from reynolds.numerics.arrays import Array
-from swashfilm.output.figure_png import figure_of, png_of
+from swashfilm.output.figures import figure_of, png_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

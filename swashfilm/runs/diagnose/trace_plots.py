@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from reynolds.numerics.arrays import Array
-from swashfilm.output.figure_png import figure_of, png_of
+from swashfilm.output.figures import figure_of, png_of
 
 Row = Mapping[str, str]
 FITS = {

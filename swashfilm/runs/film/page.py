@@ -2,21 +2,23 @@
 
 from __future__ import annotations
 
-import base64
 import csv
-import io
 import json
 from collections.abc import Iterator, Mapping
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from swashfilm.output.field_maps import MapField, draw_map
+from swashfilm.output.figures import figure_of
 from swashfilm.output.headline import named
+from swashfilm.output.page import expect_files, inlined, write_page
 from swashfilm.runs.film.history import last_of
 from swashfilm.runs.film.refine import refinement_head, refinement_rows
-from system.inputs.faults import Fault, InputFaults
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 FIELDS = (
     MapField("film_pressure", "film pressure / MPa", 1e-6, always=True),
@@ -36,19 +38,14 @@ def write_film_page(folder: Path) -> Path:
 
     The page is one file that needs no other. Raises InputFaults where one of the three is not there.
     """
-    from jinja2 import Environment, PackageLoader
-
-    missing = [name for name in ("summary.json", "resolved.toml", "results.nc") if not (folder / name).is_file()]
-    if missing:
-        raise InputFaults(str(folder), [Fault(name, "no such file", "a film's run folder") for name in missing])
+    expect_files(folder, ("summary.json", "resolved.toml", "results.nc"), "a film's run folder")
     summary = json.loads((folder / "summary.json").read_text("utf-8"))
-    template = Environment(loader=PackageLoader("swashfilm.output"), autoescape=True).get_template(
-        "film.html.jinja"
-    )
-    page = template.render(
+    return write_page(
+        folder,
+        "film",
         name=summary["name"],
-        picture=_inline(film_picture(folder / "results.nc")),
-        history=_inline(history_picture(history)) if (history := folder / "history.csv").is_file() else "",
+        picture=inlined(film_picture(folder / "results.nc")),
+        history=inlined(history_picture(history)) if (history := folder / "history.csv").is_file() else "",
         rows=list(summary_rows(summary)),
         warnings=summary["warnings"],
         assumptions=summary.get("assumptions", []),
@@ -57,9 +54,6 @@ def write_film_page(folder: Path) -> Path:
         else [],
         case=(folder / "resolved.toml").read_text("utf-8"),
     )
-    path = folder / "report.html"
-    path.write_text(page, encoding="utf-8")
-    return path
 
 
 def summary_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
@@ -81,10 +75,9 @@ def summary_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
             yield words, f"{value} {unit}".strip()
 
 
-def film_picture(results: Path) -> bytes:
-    """Maps over the film plane (mm) as a PNG: pressure (MPa), thickness (um), and what else of FIELDS varies."""
+def film_picture(results: Path) -> Figure:
+    """Maps over the film plane (mm): pressure (MPa), thickness (um), and what else of FIELDS varies."""
     import xarray
-    from matplotlib.figure import Figure
 
     with xarray.open_dataset(results, engine="h5netcdf") as data:
         fields = last_of(data.load())
@@ -96,35 +89,23 @@ def film_picture(results: Path) -> bytes:
     place = (fields["x"].values * 1e3, fields["y"].values * 1e3)
     wide = np.ptp(place[0]) > 1.7 * np.ptp(place[1])
     rows, columns = (len(shown), 1) if wide else ((len(shown) + 1) // 2, 2)
-    figure = Figure(figsize=(8.0, 3.5 * rows) if wide else (10.0, 4.2 * rows), layout="constrained")
+    figure = figure_of(*((8.0, 3.5 * rows) if wide else (10.0, 4.2 * rows)))
     for number, field in enumerate(shown, start=1):
         axes = figure.add_subplot(rows, columns, number)
         values = field.shown(fields[field.name].values)
         draw_map(axes, place, fields["cells"].values, values, field.title, colours=field.colours)
-    return _png(figure)
+    return figure
 
 
-def history_picture(history: Path) -> bytes:
-    """Load, largest pressure, least film and temperature (if any) over time, from history.csv, as a PNG."""
-    from matplotlib.figure import Figure
-
+def history_picture(history: Path) -> Figure:
+    """Load, largest pressure, least film and temperature (if any) over time, from history.csv."""
     with history.open(newline="", encoding="utf-8") as file:
         steps = list(csv.DictReader(file))
     shown = [name for name in HISTORY if name in steps[0]]
-    figure = Figure(figsize=(8.0, 2.2 * len(shown)), layout="constrained")
+    figure = figure_of(8.0, 2.2 * len(shown))
     for axes, name in zip(figure.subplots(len(shown), 1, sharex=True), shown, strict=True):
         axes.plot(*([float(step[key]) for step in steps] for key in ("time / s", name)))
         axes.set_ylabel(name)
         axes.grid(visible=True, alpha=0.3)
     axes.set_xlabel("time / s")
-    return _png(figure)
-
-
-def _inline(png: bytes) -> str:
-    return base64.b64encode(png).decode("ascii")
-
-
-def _png(figure: Any) -> bytes:
-    picture = io.BytesIO()
-    figure.savefig(picture, format="png", dpi=130)
-    return picture.getvalue()
+    return figure

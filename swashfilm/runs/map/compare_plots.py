@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
-from swashfilm.output.figure_png import figure_of, png_of
+from swashfilm.output.figures import figure_of
 from swashfilm.runs.map.plots import (
     Slice,
     contours,
@@ -19,11 +21,14 @@ from system.maps.data import LOSSES
 from system.maps.plan import MapInput
 from system.pump.efficiency import EfficiencyDefinition
 
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
 INK = "#55616a"
 SHOWN = (EfficiencyDefinition.PAPER, EfficiencyDefinition.ENERGY_RETURNED)
 
 
-def compare_plots(found: Comparison) -> dict[str, bytes]:
+def compare_plots(found: Comparison) -> dict[str, Figure]:
     """Captions and PNGs of a comparison."""
     pictures = {}
     for up in (MapInput.RATIO, MapInput.SPEED):
@@ -37,7 +42,7 @@ def compare_plots(found: Comparison) -> dict[str, bytes]:
     return pictures
 
 
-def _slices(found: Comparison, piece: Slice) -> bytes:
+def _slices(found: Comparison, piece: Slice) -> Figure:
     figure = figure_of(11.0, 6.8)
     panels = figure.subplots(len(SHOWN), 3)
     for row, definition in zip(panels, SHOWN, strict=True):
@@ -50,10 +55,10 @@ def _slices(found: Comparison, piece: Slice) -> bytes:
         levels = difference_levels(shown(found.one, piece, apart))
         contours(row[-1], found.one, piece, apart, levels, colours="RdBu", ink=INK)
         row[-1].set_title(f"B - A / percentage points: {definition.label}", fontsize=8)
-    return png_of(figure)
+    return figure
 
 
-def _losses(found: Comparison) -> bytes:
+def _losses(found: Comparison) -> Figure:
     sinks = {
         words: [float(np.mean(data.values[column])) * 1e-3 for data in (found.one, found.other)]
         for column, words in LOSSES.items()
@@ -69,4 +74,4 @@ def _losses(found: Comparison) -> bytes:
     axes.set_xlabel("mean loss / kW")
     axes.legend()
     axes.grid(visible=True, axis="x", alpha=0.3)
-    return png_of(figure)
+    return figure

@@ -8,7 +8,7 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
-from swashfilm.output.kept_pictures import keep_pictures, kept_pictures
+from swashfilm.output.page import keep_pictures, kept_pictures, write_page
 from swashfilm.output.run_folder import write_json
 from swashfilm.runs.map.compare_plots import compare_plots
 from swashfilm.runs.map.duty_run import duty_summary
@@ -120,13 +120,10 @@ def _write_table(path: Path, summary: Mapping[str, Any]) -> None:
 
 def write_compare_page(folder: Path) -> Path:
     """Write report.html of a comparison's run folder from its summary.json and plots/."""
-    from jinja2 import Environment, PackageLoader
-
     summary = json.loads((folder / "summary.json").read_text("utf-8"))
-    template = Environment(loader=PackageLoader("swashfilm.output"), autoescape=True).get_template(
-        "compare.html.jinja"
-    )
-    page = template.render(
+    return write_page(
+        folder,
+        "compare",
         summary=summary,
         box=[(box["words"], f"{box['from']} .. {box['to']}") for box in summary["box"]],
         differences=list(difference_rows(summary)),
@@ -135,6 +132,3 @@ def write_compare_page(folder: Path) -> Path:
         duty_head=DUTY_HEAD,
         pictures=kept_pictures(folder, PICTURES),
     )
-    path = folder / "report.html"
-    path.write_text(page, encoding="utf-8")
-    return path

@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from reynolds.numerics.arrays import Array
-from swashfilm.output.figure_png import figure_of, png_of
+from swashfilm.output.figures import figure_of
 from swashfilm.runs.map.plots import COLOURS
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 _INPUTS = {
     "shaft speed [rad/s]": (30.0 / np.pi, "speed / rpm"),
@@ -18,7 +21,7 @@ _INPUTS = {
 }
 
 
-def duty_plots(course: Mapping[str, Array], summary: Mapping[str, Any]) -> dict[str, bytes]:
+def duty_plots(course: Mapping[str, Array], summary: Mapping[str, Any]) -> dict[str, Figure]:
     """Captions and PNGs of a cycle."""
     return {
         "The cycle: what is asked of the pump, its loss, and sum p Q over shaft power": _course(course),
@@ -26,7 +29,7 @@ def duty_plots(course: Mapping[str, Array], summary: Mapping[str, Any]) -> dict[
     }
 
 
-def _course(course: Mapping[str, Array]) -> bytes:
+def _course(course: Mapping[str, Array]) -> Figure:
     shown = {head: row for head, row in _INPUTS.items() if head in course}
     figure = figure_of(10.0, 1.7 * (len(shown) + 2))
     panels = figure.subplots(len(shown) + 2, 1, sharex=True)
@@ -41,10 +44,10 @@ def _course(course: Mapping[str, Array]) -> bytes:
     for axes in panels:
         axes.grid(visible=True, alpha=0.3)
         axes.set_xlim(time[0], time[-1])
-    return png_of(figure)
+    return figure
 
 
-def _sinks(summary: Mapping[str, Any]) -> bytes:
+def _sinks(summary: Mapping[str, Any]) -> Figure:
     sinks = {
         words: energy
         for words, energy in summary["energy_J"].items()
@@ -62,4 +65,4 @@ def _sinks(summary: Mapping[str, Any]) -> bytes:
     axes.invert_yaxis()
     axes.set_xlabel("energy / kJ")
     axes.grid(visible=True, axis="x", alpha=0.3)
-    return png_of(figure)
+    return figure

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from swashfilm.output.kept_pictures import keep_pictures
+from swashfilm.output.page import keep_pictures, write_page
 from swashfilm.output.run_folder import write_json
 from swashfilm.runs.map.duty_plots import duty_plots
 from system.inputs.faults import Fault, InputFaults
@@ -122,17 +122,14 @@ def _write_course(path: Path, interpolant: MapInterpolant, cycle: Cycle) -> None
 
 def write_duty_page(folder: Path) -> Path:
     """Write report.html and plots/ of a duty's run folder from its summary.json and course.csv."""
-    from jinja2 import Environment, PackageLoader
-
     summary = json.loads((folder / "summary.json").read_text("utf-8"))
     with (folder / COURSE).open(encoding="utf-8") as file:
         head, *rows = csv.reader(file)
     course = dict(zip(head, np.array(rows, dtype=float).T, strict=True))
     pictures = duty_plots(course, summary)
-    template = Environment(loader=PackageLoader("swashfilm.output"), autoescape=True).get_template(
-        "duty.html.jinja"
-    )
-    page = template.render(
+    return write_page(
+        folder,
+        "duty",
         summary=summary,
         energies=list(energy_rows(summary)),
         energy_head=ENERGY_HEAD,
@@ -141,9 +138,6 @@ def write_duty_page(folder: Path) -> Path:
         marked=list(marked_rows(summary)),
         pictures=keep_pictures(folder, "duty", pictures),
     )
-    path = folder / "report.html"
-    path.write_text(page, encoding="utf-8")
-    return path
 
 
 def held_inputs(data: MapData) -> str:

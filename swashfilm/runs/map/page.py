@@ -7,10 +7,9 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
-from swashfilm.output.kept_pictures import keep_pictures
+from swashfilm.output.page import expect_files, keep_pictures, write_page
 from swashfilm.runs.map.files import MAP, read_map
 from swashfilm.runs.map.plots import map_plots
-from system.inputs.faults import Fault, InputFaults
 
 FILES = ("summary.json", "resolved.toml", MAP)
 CM3 = 1e6
@@ -22,17 +21,12 @@ _SHOWN = {"W": (1e-3, "kW"), "Nm": (1.0, "N m"), "m3_per_s": (6e4, "L/min")}
 
 def write_map_page(folder: Path) -> Path:
     """Write report.html and plots/ of a map's folder; raises InputFaults where one of its files is missing."""
-    from jinja2 import Environment, PackageLoader
-
-    missing = [name for name in FILES if not (folder / name).is_file()]
-    if missing:
-        raise InputFaults(str(folder), [Fault(name, "no such file", "a map's run folder") for name in missing])
+    expect_files(folder, FILES, "a map's run folder")
     summary = json.loads((folder / "summary.json").read_text("utf-8"))
     pictures = map_plots(read_map(folder / MAP)[0]) if summary["solved"] else {}
-    template = Environment(loader=PackageLoader("swashfilm.output"), autoescape=True).get_template(
-        "map.html.jinja"
-    )
-    page = template.render(
+    return write_page(
+        folder,
+        "map",
         summary=summary,
         axes=list(axis_rows(summary)),
         best=list(best_rows(summary)),
@@ -46,9 +40,6 @@ def write_map_page(folder: Path) -> Path:
         pictures=keep_pictures(folder, "map", pictures),
         resolved=(folder / "resolved.toml").read_text("utf-8"),
     )
-    path = folder / "report.html"
-    path.write_text(page, encoding="utf-8")
-    return path
 
 
 def axis_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, str]]:

@@ -5,17 +5,20 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from reynolds.numerics.arrays import Array
-from swashfilm.output.figure_png import figure_of, png_of
+from swashfilm.output.figures import figure_of
 from swashfilm.runs.map.files import PARTS
 from system.maps.data import MapData
 from system.maps.interpolation import weights
 from system.maps.plan import MapInput, reading_levels
 from system.pump.efficiency import EfficiencyDefinition
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 LINES = 12
 DOWNWARDS = (1, 1, 1, 1, 2, 2, 5, 5, 10, 10, 20)
@@ -48,7 +51,7 @@ class Slice:
         return found if self.up < self.across else found.T
 
 
-def map_plots(data: MapData) -> dict[str, bytes]:
+def map_plots(data: MapData) -> dict[str, Figure]:
     """Captions and PNGs of what a map has enough levels to show."""
     found = {}
     for across, up in ((MapInput.PRESSURE, MapInput.RATIO), (MapInput.PRESSURE, MapInput.SPEED)):
@@ -104,7 +107,7 @@ def _place(data: MapData, given: MapInput) -> int:
     return [axis.input for axis in data.axes].index(given)
 
 
-def _efficiencies(data: MapData, piece: Slice, parts: Sequence[str]) -> bytes | None:
+def _efficiencies(data: MapData, piece: Slice, parts: Sequence[str]) -> Figure | None:
     """A row for each part on a scale of its own, a panel for each definition; those that are one share a panel."""
     found = {part: fields for part in parts if (fields := _by_definition(data, piece, part))}
     if not found:
@@ -120,7 +123,7 @@ def _efficiencies(data: MapData, piece: Slice, parts: Sequence[str]) -> bytes | 
             best = np.unravel_index(int(np.nanargmax(field)), field.shape)
             mark(axes, x[best], y[best], "*", "#b55a00", 12.0)
             axes.set_title(f"{part} / %: {words}\n{100.0 * field[best]:.1f} % at best", fontsize=8)
-    return png_of(figure)
+    return figure
 
 
 def _by_definition(data: MapData, piece: Slice, part: str) -> dict[str, Array]:
@@ -140,7 +143,7 @@ def _same(one: Array, other: Array) -> bool:
     return bool(np.allclose(one, other, rtol=1e-9, equal_nan=True))
 
 
-def _losses(data: MapData, piece: Slice) -> bytes:
+def _losses(data: MapData, piece: Slice) -> Figure:
     """The loss in kW, then the share of each of the largest sinks."""
     whole = piece.of(data.loss)
     sinks = {words: piece.of(loss) for words, loss in data.losses.items()}
@@ -154,10 +157,10 @@ def _losses(data: MapData, piece: Slice) -> bytes:
         share = 100.0 * sinks[words] / whole
         contours(axes, data, piece, share, levels_of(shown(data, piece, share)))
         axes.set_title(f"{words}: share / %", fontsize=9)
-    return png_of(figure)
+    return figure
 
 
-def _shares(data: MapData, held: tuple[int, ...]) -> bytes:
+def _shares(data: MapData, held: tuple[int, ...]) -> Figure:
     """Losses stacked over the pressure: in kW, and as shares of the sum."""
     place = _place(data, MapInput.PRESSURE)
     index = _over_pressure(held, place)
@@ -175,7 +178,7 @@ def _shares(data: MapData, held: tuple[int, ...]) -> bytes:
     figure.legend(
         *(side[::-1] for side in left.get_legend_handles_labels()), loc="outside right upper", fontsize=8
     )
-    return png_of(figure)
+    return figure
 
 
 def _over_pressure(held: tuple[int, ...], place: int) -> tuple[Any, ...]:

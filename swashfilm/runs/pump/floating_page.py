@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import base64
 import csv
 from collections.abc import Mapping
 from pathlib import Path
@@ -10,6 +9,7 @@ from typing import Any
 
 from swashfilm.case.gap.physics_told import PHYSICS_HEAD, physics_told
 from swashfilm.output.gap_names import TITLES
+from swashfilm.output.page import inlined
 from swashfilm.runs.film.revolution.plots import film_text, revolution_plots
 from swashfilm.runs.pump.data import GAPS
 from system.inputs.units import LPM
@@ -40,11 +40,7 @@ def floating_view(folder: Path, summary: Mapping[str, Any]) -> dict[str, Any]:
     for group, title, names in shown:
         with xarray.open_dataset(folder / "results.nc", group=group, engine="h5netcdf") as data:
             drawn = revolution_plots(data.load())
-        pictures += [
-            (base64.b64encode(drawn[name]).decode("ascii"), f"{title}: {CAPTIONS[name]}")
-            for name in names
-            if name in drawn
-        ]
+        pictures += [(inlined(drawn[name]), f"{title}: {CAPTIONS[name]}") for name in names if name in drawn]
     turns = {TITLES[gap]: _table(folder / f"{gap}_convergence.csv") for gap in GAPS}
     return {
         "head": HEAD, "rows": floating_rows(summary), "pictures": pictures, "turns": turns,

@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
-import base64
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from reynolds.numerics.arrays import Array
-from swashfilm.output.figure_png import figure_of, png_of
+from swashfilm.output.figures import figure_of
+from swashfilm.output.page import inlined
 from swashfilm.runs.pump.forces_data import TABLE, read_forces
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 Rows = Sequence[tuple[str, ...]]
 
@@ -46,7 +49,7 @@ def forces_view(folder: Path, summary: Mapping[str, Any]) -> ForcesView | None:
         "torque_error": "drive torque against the torque of the energy balance",
     }
     closing = [(shares[key], f"{value:.2g}") for key, value in found["closure"].items()]
-    picture = base64.b64encode(forces_plot(read_forces(folder))).decode("ascii")
+    picture = inlined(forces_plot(read_forces(folder)))
     return ForcesView(sizes, laws, closing, picture)
 
 
@@ -55,7 +58,7 @@ def _shown(key: str, value: float) -> str:
     return f"{value:.5g} {'N m' if unit == 'Nm' else unit}"
 
 
-def forces_plot(data: Mapping[str, Array]) -> bytes:
+def forces_plot(data: Mapping[str, Array]) -> Figure:
     """Forces of one piston and slipper, of splines and bearings (kN), and moments (N m) over the shaft angle."""
     figure = figure_of(10.0, 3.6)
     left, middle, right = figure.subplots(1, 3)
@@ -82,7 +85,7 @@ def forces_plot(data: Mapping[str, Array]) -> bytes:
     for axes in (left, middle, right):
         axes.set(xlabel="shaft angle / deg", xlim=(0, 360))
         axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.2), ncols=2, fontsize="small", frameon=False)
-    return png_of(figure)
+    return figure
 
 
 def _size(data: Mapping[str, Array], name: str, axes: str = "xyz") -> Array:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import base64
 import json
 from collections.abc import Mapping
 from pathlib import Path
@@ -12,13 +11,13 @@ import numpy as np
 
 from swashfilm.console.fidelity import Fidelity
 from swashfilm.output.gap_names import TITLES
+from swashfilm.output.page import expect_files, inlined, write_page
 from swashfilm.runs.pump import plots as pump_plots
 from swashfilm.runs.pump.data import GAPS
 from swashfilm.runs.pump.floating_page import floating_view
 from swashfilm.runs.pump.forces_page import forces_view
 from swashfilm.runs.pump.summary import ABBREVIATION
 from swashfilm.runs.table.summary import TOLD_HEAD, told_rows
-from system.inputs.faults import Fault, InputFaults
 from system.inputs.units import LPM
 from system.pump.laws.friction_pairs import Pair
 
@@ -32,19 +31,15 @@ def write_pump_page(folder: Path) -> Path:
     3D pictures that lie in the folder are taken in. Raises InputFaults where one of the three is missing.
     """
     import xarray
-    from jinja2 import Environment, PackageLoader
 
-    missing = [name for name in ("summary.json", "resolved.toml", "results.nc") if not (folder / name).is_file()]
-    if missing:
-        raise InputFaults(str(folder), [Fault(name, "no such file", "a pump's run folder") for name in missing])
+    expect_files(folder, ("summary.json", "resolved.toml", "results.nc"), "a pump's run folder")
     summary = json.loads((folder / "summary.json").read_text("utf-8"))
     with xarray.open_dataset(folder / "results.nc", engine="h5netcdf") as data:
         data.load()
     floats = Fidelity(summary["fidelity"]) is Fidelity.FLOATING
-    template = Environment(loader=PackageLoader("swashfilm.output"), autoescape=True).get_template(
-        "pump.html.jinja"
-    )
-    page = template.render(
+    return write_page(
+        folder,
+        "pump",
         summary=summary,
         headline=headline_rows(summary),
         efficiencies=efficiency_rows(summary),
@@ -59,13 +54,10 @@ def write_pump_page(folder: Path) -> Path:
         checks=check_rows(summary),
         forces=forces_view(folder, summary),
         pictures=_pictures(data, summary),
-        gap_maps={map_caption(data, gap): _inline(png) for gap, png in pump_plots.gap_maps(data).items()},
-        solid=[(name.replace("_", " "), _inline(path.read_bytes())) for name, path in _drawn(folder)],
+        gap_maps={map_caption(data, gap): inlined(png) for gap, png in pump_plots.gap_maps(data).items()},
+        solid=[(name.replace("_", " "), inlined(path.read_bytes())) for name, path in _drawn(folder)],
         resolved=(folder / "resolved.toml").read_text("utf-8"),
     )
-    path = folder / "report.html"
-    path.write_text(page, encoding="utf-8")
-    return path
 
 
 def map_caption(data: Any, gap: str) -> str:
@@ -206,12 +198,8 @@ def _pictures(data: Any, summary: Mapping[str, Any]) -> dict[str, str]:
     }
     if "piston_film_pressure" in data:
         pictures["films"] = pump_plots.film_series(data)
-    return {name: _inline(png) for name, png in pictures.items()}
+    return {name: inlined(png) for name, png in pictures.items()}
 
 
 def _drawn(folder: Path) -> list[tuple[str, Path]]:
     return [(name, path) for name in PICTURES if (path := folder / f"{name}.png").is_file()]
-
-
-def _inline(png: bytes) -> str:
-    return base64.b64encode(png).decode("ascii")

@@ -9,7 +9,7 @@ import numpy as np
 
 from reynolds.numerics.arrays import Array
 from swashfilm.output.field_maps import MapField, draw_map
-from swashfilm.output.figure_png import figure_of, png_of
+from swashfilm.output.figures import figure_of
 from swashfilm.output.gap_names import TITLES
 from swashfilm.runs.pump.data import GAPS, PICTURED_TURN
 from swashfilm.runs.pump.summary import ABBREVIATION
@@ -18,6 +18,7 @@ from system.pump.laws.friction_pairs import Pair
 
 if TYPE_CHECKING:
     import xarray
+    from matplotlib.figure import Figure
 
 GAP_FIELDS = (
     MapField("film_pressure", "film pressure / MPa", 1e-6),
@@ -28,7 +29,7 @@ GAP_FIELDS = (
 """Fields of a gap that a page draws where results.nc has them."""
 
 
-def loss_bar(summary: Mapping[str, Any]) -> bytes:
+def loss_bar(summary: Mapping[str, Any]) -> Figure:
     """Losses of the seven pairs (W) as one stacked bar each for Coulomb and viscous, share written on it."""
     figure = figure_of(8.4, 3.4)
     axes = figure.subplots()
@@ -42,10 +43,10 @@ def loss_bar(summary: Mapping[str, Any]) -> bytes:
     axes.invert_yaxis()
     axes.set(xlabel="loss / W", xlim=(0.0, 1.25 * max(loss["total_W"] for loss in losses)))
     axes.legend(loc="lower right")
-    return png_of(figure)
+    return figure
 
 
-def chamber_plot(data: xarray.Dataset, summary: Mapping[str, Any]) -> bytes:
+def chamber_plot(data: xarray.Dataset, summary: Mapping[str, Any]) -> Figure:
     """Chamber pressure (MPa) and port openings (mm2) over the shaft angle, the dead-centre regions enlarged."""
     figure = figure_of(10.0, 5.6)
     wide, near = figure.subplots(2, 1)
@@ -68,10 +69,10 @@ def chamber_plot(data: xarray.Dataset, summary: Mapping[str, Any]) -> bytes:
     )
     inlet = summary["operating_point"]["inlet_pressure_Pa"] * 1e-6
     near.set_ylim(min(-0.5, inlet - 3.0), 1.08 * pressure.max())
-    return png_of(figure)
+    return figure
 
 
-def flow_plot(data: xarray.Dataset) -> bytes:
+def flow_plot(data: xarray.Dataset) -> Figure:
     """Delivery flow of the pump and leakage of one chamber's gaps (L/min) over the shaft angle."""
     figure = figure_of(10.0, 3.4)
     left, right = figure.subplots(1, 2)
@@ -82,10 +83,10 @@ def flow_plot(data: xarray.Dataset) -> bytes:
         right.plot(angle, data[f"{gap}_leakage"].values * LPM, label=TITLES[gap])
     right.set(xlabel="shaft angle / deg", ylabel="flow out of one chamber / L/min", xlim=(0, 360), title="gaps")
     right.legend()
-    return png_of(figure)
+    return figure
 
 
-def ripple_plot(data: xarray.Dataset) -> bytes:
+def ripple_plot(data: xarray.Dataset) -> Figure:
     """Port pressures (MPa, off their means), line flows (L/min) and shaft torque (N m) over two piston pitches."""
     figure = figure_of(10.0, 3.4)
     left, middle, right = figure.subplots(1, 3)
@@ -103,15 +104,15 @@ def ripple_plot(data: xarray.Dataset) -> bytes:
         axes.set(xlabel="shaft angle / deg", xlim=(0, 2.0 * data.attrs["pitch_deg"]))
     for axes in (left, middle):  # below, where no curve runs
         axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.22), ncols=2, fontsize="small", frameon=False)
-    return png_of(figure)
+    return figure
 
 
-def gap_maps(data: xarray.Dataset) -> dict[str, bytes]:
+def gap_maps(data: xarray.Dataset) -> dict[str, Figure]:
     """Film pressure, film thickness and what is known of the oil, of each gap at the pictured angle, by gap."""
     return {gap: _gap_map(data, gap) for gap in GAPS if f"{gap}_film_pressure" in data}
 
 
-def film_series(data: xarray.Dataset) -> bytes:
+def film_series(data: xarray.Dataset) -> Figure:
     """Minimum film, carried share of the load and friction of one piston and one slipper over the turn."""
     figure = figure_of(10.0, 3.4)
     left, middle, right = figure.subplots(1, 3)
@@ -130,7 +131,7 @@ def film_series(data: xarray.Dataset) -> bytes:
     for axes in (left, middle, right):
         axes.set(xlabel="shaft angle / deg", xlim=(0, 360))
         axes.legend()
-    return png_of(figure)
+    return figure
 
 
 def pictured(data: xarray.Dataset, gap: str) -> int:
@@ -148,7 +149,7 @@ def gap_place(data: xarray.Dataset, gap: str, k: int) -> tuple[tuple[Array, Arra
     return (360.0 * x / x.max(), y), named
 
 
-def _gap_map(data: xarray.Dataset, gap: str) -> bytes:
+def _gap_map(data: xarray.Dataset, gap: str) -> Figure:
     k = pictured(data, gap)
     place, labels = gap_place(data, gap, k)
     cells = data[f"{gap}_cells"].values
@@ -159,4 +160,4 @@ def _gap_map(data: xarray.Dataset, gap: str) -> bytes:
         axes = figure.add_subplot(rows, 2, number)
         values = field.shown(data[f"{gap}_{field.name}"].values[k])
         draw_map(axes, place, cells, values, field.title, labels, field.colours)
-    return png_of(figure)
+    return figure

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import base64
 import json
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
+from swashfilm.output.page import expect_files, inlined, write_page
 from swashfilm.runs.reference.plots import coefficient_plot
-from system.inputs.faults import Fault, InputFaults
 
 HEAD = (
     "passage",
@@ -24,29 +23,19 @@ HEAD = (
 
 def write_reference_page(folder: Path) -> Path:
     """Write report.html of a run folder; raises InputFaults where one of its files is not there."""
-    from jinja2 import Environment, PackageLoader
-
-    missing = [name for name in ("summary.json", "input.toml") if not (folder / name).is_file()]
-    if missing:
-        raise InputFaults(
-            str(folder), [Fault(name, "no such file", "a reference's run folder") for name in missing]
-        )
+    expect_files(folder, ("summary.json", "input.toml"), "a reference's run folder")
     summary = json.loads((folder / "summary.json").read_text("utf-8"))
-    template = Environment(loader=PackageLoader("swashfilm.output"), autoescape=True).get_template(
-        "reference.html.jinja"
-    )
-    pictures = [coefficient_plot(summary), *(path.read_bytes() for path in sorted(folder.glob("flow_*.png")))]
-    page = template.render(
+    flows = [inlined(path.read_bytes()) for path in sorted(folder.glob("flow_*.png"))]
+    return write_page(
+        folder,
+        "reference",
         summary=summary,
         head=HEAD,
         rows=list(reference_rows(summary)),
         coefficients=(folder / summary["table"]).read_text("utf-8"),
-        pictures=[base64.b64encode(png).decode("ascii") for png in pictures],
+        pictures=[inlined(coefficient_plot(summary)), *flows],
         given=(folder / "input.toml").read_text("utf-8"),
     )
-    path = folder / "report.html"
-    path.write_text(page, encoding="utf-8")
-    return path
 
 
 def reference_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:

@@ -8,9 +8,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from reynolds.numerics.arrays import Array
-from swashfilm.output.figure_png import figure_of, png_of
+from swashfilm.output.figures import figure_of
 
 if TYPE_CHECKING:
+    from matplotlib.figure import Figure
     from matplotlib.tri import Triangulation
 
     from reynolds.stokes.flow import Flow
@@ -28,12 +29,12 @@ RIGHT = {
 """What the right picture shows of a port, and of a film."""
 
 
-def flow_plots(solved: Sequence[Solved]) -> dict[str, bytes]:
+def flow_plots(solved: Sequence[Solved]) -> dict[str, Figure]:
     """PNGs by file name, of at most MOST_PICTURES passages at their last Reynolds number."""
     return {f"flow_{number}.png": _flow(one) for number, one in enumerate(solved[:MOST_PICTURES], start=1)}
 
 
-def coefficient_plot(summary: Mapping[str, Any]) -> bytes:
+def coefficient_plot(summary: Mapping[str, Any]) -> Figure:
     """What the passages' coefficients are over the Reynolds number."""
     named = len(summary["passages"]) <= MOST_NAMED
     figure = figure_of(9.0, 3.0 + 0.16 * named * len(summary["passages"]))
@@ -52,10 +53,10 @@ def coefficient_plot(summary: Mapping[str, Any]) -> bytes:
         axes.grid(visible=True, alpha=0.3)
     if named:
         figure.legend(loc="outside lower center", ncols=1, fontsize=7)
-    return png_of(figure)
+    return figure
 
 
-def _flow(one: Solved) -> bytes:
+def _flow(one: Solved) -> Figure:
     """Speed and stream lines near the passage, lengths over its film thickness or diameter."""
     flow = one.correction.flow
     x, y, across, along = _window(flow)
@@ -70,7 +71,7 @@ def _flow(one: Solved) -> bytes:
         xlim=(x[0], x[-1]), ylim=(y[0], y[-1]), aspect="equal", xlabel="x / thickness", ylabel="y / thickness"
     )
     axes.set_title(f"{one.passage.words}, Re = {flow.density:g}", fontsize=9)
-    return png_of(figure)
+    return figure
 
 
 def _window(flow: Flow) -> tuple[Array, Array, float, float]:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from swashfilm.output.figures import png_of
 from swashfilm.output.run_folder import write_json
 from swashfilm.runs.reference.case import FEWEST_CELLS, ReferenceCase, ReferenceKind
 from swashfilm.runs.reference.passages import Passage, Solved
@@ -46,8 +47,8 @@ def run_reference(case: ReferenceCase, folder: Path, report: Report) -> dict[str
     from swashfilm.runs.reference.page import write_reference_page
     from swashfilm.runs.reference.plots import flow_plots
 
-    for name, png in flow_plots(solved).items():
-        (folder / name).write_bytes(png)
+    for name, figure in flow_plots(solved).items():
+        (folder / name).write_bytes(png_of(figure))
     write_reference_page(folder)
     report(len(case.passages), len(case.passages), "done")
     return summary

@@ -8,12 +8,14 @@ from math import isfinite
 from pathlib import Path
 from typing import Any
 
+from swashfilm.output.figures import png_of
+from swashfilm.output.page import PLOTS
 from swashfilm.output.run_folder import write_json
 from swashfilm.runs.reproduce.plots import figure_picture
 from system.paper.figure import Axis, Panel
 from system.paper.judge import FigureResult, Judged, Range
 
-CLAIMS, DATA, PLOTS = "claims.json", "data", "plots"
+CLAIMS, DATA = "claims.json", "data"
 Row = dict[str, Any]
 
 
@@ -26,7 +28,7 @@ def write_reproduction(folder: Path, results: Sequence[FigureResult], summary: R
         for name in (DATA, PLOTS):
             (folder / name).mkdir(exist_ok=True)
         _write_curves(folder / DATA / f"{result.figure.value}.csv", result.panels)
-        (folder / PLOTS / f"{result.figure.value}.png").write_bytes(figure_picture(result.panels))
+        (folder / PLOTS / f"{result.figure.value}.png").write_bytes(png_of(figure_picture(result.panels)))
     write_json(folder / "summary.json", summary)
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import base64
 import json
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
@@ -10,8 +9,8 @@ from itertools import groupby
 from pathlib import Path
 from typing import Any
 
-from swashfilm.runs.reproduce.files import CLAIMS, PLOTS
-from system.inputs.faults import Fault, InputFaults
+from swashfilm.output.page import PLOTS, expect_files, inlined, write_page
+from swashfilm.runs.reproduce.files import CLAIMS
 from system.paper.judge import Verdict
 
 FILES = ("summary.json", CLAIMS, "resolved.toml")
@@ -26,32 +25,21 @@ Row = Mapping[str, Any]
 
 def write_reproduce_page(folder: Path) -> Path:
     """Write report.html of a reproduction; raises InputFaults where one of its files is not there."""
-    from jinja2 import Environment, PackageLoader
-
-    missing = [name for name in FILES if not (folder / name).is_file()]
-    if missing:
-        faults = [Fault(name, "no such file", "a reproduction's run folder") for name in missing]
-        raise InputFaults(str(folder), faults)
+    expect_files(folder, FILES, "a reproduction's run folder")
     summary, rows = _read(folder)
-    template = Environment(loader=PackageLoader("swashfilm.output"), autoescape=True).get_template(
-        "reproduce.html.jinja"
-    )
-    page = template.render(
+    return write_page(
+        folder,
+        "reproduce",
         summary=summary,
         counts=count_words(rows),
         claims={figure["name"]: list(statements(rows, figure["name"])) for figure in summary["figures"]},
         pictures={
-            figure["name"]: base64.b64encode((folder / PLOTS / f"{figure['name']}.png").read_bytes()).decode(
-                "ascii"
-            )
+            figure["name"]: inlined((folder / PLOTS / f"{figure['name']}.png").read_bytes())
             for figure in summary["figures"]
             if figure["picture"]
         },
         resolved=(folder / "resolved.toml").read_text("utf-8"),
     )
-    path = folder / "report.html"
-    path.write_text(page, encoding="utf-8")
-    return path
 
 
 def _read(folder: Path) -> tuple[Row, list[Row]]:

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from swashfilm.output.figure_png import figure_of, png_of
+from swashfilm.output.figures import figure_of
 from system.paper.figure import Axis, Panel, PanelKind, Unit
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 COLOURS = ("#3c7a8c", "#b55a00", "#5b9a5b", "#b8862b", "#6d5a9c", "#8c5a3c", "#9aa4ab")
 COLUMNS = 2
@@ -18,7 +21,7 @@ MANY = 6
 """Curves that leave no room for a legend among them."""
 
 
-def figure_picture(panels: Sequence[Panel]) -> bytes:
+def figure_picture(panels: Sequence[Panel]) -> Figure:
     """The panels of a figure as one PNG."""
     columns = min(COLUMNS, len(panels))
     lines = -(-len(panels) // columns)
@@ -28,7 +31,7 @@ def figure_picture(panels: Sequence[Panel]) -> bytes:
         axes.set_axis_off()
     for axes, panel in zip(grid, panels, strict=False):
         _draw(figure, axes, panel)
-    return png_of(figure)
+    return figure
 
 
 def _draw(figure: Any, axes: Any, panel: Panel) -> None:

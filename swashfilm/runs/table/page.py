@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import base64
 import json
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
@@ -10,8 +9,8 @@ from typing import Any
 
 from gaps.response import Measure
 from swashfilm.output.headline import named
+from swashfilm.output.page import expect_files, inlined, write_page
 from swashfilm.runs.table.plots import table_plots
-from system.inputs.faults import Fault, InputFaults
 from system.inputs.units import Dimension, format_quantity
 from system.points.table.store import read_response
 
@@ -22,30 +21,22 @@ FILES = ("summary.json", "resolved.toml", "table.json", "table.npz")
 
 def write_table_page(folder: Path) -> Path:
     """Write report.html of a table's run folder; raises InputFaults where one of its files is not there."""
-    from jinja2 import Environment, PackageLoader
-
-    missing = [name for name in FILES if not (folder / name).is_file()]
-    if missing:
-        raise InputFaults(str(folder), [Fault(name, "no such file", "a table's run folder") for name in missing])
+    expect_files(folder, FILES, "a table's run folder")
     summary = json.loads((folder / "summary.json").read_text("utf-8"))
     response = read_response(folder / "table.json", summary["table_format"], lambda _, response: response)
     pictures = table_plots(response, summary)
-    template = Environment(loader=PackageLoader("swashfilm.output"), autoescape=True).get_template(
-        "table.html.jinja"
-    )
-    page = template.render(
+    return write_page(
+        folder,
+        "table",
         summary=summary,
         held=list(held_rows(summary)),
         numbers=list(number_rows(summary)),
         errors=list(error_rows(summary)),
         meanings=[(_words(row), row["meaning"]) for kind in KINDS for row in summary.get(kind, [])],
         failed=[(place_text(summary["axes"], one["at"]), one["reason"]) for one in summary["failed"]],
-        pictures={text: base64.b64encode(png).decode("ascii") for text, png in pictures.items()},
+        pictures={text: inlined(png) for text, png in pictures.items()},
         resolved=(folder / "resolved.toml").read_text("utf-8"),
     )
-    path = folder / "report.html"
-    path.write_text(page, encoding="utf-8")
-    return path
 
 
 def held_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, str]]:

@@ -3,17 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from gaps.response import Axis, Response, Spacing
 from reynolds.numerics.arrays import Array
-from swashfilm.output.figure_png import figure_of, png_of
+from swashfilm.output.figures import figure_of
 from swashfilm.output.headline import named
 from swashfilm.runs.film.revolution.data import SHOWN
 from system.inputs.units import Dimension, in_unit, reading_unit
 from system.points.table.response_table import LARGE_ERROR
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 COLOURS = {"piston": "#3c7a8c", "slipper": "#8c5a3c", "valve_plate": "#5b9a5b", "socket": "#b8862b", "": "#3c7a8c"}
 COURSE = 80
@@ -24,7 +27,7 @@ Groups = Mapping[str, Sequence[tuple[str, int]]]
 """What is drawn together: outputs of one kind, each by whose it is ("" for a gap alone) and its column."""
 
 
-def table_plots(response: Response, record: Mapping[str, Any]) -> dict[str, bytes]:
+def table_plots(response: Response, record: Mapping[str, Any]) -> dict[str, Figure]:
     """Captions and PNGs of a table's pictures; `record` tells the axes' dimensions and the outputs' units."""
     return {
         "Error of held-out points, rms and largest; dashed: the limit from which an output is warned of": _errors(
@@ -50,7 +53,7 @@ def _words(name: str) -> str:
     return named(name)[0].replace("_", " ")
 
 
-def _errors(response: Response) -> bytes:
+def _errors(response: Response) -> Figure:
     figure = figure_of(9.0, max(2.4, 0.25 * len(response.outputs)))
     axes = figure.subplots()
     error, rows = response.held_out_error, np.arange(len(response.outputs))
@@ -63,10 +66,10 @@ def _errors(response: Response) -> bytes:
     axes.invert_yaxis()
     axes.legend(loc="best", fontsize=8)
     axes.grid(visible=True, axis="x", alpha=0.3)
-    return png_of(figure)
+    return figure
 
 
-def _parity(response: Response, record: Mapping[str, Any]) -> bytes:
+def _parity(response: Response, record: Mapping[str, Any]) -> Figure:
     groups = _groups(response)
     lines = -(-len(groups) // COLUMNS)
     figure = figure_of(11.0, 2.6 * lines)
@@ -89,10 +92,10 @@ def _parity(response: Response, record: Mapping[str, Any]) -> bytes:
         axes.set_axis_off()
     places[0].set_ylabel("by the table", fontsize=8)
     _legend(figure)
-    return png_of(figure)
+    return figure
 
 
-def _courses(response: Response, record: Mapping[str, Any]) -> bytes:
+def _courses(response: Response, record: Mapping[str, Any]) -> Figure:
     groups = _groups(response)
     figure = figure_of(max(5.0, 2.75 * len(response.axes)), 1.7 * len(groups))
     grid = figure.subplots(len(groups), len(response.axes), sharey="row", squeeze=False)
@@ -116,7 +119,7 @@ def _courses(response: Response, record: Mapping[str, Any]) -> bytes:
                 axes.set_ylabel(title, fontsize=8)
         grid[-1, j].set_xlabel(label, fontsize=8)
     _legend(figure)
-    return png_of(figure)
+    return figure
 
 
 def _shown(what: str, members: Sequence[tuple[str, int]], record: Mapping[str, Any]) -> tuple[str, float]:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import base64
 import json
 from collections.abc import Mapping
 from pathlib import Path
@@ -10,8 +9,8 @@ from typing import Any
 
 import numpy as np
 
+from swashfilm.output.page import expect_files, inlined, write_page
 from swashfilm.runs.transient import plots as transient_plots
-from system.inputs.faults import Fault, InputFaults
 from system.inputs.units import LPM
 
 FILES = ("summary.json", "resolved.toml", "results.nc")
@@ -20,12 +19,8 @@ FILES = ("summary.json", "resolved.toml", "results.nc")
 def write_transient_page(folder: Path) -> Path:
     """Write report.html of a transient's run folder; raises InputFaults where one of its files is not there."""
     import xarray
-    from jinja2 import Environment, PackageLoader
 
-    missing = [name for name in FILES if not (folder / name).is_file()]
-    if missing:
-        expected = "a transient's run folder"
-        raise InputFaults(str(folder), [Fault(name, "no such file", expected) for name in missing])
+    expect_files(folder, FILES, "a transient's run folder")
     summary = json.loads((folder / "summary.json").read_text("utf-8"))
     with xarray.open_dataset(folder / "results.nc", engine="h5netcdf") as data:
         data.load()
@@ -36,18 +31,16 @@ def write_transient_page(folder: Path) -> Path:
         "What the pump gives and takes; thick, means over a piston pitch": transient_plots.pump_plot(data),
         "Pressure of the chambers": transient_plots.chamber_plot(data),
     }  # fmt: skip
-    template = Environment(loader=PackageLoader("swashfilm.output"), autoescape=True)
-    page = template.get_template("transient.html.jinja").render(
+    return write_page(
+        folder,
+        "transient",
         summary=summary,
         rows=transient_rows(summary),
         turns=turn_rows(summary),
         checks=check_rows(summary),
-        pictures={text: base64.b64encode(png).decode("ascii") for text, png in pictures.items()},
+        pictures={text: inlined(png) for text, png in pictures.items()},
         resolved=(folder / "resolved.toml").read_text("utf-8"),
     )
-    path = folder / "report.html"
-    path.write_text(page, encoding="utf-8")
-    return path
 
 
 def transient_rows(summary: Mapping[str, Any]) -> list[tuple[str, str]]:

@@ -7,11 +7,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from reynolds.numerics.arrays import Array
-from swashfilm.output.figure_png import figure_of, png_of
+from swashfilm.output.figures import figure_of
 from system.inputs.units import LPM
 
 if TYPE_CHECKING:
     import xarray
+    from matplotlib.figure import Figure
 
 NAMES = {
     "pressure_moment": "pressure",
@@ -37,7 +38,7 @@ def over_a_pitch(data: xarray.Dataset, values: Array) -> Array:
     return mean
 
 
-def plate_plot(data: xarray.Dataset) -> bytes:
+def plate_plot(data: xarray.Dataset) -> Figure:
     """Swash angle (deg) and displacement ratio; control and actuator pressure (MPa), over time (ms)."""
     figure = figure_of(10.0, 3.4)
     left, right = figure.subplots(1, 2)
@@ -52,10 +53,10 @@ def plate_plot(data: xarray.Dataset) -> bytes:
     right.legend()
     for axes in (left, right):
         axes.set(xlabel="time / ms", xlim=(time[0], time[-1]))
-    return png_of(figure)
+    return figure
 
 
-def moment_plot(data: xarray.Dataset) -> bytes:
+def moment_plot(data: xarray.Dataset) -> Figure:
     """Moments on the plate by cause (N m) over time (ms); those that are nothing throughout are left out."""
     figure = figure_of(10.0, 3.8)
     axes = figure.subplots()
@@ -67,10 +68,10 @@ def moment_plot(data: xarray.Dataset) -> bytes:
             axes.plot(time, over_a_pitch(data, values), color=line.get_color(), label=label)
     axes.set(xlabel="time / ms", ylabel="moment on the plate / N m", xlim=(time[0], time[-1]))
     axes.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0), frameon=False)
-    return png_of(figure)
+    return figure
 
 
-def pump_plot(data: xarray.Dataset) -> bytes:
+def pump_plot(data: xarray.Dataset) -> Figure:
     """Flows at the ports (L/min) and drive torque (N m) over time (ms)."""
     figure = figure_of(10.0, 3.4)
     left, right = figure.subplots(1, 2)
@@ -88,10 +89,10 @@ def pump_plot(data: xarray.Dataset) -> bytes:
     right.set(ylabel="torque / N m", title="shaft")
     for axes in (left, right):
         axes.set(xlabel="time / ms", xlim=(time[0], time[-1]))
-    return png_of(figure)
+    return figure
 
 
-def chamber_plot(data: xarray.Dataset) -> bytes:
+def chamber_plot(data: xarray.Dataset) -> Figure:
     """Pressure of chamber 1 and the span of all (MPa) over time (ms)."""
     figure = figure_of(10.0, 3.0)
     axes = figure.subplots()
@@ -100,4 +101,4 @@ def chamber_plot(data: xarray.Dataset) -> bytes:
     axes.plot(time, pressure[:, 0], color="#1c2328", linewidth=0.7, label="chamber 1")
     axes.set(xlabel="time / ms", ylabel="pressure, gauge / MPa", xlim=(time[0], time[-1]))
     axes.legend(loc="upper right")
-    return png_of(figure)
+    return figure

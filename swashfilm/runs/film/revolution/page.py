@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import base64
 import csv
 import json
 from collections.abc import Iterator, Mapping
@@ -11,11 +10,11 @@ from typing import Any
 
 from swashfilm.case.gap.physics_told import PHYSICS_HEAD, physics_told
 from swashfilm.output.gap_names import TITLES
+from swashfilm.output.page import expect_files, inlined, write_page
 from swashfilm.runs.film.page import summary_rows
 from swashfilm.runs.film.refine import refinement_head, refinement_rows
 from swashfilm.runs.film.revolution.plots import revolution_plots
 from system.description.gap import Gap
-from system.inputs.faults import Fault, InputFaults
 
 FILES = ("summary.json", "resolved.toml", "results.nc", "convergence.csv")
 _LISTS = ("assumptions", "physics_left_out", "physics_seconds", "gap")
@@ -27,33 +26,26 @@ def write_revolution_page(folder: Path) -> Path:
     The page is one file that needs no other. Raises InputFaults where one of the four is not there.
     """
     import xarray
-    from jinja2 import Environment, PackageLoader
 
-    missing = [name for name in FILES if not (folder / name).is_file()]
-    if missing:
-        raise InputFaults(str(folder), [Fault(name, "no such file", "a film's run folder") for name in missing])
+    expect_files(folder, FILES, "a film's run folder")
     summary = json.loads((folder / "summary.json").read_text("utf-8"))
     with xarray.open_dataset(folder / "results.nc", engine="h5netcdf") as data:
         pictures = revolution_plots(data.load())
     with (folder / "convergence.csv").open(newline="", encoding="utf-8") as file:
         convergence = list(csv.reader(file))
     refinement = summary.get("refinement")
-    template = Environment(loader=PackageLoader("swashfilm.output"), autoescape=True).get_template(
-        "revolution.html.jinja"
-    )
-    page = template.render(
+    return write_page(
+        folder,
+        "revolution",
         summary=summary,
         gap=TITLES[Gap(summary["gap"]).value],
-        pictures={name: base64.b64encode(png).decode("ascii") for name, png in pictures.items()},
+        pictures={name: inlined(png) for name, png in pictures.items()},
         rows=list(revolution_rows(summary)),
         physics=[PHYSICS_HEAD, *physics_told(summary["physics_left_out"], summary["physics_seconds"])],
         refinement=[refinement_head(refinement), *refinement_rows(refinement)] if refinement else [],
         convergence=convergence,
         case=(folder / "resolved.toml").read_text("utf-8"),
     )
-    path = folder / "report.html"
-    path.write_text(page, encoding="utf-8")
-    return path
 
 
 def revolution_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, str]]:

@@ -8,12 +8,13 @@ import numpy as np
 
 from gaps.revolution.reports import Active
 from swashfilm.output.field_maps import draw_map
-from swashfilm.output.figure_png import figure_of, png_of
+from swashfilm.output.figures import figure_of
 from swashfilm.runs.film.revolution.data import PISTON_END, POSITIONS, SHOWN
 from system.description.gap import Gap
 
 if TYPE_CHECKING:
     import xarray
+    from matplotlib.figure import Figure
 
 EDGES = (0.15, 0.85)  # of the span, beyond which a label stands beside its place
 THINNEST = 0.01  # um: a film below it is not told in figures
@@ -36,7 +37,7 @@ MEANING = {
 }  # fmt: skip
 
 
-def revolution_plots(data: xarray.Dataset) -> dict[str, bytes]:
+def revolution_plots(data: xarray.Dataset) -> dict[str, Figure]:
     """A PNG of each picture, by its name: film, path, losses, contact, maps; temperature of films that warm."""
     warm = {"temperature": _temperature(data)} if TEMPERATURE in data else {}
     return warm | {
@@ -53,7 +54,7 @@ def film_text(thickness: float) -> str:
     return f"{thickness:.3g} um" if thickness >= THINNEST else f"under {THINNEST:g} um"
 
 
-def _film(data: xarray.Dataset) -> bytes:
+def _film(data: xarray.Dataset) -> Figure:
     """Least to mean film (um) over the shaft angle, the chamber's pressure beside it, what limits it below."""
     figure = figure_of(9.0, 4.6)
     axes, bands = figure.subplots(2, 1, sharex=True, height_ratios=(5, 1))
@@ -74,7 +75,7 @@ def _film(data: xarray.Dataset) -> bytes:
     figure.legend(loc="outside upper right", fontsize=8, ncols=2)
     draw_bands(bands, data)
     bands.set(xlabel="shaft angle from inner dead centre / deg", xlim=(0.0, span(data)))
-    return png_of(figure)
+    return figure
 
 
 def draw_bands(axes: Any, data: xarray.Dataset) -> None:
@@ -90,7 +91,7 @@ def draw_bands(axes: Any, data: xarray.Dataset) -> None:
     axes.set_ylim(len(kinds) - 0.4, -0.6)
 
 
-def _path(data: xarray.Dataset) -> bytes:
+def _path(data: xarray.Dataset) -> Figure:
     """The piston's two ends in the clearance circle (um), or the tilt of slipper or block as rises (um)."""
     figure = figure_of(9.0, 4.4)
     gap, angle = Gap(data.attrs["gap"]), degrees(data)
@@ -103,7 +104,7 @@ def _path(data: xarray.Dataset) -> bytes:
             axes.plot(clearance * np.cos(circle), clearance * np.sin(circle), color="#9aa4ab", linewidth=1.0)
             _orbit(axes, shown(data, pair[0]), shown(data, pair[1]), angle)
             axes.set(title=title, xlabel="eccentricity, to inner dead centre / um", ylabel="across / um")
-        return png_of(figure)
+        return figure
     orbit, course = figure.subplots(1, 2)
     _orbit(orbit, shown(data, "rise_x"), shown(data, "rise_y"), angle)
     orbit.set(title="tilt", xlabel="rise along x over the rim's radius / um", ylabel="rise along y / um")
@@ -111,7 +112,7 @@ def _path(data: xarray.Dataset) -> bytes:
         course.plot(angle, shown(data, name), color=colour, label=name.replace("_", " "))
     course.set(xlabel="shaft angle / deg", ylabel="coordinate / um", xlim=(0.0, span(data)))
     course.legend(fontsize=8)
-    return png_of(figure)
+    return figure
 
 
 def _orbit(axes: Any, x: np.ndarray, y: np.ndarray, angle: np.ndarray) -> None:
@@ -127,7 +128,7 @@ def _orbit(axes: Any, x: np.ndarray, y: np.ndarray, angle: np.ndarray) -> None:
     axes.figure.colorbar(dots, ax=axes, label="shaft angle / deg", shrink=0.8)
 
 
-def _losses(data: xarray.Dataset) -> bytes:
+def _losses(data: xarray.Dataset) -> Figure:
     """Tilt (mrad), leakage (L/min) and friction (W) over the shaft angle."""
     figure = figure_of(9.0, 5.6)
     tilt, leakage, friction = figure.subplots(3, 1, sharex=True)
@@ -143,10 +144,10 @@ def _losses(data: xarray.Dataset) -> bytes:
     friction.set_ylabel("friction / W")
     friction.legend(fontsize=8)
     friction.set(xlabel="shaft angle / deg", xlim=(0.0, span(data)))
-    return png_of(figure)
+    return figure
 
 
-def _contact(data: xarray.Dataset) -> bytes:
+def _contact(data: xarray.Dataset) -> Figure:
     """Contact load (N), cavitated share of the area and largest film pressure (MPa) over the shaft angle."""
     figure = figure_of(9.0, 5.0)
     rows = {
@@ -160,10 +161,10 @@ def _contact(data: xarray.Dataset) -> bytes:
         most = max(1.05 * float(shown(data, name).max()), LEAST_SHOWN[name])
         axes.set(ylabel=title, ylim=(0.0, most), xlim=(0.0, span(data)))
     axes.set_xlabel("shaft angle / deg")
-    return png_of(figure)
+    return figure
 
 
-def _maps(data: xarray.Dataset) -> bytes:
+def _maps(data: xarray.Dataset) -> Figure:
     """Film pressure (MPa), thickness (um) and, of films that warm, temperature (degC) at some kept angles."""
     count = data.sizes["film_angle"]
     chosen = np.unique(np.linspace(0, count - 1, min(MAPS, count)).round().astype(int))
@@ -173,10 +174,10 @@ def _maps(data: xarray.Dataset) -> bytes:
     for column, k in enumerate(chosen):
         for row, name in enumerate(fields):
             draw_film(rows[row, column], data, int(k), name)
-    return png_of(figure)
+    return figure
 
 
-def _temperature(data: xarray.Dataset) -> bytes:
+def _temperature(data: xarray.Dataset) -> Figure:
     """Mean and highest temperature of the film (degC) over the shaft angle, and the walls', which stay."""
     figure = figure_of(9.0, 3.4)
     axes, angle = figure.subplots(), degrees(data)
@@ -188,7 +189,7 @@ def _temperature(data: xarray.Dataset) -> bytes:
     axes.set(xlabel="shaft angle / deg", ylabel="temperature / degC", xlim=(0.0, span(data)))
     figure.legend(loc="outside upper right", fontsize=8, ncols=4)
     axes.grid(visible=True, alpha=0.3)
-    return png_of(figure)
+    return figure
 
 
 def draw_film(axes: Any, data: xarray.Dataset, k: int, name: str) -> None:

@@ -11,11 +11,12 @@ import numpy as np
 from swashfilm.case.study import StudyCase
 from swashfilm.output.headline import named
 from swashfilm.runs.film.revolution.data import SHOWN
-from swashfilm.runs.film.series.plots import COURSES, MOST_LINES, figure_axes, png, where
+from swashfilm.runs.film.series.plots import COURSES, MOST_LINES, figure_axes, where
 from swashfilm.runs.film.series.points import COURSE, Outcome
 
 if TYPE_CHECKING:
     import xarray
+    from matplotlib.figure import Figure
 
 ANGLE = "shaft_angle_deg"
 LEGEND_LINE = 0.17  # inches a line of the legend takes
@@ -50,13 +51,13 @@ def _at(angles: np.ndarray, course: Mapping[str, Any], key: str) -> np.ndarray:
     return np.interp(angles, course[ANGLE], course[key], period=course[ANGLE][-1])
 
 
-def course_plots(data: xarray.Dataset) -> dict[str, bytes]:
-    """A PNG of each course by its key: a line over the shaft angle for each point, up to MOST_LINES of them."""
+def course_plots(data: xarray.Dataset) -> dict[str, Figure]:
+    """A figure of each course by its key: a line over the shaft angle for each point, up to MOST_LINES of them."""
     names = [str(name) for name in data.data_vars if str(name).startswith(COURSES)]
     return {name: _picture(data, name) for name in names}
 
 
-def _picture(data: xarray.Dataset, name: str) -> bytes:
+def _picture(data: xarray.Dataset, name: str) -> Figure:
     figure, axes = figure_axes()
     field = data[name]
     how = SHOWN[field.attrs["units"]]
@@ -73,4 +74,4 @@ def _picture(data: xarray.Dataset, name: str) -> bytes:
     width, height = figure.get_size_inches()
     figure.set_size_inches(width, height + LEGEND_LINE * lines)
     figure.legend(fontsize=7, title=title, loc="outside lower center")
-    return png(figure)
+    return figure

@@ -2,20 +2,20 @@
 
 from __future__ import annotations
 
-import base64
 import json
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
 from swashfilm.case.study import StudyCase
+from swashfilm.output.figures import png_of
 from swashfilm.output.headline import named
+from swashfilm.output.page import PLOTS, expect_files, inlined, write_page
 from swashfilm.output.run_folder import write_json
 from swashfilm.runs.film.series.courses import course_plots
 from swashfilm.runs.film.series.data import study_dataset, study_summary, write_study_table
 from swashfilm.runs.film.series.plots import study_plots
 from swashfilm.runs.film.series.points import run_points
-from system.inputs.faults import Fault, InputFaults
 from system.work.progress import Report
 
 
@@ -39,33 +39,26 @@ def run_study(
 def write_study_page(folder: Path) -> Path:
     """Write report.html and plots/ of a study's run folder from its summary.json, study.nc and input.toml."""
     import xarray
-    from jinja2 import Environment, PackageLoader
 
-    missing = [name for name in ("summary.json", "study.nc", "input.toml") if not (folder / name).is_file()]
-    if missing:
-        raise InputFaults(str(folder), [Fault(name, "no such file", "a study's run folder") for name in missing])
+    expect_files(folder, ("summary.json", "study.nc", "input.toml"), "a study's run folder")
     summary = json.loads((folder / "summary.json").read_text("utf-8"))
     with xarray.open_dataset(folder / "study.nc", engine="h5netcdf") as data:
         data.load()
-    pictures = course_plots(data) | study_plots(data)
-    (folder / "plots").mkdir(exist_ok=True)
+    pictures = {key: png_of(figure) for key, figure in (course_plots(data) | study_plots(data)).items()}
+    (folder / PLOTS).mkdir(exist_ok=True)
     for key, png in pictures.items():
-        (folder / "plots" / f"{key}.png").write_bytes(png)
-    template = Environment(loader=PackageLoader("swashfilm.output"), autoescape=True).get_template(
-        "study.html.jinja"
-    )
-    page = template.render(
+        (folder / PLOTS / f"{key}.png").write_bytes(png)
+    return write_page(
+        folder,
+        "study",
         name=summary["name"],
         warnings=summary["warnings"],
-        pictures={key: base64.b64encode(png).decode("ascii") for key, png in pictures.items()},
+        pictures={key: inlined(png) for key, png in pictures.items()},
         rows=list(span_rows(summary)),
         failed=list(failed_rows(summary)),
         case=(folder / "input.toml").read_text("utf-8"),
         summary=summary,
     )
-    path = folder / "report.html"
-    path.write_text(page, encoding="utf-8")
-    return path
 
 
 def span_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:

@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
-import io
 from collections.abc import Mapping
 from itertools import product
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from swashfilm.output.figures import figure_of
 from swashfilm.output.headline import sizes, titled
 
 if TYPE_CHECKING:
     import xarray
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 LEAST_CHANGE = 1e-5  # of the size of such numbers: one that varies less is not drawn
 LOG_FROM = 30.0  # ratio of an axis' ends from which it is drawn in logarithms
@@ -23,8 +25,8 @@ CONTACT = "contact_load_fraction"
 COURSES = "course_"  # curves over the shaft angle, drawn by `series_courses`
 
 
-def study_plots(data: xarray.Dataset) -> dict[str, bytes]:
-    """A PNG of every number that varies, by its key: lines over one key, maps over two that are numbers.
+def study_plots(data: xarray.Dataset) -> dict[str, Figure]:
+    """A figure of every number that varies, by its key: lines over one key, maps over two that are numbers.
 
     Three keys and more are lines over the first, one for each value of the others. `stribeck`, where the Hersey
     number varies, is the friction coefficient over it.
@@ -44,7 +46,7 @@ def _is_numeric(values: np.ndarray) -> bool:
     return bool(np.issubdtype(values.dtype, np.number))
 
 
-def _picture(data: xarray.Dataset, key: str) -> bytes:
+def _picture(data: xarray.Dataset, key: str) -> Figure:
     figure, axes = figure_axes()
     field = data[key]
     numeric = [_is_numeric(data[dim].values) for dim in field.dims if dim in data.coords]
@@ -53,7 +55,7 @@ def _picture(data: xarray.Dataset, key: str) -> bytes:
     else:
         _lines(axes, data, key)
     axes.set_title(titled(key), fontsize=10)
-    return png(figure)
+    return figure
 
 
 def _lines(axes: Any, data: xarray.Dataset, key: str) -> None:
@@ -106,7 +108,7 @@ def _levels(values: np.ndarray) -> np.ndarray:
     return np.asarray(LogLocator(subs=steps, numticks=12).tick_values(least, most))
 
 
-def _stribeck(data: xarray.Dataset) -> bytes:
+def _stribeck(data: xarray.Dataset) -> Figure:
     """Friction coefficient over the Hersey number: one line with the contact's share, or many."""
     figure, axes = figure_axes()
     friction, hersey = (data[key].transpose(*data[STRIBECK[0]].dims) for key in STRIBECK)
@@ -127,7 +129,7 @@ def _stribeck(data: xarray.Dataset) -> bytes:
         axes.legend(fontsize=7)
     else:
         _with_least_and_contact(axes, data, along)
-    return png(figure)
+    return figure
 
 
 def _with_least_and_contact(axes: Any, data: xarray.Dataset, along: str) -> None:
@@ -192,16 +194,7 @@ def _is_geometric(places: np.ndarray) -> bool:
     return _is_wide(places) or bool(np.ptp(np.diff(np.log(places))) < 1e-6)
 
 
-def figure_axes() -> tuple[Any, Any]:
+def figure_axes() -> tuple[Figure, Axes]:
     """A figure of a study's size, with its axes."""
-    from matplotlib.figure import Figure
-
-    figure = Figure(figsize=(5.2, 3.7), layout="constrained")
+    figure = figure_of(5.2, 3.7)
     return figure, figure.subplots()
-
-
-def png(figure: Any) -> bytes:
-    """The figure as a PNG."""
-    picture = io.BytesIO()
-    figure.savefig(picture, format="png", dpi=110)
-    return picture.getvalue()
