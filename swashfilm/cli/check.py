@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+from swashfilm.console.command import Command
 from swashfilm.console.terminal import show
 from swashfilm.runs.diagnose.command import check_recording_command, is_recording
 from system.inputs.faults import Fault, InputFaults
@@ -76,3 +77,16 @@ def _checked_film(path: Path, tables: Mapping[str, Any]) -> str:
         show(f"a study of {len(case.points)} points")
         return case.case(case.points[0]).resolved
     return case.resolved
+
+
+def _add_options(command: argparse.ArgumentParser) -> None:
+    command.add_argument("file", metavar="FILE", help="pump file, built-in pump, any case, or recording")
+
+
+COMMAND = Command(
+    "check",
+    "validate a pump file, case or recording without running it",
+    _add_options,
+    run_check_command,
+    in_folder=False,
+)

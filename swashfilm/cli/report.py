@@ -8,6 +8,7 @@ from collections.abc import Callable
 from importlib import import_module
 from pathlib import Path
 
+from swashfilm.console.command import Command
 from swashfilm.console.inputs import COMMAND_LINE
 from swashfilm.console.terminal import show
 from system.inputs.faults import Fault, InputFaults, nearest_path
@@ -60,3 +61,10 @@ def _page_of(folder: Path) -> Callable[[Path], Path]:
     module, _, name = PAGES[kind].rpartition(".")
     writer: Callable[[Path], Path] = getattr(import_module(f"swashfilm.{module}"), name)
     return writer
+
+
+def _add_options(command: argparse.ArgumentParser) -> None:
+    command.add_argument("folder", type=Path, metavar="DIR", help="the run folder")
+
+
+COMMAND = Command("report", "make the report of a run folder anew", _add_options, run_report, in_folder=False)

@@ -7,13 +7,13 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from swashfilm.console.command import Command
 from swashfilm.console.terminal import show, show_table
 from system.inputs.faults import Fault, InputFaults, nearest_choice
 
 if TYPE_CHECKING:
     from system.bench.loss_models.model import LossModelName
 
-CALIBRATE_OPTIONS = ["--laws", "--models"]
 LAWS = ("mixed_friction", "none")
 ALL, NONE = "all", "none"
 
@@ -89,3 +89,11 @@ def _calibrate(options: argparse.Namespace, models: Sequence[LossModelName]) -> 
     show(f"the fitted pump is {final_folder(folder) / CALIBRATED}")
     show(f"results in {final_folder(folder)}")
     return 0
+
+
+COMMAND = Command(
+    "calibrate",
+    "coefficients of a pump by a recording, with their widths",
+    add_calibrate_options,
+    run_calibrate_command,
+)

@@ -8,13 +8,13 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from swashfilm.console.command import Command
 from swashfilm.console.terminal import show, show_table
 from system.inputs.faults import Fault, InputFaults
 
 if TYPE_CHECKING:
     from diagnosis.recording.model import Recording
 
-DIAGNOSE_OPTIONS = ["--apply", "--workers", "--film-tables"]
 MOST_WORKERS = 64
 USUAL_WORKERS = 4  # at most, where not stated: more wait for each other
 
@@ -144,3 +144,11 @@ def _apply(options: argparse.Namespace, faults: list[Fault]) -> Path | None:
     elif path is not None and not path.resolve().parent.is_dir():
         faults.append(Fault("--apply", f"{path}, in no folder", "a file in a folder that is there"))
     return path
+
+
+COMMAND = Command(
+    "diagnose",
+    "where a recording and the simulation of its pump part: by what, how sure",
+    add_diagnose_options,
+    run_diagnose_command,
+)

@@ -6,7 +6,8 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from swashfilm.case.gap.physics_switches import SWITCHES, add_switches, switched_keys
+from swashfilm.case.gap.physics_switches import add_switches, switched_keys
+from swashfilm.console.command import Command
 from swashfilm.console.inputs import COMMAND_LINE, expect
 from swashfilm.console.terminal import show, show_table
 from system.inputs.faults import Fault, InputFaults
@@ -16,7 +17,6 @@ if TYPE_CHECKING:
     from swashfilm.case.gap.revolution import RevolutionCase
     from swashfilm.case.study import StudyCase
 
-FILM_OPTIONS = ["--refine", "--csv", "--resume", "--workers", "--animate", *SWITCHES]
 SOFT_PRICE = (
     "walls that give way take some ten times as long as with --rigid --isoviscous; a smaller 'finer' costs less"
 )
@@ -145,3 +145,6 @@ def _count(option: str, text: str | None, what: str, least: int, most: int) -> i
     if not (text.isdecimal() and least <= int(text) <= most):
         raise InputFaults(COMMAND_LINE, [Fault(option, repr(text), f"{what}, {least} to {most}")])
     return int(text)
+
+
+COMMAND = Command("film", "one film: a free one or a gap of a pump", add_film_options, run_film)

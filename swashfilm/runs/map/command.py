@@ -8,6 +8,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from swashfilm.console.command import Command
 from swashfilm.console.fidelity import Fidelity
 from swashfilm.console.inputs import COMMAND_LINE, expect, given_text
 from swashfilm.console.terminal import show, show_table
@@ -28,9 +29,6 @@ LEVELS = {
 """Member of `MapInput`, example and meaning of each axis of a map."""
 FIDELITIES = (Fidelity.LUMPED, Fidelity.FILMS, Fidelity.TABLE)
 PLANS = ("paper", "point")
-MAP_OPTIONS = [
-    *LEVELS, "--plan", "--fidelity", "--table", "--direct", "--check", "--workers", "--cluster", "--resume",
-]  # fmt: skip
 
 
 def add_map_options(command: argparse.ArgumentParser) -> None:
@@ -192,3 +190,11 @@ def _solver_faults(options: argparse.Namespace, plan: MapPlan) -> Iterator[Fault
         seconds = 2.0 * len(plan.points)
         expected = "one inlet pressure a map, --fidelity lumped, or --direct"
         yield Fault("--inlet-pressures", found, expected, f"--direct takes some {seconds:.0f} s of processor time")
+
+
+COMMAND = Command(
+    "map",
+    "a pump over speed, pressure, displacement, temperature, inlet pressure",
+    add_map_options,
+    run_map_command,
+)

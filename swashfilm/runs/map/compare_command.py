@@ -7,6 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from swashfilm.console.command import Command
 from swashfilm.console.terminal import show, show_table
 from system.inputs.faults import Fault, InputFaults, nearest_choice, nearest_path
 
@@ -14,8 +15,6 @@ if TYPE_CHECKING:
     from swashfilm.runs.map.compare_run import Known
     from system.description.pump import PumpDescription
     from system.maps.plan import MapAxis
-
-COMPARE_OPTIONS = ["--cycle"]
 
 
 def add_compare_options(command: argparse.ArgumentParser) -> None:
@@ -121,3 +120,8 @@ def _lumped_map(pump: PumpDescription, axes: tuple[MapAxis, ...]) -> Known:
         raise InputFaults(pump.name, faults)
     work = MapWork(pump, LumpedSolver())
     return map_data(plan, work, tuple(done_part(work, point) for point in plan.points)), None
+
+
+COMMAND = Command(
+    "compare", "two maps or pumps side by side, over a cycle too", add_compare_options, run_compare_command
+)

@@ -6,6 +6,7 @@ import argparse
 import shutil
 from pathlib import Path
 
+from swashfilm.console.command import Command
 from swashfilm.console.terminal import show, show_table
 
 
@@ -48,3 +49,8 @@ def run_duty_command(options: argparse.Namespace) -> int:
         show(f"held by the map: {held}")
     show(f"results in {final_folder(folder)}")
     return 0
+
+
+COMMAND = Command(
+    "duty", "what a pump takes and loses over a cycle, by a map of it", add_duty_options, run_duty_command
+)

@@ -7,7 +7,8 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from swashfilm.case.gap.physics_switches import SWITCHES, add_switches
+from swashfilm.case.gap.physics_switches import add_switches
+from swashfilm.console.command import Command
 from swashfilm.console.fidelity import Fidelity
 from swashfilm.console.inputs import COMMAND_LINE, expect, given_text
 from swashfilm.console.terminal import show, show_table
@@ -27,7 +28,6 @@ _OVERRIDES = {
     "--case-pressure": ("operating.case_pressure", "1.5bar", "pressure in the case, gauge"),
 }
 _FIDELITIES = [fidelity.value for fidelity in Fidelity]
-RUN_OPTIONS = [*_OVERRIDES, "--fidelity", "--table", "--steps", "--finer", *SWITCHES]
 
 
 def add_run_options(command: argparse.ArgumentParser) -> None:
@@ -154,3 +154,12 @@ def _at_options(reason: InputFaults, stated: dict[str, object], faults: list[Fau
     moved = [Fault(option_of.get(f.path, f.path), f.found, f.expected, f.nearest) for f in reason.faults]
     all_ours = all(fault.path in _OVERRIDES for fault in moved)
     return InputFaults(COMMAND_LINE if all_ours else reason.source, [*faults, *moved], reason.lines)
+
+
+COMMAND = Command(
+    "run",
+    "one operating point of a pump: three gaps, chambers, losses",
+    add_run_options,
+    run_pump_command,
+    faults=pump_faults,
+)

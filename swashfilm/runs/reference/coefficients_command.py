@@ -6,6 +6,7 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from swashfilm.console.command import Command
 from swashfilm.console.inputs import COMMAND_LINE
 from swashfilm.console.terminal import show_table
 from system.inputs.faults import Fault, InputFaults
@@ -29,7 +30,6 @@ FILM_RATIOS = {
     "--film-ratio": "film behind / film before; of a groove: in the groove / film",
     "--width-ratio": "of a groove: its width / film",
 }
-COEFFICIENT_OPTIONS = ["--inlet", "--outlet", *SIZES, *FILM_SIZES, *FILM_RATIOS]
 
 
 def add_coefficient_options(command: argparse.ArgumentParser) -> None:
@@ -156,3 +156,12 @@ def _sizes(options: argparse.Namespace, sizes: dict[str, tuple[Dimension, str]])
     if faults:
         raise InputFaults(COMMAND_LINE, faults)
     return found
+
+
+COMMAND = Command(
+    "coefficients",
+    "a port's flow coefficient out of a computed flow",
+    add_coefficient_options,
+    run_coefficients_command,
+    in_folder=False,
+)

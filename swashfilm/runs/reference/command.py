@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
+from swashfilm.console.command import Command
 from swashfilm.console.terminal import show, show_table
 
 
@@ -30,3 +31,11 @@ def run_reference_command(options: argparse.Namespace) -> int:
     show_table(f"Reference {case.name}: {summary['holds_for']}", [HEAD, *reference_rows(summary)])
     show(f"coefficients in {final_folder(folder) / summary['table']}")
     return 0
+
+
+COMMAND = Command(
+    "reference",
+    "what the film equation leaves out at steps, grooves and orifices",
+    add_reference_options,
+    run_reference_command,
+)

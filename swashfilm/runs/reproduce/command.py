@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from swashfilm.case.gap.physics_switches import SWITCHES, add_switches
+from swashfilm.console.command import Command
 from swashfilm.console.inputs import COMMAND_LINE
 from swashfilm.console.terminal import show, show_table
 from system.inputs.faults import Fault, InputFaults, nearest_choice
@@ -16,7 +17,6 @@ if TYPE_CHECKING:
     from diagnosis.recording.model import Recording
     from swashfilm.runs.reproduce.run import ReproduceAsked
 
-REPRODUCE_OPTIONS = ["--fidelity", "--pump", "--recording", "--page", "--workers", "--steps", "--finer", *SWITCHES]
 ALL, LIST = "all", "list"
 _LUMPED, _FLOATING = "lumped", "floating"
 _TUNED = "fig13"
@@ -165,3 +165,11 @@ def _write_page(path: Path, text: str) -> None:
         raise InputFaults(
             COMMAND_LINE, [Fault("--page", f"{path}: {reason.strerror}", "a file to write")]
         ) from None
+
+
+COMMAND = Command(
+    "reproduce",
+    "the paper's figures: its statements beside the same numbers here",
+    add_reproduce_options,
+    run_reproduce_command,
+)

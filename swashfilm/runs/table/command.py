@@ -9,7 +9,8 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from swashfilm.case.gap.physics_switches import SWITCHES, add_switches, switched_keys
+from swashfilm.case.gap.physics_switches import add_switches, switched_keys
+from swashfilm.console.command import Command
 from swashfilm.console.inputs import COMMAND_LINE
 from swashfilm.console.terminal import show, show_table
 from system.inputs.faults import Fault, InputFaults, nearest_choice
@@ -42,17 +43,6 @@ HELD = {
     "--inlet-pressure": ("operating.inlet_pressure", "25bar", "pressure at the inlet, gauge"),
     "--case-pressure": ("operating.case_pressure", "1.5bar", "pressure in the case, gauge"),
 }
-TABLE_OPTIONS = [
-    *RANGES,
-    *HELD,
-    "--source",
-    "--points",
-    "--held-out",
-    "--workers",
-    "--steps",
-    "--finer",
-    *SWITCHES,
-]
 
 
 def add_table_options(command: argparse.ArgumentParser) -> None:
@@ -252,3 +242,11 @@ def _count(faults: list[Fault], option: str, text: str | None, default: int, lea
 def _given(options: argparse.Namespace, option: str) -> str | None:
     found: str | None = getattr(options, option[2:].replace("-", "_"))
     return found
+
+
+COMMAND = Command(
+    "table",
+    "condense a pump's gaps into a response table, for runs of --fidelity table",
+    add_table_options,
+    run_table_command,
+)

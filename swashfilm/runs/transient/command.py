@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
+from swashfilm.console.command import Command
 from swashfilm.console.terminal import show, show_table
 
 
@@ -31,3 +32,11 @@ def run_transient_command(options: argparse.Namespace) -> int:
         show(f"warning: {warning}")
     show(f"results in {final_folder(folder)}")
     return 0
+
+
+COMMAND = Command(
+    "transient",
+    "displacement in time: plate, actuator and chambers of a pump",
+    add_transient_options,
+    run_transient_command,
+)

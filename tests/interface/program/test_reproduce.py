@@ -112,7 +112,7 @@ def test_floating_films_are_drawn_from_what_is_kept(tmp_path):
     assert set(verdicts) == FLOATING
     assert set(verdicts.values()) == {Verdict.REACHED}
     for figure in figures:
-        assert len(figure_picture(figure.panels).axes) == len(figure.panels)
+        assert len(figure_picture(figure.panels).axes) >= len(figure.panels)
     assert "0.80 at the film's inner end" in figures[0].remarks[0]
     assert not run_checks((slipper_has_a_wedge,), pump).warnings
 

@@ -1,0 +1,119 @@
+"""What this machine offers to a run: interpreter, packages, caches, memory, graphics."""
+
+from __future__ import annotations
+
+import os
+import platform
+import re
+import sys
+import tempfile
+from collections.abc import Iterable
+from ctypes.util import find_library
+from dataclasses import dataclass
+from importlib.metadata import PackageNotFoundError, requires, version
+from pathlib import Path
+
+from swashfilm.output.picture3d import REMEDY, draw
+from system.work.processes import cores
+
+LEAST_MEMORY = 2e9  # bytes; a run with films takes half of it
+_NEEDED = re.compile(r"[A-Za-z0-9_.\-]+")
+_TRIANGLE = """<VTKFile type="UnstructuredGrid" version="0.1"><UnstructuredGrid>
+<Piece NumberOfPoints="3" NumberOfCells="1"><PointData Scalars="film_pressure">
+<DataArray type="Float64" Name="film_pressure" format="ascii">0 1 2</DataArray></PointData>
+<Points><DataArray type="Float64" NumberOfComponents="3" format="ascii">0 0 0 1 0 0 0 1 0</DataArray></Points>
+<Cells><DataArray type="Int64" Name="connectivity" format="ascii">0 1 2</DataArray>
+<DataArray type="Int64" Name="offsets" format="ascii">3</DataArray>
+<DataArray type="UInt8" Name="types" format="ascii">5</DataArray></Cells></Piece></UnstructuredGrid></VTKFile>
+"""
+
+
+@dataclass(frozen=True)
+class Finding:
+    """One thing looked at: what, how it stands, and what to do where that is not well (else empty).
+
+    `needed` marks what no run can do without.
+    """
+
+    what: str
+    text: str
+    remedy: str = ""
+    needed: bool = False
+
+
+def examine() -> list[Finding]:
+    """Look at the machine; nothing is changed but a temporary folder."""
+    return [
+        Finding("python", f"{platform.python_version()} ({sys.executable})"),
+        Finding("system", f"{platform.system()} {platform.release()} {platform.machine()}"),
+        *_packages(),
+        Finding("cores", str(cores())),
+        _memory(),
+        Finding("threads a run uses", os.environ.get("OMP_NUM_THREADS", "not set")),
+        *_kernels(),
+        *_graphics(),
+    ]
+
+
+def is_well(findings: Iterable[Finding]) -> bool:
+    """True when nothing that a run needs is missing."""
+    return not any(finding.remedy and finding.needed for finding in findings)
+
+
+def _packages() -> list[Finding]:
+    """Swashfilm and what it requires, with their versions."""
+    try:
+        lines = [line for line in requires("swashfilm") or [] if "extra ==" not in line]
+        found = [Finding("swashfilm", version("swashfilm"))]
+    except PackageNotFoundError:
+        return [Finding("swashfilm", "not installed", "make install, or pip install .", needed=True)]
+    for line in sorted(lines):
+        match = _NEEDED.match(line)
+        name = match[0] if match else line
+        try:
+            found.append(Finding(name, version(name)))
+        except PackageNotFoundError:
+            found.append(Finding(name, "missing", f"pip install '{line}'", needed=True))
+    return found
+
+
+def _memory() -> Finding:
+    try:
+        size = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
+    except (ValueError, OSError, AttributeError):
+        return Finding("memory", "not known")
+    remedy = f"a run with films wants {LEAST_MEMORY / 1e9:g} GB" if size < LEAST_MEMORY else ""
+    return Finding("memory", f"{size / 1e9:.1f} GB", remedy)
+
+
+def _kernels() -> list[Finding]:
+    """Where numba keeps its compiled kernels: whether they are there, and whether they can be written."""
+    import reynolds
+    import system
+
+    found = []
+    for package in (reynolds, system):
+        home = Path(os.environ.get("NUMBA_CACHE_DIR") or Path(str(package.__file__)).parent / "__pycache__")
+        kept = len(list(home.rglob("*.nbi")))
+        state = f"{kept} kept in {home}" if kept else f"none yet in {home}: the first run compiles, some 20 s"
+        nearest = next(folder for folder in (home, *home.parents) if folder.exists())
+        writable = os.access(nearest, os.W_OK)
+        remedy = (
+            "" if writable else "set NUMBA_CACHE_DIR to a folder that can be written, or every run compiles anew"
+        )
+        found.append(Finding(f"compiled kernels, {package.__name__}", state, remedy))
+    return found
+
+
+def _graphics() -> list[Finding]:
+    """Graphics libraries, and whether a 3D picture can be drawn (tried in a child process)."""
+    libraries = [name for name in ("EGL", "GL", "OSMesa") if find_library(name)]
+    with tempfile.TemporaryDirectory() as folder:
+        film = Path(folder, "film.vtu")
+        film.write_text(_TRIANGLE, encoding="utf-8")
+        pictures = draw({Path(folder, "film.png"): [film]})
+    drawn = "drawn" if pictures.paths else pictures.reason.removesuffix(f"; {REMEDY}")
+    return [
+        Finding("graphics libraries", ", ".join(libraries) or "none"),
+        Finding("3D picture", drawn, "" if pictures.paths else f"{REMEDY} (runs do without the picture)"),
+    ]

@@ -1,0 +1,39 @@
+"""A command of the program: its name, its options, and its function."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from system.inputs.faults import Fault
+
+
+def no_faults(options: argparse.Namespace, words: Sequence[str]) -> list[Fault]:
+    """Return no fault: the command checks nothing beside unknown options."""
+    return []
+
+
+@dataclass(frozen=True)
+class Command:
+    """A command of `swashfilm`.
+
+    add: gives the parser its options; run: returns the exit code; in_folder: takes -o DIR for its run folder;
+    faults: further faults that are reported beside unknown options.
+    """
+
+    name: str
+    summary: str
+    add: Callable[[argparse.ArgumentParser], None]
+    run: Callable[[argparse.Namespace], int]
+    in_folder: bool = True
+    faults: Callable[[argparse.Namespace, Sequence[str]], list[Fault]] = no_faults
+
+    def complete(self, parser: argparse.ArgumentParser) -> None:
+        """Give a parser every option of the command."""
+        self.add(parser)
+        if self.in_folder:
+            parser.add_argument(
+                "-o", "--output", type=Path, metavar="DIR", help="run folder (default runs/NAME-N, N fresh)"
+            )
