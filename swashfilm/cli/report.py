@@ -14,20 +14,20 @@ from swashfilm.console.terminal import show
 from system.inputs.faults import Fault, InputFaults, nearest_path
 
 PAGES = {
-    "calibration": "runs.calibrate.page.write_calibrate_page",
-    "diagnosis": "runs.diagnose.page.write_diagnose_page",
-    "film": "runs.film.page.write_film_page",
-    "film_revolution": "runs.film.revolution.page.write_revolution_page",
-    "film_study": "runs.film.series.page.write_study_page",
-    "pump": "runs.pump.page.write_pump_page",
-    "comparison": "runs.map.compare_run.write_compare_page",
-    "duty": "runs.map.duty_run.write_duty_page",
-    "map": "runs.map.page.write_map_page",
-    "gap_table": "runs.table.page.write_table_page",
-    "reference": "runs.reference.page.write_reference_page",
-    "reproduction": "runs.reproduce.page.write_reproduce_page",
-    "response_table": "runs.table.page.write_table_page",
-    "transient": "runs.transient.page.write_transient_page",
+    "calibration": "swashfilm.runs.calibrate.page.write_calibrate_page",
+    "diagnosis": "swashfilm.runs.diagnose.page.write_diagnose_page",
+    "film": "swashfilm.runs.film.page.write_film_page",
+    "film_revolution": "swashfilm.runs.film.revolution.page.write_revolution_page",
+    "film_study": "swashfilm.runs.film.series.page.write_study_page",
+    "pump": "swashfilm.runs.pump.page.write_pump_page",
+    "comparison": "swashfilm.runs.map.compare.write_compare_page",
+    "duty": "swashfilm.runs.map.duty.write_duty_page",
+    "map": "swashfilm.runs.map.page.write_map_page",
+    "gap_table": "swashfilm.runs.table.page.write_table_page",
+    "reference": "swashfilm.runs.reference.page.write_reference_page",
+    "reproduction": "swashfilm.runs.reproduce.page.write_reproduce_page",
+    "response_table": "swashfilm.runs.table.page.write_table_page",
+    "transient": "swashfilm.runs.transient.page.write_transient_page",
 }
 """What makes the page of a run, by the `kind` of its summary.json."""
 
@@ -59,7 +59,7 @@ def _page_of(folder: Path) -> Callable[[Path], Path]:
         expected = f"one of {', '.join(PAGES)}"
         raise InputFaults(str(folder), [Fault("summary.json", f"kind {kind!r}", expected)])
     module, _, name = PAGES[kind].rpartition(".")
-    writer: Callable[[Path], Path] = getattr(import_module(f"swashfilm.{module}"), name)
+    writer: Callable[[Path], Path] = getattr(import_module(module), name)
     return writer
 
 

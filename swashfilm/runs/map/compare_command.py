@@ -12,7 +12,7 @@ from swashfilm.console.terminal import show, show_table
 from system.inputs.faults import Fault, InputFaults, nearest_choice, nearest_path
 
 if TYPE_CHECKING:
-    from swashfilm.runs.map.compare_run import Known
+    from swashfilm.runs.map.compare import Known
     from system.description.pump import PumpDescription
     from system.maps.plan import MapAxis
 
@@ -29,7 +29,7 @@ def add_compare_options(command: argparse.ArgumentParser) -> None:
 def run_compare_command(options: argparse.Namespace) -> int:
     """Run `swashfilm compare` and return its exit code; raises InputFaults with what is wrong in either."""
     from swashfilm.output.run_folder import final_folder, run_folder
-    from swashfilm.runs.map.compare_run import (
+    from swashfilm.runs.map.compare import (
         DIFFERENCE_HEAD,
         DUTY_HEAD,
         difference_rows,

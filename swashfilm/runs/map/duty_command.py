@@ -25,7 +25,7 @@ def run_duty_command(options: argparse.Namespace) -> int:
     """Run `swashfilm duty` and return its exit code; raises InputFaults with what is wrong in map and cycle."""
     from swashfilm.output.run_folder import final_folder, run_folder
     from swashfilm.runs.map.cycle_file import read_cycle
-    from swashfilm.runs.map.duty_run import (
+    from swashfilm.runs.map.duty import (
         EFFICIENCY_HEAD,
         ENERGY_HEAD,
         efficiency_rows,

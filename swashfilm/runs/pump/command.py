@@ -60,7 +60,7 @@ def run_pump_command(options: argparse.Namespace) -> int:
     from swashfilm.console.floating_options import floating_options
     from swashfilm.console.progress import progress
     from swashfilm.output.run_folder import final_folder, run_folder
-    from swashfilm.runs.pump.floating_run import show_floating
+    from swashfilm.runs.pump.floating import show_floating
     from swashfilm.runs.pump.page import efficiency_rows, headline_rows, pair_rows
     from swashfilm.runs.pump.run import run_pump
     from system.points.floating_kinds import work_of

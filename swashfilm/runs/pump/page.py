@@ -14,8 +14,8 @@ from swashfilm.output.gap_names import TITLES
 from swashfilm.output.page import expect_files, inlined, write_page
 from swashfilm.runs.pump import plots as pump_plots
 from swashfilm.runs.pump.data import GAPS
-from swashfilm.runs.pump.floating_page import floating_view
-from swashfilm.runs.pump.forces_page import forces_view
+from swashfilm.runs.pump.floating import floating_view
+from swashfilm.runs.pump.forces import forces_view
 from swashfilm.runs.pump.summary import ABBREVIATION
 from swashfilm.runs.table.summary import TOLD_HEAD, told_rows
 from system.inputs.units import LPM

@@ -12,9 +12,9 @@ from swashfilm.output.run_folder import write_json
 from swashfilm.runs.pump.data import GAPS, PICTURED_TURN, films_dataset, point_dataset, write_tables
 from swashfilm.runs.pump.edge_losses import loss_warnings, losses_left_out
 from swashfilm.runs.pump.fields import write_fields
-from swashfilm.runs.pump.floating_run import floating_summary, write_floating
+from swashfilm.runs.pump.floating import floating_summary, write_floating
 from swashfilm.runs.pump.flow_coefficients import coefficient_warnings
-from swashfilm.runs.pump.forces_data import force_warnings, forces_summary, write_forces
+from swashfilm.runs.pump.forces import force_warnings, forces_summary, write_forces
 from swashfilm.runs.pump.summary import pump_summary
 from swashfilm.runs.pump.validity import films_warnings
 from swashfilm.runs.table.summary import told_point, told_summary, told_warnings

@@ -215,8 +215,9 @@ def test_ctrl_c_before_anything_is_done_leaves_nothing(monkeypatch, capsys):
 
 def test_an_internal_error_says_so_without_a_traceback_unless_asked():
     broken = (
-        "import swashfilm.cli.app as c, swashfilm.__main__ as m\n"
-        "c._COMMANDS['doctor'] = lambda options: 1 / 0\nsys.exit(m.main())"
+        "import dataclasses, swashfilm.cli.app as c, swashfilm.__main__ as m\n"
+        "c.COMMANDS['doctor'] = dataclasses.replace(c.COMMANDS['doctor'], run=lambda options: 1 / 0)\n"
+        "sys.exit(m.main())"
     )
     plain = child(broken, "doctor")
     assert plain.returncode == 1

@@ -34,7 +34,7 @@ def run(tmp_path_factory):
 
 @pytest.fixture(autouse=True)
 def no_pictures(run, monkeypatch):
-    for module, name in (("page", "map_plots"), ("duty_run", "duty_plots"), ("compare_run", "compare_plots")):
+    for module, name in (("page", "map_plots"), ("duty", "duty_plots"), ("compare", "compare_plots")):
         monkeypatch.setattr(f"swashfilm.runs.map.{module}.{name}", lambda *_: {})
 
 

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from gaps.loads.ball_joint import DrivenBody, ball_forces, swept_acceleration
-from swashfilm.runs.pump.forces_data import force_warnings
+from swashfilm.runs.pump.forces import force_warnings
 from system.description.pump import PumpDescription
 from system.multibody.closure import closure
 from system.multibody.joints import wrench

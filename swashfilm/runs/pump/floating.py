@@ -1,7 +1,8 @@
-"""A pump whose gaps float, as a run leaves it: summary, tables, results and fields of the three gaps."""
+"""Floating gaps of a run: fields, summary, view on the page."""
 
 from __future__ import annotations
 
+import csv
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from pathlib import Path
@@ -11,17 +12,21 @@ import numpy as np
 
 from gaps.revolution.march import GapRevolution, Leg
 from reynolds.solve.export import write_pvd
+from swashfilm.case.gap.physics_told import PHYSICS_HEAD, physics_told
 from swashfilm.console.fidelity import Fidelity
 from swashfilm.console.terminal import show_table
-from swashfilm.output.gap_names import FIELDS, vtu_name
+from swashfilm.output.gap_names import FIELDS, TITLES, vtu_name
+from swashfilm.output.page import inlined
 from swashfilm.runs.film.revolution.data import revolution_dataset, write_convergence, write_series
 from swashfilm.runs.film.revolution.fields import write_revolution_fields
+from swashfilm.runs.film.revolution.plots import film_text, revolution_plots
 from swashfilm.runs.film.revolution.solve import RevolutionStudy, revolution_summary
-from swashfilm.runs.pump.data import PICTURED_TURN
+from swashfilm.runs.pump.data import GAPS, PICTURED_TURN
 from swashfilm.runs.pump.summary import pump_summary
 from system.description.gap import Gap
 from system.films.heat import all_taken
 from system.films.rotor import Rotor
+from system.inputs.units import LPM
 from system.points.floating import FloatingKind, FloatingPoint
 from system.points.floating_gaps import FloatingOptions
 
@@ -29,6 +34,21 @@ RESULTS = "results.nc"
 Kept = dict[tuple[str, str], np.ndarray]
 """Shaft angles (rad) of the films that are kept, by place in the run folder and gap."""
 _OF_PUMP = ("format", "kind", "name", "gap", "physics_left_out", "physics_seconds", "assumptions", "warnings")
+
+
+SHOWN = ("film", "path", "temperature", "contact", "maps")
+SHOWN_UNLIKE = ("film", "path")
+CAPTIONS = {
+    "film": "film over the shaft angle, the chamber's pressure (dashed), and what limits the film",
+    "path": "where the part stands; the colour is the shaft angle",
+    "temperature": "temperature of film and walls",
+    "contact": "contact, cavitation and the largest film pressure",
+    "maps": "films at some of the kept angles",
+}
+HEAD = (
+    "gap", "mean film", "least film", "leakage of one", "power of the walls", "of it contact", "contact, largest",
+    "turns, multiplier",
+)  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -197,8 +217,57 @@ def _nearest(kept: Kept, place: str, gap: str, angle: float) -> str:
 def show_floating(summary: Mapping[str, Any]) -> None:
     """Print what a run's gaps did, with what physics and what that took."""
     from swashfilm.case.gap.physics_told import PHYSICS_HEAD, physics_told
-    from swashfilm.runs.pump.floating_page import HEAD, floating_rows
+    from swashfilm.runs.pump.floating import HEAD, floating_rows
 
     show_table("Gaps that float: of one piston, one slipper, the block", [HEAD, *floating_rows(summary)])
     told = physics_told(summary["physics_left_out"], summary["cost"]["physics_seconds"])
     show_table("Their physics", [PHYSICS_HEAD, *told])
+
+
+def floating_view(folder: Path, summary: Mapping[str, Any]) -> dict[str, Any]:
+    """What the template shows of floating gaps: rows with their head, pictures with captions, turns."""
+    import xarray
+
+    pictures = []
+    shown: list[tuple[str, str, tuple[str, ...]]] = [(gap, TITLES[gap], SHOWN) for gap in GAPS]
+    for place, kind in summary["unlike"].items():
+        shown += [(f"{place}/{gap}", f"{TITLES[gap]}, {_numbers(kind)}", SHOWN_UNLIKE) for gap in kind["gaps"]]
+    for group, title, names in shown:
+        with xarray.open_dataset(folder / "results.nc", group=group, engine="h5netcdf") as data:
+            drawn = revolution_plots(data.load())
+        pictures += [(inlined(drawn[name]), f"{title}: {CAPTIONS[name]}") for name in names if name in drawn]
+    turns = {TITLES[gap]: _table(folder / f"{gap}_convergence.csv") for gap in GAPS}
+    return {
+        "head": HEAD, "rows": floating_rows(summary), "pictures": pictures, "turns": turns,
+        "physics_head": PHYSICS_HEAD,
+        "physics": physics_told(summary["physics_left_out"], summary["cost"]["physics_seconds"]),
+    }  # fmt: skip
+
+
+def floating_rows(summary: Mapping[str, Any]) -> list[tuple[str, ...]]:
+    """A row a gap: films, leakage, friction, contact, and how its turn closed; then those of unlike chambers."""
+    named = [(TITLES[gap], of) for gap, of in summary["gaps"].items()]
+    for kind in summary["unlike"].values():
+        named += [(f"{TITLES[gap]}, {_numbers(kind)}", of) for gap, of in kind["gaps"].items()]
+    return [
+        (
+            name,
+            f"{of['film_thickness_mean_m'] * 1e6:.2f} um",
+            f"{film_text(of['film_thickness_min_m'] * 1e6)} at {of['film_thickness_min_at_deg']:.0f} deg",
+            f"{of['leakage_flow_m3_per_s'] * LPM:.4f} L/min",
+            f"{of['friction_power_W']:.1f} W",
+            f"{of['rubbing_power_W']:.1f} W",
+            f"{of['contact_load_max_N']:.0f} N",
+            f"{of['turns']}, {of['largest_multiplier']:.2g}",
+        )
+        for name, of in named
+    ]
+
+
+def _numbers(kind: Mapping[str, Any]) -> str:
+    return "chamber " + ", ".join(str(number) for number in kind["chambers"])
+
+
+def _table(path: Path) -> list[list[str]]:
+    with path.open(newline="", encoding="utf-8") as file:
+        return list(csv.reader(file))

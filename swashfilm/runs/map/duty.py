@@ -1,4 +1,4 @@
-"""A duty cycle as a run: energies by a map, with their errors, in a folder with tables and a page."""
+"""A duty cycle by a map: energies, losses, mean efficiency, the page."""
 
 from __future__ import annotations
 
@@ -6,24 +6,36 @@ import csv
 import json
 from collections.abc import Iterator, Mapping
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from reynolds.numerics.arrays import Array
+from swashfilm.output.figures import figure_of
 from swashfilm.output.page import keep_pictures, write_page
 from swashfilm.output.run_folder import write_json
-from swashfilm.runs.map.duty_plots import duty_plots
+from swashfilm.runs.map.plots import COLOURS
 from system.inputs.faults import Fault, InputFaults
 from system.maps.data import MapData
 from system.maps.duty import Cycle, Duty, Energy, duty
 from system.maps.interpolation import MapError, MapInterpolant, left_out_error
 from system.maps.plan import MapInput
 
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
 COURSE = "course.csv"
 ENERGY_HEAD = ("", "energy", "error", "mean power", "of the loss")
 EFFICIENCY_HEAD = ("definition", "mean efficiency", "error", "overall, volumetric")
 FINE = 400
 """Places over time of the course that is written and drawn."""
+
+
+_INPUTS = {
+    "shaft speed [rad/s]": (30.0 / np.pi, "speed / rpm"),
+    "delivery pressure [Pa]": (1e-6, "pressure / MPa"),
+    "displacement ratio [1]": (1.0, "displacement ratio"),
+}
 
 
 def run_duty(data: MapData, error: MapError | None, cycle: Cycle, folder: Path) -> dict[str, Any]:
@@ -144,3 +156,50 @@ def held_inputs(data: MapData) -> str:
     """What the map holds at one level, in words."""
     held = [axis for axis in data.axes if len(axis.values) == 1 and axis.input is not MapInput.RATIO]
     return ", ".join(f"{axis.input.words} {axis.input.text(axis.values[0])}" for axis in held)
+
+
+def duty_plots(course: Mapping[str, Array], summary: Mapping[str, Any]) -> dict[str, Figure]:
+    """Captions and PNGs of a cycle."""
+    return {
+        "The cycle: what is asked of the pump, its loss, and sum p Q over shaft power": _course(course),
+        "Energy lost over the cycle, by what takes it; bars: the error of interpolation": _sinks(summary),
+    }
+
+
+def _course(course: Mapping[str, Array]) -> Figure:
+    shown = {head: row for head, row in _INPUTS.items() if head in course}
+    figure = figure_of(10.0, 1.7 * (len(shown) + 2))
+    panels = figure.subplots(len(shown) + 2, 1, sharex=True)
+    time = course["time [s]"]
+    for axes, (head, (scale, label)) in zip(panels, shown.items(), strict=False):
+        axes.plot(time, course[head] * scale, color="#3c7a8c")
+        axes.set_ylabel(label)
+    panels[-2].plot(time, course["loss [W]"] * 1e-3, color="#8c5a3c")
+    panels[-2].set_ylabel("loss / kW")
+    panels[-1].plot(time, 100.0 * course["sum p Q / shaft power [1]"], color="#5b9a5b")
+    panels[-1].set(ylabel="sum p Q / (w T) / %", xlabel="time / s")
+    for axes in panels:
+        axes.grid(visible=True, alpha=0.3)
+        axes.set_xlim(time[0], time[-1])
+    return figure
+
+
+def _sinks(summary: Mapping[str, Any]) -> Figure:
+    sinks = {
+        words: energy
+        for words, energy in summary["energy_J"].items()
+        if words not in ("shaft", "hydraulic", "loss")
+    }
+    figure = figure_of(9.0, max(2.4, 0.32 * len(sinks)))
+    axes = figure.subplots()
+    names = list(sinks)
+    axes.barh(
+        names,
+        [sinks[name]["value"] * 1e-3 for name in names],
+        xerr=[sinks[name]["error"] * 1e-3 for name in names],
+        color=[COLOURS[k % len(COLOURS)] for k in range(len(names))],
+    )
+    axes.invert_yaxis()
+    axes.set_xlabel("energy / kJ")
+    axes.grid(visible=True, axis="x", alpha=0.3)
+    return figure
