@@ -1,1 +1,5 @@
-"""The doors of the program: command line, run folders, report. Computes nothing."""
+"""Lubrication gaps and losses of swash-plate axial piston pumps: the front door, command line, pages."""
+
+import lazy_loader
+
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

@@ -50,24 +50,26 @@ COMMANDS: dict[str, Command] = {
 
 
 def run_command(words: Sequence[str]) -> int:
-    """Run the command that the words name and return its exit code; raises what its parts raise.
+    """Run the command that the words name and return its exit code; raises what its parts raise."""
+    options = parse(words)
+    if options.command is None:
+        build_parser().print_help()
+        return 0
+    return COMMANDS[options.command].run(options)
 
-    Words that are no command of ours raise InputFaults, every one that is not known at once.
-    """
-    parser = build_parser()
+
+def parse(words: Sequence[str]) -> argparse.Namespace:
+    """The options of a command line; raises InputFaults with every word that is not known."""
     _check_command(words)
-    options, unknown = parser.parse_known_args(list(words))
+    options, unknown = build_parser().parse_known_args(list(words))
     if unknown:
         # A word after an unknown option is most likely its value: no fault of its own.
         told = [word for word in unknown if word.startswith("-")] or unknown
-        known = _options_of(options.command)
+        known = options_of(options.command)
         faults = [_unknown(known, word) for word in told]
         more = COMMANDS[options.command].faults(options, words) if options.command else []
         raise InputFaults(COMMAND_LINE, faults + more)
-    if options.command is None:
-        parser.print_help()
-        return 0
-    return COMMANDS[options.command].run(options)
+    return options
 
 
 class _Parser(argparse.ArgumentParser):
@@ -120,7 +122,7 @@ def _check_command(words: Sequence[str]) -> None:
         raise InputFaults(COMMAND_LINE, [fault])
 
 
-def _options_of(name: str | None) -> list[str]:
+def options_of(name: str | None) -> list[str]:
     """The options of a command, of the program itself where it is None; help last."""
     if name is None:
         return ["--version", "--help"]

@@ -4,6 +4,14 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Iterable, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from swashfilm.output.run_folder import final_folder
+from swashfilm.output.tables import aligned
+
+if TYPE_CHECKING:
+    from swashfilm.output.result import Result
 
 
 def show(text: str) -> None:
@@ -24,8 +32,14 @@ def show_table(title: str, rows: Iterable[Sequence[str]]) -> None:
             table.add_row(*(Text(cell) for cell in row))
         Console().print(table)
         return
-    show(title)
-    columns = max((len(row) for row in listed), default=0)
-    widths = [max(len(row[k]) for row in listed if len(row) > k) for k in range(columns)]
-    for row in listed:
-        show("  " + "  ".join(f"{cell:<{width}}" for cell, width in zip(row, widths, strict=False)).rstrip())
+    show("\n".join([title, *aligned(listed)]))
+
+
+def show_result(found: Result, place: Path, added: Sequence[str] = (), before: Sequence[str] = ()) -> None:
+    """Print a run's tables, its warnings and those `added`, but those shown `before`, and where its files are."""
+    for title, rows in found.tables():
+        show_table(title, rows)
+    for warning in [*found.warnings, *added]:
+        if warning not in before:
+            show(f"warning: {warning}")
+    show(f"results in {final_folder(place)}")

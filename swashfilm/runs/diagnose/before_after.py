@@ -20,7 +20,7 @@ from diagnosis.verdict.row_numbers import table_rows
 from reynolds.errors import FilmInputError
 from swashfilm.console.fidelity import Fidelity
 from swashfilm.runs.diagnose.films import FilmsTold, films_of_both
-from swashfilm.runs.pump.run import run_pump
+from swashfilm.runs.pump.run import PumpCase, solve_pump
 from system.bench.calibration.extended_pump import extended_pump, values_by_name
 from system.bench.points import operating_at
 from system.description.pump import PumpDescription
@@ -99,7 +99,9 @@ def run_both(
 
 def _run(pump: PumpDescription, folder: Path, report: Report) -> dict[str, Any]:
     folder.mkdir()
-    return run_pump(pump, resolved_toml(pump), Fidelity.LUMPED, folder, report)
+    found = solve_pump(PumpCase(pump, resolved_toml(pump), Fidelity.LUMPED), report)
+    found.write(folder)
+    return dict(found.summary)
 
 
 def _at(pump: PumpDescription, point: OperatingPoint) -> PumpDescription:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from swashfilm.case.gap.physics_switches import add_switches, switched_keys
 from swashfilm.console.command import Command
 from swashfilm.console.inputs import COMMAND_LINE, expect
-from swashfilm.console.terminal import show, show_table
+from swashfilm.console.terminal import show, show_result
 from system.inputs.faults import Fault, InputFaults
 
 if TYPE_CHECKING:
@@ -42,76 +42,69 @@ def add_film_options(command: argparse.ArgumentParser) -> None:
 def run_film(options: argparse.Namespace) -> int:
     """Run `swashfilm film` and return its exit code; raises InputFaults with what is wrong in words or file."""
     from swashfilm.case.gap.revolution import RevolutionCase
-    from swashfilm.case.study import StudyCase, load_film
+    from swashfilm.case.study import StudyCase
     from swashfilm.console.progress import progress
-    from swashfilm.output.run_folder import final_folder, run_folder
-    from swashfilm.runs.film.page import summary_rows
-    from swashfilm.runs.film.refine import check_refinement, refinement_head, refinement_rows
-    from swashfilm.runs.film.run import run_case
+    from swashfilm.output.run_folder import run_folder
+    from swashfilm.runs.film.run import solve_film
+
+    case, meshes, workers = film_case(options)
+    if isinstance(case, StudyCase):
+        return _study(case, options, workers)
+    if isinstance(case, RevolutionCase):
+        return _revolution(case, options, meshes)
+    with run_folder(case.name, options.output) as folder, progress(3, f"film {case.name}") as report:
+        found = solve_film(case, report, meshes=meshes, as_table=options.csv)
+        found.write(folder)
+    show_result(found, folder)
+    return 0
+
+
+def film_case(options: argparse.Namespace) -> tuple[Case | StudyCase, int, int]:
+    """The case of a command line, its number of meshes and of processes; raises InputFaults with every fault."""
+    from swashfilm.case.gap.revolution import RevolutionCase
+    from swashfilm.case.study import StudyCase, load_film
+    from swashfilm.runs.film.refine import check_refinement
 
     expect(options.case, "film", "run")
     meshes = _count("--refine", options.refine, "a number of meshes", 2, 5)
     workers = _count("--workers", options.workers, "a number of processes", 1, 64)
     case = load_film(options.case, switched_keys(options))
     _check_options(options, case)
-    if isinstance(case, StudyCase):
-        return _study(case, options, workers)
-    if isinstance(case, RevolutionCase):
-        return _revolution(case, options, meshes)
-    if meshes > 1:
+    if meshes > 1 and not isinstance(case, (StudyCase, RevolutionCase)):
         check_refinement(case, meshes)
-    with run_folder(case.name, options.output) as folder, progress(3, f"film {case.name}") as report:
-        summary = run_case(case, folder, report, meshes=meshes, as_table=options.csv)
-    show_table(f"Film {case.name}", summary_rows(summary))
-    if found := summary.get("refinement"):
-        show_table("On finer meshes", [refinement_head(found), *refinement_rows(found)])
-    for warning in summary["warnings"]:
-        show(f"warning: {warning['name']}: {warning['text']}")
-    show(f"results in {final_folder(folder)}")
-    return 0
+    return case, meshes, workers
 
 
 def _revolution(case: RevolutionCase, options: argparse.Namespace, meshes: int) -> int:
     from gaps.films.physics import Effect
     from swashfilm.console.progress import progress
-    from swashfilm.output.run_folder import final_folder, run_folder
-    from swashfilm.runs.film.refine import refinement_head, refinement_rows
-    from swashfilm.runs.film.revolution.page import revolution_rows
+    from swashfilm.output.run_folder import run_folder
+    from swashfilm.runs.film.revolution.result import RevolutionRun
     from swashfilm.runs.film.revolution.run import run_revolution_case
 
     if Effect.ELASTIC_WALLS not in case.options.physics.left_out:
         show(SOFT_PRICE)
     label = f"film {case.name}"
     with run_folder(case.name, options.output) as folder, progress(case.options.steps, label) as report:
-        summary = run_revolution_case(case, folder, report, meshes=meshes, animated=options.animate)
-    show_table(f"Film {case.name}", revolution_rows(summary))
-    if found := summary.get("refinement"):
-        show_table("On finer meshes", [refinement_head(found), *refinement_rows(found)])
-    for warning in summary["warnings"]:
-        show(f"warning: {warning['name']}: {warning['text']}")
-    show(f"results in {final_folder(folder)}")
+        run_revolution_case(case, folder, report, meshes=meshes, animated=options.animate)
+        found = RevolutionRun.opened(folder)
+    show_result(found, folder)
     return 0
 
 
 def _study(study: StudyCase, options: argparse.Namespace, workers: int) -> int:
     from swashfilm.console.points import ended
     from swashfilm.console.progress import progress
-    from swashfilm.output.run_folder import final_folder, run_folder
-    from swashfilm.runs.film.series.page import failed_rows, run_study, span_rows
+    from swashfilm.output.run_folder import run_folder
+    from swashfilm.runs.film.series.page import run_study
+    from swashfilm.runs.film.series.result import StudyRun
 
     label = f"study {study.name}"
     with run_folder(study.name, options.output) as folder, progress(len(study.points), label) as report:
-        summary = run_study(study, folder, report, resumed=options.resume, workers=workers)
-    head = ("", "least", "at", "largest", "at")
-    show_table(
-        f"Study {study.name}: {summary['solved']} of {summary['points']} points", [head, *span_rows(summary)]
-    )
-    if summary["failed"]:
-        show_table("Points without a result", failed_rows(summary))
-    for warning in summary["warnings"]:
-        show(f"warning: {warning['name']}: {warning['text']}")
-    show(f"results in {final_folder(folder)}")
-    return ended(summary)
+        run_study(study, folder, report, resumed=options.resume, workers=workers)
+        found = StudyRun.opened(folder)
+    show_result(found, folder)
+    return ended(found.summary)
 
 
 def _check_options(options: argparse.Namespace, case: Case | StudyCase) -> None:

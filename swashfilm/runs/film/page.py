@@ -14,10 +14,12 @@ from swashfilm.output.field_maps import MapField, draw_map
 from swashfilm.output.figures import figure_of
 from swashfilm.output.headline import named
 from swashfilm.output.page import expect_files, inlined, write_page
+from swashfilm.output.result import read_netcdf
 from swashfilm.runs.film.history import last_of
 from swashfilm.runs.film.refine import refinement_head, refinement_rows
 
 if TYPE_CHECKING:
+    import xarray
     from matplotlib.figure import Figure
 
 FIELDS = (
@@ -44,7 +46,7 @@ def write_film_page(folder: Path) -> Path:
         folder,
         "film",
         name=summary["name"],
-        picture=inlined(film_picture(folder / "results.nc")),
+        picture=inlined(film_figure(last_of(read_netcdf(folder / "results.nc")))),
         history=inlined(history_picture(history)) if (history := folder / "history.csv").is_file() else "",
         rows=list(summary_rows(summary)),
         warnings=summary["warnings"],
@@ -75,12 +77,8 @@ def summary_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
             yield words, f"{value} {unit}".strip()
 
 
-def film_picture(results: Path) -> Figure:
-    """Maps over the film plane (mm): pressure (MPa), thickness (um), and what else of FIELDS varies."""
-    import xarray
-
-    with xarray.open_dataset(results, engine="h5netcdf") as data:
-        fields = last_of(data.load())
+def film_figure(fields: xarray.Dataset) -> Figure:
+    """Maps over the film plane (mm): pressure (MPa), thickness (um), and the other fields of FIELDS that vary."""
     shown = [
         field
         for field in FIELDS

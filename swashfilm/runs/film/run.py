@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from reynolds.numerics.arrays import Array
 from reynolds.solve.export import write_pvd, write_vtu
@@ -12,17 +12,20 @@ from swashfilm.case.file import FilmCase
 from swashfilm.case.gap.instant import GapCase
 from swashfilm.output.run_folder import write_json
 from swashfilm.runs.film.history import at_moment, fields_over_time, last_of, written
+from swashfilm.runs.film.page import write_film_page
 from swashfilm.runs.film.physics import vertex_fields, write_history
 from swashfilm.runs.film.refine import (
+    Refinement,
     check_refinement,
     refine_study,
     refinement_summary,
     write_refinement,
 )
+from swashfilm.runs.film.result import FilmRun
 from swashfilm.runs.film.solve.gap import true_place
 from swashfilm.runs.film.solve.study import FilmStudy, solve_case
 from swashfilm.runs.film.summary import film_summary
-from system.work.progress import Report
+from system.work.progress import Report, silent
 
 if TYPE_CHECKING:
     import xarray
@@ -30,40 +33,44 @@ if TYPE_CHECKING:
 _STAGES = 3
 
 
-def run_case(
-    case: FilmCase | GapCase, folder: Path, report: Report, *, meshes: int = 1, as_table: bool = False
-) -> dict[str, Any]:
-    """Solve a case and write input.toml, resolved.toml, film.vtu, film.pvd, results.nc, summary.json, report.html.
+def solve_film(
+    case: FilmCase | GapCase, report: Report = silent, *, meshes: int = 1, as_table: bool = False
+) -> FilmRun:
+    """Solve a case; its run folder holds fields for ParaView, results.nc, summary.json and report.html.
 
-    With more than one of `meshes` the case is solved on finer ones too, and refinement.csv tells what its numbers
-    tend to; fields and numbers stay those of the case's own mesh. `as_table`: fields.csv, the fields at the
-    vertices. Returns the summary. Raises FilmNotConverged; then only the two TOML files are there.
+    With more than one of `meshes` the case is solved on finer ones too, and refinement.csv gives order and error;
+    fields and numbers stay those of the case's own mesh. `as_table`: fields.csv, the fields at the vertices.
+    Raises FilmNotConverged.
     """
     if meshes > 1:
         check_refinement(case, meshes)
-    (folder / "input.toml").write_text(case.text, encoding="utf-8")
-    (folder / "resolved.toml").write_text(case.resolved, encoding="utf-8")
     stages = _STAGES + meshes - 1
     report(0, stages, "solving")
     study = solve_case(case, lambda done, steps, what: report(0, stages, f"solving, {what} ({done} of {steps})"))
     summary = film_summary(study)
+    refined: Refinement | None = None
     if meshes > 1:
-        found = refine_study(case, study, meshes, lambda done, _, what: report(done, stages, what))
-        summary["refinement"] = refinement_summary(found)
-        write_refinement(folder / "refinement.csv", found)
-    report(stages - 2, stages, "writing fields")
-    _write_films(folder, study, true_place(case) if isinstance(case, GapCase) else None)
-    fields = fields_over_time(study)
-    fields.to_netcdf(folder / "results.nc", engine="h5netcdf")
-    if as_table:
-        _write_table(folder / "fields.csv", last_of(fields))
-    write_json(folder / "summary.json", summary)
-    report(stages - 1, stages, "drawing")
-    from swashfilm.runs.film.page import write_film_page
+        refined = refine_study(case, study, meshes, lambda done, _, what: report(done, stages, what))
+        summary["refinement"] = refinement_summary(refined)
 
-    write_film_page(folder)
-    report(stages, stages, "done")
-    return summary
+    def write(folder: Path) -> tuple[str, ...]:
+        (folder / "input.toml").write_text(case.text, encoding="utf-8")
+        (folder / "resolved.toml").write_text(case.resolved, encoding="utf-8")
+        if refined is not None:
+            write_refinement(folder / "refinement.csv", refined)
+        report(stages - 2, stages, "writing fields")
+        _write_films(folder, study, true_place(case) if isinstance(case, GapCase) else None)
+        fields = fields_over_time(study)
+        fields.to_netcdf(folder / "results.nc", engine="h5netcdf")
+        if as_table:
+            _write_table(folder / "fields.csv", last_of(fields))
+        write_json(folder / "summary.json", summary)
+        report(stages - 1, stages, "drawing")
+        write_film_page(folder)
+        report(stages, stages, "done")
+        return ()
+
+    return FilmRun(summary, write, lambda: fields_over_time(study))
 
 
 def _write_table(path: Path, fields: xarray.Dataset) -> None:

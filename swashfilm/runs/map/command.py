@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from swashfilm.console.command import Command
 from swashfilm.console.fidelity import Fidelity
 from swashfilm.console.inputs import COMMAND_LINE, expect, given_text
-from swashfilm.console.terminal import show, show_table
+from swashfilm.console.terminal import show, show_result
 from system.inputs.faults import Fault, InputFaults, nearest_choice
 
 if TYPE_CHECKING:
@@ -57,37 +57,28 @@ def run_map_command(options: argparse.Namespace) -> int:
     """Run `swashfilm map` and return its exit code; raises InputFaults with what is wrong in words and file."""
     from swashfilm.console.points import ended
     from swashfilm.console.progress import progress
-    from swashfilm.output.run_folder import final_folder, run_folder
-    from swashfilm.runs.map.page import axis_rows, best_rows, displacement_rows, failed_rows
+    from swashfilm.output.run_folder import run_folder
+    from swashfilm.runs.map.result import MapRun
     from swashfilm.runs.map.run import run_map
 
-    asked = _asked(options)
-    pump = asked.plan.pump
+    asked = map_case(options)
     early = [*asked.plan.checked().warnings.values()]
     for warning in early:
         show(f"warning: {warning}")
+    name = asked.plan.pump.name
     with (
-        _hands(options, asked) as hands,
-        run_folder(f"map-{pump.name}", options.output) as folder,
-        progress(len(asked.plan.points), f"map {pump.name}") as report,
+        map_hands(options, asked) as hands,
+        run_folder(f"map-{name}", options.output) as folder,
+        progress(len(asked.plan.points), f"map {name}") as report,
     ):
-        (folder / "input.toml").write_text(given_text(options.pump, {}), encoding="utf-8")
-        summary = run_map(asked, folder, hands, report)
-    show_table(f"Map of {pump.name}, {summary['solver']}", axis_rows(summary))
-    if summary["best"]:
-        show_table("Best points", best_rows(summary))
-    show_table("Displacement", displacement_rows(summary))
-    if summary["failed"]:
-        show_table("Points without a result", failed_rows(summary))
-    for warning in summary["warnings"]:
-        if warning not in early:
-            show(f"warning: {warning}")
-    show(f"results in {final_folder(folder)}")
-    return ended(summary)
+        run_map(asked, folder, hands, report)
+        found = MapRun.opened(folder)
+    show_result(found, folder, before=early)
+    return ended(found.summary)
 
 
 @contextmanager
-def _hands(options: argparse.Namespace, asked: MapAsked) -> Iterator[Hands]:
+def map_hands(options: argparse.Namespace, asked: MapAsked) -> Iterator[Hands]:
     """Who does the points: processes of this machine, as many as are worth their start, or a cluster's workers."""
     from swashfilm.runs.map.run import worth_starting
     from system.work.processes import cores, crew
@@ -103,7 +94,7 @@ def _hands(options: argparse.Namespace, asked: MapAsked) -> Iterator[Hands]:
         yield hands
 
 
-def _asked(options: argparse.Namespace) -> MapAsked:
+def map_case(options: argparse.Namespace) -> MapAsked:
     """What a command line means; raises InputFaults with every fault at once."""
     from swashfilm.runs.map.run import MapAsked
     from system.maps.plan import map_plan
@@ -122,7 +113,8 @@ def _asked(options: argparse.Namespace) -> MapAsked:
         raise InputFaults(COMMAND_LINE, faults)
     checks = None if options.check is None else int(options.check)
     fidelity = Fidelity(options.fidelity)
-    return MapAsked(plan, fidelity, options.table, options.direct, checks, options.resume)
+    given = given_text(options.pump, {})
+    return MapAsked(plan, fidelity, given, options.table, options.direct, checks, options.resume)
 
 
 def _axes(options: argparse.Namespace, faults: list[Fault]) -> list[MapAxis]:

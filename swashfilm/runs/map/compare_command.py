@@ -3,17 +3,18 @@
 from __future__ import annotations
 
 import argparse
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from swashfilm.console.command import Command
-from swashfilm.console.terminal import show, show_table
+from swashfilm.console.terminal import show_result
 from system.inputs.faults import Fault, InputFaults, nearest_choice, nearest_path
 
 if TYPE_CHECKING:
     from swashfilm.runs.map.compare import Known
     from system.description.pump import PumpDescription
+    from system.maps.duty import Cycle
     from system.maps.plan import MapAxis
 
 
@@ -28,31 +29,47 @@ def add_compare_options(command: argparse.ArgumentParser) -> None:
 
 def run_compare_command(options: argparse.Namespace) -> int:
     """Run `swashfilm compare` and return its exit code; raises InputFaults with what is wrong in either."""
-    from swashfilm.output.run_folder import final_folder, run_folder
-    from swashfilm.runs.map.compare import (
-        DIFFERENCE_HEAD,
-        DUTY_HEAD,
-        difference_rows,
-        duty_rows,
-        run_compare,
-    )
-    from swashfilm.runs.map.cycle_file import read_cycle
-    from system.maps.compare import common_axes, compare
+    from swashfilm.output.run_folder import run_folder
+    from swashfilm.runs.map.result import Comparison
 
-    one, other = _both(options.one, options.other)
-    cycle = None
-    if options.cycle is not None:
-        cycle = read_cycle(options.cycle, common_axes(one[0], other[0]))
-    found = compare(one[0], other[0], (one[1], other[1]))
-    with run_folder(f"compare-{one[0].name}-{other[0].name}", options.output) as folder:
-        summary = run_compare(found, (options.one, options.other), (one, other), cycle, folder)
-    for warning in summary["warnings"]:
-        show(f"warning: {warning}")
-    show_table(f"{options.one} and {options.other}", [DIFFERENCE_HEAD, *difference_rows(summary)])
-    if summary["duty"]:
-        show_table("Over the cycle", [DUTY_HEAD, *duty_rows(summary)])
-    show(f"results in {final_folder(folder)}")
+    asked = compare_case(options)
+    with run_folder(asked.name, options.output) as folder:
+        asked.run(folder)
+        found = Comparison.opened(folder)
+    show_result(found, folder)
     return 0
+
+
+@dataclass(frozen=True)
+class CompareCase:
+    """Two maps to compare, their names as given, and a duty cycle or None."""
+
+    names: tuple[str, str]
+    both: tuple[Known, Known]
+    cycle: Cycle | None
+
+    @property
+    def name(self) -> str:
+        """Name of the run."""
+        return f"compare-{self.both[0][0].name}-{self.both[1][0].name}"
+
+    def run(self, folder: Path) -> None:
+        """Compare, and fill a run folder."""
+        from swashfilm.runs.map.compare import run_compare
+        from system.maps.compare import compare
+
+        one, other = self.both
+        run_compare(compare(one[0], other[0], (one[1], other[1])), self.names, self.both, self.cycle, folder)
+
+
+def compare_case(options: argparse.Namespace) -> CompareCase:
+    """The case of a command line; raises InputFaults with what is wrong in maps, pumps and cycle."""
+    from swashfilm.runs.map.cycle_file import read_cycle
+    from system.maps.compare import common_axes
+
+    both = _both(options.one, options.other)
+    cycle = None if options.cycle is None else read_cycle(options.cycle, common_axes(both[0][0], both[1][0]))
+    return CompareCase((options.one, options.other), both, cycle)
 
 
 def _both(one: str, other: str) -> tuple[Known, Known]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import json
+import shutil
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -22,6 +23,7 @@ from system.maps.interpolation import MapError, MapInterpolant, left_out_error
 from system.maps.plan import MapInput
 
 if TYPE_CHECKING:
+    import xarray
     from matplotlib.figure import Figure
 
 COURSE = "course.csv"
@@ -38,11 +40,11 @@ _INPUTS = {
 }
 
 
-def run_duty(data: MapData, error: MapError | None, cycle: Cycle, folder: Path) -> dict[str, Any]:
-    """Run a cycle by a map and write course.csv, summary.json and report.html; return the summary.
+def run_duty(data: MapData, error: MapError | None, cycle: Cycle, given: Path, folder: Path) -> dict[str, Any]:
+    """Run a cycle, of the file `given`, by a map; write cycle.csv, course.csv, summary.json, report.html.
 
-    The error is that of the map's file; without one, what inner levels left out show. Raises InputFaults
-    for a cycle that leaves the map, and for a map that is not whole.
+    Returns the summary. The error is that of the map's file; without one, that of inner levels left out. Raises
+    InputFaults for a cycle that leaves the map, and for a map that is not whole.
     """
     interpolant = MapInterpolant(data)
     known = error or left_out_error(data)
@@ -50,6 +52,7 @@ def run_duty(data: MapData, error: MapError | None, cycle: Cycle, folder: Path) 
         expected = "a map with three levels of an input, or checked at fresh points (--check N)"
         raise InputFaults(data.name, [Fault("map", "nothing that shows what it misses between levels", expected)])
     found = duty(interpolant, cycle, known)
+    shutil.copy(given, folder / "cycle.csv")
     _write_course(folder / COURSE, interpolant, cycle)
     summary = duty_summary(data, found)
     write_json(folder / "summary.json", summary)
@@ -161,12 +164,18 @@ def held_inputs(data: MapData) -> str:
 def duty_plots(course: Mapping[str, Array], summary: Mapping[str, Any]) -> dict[str, Figure]:
     """Captions and PNGs of a cycle."""
     return {
-        "The cycle: what is asked of the pump, its loss, and sum p Q over shaft power": _course(course),
+        "The cycle: what is asked of the pump, its loss, and sum p Q over shaft power": course_plot(course),
         "Energy lost over the cycle, by what takes it; bars: the error of interpolation": _sinks(summary),
     }
 
 
-def _course(course: Mapping[str, Array]) -> Figure:
+def course_of(data: xarray.Dataset) -> dict[str, Array]:
+    """Columns of course.csv by head, `name [unit]`."""
+    return {f"{name} [{column.attrs['units']}]": column.values for name, column in data.data_vars.items()}
+
+
+def course_plot(course: Mapping[str, Array]) -> Figure:
+    """The cycle over time: inputs, loss, and sum p Q over shaft power."""
     shown = {head: row for head, row in _INPUTS.items() if head in course}
     figure = figure_of(10.0, 1.7 * (len(shown) + 2))
     panels = figure.subplots(len(shown) + 2, 1, sharex=True)

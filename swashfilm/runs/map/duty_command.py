@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import argparse
-import shutil
 from pathlib import Path
 
 from swashfilm.console.command import Command
-from swashfilm.console.terminal import show, show_table
+from swashfilm.console.terminal import show, show_result
 
 
 def add_duty_options(command: argparse.ArgumentParser) -> None:
@@ -23,31 +22,20 @@ def add_duty_options(command: argparse.ArgumentParser) -> None:
 
 def run_duty_command(options: argparse.Namespace) -> int:
     """Run `swashfilm duty` and return its exit code; raises InputFaults with what is wrong in map and cycle."""
-    from swashfilm.output.run_folder import final_folder, run_folder
+    from swashfilm.output.run_folder import run_folder
     from swashfilm.runs.map.cycle_file import read_cycle
-    from swashfilm.runs.map.duty import (
-        EFFICIENCY_HEAD,
-        ENERGY_HEAD,
-        efficiency_rows,
-        energy_rows,
-        held_inputs,
-        marked_rows,
-        run_duty,
-    )
+    from swashfilm.runs.map.duty import held_inputs, run_duty
     from swashfilm.runs.map.files import map_file, read_map
+    from swashfilm.runs.map.result import DutyRun
 
     data, error = read_map(map_file(options.map))
     cycle = read_cycle(options.cycle, data.axes)
     with run_folder(f"duty-{data.name}", options.output) as folder:
-        shutil.copy(options.cycle, folder / "cycle.csv")
-        summary = run_duty(data, error, cycle, folder)
-    show_table(f"Duty of {data.name}, {summary['duration_s']:.6g} s", [ENERGY_HEAD, *energy_rows(summary)])
-    show_table("Mean efficiency", [EFFICIENCY_HEAD, *efficiency_rows(summary)])
-    if summary["marked"]:
-        show_table("Time between points that carry a warning", marked_rows(summary))
+        run_duty(data, error, cycle, options.cycle, folder)
+        found = DutyRun.opened(folder)
     if held := held_inputs(data):
         show(f"held by the map: {held}")
-    show(f"results in {final_folder(folder)}")
+    show_result(found, folder)
     return 0
 
 

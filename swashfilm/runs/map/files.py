@@ -145,13 +145,14 @@ def read_map(path: Path) -> tuple[MapData, MapError | None]:
     try:
         with xarray.open_dataset(path, engine="h5netcdf") as dataset:
             dataset.load()
-        return _data(dataset), _error(dataset)
+        return map_of(dataset), _error(dataset)
     except (OSError, KeyError, ValueError, TypeError) as reason:
         found = f"what is no map of ours ({type(reason).__name__}: {reason})"
         raise InputFaults(str(path), [Fault("map", found, f"the {MAP} of a run of `swashfilm map`")]) from None
 
 
-def _data(dataset: xarray.Dataset) -> MapData:
+def map_of(dataset: xarray.Dataset) -> MapData:
+    """The map of a data set that `map_dataset` made."""
     axes = tuple(MapAxis(given, tuple(map(float, dataset[given.value].values))) for given in MapInput)
     shape = tuple(len(axis.values) for axis in axes)
     told = [tuple(tuple(one) for one in json.loads(str(text))) for text in dataset["warnings"].values.flat]

@@ -59,20 +59,20 @@ def map_plots(data: MapData) -> dict[str, Figure]:
         if piece is not None:
             where = held_words(data, piece)
             for words, parts in (("Overall", PARTS[:1]), ("Volumetric and hydromechanical", PARTS[1:])):
-                png = _efficiencies(data, piece, parts)
+                png = efficiency_plot(data, piece, parts)
                 if png is not None:
                     found[
                         f"{words} efficiency in % by definition {where}; dots: solved points, star: the best"
                     ] = png
-            found[f"Loss, and the shares of its largest sinks {where}"] = _losses(data, piece)
+            found[f"Loss, and the shares of its largest sinks {where}"] = loss_plot(data, piece)
     pressure = _place(data, MapInput.PRESSURE)
     if data.shape[pressure] > 1:
         held = _held(data)
         words = held_words(data, Slice(pressure, pressure, held))
         below = [name for name, loss in data.losses.items() if np.any(loss[_over_pressure(held, pressure)] < 0.0)]
         left = f"; gains somewhere, and left out there: {', '.join(below)}" if below else ""
-        found[f"Where the shaft power goes beside the oil delivered, over pressure {words}{left}"] = _shares(
-            data, held
+        found[f"Where the shaft power goes beside the oil delivered, over pressure {words}{left}"] = share_plot(
+            data
         )
     return found
 
@@ -107,9 +107,14 @@ def _place(data: MapData, given: MapInput) -> int:
     return [axis.input for axis in data.axes].index(given)
 
 
-def _efficiencies(data: MapData, piece: Slice, parts: Sequence[str]) -> Figure | None:
+def efficiency_plot(
+    data: MapData,
+    piece: Slice,
+    parts: Sequence[str],
+    chosen: Sequence[EfficiencyDefinition] = tuple(EfficiencyDefinition),
+) -> Figure | None:
     """A row for each part on a scale of its own, a panel for each definition; those that are one share a panel."""
-    found = {part: fields for part in parts if (fields := _by_definition(data, piece, part))}
+    found = {part: fields for part in parts if (fields := _by_definition(data, piece, part, chosen))}
     if not found:
         return None
     figure = figure_of(11.0, 3.6 * len(found))
@@ -126,10 +131,12 @@ def _efficiencies(data: MapData, piece: Slice, parts: Sequence[str]) -> Figure |
     return figure
 
 
-def _by_definition(data: MapData, piece: Slice, part: str) -> dict[str, Array]:
+def _by_definition(
+    data: MapData, piece: Slice, part: str, chosen: Sequence[EfficiencyDefinition]
+) -> dict[str, Array]:
     """A part of the efficiency on a slice by the definitions' names; those that are one have one entry."""
     fields: list[tuple[str, Array]] = []
-    for one in EfficiencyDefinition:
+    for one in chosen:
         field = piece.of(getattr(data.efficiency(one), part))
         alike = next((k for k, (_, known) in enumerate(fields) if _same(known, field)), None)
         if alike is not None:
@@ -143,7 +150,7 @@ def _same(one: Array, other: Array) -> bool:
     return bool(np.allclose(one, other, rtol=1e-9, equal_nan=True))
 
 
-def _losses(data: MapData, piece: Slice) -> Figure:
+def loss_plot(data: MapData, piece: Slice) -> Figure:
     """The loss in kW, then the share of each of the largest sinks."""
     whole = piece.of(data.loss)
     sinks = {words: piece.of(loss) for words, loss in data.losses.items()}
@@ -160,10 +167,10 @@ def _losses(data: MapData, piece: Slice) -> Figure:
     return figure
 
 
-def _shares(data: MapData, held: tuple[int, ...]) -> Figure:
+def share_plot(data: MapData) -> Figure:
     """Losses stacked over the pressure: in kW, and as shares of the sum."""
     place = _place(data, MapInput.PRESSURE)
-    index = _over_pressure(held, place)
+    index = _over_pressure(_held(data), place)
     losses = {words: np.maximum(loss[index], 0.0) for words, loss in data.losses.items()}
     levels, unit = reading_levels(data.axes[place])
     figure = figure_of(11.0, 4.6)

@@ -59,10 +59,11 @@ PART = 0.2
 
 @dataclass(frozen=True)
 class MapAsked:
-    """What is asked for: a plan, how to solve it, fresh points to check (None: the usual), an earlier run."""
+    """A map to solve: plan, fidelity, pump file as given, fresh points to check (None: the usual), earlier run."""
 
     plan: MapPlan
     fidelity: Fidelity
+    given: str = ""
     table: Path | None = None
     direct: bool = False
     checks: int | None = None
@@ -95,6 +96,7 @@ def run_map(asked: MapAsked, folder: Path, hands: Hands, report: Report) -> dict
     points or no table holds all of them, and as `build_table`.
     """
     began, plan = time.monotonic(), asked.plan
+    (folder / "input.toml").write_text(asked.given, encoding="utf-8")
     (folder / "resolved.toml").write_text(resolved_toml(plan.pump), encoding="utf-8")
     solver = _solver(asked, hands, report)
     work = MapWork(plan.pump, solver)

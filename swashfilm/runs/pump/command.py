@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import tomllib
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -11,12 +12,12 @@ from swashfilm.case.gap.physics_switches import add_switches
 from swashfilm.console.command import Command
 from swashfilm.console.fidelity import Fidelity
 from swashfilm.console.inputs import COMMAND_LINE, expect, given_text
-from swashfilm.console.terminal import show, show_table
+from swashfilm.console.terminal import show, show_result
 from system.inputs.faults import Fault, InputFaults, nearest_choice
 from system.inputs.units import with_point
 
 if TYPE_CHECKING:
-    from system.description.pump import PumpDescription
+    from swashfilm.runs.pump.run import PumpCase
 
 _TEMPERATURE = "operating.temperature"
 _OVERRIDES = {
@@ -50,50 +51,41 @@ def add_run_options(command: argparse.ArgumentParser) -> None:
     command.add_argument(
         "--finer", metavar="X", help="floating gaps: times the usual cells each way (.5; --rigid: 1)"
     )
+    command.add_argument(
+        "--set",
+        action="append",
+        default=[],
+        metavar="KEY=VALUE",
+        help="another value of a key of the pump file, such as valve_plate.film_thickness=10um; may be repeated",
+    )
     add_switches(command)
 
 
 def run_pump_command(options: argparse.Namespace) -> int:
     """Run `swashfilm run` and return its exit code; raises InputFaults with what is wrong in pump and options."""
-    pump = _pump(options)
-    stated, _ = _overrides(options)
-    from swashfilm.console.floating_options import floating_options
+    case = pump_case(options)
     from swashfilm.console.progress import progress
-    from swashfilm.output.run_folder import final_folder, run_folder
-    from swashfilm.runs.pump.floating import show_floating
-    from swashfilm.runs.pump.page import efficiency_rows, headline_rows, pair_rows
-    from swashfilm.runs.pump.run import run_pump
+    from swashfilm.output.run_folder import run_folder
+    from swashfilm.runs.pump.run import solve_pump
     from system.points.floating_kinds import work_of
-    from system.work.processes import cores
 
-    given = given_text(options.pump, stated)
-    if options.fidelity == Fidelity.FLOATING.value and (times := work_of(pump)) > 1.0:
+    name = case.pump.name
+    if case.fidelity is Fidelity.FLOATING and (times := work_of(case.pump)) > 1.0:
         show(f"chambers differ: their floating gaps take about {times:.0f} times as long as alike ones")
-    with run_folder(pump.name, options.output) as folder, progress(1, f"run {pump.name}") as report:
-        fidelity, floating = Fidelity(options.fidelity), floating_options(options)
-        summary = run_pump(pump, given, fidelity, folder, report, options.table, floating, cores() > 1)
-    show_table(f"Pump {pump.name}", headline_rows(summary))
-    show_table("Efficiencies: paper's Eqs. (3)-(5), ISO 4391/4409", efficiency_rows(summary))
-    show_table("Friction pairs: Coulomb, viscous, total, share", pair_rows(summary))
-    if fidelity is Fidelity.FLOATING:
-        show_floating(summary)
-    if "table" in summary:
-        from swashfilm.runs.table.summary import TOLD_HEAD, told_rows
-
-        show_table(
-            f"Gaps by a table of the {summary['table']['source']} fidelity", [TOLD_HEAD, *told_rows(summary)]
-        )
-    for warning in summary["warnings"]:
-        show(f"warning: {warning}")
-    show(f"results in {final_folder(folder)}")
+    with run_folder(name, options.output) as folder, progress(1, f"run {name}") as report:
+        found = solve_pump(case, report)
+        added = found.write(folder)
+    show_result(found, folder, added)
     return 0
 
 
-def _pump(options: argparse.Namespace) -> PumpDescription:
-    """The pump that a command line means; raises InputFaults with what is wrong in file and options together."""
-    from swashfilm.console.floating_options import alike_faults, floating_faults
+def pump_case(options: argparse.Namespace) -> PumpCase:
+    """The case of a command line; raises InputFaults with every fault of pump file and options."""
+    from swashfilm.console.floating_options import alike_faults, floating_faults, floating_options
+    from swashfilm.runs.pump.run import PumpCase
     from system.pump.film_thickness import moved_to
     from system.pump_file.file import load_pump
+    from system.work.processes import cores
 
     stated, faults = _overrides(options)
     if options.fidelity not in _FIDELITIES:
@@ -114,7 +106,8 @@ def _pump(options: argparse.Namespace) -> PumpDescription:
         faults += alike_faults(pump)
     if faults:
         raise InputFaults(COMMAND_LINE, faults)
-    return pump
+    given, fidelity = given_text(options.pump, stated), Fidelity(options.fidelity)
+    return PumpCase(pump, given, fidelity, options.table, floating_options(options), cores() > 1)
 
 
 def pump_faults(options: argparse.Namespace, words: Sequence[str]) -> list[Fault]:
@@ -123,7 +116,7 @@ def pump_faults(options: argparse.Namespace, words: Sequence[str]) -> list[Fault
     if before.startswith("-"):
         options.pump = "ref90"  # the word was the value of an unknown option
     try:
-        _pump(options)
+        pump_case(options)
     except InputFaults as reason:
         return list(reason.faults)
     return []
@@ -133,6 +126,12 @@ def _overrides(options: argparse.Namespace) -> tuple[dict[str, object], list[Fau
     """What the options put in place of the pump's own operating point, as a pump file would have it."""
     stated: dict[str, object] = {}
     faults = []
+    for text in options.set:
+        key, equals, value = text.partition("=")
+        if not (equals and key.strip() and value.strip()):
+            faults.append(Fault("--set", repr(text), "KEY=VALUE, such as valve_plate.film_thickness=10um"))
+        else:
+            stated[key.strip()] = toml_value(value.strip())
     for option, (path, example, what) in _OVERRIDES.items():
         text = getattr(options, option[2:].replace("-", "_"))
         if text is None:
@@ -146,6 +145,14 @@ def _overrides(options: argparse.Namespace) -> tuple[dict[str, object], list[Fau
                 faults.append(Fault(option, repr(text), wanted, with_point(text)))
                 del stated[path]
     return stated, faults
+
+
+def toml_value(text: str) -> object:
+    """A value as a TOML file writes it; text that is no TOML value is a string, as `10um`."""
+    try:
+        return tomllib.loads(f"value = {text}")["value"]
+    except tomllib.TOMLDecodeError:
+        return text
 
 
 def _at_options(reason: InputFaults, stated: dict[str, object], faults: list[Fault]) -> InputFaults:

@@ -14,7 +14,6 @@ from gaps.revolution.march import GapRevolution, Leg
 from reynolds.solve.export import write_pvd
 from swashfilm.case.gap.physics_told import PHYSICS_HEAD, physics_told
 from swashfilm.console.fidelity import Fidelity
-from swashfilm.console.terminal import show_table
 from swashfilm.output.gap_names import FIELDS, TITLES, vtu_name
 from swashfilm.output.page import inlined
 from swashfilm.runs.film.revolution.data import revolution_dataset, write_convergence, write_series
@@ -212,16 +211,6 @@ def _nearest(kept: Kept, place: str, gap: str, angle: float) -> str:
     angles = kept[place, gap]
     away = (angles - angle + 0.5 * angles[-1]) % angles[-1] - 0.5 * angles[-1]
     return (Path(place) / FIELDS / vtu_name(gap, int(np.argmin(np.abs(away))))).as_posix()
-
-
-def show_floating(summary: Mapping[str, Any]) -> None:
-    """Print what a run's gaps did, with what physics and what that took."""
-    from swashfilm.case.gap.physics_told import PHYSICS_HEAD, physics_told
-    from swashfilm.runs.pump.floating import HEAD, floating_rows
-
-    show_table("Gaps that float: of one piston, one slipper, the block", [HEAD, *floating_rows(summary)])
-    told = physics_told(summary["physics_left_out"], summary["cost"]["physics_seconds"])
-    show_table("Their physics", [PHYSICS_HEAD, *told])
 
 
 def floating_view(folder: Path, summary: Mapping[str, Any]) -> dict[str, Any]:

@@ -109,7 +109,7 @@ def ripple_plot(data: xarray.Dataset) -> Figure:
 
 def gap_maps(data: xarray.Dataset) -> dict[str, Figure]:
     """Film pressure, film thickness and what is known of the oil, of each gap at the pictured angle, by gap."""
-    return {gap: _gap_map(data, gap) for gap in GAPS if f"{gap}_film_pressure" in data}
+    return {gap: gap_map(data, gap, pictured(data, gap)) for gap in GAPS if f"{gap}_film_pressure" in data}
 
 
 def film_series(data: xarray.Dataset) -> Figure:
@@ -149,8 +149,8 @@ def gap_place(data: xarray.Dataset, gap: str, k: int) -> tuple[tuple[Array, Arra
     return (360.0 * x / x.max(), y), named
 
 
-def _gap_map(data: xarray.Dataset, gap: str) -> Figure:
-    k = pictured(data, gap)
+def gap_map(data: xarray.Dataset, gap: str, k: int) -> Figure:
+    """Maps of a gap's k-th film: pressure, thickness, and the oil where its state varies."""
     place, labels = gap_place(data, gap, k)
     cells = data[f"{gap}_cells"].values
     known = [field for field in GAP_FIELDS if f"{gap}_{field.name}" in data]

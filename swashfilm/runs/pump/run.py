@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, assert_never
 
@@ -15,6 +17,8 @@ from swashfilm.runs.pump.fields import write_fields
 from swashfilm.runs.pump.floating import floating_summary, write_floating
 from swashfilm.runs.pump.flow_coefficients import coefficient_warnings
 from swashfilm.runs.pump.forces import force_warnings, forces_summary, write_forces
+from swashfilm.runs.pump.page import write_pump_page
+from swashfilm.runs.pump.result import PumpRun
 from swashfilm.runs.pump.summary import pump_summary
 from swashfilm.runs.pump.validity import films_warnings
 from swashfilm.runs.table.summary import told_point, told_summary, told_warnings
@@ -29,114 +33,130 @@ from system.points.table.sources import Source
 from system.pump.assembly import PumpPoint
 from system.pump.operating import operating_point
 from system.pump_file.file import check_pump, resolved_toml
-from system.work.progress import Report
+from system.work.progress import Report, silent
 
 if TYPE_CHECKING:
     import xarray
 
 
-def run_pump(
-    pump: PumpDescription,
-    given: str,
-    fidelity: Fidelity,
-    folder: Path,
-    report: Report,
-    table: Path | None = None,
-    options: FloatingOptions | None = None,
-    side_by_side: bool = False,
-) -> dict[str, Any]:
-    """Run a pump at its operating point and fill a run folder; return the summary.
+def no_fields(folder: Path) -> list[str]:
+    """Write nothing: the point has no film fields."""
+    return []
 
-    Writes input.toml (`given`, as it came) and resolved.toml first, then summary.json, tables, results.nc, fields
-    for ParaView, 3D pictures where this machine can draw them, and report.html. `table`: the file of a response
-    table in place of the kept one; `options`: of floating gaps, whose piston may have a process of its own. Raises
-    NotConverged and FilmNotConverged rather than give a number that is none.
+
+@dataclass(frozen=True)
+class PumpCase:
+    """One operating point to solve: the pump, its file as given, and how its films are found.
+
+    table: file of a response table in place of the kept one; options: of floating gaps; side_by_side: the piston
+    of floating gaps has a process of its own.
     """
-    (folder / "input.toml").write_text(given, encoding="utf-8")
-    (folder / "resolved.toml").write_text(resolved_toml(pump), encoding="utf-8")
-    match fidelity:
+
+    pump: PumpDescription
+    given: str
+    fidelity: Fidelity
+    table: Path | None = None
+    options: FloatingOptions | None = None
+    side_by_side: bool = False
+
+
+def solve_pump(case: PumpCase, report: Report = silent) -> PumpRun:
+    """Solve a pump at its operating point; raises NotConverged and FilmNotConverged."""
+    match case.fidelity:
         case Fidelity.LUMPED:
-            summary = _run_lumped(pump, folder)
+            return _lumped(case)
         case Fidelity.FILMS:
-            summary = _run_films(pump, folder, report)
+            return _films(case, report)
         case Fidelity.FLOATING:
-            summary = _run_floating(pump, folder, report, options, side_by_side)
+            return _floating(case, report)
         case Fidelity.TABLE:
-            summary = _run_table(pump, folder, table)
+            return _by_table(case)
         case _:
-            assert_never(fidelity)
-    write_json(folder / "summary.json", summary)
-    from swashfilm.runs.pump.page import write_pump_page
-
-    write_pump_page(folder)
-    return summary
+            assert_never(case.fidelity)
 
 
-def _run_lumped(pump: PumpDescription, folder: Path) -> dict[str, Any]:
-    point = lumped_point(pump, operating_point(pump))
+def _lumped(case: PumpCase) -> PumpRun:
+    pump, point = case.pump, lumped_point(case.pump, operating_point(case.pump))
     summary = pump_summary(pump, point, None, _warnings(pump, point) + loss_warnings(pump, point))
-    _write_point(folder, point_dataset(point, pump.name), point, summary)
-    _tell_forces(folder, joint_forces(pump, point), point, summary)
-    return summary
+    return _run(case, point, summary, joint_forces(pump, point))
 
 
-def _run_films(pump: PumpDescription, folder: Path, report: Report) -> dict[str, Any]:
-    films = films_point(pump, operating_point(pump), report=report)
+def _films(case: PumpCase, report: Report) -> PumpRun:
+    pump, films = case.pump, films_point(case.pump, operating_point(case.pump), report=report)
     point = films.pump_point
-    write_fields(folder, films)
     warnings = _warnings(pump, point) + loss_warnings(pump, point) + films_warnings(films)
-    warnings += draw_gaps(folder, films)
     summary = pump_summary(pump, point, films, warnings)
-    _write_point(folder, point_dataset(point, pump.name).merge(films_dataset(films)), point, summary)
-    _tell_forces(folder, joint_forces(pump, point), point, summary)
-    return summary
+
+    def fields(folder: Path) -> list[str]:
+        write_fields(folder, films)
+        return draw_gaps(folder, films)
+
+    return _run(case, point, summary, joint_forces(pump, point), lambda: films_dataset(films), fields)
 
 
-def _run_floating(
-    pump: PumpDescription, folder: Path, report: Report, options: FloatingOptions | None, side_by_side: bool
-) -> dict[str, Any]:
-    found = floating_point(pump, operating_point(pump), options, side_by_side=side_by_side, report=report)
+def _floating(case: PumpCase, report: Report) -> PumpRun:
+    pump = case.pump
+    found = floating_point(
+        pump, operating_point(pump), case.options, side_by_side=case.side_by_side, report=report
+    )
     point = found.pump_point
     summary = floating_summary(found, _warnings(pump, point) + losses_left_out(pump))
-    _write_point(folder, point_dataset(point, pump.name), point, summary)
-    _tell_forces(folder, floating_joint_forces(found), point, summary)
-    reason = draw(write_floating(folder, found)).reason
-    summary["warnings"] += [reason] if reason else []
-    return summary
+
+    def fields(folder: Path) -> list[str]:
+        reason = draw(write_floating(folder, found)).reason
+        return [reason] if reason else []
+
+    return _run(case, point, summary, floating_joint_forces(found), None, fields)
 
 
-def _run_table(pump: PumpDescription, folder: Path, table: Path | None) -> dict[str, Any]:
-    told = told_point(pump, operating_point(pump), table)
+def _by_table(case: PumpCase) -> PumpRun:
+    pump, told = case.pump, told_point(case.pump, operating_point(case.pump), case.table)
     point = told.pump_point
     floats = told.table.origin.source is Source.FLOATING
     of_lands = losses_left_out(pump) if floats else loss_warnings(pump, point)
     warnings = [*_warnings(pump, point), *of_lands, *told_warnings(told)]
     summary = pump_summary(pump, point, None, warnings) | told_summary(pump, told)
-    _write_point(folder, point_dataset(point, pump.name), point, summary)
-    _tell_forces(folder, joint_forces(pump, point), point, summary)
-    return summary
+    return _run(case, point, summary, joint_forces(pump, point))
+
+
+def _run(
+    case: PumpCase,
+    point: PumpPoint,
+    summary: dict[str, Any],
+    joints: JointForces,
+    films: Callable[[], xarray.Dataset] | None = None,
+    fields: Callable[[Path], list[str]] = no_fields,
+) -> PumpRun:
+    """The run of a solved point: its summary with the forces, its data with those of films, and its files."""
+    summary["forces"] = forces_summary(joints, point)
+    summary["warnings"] += force_warnings(joints)
+    places = [str(taken) for taken in joints.group.places.taken]
+    summary["assumptions"] += [taken for taken in places if taken not in summary["assumptions"]]
+
+    def data() -> xarray.Dataset:
+        of_point = point_dataset(point, case.pump.name)
+        return of_point if films is None else of_point.merge(films())
+
+    def write(folder: Path) -> list[str]:
+        (folder / "input.toml").write_text(case.given, encoding="utf-8")
+        (folder / "resolved.toml").write_text(resolved_toml(case.pump), encoding="utf-8")
+        arrays = data()
+        arrays.to_netcdf(folder / "results.nc", engine="h5netcdf")
+        write_tables(folder, arrays)
+        write_pair_table(folder / "pairs.csv", point, summary)
+        write_forces(folder, joints)
+        added = fields(folder)
+        write_json(folder / "summary.json", summary | {"warnings": summary["warnings"] + added})
+        write_pump_page(folder)
+        return added
+
+    return PumpRun(summary, write, data)
 
 
 def _warnings(pump: PumpDescription, point: PumpPoint) -> list[str]:
     """Warnings of the pump and of its point, whatever the fidelity."""
     stated = [*check_pump(pump).warnings, *point.warnings]
     return [*(str(warning) for warning in stated), *coefficient_warnings(pump, point)]
-
-
-def _write_point(folder: Path, data: xarray.Dataset, point: PumpPoint, summary: dict[str, Any]) -> None:
-    """Write results.nc and the tables of a point."""
-    data.to_netcdf(folder / "results.nc", engine="h5netcdf")
-    write_tables(folder, data)
-    write_pair_table(folder / "pairs.csv", point, summary)
-
-
-def _tell_forces(folder: Path, joints: JointForces, point: PumpPoint, summary: dict[str, Any]) -> None:
-    """Write forces.csv and tell the summary of it, with its warnings and what was taken of places."""
-    write_forces(folder, joints)
-    summary["forces"] = forces_summary(joints, point)
-    summary["warnings"] += force_warnings(joints)
-    places = [str(taken) for taken in joints.group.places.taken]
-    summary["assumptions"] += [taken for taken in places if taken not in summary["assumptions"]]
 
 
 def draw_gaps(folder: Path, films: FilmsPoint) -> list[str]:

@@ -6,7 +6,7 @@ import argparse
 from pathlib import Path
 
 from swashfilm.console.command import Command
-from swashfilm.console.terminal import show, show_table
+from swashfilm.console.terminal import show, show_result
 
 
 def add_reference_options(command: argparse.ArgumentParser) -> None:
@@ -19,7 +19,7 @@ def run_reference_command(options: argparse.Namespace) -> int:
     from swashfilm.console.progress import progress
     from swashfilm.output.run_folder import final_folder, run_folder
     from swashfilm.runs.reference.case import load_reference
-    from swashfilm.runs.reference.page import HEAD, reference_rows
+    from swashfilm.runs.reference.result import ReferenceRun
     from swashfilm.runs.reference.run import run_reference
 
     case = load_reference(options.case)
@@ -27,9 +27,10 @@ def run_reference_command(options: argparse.Namespace) -> int:
         run_folder(f"reference-{case.name}", options.output) as folder,
         progress(len(case.passages), f"reference {case.name}") as report,
     ):
-        summary = run_reference(case, folder, report)
-    show_table(f"Reference {case.name}: {summary['holds_for']}", [HEAD, *reference_rows(summary)])
-    show(f"coefficients in {final_folder(folder) / summary['table']}")
+        run_reference(case, folder, report)
+        found = ReferenceRun.opened(folder)
+    show_result(found, folder)
+    show(f"coefficients in {final_folder(folder) / found.summary['table']}")
     return 0
 
 

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import argparse
-import json
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from swashfilm.case.gap.physics_switches import SWITCHES, add_switches
 from swashfilm.console.command import Command
 from swashfilm.console.inputs import COMMAND_LINE
-from swashfilm.console.terminal import show, show_table
+from swashfilm.console.terminal import show, show_result, show_table
 from system.inputs.faults import Fault, InputFaults, nearest_choice
 
 if TYPE_CHECKING:
@@ -49,10 +48,11 @@ def run_reproduce_command(options: argparse.Namespace) -> int:
     """Run `swashfilm reproduce` and return its exit code; raises InputFaults with what is wrong in the words."""
     if options.figure == LIST:
         return _list()
-    asked, workers = _asked(options)
+    asked, workers = reproduce_case(options)
     from swashfilm.console.progress import progress
-    from swashfilm.output.run_folder import final_folder, run_folder
-    from swashfilm.runs.reproduce.page import count_words, markdown_page, verdict_rows
+    from swashfilm.output.run_folder import run_folder
+    from swashfilm.runs.reproduce.page import count_words, markdown_page
+    from swashfilm.runs.reproduce.result import Reproduction
     from swashfilm.runs.reproduce.run import run_reproduce
     from system.work.processes import crew
 
@@ -61,19 +61,17 @@ def run_reproduce_command(options: argparse.Namespace) -> int:
         run_folder("reproduce", options.output) as folder,
         progress(1, f"reproduce {options.figure}") as report,
     ):
-        summary = run_reproduce(asked, hands, folder, report)
-        rows = json.loads((folder / "claims.json").read_text("utf-8"))["claims"]
+        run_reproduce(asked, hands, folder, report)
+        found = Reproduction.opened(folder)
         if options.page is not None:
             _write_page(options.page, markdown_page(folder, _command(options)))
-    head = ("statement", "reading", "the paper", "here", "verdict")
-    show_table(f"The paper by {asked.pump.name}, {asked.fidelity.value}", [head, *verdict_rows(rows)])
-    for figure in summary["figures"]:
-        if all(row["figure"] != figure["name"] for row in rows):
+    show_result(found, folder)
+    for figure in found.summary["figures"]:
+        if all(row["figure"] != figure["name"] for row in found.claims):
             show(f"{figure['name']}: {' '.join(figure['remarks'])}")
-    if summary["about"]:
-        show(summary["about"])
-    show(count_words(rows))
-    show(f"results in {final_folder(folder)}")
+    if found.summary["about"]:
+        show(found.summary["about"])
+    show(count_words(found.claims))
     return 0
 
 
@@ -85,7 +83,7 @@ def _list() -> int:
     return 0
 
 
-def _asked(options: argparse.Namespace) -> tuple[ReproduceAsked, int]:
+def reproduce_case(options: argparse.Namespace) -> tuple[ReproduceAsked, int]:
     """What a command line means, and how many workers; raises InputFaults with every fault at once."""
     from swashfilm.console.floating_options import alike_faults, floating_faults, floating_options
     from swashfilm.runs.reproduce.run import ReproduceAsked

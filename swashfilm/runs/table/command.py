@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Callable, Collection
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from swashfilm.case.gap.physics_switches import add_switches, switched_keys
 from swashfilm.console.command import Command
 from swashfilm.console.inputs import COMMAND_LINE
-from swashfilm.console.terminal import show, show_table
+from swashfilm.console.terminal import show_result
 from system.inputs.faults import Fault, InputFaults, nearest_choice
 from system.inputs.units import with_point
 
@@ -21,7 +21,6 @@ if TYPE_CHECKING:
     from system.description.pump import PumpDescription
     from system.points.table.build import Range, TableCase
     from system.work.progress import Report
-    from system.work.sampled_points import Asked
 
 _SOURCE = "films"
 RANGES = {
@@ -69,15 +68,45 @@ def add_table_options(command: argparse.ArgumentParser) -> None:
 
 def run_table_command(options: argparse.Namespace) -> int:
     """Run `swashfilm table` and return its exit code; raises InputFaults with what is wrong in words and file."""
+    asked = table_case(options)
+    from swashfilm.console.progress import progress
+    from swashfilm.output.run_folder import Interrupted, run_folder
+    from swashfilm.runs.table.result import TableRun
+
+    with (
+        run_folder(f"table-{asked.name}", options.output) as folder,
+        progress(asked.points, f"table {asked.name}") as report,
+    ):
+        try:
+            asked.run(folder, report)
+        except KeyboardInterrupt:
+            raise Interrupted(None, "points solved are kept; the same command goes on with them") from None
+        found = TableRun.opened(folder)
+    show_result(found, folder)
+    return 0
+
+
+@dataclass(frozen=True)
+class NamedTable:
+    """A table to build: its name, its number of points, and the function that fills a run folder."""
+
+    name: str
+    points: int
+    run: Callable[[Path, Report], object]
+
+
+def table_case(options: argparse.Namespace) -> NamedTable:
+    """The table of a command line, of a pump or of a gap's case; raises InputFaults with every fault."""
     from swashfilm.runs.table.run import run_table
 
     if is_film_case(options.pump):
         from swashfilm.runs.table.gap_run import run_gap_table
 
-        asked, workers = _gap_case(options)
-        return _built(asked.name, asked, options, partial(run_gap_table, asked, workers=workers))
+        gap, workers = _gap_case(options)
+        return NamedTable(gap.name, gap.learnt + gap.held_out, partial(run_gap_table, gap, workers=workers))
     case, workers = _case(options)
-    return _built(case.pump.name, case, options, partial(run_table, case, workers=workers))
+    points = case.learnt + case.held_out
+    return NamedTable(case.pump.name, points, partial(run_table, case, workers=workers))
 
 
 def is_film_case(path: str) -> bool:
@@ -85,34 +114,6 @@ def is_film_case(path: str) -> bool:
     from system.inputs.toml_table import read_toml
 
     return Path(path).is_file() and bool({"film", "gap"} & set(read_toml(Path(path))[1]))
-
-
-def _built(
-    of: str, asked: Asked, options: argparse.Namespace, run: Callable[[Path, Report], dict[str, Any]]
-) -> int:
-    """Run in a folder of its own and tell what came of it."""
-    from swashfilm.console.progress import progress
-    from swashfilm.output.run_folder import Interrupted, final_folder, run_folder
-    from swashfilm.runs.table.page import error_rows, held_rows, number_rows
-
-    with (
-        run_folder(f"table-{of}", options.output) as folder,
-        progress(asked.learnt + asked.held_out, f"table {of}") as report,
-    ):
-        try:
-            summary = run(folder, report)
-        except KeyboardInterrupt:
-            raise Interrupted(None, "points solved are kept; the same command goes on with them") from None
-    show_table(f"Table of {of}", held_rows(summary))
-    if numbers := [*number_rows(summary)]:
-        show_table(
-            "What runs by the table miss at held-out points", [("number", "rms", "largest", "at"), *numbers]
-        )
-    show_table("Error of held-out points", [("output", "rms", "largest", "at"), *error_rows(summary)])
-    for warning in summary["warnings"]:
-        show(f"warning: {warning}")
-    show(f"results in {final_folder(folder)}")
-    return 0
 
 
 def _gap_case(options: argparse.Namespace) -> tuple[GapTableCase, int]:

@@ -6,7 +6,7 @@ import argparse
 from pathlib import Path
 
 from swashfilm.console.command import Command
-from swashfilm.console.terminal import show, show_table
+from swashfilm.console.terminal import show_result
 
 
 def add_transient_options(command: argparse.ArgumentParser) -> None:
@@ -16,21 +16,15 @@ def add_transient_options(command: argparse.ArgumentParser) -> None:
 
 def run_transient_command(options: argparse.Namespace) -> int:
     """Run `swashfilm transient` and return its exit code; raises InputFaults with what is wrong in the file."""
-    from swashfilm.output.run_folder import final_folder, run_folder
+    from swashfilm.output.run_folder import run_folder
     from swashfilm.runs.transient.case import load_transient
-    from swashfilm.runs.transient.page import transient_rows, turn_rows
-    from swashfilm.runs.transient.run import run_stated_transient
+    from swashfilm.runs.transient.run import solve_transient
 
     stated = load_transient(options.case)
     with run_folder(stated.name, options.output) as folder:
-        summary = run_stated_transient(stated, folder)
-    show_table(f"Transient {stated.name}", transient_rows(summary))
-    show_table("Means over a turn", [("", "the first", "the last"), *turn_rows(summary)])
-    for taken in summary["assumptions"]:
-        show(f"taken: {taken}")
-    for warning in summary["warnings"]:
-        show(f"warning: {warning}")
-    show(f"results in {final_folder(folder)}")
+        found = solve_transient(stated)
+        found.write(folder)
+    show_result(found, folder)
     return 0
 
 

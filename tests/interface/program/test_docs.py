@@ -14,13 +14,13 @@ from swashfilm.case.file import load_case
 from swashfilm.case.study import load_film
 from swashfilm.cli.app import build_parser, run_command
 from swashfilm.console.fidelity import Fidelity
-from swashfilm.runs.film.run import run_case
+from swashfilm.runs.film.run import solve_film
 from swashfilm.runs.film.solve.gap import GapStudy, PositionSource, gap_warnings
 from swashfilm.runs.film.solve.study import solve_case
 from swashfilm.runs.film.summary import film_dataset, film_summary
 from swashfilm.runs.pump.data import films_dataset, point_dataset
 from swashfilm.runs.pump.page import headline_rows
-from swashfilm.runs.pump.run import run_pump
+from swashfilm.runs.pump.run import PumpCase, solve_pump
 from swashfilm.runs.pump.summary import pump_summary
 from swashfilm.runs.table.gap_case import load_gap_table
 from system.description.gap import Gap
@@ -229,11 +229,8 @@ def test_run_folder_files_are_documented(tmp_path):
     documented = _first_column(_part("## Run folder"))
     pump = load_pump("ref90")
     for name, fill in (
-        ("pump", lambda folder: run_pump(pump, "", Fidelity.LUMPED, folder, lambda *_: None)),
-        (
-            "film",
-            lambda folder: run_case(load_case(ROOT / "examples/films/step_pad.toml"), folder, lambda *_: None),
-        ),
+        ("pump", solve_pump(PumpCase(pump, "", Fidelity.LUMPED)).write),
+        ("film", solve_film(load_case(ROOT / "examples/films/step_pad.toml")).write),
     ):
         folder = tmp_path / name
         folder.mkdir()

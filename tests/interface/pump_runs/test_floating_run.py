@@ -10,7 +10,7 @@ import xarray
 from gaps.revolution.schedule import Accuracy
 from swashfilm.console.fidelity import Fidelity
 from swashfilm.runs.pump.page import write_pump_page
-from swashfilm.runs.pump.run import run_pump
+from swashfilm.runs.pump.run import PumpCase, solve_pump
 from system.films.problems import RIGID
 from system.points.floating_gaps import FloatingOptions
 from system.pump_file.file import load_pump
@@ -30,7 +30,7 @@ def folder(tmp_path_factory):
         patch.setattr("system.points.floating.FRICTION_TOLERANCE", 1.0)
         place = tmp_path_factory.mktemp("floating")
         pump = load_pump("ref90_floating", {"operating.pressure": "5 MPa"})
-        run_pump(pump, "", Fidelity.FLOATING, place, lambda *_: None, options=ROUGHLY)
+        solve_pump(PumpCase(pump, "", Fidelity.FLOATING, options=ROUGHLY)).write(place)
     return place
 
 
@@ -97,9 +97,8 @@ def test_a_worn_piston_stands_beside_the_others(tmp_path, monkeypatch):
     monkeypatch.setattr("system.points.floating.PRESSURE_TOLERANCE", 1.0)
     monkeypatch.setattr("system.points.floating.FRICTION_TOLERANCE", 1.0)
     stated = {"operating.pressure": "5 MPa", "piston.3.radial_clearance": "22 um"}
-    run_pump(
-        load_pump("ref90_floating", stated), "", Fidelity.FLOATING, tmp_path, lambda *_: None, options=ROUGHLY
-    )
+    worn_pump = load_pump("ref90_floating", stated)
+    solve_pump(PumpCase(worn_pump, "", Fidelity.FLOATING, options=ROUGHLY)).write(tmp_path)
     found = summary(tmp_path)
     assert found["unlike"]["chamber_3"]["chambers"] == [3]
     worn, other = found["unlike"]["chamber_3"]["gaps"]["piston"], found["gaps"]["piston"]

@@ -41,8 +41,8 @@ def revolution_plots(data: xarray.Dataset) -> dict[str, Figure]:
     """A PNG of each picture, by its name: film, path, losses, contact, maps; temperature of films that warm."""
     warm = {"temperature": _temperature(data)} if TEMPERATURE in data else {}
     return warm | {
-        "film": _film(data),
-        "path": _path(data),
+        "film": film_plot(data),
+        "path": path_plot(data),
         "losses": _losses(data),
         "contact": _contact(data),
         "maps": _maps(data),
@@ -54,7 +54,7 @@ def film_text(thickness: float) -> str:
     return f"{thickness:.3g} um" if thickness >= THINNEST else f"under {THINNEST:g} um"
 
 
-def _film(data: xarray.Dataset) -> Figure:
+def film_plot(data: xarray.Dataset) -> Figure:
     """Least to mean film (um) over the shaft angle, the chamber's pressure beside it, what limits it below."""
     figure = figure_of(9.0, 4.6)
     axes, bands = figure.subplots(2, 1, sharex=True, height_ratios=(5, 1))
@@ -91,7 +91,7 @@ def draw_bands(axes: Any, data: xarray.Dataset) -> None:
     axes.set_ylim(len(kinds) - 0.4, -0.6)
 
 
-def _path(data: xarray.Dataset) -> Figure:
+def path_plot(data: xarray.Dataset) -> Figure:
     """The piston's two ends in the clearance circle (um), or the tilt of slipper or block as rises (um)."""
     figure = figure_of(9.0, 4.4)
     gap, angle = Gap(data.attrs["gap"]), degrees(data)

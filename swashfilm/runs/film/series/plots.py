@@ -39,14 +39,15 @@ def study_plots(data: xarray.Dataset) -> dict[str, Figure]:
         key for key, values in numbers.items() if np.nanmax(values) - np.nanmin(values) > LEAST_CHANGE * size[key]
     ]
     first = {"stribeck": _stribeck(ordered)} if set(STRIBECK) <= set(keys) else {}
-    return first | {key: _picture(ordered, key) for key in keys}
+    return first | {key: number_plot(ordered, key) for key in keys}
 
 
 def _is_numeric(values: np.ndarray) -> bool:
     return bool(np.issubdtype(values.dtype, np.number))
 
 
-def _picture(data: xarray.Dataset, key: str) -> Figure:
+def number_plot(data: xarray.Dataset, key: str) -> Figure:
+    """A number of a study over what varies: a map over two keys that are numbers, else lines."""
     figure, axes = figure_axes()
     field = data[key]
     numeric = [_is_numeric(data[dim].values) for dim in field.dims if dim in data.coords]

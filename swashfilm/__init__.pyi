@@ -1,0 +1,43 @@
+from .api import (
+    InputFaults as InputFaults,
+)
+from .api import (
+    NotConverged as NotConverged,
+)
+from .api import (
+    compare as compare,
+)
+from .api import (
+    duty as duty,
+)
+from .api import (
+    film as film,
+)
+from .api import (
+    load_pump as load_pump,
+)
+from .api import (
+    map as map,
+)
+from .api import (
+    open as open,
+)
+from .api import (
+    reference as reference,
+)
+from .api import (
+    reproduce as reproduce,
+)
+from .api import (
+    run as run,
+)
+from .api import (
+    study as study,
+)
+from .api import (
+    table as table,
+)
+from .api import (
+    transient as transient,
+)
+from .version import __version__ as __version__

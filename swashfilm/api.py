@@ -1,0 +1,400 @@
+"""The front door: each command as a function that returns its result.
+
+Words are those of the command line (`swashfilm COMMAND --help`): text with a unit ("350 bar") or a number in SI;
+pressures are gauge. Every fault of the input is raised at once, as InputFaults.
+"""
+
+from __future__ import annotations
+
+import argparse
+import re
+import tempfile
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import replace
+from importlib import import_module
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from reynolds.errors import FilmInputError
+from swashfilm.cli.app import options_of, parse
+from swashfilm.console.inputs import COMMAND_LINE
+from system.inputs.errors import NotConverged as NotConverged
+from system.inputs.faults import Fault, InputFaults, nearest_choice, nearest_path
+from system.pump_file.file import load_pump as load_pump
+from system.work.progress import Report, silent
+
+if TYPE_CHECKING:
+    from swashfilm.output.result import Result
+    from swashfilm.runs.film.result import FilmRun
+    from swashfilm.runs.film.revolution.result import RevolutionRun
+    from swashfilm.runs.film.series.result import StudyRun
+    from swashfilm.runs.map.result import Comparison, DutyRun, MapRun
+    from swashfilm.runs.pump.result import PumpRun
+    from swashfilm.runs.reference.result import ReferenceRun
+    from swashfilm.runs.reproduce.result import Reproduction
+    from swashfilm.runs.table.result import TableRun
+    from swashfilm.runs.transient.result import TransientRun
+    from system.description.pump import PumpDescription
+
+Quantity = str | float
+"""Text with its unit, or a number in SI."""
+Case = str | Path | Mapping[str, Any]
+"""Path of a case file, its text, or its tables."""
+
+_SI = {
+    "speed": "rad/s",
+    "pressure": "Pa",
+    "temperature": "K",
+    "inlet_pressure": "Pa",
+    "case_pressure": "Pa",
+    "speeds": "rad/s",
+    "pressures": "Pa",
+    "temperatures": "K",
+    "inlet_pressures": "Pa",
+}
+_OF_COMMAND_LINE = ("-o", "--output", "--help")
+_RESULTS = (
+    "swashfilm.runs.pump.result.PumpRun",
+    "swashfilm.runs.film.result.FilmRun",
+    "swashfilm.runs.film.revolution.result.RevolutionRun",
+    "swashfilm.runs.film.series.result.StudyRun",
+    "swashfilm.runs.map.result.MapRun",
+    "swashfilm.runs.map.result.DutyRun",
+    "swashfilm.runs.map.result.Comparison",
+    "swashfilm.runs.table.result.TableRun",
+    "swashfilm.runs.transient.result.TransientRun",
+    "swashfilm.runs.reference.result.ReferenceRun",
+    "swashfilm.runs.reproduce.result.Reproduction",
+)
+
+
+def run(
+    pump: str | Path | PumpDescription = "ref90",
+    *,
+    speed: Quantity | None = None,
+    pressure: Quantity | None = None,
+    displacement: float | None = None,
+    temperature: Quantity | None = None,
+    inlet_pressure: Quantity | None = None,
+    case_pressure: Quantity | None = None,
+    fidelity: str = "films",
+    table: str | Path | None = None,
+    set: Mapping[str, object] | None = None,
+    report: Report = silent,
+    **options: object,
+) -> PumpRun:
+    """One operating point of a pump, as `swashfilm run`.
+
+    set: other values of keys of the pump file, {"slipper.orifice_diameter": "0.8 mm"}. options: steps, finer,
+    rigid, isoviscous, smooth, no_cavitation, heat, of floating gaps. Raises InputFaults and NotConverged.
+    """
+    given = {
+        "speed": speed,
+        "pressure": pressure,
+        "displacement": displacement,
+        "temperature": temperature,
+        "inlet_pressure": inlet_pressure,
+        "case_pressure": case_pressure,
+        "fidelity": fidelity,
+        "table": table,
+        "set": [f"{key}={value}" for key, value in (set or {}).items()],
+    }
+    with _door("run"), _pump_file(pump) as name:
+        from swashfilm.runs.pump.command import pump_case
+        from swashfilm.runs.pump.run import solve_pump
+
+        return solve_pump(pump_case(_words("run", [name], given | options)), report)
+
+
+def film(
+    case: Case, *, refine: int | None = None, report: Report = silent, **options: object
+) -> FilmRun | RevolutionRun:
+    """One film, free or a gap of a pump, at an instant or over the turn, as `swashfilm film`.
+
+    refine: number of meshes, for order and error. options: rigid, isoviscous, heat, smooth, no_cavitation. Raises
+    InputFaults and FilmNotConverged.
+    """
+    with _door("film"), _case_file(case) as path:
+        from swashfilm.case.gap.revolution import RevolutionCase
+        from swashfilm.case.study import StudyCase
+        from swashfilm.runs.film.command import film_case
+        from swashfilm.runs.film.revolution.result import RevolutionRun
+        from swashfilm.runs.film.revolution.run import run_revolution_case
+        from swashfilm.runs.film.run import solve_film
+
+        found, meshes, _ = film_case(_words("film", [path], {"refine": refine} | options))
+        if isinstance(found, StudyCase):
+            raise InputFaults(str(path), [Fault("study", "a study", "one film", "swashfilm.study()")])
+        if isinstance(found, RevolutionCase):
+            return RevolutionRun.ran(lambda folder: run_revolution_case(found, folder, report, meshes=meshes))
+        return solve_film(found, report, meshes=meshes)
+
+
+def study(
+    case: Case, *, workers: int = 1, resume: str | Path | None = None, report: Report = silent, **options: object
+) -> StudyRun:
+    """A study: a film case whose [study] table varies keys, as `swashfilm film`; raises InputFaults.
+
+    workers: processes side by side; resume: run folder with finished points. A point without a result carries
+    its reason.
+    """
+    with _door("study"), _case_file(case) as path:
+        from swashfilm.case.study import StudyCase
+        from swashfilm.runs.film.command import film_case
+        from swashfilm.runs.film.series.page import run_study
+        from swashfilm.runs.film.series.result import StudyRun
+
+        words = _words("film", [path], {"workers": workers if workers > 1 else None, "resume": resume} | options)
+        found, _, count = film_case(words)
+        if not isinstance(found, StudyCase):
+            raise InputFaults(
+                str(path), [Fault("study", "no such table", "a case with [study]", "swashfilm.film()")]
+            )
+        return StudyRun.ran(lambda folder: run_study(found, folder, report, resumed=words.resume, workers=count))
+
+
+def map(
+    pump: str | Path | PumpDescription = "ref90",
+    *,
+    speeds: str | Sequence[Quantity] | None = None,
+    pressures: str | Sequence[Quantity] | None = None,
+    displacements: str | Sequence[float] | None = None,
+    temperatures: str | Sequence[Quantity] | None = None,
+    inlet_pressures: str | Sequence[Quantity] | None = None,
+    fidelity: str = "films",
+    report: Report = silent,
+    **options: object,
+) -> MapRun:
+    """An operating map, as `swashfilm map`; levels as text ("5..35MPa:7") or a list.
+
+    options: plan, table, direct, check, workers, cluster, resume. Raises InputFaults.
+    """
+    given = {
+        "speeds": speeds,
+        "pressures": pressures,
+        "displacements": displacements,
+        "temperatures": temperatures,
+        "inlet_pressures": inlet_pressures,
+        "fidelity": fidelity,
+    }
+    with _door("map"), _pump_file(pump) as name:
+        from swashfilm.runs.map.command import map_case, map_hands
+        from swashfilm.runs.map.result import MapRun
+        from swashfilm.runs.map.run import run_map
+
+        words = _words("map", [name], given | options)
+        asked = map_case(words)
+        with map_hands(words, asked) as hands:
+            return MapRun.ran(lambda folder: run_map(asked, folder, hands, report))
+
+
+def table(pump: str | Path | PumpDescription, *, report: Report = silent, **options: object) -> TableRun:
+    """A response table of a pump's gaps, or of one gap by its case, as `swashfilm table`.
+
+    options: speed, pressure, displacement, temperature (ranges "MIN..MAX" or one value), inlet_pressure,
+    case_pressure, source, points, held_out, workers, steps, finer, rigid, isoviscous, heat. Raises InputFaults.
+    """
+    with _door("table"), _pump_file(pump) as name:
+        from swashfilm.runs.table.command import table_case
+        from swashfilm.runs.table.result import TableRun
+
+        asked = table_case(_words("table", [name], options))
+        return TableRun.ran(lambda folder: asked.run(folder, report))
+
+
+def duty(of: MapRun | str | Path, cycle: str | Path) -> DutyRun:
+    """Energies and losses over a duty cycle (CSV) by a map: a MapRun, its run folder, or its map.nc."""
+    with _door("duty"), _map_file(of) as path:
+        from swashfilm.runs.map.cycle_file import read_cycle
+        from swashfilm.runs.map.duty import run_duty
+        from swashfilm.runs.map.files import map_file, read_map
+        from swashfilm.runs.map.result import DutyRun
+
+        data, error = read_map(map_file(path))
+        given = read_cycle(Path(cycle), data.axes)
+        return DutyRun.ran(lambda folder: run_duty(data, error, given, Path(cycle), folder))
+
+
+def compare(
+    one: MapRun | str | Path | PumpDescription,
+    other: MapRun | str | Path | PumpDescription,
+    cycle: str | Path | None = None,
+) -> Comparison:
+    """Two maps or pumps side by side, over a duty cycle too, as `swashfilm compare`; raises InputFaults."""
+    with _door("compare"), _map_or_pump(one) as first, _map_or_pump(other) as second:
+        from swashfilm.runs.map.compare_command import compare_case
+        from swashfilm.runs.map.result import Comparison
+
+        return Comparison.ran(compare_case(_words("compare", [first, second], {"cycle": cycle})).run)
+
+
+def transient(case: Case) -> TransientRun:
+    """Displacement in time, as `swashfilm transient`; raises InputFaults and NotConverged."""
+    with _door("transient"), _case_file(case) as path:
+        from swashfilm.runs.transient.case import load_transient
+        from swashfilm.runs.transient.run import solve_transient
+
+        return solve_transient(load_transient(path))
+
+
+def reference(case: Case, *, report: Report = silent) -> ReferenceRun:
+    """Coefficients from the Navier-Stokes equations, as `swashfilm reference`; raises InputFaults."""
+    with _door("reference"), _case_file(case) as path:
+        from swashfilm.runs.reference.case import load_reference
+        from swashfilm.runs.reference.result import ReferenceRun
+        from swashfilm.runs.reference.run import run_reference
+
+        found = load_reference(path)
+        return ReferenceRun.ran(lambda folder: run_reference(found, folder, report))
+
+
+def reproduce(figure: str = "all", *, report: Report = silent, **options: object) -> Reproduction:
+    """The paper's figures and tables, as `swashfilm reproduce`.
+
+    options: fidelity, pump, recording, workers, steps, finer, rigid, isoviscous, heat. Raises InputFaults.
+    """
+    with _door("reproduce"):
+        from swashfilm.runs.reproduce.command import reproduce_case
+        from swashfilm.runs.reproduce.result import Reproduction
+        from swashfilm.runs.reproduce.run import run_reproduce
+        from system.work.processes import crew
+
+        asked, workers = reproduce_case(_words("reproduce", [figure], options))
+        with crew(workers) as hands:
+            return Reproduction.ran(lambda folder: run_reproduce(asked, hands, folder, report))
+
+
+def open(folder: str | Path) -> Result:
+    """The result of a finished run folder, of the class of its kind; raises InputFaults where there is none."""
+    import json
+
+    place = Path(folder)
+    with _door("open"):
+        summary = place / "summary.json"
+        if not summary.is_file():
+            fault = Fault("folder", f"no {summary}", "the folder of a finished run", nearest_path(place))
+            raise InputFaults("command line", [fault])
+        kind = json.loads(summary.read_text("utf-8")).get("kind")
+        kinds = {name: found for found in _result_classes() for name in found.kinds}
+        if kind not in kinds:
+            near = nearest_choice(str(kind), kinds)
+            raise InputFaults(str(place), [Fault("kind", repr(kind), f"one of {', '.join(kinds)}", near)])
+        return kinds[kind].opened(place)
+
+
+def _result_classes() -> Iterator[type[Result]]:
+    for place in _RESULTS:
+        module, _, name = place.rpartition(".")
+        yield getattr(import_module(module), name)
+
+
+def _words(command: str, positional: Sequence[object], given: Mapping[str, object]) -> argparse.Namespace:
+    """The options of a command line; raises InputFaults for names that the command does not have."""
+    known = [option[2:].replace("-", "_") for option in options_of(command) if option not in _OF_COMMAND_LINE]
+    if unknown := [name for name in given if name not in known]:
+        expected = f"one of {', '.join(known)}"
+        faults = [Fault(name, "unknown argument", expected, nearest_choice(name, known)) for name in unknown]
+        raise InputFaults(COMMAND_LINE, faults)
+    words = [command, *(str(one) for one in positional)]
+    for name, value in given.items():
+        option = f"--{name.replace('_', '-')}"
+        if value is True:
+            words.append(option)
+        elif isinstance(value, list) and name == "set":
+            words += [f"{option}={one}" for one in value]
+        elif value is not None and value is not False:
+            words.append(f"{option}={_text(name, value)}")
+    return parse(words)
+
+
+def _text(name: str, value: object) -> str:
+    """A value as the command line has it: numbers of a quantity in SI get their unit."""
+    if isinstance(value, (str, Path)):
+        return str(value)
+    if isinstance(value, Iterable):
+        return ",".join(_text(name, one) for one in value)
+    return f"{value!r} {_SI[name]}" if name in _SI else repr(value)
+
+
+@contextmanager
+def _door(name: str) -> Iterator[None]:
+    """Faults of a command line as those of a call: options are its arguments, the source its name."""
+    try:
+        yield
+    except InputFaults as reason:
+        source = f"swashfilm.{name}()" if reason.source == COMMAND_LINE else reason.source
+        faults = [
+            replace(
+                fault,
+                path=_argument(fault.path),
+                expected=_argument(fault.expected),
+                nearest=_argument(fault.nearest),
+            )
+            for fault in reason.faults
+        ]
+        raise InputFaults(source, faults, reason.lines) from None
+    except FilmInputError as reason:
+        fault = Fault(reason.where, reason.found, reason.expected)
+        raise InputFaults(f"swashfilm.{name}()", [fault]) from reason
+
+
+def _argument(text: str) -> str:
+    return re.sub(r"--([a-z][a-z-]*)", lambda found: found[1].replace("-", "_"), text)
+
+
+@contextmanager
+def _pump_file(pump: str | Path | PumpDescription) -> Iterator[str]:
+    """The name or path of a pump; a description is written to a file meanwhile."""
+    if isinstance(pump, (str, Path)):
+        yield str(pump)
+        return
+    from system.pump_file.file import resolved_toml
+
+    with _written(f"{pump.name}.toml", resolved_toml(pump)) as path:
+        yield str(path)
+
+
+@contextmanager
+def _case_file(case: Case) -> Iterator[Path]:
+    """The path of a case; text and tables are written to a file meanwhile."""
+    if isinstance(case, Mapping):
+        import tomli_w
+
+        case = tomli_w.dumps(case)
+    if isinstance(case, str) and "\n" in case:
+        with _written("case.toml", case) as path:
+            yield path
+        return
+    yield Path(case)
+
+
+@contextmanager
+def _map_file(of: MapRun | str | Path) -> Iterator[Path]:
+    """The path of a map; a result is written to a folder meanwhile."""
+    if isinstance(of, (str, Path)):
+        yield Path(of)
+        return
+    with tempfile.TemporaryDirectory(prefix="swashfilm-") as place:
+        of.write(Path(place))
+        yield Path(place)
+
+
+@contextmanager
+def _map_or_pump(of: MapRun | str | Path | PumpDescription) -> Iterator[str]:
+    from system.description.pump import PumpDescription
+
+    if isinstance(of, PumpDescription):
+        with _pump_file(of) as name:
+            yield name
+        return
+    with _map_file(of) as path:
+        yield str(path)
+
+
+@contextmanager
+def _written(name: str, text: str) -> Iterator[Path]:
+    with tempfile.TemporaryDirectory(prefix="swashfilm-") as place:
+        path = Path(place) / re.sub(r"[^\w.-]+", "-", name)
+        path.write_text(text, encoding="utf-8")
+        yield path

@@ -1,0 +1,220 @@
+"""The result of a run: numbers by attribute, tables, a data set, and its run folder."""
+
+from __future__ import annotations
+
+import json
+import shutil
+import tempfile
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from functools import cached_property
+from html import escape
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, ClassVar, Self
+
+from swashfilm.output.figures import pyplot_figures
+from swashfilm.output.headline import named
+from swashfilm.output.page import expect_files
+from swashfilm.output.run_folder import final_folder, run_folder
+from swashfilm.output.tables import Table, aligned
+
+if TYPE_CHECKING:
+    import pandas
+    import xarray
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+SUMMARY = "summary.json"
+
+
+class Numbers(Mapping[str, Any]):
+    """A summary by key and by attribute: `flow.delivery` is `flow["delivery_m3_per_s"]`, in SI."""
+
+    def __init__(self, values: Mapping[str, Any]) -> None:
+        self._values = values
+        self._keys = {_attribute(key): key for key in values}
+
+    def __getitem__(self, key: str) -> Any:
+        return _wrapped(self._values[key])
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._values)
+
+    def __len__(self) -> int:
+        return len(self._values)
+
+    def __getattr__(self, name: str) -> Any:
+        keys = self.__dict__.get("_keys", {})
+        if name not in keys:
+            raise AttributeError(f"no number {name!r}; there are {', '.join(keys)}")
+        return self[keys[name]]
+
+    def __dir__(self) -> list[str]:
+        return [*super().__dir__(), *self._keys]
+
+    def __repr__(self) -> str:
+        return "\n".join(f"{_attribute(key)}: {_shown(key, value)}" for key, value in self._values.items())
+
+
+def _attribute(key: str) -> str:
+    return named(key)[0].replace(" ", "_").replace(",", "")
+
+
+def _wrapped(value: Any) -> Any:
+    return Numbers(value) if isinstance(value, Mapping) else value
+
+
+def _shown(key: str, value: Any) -> str:
+    if isinstance(value, Mapping):
+        return "{" + ", ".join(_attribute(str(part)) for part in value) + "}"
+    return f"{value:.6g} {named(key)[1]}".strip() if isinstance(value, float) else str(value)
+
+
+class Result:
+    """A finished run.
+
+    summary: its summary.json. write: fills an empty folder with the run's files and returns warnings that
+    writing adds. data: the run's data set. Attributes not found here are numbers of the summary, in SI.
+    """
+
+    kinds: ClassVar[tuple[str, ...]] = ()
+    files: ClassVar[tuple[str, ...]] = (SUMMARY,)
+
+    def __init__(
+        self,
+        summary: Mapping[str, Any],
+        write: Callable[[Path], Sequence[str]],
+        data: Callable[[], xarray.Dataset],
+    ) -> None:
+        self.summary = summary
+        self.write = write
+        self._data = data
+
+    @classmethod
+    def opened(cls, folder: Path) -> Self:
+        """The result of a finished run folder; raises InputFaults where one of its files is missing."""
+        expect_files(folder, cls.files, "the folder of a finished run")
+        summary = json.loads((folder / SUMMARY).read_text("utf-8"))
+
+        def write(place: Path) -> tuple[str, ...]:
+            shutil.copytree(folder, place, dirs_exist_ok=True)
+            return ()
+
+        return cls(summary, write, lambda: cls.read_data(folder))
+
+    @classmethod
+    def ran(cls, run: Callable[[Path], object]) -> Self:
+        """The result of a run that fills a folder as it goes; the folder is a temporary one."""
+        place = tempfile.TemporaryDirectory(prefix="swashfilm-")
+        run(Path(place.name))
+        found = cls.opened(Path(place.name))
+        found._place = place
+        return found
+
+    _place: tempfile.TemporaryDirectory[str] | None = None
+
+    @staticmethod
+    def read_data(folder: Path) -> xarray.Dataset:
+        """The data set of a run folder."""
+        return read_netcdf(folder / "results.nc")
+
+    @cached_property
+    def numbers(self) -> Numbers:
+        """The summary by attribute."""
+        return Numbers(self.summary)
+
+    @property
+    def name(self) -> str:
+        """Name of the pump or case."""
+        return str(self.summary["name"])
+
+    @property
+    def warnings(self) -> list[str]:
+        """Warnings of the run, `name: text` each."""
+        return [
+            one if isinstance(one, str) else f"{one['name']}: {one['text']}"
+            for one in self.summary.get("warnings", [])
+        ]
+
+    def tables(self) -> list[Table]:
+        """Tables of the run's numbers as the command prints them."""
+        raise NotImplementedError
+
+    def to_xarray(self) -> xarray.Dataset:
+        """The run's fields and series; units in the attributes."""
+        return self._data()
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """The run's series or rows, a column each, SI units in brackets."""
+        return framed(self.to_xarray())
+
+    def save(self, folder: str | Path | None = None) -> Path:
+        """Write the run folder of the command and return its path; a fresh one under runs/ where none is given.
+
+        Raises InputFaults for a folder that holds files.
+        """
+        with run_folder(self.name, None if folder is None else Path(folder)) as place:
+            self.write(place)
+        return final_folder(place)
+
+    def __getattr__(self, name: str) -> Any:
+        if name.startswith("_") or "summary" not in self.__dict__:
+            raise AttributeError(name)
+        return getattr(self.numbers, name)
+
+    def __dir__(self) -> list[str]:
+        return [*super().__dir__(), *(name for name in dir(self.numbers) if not name.startswith("_"))]
+
+    def __repr__(self) -> str:
+        lines = [line for title, rows in self.tables() for line in (title, *aligned(rows))]
+        return "\n".join([*lines, *(f"warning: {one}" for one in self.warnings)])
+
+    def _repr_html_(self) -> str:
+        tables = "".join(_html(title, rows) for title, rows in self.tables())
+        notes = "".join(f"<p>warning: {escape(one)}</p>" for one in self.warnings)
+        return tables + notes
+
+
+def plotted(draw: Callable[[], Figure | None]) -> list[Axes]:
+    """Axes of a figure of pyplot, which a notebook shows; none where there is nothing to draw."""
+    with pyplot_figures():
+        figure = draw()
+    return [] if figure is None else list(figure.axes)
+
+
+def read_netcdf(path: Path) -> xarray.Dataset:
+    """A NetCDF file, loaded whole."""
+    import xarray
+
+    with xarray.open_dataset(path, engine="h5netcdf") as data:
+        return data.load()
+
+
+def read_table(path: Path) -> xarray.Dataset:
+    """A CSV file with heads `name [unit]`, a variable a column over `row`; units in the attributes."""
+    import pandas
+
+    frame = pandas.read_csv(path).rename_axis("row")
+    units = {head: head.partition(" [")[2].removesuffix("]") for head in frame.columns}
+    data = frame.rename(columns={head: head.partition(" [")[0] for head in frame.columns}).to_xarray()
+    for head, unit in units.items():
+        if unit:
+            data[head.partition(" [")[0]].attrs["units"] = unit
+    return data
+
+
+def framed(data: xarray.Dataset) -> pandas.DataFrame:
+    """Variables over the first dimension as columns, its coordinate as index; the unit in each head."""
+    first = str(next(iter(data.sizes)))
+    series = data.drop_dims([dim for dim in data.sizes if dim != first])
+    frame = series.to_dataframe()
+    units = {name: variable.attrs.get("units", "1") for name, variable in series.variables.items()}
+    frame.columns = [f"{name} [{units[name]}]" for name in frame.columns]
+    return frame.rename_axis(f"{first} [{units.get(first, '1')}]")
+
+
+def _html(title: str, rows: Sequence[Sequence[str]]) -> str:
+    cells = "".join(
+        "<tr>" + "".join(f"<td style='text-align:left'>{escape(cell)}</td>" for cell in row) + "</tr>"
+        for row in rows
+    )
+    return f"<table><caption>{escape(title)}</caption>{cells}</table>"

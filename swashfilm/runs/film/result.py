@@ -1,0 +1,37 @@
+"""One film as a result: numbers, tables, plots."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, ClassVar
+
+from swashfilm.output.result import Result, framed, plotted
+from swashfilm.output.tables import Table
+from swashfilm.runs.film.history import last_of
+from swashfilm.runs.film.page import film_figure, summary_rows
+from swashfilm.runs.film.refine import refinement_head, refinement_rows
+
+if TYPE_CHECKING:
+    import pandas
+    from matplotlib.axes import Axes
+
+
+class FilmRun(Result):
+    """One film: load, flows, friction, checks (SI), and its fields over the mesh."""
+
+    kinds: ClassVar[tuple[str, ...]] = ("film",)
+    files: ClassVar[tuple[str, ...]] = ("summary.json", "results.nc")
+
+    def tables(self) -> list[Table]:
+        """Every number of the film, and order and error where it was solved on finer meshes."""
+        tables: list[Table] = [(f"Film {self.name}", list(summary_rows(self.summary)))]
+        if found := self.summary.get("refinement"):
+            tables.append(("On finer meshes", [refinement_head(found), *refinement_rows(found)]))
+        return tables
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """The fields at the vertices, a row each; of a transient those at its end."""
+        return framed(last_of(self.to_xarray()).reset_coords())
+
+    def plot_fields(self) -> list[Axes]:
+        """Maps of pressure, thickness, and the other fields that vary; of a transient at its end."""
+        return plotted(lambda: film_figure(last_of(self.to_xarray())))

@@ -1,0 +1,37 @@
+"""Navier-Stokes references as results."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import TYPE_CHECKING, ClassVar
+
+from swashfilm.output.result import Result, plotted, read_table
+from swashfilm.output.tables import Table
+from swashfilm.runs.reference.page import HEAD, reference_rows
+from swashfilm.runs.reference.plots import coefficient_plot
+
+if TYPE_CHECKING:
+    import xarray
+    from matplotlib.axes import Axes
+
+
+class ReferenceRun(Result):
+    """Coefficients of bores, slots, steps or grooves from the Navier-Stokes equations on the section."""
+
+    kinds: ClassVar[tuple[str, ...]] = ("reference",)
+    files: ClassVar[tuple[str, ...]] = ("summary.json", "input.toml")
+
+    @staticmethod
+    def read_data(folder: Path) -> xarray.Dataset:
+        """The table of coefficients of a run folder."""
+        return read_table(folder / json.loads((folder / "summary.json").read_text("utf-8"))["table"])
+
+    def tables(self) -> list[Table]:
+        """Coefficients by Reynolds number."""
+        title = f"Reference {self.name}: {self.summary['holds_for']}"
+        return [(title, [HEAD, *reference_rows(self.summary)])]
+
+    def plot_coefficients(self) -> list[Axes]:
+        """Flow coefficient or loss factor over the Reynolds number."""
+        return plotted(lambda: coefficient_plot(self.summary))

@@ -1,0 +1,34 @@
+"""Response tables as results."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, ClassVar
+
+from swashfilm.output.result import Result, read_table
+from swashfilm.output.tables import Table
+from swashfilm.runs.table.page import FILES, error_rows, held_rows, number_rows
+
+if TYPE_CHECKING:
+    import xarray
+
+
+class TableRun(Result):
+    """A response table of a pump's gaps, or of one gap: its box, and its error at points held out."""
+
+    kinds: ClassVar[tuple[str, ...]] = ("response_table", "gap_table")
+    files: ClassVar[tuple[str, ...]] = (*FILES, "points.csv")
+
+    @staticmethod
+    def read_data(folder: Path) -> xarray.Dataset:
+        """points.csv of a run folder."""
+        return read_table(folder / "points.csv")
+
+    def tables(self) -> list[Table]:
+        """The box, errors of runs by the table, errors of its outputs."""
+        tables: list[Table] = [(f"Table of {self.name}", list(held_rows(self.summary)))]
+        if numbers := [*number_rows(self.summary)]:
+            head = ("number", "rms", "largest", "at")
+            tables.append(("What runs by the table miss at held-out points", [head, *numbers]))
+        head = ("output", "rms", "largest", "at")
+        return [*tables, ("Error of held-out points", [head, *error_rows(self.summary)])]
