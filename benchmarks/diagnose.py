@@ -1,6 +1,6 @@
 """What a diagnosis costs: time and fits of recordings of REF90, one after the other.
 
-python benchmarks/diagnose.py [--workers N] ../shared/recordings/bench/open-01 ../shared/recordings/bench/open-02
+python benchmarks/diagnose.py [--workers N] examples/recordings/open-01 examples/recordings/open-06
 """
 
 from __future__ import annotations

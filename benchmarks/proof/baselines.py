@@ -67,7 +67,7 @@ def _sigma(study: Study, at: int) -> Array:
 
 
 def _terms(study: Study, channel: str) -> dict[str, Array]:
-    """Terms of left_out_physics.md 5.5, each by the id that it is the mark of."""
+    """Terms of a regression on speed, pressure, displacement and viscosity, each by the effect that it marks."""
     steady = study.recording.steady
     speed = steady.column(ChannelName.SPEED) / REFERENCE["speed"]
     stroke = steady.column(ChannelName.DISPLACEMENT_RATIO)

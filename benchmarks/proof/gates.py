@@ -1,4 +1,4 @@
-"""The gates of design/diagnosis.md 4.3, column `outstanding`: what is asked, what was found, on how many cases."""
+"""The gates of the proof (docs/proof.md): what is asked, what was found, on how many cases."""
 
 from __future__ import annotations
 

@@ -5,7 +5,7 @@
 Two like machines of ../pumps/hst196.toml, pump and motor in a closed circuit, at the end-of-line test point: 1780
 rpm, 207 against 14 bar, oil of 60 degC. Given are the piston clearances by the drawing's tolerances; what else
 leakage and compression hang on is not given and is drawn from the range that each `Unknown` names with its source.
-MEASURED.csv: recordings/hst196/hst196_production_tests.csv.
+MEASURED.csv: hst196_production_tests.csv, the production tests of github.com/ivanokhotnikov/effmap.
 """
 
 from __future__ import annotations
@@ -52,18 +52,18 @@ DRAWING = (
     Unknown("bore diameter", 1.1671 * INCH, 1.1677 * INCH, True, "the drawing"),
 )
 NOT_GIVEN = (
-    Unknown("slipper film", 8e-6, 15e-6, True, "seed paper at 35 and 5 MPa; the data's author 15 um"),
-    Unknown("valve plate film", 8e-6, 15e-6, True, "seed paper 8 um, the data's author 15 um"),
+    Unknown("slipper film", 8e-6, 15e-6, True, "Xu et al. 2017 at 35 and 5 MPa; the data's author 15 um"),
+    Unknown("valve plate film", 8e-6, 15e-6, True, "Xu et al. 2017 8 um, the data's author 15 um"),
     Unknown("piston eccentricity", 0.0, 1.0, True, "anywhere in the bore"),
-    Unknown("bore opening at 35 MPa", 1.5e-6, 4e-6, False, "left_out_physics B2"),
-    Unknown("slipper opening at 35 MPa", 1e-6, 3e-6, False, "left_out_physics B2"),
-    Unknown("valve plate opening at 35 MPa", 2e-6, 5e-6, False, "left_out_physics B2"),
+    Unknown("bore opening at 35 MPa", 1.5e-6, 4e-6, False, "thick ring stiffened by its neighbours"),
+    Unknown("slipper opening at 35 MPa", 1e-6, 3e-6, False, "dishing of the slipper, estimated"),
+    Unknown("valve plate opening at 35 MPa", 2e-6, 5e-6, False, "block and plate, estimated"),
     Unknown("film heating", 0.0, 20.0, False, "0.45 K/MPa by throttling and as much by shear, at most"),
-    Unknown("viscosity factor", 0.9, 1.1, False, "spread of a grade, left_out_physics A1"),
+    Unknown("viscosity factor", 0.9, 1.1, False, "spread of an ISO VG grade, 10 %"),
     Unknown("bulk modulus", 1.3e9, 1.7e9, False, "the data's author 1.5 GPa, REF90 1.6 GPa, warm or cold"),
-    Unknown("free air", 0.005, 0.02, False, "usual in circuits, left_out_physics A5"),
+    Unknown("free air", 0.005, 0.02, False, "usual in circuits"),
     Unknown("dead volume over swept volume", 0.3, 1.3, False, "solid pistons to hollow ones; REF90 0.6"),
-    Unknown("swash droop at 35 MPa", 0.002, 0.01, False, "left_out_physics D5"),
+    Unknown("swash droop at 35 MPa", 0.002, 0.01, False, "stop and actuator give 0.2 to 1 %, estimated"),
 )
 UNKNOWNS = (*DRAWING, *NOT_GIVEN)
 

@@ -67,7 +67,7 @@ def mixture_evidence(found: Score, widths: Sequence[float], sign: Sign) -> float
     """ln evidence for a column over none, its size of prior N(0, w^2) averaged over the widths w (in spreads).
 
     For one width, V = 1/(G + 1/w^2) and m = V g: g^2 V / 2 - ln(1 + w^2 G) / 2, and with a sign
-    + ln 2 + ln Phi(m / sqrt V) (design/diagnosis.md 2.3).
+    + ln 2 + ln Phi(m / sqrt V) (docs/theory.md, Naming what was left out).
     """
     if found.sigma == inf:
         return 0.0

@@ -1,4 +1,4 @@
-"""What is reproduced of the paper: its figures and tables, and the curves that stand in for them."""
+"""Figures and tables of Xu, Hu, Zhang and Mao (2017) as data: curves, panels, readings."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A statement of the paper against a number of ours: reached, missed, or contradicted by physics."""
+"""Judgement on a statement of Xu, Hu, Zhang and Mao (2017): reached, missed, or contradicted by physics."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a bench would read at the paper's test plan, made of solved points, and Eq. (21) of the same points."""
+"""Bench readings made of solved points at the test plan of Xu, Hu, Zhang and Mao (2017), and Eq. (21) of them."""
 
 from __future__ import annotations
 

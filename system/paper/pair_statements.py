@@ -1,4 +1,4 @@
-"""What the paper's text states of its friction pairs and of their motion; the rest is in `statements`."""
+"""Statements of Xu, Hu, Zhang and Mao (2017) on the friction pairs and their motion; `statements` has the rest."""
 
 from __future__ import annotations
 

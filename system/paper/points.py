@@ -1,4 +1,4 @@
-"""The operating points of the paper's figures, solved once by a fidelity and read two ways."""
+"""Operating points of the figures of Xu, Hu, Zhang and Mao (2017), solved once by a fidelity and read two ways."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""All figures of the paper by one call."""
+"""All figures of Xu, Hu, Zhang and Mao (2017) by one call."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the paper's text states of its figures, statement by statement."""
+"""Statements of Xu, Hu, Zhang and Mao (2017) on their figures, one by one."""
 
 from __future__ import annotations
 

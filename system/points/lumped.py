@@ -43,7 +43,7 @@ def lumped_point(pump: PumpDescription, point: OperatingPoint, tolerance: float 
     like each. Effects of [physics] see the gaps as they are without any; then chambers are solved once more.
     Raises NotConverged when the chamber pressure does not become periodic, FilmInputError for a film that warmth
     closes. Valid for films thick against their
-    roughness at the viscosity of the case; what it leaves out is in `left_out_physics.md`.
+    roughness at the viscosity of the case; docs/theory.md, What is left out, lists the rest.
     """
     found = kinds(pump)
     expansion(pump, point.temperature)

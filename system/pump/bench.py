@@ -1,4 +1,6 @@
-"""What a test bench makes of its readings: the paper's Eqs. (1)-(5), ISO 4391/4409, and an energy-exact split."""
+"""Losses and efficiencies from bench readings.
+
+Eqs. (1)-(5) of Xu, Hu, Zhang and Mao (2017), ISO 4391/4409, and an energy-exact split."""
 
 from __future__ import annotations
 

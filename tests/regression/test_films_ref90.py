@@ -1,6 +1,6 @@
 """The pump: REF90 with films.
 
-What the films fidelity gives for the built-in pump, held so that a change of it is seen, and beside its sheet.
+What the films fidelity gives for the built-in pump, held so that a change of it is seen, and beside closed forms.
 """
 
 from __future__ import annotations
@@ -49,7 +49,7 @@ def test_held_numbers(rated, validation):
 
 
 def test_films_beside_the_sheet(rated, validation):
-    """The sheet's full-film shear, and the leakage of rigid parallel films by its equations."""
+    """Full-film shear worked out by hand, and the leakage of rigid parallel films by its equations."""
     pairs, lumped = rated.pump_point.pairs, lumped_point(PUMP, rated.pump_point.point).leakage_flow
     for quantity, unit, expected, obtained, tolerance, note in (
         ("slipper shear", "W", 957.0, pairs.slipper_swash_plate.mean_viscous, 0.005, ""),
@@ -72,7 +72,7 @@ def test_films_beside_the_sheet(rated, validation):
     ):
         validation(
             case="REF90 films beside the closed forms, 35 MPa, 2100 r/min",
-            source="physics/ref90.md, physics/seed_equations.md",
+            source="Xu, Hu, Zhang and Mao 2017, Eqs. (15)-(17)",
             quantity=quantity,
             unit=unit,
             expected=expected,
@@ -91,7 +91,7 @@ def test_which_films_carry(rated):
     nearest, farthest = (0.955 * np.cos(np.radians(g)) / np.cos(np.radians(16.2)) for g in (11.2, 21.2))
     assert farthest - 0.03 < carried.min() <= carried.max() < nearest + 0.001  # inertia and spring take the rest
     ring = [film.gap.carried_fraction for film in gaps.valve_plate]
-    assert np.mean(ring) == pytest.approx(0.933, abs=0.03)  # the sheet's balance, less the block's own webs
+    assert np.mean(ring) == pytest.approx(0.933, abs=0.03)  # the balance by hand, less the block's own webs
     assert not any(film.holds_its_load for film in gaps.piston)
 
 

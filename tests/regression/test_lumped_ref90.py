@@ -26,7 +26,7 @@ RANGES = {
 FORCES = 1e-3
 """Mean torque from 360 sampled forces: the pressure bends by 35 MPa within 2 deg where a port opens, 15 deg from
 the dead centre, and the trapezoidal rule errs by step^2/12 of the bends: 1e-4 to 1e-3 of the mean."""
-PAPER, SHEET = "seed/paper.txt", "physics/ref90.md"
+PAPER, BY_HAND = "Xu, Hu, Zhang and Mao 2017, text", "REF90, worked out by hand"
 
 
 def run(delivery: float = 35e6, rpm: float = 2100, ratio: float = 1.0, **more: float) -> PumpPoint:
@@ -52,7 +52,7 @@ def test_ideal_values(validation, rated):
     ):
         validation(
             case="REF90 ideal values",
-            source=SHEET,
+            source=BY_HAND,
             quantity=quantity,
             unit=unit,
             expected=expected,
@@ -70,21 +70,21 @@ def test_quoted_leakage_of_rigid_parallel_films(validation, rated):
         assert obtained == pytest.approx(expected, rel=0.0125)
         validation(
             case="REF90 quoted leakage of rigid parallel films, 35 MPa, 50 degC",
-            source=SHEET,
+            source=BY_HAND,
             quantity=gap,
             unit="L/min",
             expected=expected,
             obtained=obtained,
             tolerance=0.0005,
-            missed="both quoted figures are 1.0 to 1.2 % above the closed forms (16), (17) at the sheet's own "
-            "25.78 mPa s, half of the chambers under 35 MPa; the sheet does not say where that comes from",
+            missed="both quoted figures are 1.0 to 1.2 % above the closed forms (16), (17) at their own "
+            "25.78 mPa s, half of the chambers under 35 MPa; they do not say where that comes from",
         )
 
 
 def test_piston_leakage_of_the_description(validation, rated):
     validation(
         case="REF90 piston leakage as described, 35 MPa, 2100 r/min",
-        source=SHEET,
+        source=BY_HAND,
         quantity="piston",
         unit="L/min",
         expected=0.314,
@@ -92,7 +92,7 @@ def test_piston_leakage_of_the_description(validation, rated):
         relative_tolerance=0.015,
         note="eps = 0.6, engaged length shrinking with the stroke, chamber pressure over the revolution",
         missed="the quoted figure is near that of eps = 0.8 and a constant engaged length of 45 mm (0.310), not "
-        "of the sheet's own eps = 0.6 and an engaged length that loses the stroke",
+        "of the described eps = 0.6 and an engaged length that loses the stroke",
     )
 
 
@@ -114,7 +114,7 @@ def test_quoted_full_film_shear(validation, rated):
     ):
         validation(
             case="REF90 quoted shear of full films, 2100 r/min",
-            source="physics/seed_equations.md",
+            source="REF90, worked out by hand",
             quantity=pair,
             unit="W",
             expected=expected,

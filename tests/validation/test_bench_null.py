@@ -1,5 +1,7 @@
 """A bench map in which nothing is missing: the simulation fits it to its noise."""
 
+from pathlib import Path
+
 import numpy as np
 
 from diagnosis.recording.reader import read_recording
@@ -17,13 +19,13 @@ from system.pump_file.file import load_pump
 INPUTS = (ChannelName.SPEED, ChannelName.P_OUT, ChannelName.P_IN, ChannelName.P_CASE, ChannelName.T_CASE)
 
 
-def test_null_recording_is_noise(shared, validation):
+def test_null_recording_is_noise(validation):
     """Priors and noise being right, residuals^2 + parameters^2 is chi-square of as many as there are readings.
 
     The tolerance is three sigma of that. Where the piston can stand out in no way but as a pivot on the shaft axis
     would have it, it is missed: leakage falls by 12 % from full to 28 % displacement.
     """
-    recording = read_recording(shared / "recordings" / "bench" / "open-01")
+    recording = read_recording(Path(__file__).parents[2] / "examples" / "recordings" / "open-01")
     pump = load_pump(recording.pump)
     points, _ = bench_points(recording, pump)
     parameters = (*base_parameters(pump, tolerances(pump)[0]), *sensor_parameters(recording.channels))
@@ -32,8 +34,8 @@ def test_null_recording_is_noise(shared, validation):
     found = linear_posterior(bench, read)
     size = found.residual.size
     validation(
-        case="bench map without an effect", source="recordings/bench/open-01", quantity="chi-square per reading",
-        unit="1", expected=1.0, obtained=found.objective / size, tolerance=3.0 * np.sqrt(2.0 / size),
+        case="bench map without an effect", source="examples/recordings/open-01",
+        quantity="chi-square per reading", unit="1", expected=1.0, obtained=found.objective / size, tolerance=3.0 * np.sqrt(2.0 / size),
     )  # fmt: skip
     fixed = tuple(one for one in parameters if one.name != "stand_out_share")
     pivoted = load_pump("ref90", {"piston.stand_out_share": 1.0})

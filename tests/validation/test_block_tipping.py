@@ -1,4 +1,4 @@
-"""A block that tips: B7 of physics/left_out_physics.md, on the floating block of two pumps.
+"""A block that tips, on the floating block of two pumps.
 
 REF90's lands lift 0.93 of the pistons' force, but 8 mm further in than the pistons press: what is left acts
 outside the outer land. ref90_floating has the same pistons and lands under them.
@@ -44,19 +44,19 @@ def test_a_block_pressed_outside_its_land_has_no_film():
 
 
 def test_a_block_with_its_lands_under_the_pistons_floats(validation):
-    """Parallel but for the wedge that the pistons' pattern tilts: far from the sheet's wedge of a tipped block."""
+    """Parallel but for the wedge by the pistons' pattern: far from the published wedge of a tipped block."""
     assert check_floating(load_pump("ref90_floating")).warnings == ()
     found = block("ref90_floating")
     rim = load_pump("ref90_floating").valve_plate.land_radius_4
     wedge = np.hypot(*found.positions[:, 1:].T) / rim
     validation(
         case="B7, block that does not tip, ref90_floating at 35 MPa, 2100 r/min",
-        source="physics/left_out_physics.md, B7",
+        source="moments on the block, docs/theory.md, Physics left out, as laws",
         quantity="largest wedge of the film",
         unit="rad",
         expected=0.0,
         obtained=wedge.max(),
         tolerance=1.2e-4,
-        note="sheet: 1.2e-4 .. 4.3e-4 of a block that tips",
+        note="published: 1.2e-4 .. 4.3e-4 of a block that tips",
     )
     assert min(instant.least_gap for instant in found.turn.instants) > 0.5e-6

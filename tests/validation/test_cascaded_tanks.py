@@ -12,7 +12,7 @@ from types import ModuleType
 import numpy as np
 import pytest
 
-SOURCE = "recordings/cascaded_tanks, test record; design/diagnosis.md, Cascaded Tanks"
+SOURCE = "Cascaded Tanks benchmark (nonlinearbenchmark.org), test record"
 RIVALS = ("outflow exponent of tank 2", "sensor offset", "leak of tank 2")
 
 

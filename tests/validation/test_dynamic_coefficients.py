@@ -1,7 +1,7 @@
 """Journal bearing with two axial grooves: equilibrium, stiffness and damping.
 
 Grooves of 20 degrees at right angles to the load, open to the ambience; mass-conserving cavitation. Lund and
-Thomsen 1978, as kept in the tests of ROSS (verification cases 3.3). Radius, radial clearance, viscosity and
+Thomsen 1978, as kept in the tests of ROSS (petrobras/ross). Radius, radial clearance, viscosity and
 angular speed are one; x points along the load and y 90 degrees on in the direction of rotation.
 """
 
@@ -123,7 +123,7 @@ def test_two_axial_grooves(ratio, number, validation):
     for quantity, unit, expected, value, tolerance in rows:
         validation(
             case="Journal bearing with two axial grooves",
-            source="Lund and Thomsen 1978 (verification cases 3.3)",
+            source="Lund and Thomsen 1978",
             quantity=f"{quantity}, L/D = {ratio:g}, S = {sommerfeld:g}",
             unit=unit,
             expected=expected,

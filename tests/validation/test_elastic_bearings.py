@@ -1,7 +1,7 @@
 """Elastic bearings: published pressures and deflections.
 
 Freund 1995: a journal over a thin steel diaphragm; COMSOL 6.4: a journal under 40 kN from high to low speed. What
-verification cases 3.11 leave open is taken from the tests of MBDyn's bearing module (mboct-mbdyn-pkg,
+the publications leave open is taken from the tests of MBDyn's bearing module (mboct-mbdyn-pkg,
 mbdyn_post_ehd_load_output 10 and 14), from which the digitised figures come too.
 """
 
@@ -118,7 +118,7 @@ def test_freund_diaphragm(tmp_path, validation):
         for at in table:
             validation(
                 case="Journal over a diaphragm",
-                source="Freund 1995, digitised (verification cases 3.11)",
+                source="Freund 1995, digitised",
                 quantity=f"{what} in the middle plane at {at} deg",
                 unit=unit,
                 expected=table[at],
@@ -129,7 +129,7 @@ def test_freund_diaphragm(tmp_path, validation):
             )
         validation(
             case="Journal over a diaphragm",
-            source="Freund 1995, digitised (verification cases 3.11)",
+            source="Freund 1995, digitised",
             quantity=f"{what}, mean difference of all points/largest",
             unit="%",
             expected=0.0,
@@ -255,7 +255,7 @@ def test_comsol_journal(validation):
             )
             validation(
                 case="Journal under 40 kN, viscosity and density by pressure",
-                source="COMSOL 6.4, digitised (verification cases 3.11)",
+                source="COMSOL 6.4, digitised",
                 quantity=f"pressure in the middle plane at {where:g} deg, {rpm:g} rpm",
                 unit="bar",
                 expected=expected,

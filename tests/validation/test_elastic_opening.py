@@ -1,7 +1,7 @@
-"""Elastic opening of the piston's gap: B2 of physics/left_out_physics.md.
+"""Elastic opening of the piston's gap.
 
 REF90's piston, centred and at rest in a bushing of special brass, whole chamber pressure at one end: how far the
-gap opens, and by how much more than in proportion it leaks. The sheet's exponent follows from an opening c h0 at
+gap opens, and by how much more than in proportion it leaks. The exponent follows from an opening c h0 at
 full pressure that goes with the local one.
 """
 
@@ -24,7 +24,7 @@ from reynolds.solve.solver import FilmSolver
 RADIUS, LENGTH, CLEARANCE, RATED = 11e-3, 45e-3, 15e-6, 35e6
 STEEL, BRASS = Elastic(210e9, 0.3), Elastic(110e9, 0.34)
 AROUND, BODY = 12, (2, 12, 6)
-SHEET = "physics/left_out_physics.md, B2"
+SOURCE = "bore of a thick ring, docs/theory.md, Physics left out, as laws"
 
 
 @pytest.fixture(scope="module")
@@ -59,24 +59,24 @@ def test_opening_and_leakage(space, walls, validation):
     rigid, _ = leak(space, None, RATED)
     validation(
         case="B2, elastic opening of REF90's piston gap",
-        source=SHEET,
+        source=SOURCE,
         quantity="opening at the chamber's end, 35 MPa",
         unit="um",
         expected=2.75,
         obtained=1e6 * opening,
         tolerance=1.25,
-        note="sheet: 1.5 .. 4 um, stiffened by neighbours",
+        note="estimate: 1.5 .. 4 um, stiffened by neighbours",
     )
     c = opening / CLEARANCE
     validation(
         case="B2, elastic opening of REF90's piston gap",
-        source=SHEET,
+        source=SOURCE,
         quantity="leakage over that between rigid walls, 35 MPa",
         unit="1",
         expected=((1.0 + c) ** 4 - 1.0) / (4.0 * c),
         obtained=found / rigid,
         relative_tolerance=0.02,
-        note="sheet: mean of (1 + c p/p_r)^3, here with the opening found; the walls also bend from row to row",
+        note="estimate: mean of (1 + c p/p_r)^3, here with the opening found; the walls also bend from row to row",
     )
 
 
@@ -86,13 +86,13 @@ def test_leakage_grows_faster_than_pressure(space, walls, validation, pressure):
     c = opening / CLEARANCE
     validation(
         case="B2, elastic opening of REF90's piston gap",
-        source=SHEET,
+        source=SOURCE,
         quantity=f"d ln leakage/d ln pressure at {pressure * 1e-6:g} MPa",
         unit="1",
         expected=4.0 * c * (1.0 + c) ** 3 / ((1.0 + c) ** 4 - 1.0),
         obtained=np.log(more / found) / np.log(1.02),
         relative_tolerance=0.02,
-        note=f"opening {c:.2f} of the clearance; sheet: 1.15 at 0.1, 1.29 at 0.2",
+        note=f"opening {c:.2f} of the clearance; estimate: 1.15 at 0.1, 1.29 at 0.2",
     )
 
 

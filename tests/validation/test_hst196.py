@@ -27,7 +27,7 @@ from system.pump.operating import operating_point
 from system.pump_file.file import load_pump
 
 PUMP = Path(__file__).resolve().parents[2] / "examples" / "pumps" / "hst196.toml"
-SOURCE = "recordings/hst196, 399 units"
+SOURCE = "ivanokhotnikov/effmap, 399 units"
 
 
 @pytest.fixture(scope="module")

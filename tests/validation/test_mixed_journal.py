@@ -1,7 +1,7 @@
 """Mixed lubrication of a journal bearing.
 
 Sander et al., friction of a journal bearing test rig from full film to severe mixed lubrication: the torque of
-the shaft, that is of the test bearing and of the two bearings that carry it. What verification cases 3.11 leave
+the shaft, that is of the test bearing and of the two bearings that carry it. What it leaves
 open is taken from MBDyn's test of the same rig (mboct-mbdyn-pkg, mbdyn_post_ehd_load_output 13), most of it
 assumed there too: clearances of 1e-3 of the diameter, two steel bearings of 54 x 25 mm with half the load each,
 oil at ambient pressure through a hole of 5 mm (test bearing) or a groove of 180 deg by 5 mm (the others). The
@@ -177,7 +177,7 @@ def test_sander_rig(load, tmp_path, validation):
         boundary[rpm] = 2.0 * found.contact_load / load
         validation(
             case="Journal bearing rig, full film to mixed lubrication",
-            source="Sander et al., digitised (verification cases 3.11)",
+            source="Sander et al., digitised",
             quantity=f"torque at {rpm} rpm, {load / 8e2:g} MPa",
             unit="N m",
             expected=expected,
@@ -189,7 +189,7 @@ def test_sander_rig(load, tmp_path, validation):
         if load == 8e3 and rpm in THINNEST:
             validation(
                 case="Journal bearing rig, full film to mixed lubrication",
-                source="Sander et al., digitised (verification cases 3.11)",
+                source="Sander et al., digitised",
                 quantity=f"least film thickness at {rpm} rpm, {load / 8e2:g} MPa",
                 unit="um",
                 expected=THINNEST[rpm],

@@ -1,7 +1,8 @@
 """The floating slipper over the turn: trends and sizes of the paper and of what loss models leave out.
 
 ref90_floating, rigid walls and oil of constant viscosity, chamber pressure by the lumped cycle: the paper's
-Fig. 9, and effects B1, B5 and B6 of physics/left_out_physics.md, whose sizes are ranges: the tolerances.
+Fig. 9, and mixed friction (B1), micro-motion (B5) and lift (B6). Their sizes are estimated as ranges: the
+tolerances.
 """
 
 from __future__ import annotations
@@ -25,7 +26,10 @@ from system.points.lumped import lumped_point
 from system.pump.operating import operating_point
 from system.pump_file.file import load_pump
 
-PAPER, SHEET = "seed paper, Fig. 9", "physics/left_out_physics.md"
+PAPER, ESTIMATE = (
+    "Xu, Hu, Zhang and Mao 2017, Fig. 9",
+    "estimates of size, docs/theory.md, Physics left out, as laws",
+)
 PISTONS, LITRES_A_MINUTE = 9, 6e4
 COARSE = FloatingOptions(RIGID, steps=36, accuracy=Accuracy(step=3e-2), finer=0.5)
 COARSE_TORQUE = 0.06  # that coarse the torque is off by so much; films by 2 %
@@ -143,7 +147,7 @@ def test_friction_has_a_least_at_a_speed_that_goes_with_pressure(validation):
     high, low = least(35.0, (700.0, 1000.0, 1400.0)), least(15.0, (350.0, 500.0, 700.0))
     validation(
         case="B1, mixed friction of the floating slipper",
-        source=SHEET,
+        source=ESTIMATE,
         quantity="speed of least friction, 35 over 15 MPa",
         unit="1",
         expected=35.0 / 15.0,
@@ -161,7 +165,7 @@ def test_warmth_raises_mixed_friction_and_lowers_viscous(validation):
         assert abs(warm / cold - 1.0) > COARSE_TORQUE
         validation(
             case="B1, mixed friction of the floating slipper",
-            source=SHEET,
+            source=ESTIMATE,
             quantity=f"sign of the change of torque from 50 to 80 degC, {speed:g} r/min",
             unit="1",
             expected=sign,
@@ -179,7 +183,7 @@ def test_friction_goes_with_viscosity_times_speed(validation):
     cold = At(speed=400.0 * ratio)
     validation(
         case="B1, mixed friction of the floating slipper",
-        source=SHEET,
+        source=ESTIMATE,
         quantity="torque at one mu n/p, 50 degC over 80 degC",
         unit="1",
         expected=1.0,
@@ -195,7 +199,7 @@ def test_micro_motion_pumps_oil(validation):
     for pressure in (5.0, 35.0):
         validation(
             case="B5, micro-motion of the floating slipper, 2100 r/min",
-            source=SHEET,
+            source=ESTIMATE,
             quantity=f"oil pushed to and fro at {pressure:g} MPa",
             unit="L/min",
             expected=0.14,
@@ -207,11 +211,11 @@ def test_micro_motion_pumps_oil(validation):
 
 @pytest.mark.slow
 def test_drain_without_load(validation):
-    """B5: at charge pressure on both ports the drain goes with speed, so says the sheet."""
+    """B5: at charge pressure on both ports the drain is estimated to grow with speed."""
     slow, fast = (drain(At(pressure=2.6, speed=speed)) for speed in (500.0, 1000.0))
     validation(
         case="B5, drain of the floating slipper at charge pressure",
-        source=SHEET,
+        source=ESTIMATE,
         quantity="exponent of speed, 500 to 1000 r/min",
         unit="1",
         expected=1.0,
@@ -220,14 +224,14 @@ def test_drain_without_load(validation):
     )
     validation(
         case="B5, drain of the floating slipper at charge pressure",
-        source=SHEET,
+        source=ESTIMATE,
         quantity="flow into the case at 1000 r/min",
         unit="L/min",
         expected=0.14 * 1000.0 / 2100.0,
         obtained=fast,
         tolerance=0.11 * 1000.0 / 2100.0,
-        missed="the sheet counts what the faces push to and fro as flow into the case; that returns, and what is "
-        "left is drawn in: an inclined slipper carries more from the case under its leading land than out again",
+        missed="the estimate counts what the faces push to and fro as flow into the case; that returns, and what "
+        "is left is drawn in: an inclined slipper carries more from the case under its leading land than out again",
     )
 
 
@@ -253,7 +257,7 @@ def test_open_circuit_slipper_lifts_at_speed(validation):
     assert lifted == sorted(lifted)
     validation(
         case="B6, slipper that lifts at speed, 0.1 MPa at the inlet",
-        source=SHEET,
+        source=ESTIMATE,
         quantity="speed from which the load in suction passes beside the face",
         unit="r/min",
         expected=2100.0,

@@ -107,7 +107,7 @@ def test_thrust_pad_of_ross(validation):
     ):
         validation(
             case="Tilting pad thrust bearing, 12 pads, 13.32 MN",
-            source="ROSS (verification cases 3.12), test_thrust_pad.py",
+            source="ROSS (petrobras/ross), test_thrust_pad.py",
             quantity=quantity,
             unit=unit,
             expected=expected,

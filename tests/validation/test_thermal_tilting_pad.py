@@ -162,7 +162,7 @@ def test_largest_pad_temperature(rpm, measured, authors, validation):
     assert found.energy_balance_error < 1e-9
     validation(
         case="Tilting pad bearing with four pads, 10 kN",
-        source="Fillon, Bligoud and Frene 1992, measured (verification cases 3.12)",
+        source="Fillon, Bligoud and Frene 1992, measured",
         quantity=f"largest pad temperature at {rpm} rpm",
         unit="degC",
         expected=measured,

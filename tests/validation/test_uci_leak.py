@@ -12,7 +12,7 @@ from types import ModuleType
 import numpy as np
 import pytest
 
-SOURCE = "recordings/uci_hydraulic; orifices of the rig by Helwig, Pignanelli and Schuetze (2015)"
+SOURCE = "UCI, condition monitoring of hydraulic systems; orifices by Helwig, Pignanelli and Schuetze 2015"
 COEFFICIENTS = 0.61, 0.70  # of flow, between which a small bore lies: its diameter goes with the root
 ODDS = 3.0  # nats
 

@@ -77,7 +77,7 @@ def markdown_page(folder: Path, command: str) -> str:
     """The page in Markdown, without pictures; `command` is what made it."""
     summary, rows = _read(folder)
     lines = [
-        f"# The paper, figure by figure: {summary['pump']}, {summary['fidelity']}",
+        f"# Xu, Hu, Zhang and Mao (2017), figure by figure: {summary['pump']}, {summary['fidelity']}",
         "",
         f"Written by `{command}`; nothing in it is typed by hand.",
         HEAD,

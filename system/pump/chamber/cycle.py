@@ -1,4 +1,6 @@
-"""Pressure of one displacement chamber over a periodic revolution: the paper's Eqs. (14), (18)-(20), corrected.
+"""Pressure of one displacement chamber over a periodic revolution.
+
+Eqs. (14) and (18)-(20) of Xu, Hu, Zhang and Mao (2017), corrected.
 
 As printed, Eq. (14) with (18) and (19) counts the displacement twice and the pump delivers nothing. Here the
 chamber keeps its mass: dp/dt = (K/V)(-Ap v - q_port - sum of leaks), V = V0 + Ap S, every q > 0 out of the

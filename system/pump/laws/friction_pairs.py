@@ -1,4 +1,4 @@
-"""The seven friction pairs: REF90's nominal loss model, one law for each, and Eq. (22) for the mean.
+"""The seven friction pairs: one law for each, and Eq. (22) of Xu, Hu, Zhang and Mao (2017) for the mean.
 
 Every loss is Coulomb friction, f x normal force x sliding speed, plus the shear of a Newtonian film of given
 thickness. All functions work on arrays over shaft angle; forces in N, speeds in m/s, losses in W.

@@ -1,4 +1,4 @@
-"""Kinematics of the conical-block swash plate machine: the paper's Eqs. (6)-(9), corrected.
+"""Kinematics of the conical-block swash plate machine: Eqs. (6)-(9) of Xu, Hu, Zhang and Mao (2017), corrected.
 
 Shaft angle 0 is the inner dead centre (smallest chamber); 0 .. pi is suction. All laws are written with the
 scale R tan(gamma)/cos(beta) in place of the paper's (R/sin(beta)) t, t = tan(beta) tan(gamma): the same number,

@@ -1,4 +1,6 @@
-"""Leakage of the three gaps at given film thickness: the paper's Eqs. (15)-(17), every flow out of the chamber.
+"""Leakage of the three gaps at given film thickness: Eqs. (15)-(17) of Xu, Hu, Zhang and Mao (2017).
+
+Every flow is positive out of the chamber.
 
 Each law is a conductance in m3/(s Pa): leakage flow = conductance x (chamber pressure - case pressure). The
 piston adds the oil that its moving wall carries along.

@@ -1,4 +1,4 @@
-"""Ball guide and retainer: relative motion and force, the paper's Eqs. (10)-(13) and (23)-(25).
+"""Ball guide and retainer: motion and force, Eqs. (10)-(13) and (23)-(25) of Xu, Hu, Zhang and Mao (2017).
 
 The retainer follows the swash plate, tilted by the swash angle, on a ball guide that turns with the shaft. They
 touch on a circle of latitude of the ball. Coordinates: x along the shaft, origin in the ball's centre; psi is the

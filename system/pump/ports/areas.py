@@ -1,4 +1,4 @@
-"""Ports of the valve plate: the opening area and the orifice law, the paper's Eq. (20) made regular.
+"""Ports of the valve plate: opening area and orifice law, Eq. (20) of Xu, Hu, Zhang and Mao (2017) made regular.
 
 Over the turn a port opens by its relief grooves (the paper has one, growing with the square of the angle), its
 kidney opens linearly, stands open and closes linearly, and grooves behind it shut last; shut elsewhere. The

@@ -25,7 +25,7 @@ viscosity = "30 mPa s"
 left = { pressure = "0 bar" }
 right = { pressure = "0 bar" }
 """
-LOAD = 0.15888308 * 0.03 * 0.01**2 / 1e-5**2 * 0.01  # verification cases 3.1: n = 2
+LOAD = 0.15888308 * 0.03 * 0.01**2 / 1e-5**2 * 0.01  # closed form (Rayleigh 1918), n = 2
 
 
 @pytest.mark.parametrize("order", [1.0, 2.0])

@@ -1,4 +1,4 @@
-"""Laws of the physics left out against their authors' numbers (sheets of left_out_physics.md) and their limits."""
+"""Laws of the physics left out against their authors' numbers and their limits."""
 
 import pickle
 
@@ -64,7 +64,7 @@ def test_barus_leakage_of_sheet_a3(validation, megapascal, factor):
     found = film_laws.viscosity_pressure({"coefficient": 2e-8}, courses(pressure=megapascal * 1e6), state(2100))
     validation(
         case="Leakage of oil that thickens",
-        source="left_out_physics A3, Barus 1893",
+        source="Barus 1893",
         quantity=f"leakage over that of constant viscosity, {megapascal} MPa",
         unit="-",
         expected=factor,
@@ -90,7 +90,7 @@ def test_opening_of_sheet_b2(opening, mean):
 
 @pytest.mark.parametrize(("walls", "factor"), [(12.0, 0.946), (3.0, 0.82)])
 def test_heating_meets_nahme_while_it_is_small(walls, factor):
-    """Resistance h/(12 k): two walls at case temperature; h/(3 k): one insulated; slipper of REF90, sheet A2."""
+    """Resistance h/(12 k): two walls at case temperature; h/(3 k): one insulated; slipper of REF90."""
     film, conductivity, at = 10e-6, 0.13, state(2100)
     shear = float(at.viscosity[0]) * 9.9**2 / film
     heated = courses(pressure=0.0, film=film, viscous=shear, leakage=0.0, width=1e-6, area=1.0)
@@ -181,7 +181,7 @@ def test_mixed_friction_between_its_limits():
 
 
 def test_mixed_friction_grows_with_temperature():
-    """Sheet B1: hotter is more, unlike the shear of films."""
+    """Hotter oil gives more mixed friction, unlike the shear of films."""
     values = {"piston": 0.1, "slipper": 0.1, "valve_plate": 0.1, "hersey_scale": 1e-7, "exponent": 1.0}
     cold, hot = (
         contact_laws.mixed_friction(values, courses(speed=1.0), state(300, kelvin=kelvin)).extra_coulomb[:3]
@@ -217,7 +217,7 @@ def test_churning_of_sheet_c1(validation):
     for rpm, torque, stated in zip((1000, 2100, 3000, 6000), found, (0.38, 1.46, 2.8, 10.3), strict=True):
         validation(
             case="Churning of REF90",
-            source="left_out_physics C1, Wendt 1933",
+            source="Wendt 1933",
             quantity=f"torque at {rpm} r/min",
             unit="N m",
             expected=stated,
@@ -320,13 +320,13 @@ def test_block_tips_fast_and_without_pressure():
 
 
 @pytest.mark.parametrize(("degrees", "ratio", "lost"), [(0.05, 0.13, 2), (0.15, 0.13, 7), (0.15, 1.0, 1)])
-def test_droop_of_sheet_d5(validation, degrees, ratio, lost):
-    """A fixed angle is the larger a share, the less the plate is tilted; the sheet gives whole percent."""
+def test_droop_of_a_fixed_angle(validation, degrees, ratio, lost):
+    """A fixed angle is the larger a share, the less the plate is tilted; whole percent are expected."""
     at = state(2100, ratio=ratio, inlet=0.0)
     found = port_laws.swash_droop({"rate": np.deg2rad(degrees) / 35e6, "play": 0.0}, courses(), at)
     validation(
         case="A swash plate that gives way",
-        source="left_out_physics D5",
+        source="closed form, tan(g - x)/tan(g)",
         quantity=f"displacement lost to {degrees} deg, displacement ratio {ratio}",
         unit="%",
         expected=lost,

@@ -22,6 +22,7 @@ from system.inputs.channels import ChannelName
 from system.pump_file.file import load_pump
 
 LIMITS = load_thresholds()
+RECORDINGS = Path(__file__).parents[3] / "examples" / "recordings"
 PUMP = load_pump("ref90")
 
 
@@ -31,16 +32,16 @@ def _every(recording: Recording, step: int) -> Recording:
     return replace(recording, steady=steady, traces=())
 
 
-def _study(shared: Path, name: str, step: int = 1) -> Study:
-    recording = read_recording(shared / "recordings" / "bench" / name)
+def _study(name: str, step: int = 1) -> Study:
+    recording = read_recording(RECORDINGS / name)
     picked = recording if step == 1 else _every(recording, step)
     return prepare(PUMP, picked, tolerances(PUMP)[0], LIMITS)
 
 
 @pytest.mark.slow
-def test_a_bench_without_mismatch_has_none(shared: Path) -> None:
+def test_a_bench_without_mismatch_has_none() -> None:
     """chi-square per reading 1 within 4 sigma of its scatter, no candidate, no flag, no place."""
-    study = _study(shared, "open-01")
+    study = _study("open-01")
     found, place = detect(study, LIMITS), locate(study, LIMITS)
     assert abs(found.chi2_per_dof - 1.0) < 4 * np.sqrt(2.0 / study.base.residual.size)
     assert found.chance > 0.05
@@ -50,9 +51,9 @@ def test_a_bench_without_mismatch_has_none(shared: Path) -> None:
     assert place.angle is None
 
 
-def test_a_short_circuit_lies_in_the_cross_flow(shared: Path) -> None:
+def test_a_short_circuit_lies_in_the_cross_flow() -> None:
     """Every third point of a recorded map: the first candidate, its channels, its component."""
-    study = _study(shared, "open-06", step=3)
+    study = _study("open-06", step=3)
     found, place = detect(study, LIMITS), locate(study, LIMITS)
     assert found.chance < LIMITS.mismatch.chance
     assert found.strongest[0][0].entry.id.value in ("port_short_circuit", "laminar_cross_leak")
@@ -60,8 +61,8 @@ def test_a_short_circuit_lies_in_the_cross_flow(shared: Path) -> None:
     assert place.components[0][0].value == "cross_flow"
 
 
-def test_a_recording_without_simulated_outputs_is_refused(shared: Path) -> None:
-    recording = read_recording(shared / "recordings" / "bench" / "open-01")
+def test_a_recording_without_simulated_outputs_is_refused() -> None:
+    recording = read_recording(RECORDINGS / "open-01")
     bare = replace(recording, channels=tuple(one for one in recording.channels if one.name is ChannelName.SPEED))
     with pytest.raises(FilmInputError, match="Q_case"):
         prepare(PUMP, bare, tolerances(PUMP)[0], LIMITS)

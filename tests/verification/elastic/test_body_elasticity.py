@@ -62,7 +62,7 @@ def test_lame_bore(kind, state, supports, lame, validation, refine):
     found = refine(solve, (2, 4, 8) if kind == "section" else (1, 2, 4), 3.5)
     validation(
         case="Thick-walled bore under pressure",
-        source="verification cases 3.11 (Lame)",
+        source="Lame, closed form",
         quantity=f"radial displacement of the bore, {state}, {kind}",
         unit="um",
         expected=lame,
@@ -79,7 +79,7 @@ def test_solid_piston(body, validation):
     found = _radial(space, "outer", structure(space, STEEL, Supports()).displaced(forces[:, None]))
     validation(
         case="Solid piston under pressure",
-        source="verification cases 3.11 (-p R (1 - nu)/E)",
+        source="closed form, -p R (1 - nu)/E",
         quantity=f"radial displacement, {'section' if body.axisymmetric else 'hexahedra'}",
         unit="um",
         expected=-1.0,

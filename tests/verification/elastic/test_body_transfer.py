@@ -124,7 +124,7 @@ def test_opening_of_a_bore_by_the_film(tmp_path, validation):
     coarse, fine = solve(1), solve(2)
     validation(
         case="Thick-walled bore under pressure",
-        source="verification cases 3.11 (Lame)",
+        source="Lame, closed form",
         quantity="mean opening of the film in a free ring",
         unit="um",
         expected=3.688645,

@@ -44,7 +44,7 @@ def channel(space: FilmSpace, walls: Walls | None, high: float = HIGH) -> FilmSo
 
 
 def channel_flow(stiffness: float, high: float = HIGH) -> float:
-    """k/(48 mu L) [(h0 + p1/k)^4 - h0^4] per width (verification cases 3.11)."""
+    """k/(48 mu L) [(h0 + p1/k)^4 - h0^4] per width."""
     return stiffness / (48.0 * VISCOSITY * LENGTH) * ((GAP + high / stiffness) ** 4 - GAP**4)
 
 
@@ -64,7 +64,7 @@ def test_winkler_channel(cell, dense, validation):
     ):
         validation(
             case="Channel on Winkler's foundation",
-            source="verification cases 3.11, closed form",
+            source="closed form",
             quantity=f"{quantity}, {kind}",
             unit="m2/s",
             expected=expected,
@@ -82,7 +82,7 @@ def test_winkler_channel(cell, dense, validation):
 def test_rigid_channel(validation):
     validation(
         case="Channel on Winkler's foundation",
-        source="verification cases 3.11, closed form",
+        source="closed form",
         quantity="flow per width between rigid walls",
         unit="m2/s",
         expected=1.0416667e-6,
@@ -100,7 +100,7 @@ def test_walls_that_overlap_until_they_give_way(validation):
     high, low = ((overlap + p / STIFFNESS) ** 4 for p in ends)
     validation(
         case="Channel on Winkler's foundation",
-        source="verification cases 3.11, closed form",
+        source="closed form",
         quantity="flow per width, 60 to 40 MPa, walls that overlap by 2 um undeformed",
         unit="m2/s",
         expected=STIFFNESS / (48.0 * VISCOSITY * LENGTH) * (high - low),
@@ -132,7 +132,7 @@ def test_thin_elastic_layer_is_a_winkler_foundation(tmp_path, validation):
     assert abs(missed[2]) < 0.5 * abs(missed[1]) < 0.25 * abs(missed[0])
     validation(
         case="Channel on a thin elastic layer",
-        source="confined compression; verification cases 3.11",
+        source="confined compression",
         quantity="flow per width over Winkler's, t/L = 1/32",
         unit="1",
         expected=1.0,

@@ -100,7 +100,7 @@ def test_land_from_gmsh_leaks_as_the_closed_form(validation):
     exact = np.pi * 1e-15 * 20e6 / (6.0 * 0.03 * np.log(14.0 / 8.2))
     validation(
         case="Slipper land from a gmsh file",
-        source="closed form (verification cases 3.8)",
+        source="closed form",
         quantity="leakage",
         unit="m3/s",
         expected=exact,

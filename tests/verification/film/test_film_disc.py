@@ -71,7 +71,7 @@ def test_hydrostatic_annulus(cell, validation, refine):
     ):
         validation(
             case="Hydrostatic annulus",
-            source="closed form (verification cases 3.8)",
+            source="closed form",
             quantity=f"{quantity}, {cell.value}",
             unit=unit,
             expected=expected,
@@ -89,7 +89,7 @@ def test_squeezed_annulus(cell, validation, refine):
     found = refine(lambda n: _annulus_loads(cell, n, squeeze=-APPROACH).load, (8, 16, 32))
     validation(
         case="Squeezed annulus",
-        source="closed form (verification cases 3.8)",
+        source="closed form",
         quantity=f"load, {cell.value}",
         unit="N",
         expected=exact,
@@ -104,7 +104,7 @@ def test_spinning_annulus(cell, validation, refine):
     found = refine(lambda n: -_annulus_loads(cell, n, spin=SPIN).friction_torque_moving, (8, 16, 32))
     validation(
         case="Spinning annulus",
-        source="closed form (verification cases 3.8)",
+        source="closed form",
         quantity=f"friction torque, {cell.value}",
         unit="N m",
         expected=np.pi * VISCOSITY * SPIN * (OUTER**4 - INNER**4) / (2.0 * THICKNESS),

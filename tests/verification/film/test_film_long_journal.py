@@ -90,7 +90,7 @@ def test_sommerfeld_peak(eccentricity, peak, place, validation, refine):
     )
     validation(
         case="Long journal bearing, full film",
-        source="Sommerfeld 1904 (verification cases 3.2)",
+        source="Sommerfeld 1904, closed form",
         quantity=f"angle of the largest pressure, eccentricity ratio {eccentricity:g}",
         unit="deg",
         expected=place,

@@ -83,7 +83,7 @@ def test_hydraulic_lock(name, thickness, force, moment, leakage, validation, ref
             continue
         validation(
             case="Tapered and tilted piston",
-            source="verification cases 3.9, converged 2D",
+            source="own converged solution",
             quantity=f"{quantity}, {name}",
             unit=unit,
             expected=expected,

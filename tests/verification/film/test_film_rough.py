@@ -109,7 +109,7 @@ def test_parallel_film(gamma, ratio, validation):
     ):
         validation(
             case="Parallel film between rough walls",
-            source="Patir and Cheng 1978, 1979 (verification cases 4.1)",
+            source="Patir and Cheng 1978, 1979",
             quantity=f"{quantity}, h/sigma = {ratio:g}, gamma = {gamma:.3g}",
             unit="1",
             expected=float(expected),

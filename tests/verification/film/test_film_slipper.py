@@ -17,7 +17,7 @@ from reynolds.solve.solver import FilmSolver
 
 VISCOSITY, THICKNESS, SUPPLY = 0.03, 10e-6, 20e6
 INNER, OUTER = 5e-3, 10e-3
-SOURCE = "verification cases 3.9, converged polar solution"
+SOURCE = "own converged polar solution"
 
 
 def _tilted(a: float, speed: float, n: int, cavitation: Cavitation = Cavitation.NONE) -> FilmSolution:
@@ -166,7 +166,7 @@ def test_grooved_slipper(validation, refine):
     for (quantity, unit, expected, rounding), found in zip(exact, refine(solve, (6, 12, 24)), strict=True):
         validation(
             case="Grooved slipper",
-            source="closed form (verification cases 3.9)",
+            source="closed form",
             quantity=quantity,
             unit=unit,
             expected=expected,

@@ -1,7 +1,7 @@
 """Film equation: a journal that moves under a dynamic load, with mass-conserving cavitation.
 
 Film and body are one implicit step: the force balance holds with the film at the end of the step. Ausas, Jai and
-Buscaglia 2009, as kept in the verification cases 3.6; all quantities are without dimension.
+Buscaglia 2009; all quantities are without dimension.
 """
 
 from __future__ import annotations
@@ -130,7 +130,7 @@ def test_dynamically_loaded_journal(validation):
         for name, expected, obtained in zip("XY", (x, y), places[time], strict=True):
             validation(
                 case="Dynamically loaded journal bearing",
-                source="verification cases 3.6, Ausas 2009, 200 x 20 cells",
+                source="Ausas, Jai and Buscaglia 2009, own solution on 200 x 20 cells",
                 quantity=f"{name} at t = {time:g}",
                 unit="1",
                 expected=expected,
@@ -148,7 +148,7 @@ def test_dynamically_loaded_journal(validation):
     ):
         validation(
             case="Dynamically loaded journal bearing",
-            source="verification cases 3.6, Ausas 2009, 200 x 20 cells",
+            source="Ausas, Jai and Buscaglia 2009, own solution on 200 x 20 cells",
             quantity=quantity,
             unit="1",
             expected=expected,
@@ -166,7 +166,7 @@ def test_dynamically_loaded_journal(validation):
     for quantity, expected, obtained, missed in rows:
         validation(
             case="Dynamically loaded journal bearing",
-            source="verification cases 3.6, Ausas 2009, 200 x 20 cells",
+            source="Ausas, Jai and Buscaglia 2009, own solution on 200 x 20 cells",
             quantity=quantity,
             unit="1",
             expected=expected,

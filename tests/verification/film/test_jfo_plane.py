@@ -1,7 +1,7 @@
 """Film equation: mass-conserving cavitation in the plane.
 
 A grooved journal bearing fed under pressure, pockets and dimples in sliders, oil whose viscosity and density
-answer to pressure (verification cases 3.7).
+answer to pressure.
 """
 
 from __future__ import annotations
@@ -106,7 +106,7 @@ def test_grooved_journal(kind, mesh, validation, refine):
     for (quantity, unit, expected, rounding), column in zip(PFEIL, columns, strict=True):
         validation(
             case="Grooved journal bearing, supply under pressure",
-            source="verification cases 3.7, Pfeil",
+            source="bearing of Pfeil, own converged solution",
             quantity=f"{quantity}, {kind}",
             unit=unit,
             expected=expected,
@@ -128,7 +128,7 @@ def test_grooved_journal_stored_result(validation):
     for quantity, unit, expected, obtained, relative in rows:
         validation(
             case="Grooved journal bearing, supply under pressure",
-            source="verification cases 3.7, Pfeil: result stored with the source, 100 x 26 cells",
+            source="Pfeil, result stored with his program, 100 x 26 cells",
             quantity=quantity,
             unit=unit,
             expected=expected,
@@ -138,7 +138,7 @@ def test_grooved_journal_stored_result(validation):
         )
     validation(
         case="Grooved journal bearing, supply under pressure",
-        source="verification cases 3.7, Pfeil: result stored with the source, 100 x 26 cells",
+        source="Pfeil, result stored with his program, 100 x 26 cells",
         quantity="least film fraction",
         unit="1",
         expected=0.551,
@@ -200,7 +200,7 @@ def test_pocket(row, validation, refine):
         if given is not None:
             validation(
                 case="Pocket in a slider, oil compressed and thickened by pressure",
-                source="verification cases 3.7, Bertocchi 2013",
+                source="pocket of Bertocchi et al. 2013, own converged solution",
                 quantity=f"{quantity}, {name}",
                 unit=unit,
                 expected=given[0],
@@ -255,7 +255,7 @@ def test_pocket_digitised(validation):
     for quantity, expected, obtained, relative, missed in rows:
         validation(
             case="Pocket in a slider, oil compressed and thickened by pressure",
-            source="Bertocchi 2013, digitised (verification cases 3.7)",
+            source="Bertocchi et al. 2013, digitised",
             quantity=quantity,
             unit="Pa",
             expected=expected,
@@ -291,7 +291,7 @@ def test_dimples_cost_few_steps(cell, validation):
         steps.append(solution.iterations)
     validation(
         case="Dimpled slider, steps of the solver",
-        source="verification cases 3.7, Woloszynski 2015",
+        source="dimples of Woloszynski et al. 2015",
         quantity=f"most steps for 1, 4 and 16 dimples, {cell.value}",
         unit="1",
         expected=float(steps[0]),
@@ -357,7 +357,7 @@ def test_manufactured(name, profile, meshes, degree, validation):
     errors = [_manufactured_error(profile, n, degree) for n in meshes]
     validation(
         case="Manufactured pressures of the Gridap code",
-        source="verification cases 3.7",
+        source="constructed; pressures of the Gridap code",
         quantity=f"order of P{degree}, {name}",
         unit="1",
         expected=degree + 1.0,

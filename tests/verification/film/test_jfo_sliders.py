@@ -2,7 +2,7 @@
 
 Films that depend on the sliding direction alone: starved, ruptured, and reformed in a second wedge, before an
 outlet under pressure or within a pocket. Flow is one number along each of them, so that where it ruptures and
-where it reforms follow by quadrature (verification cases 3.1, 3.4, 3.5).
+where it reforms follow by quadrature.
 """
 
 from __future__ import annotations
@@ -72,7 +72,7 @@ def _solve(
     return Found(solution, float(np.ptp(space.vertices[:, 1])), np.unique(place[solution.cavity]), found)
 
 
-# ---- starved slider, verification cases 3.1
+# ---- starved slider
 
 
 WEDGE = Slider(0.01, lambda x: 1e-5 * (2.0 - x / 0.01), 0.03, 1.0)
@@ -106,7 +106,7 @@ def test_starved_slider(row, cell, validation, refine):
     for (quantity, expected, rounding), column in zip(quantities, found, strict=True):
         validation(
             case="Starved slider",
-            source="verification cases 3.1",
+            source="closed form along the film",
             quantity=f"{quantity}, film fraction {fraction:g} at the inlet, {cell.value}",
             unit="1",
             expected=expected,
@@ -115,7 +115,7 @@ def test_starved_slider(row, cell, validation, refine):
         )
     validation(
         case="Starved slider",
-        source="verification cases 3.1",
+        source="closed form along the film",
         quantity=f"start of the film x/L, film fraction {fraction:g} at the inlet, {cell.value}",
         unit="1",
         expected=start,
@@ -131,7 +131,7 @@ def test_flooded_slider(fraction, validation, refine):
     load, *_ = refine(lambda n: _starved(fraction, n, Cell.QUADRILATERAL), MESHES, 1.0)
     validation(
         case="Starved slider",
-        source="verification cases 3.1",
+        source="closed form along the film",
         quantity=f"load W h0^2/(mu U L^2), film fraction {fraction:g} at the inlet: fully flooded",
         unit="1",
         expected=0.15888308,
@@ -141,7 +141,7 @@ def test_flooded_slider(fraction, validation, refine):
     )
 
 
-# ---- parabolic sliders, verification cases 3.4
+# ---- parabolic sliders
 
 THIN, THICK = 25.4e-6, 50.8e-6
 
@@ -195,7 +195,7 @@ def test_parabolic_slider(row, cell, validation, refine):
         expected, rounding = given
         validation(
             case="Parabolic slider, film ruptured and reformed",
-            source="verification cases 3.4",
+            source="quadrature; sliders of Vijayaraghavan and Keith 1989",
             quantity=f"{name}, {where}",
             unit=unit,
             expected=expected,
@@ -205,7 +205,7 @@ def test_parabolic_slider(row, cell, validation, refine):
     for k, (expected, column) in enumerate(zip(fronts, columns[3:], strict=True)):
         validation(
             case="Parabolic slider, film ruptured and reformed",
-            source="verification cases 3.4",
+            source="quadrature; sliders of Vijayaraghavan and Keith 1989",
             quantity=f"{'reformation' if k % 2 else 'rupture'} x/L, {where}",
             unit="1",
             expected=expected,
@@ -226,7 +226,7 @@ def test_parabolic_slider_least_fraction(validation, refine):
     least, place = refine(solve, MESHES, 1.0)
     validation(
         case="Parabolic slider, film ruptured and reformed",
-        source="verification cases 3.4",
+        source="quadrature; sliders of Vijayaraghavan and Keith 1989",
         unit="1",
         quantity="least film fraction, parabolic, 0.101325 / 0.101325 MPa",
         expected=0.573318,
@@ -235,7 +235,7 @@ def test_parabolic_slider_least_fraction(validation, refine):
     )
     validation(
         case="Parabolic slider, film ruptured and reformed",
-        source="verification cases 3.4",
+        source="quadrature; sliders of Vijayaraghavan and Keith 1989",
         unit="1",
         quantity="place of the largest pressure x/L, parabolic, 0.101325 / 0.101325 MPa",
         expected=0.31978,
@@ -250,7 +250,7 @@ def test_parabolic_slider_place_of_the_peak(validation):
     found = _solve(_strip(PARABOLIC.length, n, Cell.QUADRILATERAL), PARABOLIC, Held(0.0), Held(0.0))
     validation(
         case="Parabolic slider, film ruptured and reformed",
-        source="verification cases 3.4",
+        source="quadrature; sliders of Vijayaraghavan and Keith 1989",
         unit="1",
         quantity="place of the largest pressure x/L, parabolic, 0 / 0 MPa",
         expected=0.321066,
@@ -260,7 +260,7 @@ def test_parabolic_slider_place_of_the_peak(validation):
     )
 
 
-# ---- pocket slider, verification cases 3.5
+# ---- pocket slider
 
 LAND, POCKET, LENGTH = 2e-3, 5e-3, 10e-3  # ends of the first land, of the pocket, of the film, m
 FIRST, LAST = 2.5e-3, 3.5e-3  # well within the cavity, m
@@ -319,7 +319,7 @@ def test_pocket_slider(kind, meshes, validation, refine):
     for (quantity, unit, expected, rounding), column in zip(quantities, columns, strict=True):
         validation(
             case="Pocket slider, film reformed within the pocket",
-            source="verification cases 3.5, closed form Fowell 2007",
+            source="Fowell et al. 2007, closed form",
             quantity=f"{quantity}, {kind}",
             unit=unit,
             expected=expected,
@@ -328,7 +328,7 @@ def test_pocket_slider(kind, meshes, validation, refine):
         )
     validation(
         case="Pocket slider, film reformed within the pocket",
-        source="verification cases 3.5, closed form Fowell 2007",
+        source="Fowell et al. 2007, closed form",
         quantity=f"reformation x, {kind}",
         unit="m",
         expected=3.611263e-3,

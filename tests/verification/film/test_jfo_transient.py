@@ -1,7 +1,7 @@
 """Film equation: mass-conserving cavitation in time.
 
 Each step stores what the film holds (implicit Euler). A cavity opens at once over half a film, grows, is
-overtaken by the film that reforms, and closes: Ausas, Jai and Buscaglia 2009 (verification cases 3.6).
+overtaken by the film that reforms, and closes: Ausas, Jai and Buscaglia 2009.
 """
 
 from __future__ import annotations
@@ -62,7 +62,7 @@ def _half(lines: np.ndarray) -> FilmSpace:
     return space.moved(np.column_stack([place, space.vertices[:, 1]]))
 
 
-SOURCE = "verification cases 3.6, Ausas 2009"
+SOURCE = "Ausas, Jai and Buscaglia 2009, as ordinary differential equation"
 PRESSURES = ((0.1, 5.302633), (0.125, 7.471738), (0.2, 11.261512))
 
 

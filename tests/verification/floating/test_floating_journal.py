@@ -130,7 +130,7 @@ def test_squeezed_journal(eccentricity, number, validation, refine):
     digits = 0.5 * 10.0 ** -(2 if number > 10.0 else 4)
     validation(
         case="Journal squeezed without turning, as wide as its diameter",
-        source="verification cases 3.3, own converged",
+        source="own converged solution",
         quantity=f"So = F psi^2/(mu de/dt B D) at e = {eccentricity:g}",
         unit="1",
         expected=number,
@@ -176,7 +176,7 @@ def test_journal_that_sinks(validation, refine):
     )
 
 
-# Ausas, Jai and Buscaglia 2009, as kept in the verification cases 3.6; all quantities are without dimension.
+# Ausas, Jai and Buscaglia 2009; all quantities are without dimension.
 MASS = 1e-6 * np.eye(2)
 FEED = {"bottom": Held(0.0075), "top": Held(0.0)}
 LISTED = "the listed values carry first-order upwinding of the full film"
@@ -227,7 +227,7 @@ def test_dynamically_loaded_journal(validation):
             ratios.append(float(np.hypot(*taken.state.q)))
             steps += 1
     assert steps < 100
-    source = "verification cases 3.6, Ausas 2009, 200 x 20 cells"
+    source = "Ausas, Jai and Buscaglia 2009, own solution on 200 x 20 cells"
     for time, x, y, x_met, y_met in PLACES:
         for name, listed, found, met in zip("XY", (x, y), places[time], (x_met, y_met), strict=True):
             validation(

@@ -86,7 +86,7 @@ def test_plate_floats_on_springs(dense, validation, refine):
     found = refine(solve, (8, 16, 32), 2.0)
     validation(
         case="Plate that floats on Winkler's foundation",
-        source="verification cases 3.11, closed form integrated",
+        source="closed form, integrated in time",
         quantity=f"film without pressure at rest, {'dense' if dense else 'sparse'} walls",
         unit="um",
         expected=exact,

@@ -1,7 +1,7 @@
 """Floating films: squeezed and hydrostatic, in closed form.
 
 A disc or a ring that sinks under a load, a slipper that its pocket lifts: the position follows from the balance of
-forces at each instant (verification cases 3.8 for the film's forces).
+forces at each instant.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ from reynolds.solve.solver import FilmSolver
 
 VISCOSITY, LOAD, START, END = 0.03, 100.0, 20e-6, 10e-3
 OUTER, INNER = 10e-3, 5e-3
-SOURCE = "verification cases 3.8, integrated in time"
+SOURCE = "closed form, integrated in time"
 
 
 def _film(space: FilmSpace, held: dict[str, Boundary], asperities: Asperities | None = None) -> FilmProblem:
@@ -237,7 +237,7 @@ def test_hydrostatic_slipper(validation, refine):
     ):
         validation(
             case="Hydrostatic slipper of balance 1.2",
-            source="closed form; squeeze and flow of verification cases 3.8",
+            source="closed form",
             quantity=quantity,
             unit=unit,
             expected=expected,

@@ -66,7 +66,7 @@ def test_slider_finds_its_film(ratio, start, validation, refine):
     found = refine(rest, (20, 40, 80))
     validation(
         case="Wide wedge floats at the film that carries its load",
-        source="Rayleigh 1918, verification cases 3.1",
+        source="Rayleigh 1918, closed form",
         quantity=f"outlet film, h1/h0 = {ratio:g}, from {start * 1e6:g} um",
         unit="m",
         expected=TAPER / (ratio - 1.0),

@@ -253,7 +253,7 @@ def test_a_stated_spin_leaves_the_other_free():
 
 
 def test_drags():
-    assert land_drag(0.03, 5e-3, 10e-3, 10e-6) * 100.0 == pytest.approx(0.00441786, abs=0.5e-8)  # sheet, 3.8
+    assert land_drag(0.03, 5e-3, 10e-3, 10e-6) * 100.0 == pytest.approx(0.00441786, abs=0.5e-8)  # closed form
     centred = bore_drag(0.03, 20e-3, 30e-3, 10e-6)
     assert centred == pytest.approx(0.03 / 10e-6 * 10e-3**2 * np.pi * 20e-3 * 30e-3, rel=1e-12)
 

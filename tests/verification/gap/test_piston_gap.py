@@ -137,7 +137,7 @@ def test_tilted_piston_of_the_tables(validation, refine):
     ):
         validation(
             case="Piston gap, tilted piston",
-            source="verification cases 3.9, converged 2D",
+            source="own converged solution",
             quantity=quantity,
             unit=unit,
             expected=expected,

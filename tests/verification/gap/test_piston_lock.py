@@ -115,7 +115,7 @@ def test_held_piston(name, shape, position, force, moment, leakage, validation, 
             continue
         validation(
             case="Hydraulic lock, piston held",
-            source="verification cases 3.9, converged 2D",
+            source="own converged solution",
             quantity=f"{quantity}, {name}, by generalised forces",
             unit=unit,
             expected=expected,

@@ -173,7 +173,7 @@ def test_tilted_slipper_of_the_tables(speed, side, lift, moment, flow, validatio
     for (quantity, unit, expected, rounding), found in zip(quantities, refine(solve, MESHES), strict=True):
         validation(
             case="Slipper gap, tilted slipper",
-            source="verification cases 3.9, converged polar solution",
+            source="own converged polar solution",
             quantity=f"{quantity}, a = {0.5 * side:g}, sliding {speed:g} m/s",
             unit=unit,
             expected=expected,
@@ -291,7 +291,7 @@ def test_ref90_is_underbalanced(validation):
     load = (area * (PRESSURE - CASE) / np.cos(pump.pump.swash_angle_max), 0.0, 0.0)
     validation(
         case="Slipper gap, hydrostatic balance of REF90",
-        source="physics/ref90.md",
+        source="REF90, worked out by hand",
         quantity="carried share, 35 MPa, parallel film of 10 um at rest",
         unit="1",
         expected=0.955,

@@ -36,7 +36,7 @@ from reynolds.solve.solver import FilmSolver
 INNER, OUTER, VISCOSITY, PRESSURE, HEIGHT = 5e-3, 10e-3, 0.03, 20e6, 10e-6
 FULL = Physics().without(Effect.CAVITATION)
 WIDE = Orifice(4e-3, 1e-4)  # lets the pocket have the chamber's pressure but for 1e-8
-SHEET = SlipperShape(SlipperLands(((INNER, OUTER),)), WIDE)
+SHAPE = SlipperShape(SlipperLands(((INNER, OUTER),)), WIDE)
 
 
 def _drive(**changed) -> SlipperDrive:
@@ -75,12 +75,12 @@ def _forces(shape: SlipperShape, drive: SlipperDrive, position, cells) -> tuple[
     ],
 )
 def test_tilted_slipper(tilt, speed, force, moment, validation, refine):
-    """The sheet's source is -(U/2) dh/dx, of a plate that moves with U: the slipper slides over it with -U."""
+    """The converged solution has -(U/2) dh/dx, of a plate that moves with U: the slipper slides over it with -U."""
     drive = _drive(sliding=constant(-speed, 0.0))
     position = HEIGHT * np.array([1.0, tilt, 0.0])
 
     def solve(n: int) -> tuple[float, float]:
-        found, _ = _forces(SHEET, drive, position, (n, 4 * n))
+        found, _ = _forces(SHAPE, drive, position, (n, 4 * n))
         assert abs(found[2]) < 1e-9 * force
         return float(found[0]), float(found[1] * OUTER)
 
@@ -92,7 +92,7 @@ def test_tilted_slipper(tilt, speed, force, moment, validation, refine):
             continue
         validation(
             case="Floating slipper, tilted and held",
-            source="verification cases 3.8 and 3.9, converged 2D",
+            source="closed form and own converged solution",
             quantity=f"{quantity}, tilt {tilt:g}, U = {speed:g} m/s, by generalised forces",
             unit=unit,
             expected=expected,
@@ -108,9 +108,9 @@ def test_a_slipper_that_rides_on_its_leading_edge_drags_oil_from_the_case_into_i
     The wedge makes oil evenly over the land; what of it runs inwards, and what is carried over the inner edge,
     enters the pocket. A wide orifice lets it go on into a chamber at case pressure.
     """
-    speed, rise, lands = 10.0, 0.01 * HEIGHT, SHEET.lands
+    speed, rise, lands = 10.0, 0.01 * HEIGHT, SHAPE.lands
     drive = _drive(sliding=constant(speed, 0.0), chamber_pressure=constant(0.0))
-    _, solution = _forces(SHEET, drive, (HEIGHT, rise, 0.0), (12, 96))
+    _, solution = _forces(SHAPE, drive, (HEIGHT, rise, 0.0), (12, 96))
     flow = loads(solution).flow
     middle = (OUTER**2 - INNER**2) / (2.0 * np.log(OUTER / INNER))
     expected = np.pi * speed * rise * middle / (2.0 * OUTER)
@@ -137,7 +137,7 @@ def test_grooved_slipper(validation, refine):
     for (quantity, unit, expected, rounding), column in zip(rows, refine(solve, (6, 12, 24)), strict=True):
         validation(
             case="Floating slipper with two lands and a groove",
-            source="verification cases 3.9, closed form",
+            source="closed form",
             quantity=quantity,
             unit=unit,
             expected=expected,
@@ -196,7 +196,7 @@ def test_hydrostatic_slipper(validation, refine):
 
 
 def test_pocket_feeds_by_its_orifice():
-    shape = replace(SHEET, orifice=Orifice(0.9e-3, 5e-3, 0.7))
+    shape = replace(SHAPE, orifice=Orifice(0.9e-3, 5e-3, 0.7))
     film = SlipperFilm(shape, _drive(case_pressure=1e5), cells=(4, 12))
     boundary = film.problem_at(0.0).boundary
     assert boundary["case"] == Held(1e5)
@@ -261,7 +261,7 @@ def test_retainer_holds_a_slipper_that_is_pulled():
     """500 N away from the plate, and what little the pocket adds: the slipper rests 5 um beyond the clearance."""
     low = constant(1e5)
     drive = _drive(outer=constant(500.0, 0.0, 0.0), chamber_pressure=low, retainer=Retainer(30e-6, 1e8))
-    rest = _stepped(SlipperFilm(SHEET, drive, physics=FULL, cells=(6, 24)), 33e-6, *TO_REST)[-1]
+    rest = _stepped(SlipperFilm(SHAPE, drive, physics=FULL, cells=(6, 24)), 33e-6, *TO_REST)[-1]
     assert 16.0 < rest.film_force[0] < 17.5
     assert rest.q[0] == pytest.approx(30e-6 + (500.0 + rest.film_force[0]) / 1e8, rel=1e-6)
 
@@ -271,7 +271,7 @@ def test_friction(validation, refine):
     drive = _drive(sliding=constant(3.0, 4.0), spin=100.0, outer=constant(-2e4, 0.0, 0.0))
 
     def solve(n: int) -> tuple[float, float]:
-        film = SlipperFilm(SHEET, drive, physics=FULL, cells=(n, 4 * n))
+        film = SlipperFilm(SHAPE, drive, physics=FULL, cells=(n, 4 * n))
         (pressed,) = _stepped(film, HEIGHT, 1e-9)
         found = film.friction(pressed, film.rubbed(pressed))
         shear = VISCOSITY / pressed.q[0] * float(film.space.area.sum())
@@ -282,7 +282,7 @@ def test_friction(validation, refine):
     (torque,) = refine(solve, (12, 24, 48))
     validation(
         case="Floating slipper that spins",
-        source="verification cases 3.8",
+        source="closed form",
         quantity="spin torque, w = 100 rad/s",
         unit="N m",
         expected=0.00441786,
@@ -295,7 +295,7 @@ def test_friction(validation, refine):
 def test_friction_of_contact():
     rough = Asperities(density=1e10, radius=1e-5, height=4e-7, modulus=8e10, friction_coefficient=0.1)
     drive = _drive(sliding=constant(3.0, 4.0), outer=constant(-2e4, 0.0, 0.0), chamber_pressure=constant(1e5))
-    film = SlipperFilm(SHEET, drive, FilmLaws(asperities=rough), FULL, (6, 24))
+    film = SlipperFilm(SHAPE, drive, FilmLaws(asperities=rough), FULL, (6, 24))
     rest = _stepped(film, 1e-6, *TO_REST)[-1]
     bears = float(rest.contact_force[0])
     assert bears == pytest.approx(2e4 - rest.film_force[0], rel=1e-6)
@@ -306,7 +306,7 @@ def test_friction_of_contact():
 
 def test_face_turns_with_the_slipper():
     face = Profile((EdgeRelief(OUTER, 8e-3, 2e-6), Waviness(2, 1e-6)))
-    film = SlipperFilm(replace(SHEET, face=face), _drive(spin=10.0), cells=(4, 32))
+    film = SlipperFilm(replace(SHAPE, face=face), _drive(spin=10.0), cells=(4, 32))
     x, y = film.space.vertices.T
     rim = np.isclose(np.hypot(x, y), OUTER)
     for time in (0.0, 0.02):

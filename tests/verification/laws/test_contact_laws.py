@@ -43,7 +43,7 @@ def test_table_of_the_integral(validation):
         for ratio, (expected, digit) in row.items():
             validation(
                 case="Greenwood-Tripp integral of Gaussian heights",
-                source="verification cases 4.2",
+                source="Greenwood and Tripp 1970-71, by quadrature",
                 quantity=f"F_{order:g}, H = {ratio:g}",
                 unit="1",
                 expected=expected,
@@ -60,7 +60,7 @@ def test_error_of_the_common_fit(validation):
         fit = 4.4086e-5 * (4.0 - ratio) ** 6.804
         validation(
             case="Common power-law fit of F_5/2",
-            source="verification cases 4.2",
+            source="Greenwood and Tripp 1970-71, by quadrature",
             quantity=f"error of the fit against the integral used here, H = {ratio:g}",
             unit="%",
             expected=percent,
@@ -117,7 +117,7 @@ def test_contact_pressure(validation):
     factor = 16.0 * np.sqrt(2.0) / 15.0 * np.pi * 0.04**2 * np.sqrt(HEIGHT / 20e-6)
     validation(
         case="Greenwood-Tripp contact pressure, eta beta sigma = 0.04, sigma/beta = 0.02, E' = 115 GPa",
-        source="verification cases 4.2",
+        source="Greenwood and Tripp 1970-71, by quadrature",
         quantity="contact pressure, h/sigma = 2",
         unit="Pa",
         expected=factor * 1.15e11 * 0.005423705,
@@ -127,7 +127,7 @@ def test_contact_pressure(validation):
     )
     validation(
         case="Greenwood-Tripp real area of contact, eta beta sigma = 0.04",
-        source="verification cases 4.2",
+        source="Greenwood and Tripp 1970-71, by quadrature",
         quantity="share of the nominal area, h/sigma = 1",
         unit="1",
         expected=np.pi**2 * 0.04**2 * 0.0753398,

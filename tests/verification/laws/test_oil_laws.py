@@ -75,7 +75,7 @@ def test_walther_row(validation):
     for quantity, found, expected, unit, digit in rows:
         validation(
             case="Walther's law of ISO VG 46",
-            source="verification cases 4.3",
+            source="ASTM D341",
             quantity=quantity,
             unit=unit,
             expected=expected,
@@ -96,7 +96,7 @@ def test_iso_grades_of_another_program(validation):
         obtained = grade.kinematic_viscosity_40C if celsius == 40 else grade.kinematic_viscosity_100C
         validation(
             case="ISO VG grades of ROSS",
-            source="verification cases 4.3",
+            source="ROSS (petrobras/ross), its oils",
             quantity=f"kinematic viscosity, {name}, {celsius} degC",
             unit="mm2/s",
             expected=dynamic / density * 1e6,
@@ -114,7 +114,7 @@ def test_vogel_from_three_walther_points(validation):
     for kelvin in at:
         validation(
             case="Vogel's law through three points of Walther's",
-            source="ASTM D341, verification cases 4.3",
+            source="ASTM D341",
             quantity=f"dynamic viscosity, {kelvin - 273.15:.0f} degC",
             unit="Pa s",
             expected=float(walther(kelvin, VG46)) * VG46.density,
@@ -149,7 +149,7 @@ def test_pressure_rows(validation):
     for quantity, found, expected, unit, digit in rows:
         validation(
             case="Viscosity under pressure, 0.0411 Pa s, 22 /GPa",
-            source="verification cases 4.3",
+            source="Barus 1893; Roelands 1966",
             quantity=quantity,
             unit=unit,
             expected=expected,
@@ -163,7 +163,7 @@ def test_density_rows(validation):
     for pressure, expected in ((1e7, 1.005667), (3e7, 1.016452), (1e8, 1.049275), (1e9, 1.213836)):
         validation(
             case="Dowson-Higginson density",
-            source="verification cases 4.3",
+            source="Dowson and Higginson 1966",
             quantity=f"density ratio, {pressure * 1e-6:g} MPa",
             unit="1",
             expected=expected,
@@ -187,7 +187,7 @@ def test_point_contact_rows(validation):
     for quantity, found, expected, digit in rows:
         validation(
             case="Point contact, U = 1e-11, G = 4500, W = 1e-6, k = 1",
-            source="verification cases 4.3",
+            source="Hamrock and Dowson 1977; Moes 1992",
             quantity=quantity,
             unit="1",
             expected=expected,

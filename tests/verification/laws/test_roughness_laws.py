@@ -29,7 +29,7 @@ def test_isotropic_rows(validation):
         for name, factor, value in zip(("phi_x", "Phi_s"), (phi_x, phi_s), expected, strict=True):
             validation(
                 case="Flow factors of isotropic roughness",
-                source="verification cases 4.1 (Patir and Cheng 1978, 1979)",
+                source="Patir and Cheng 1978, 1979",
                 quantity=f"{name}, h/sigma = {ratio:g}",
                 unit="1",
                 expected=value,
@@ -39,7 +39,7 @@ def test_isotropic_rows(validation):
             )
 
 
-PRINTED = {  # gamma: C, r, A1, al1, al2, al3, A2, A3, al4, al5, al6, D, s as the sheet prints them
+PRINTED = {  # gamma: C, r, A1, al1, al2, al3, A2, A3, al4, al5, al6, D, s as printed
     1 / 9: (1.48, 0.42, 2.046, 1.12, 0.78, 0.03, 1.856, 14.1, 2.45, 2.30, 0.10, 1.51, 0.52),
     1 / 6: (1.38, 0.42, 1.962, 1.08, 0.77, 0.03, 1.754, 13.4, 2.42, 2.30, 0.10, 1.51, 0.54),
     1 / 3: (1.18, 0.42, 1.858, 1.01, 0.76, 0.03, 1.561, 12.3, 2.32, 2.30, 0.10, 1.47, 0.58),
@@ -66,7 +66,7 @@ def test_every_row_of_the_table(gamma, validation):
     ):
         validation(
             case="Table of Patir and Cheng's factors",
-            source="verification cases 4.1 (Patir and Cheng 1978, 1979)",
+            source="Patir and Cheng 1978, 1979",
             quantity=f"{quantity}, gamma = {gamma:.3g}",
             unit="1",
             expected=expected,
@@ -90,7 +90,7 @@ def test_contact_factor_rows(validation):
         for name, value, got in zip(("phi_c", "hT/sigma"), (share, thickness), obtained, strict=True):
             validation(
                 case="Mean film of Gaussian heights",
-                source="verification cases 4.1",
+                source="closed form, normal distribution",
                 quantity=f"{name}, h/sigma = {ratio:g}",
                 unit="1",
                 expected=value,
@@ -105,7 +105,7 @@ def test_the_trap_of_low_ratios(validation):
     row = TABLE[0]
     validation(
         case="Published formula below its range",
-        source="verification cases 4.1",
+        source="Patir and Cheng 1978",
         quantity="1 - C exp(-r H), gamma = 1/9, H = 0.5: not used there",
         unit="1",
         expected=-0.20,

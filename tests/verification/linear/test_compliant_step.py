@@ -60,7 +60,7 @@ def test_winkler_channel_with_many_unknowns(form, validation, by_gmres):
     found = FilmSolver(space).solve(FilmProblem(space, film(GAP, VISCOSITY), ends, walls=walls))
     validation(
         case="Channel on Winkler's foundation",
-        source="verification cases 3.11, closed form",
+        source="closed form",
         quantity=f"flow per width, {space.size} unknowns, steps by GMRES, walls as {form} matrix",
         unit="m2/s",
         expected=STIFFNESS / (48.0 * VISCOSITY * LENGTH) * ((GAP + HIGH / STIFFNESS) ** 4 - GAP**4),

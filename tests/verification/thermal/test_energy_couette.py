@@ -69,7 +69,7 @@ def test_adiabatic_couette(validation, refine):
     found = refine(lambda cells: _rise(_adiabatic(cells, THINNING)), (8, 16, 32))
     validation(
         case="Adiabatic Couette flow",
-        source="verification cases 3.12",
+        source="heat balance, closed form",
         quantity="temperature rise, mu falls with exp(-0.03 dT/K)",
         unit="K",
         expected=37.6383,
@@ -83,7 +83,7 @@ def test_isoviscous_couette(validation):
     """The balance alone gives the rise, on any mesh; rounded to the printed digits."""
     validation(
         case="Adiabatic Couette flow",
-        source="verification cases 3.12",
+        source="heat balance, closed form",
         quantity="temperature rise, constant viscosity",
         unit="K",
         expected=69.7674,
@@ -113,7 +113,7 @@ def test_nahme_couette(validation):
         assert closed == pytest.approx(printed, abs=rounding)
         validation(
             case="Nahme Couette flow, Na = 0.642857",
-            source="verification cases 3.12",
+            source="Nahme 1940, closed form",
             quantity=f"{quantity}, 6 levels across",
             unit="1",
             expected=printed,
