@@ -35,7 +35,8 @@ def test_null_recording_is_noise(validation):
     size = found.residual.size
     validation(
         case="bench map without an effect", source="examples/recordings/open-01",
-        quantity="chi-square per reading", unit="1", expected=1.0, obtained=found.objective / size, tolerance=3.0 * np.sqrt(2.0 / size),
+        quantity="chi-square per reading", unit="1",
+        expected=1.0, obtained=found.objective / size, tolerance=3.0 * np.sqrt(2.0 / size),
     )  # fmt: skip
     fixed = tuple(one for one in parameters if one.name != "stand_out_share")
     pivoted = load_pump("ref90", {"piston.stand_out_share": 1.0})

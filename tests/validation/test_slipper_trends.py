@@ -231,7 +231,8 @@ def test_drain_without_load(validation):
         obtained=fast,
         tolerance=0.11 * 1000.0 / 2100.0,
         missed="the estimate counts what the faces push to and fro as flow into the case; that returns, and what "
-        "is left is drawn in: an inclined slipper carries more from the case under its leading land than out again",
+        "is left is drawn in: an inclined slipper carries more from the case under its leading land than "
+        "out again",
     )
 
 

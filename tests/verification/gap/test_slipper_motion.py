@@ -75,7 +75,7 @@ def _forces(shape: SlipperShape, drive: SlipperDrive, position, cells) -> tuple[
     ],
 )
 def test_tilted_slipper(tilt, speed, force, moment, validation, refine):
-    """The converged solution has -(U/2) dh/dx, of a plate that moves with U: the slipper slides over it with -U."""
+    """The reference has -(U/2) dh/dx, of a plate that moves with U: the slipper slides over it with -U."""
     drive = _drive(sliding=constant(-speed, 0.0))
     position = HEIGHT * np.array([1.0, tilt, 0.0])
 
