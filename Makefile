@@ -5,14 +5,16 @@ VENV := .venv/bin
 PYTHON = $(shell for python in python3.11 python3.12 python3.13 python3.14 python3; do \
 	$$python -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null && echo $$python && break; done)
 
-.PHONY: help install run test test-long check lock clean
+.PHONY: help install run test test-long check docs gallery lock clean
 
 help:
 	@echo "make install   set up .venv in this folder (once; later calls only check)"
 	@echo "make run       set up, then solve the reference pump at 2100 r/min, 35 MPa, full displacement"
 	@echo "make test      set up, then run all tests but those of minutes"
 	@echo "make test-long set up, then run the tests of minutes"
-	@echo "make check     set up, then style (ruff), types (mypy) and direction of imports (import-linter)"
+	@echo "make check     set up, then style (ruff), types (mypy), direction of imports (import-linter), documentation"
+	@echo "make docs      set up, then build the documentation site into build/site; needs no network"
+	@echo "make gallery   set up, then solve the examples of the gallery and draw docs/gallery.md anew"
 	@echo "make lock      resolve pyproject.toml anew into requirements.lock, keeping versions that still fit"
 	@echo "make clean     remove .venv and every cache; keeps runs/"
 
@@ -34,6 +36,14 @@ check: install
 	$(VENV)/ruff format --check
 	$(VENV)/mypy
 	$(VENV)/lint-imports
+	@$(MAKE) --no-print-directory docs
+
+docs: install
+	$(VENV)/sphinx-build -q -W --keep-going -j 2 -c docs/site -b html . build/site
+	@echo "build/site/index.html"
+
+gallery: install
+	$(VENV)/python docs/site/gallery.py
 
 lock: install
 	$(VENV)/uv pip compile --quiet pyproject.toml --all-extras --universal --python-version 3.11 \

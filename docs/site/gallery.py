@@ -1,0 +1,107 @@
+"""Draw the gallery: run its examples, shrink one picture of each report, write docs/gallery.md.
+
+    python docs/site/gallery.py [NAME ..]
+
+With names, only these examples are run; the others keep their pictures.
+"""
+
+from __future__ import annotations
+
+import base64
+import io
+import re
+import subprocess
+import sys
+import tempfile
+from dataclasses import dataclass
+from pathlib import Path
+
+from PIL import Image
+
+ROOT = Path(__file__).resolve().parents[2]
+DOCS = ROOT / "docs"
+PICTURES = DOCS / "gallery"
+WIDTH, COLOURS, ACROSS = 420, 64, 3
+EMBEDDED = re.compile(r'<img alt="([^"]*)"\s+src="data:image/png;base64,([^"]+)"')
+
+
+@dataclass(frozen=True)
+class Example:
+    """A command, and the picture of its report that stands for it.
+
+    picture: words that the picture's text begins with; part: left, top, right, bottom as shares of the picture.
+    """
+
+    name: str
+    title: str
+    command: str
+    picture: str = ""
+    part: tuple[float, float, float, float] = (0.0, 0.0, 1.0, 1.0)
+
+
+EXAMPLES = (
+    Example("journal", "Journal bearing with a cavity", "film examples/films/journal_bearing.toml"),
+    Example("stribeck", "Stribeck curve of rough walls", "film examples/films/stribeck_study.toml", "stribeck"),
+    Example("squeeze", "Film that ruptures in time", "film examples/films/oscillating_squeeze.toml", "Load"),
+    Example("plate", "Elastic plate under its film", "film examples/films/bending_plate.toml"),
+    Example("warm", "Film that warms along its way", "film examples/films/warm_slider.toml"),
+    Example("slipper", "Slipper of a pump", "film examples/films/ref90_slipper.toml"),
+    Example("valve-plate", "Valve plate, block tilted", "film examples/films/ref90_valve_plate.toml"),
+    Example("losses", "Losses of the friction pairs", "run ref90", "Mean loss"),
+    Example("chamber", "Chamber pressure over a turn", "run ref90 --fidelity lumped", "One chamber"),
+    Example("map", "Efficiency map", "map ref90"),
+    Example("destroke", "Swash plate that swings back", "transient examples/transients/destroke.toml"),
+    Example("orifice", "Navier-Stokes flow of a bore", "reference examples/references/slipper_orifice.toml"),
+    Example("diagnose", "Cause of a mismatch", "diagnose ref90 examples/recordings/open-06"),
+    Example("calibrate", "Friction coefficients fitted", "calibrate ref90 examples/recordings/open-01"),
+    Example("reproduce", "Published figure beside our numbers", "reproduce fig9"),
+)
+
+
+def main(names: list[str]) -> int:
+    """Write docs/gallery.md and the pictures of the named examples, or of all."""
+    PICTURES.mkdir(exist_ok=True)
+    for example in EXAMPLES:
+        if not names or example.name in names:
+            draw(example)
+    (DOCS / "gallery.md").write_text(page(), encoding="utf-8")
+    return 0
+
+
+def draw(example: Example) -> None:
+    """Run an example and leave its thumbnail in docs/gallery."""
+    with tempfile.TemporaryDirectory() as place:
+        folder = Path(place) / "run"
+        command = [sys.executable, "-m", "swashfilm", *example.command.split(), "-o", str(folder)]
+        subprocess.run(command, cwd=ROOT, check=True, stdout=subprocess.DEVNULL)
+        report = (folder / "report.html").read_text("utf-8")
+    found = [data for text, data in EMBEDDED.findall(report) if text.startswith(example.picture)]
+    if not found:
+        raise SystemExit(f"{example.name}: no picture '{example.picture}' among {EMBEDDED.findall(report)[:9]}")
+    whole = Image.open(io.BytesIO(base64.b64decode(found[0]))).convert("RGB")
+    (wide, tall), (left, top, right, bottom) = whole.size, example.part
+    shown = whole.crop((round(left * wide), round(top * tall), round(right * wide), round(bottom * tall)))
+    shown.thumbnail((WIDTH, WIDTH))
+    shown.quantize(COLOURS).save(PICTURES / f"{example.name}.png", optimize=True)
+
+
+def page() -> str:
+    """The gallery as Markdown: a table of pictures, each with its title and command."""
+    lines = [
+        "# Gallery",
+        "",
+        "Each picture is part of the report that the command beneath it writes. "
+        "`make gallery` runs all of them and writes this page.",
+        "",
+        "| " + " | ".join(" " for _ in range(ACROSS)) + " |",
+        "|" + "---|" * ACROSS,
+    ]
+    for start in range(0, len(EXAMPLES), ACROSS):
+        row = EXAMPLES[start : start + ACROSS]
+        lines.append("| " + " | ".join(f"![{one.title}](gallery/{one.name}.png)" for one in row) + " |")
+        lines.append("| " + " | ".join(f"**{one.title}** `swashfilm {one.command}`" for one in row) + " |")
+    return "\n".join(lines) + "\n"
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
