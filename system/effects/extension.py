@@ -64,6 +64,10 @@ def _key(parameter: Parameter) -> str:
     return parameter.name.rpartition(".")[2]
 
 
+THEORY = "docs/theory.md, Physics left out, as laws"
+"""Source of an entry whose law the documentation derives."""
+
+
 @dataclass(frozen=True)
 class Entry:
     """One id of the catalogue: where it acts, the channels it shows in, what it is mistaken for, its words."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from system.description.gap import Gap
 from system.effects.components import Component
 from system.effects.effect import EffectId, Kind
-from system.effects.extension import Entry, Extension, Law
+from system.effects.extension import THEORY, Entry, Extension, Law
 from system.effects.laws.contact import mixed_friction
 from system.effects.laws.film import (
     ElasticOpening,
@@ -91,7 +91,7 @@ FILM_ENTRIES = (
         regime="high speed, and high pressure",
         twins=(EffectId.ELASTIC_OPENING, EffectId.SHEAR_THINNING, EffectId.Q_CASE_DRIFT),
         sentence="films are warmer than the case: shear and throttling heat them and thin the oil",
-        source="sheet A2; Nahme 1940",
+        source="Nahme 1940",
     ),
     Entry(
         id=EffectId.VISCOSITY_PRESSURE,
@@ -108,7 +108,7 @@ FILM_ENTRIES = (
         regime="high pressure, every speed",
         twins=(EffectId.ELASTIC_OPENING, EffectId.CONTROL_FLOW, EffectId.Q_CASE_OFFSET),
         sentence="the oil thickens under pressure",
-        source="sheet A3; Barus 1893",
+        source="Barus 1893",
     ),
     Entry(
         id=EffectId.SHEAR_THINNING,
@@ -132,7 +132,7 @@ FILM_ENTRIES = (
         regime="high speed, every pressure",
         twins=(EffectId.CHURNING, EffectId.VISCOSITY_GRADE),
         sentence="the oil thins where it is sheared fast",
-        source="sheet A7; Cross 1965",
+        source="Cross 1965",
     ),
     Entry(
         id=EffectId.MIXED_FRICTION,
@@ -157,7 +157,7 @@ FILM_ENTRIES = (
         regime="low speed, high pressure, hot oil",
         twins=(EffectId.FRICTION_COEFFICIENT, EffectId.TORQUE_GAIN),
         sentence="faces touch where speed and viscosity are too low to part them",
-        source="sheet B1; Stribeck 1902",
+        source="Stribeck 1902",
     ),
     Entry(
         id=EffectId.ELASTIC_OPENING,
@@ -168,7 +168,7 @@ FILM_ENTRIES = (
         regime="high pressure, every speed and temperature alike",
         twins=(EffectId.FILM_HEATING, EffectId.VISCOSITY_PRESSURE),
         sentence="a film opens under pressure",
-        source="sheet B2",
+        source=THEORY,
     ),
     Entry(
         id=EffectId.THERMAL_CLEARANCE,
@@ -179,7 +179,7 @@ FILM_ENTRIES = (
         regime="temperatures far from the pump's own",
         twins=(EffectId.VISCOSITY_GRADE, EffectId.T_CASE_OFFSET),
         sentence="a clearance changes with temperature, as its walls expand unlike",
-        source="sheet B3",
+        source=THEORY,
     ),
     Entry(
         id=EffectId.SQUEEZE_PUMPING,
@@ -196,7 +196,7 @@ FILM_ENTRIES = (
         regime="every pressure, in proportion to speed",
         twins=(EffectId.Q_CASE_DRIFT, EffectId.CONTROL_FLOW, EffectId.Q_CASE_OFFSET),
         sentence="slippers that rise and fall each turn pump oil into the case",
-        source="sheet B5",
+        source=THEORY,
     ),
     Entry(
         id=EffectId.SLIPPER_LIFT,
@@ -224,7 +224,7 @@ FILM_ENTRIES = (
         regime="high speed and low inlet pressure",
         twins=(EffectId.INCOMPLETE_FILLING, EffectId.BLOCK_TIPPING),
         sentence="slippers tip off the swash plate on the suction side",
-        source="sheet B6",
+        source=THEORY,
     ),
     Entry(
         id=EffectId.BLOCK_TIPPING,
@@ -241,6 +241,6 @@ FILM_ENTRIES = (
         regime="high speed and low pressure",
         twins=(EffectId.INCOMPLETE_FILLING, EffectId.SLIPPER_LIFT),
         sentence="the block tips on the valve plate",
-        source="sheet B7; Manring 2000",
+        source="Manring 2000",
     ),
 )

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from system.effects.components import Component
 from system.effects.effect import EffectId, Kind
-from system.effects.extension import Entry, Extension, Law, Values
+from system.effects.extension import THEORY, Entry, Extension, Law, Values
 from system.effects.laws import drag as drag_laws
 from system.effects.laws import flow as flow_laws
 from system.effects.laws import port as port_laws
@@ -62,7 +62,7 @@ FILLING_ENTRIES = (
         ),
         (Component.DISPLACEMENT,), FLOWS, (E.DISPLACEMENT, E.Q_OUT_GAIN, E.Q_IN_GAIN),
         "low inlet pressure, every speed", "bubbles of air take the place of oil in the chambers",
-        "sheet A5; Nykaenen et al. 2000",
+        "Nykaenen et al. 2000",
     ),
     _entry(
         _whole(
@@ -72,7 +72,7 @@ FILLING_ENTRIES = (
         (Component.DISPLACEMENT,), (*FLOWS, ChannelName.TORQUE),
         (E.SLIPPER_LIFT, E.BLOCK_TIPPING, E.ENTRAINED_AIR),
         "above a speed that goes with the root of the inlet pressure", "chambers no longer fill at suction",
-        "sheet A6",
+        THEORY,
     ),
 )  # fmt: skip
 DRAG_ENTRIES = (
@@ -82,7 +82,7 @@ DRAG_ENTRIES = (
             _size(E.CHURNING, "factor", 1.0, 3.0, None, "1: Wendt's drum and the pistons' drag, +-50 %"),
         ),
         (Component.CASE_DRAG,), (ChannelName.TORQUE,), (E.SHEAR_THINNING, E.PORT_THROTTLING),
-        "high speed, every pressure", "the rotating group churns the oil in the case", "sheet C1; Wendt 1933",
+        "high speed, every pressure", "the rotating group churns the oil in the case", "Wendt 1933",
     ),
     _entry(
         _whole(
@@ -91,7 +91,7 @@ DRAG_ENTRIES = (
             grid=tuple({"per_case_pressure": rise} for rise in CASE_SEALS),
         ),
         (Component.CASE_DRAG,), (ChannelName.TORQUE,), (E.TORQUE_OFFSET, E.CHARGE_PUMP_DRAG),
-        "everywhere alike", "the shaft's seal drags", "sheet C3",
+        "everywhere alike", "the shaft's seal drags", THEORY,
     ),
     _entry(
         _whole(
@@ -99,7 +99,7 @@ DRAG_ENTRIES = (
             _size(E.CHARGE_PUMP_DRAG, "volume", 20e-6, 40e-6, Dimension.DISPLACEMENT, "a fifth of the pump's own"),
         ),
         (Component.CASE_DRAG,), (ChannelName.TORQUE,), (E.SEAL_DRAG, E.TORQUE_OFFSET),
-        "in proportion to the inlet pressure", "the shaft drives a charge pump too", "sheet C3",
+        "in proportion to the inlet pressure", "the shaft drives a charge pump too", THEORY,
     ),
     _entry(
         _whole(
@@ -108,7 +108,7 @@ DRAG_ENTRIES = (
         ),
         (Component.COMMUTATION,), (ChannelName.TORQUE,), (E.CHURNING,),
         "high speed and large displacement", "passages behind the ports throttle the flow",
-        "sheet D2; Schlosser 1961",
+        "Schlosser 1961",
     ),
     _entry(
         _whole(
@@ -118,7 +118,7 @@ DRAG_ENTRIES = (
         (Component.COMPRESSION, Component.COMMUTATION), (ChannelName.TORQUE,),
         (E.FRICTION_COEFFICIENT, E.CHARGE_PUMP_DRAG, E.TORQUE_GAIN),
         "high pressure and small displacement, every speed", "the energy of compressed oil is lost at the ports",
-        "sheet D3",
+        THEORY,
     ),
 )  # fmt: skip
 FLOW_ENTRIES = (
@@ -129,7 +129,7 @@ FLOW_ENTRIES = (
         ),
         (Component.CROSS_FLOW,), FLOWS, (E.LAMINAR_CROSS_LEAK, E.DISPLACEMENT, E.Q_OUT_GAIN),
         "every speed and temperature, with the root of pressure", "an orifice joins delivery and inlet",
-        "sheet D1",
+        THEORY,
     ),
     _entry(
         _whole(
@@ -148,7 +148,7 @@ FLOW_ENTRIES = (
             grid=({"laminar": 0.0}, {"laminar": 1.0}), scales=(_share_of_clearance(),),
         ),
         (Component.DRAIN_FLOW,), (ChannelName.Q_CASE, ChannelName.Q_OUT), (E.Q_CASE_OFFSET, E.SQUEEZE_PUMPING),
-        "every speed and displacement", "the control draws oil from delivery into the case", "sheet D4",
+        "every speed and displacement", "the control draws oil from delivery into the case", THEORY,
     ),
 )  # fmt: skip
 PORT_ENTRIES = (
@@ -160,7 +160,7 @@ PORT_ENTRIES = (
         ),
         (Component.COMMUTATION,), (ChannelName.P_CHAMBER, *FLOWS, ChannelName.TORQUE),
         (E.PORT_SHORT_CIRCUIT, E.COMPRESSION_LOSS),
-        "shaft angles where ports begin to open", "relief grooves are worn: ports open sooner", "sheet D1",
+        "shaft angles where ports begin to open", "relief grooves are worn: ports open sooner", THEORY,
     ),
     _entry(
         _whole(
@@ -170,7 +170,7 @@ PORT_ENTRIES = (
         ),
         (Component.DISPLACEMENT,), (*FLOWS, ChannelName.TORQUE), (E.DISPLACEMENT, E.TORQUE_GAIN),
         "high pressure and small displacement, every speed, flow and torque alike",
-        "the swash plate gives way under load", "sheet D5",
+        "the swash plate gives way under load", THEORY,
     ),
     _entry(
         _whole(
@@ -179,7 +179,7 @@ PORT_ENTRIES = (
             grid=tuple({"speed": speed} for speed in RESONANCES),
         ),
         (Component.Q_OUT_SENSOR,), (ChannelName.Q_OUT,), (E.Q_OUT_GAIN,),
-        "one speed", "the delivery line resonates, and its meter reads wrong there", "sheet D6",
+        "one speed", "the delivery line resonates, and its meter reads wrong there", THEORY,
     ),
 )  # fmt: skip
 PUMP_ENTRIES = (*FILLING_ENTRIES, *DRAG_ENTRIES, *FLOW_ENTRIES, *PORT_ENTRIES)

@@ -16,7 +16,7 @@ N = ChannelName
 def _sensor(
     effect: EffectId, channel: ChannelName, at: Component, twins: tuple[EffectId, ...], regime: str, sentence: str
 ) -> Entry:
-    source = "sheets E1 to E6"
+    source = "docs/theory.md, Readings and parameters"
     return Entry(effect, Kind.SENSOR_FAULT, (), (at,), (channel,), regime, twins, sentence, source)
 
 

@@ -23,7 +23,7 @@ Courses = Mapping[Gap, GapCourse]
 def swash_droop(values: Values, courses: Courses, state: BenchState) -> Effects:
     """A plate that gives way under load by an angle, whatever its own: `rate` rad/Pa, and `play` rad at any load.
 
-    The moment of the pistons under pressure bends stop, actuator and trunnions (sheet D5). Ideal flow and torque
+    The moment of the pistons under pressure bends stop, actuator and trunnions. Ideal flow and torque
     fall alike, the more of them the less the plate is tilted; it gives way no further than upright.
     """
     angle = np.arctan(swash_tangent(state))
