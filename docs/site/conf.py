@@ -14,6 +14,7 @@ sys.path.insert(0, str(HERE))
 
 project = "Swashfilm"
 author = "The Swashfilm founders"
+copyright = f"{author}, MIT licence"
 release = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"]["version"]
 extensions = ["myst_nb", "sphinx.ext.autodoc", "sphinx_copybutton", "docstrings", "pages"]
 

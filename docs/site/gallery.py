@@ -49,12 +49,17 @@ EXAMPLES = (
     Example("valve-plate", "Valve plate, block tilted", "film examples/films/ref90_valve_plate.toml"),
     Example("losses", "Losses of the friction pairs", "run ref90", "Mean loss"),
     Example("chamber", "Chamber pressure over a turn", "run ref90 --fidelity lumped", "One chamber"),
-    Example("map", "Efficiency map", "map ref90 --fidelity lumped --workers 2"),
+    Example("map", "Efficiency map", "map ref90 --fidelity lumped", part=(0.0, 0.0, 0.36, 1.0)),
     Example("destroke", "Swash plate that swings back", "transient examples/transients/destroke.toml"),
     Example("orifice", "Navier-Stokes flow of a bore", "reference examples/references/slipper_orifice.toml"),
-    Example("diagnose", "Cause of a mismatch", "diagnose ref90 examples/recordings/open-06"),
+    Example("diagnose", "Cause of a mismatch", "diagnose ref90 examples/recordings/open-06", "What is claimed"),
     Example("calibrate", "Friction coefficients fitted", "calibrate ref90 examples/recordings/open-01"),
-    Example("reproduce", "Published figure beside our numbers", "reproduce fig18 --fidelity lumped"),
+    Example(
+        "reproduce",
+        "Published figure beside our numbers",
+        "reproduce fig18 --fidelity lumped",
+        part=(0.0, 0.0, 0.5, 1.0),
+    ),
 )
 
 
