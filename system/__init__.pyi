@@ -12,6 +12,7 @@ from .points.floating import floating_point as floating_point
 from .points.lumped import lumped_point as lumped_point
 from .points.table.build import build_table as build_table
 from .points.table.point import table_point as table_point
+from .points.table.store import find_table as find_table
 from .pump.laws.friction_pairs import Pair as Pair
 from .pump.operating import OperatingPoint as OperatingPoint
 from .pump.operating import operating_point as operating_point
