@@ -22,8 +22,8 @@ from swashfilm.console.fidelity import Fidelity
 from swashfilm.runs.map.run import MapAsked, run_map
 from system.maps.plan import MapAxis, MapInput, MapPlan, map_plan, paper_axes
 from system.pump_file.file import load_pump
-from system.work.processes import crew
-from system.work.tasks import Hands
+from system.work.processes import process_pool
+from system.work.tasks import Executor
 
 FINE = 17
 """Pressures of the finer map, at five temperatures: 4 x 17 x 4 x 5 points."""
@@ -39,11 +39,11 @@ def main() -> None:
     options = parser.parse_args()
     paper = map_plan(load_pump("ref90"), paper_axes())
     if options.films:
-        rows = [timed("112 films by table", paper, Fidelity.FILMS, lambda: crew(2))]
+        rows = [timed("112 films by table", paper, Fidelity.FILMS, lambda: process_pool(2))]
     else:
         plans = {"112 lumped": paper, f"{len(finer(paper).points)} lumped": finer(paper)}
-        timed("112 lumped", paper, Fidelity.LUMPED, lambda: crew(1))  # compiles
-        makers = [lambda: crew(1), lambda: crew(2), *([local_cluster] if options.cluster else [])]
+        timed("112 lumped", paper, Fidelity.LUMPED, lambda: process_pool(1))  # compiles
+        makers = [lambda: process_pool(1), lambda: process_pool(2), *([local_cluster] if options.cluster else [])]
         rows = [timed(name, plan, Fidelity.LUMPED, maker) for maker in makers for name, plan in plans.items()]
     table = Table(
         "map", "by", "wall / s", "processor / s", "goal, wall / s", title=f"load {os.getloadavg()[0]:.1f}"
@@ -61,7 +61,7 @@ def finer(plan: MapPlan) -> MapPlan:
 
 
 def timed(
-    name: str, plan: MapPlan, fidelity: Fidelity, maker: Callable[[], AbstractContextManager[Hands]]
+    name: str, plan: MapPlan, fidelity: Fidelity, maker: Callable[[], AbstractContextManager[Executor]]
 ) -> tuple[str, ...]:
     """A map run whole, page and all, with the start and the end of those who do its points."""
     with tempfile.TemporaryDirectory() as folder:
@@ -69,9 +69,9 @@ def timed(
         run = Path(folder) / "run"
         run.mkdir()
         wall, processor = time.perf_counter(), processor_seconds()
-        with maker() as hands:
-            summary = run_map(MapAsked(plan, fidelity), run, hands, lambda *_: None)
-            by = f"{type(hands).__name__.lower()} of {hands.workers}"
+        with maker() as executor:
+            summary = run_map(MapAsked(plan, fidelity), run, executor, lambda *_: None)
+            by = f"{type(executor).__name__.lower()} of {executor.workers}"
         assert summary["solved"] == summary["points"], summary["failed"]
         wall, processor = time.perf_counter() - wall, processor_seconds() - processor
     goal = f"{GOALS[name]:.0f}" if name in GOALS else ""
@@ -85,7 +85,7 @@ def processor_seconds() -> float:
 
 
 @contextmanager
-def local_cluster() -> Iterator[Hands]:
+def local_cluster() -> Iterator[Executor]:
     """Two workers of a Dask cluster on this machine."""
     from distributed import LocalCluster
 
@@ -94,9 +94,9 @@ def local_cluster() -> Iterator[Hands]:
     os.environ.update(dict.fromkeys(THREADS, "1"))
     with (
         LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as local,
-        cluster(local.scheduler_address) as hands,
+        cluster(local.scheduler_address) as executor,
     ):
-        yield hands
+        yield executor
 
 
 if __name__ == "__main__":

@@ -28,9 +28,9 @@ from diagnosis.verdict.stand_ins import without_stand_ins
 from diagnosis.verdict.trend import coordinates
 from reynolds.numerics.arrays import Array
 from system.effects.effect import Kind
-from system.estimation.posterior import Effort, Posterior, settled
+from system.estimation.posterior import FitEffort, Posterior, settled
 from system.inputs.channels import ChannelName
-from system.work.processes import Crew, crew
+from system.work.processes import ProcessPool, process_pool
 from system.work.progress import Report, silent
 
 FORETOLD = 6  # explanations, the likeliest, whose held-out points are looked at
@@ -52,8 +52,8 @@ def diagnose_study(
     null, not_null = _null(study, screened[0], thresholds)
     detection = confirmed(study, detection, _fit_of(null), thresholds)
     screened = _screened_anew(study, detection, screened, null, thresholds)
-    with crew(workers) as hands:
-        fits = _fits(study, detection, screened, null, thresholds, hands, report)
+    with process_pool(workers) as executor:
+        fits = _fits(study, detection, screened, null, thresholds, executor, report)
     ranked = _foretold(study, null, with_probabilities(fits.weighed, thresholds.name.temperature), thresholds)
     verdict = judge(study, detection, ranked, coordinates(study, viscosity), thresholds)
     notes = (*map(note_text, study.recording.notes), *verdict.reasons, *not_null, *fits.failed)
@@ -74,24 +74,24 @@ def _fits(
     screened: Sequence[Weighed],
     null: Weighed,
     thresholds: Thresholds,
-    hands: Crew,
+    executor: ProcessPool,
     report: Report,
 ) -> _Fits:
     """The likeliest refitted; where there is a mismatch wrong parameters too, and several effects together."""
     listed = shortlist(screened, is_settled(detection, null, thresholds), thresholds)
     combined: tuple[Weighed, ...] = ()
     if is_settled(detection, null, thresholds):
-        refitted, failed = refit_all(study, listed, thresholds, hands, report)
+        refitted, failed = refit_all(study, listed, thresholds, executor, report)
     else:
         wrong = wrong_parameters(study, screened, thresholds)
         more = tuple(each for each, _ in wrong if each not in listed)
         reached = [look.reached for _, look in wrong]
         reached += [] if null.linear else [_fit_of(null).objective]
         hopeless = min(reached, default=inf) + 2.0 * HOPELESS
-        refitted, failed = refit_all(study, (*listed, *more), thresholds, hands, report, hopeless)
+        refitted, failed = refit_all(study, (*listed, *more), thresholds, executor, report, hopeless)
         placed = _placed(study, screened, null, refitted)
-        combined, not_combined = combine(study, placed, thresholds, hands, report)
-        parts, not_parted = refit_all(study, _parts(placed, combined), thresholds, hands, report)
+        combined, not_combined = combine(study, placed, thresholds, executor, report)
+        parts, not_parted = refit_all(study, _parts(placed, combined), thresholds, executor, report)
         refitted, failed = (*refitted, *parts), (*failed, *not_combined, *not_parted)
     single = _unknown_anew(study, _placed(study, screened, null, refitted), null, thresholds)
     return _Fits(without_stand_ins(study, (*single, *combined), thresholds), failed)
@@ -256,10 +256,10 @@ def _not_identifiable(verdict: Verdict, after: Posterior) -> tuple[str, ...]:
     return (*told, *tied)
 
 
-def _effort(ranked: Sequence[Weighed]) -> Effort:
+def _effort(ranked: Sequence[Weighed]) -> FitEffort:
     """What all refits have cost together."""
     spent = [each.posterior.effort for each in ranked if each.posterior is not None]
-    return Effort(
+    return FitEffort(
         sum(each.predictions for each in spent),
         sum(each.slopes for each in spent),
         sum(each.seconds for each in spent),

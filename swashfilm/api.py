@@ -179,14 +179,14 @@ def map(
         "fidelity": fidelity,
     }
     with _door("map"), _pump_file(pump) as name:
-        from swashfilm.runs.map.command import map_case, map_hands
+        from swashfilm.runs.map.command import map_case, map_executor
         from swashfilm.runs.map.result import MapRun
         from swashfilm.runs.map.run import run_map
 
         words = _words("map", [name], given | options)
         asked = map_case(words)
-        with map_hands(words, asked) as hands:
-            return MapRun.ran(lambda folder: run_map(asked, folder, hands, report))
+        with map_executor(words, asked) as executor:
+            return MapRun.ran(lambda folder: run_map(asked, folder, executor, report))
 
 
 def table(pump: str | Path | PumpDescription, *, report: Report = silent, **options: object) -> TableRun:
@@ -258,11 +258,11 @@ def reproduce(figure: str = "all", *, report: Report = silent, **options: object
         from swashfilm.runs.reproduce.command import reproduce_case
         from swashfilm.runs.reproduce.result import Reproduction
         from swashfilm.runs.reproduce.run import run_reproduce
-        from system.work.processes import crew
+        from system.work.processes import process_pool
 
         asked, workers = reproduce_case(_words("reproduce", [figure], options))
-        with crew(workers) as hands:
-            return Reproduction.ran(lambda folder: run_reproduce(asked, hands, folder, report))
+        with process_pool(workers) as executor:
+            return Reproduction.ran(lambda folder: run_reproduce(asked, executor, folder, report))
 
 
 def open(folder: str | Path) -> Result:

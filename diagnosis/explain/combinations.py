@@ -14,7 +14,7 @@ from diagnosis.thresholds import Thresholds
 from system.description.gap import Gap
 from system.effects.effect import EffectId
 from system.estimation.posterior import Posterior, settled
-from system.work.processes import Crew
+from system.work.processes import ProcessPool
 from system.work.progress import Report
 
 REFITTED = 2  # of the additions to the best, and of the pairs at the prior mean
@@ -23,7 +23,7 @@ MOST_EFFECTS = 3
 
 
 def combine(
-    study: Study, weighed: Sequence[Weighed], thresholds: Thresholds, hands: Crew, report: Report
+    study: Study, weighed: Sequence[Weighed], thresholds: Thresholds, executor: ProcessPool, report: Report
 ) -> tuple[tuple[Weighed, ...], tuple[str, ...]]:
     """Explanations of several effects that were worth a refit, and what could not be refitted.
 
@@ -40,7 +40,7 @@ def combine(
         tried = _additions(study, best, known, thresholds)
         if len(best.hypothesis.effects) == 1:
             tried += [each for each in _pairs(study, known, thresholds) if not _holds(tried, each)]
-        done, reasons = refit_all(study, tried, thresholds, hands, report)
+        done, reasons = refit_all(study, tried, thresholds, executor, report)
         failed += reasons
         refitted = [each for each in done if each.posterior is not None]
         found += refitted

@@ -23,7 +23,7 @@ from system.estimation.parameters import Parameter
 from system.estimation.posterior import Posterior, values_at
 from system.estimation.simulator import Simulator
 from system.inputs.errors import NotConverged
-from system.work.processes import Crew
+from system.work.processes import ProcessPool
 from system.work.progress import Report
 
 SIZES = (0.1, 0.3, 1.0, 2.0)  # spreads that a start is looked for at
@@ -105,7 +105,7 @@ def refit_all(
     study: Study,
     listed: Sequence[Weighed],
     thresholds: Thresholds,
-    hands: Crew,
+    executor: ProcessPool,
     report: Report,
     hopeless: float = inf,
 ) -> tuple[tuple[Weighed, ...], tuple[str, ...]]:
@@ -114,8 +114,8 @@ def refit_all(
         return (), ()
     task = partial(_numbered, study, thresholds, hopeless)
     found: dict[int, tuple[Weighed, str | None]] = {}
-    report(0, len(listed), f"fitting {', '.join(each.hypothesis.text for each in listed[: hands.workers])}")
-    for number, done in hands.do(task, list(enumerate(listed))):
+    report(0, len(listed), f"fitting {', '.join(each.hypothesis.text for each in listed[: executor.workers])}")
+    for number, done in executor.do(task, list(enumerate(listed))):
         found[number] = done
         report(len(found), len(listed), f"fitted {done[0].hypothesis.text}")
     ordered = [found[number] for number in range(len(listed))]

@@ -12,7 +12,7 @@ from diagnosis.next_point.choose import NextPoint
 from diagnosis.verdict.locate import Location
 from system.description.gap import Gap
 from system.effects.effect import EffectId, Kind
-from system.estimation.posterior import Effort, Posterior
+from system.estimation.posterior import FitEffort, Posterior
 from system.inputs.units import Dimension
 
 
@@ -70,4 +70,4 @@ class Diagnosis:
     next_point: NextPoint | None
     not_identifiable: tuple[str, ...]
     notes: tuple[str, ...]
-    effort: Effort
+    effort: FitEffort

@@ -51,9 +51,9 @@ INSTANT = {Gap.PISTON: 1.5 * np.pi, Gap.SLIPPER: 1.5 * np.pi, Gap.VALVE_PLATE: 0
 
 @dataclass(frozen=True)
 class OpeningCase:
-    """What is learnt: a gap of a pump at rated speed, over the pressure above the case. A `table_points.Asked`.
+    """Response to learn: a gap of a pump at rated speed, over the pressure above the case. A `SamplingTask`.
 
-    The case's own pressure stands on all sides of the parts and bends none; it is left out.
+    The case's own pressure acts on all sides of the parts and deforms none; it is left out.
     """
 
     pump: PumpDescription

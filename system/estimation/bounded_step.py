@@ -50,10 +50,10 @@ class Quadratic:
 
 
 def bounded_step(model: Quadratic, bounds: Bounds, damping: float, largest: float) -> Array:
-    """The damped Newton step of the model: its least between bounds, none of it longer than `largest` in any xi.
+    """The damped Newton step of the model: its minimum between bounds, with no component longer than `largest`.
 
-    (precision + damping diag(precision)) d = gradient within the bounds, and on a bound a gradient that points out
-    of it; a step too long is shortened as a whole.
+    (precision + damping diag(precision)) d = gradient within the bounds; a component on a bound whose gradient
+    points outwards is zero. A step that is too long is shortened as a whole.
     """
     below, above = bounds.lowest - model.xi, bounds.highest - model.xi
     damped = model.precision + damping * np.diag(np.diag(model.precision))
@@ -66,7 +66,9 @@ def bounded_step(model: Quadratic, bounds: Bounds, damping: float, largest: floa
 
 
 def _held(gradient: Array, damped: Array, below: Array, above: Array) -> tuple[Array, NDArray[np.bool_]]:
-    """What would pass a bound held on it and the rest solved anew, and which are held: mostly it is the least."""
+    """The step with all components that would pass a bound held on it and the rest solved again, and the mask of
+    the held ones. In most cases it is the minimum.
+    """
     step = np.zeros_like(gradient)
     free = np.ones(step.size, dtype=bool)
     while free.any():

@@ -1,4 +1,4 @@
-"""Which combinations of parameters the readings leave to their priors."""
+"""Combinations of parameters that the readings do not determine."""
 
 from __future__ import annotations
 
@@ -16,9 +16,10 @@ STILL = 1e-6  # relative gain of a turn below which the rotation rests
 
 @dataclass(frozen=True)
 class Combination:
-    """A direction in xi that the readings hardly touch: sum of weights^2 is 1, but for those too small to show.
+    """A direction in xi that the readings hardly determine: sum of weights^2 is 1, without weights too small to
+    show.
 
-    shrinkage: posterior over prior variance along it, 1 where the readings say nothing.
+    shrinkage: posterior over prior variance along it, 1 where the readings contain no information.
     """
 
     names: tuple[str, ...]
@@ -30,7 +31,7 @@ def undetermined(posterior: Posterior, limit: float = 0.9) -> tuple[Combination,
     """The combinations whose variance is more than `limit` of the prior's, the least determined first.
 
     They span the eigenvectors of the posterior's covariance in xi with eigenvalues above `limit`, rotated so that
-    each combines as few parameters as can be (varimax; Kaiser 1958): any other basis of that space says the same.
+    each combines few parameters (varimax; Kaiser 1958). Any other basis of that space is equivalent.
     """
     variance, axes = np.linalg.eigh(posterior.covariance)
     rotated = _varimax(axes[:, variance > limit])

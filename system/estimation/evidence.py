@@ -1,9 +1,9 @@
-"""How well hypotheses stand: evidence of a fit, scores and evidences of columns that were not fitted.
+"""Comparison of hypotheses: evidence of a fit, scores and evidences of columns that were not fitted.
 
-A column v is the whitened change of all readings by one spread of a parameter that the fit does not have. With the
-fit's slopes A, precision H = A^T A + 1 and residual r everything follows from g = v.r and
-G = v.(v - A H^-1 A^T v): linear and Gaussian, exact where the readings are linear in the parameters.
-All evidences are natural logarithms.
+A column v is the whitened change of all readings by one spread of a parameter that the fit does not have. With
+the fit's slopes A, precision H = A^T A + 1 and residual r everything follows from g = v.r and G = v.(v - A H^-1
+A^T v): linear and Gaussian, exact where the readings are linear in the parameters. All evidences are natural
+logarithms.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ NOTHING_LEFT = 1e-12  # of a column's square: less is round-off of taking the fi
 
 
 class Sign(Enum):
-    """Which sign the size of an effect may have."""
+    """Permitted sign of the size of an effect."""
 
     POSITIVE = "positive"
     NEGATIVE = "negative"
@@ -37,7 +37,8 @@ class Score:
     """A column against a residual, the fitted parameters projected out.
 
     z: size over sigma; size, sigma in spreads of the column's parameter; projected: the whitened column (n,) less
-    what the fitted parameters can take up of it. A column they take up wholly has z = size = 0, sigma = inf.
+    the part that the fitted parameters absorb. A column that they absorb completely has z = size = 0, sigma =
+    inf.
     """
 
     z: float
@@ -57,7 +58,7 @@ def score(posterior: Posterior, column: Array) -> Score:
 
 
 def project(posterior: Posterior, columns: Array) -> Array:
-    """Whitened columns (n,) or (n, m) less what the fitted parameters can take up: v - A H^-1 A^T v."""
+    """Whitened columns (n,) or (n, m) less the part that the fitted parameters absorb: v - A H^-1 A^T v."""
     taken = cho_solve(cho_factor(posterior.precision), posterior.slopes.T @ columns)
     left: Array = columns - posterior.slopes @ taken
     return left
@@ -94,8 +95,8 @@ def multiplier_evidences_without(
 ) -> Array:
     """(P,), `multiplier_evidence` without the readings of one part at a time, in the order of the parts' numbers.
 
-    `parts` (n,) numbers the readings. The fit without a part is repeated in its linear form; it is to stand at
-    the peak of that (`linear_posterior`, `settled`).
+    `parts` (n,) numbers the readings. The fit without a part is repeated in its linear form; the fit must be at
+    the peak of that form (`linear_posterior`, `settled`).
     """
     count = posterior.xi.size
     whole = np.column_stack((posterior.slopes, columns, posterior.residual))

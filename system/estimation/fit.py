@@ -1,9 +1,9 @@
-"""The peak of the posterior: damped Gauss-Newton steps that slopes lead and predictions decide.
+"""The peak of the posterior, by damped Gauss-Newton steps. Slopes propose a step, a prediction decides it.
 
-Levenberg (1944) and Marquardt (1963), bounds holding what they stop. Slopes are corrected along each step by what
-it shows (Broyden 1965), so that approximate ones still lead to the peak of the true objective; they are asked for
-anew where a step keeps little of its promise, and at the peak. A step that leaves the floor of a curved valley is
-bent back to it.
+Levenberg (1944) and Marquardt (1963), with bounds. Each step corrects the slopes (Broyden 1965), so that
+approximate slopes still lead to the peak of the true objective. They are computed again at the peak, and where a
+step achieves little of its predicted reduction. A step that leaves the floor of a curved valley is curved back to
+it.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from reynolds.numerics.arrays import Array
 from system.estimation.bounded_step import Bounds, Quadratic, bounded_step
 from system.estimation.laplace import laplace, log_mass
 from system.estimation.observations import Observations
-from system.estimation.posterior import Effort, Posterior, standard_slopes, values_at
+from system.estimation.posterior import FitEffort, Posterior, standard_slopes, values_at
 from system.estimation.simulator import Simulator
 from system.estimation.whitening import Whitening, whitener
 from system.inputs.errors import NotConverged
@@ -36,12 +36,12 @@ SAME_NOISE = 1e-2  # relative change of the whitening below which it is not rene
 
 @dataclass(frozen=True)
 class FitLimits:
-    """When a fit ends: steps at most, change of the objective, largest step in xi, rounds of whitening.
+    """End of a fit: steps at most, change of the objective, largest step in xi, rounds of whitening.
 
-    stall: fall of the objective still promised with which a place that no step betters is a peak all the same;
-    like the change in units of the objective per reading where that is above one. Half a nat serves smooth models;
-    models with kinks promise more than they hold. hopeless: an objective that a fit is of no use above; one that
-    after PATIENCE trials promises no less ends where it stands, its evidence that of the peak promised.
+    stall: predicted fall of the objective below which a point that no step improves counts as a peak; like the
+    change it is in units of the objective per reading where that is above one. Half a nat suits smooth models;
+    models with kinks predict more than they achieve. hopeless: an objective above which a fit is of no use. After
+    PATIENCE trials a fit whose predicted objective is not lower ends, with the evidence of the predicted peak.
     """
 
     steps: int = 50
@@ -56,8 +56,8 @@ LIMITS = FitLimits()
 
 
 @dataclass(frozen=True)
-class _Place:
-    """Where a fit stands: xi, predictions (N, C), whitened residual (n,), objective."""
+class _Iterate:
+    """State of a fit: xi, predictions (N, C), whitened residual (n,), objective."""
 
     xi: Array
     predictions: Array
@@ -69,19 +69,19 @@ class _Place:
 class _Walk:
     """A place, the slopes that lead on from it and the xi they were taken at, the damping of the next step."""
 
-    place: _Place
+    place: _Iterate
     slopes: Array
     taken: Array
     damping: float
 
     @property
     def moved(self) -> float:
-        """How far in any xi the place is from where the slopes were taken."""
+        """Largest distance in any xi from the point where the slopes were computed."""
         return _apart(self.place.xi, self.taken)
 
 
 class _Fit:
-    """One fit on its way: the model, the readings, and what is spent."""
+    """A fit in progress: the model, the readings, and the cost so far."""
 
     def __init__(self, simulator: Simulator, observations: Observations, limits: FitLimits) -> None:
         self.simulator, self.observations, self.limits = simulator, observations, limits
@@ -89,30 +89,30 @@ class _Fit:
         self.predictions = self.slope_maps = 0
         self.taken, self.raw = np.full(len(simulator.parameters), np.inf), np.zeros(0)  # the last slopes, where
 
-    def place(self, xi: Array, whitening: Whitening) -> _Place:
+    def place(self, xi: Array, whitening: Whitening) -> _Iterate:
         """Predict at xi. Raises NotConverged where the simulator does."""
         self.predictions += 1
         return self.seen(xi, self.simulator.predict(values_at(self.simulator.parameters, xi)), whitening)
 
-    def trial(self, xi: Array, whitening: Whitening) -> _Place | None:
+    def trial(self, xi: Array, whitening: Whitening) -> _Iterate | None:
         """Predict at the xi within the bounds; None where the simulator fails."""
         try:
             return self.place(self.bounds.within(xi), whitening)
         except NotConverged:
             return None
 
-    def seen(self, xi: Array, predictions: Array, whitening: Whitening) -> _Place:
+    def seen(self, xi: Array, predictions: Array, whitening: Whitening) -> _Iterate:
         """A place with its residual by a whitening."""
         residual = whitening.whiten(self.observations.values - predictions)
-        return _Place(xi, predictions, residual, float(residual @ residual + xi @ xi))
+        return _Iterate(xi, predictions, residual, float(residual @ residual + xi @ xi))
 
-    def walk(self, place: _Place, whitening: Whitening) -> _Walk:
+    def walk(self, place: _Iterate, whitening: Whitening) -> _Walk:
         """A walk from a place, with the last slopes where they were taken near it."""
         if not _apart(place.xi, self.taken) <= NEAR:
             self.slopes(place.xi)
         return _Walk(place, whitening.whiten(self.raw), self.taken, LEAST_DAMPING)
 
-    def first(self, place: _Place, whitening: Whitening, lent: Array | None) -> _Walk:
+    def first(self, place: _Iterate, whitening: Whitening, lent: Array | None) -> _Walk:
         """The walk from the start, with slopes from elsewhere where they are lent."""
         if lent is None:
             return self.walk(place, whitening)
@@ -133,11 +133,11 @@ class _Fit:
         values = values_at(self.simulator.parameters, xi)
         return whitener(self.observations, self.simulator.input_slopes(values))
 
-    def stall(self, place: _Place) -> float:
+    def stall(self, place: _Iterate) -> float:
         """The fall promised with which a place that no step betters is a peak."""
         return self.limits.stall * self.excess(place)
 
-    def excess(self, place: _Place) -> float:
+    def excess(self, place: _Iterate) -> float:
         """The objective per reading where that is above one: what fits badly is not worth a fine fit."""
         return max(1.0, place.objective / place.residual.size)
 
@@ -156,12 +156,12 @@ def maximum_posterior(
 ) -> Posterior:
     """The peak of the posterior within the parameters' bounds, from the standard numbers `start` (k,) or 0.
 
-    lent: d prediction / d xi (N, C, k) to set out with in place of the start's own, from a place not too unlike;
-    the peak's are its own.
+    lent: d prediction / d xi (N, C, k) for the first steps in place of the start's own, from a similar point; the
+    slopes at the peak are always computed there.
 
-    Objective J = r.r + xi.xi of the whitened residual r. The noise that inputs bring is renewed at the peak, and
-    the peak found again, as often as `limits` say. Evidence by `laplace`, with the mass that bounds cut off told
-    one parameter at a time. Raises NotConverged where steps run out before a peak, and what the simulator raises
+    Objective J = r.r + xi.xi of the whitened residual r. The noise of inputs is updated at the peak, and the peak
+    found again, as often as `limits` state. Evidence by `laplace`, with the mass within the bounds counted one
+    parameter at a time. Raises NotConverged where steps run out before a peak, and the simulator's own exception
     at the start.
     """
     begun = process_time()
@@ -177,7 +177,7 @@ def maximum_posterior(
         place, slopes = _descend(
             fit, fit.walk(fit.seen(place.xi, place.predictions, whitening), whitening), whitening
         )
-    effort = Effort(fit.predictions, fit.slope_maps, process_time() - begun)
+    effort = FitEffort(fit.predictions, fit.slope_maps, process_time() - begun)
     return _posterior(fit, place, slopes, whitening, effort)
 
 
@@ -201,7 +201,7 @@ def best_posterior(
     best = max(found, key=lambda posterior: posterior.log_evidence)
     return replace(
         best,
-        effort=Effort(
+        effort=FitEffort(
             sum(each.effort.predictions for each in found),
             sum(each.effort.slopes for each in found),
             sum(each.effort.seconds for each in found),
@@ -209,7 +209,7 @@ def best_posterior(
     )
 
 
-def _descend(fit: _Fit, walk: _Walk, whitening: Whitening) -> tuple[_Place, Array]:
+def _descend(fit: _Fit, walk: _Walk, whitening: Whitening) -> tuple[_Iterate, Array]:
     """Go down to a peak. Return it with slopes taken no farther than NEAR from it."""
     for step in range(fit.limits.steps):
         promised = fit.promised(walk)
@@ -233,7 +233,7 @@ def _descend(fit: _Fit, walk: _Walk, whitening: Whitening) -> tuple[_Place, Arra
 
 
 def _tried(fit: _Fit, walk: _Walk, whitening: Whitening) -> _Walk:
-    """One trial: gone there where the objective falls, the damping and the slopes after what it showed."""
+    """One trial: the new point where the objective falls, with damping and slopes updated from the result."""
     place = walk.place
     model = Quadratic.of(place.xi, place.residual, walk.slopes)
     step = bounded_step(model, fit.bounds, walk.damping, fit.limits.largest_step)
@@ -255,11 +255,11 @@ def _tried(fit: _Fit, walk: _Walk, whitening: Whitening) -> _Walk:
     return fit.renewed(here, whitening) if straight < GOOD and here.moved > 0 else here
 
 
-def _correction(fit: _Fit, walk: _Walk, model: Quadratic, trial: _Place) -> Array:
-    """What leads from a trial back to where the slopes had it: along a curved valley, down to its floor.
+def _correction(fit: _Fit, walk: _Walk, model: Quadratic, trial: _Iterate) -> Array:
+    """The correction of a trial along a curved valley, from the slopes' prediction down to its floor.
 
-    Half the second derivative of the readings along the step, answered by the slopes (geodesic acceleration;
-    Transtrum and Sethna 2012), none of it longer than the step.
+    Half the second derivative of the readings along the step, solved with the slopes (geodesic acceleration;
+    Transtrum and Sethna 2012), with no component longer than the step.
     """
     step = trial.xi - walk.place.xi
     missed = walk.place.residual - trial.residual - walk.slopes @ step
@@ -279,7 +279,7 @@ def _damping(damping: float, kept: float) -> float:
     return max(damping * max(EASIER, 1.0 - (2.0 * kept - 1.0) ** 3), LEAST_DAMPING)
 
 
-def _posterior(fit: _Fit, place: _Place, slopes: Array, whitening: Whitening, effort: Effort) -> Posterior:
+def _posterior(fit: _Fit, place: _Iterate, slopes: Array, whitening: Whitening, effort: FitEffort) -> Posterior:
     """The posterior at a peak, with the evidence of the part of its bell that lies within the bounds."""
     model = Quadratic.of(place.xi, place.residual, slopes)
     covariance = np.linalg.inv(model.precision)

@@ -1,4 +1,4 @@
-"""Points left out together: levels of a map's axis, and what a fit without them foretells."""
+"""Points left out together: levels of a map's axis, and the predictions of a fit without them."""
 
 from __future__ import annotations
 
@@ -17,9 +17,9 @@ SAME = 1e-6  # of the whole range: closer values are equal
 def levels(values: Array) -> NDArray[np.int64]:
     """The level (N,) of each value, from 0 for the least: set points that readings scatter about.
 
-    Of the sorted values' gaps those between levels stand out: they are cut off where a gap is the most times the
-    next smaller one, APART times at least. Values without such a break, or all equal, are one level. A level holds
-    two values on average at least, and there are MOST_LEVELS at most.
+    Among the gaps of the sorted values those between levels are much larger: the limit is where a gap is the
+    largest multiple of the next smaller one, APART times at least. Values without such a break, or all equal, are
+    one level. A level has two values on average at least, and there are MOST_LEVELS at most.
     """
     order = np.argsort(values, kind="stable")
     span = float(np.ptp(values))
@@ -39,7 +39,7 @@ def levels(values: Array) -> NDArray[np.int64]:
 
 
 def left_out(posterior: Posterior, parts: NDArray[np.int64]) -> Array:
-    """Residuals (N, C) in SI of each point, foretold by the fit without its part; `parts` (N,) numbers them.
+    """Residuals (N, C) in SI of each point, predicted by the fit without its part; `parts` (N,) numbers them.
 
     Each fit is repeated by one linear step (`predictive`).
     """

@@ -1,4 +1,4 @@
-"""Readings and what is known of their noise."""
+"""Readings and their noise."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from system.inputs.units import Dimension
 
 @dataclass(frozen=True)
 class Channel:
-    """One channel of readings: its name and what it measures (None: a pure number)."""
+    """One channel of readings: its name and its dimension (None: a pure number)."""
 
     name: str
     dimension: Dimension | None
@@ -22,14 +22,13 @@ class Channel:
 
 @dataclass(frozen=True)
 class Observations:
-    """N points by C channels, all in SI; rows stand in the order in which they were taken.
+    """N points by C channels, all in SI; rows are in the order of recording.
 
-    values, sigma: (N, C), reading and one sigma of its repeatability; nan = not measured.
-    inputs, input_sigma: names of the M inputs that were measured too, and one sigma of each, (N, M).
-    quantum: (C,), the step of a digital reading, 0 for none.
-    blocks: (N,) integers, points of one block stand near each other (region of the map, stretch of time).
-    memory: coefficients of an autoregressive noise along the rows (of consecutive points of a time series), the
-    nearest first; empty: the noise of each point is its own.
+    values, sigma: (N, C), reading and one sigma of its repeatability; nan = not measured. inputs, input_sigma:
+    names of the M inputs that were measured too, and one sigma of each, (N, M). quantum: (C,), the step of a
+    digital reading, 0 for none. blocks: (N,) integers, points of one block are close to each other (region of the
+    map, stretch of time). memory: coefficients of an autoregressive noise along the rows (of consecutive points
+    of a time series), the nearest first; empty: the noise of each point is independent.
     """
 
     channels: tuple[Channel, ...]

@@ -1,4 +1,4 @@
-"""Parameters with priors: each a standard normal number, and the value it stands for."""
+"""Parameters with priors: each is a standard normal number xi and the value that follows from it."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from system.inputs.units import Dimension
 
 
 class Scale(Enum):
-    """How a value hangs on its standard number xi, with centre v0 and spread s."""
+    """Relation of a value to its standard number xi, with centre v0 and spread s."""
 
     NORMAL = "normal"  # v0 + s xi
     LOG = "log"  # v0 exp(s xi)
@@ -19,7 +19,7 @@ class Scale(Enum):
 
 
 class Role(Enum):
-    """What a parameter belongs to."""
+    """Subject of a parameter."""
 
     BASE = "base"
     FLUID = "fluid"
@@ -29,10 +29,10 @@ class Role(Enum):
 
 @dataclass(frozen=True)
 class Parameter:
-    """One parameter and its prior: xi ~ N(0, 1), cut to [lower, upper] in value; HALF: xi >= 0 besides.
+    """One parameter and its prior: xi ~ N(0, 1), cut to [lower, upper] in value; HALF: also xi >= 0.
 
     centre, lower and upper are SI values; spread is in SI too, but for LOG relative. `dimension` is None for a
-    pure number. `source` says where the prior comes from.
+    pure number. `source` is the origin of the prior.
     """
 
     name: str

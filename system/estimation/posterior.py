@@ -1,4 +1,4 @@
-"""What readings say about parameters: the posterior about its peak."""
+"""The posterior of the parameters about its peak."""
 
 from __future__ import annotations
 
@@ -22,8 +22,8 @@ UNSEEN = 1e-9  # share of its prior variance by which a parameter must be known 
 
 
 @dataclass(frozen=True)
-class Effort:
-    """What a fit has cost: predictions, slopes (maps of all columns), seconds of process time."""
+class FitEffort:
+    """Cost of a fit: predictions, slopes (maps of all columns), seconds of process time."""
 
     predictions: int
     slopes: int
@@ -50,7 +50,7 @@ class Posterior:
     log_evidence: float
     predictions: Array
     whitening: Whitening
-    effort: Effort
+    effort: FitEffort
 
     @cached_property
     def covariance(self) -> Array:
@@ -99,11 +99,11 @@ def standard_slopes(simulator: Simulator, xi: Array) -> Array:
 
 
 def settled(posterior: Posterior) -> Posterior:
-    """A fit at the exact peak of its own linear form, of the parameters that lie on no bound.
+    """A fit at the exact peak of its own linear form, for the parameters that are on no bound.
 
-    A fit ends a little beside its peak. That is nothing to its objective, but to a column that the parameters can
-    nearly take up it is everything: g = v.r grows with what is left of A^T r - xi. Scores and evidences about a
-    fit are asked of this form.
+    A fit ends close to its peak. The difference is negligible for its objective, but not for a column that the
+    parameters nearly absorb: g = v.r grows with the remaining gradient A^T r - xi. Scores and evidences about a
+    fit use this form.
     """
     bounds = Bounds.of(posterior.parameters)
     free = (posterior.xi > bounds.lowest) & (posterior.xi < bounds.highest)
@@ -125,8 +125,8 @@ def settled(posterior: Posterior) -> Posterior:
 def linear_posterior(simulator: Simulator, observations: Observations) -> Posterior:
     """The posterior of the model made linear about its prior mean (xi = 0): one prediction, one set of slopes.
 
-    Peak H xi = A^T r0, r = r0 - A xi. Bounds do not hold here: a score at the prior mean asks which way a
-    parameter would go, and a wrong model would drag a bounded fit to its corners.
+    Peak H xi = A^T r0, r = r0 - A xi. Bounds do not hold here: a score at the prior mean tests the direction of a
+    parameter, and a wrong model would drag a bounded fit to its corners.
     """
     begun = process_time()
     parameters = simulator.parameters
@@ -152,5 +152,5 @@ def linear_posterior(simulator: Simulator, observations: Observations) -> Poster
         log_evidence=laplace(objective, precision) + whitening.log_determinant,
         predictions=predictions + raw @ xi,
         whitening=whitening,
-        effort=Effort(1, 1, process_time() - begun),
+        effort=FitEffort(1, 1, process_time() - begun),
     )

@@ -14,7 +14,7 @@ def predictive(posterior: Posterior, rows: NDArray[np.bool_]) -> tuple[Array, Ar
     """Residual (m,) and joint covariance (m, m), whitened, of the rows where `rows` (n,) is true, not fitted.
 
     One linear step from the full peak without these rows: precision H - A_f^T A_f, covariance 1 + A_f C A_f^T.
-    Their joint covariance counts: what the rows share by the parameters makes them one error, not many.
+    The joint covariance matters: the error that the rows share through the parameters is one error, not many.
     Exact for linear readings whose noise has no memory across the rows.
     """
     fold, rest = posterior.slopes[rows], posterior.slopes[~rows]

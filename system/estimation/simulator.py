@@ -1,4 +1,4 @@
-"""What a simulator offers to be fitted: named parameters, predictions, slopes."""
+"""Interface of a simulator that can be fitted: named parameters, predictions, slopes."""
 
 from __future__ import annotations
 

@@ -14,11 +14,11 @@ from system.estimation.observations import Observations
 
 @dataclass(frozen=True)
 class Whitening:
-    """How to whiten arrays over N points and C channels, of which n readings count.
+    """Whitening of arrays over N points and C channels, of which n readings count.
 
     factors: (N, C, C), L^-1 of each point's noise covariance L L^T; measured: (N, C), the readings that count.
-    serial: one Cholesky factor a channel of the noise's correlation along the rows, or none at all.
-    log_determinant: ln det of (L^-1 times the repeatability), what evidence counts of a noise.
+    serial: one Cholesky factor per channel of the noise's correlation along the rows, or none at all.
+    log_determinant: ln det of (L^-1 times the repeatability), the contribution of the noise to the evidence.
     """
 
     factors: Array
@@ -32,12 +32,12 @@ class Whitening:
         return np.argwhere(self.measured)
 
     def change(self, other: Whitening) -> float:
-        """How far noise that the other makes white is from white by this one: 0 for the same."""
+        """Largest difference of noise that the other whitens from white by this one: 0 for the same."""
         both = self.factors @ np.linalg.inv(other.factors)
         return float(np.abs(both - np.eye(both.shape[-1])).max())
 
     def whiten(self, array: Array) -> Array:
-        """(N, C, ...) in SI to (n, ...) in sigma; what was not measured drops out."""
+        """(N, C, ...) in SI to (n, ...) in sigma; readings that were not measured drop out."""
         shape = self.measured.shape + (1,) * (array.ndim - 2)
         known = np.where(self.measured.reshape(shape), array, 0.0)
         white: Array = np.einsum("nij,nj...->ni...", self.factors, known)[self.measured]

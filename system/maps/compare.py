@@ -1,4 +1,4 @@
-"""Two maps side by side: on the box that both have, number by number, with what their interpolation may miss."""
+"""Comparison of two maps: over their common box, number by number, with the possible error of interpolation."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from system.maps.data import LOSSES, MapData, objects
 from system.maps.interpolation import MapError, MapInterpolant, inside
 from system.maps.plan import MapAxis, MapInput
 from system.pump.efficiency import EfficiencyDefinition
-from system.work.tasks import Status
+from system.work.tasks import PartStatus
 
 COMPARED = {
     "shaft_torque": ("shaft torque", "N m"),
@@ -26,8 +26,9 @@ COMPARED = {
 
 @dataclass(frozen=True)
 class Difference:
-    """A number of two maps over their common box: means, the largest difference (other less one) and where; error:
-    what both interpolations may miss there, by the largest errors that either map has shown. SI.
+    """A number of two maps over their common box: means, the largest difference (other less one) and its place.
+
+    error: possible error of both interpolations there, by the largest measured errors of either map. SI.
     """
 
     words: str
@@ -39,8 +40,8 @@ class Difference:
     error: float
 
     @property
-    def told(self) -> bool:
-        """Whether the largest difference is beyond what interpolation may have made."""
+    def significant(self) -> bool:
+        """True if the largest difference exceeds the possible error of interpolation."""
         return abs(self.largest) > self.error
 
 
@@ -94,13 +95,13 @@ def at_levels(interpolant: MapInterpolant, axes: tuple[MapAxis, ...]) -> MapData
     """A map at other levels inside its box; it keeps no warnings."""
     shape = tuple(len(axis.values) for axis in axes)
     grid = np.meshgrid(*(axis.values for axis in axes), indexing="ij")
-    told = interpolant.at({axis.input: level.ravel() for axis, level in zip(axes, grid, strict=True)})
+    interpolated = interpolant.at({axis.input: level.ravel() for axis, level in zip(axes, grid, strict=True)})
     count = int(np.prod(shape))
     return replace(
         interpolant.data,
         axes=axes,
-        values={name: np.reshape(values, shape) for name, values in told.items()},
-        status=objects([Status.SOLVED.value] * count, shape),
+        values={name: np.reshape(values, shape) for name, values in interpolated.items()},
+        status=objects([PartStatus.SOLVED.value] * count, shape),
         reason=objects([""] * count, shape),
         warnings=objects([()] * count, shape),
     )
@@ -110,8 +111,10 @@ def _differences(one: MapData, other: MapData, errors: list[MapError]) -> Iterat
     for definition in EfficiencyDefinition:
         pair = one.efficiency(definition).overall, other.efficiency(definition).overall
         if all(np.isfinite(values).any() for values in pair):
-            told = _difference(f"overall efficiency, {definition.label}", "1", one, *pair, 0.0)
-            yield replace(told, error=sum(_efficiency_error(one, other, told, each) for each in errors))
+            difference = _difference(f"overall efficiency, {definition.label}", "1", one, *pair, 0.0)
+            yield replace(
+                difference, error=sum(_efficiency_error(one, other, difference, each) for each in errors)
+            )
     for column, (words, unit) in COMPARED.items():
         pair = one.values[column], other.values[column]
         if any(np.any(values) for values in pair):
@@ -125,8 +128,8 @@ def _difference(words: str, unit: str, data: MapData, one: Array, other: Array, 
     return Difference(words, unit, float(np.nanmean(one)), float(np.nanmean(other)), float(off[index]), at, error)
 
 
-def _efficiency_error(one: MapData, other: MapData, told: Difference, error: MapError) -> float:
-    """What errors of both powers make of an efficiency P_h/P where it is told of: dP_h/P + dP/P, P the lesser."""
-    at = tuple(list(axis.values).index(told.at[axis.input]) for axis in one.axes)
+def _efficiency_error(one: MapData, other: MapData, difference: Difference, error: MapError) -> float:
+    """Error of an efficiency P_h/P from the errors of both powers: dP_h/P + dP/P, with the lesser P."""
+    at = tuple(list(axis.values).index(difference.at[axis.input]) for axis in one.axes)
     power = min(float(data.values["shaft_power"][at]) for data in (one, other))
     return (error.largest["shaft_power"] + error.largest["hydraulic_power"]) / power

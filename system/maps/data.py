@@ -18,7 +18,7 @@ from system.pump.assembly import PointWarning
 from system.pump.bench import BenchReading
 from system.pump.efficiency import EfficiencyBasis, EfficiencyDefinition, efficiency
 from system.pump.laws.friction_pairs import Pair
-from system.work.tasks import Outcome, Status
+from system.work.tasks import PartOutcome, PartStatus
 
 READING = {
     "shaft_torque": "shaft_torque",
@@ -63,13 +63,13 @@ class MapData:
 
     @property
     def shape(self) -> tuple[int, ...]:
-        """How many levels each axis has."""
+        """Number of levels of each axis."""
         return tuple(len(axis.values) for axis in self.axes)
 
     @property
     def solved(self) -> np.ndarray:
-        """Where there is a result."""
-        return np.asarray(self.status == Status.SOLVED.value)
+        """Mask of the points with a result."""
+        return np.asarray(self.status == PartStatus.SOLVED.value)
 
     @cached_property
     def grid(self) -> dict[MapInput, Array]:
@@ -79,7 +79,7 @@ class MapData:
 
     @property
     def losses(self) -> dict[str, Array]:
-        """What the shaft power less the hydraulic goes into, W, by its words; not what is nothing anywhere."""
+        """Sinks of the shaft power less the hydraulic power, W, by name; zero ones left out."""
         found = {words: self.values[column] for column, words in LOSSES.items()}
         return {words: loss for words, loss in found.items() if np.nansum(np.abs(loss)) > 0.0}
 
@@ -105,12 +105,12 @@ class MapData:
             try:
                 found[index] = toet_displacement(*taken)
             except FilmInputError:
-                continue  # void: told as nan, and by `toet_notes`
+                continue  # void: nan, and by `toet_notes`
         return found
 
     @property
     def _pumps(self) -> np.ndarray:
-        """Where there is a result and oil is delivered: elsewhere efficiencies are void."""
+        """Mask of the points with a result and a delivery; elsewhere efficiencies are void."""
         flows = (self.values[name] > 0.0 for name in ("delivery_flow", "inlet_flow", "shaft_power"))
         return np.logical_and.reduce([self.solved, *flows])
 
@@ -130,7 +130,7 @@ class MapData:
         return MapEfficiency(*parts)
 
     def reading(self, index: tuple[int, ...]) -> BenchReading:
-        """What a bench reads at a point."""
+        """Bench readings at a point."""
         read = {field: float(self.values[column][index]) for field, column in READING.items()}
         return BenchReading(shaft_speed=float(self.grid[MapInput.SPEED][index]), **read)
 
@@ -154,10 +154,10 @@ class Best:
     overall: float
 
 
-def map_data(plan: MapPlan, work: MapWork, outcomes: tuple[Outcome, ...]) -> MapData:
-    """The map of a plan's outcomes, which stand in the order of its points."""
+def map_data(plan: MapPlan, work: MapWork, outcomes: tuple[PartOutcome, ...]) -> MapData:
+    """The map of a plan's outcomes, which are in the order of its points."""
     numbers = [outcome.record.get("numbers", {}) for outcome in outcomes]
-    told = [tuple((name, text) for name, text in one.record.get("warnings", ())) for one in outcomes]
+    remarks = [tuple((name, text) for name, text in one.record.get("warnings", ())) for one in outcomes]
     return MapData(
         name=plan.pump.name,
         words=work.solver.words,
@@ -169,7 +169,7 @@ def map_data(plan: MapPlan, work: MapWork, outcomes: tuple[Outcome, ...]) -> Map
         },
         status=objects([outcome.status.value for outcome in outcomes], plan.shape),
         reason=objects([outcome.reason for outcome in outcomes], plan.shape),
-        warnings=objects(told, plan.shape),
+        warnings=objects(remarks, plan.shape),
     )
 
 
@@ -195,22 +195,22 @@ def best_points(data: MapData) -> tuple[Best, ...]:
     return tuple(found)
 
 
-def told_warnings(data: MapData) -> dict[str, tuple[int, str]]:
+def warning_counts(data: MapData) -> dict[str, tuple[int, str]]:
     """Each warning of the points by name: at how many, and its text at the first of them."""
     found: dict[str, tuple[int, str]] = {}
-    for name, text in (remark for told in data.warnings.flat for remark in told):
+    for name, text in (remark for remarks in data.warnings.flat for remark in remarks):
         count, first = found.get(name, (0, text))
         found[name] = count + 1, first
     return found
 
 
 def toet_notes(data: MapData) -> tuple[str, ...]:
-    """Where the displacement by Toet rests on less than ISO 8426-1 asks for, or is void."""
+    """Displacements by Toet that use fewer levels than ISO 8426-1 requires, or that are void."""
     void = int(np.prod(data.shape[2:])) - len(data.toet)
     notes = list(dict.fromkeys(note for derived in data.toet.values() for note in derived.notes))
     if void:
         notes.append(f"void at {void} settings: fewer than two speeds and two pressures that deliver")
-    cavities = told_warnings(data).get(PointWarning.CHAMBER_CAVITATES.value, (0, ""))[0]
+    cavities = warning_counts(data).get(PointWarning.CHAMBER_CAVITATES.value, (0, ""))[0]
     if cavities:
         notes.append(f"{cavities} of the points have a cavity in the chamber, and are taken as they are")
     return tuple(notes)

@@ -1,4 +1,4 @@
-"""Derived displacement: what readings of flow say a pump displaces at no pressure difference (ISO 8426)."""
+"""Derived displacement: the displacement at zero pressure difference from readings of flow (ISO 8426)."""
 
 from __future__ import annotations
 
@@ -19,8 +19,8 @@ LEAST_LEVELS = 5  # speeds, and pressure differences, that ISO 8426-1:2025 asks 
 class Derived:
     """A derived displacement in m3 per revolution with one sigma by its own scatter (nan: too few pressures).
 
-    residual: rms of the displacements at each pressure difference about their line, m3; speeds, differences: how
-    many it rests on; notes: where these are fewer than the standard asks for.
+    residual: rms of the displacements at each pressure difference about their line, m3; speeds, differences:
+    numbers of levels used; notes: where these are fewer than the standard requires.
     """
 
     value: float

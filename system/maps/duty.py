@@ -21,10 +21,11 @@ GAUSS_POINTS = 4
 
 @dataclass(frozen=True)
 class Cycle:
-    """Inputs of a map over time (s), SI, (N,) each and straight between; those that are held may be left out.
+    """Inputs of a map over time (s), SI, (N,) each and linear between rows; inputs that the map holds may be left
+    out.
 
-    A time that stands twice is a step. Raises FilmInputError for fewer than two rows, and for times that fall or
-    do not pass.
+    A repeated time is a step. Raises FilmInputError for fewer than two rows, and for times that fall or do not
+    pass.
     """
 
     time: Array
@@ -51,11 +52,11 @@ class Energy:
 
 @dataclass(frozen=True)
 class Duty:
-    """What a pump does over a cycle.
+    """Energies and losses of a pump over a cycle.
 
-    energies: shaft, hydraulic, loss and every sink of the loss, by its words; efficiency: mean overall one by
+    energies: shaft, hydraulic, loss and every sink of the loss, by name; efficiency: mean overall one by
     definition, energy over energy, with its error; marked: part of the time between points with a warning, by its
-    name; volume: delivered, m3; shown_by: what has shown the error.
+    name; volume: delivered, m3; shown_by: source of the measured error.
     """
 
     duration: float
@@ -74,8 +75,8 @@ def duty(interpolant: MapInterpolant, cycle: Cycle, error: MapError) -> Duty:
     """
     _hold_inside(interpolant.data, cycle)
     places, share = _stretches(cycle)
-    told = interpolant.at(places)
-    told["loss"] = told["shaft_power"] - told["hydraulic_power"]
+    interpolated = interpolant.at(places)
+    interpolated["loss"] = interpolated["shaft_power"] - interpolated["hydraulic_power"]
 
     def over_time(values: Array) -> float:
         return float(share @ values)
@@ -83,14 +84,16 @@ def duty(interpolant: MapInterpolant, cycle: Cycle, error: MapError) -> Duty:
     time, largest = cycle.duration, dict(error.largest)
     largest["loss"] = largest["shaft_power"] + largest["hydraulic_power"]
     names = {"shaft_power": "shaft", "hydraulic_power": "hydraulic", "loss": "loss", **LOSSES}
-    energies = {words: Energy(over_time(told[name]), time * largest[name]) for name, words in names.items()}
+    energies = {
+        words: Energy(over_time(interpolated[name]), time * largest[name]) for name, words in names.items()
+    }
     return Duty(
         duration=time,
-        volume=Energy(over_time(told["delivery_flow"]), time * largest["delivery_flow"]),
+        volume=Energy(over_time(interpolated["delivery_flow"]), time * largest["delivery_flow"]),
         energies={
             words: energy for words, energy in energies.items() if energy.value != 0.0 or energy.error != 0.0
         },
-        efficiency=_efficiencies(told, share, energies),
+        efficiency=_efficiencies(interpolated, share, energies),
         marked=_marked(interpolant.data, places, share / time),
         shown_by=f"{error.count} {error.shown_by}",
     )
@@ -115,7 +118,7 @@ def _beyond(axis: MapAxis, cycle: Cycle, row: int) -> Fault:
 
 
 def _stretches(cycle: Cycle) -> tuple[dict[MapInput, Array], Array]:
-    """Inputs (M,) at Gauss' places of every stretch of the cycle, and the seconds that each stands for."""
+    """Inputs (M,) at Gauss' places of every stretch of the cycle, and the seconds that each represents."""
     nodes, weights = np.polynomial.legendre.leggauss(GAUSS_POINTS)
     part, span = 0.5 * (nodes + 1.0), np.diff(cycle.time)
     places = {
@@ -126,13 +129,13 @@ def _stretches(cycle: Cycle) -> tuple[dict[MapInput, Array], Array]:
 
 
 def _efficiencies(
-    told: Mapping[str, Array], share: Array, energies: Mapping[str, Energy]
+    interpolated: Mapping[str, Array], share: Array, energies: Mapping[str, Energy]
 ) -> dict[EfficiencyDefinition, Energy]:
     """Mean overall efficiency of each definition: useful energy over that of the shaft."""
-    delivered = told["port_delivery_pressure"] * told["delivery_flow"]
-    ports = float(share @ (delivered - told["port_inlet_pressure"] * told["inlet_flow"]))
+    delivered = interpolated["port_delivery_pressure"] * interpolated["delivery_flow"]
+    ports = float(share @ (delivered - interpolated["port_inlet_pressure"] * interpolated["inlet_flow"]))
     shaft, hydraulic = energies["shaft"], energies["hydraulic"]
-    kept = float(share @ told["compression_power"])
+    kept = float(share @ interpolated["compression_power"])
     useful: dict[EfficiencyDefinition, float] = {
         EfficiencyDefinition.PAPER: ports,
         EfficiencyDefinition.ISO_SWEPT: ports,
@@ -148,17 +151,19 @@ def _efficiencies(
 
 
 def _marked(data: MapData, places: Mapping[MapInput, Array], share: Array) -> dict[str, float]:
-    """Part of the time in cells of the map of which a corner carries a warning, by the warning's name."""
+    """Part of the time in cells of the map with a warning at a corner, by the warning's name."""
     cell: list[tuple[np.ndarray, np.ndarray]] = []
     for axis in data.axes:
         levels = np.array(axis.values)
         at = places.get(axis.input, np.full(len(share), levels[0]))
         lower = np.clip(np.searchsorted(levels, at, side="right") - 1, 0, max(0, len(levels) - 2))
         cell.append((lower, np.minimum(lower + 1, len(levels) - 1)))
-    names = sorted({name for told in data.warnings.flat for name, _ in told})
+    names = sorted({name for remarks in data.warnings.flat for name, _ in remarks})
     found = {}
     for name in names:
-        here = np.array([any(name == one for one, _ in told) for told in data.warnings.flat]).reshape(data.shape)
+        here = np.array([any(name == one for one, _ in remarks) for remarks in data.warnings.flat]).reshape(
+            data.shape
+        )
         corners = [
             here[tuple(ends[corner >> k & 1] for k, ends in enumerate(cell))] for corner in range(2 ** len(cell))
         ]

@@ -62,7 +62,7 @@ class MapInterpolant:
         return {name: value + ideal(name, full, named) for name, value in named.items()}
 
     def _rows(self, places: Sequence[Array]) -> Array:
-        """What is interpolated (N, columns) at places (N,) on each axis."""
+        """Interpolated quantities (N, columns) at places (N,) on each axis."""
         kernel = np.ones((len(places[0]), 1))
         for axis, place in zip(self.data.axes, places, strict=True):
             kernel = (kernel[:, :, None] * weights(axis, place)[:, None, :]).reshape(len(place), -1)
@@ -74,13 +74,13 @@ class MapInterpolant:
 
     @cached_property
     def _losses(self) -> Array:
-        """What is interpolated (n1, .., n5, columns)."""
+        """Interpolated quantities (n1, .., n5, columns)."""
         values = self.data.values
         return np.stack([values[name] - ideal(name, self.data.grid, values) for name in self._names], axis=-1)
 
 
 def ideal(name: str, inputs: Mapping[MapInput, Array], values: Mapping[str, Array]) -> Array | float:
-    """What of a flow or a torque no loss changes: n V and dp V/(2 pi), V geometric; 0 of other numbers."""
+    """The lossless part of a flow or a torque: n V and dp V/(2 pi), V geometric; 0 of other numbers."""
     if name not in IDEAL:
         return 0.0
     volume = values["geometric_displacement"]
@@ -90,7 +90,7 @@ def ideal(name: str, inputs: Mapping[MapInput, Array], values: Mapping[str, Arra
 
 
 def weights(axis: MapAxis, places: Array) -> Array:
-    """What each level counts at places (N,): (N, levels), exact for polynomials of the spline's degree."""
+    """Weight of each level at places (N,): (N, levels), exact for polynomials of the spline's degree."""
     from scipy.interpolate import make_interp_spline
 
     count = len(axis.values)
@@ -103,7 +103,7 @@ def weights(axis: MapAxis, places: Array) -> Array:
 
 
 def inside(axis: MapAxis, places: Array) -> np.ndarray:
-    """Which of places (N,) lie between the ends of an axis, but for round-off."""
+    """Mask of places (N,) between the ends of an axis, up to round-off."""
     lower, upper = axis.values[0], axis.values[-1]
     slack = ROUND_OFF * max(upper - lower, abs(upper))
     return np.asarray((places >= lower - slack) & (places <= upper + slack))
@@ -145,9 +145,9 @@ def check_points(plan: MapPlan, count: int) -> tuple[OperatingPoint, ...]:
 
 @dataclass(frozen=True)
 class MapError:
-    """What a map misses between its levels, by column: rms and largest error, SI; how many points have shown it.
+    """Error of a map between its levels, by column: rms and largest, SI; number of points that measure it.
 
-    shown_by: fresh points, or inner levels that the map itself gives without them.
+    shown_by: additional points, or inner levels predicted by the map without them.
     """
 
     rms: Mapping[str, float]
@@ -161,23 +161,23 @@ def fresh_error(
 ) -> MapError:
     """The error at fresh points: `found` are their numbers (N,) by column."""
     at = {given: np.array([getattr(point, given.value) for point in points]) for given in MapInput}
-    told = interpolant.at(at)
-    return _error({name: told[name] - values for name, values in found.items()}, "fresh points, solved")
+    interpolated = interpolant.at(at)
+    return _error({name: interpolated[name] - values for name, values in found.items()}, "fresh points, solved")
 
 
 def left_out_error(data: MapData) -> MapError | None:
-    """The error with which each inner level of each axis is told by the others; None where no axis has one.
+    """Error of each inner level of each axis, predicted from the others; None where no axis has one.
 
-    Levels stand twice as far apart then: an upper bound for a smooth map, some five times too large on REF90.
+    Levels are then twice as far apart: an upper bound for a smooth map, some five times too large on REF90.
     """
     off: dict[str, list[Array]] = {}
     for k, axis in enumerate(data.axes):
         for level in range(1, len(axis.values) - 1):
             values = axis.values[:level] + axis.values[level + 1 :]
             kept = [i for i in range(len(axis.values)) if i != level]
-            told = MapInterpolant(_taken(data, k, kept, MapAxis(axis.input, values)))
+            others = MapInterpolant(_taken(data, k, kept, MapAxis(axis.input, values)))
             inputs = {given: np.take(grid, level, axis=k).ravel() for given, grid in data.grid.items()}
-            for name, numbers in told.at(inputs).items():
+            for name, numbers in others.at(inputs).items():
                 off.setdefault(name, []).append(numbers - np.take(data.values[name], level, axis=k).ravel())
     return _error({name: np.concatenate(rows) for name, rows in off.items()}, "levels left out") if off else None
 

@@ -1,4 +1,4 @@
-"""What an operating map is taken over: levels of five inputs, and what is wrong with any point of their grid."""
+"""Range of an operating map: levels of five inputs, and the faults of any point of their grid."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ class MapInput(Enum):
 
     @property
     def dimension(self) -> Dimension | None:
-        """What is measured; None for the displacement ratio, a bare number."""
+        """Dimension of the input; None for the displacement ratio, a bare number."""
         return _DIMENSIONS.get(self)
 
     @property
@@ -44,7 +44,7 @@ class MapInput(Enum):
 
     @property
     def words(self) -> str:
-        """What it is called."""
+        """Name for people."""
         return "oil temperature in the case" if self is MapInput.TEMPERATURE else self.value.replace("_", " ")
 
     def text(self, value: float) -> str:
@@ -63,7 +63,7 @@ _DIMENSIONS = {
 
 @dataclass(frozen=True)
 class MapAxis:
-    """The levels of one input, SI, rising; a single one holds it. Raises FilmInputError for others."""
+    """The levels of one input, SI, rising; a single level holds the input. Raises FilmInputError for others."""
 
     input: MapInput
     values: tuple[float, ...]
@@ -77,14 +77,14 @@ class MapAxis:
 
 @dataclass(frozen=True)
 class MapPlan:
-    """A pump over the grid of five axes, in the order of `MapInput`; what is no axis is the pump's own."""
+    """A pump over the grid of five axes, in the order of `MapInput`; all other inputs are the pump's own."""
 
     pump: PumpDescription
     axes: tuple[MapAxis, ...]
 
     @property
     def shape(self) -> tuple[int, ...]:
-        """How many levels each axis has."""
+        """Number of levels of each axis."""
         return tuple(len(axis.values) for axis in self.axes)
 
     @cached_property
@@ -95,7 +95,7 @@ class MapPlan:
         return tuple(operating_point(self.pump, **dict(zip(names, level, strict=True))) for level in levels)
 
     def checked(self) -> MapCheck:
-        """What is wrong with and doubtful about any of the points, each told once."""
+        """Faults and warnings of all points, each listed once."""
         faults: Counter[Fault] = Counter()
         warnings: dict[str, list[CheckWarning]] = {}
         for point in self.points:
@@ -103,8 +103,8 @@ class MapPlan:
             faults.update(report.faults)
             for warning in report.warnings:
                 warnings.setdefault(warning.path, []).append(warning)
-        told = {path: f"at {len(found)} points; at the first: {found[0]}" for path, found in warnings.items()}
-        return MapCheck(tuple(faults), told)
+        listed = {path: f"at {len(found)} points; at the first: {found[0]}" for path, found in warnings.items()}
+        return MapCheck(tuple(faults), listed)
 
 
 @dataclass(frozen=True)

@@ -1,4 +1,4 @@
-"""One point of an operating map: who solves it, what it is named by, and the numbers that are kept of it."""
+"""One point of an operating map: its solver, the key of its content, and the numbers that are kept of it."""
 
 from __future__ import annotations
 
@@ -32,20 +32,20 @@ KEY_LENGTH = 24
 
 
 class MapSolver(Protocol):
-    """Solves the points of a map: frozen data that can be sent to another process.
+    """Solver of the points of a map: frozen data that can be sent to another process.
 
-    words: how, for people; stated: all that the numbers rest on beside pump and point; cost: seconds of processor
-    time a point, about; reads: the part of a pump that the numbers depend on.
+    words: its name for people; stated: all inputs of the numbers besides pump and point; cost: seconds of
+    processor time per point, about; reads: the part of a pump that the numbers depend on.
     """
 
     @property
     def words(self) -> str:
-        """How points are solved."""
+        """Name of the solver for people."""
         ...
 
     @property
     def stated(self) -> Mapping[str, str]:
-        """What the numbers rest on."""
+        """Inputs of the numbers besides pump and point."""
         ...
 
     @property
@@ -111,8 +111,8 @@ class TableSolver:
 
     def solve(self, pump: PumpDescription, point: OperatingPoint) -> SolvedPoint:
         """The point, films as the table tells them."""
-        told = table_point(pump, point, self.table)
-        return SolvedPoint(told.pump_point, told.film_mean, told.film_least)
+        found = table_point(pump, point, self.table)
+        return SolvedPoint(found.pump_point, found.film_mean, found.film_least)
 
 
 @dataclass(frozen=True)
@@ -129,7 +129,7 @@ class DirectSolver:
 
     @property
     def stated(self) -> Mapping[str, str]:
-        """What the fidelity states."""
+        """Inputs of the numbers besides pump and point."""
         return {"fidelity": self.words, **self.solver.stated}
 
     def reads(self, pump: PumpDescription) -> PumpDescription:
@@ -142,7 +142,7 @@ class DirectSolver:
 
 
 class Members(Enum):
-    """What a quantity is told of: the pump, each friction pair, or each gap."""
+    """Members of a quantity: the pump, each friction pair, or each gap."""
 
     PUMP = ("",)
     PAIR = tuple(pair.value for pair in Pair)
@@ -151,7 +151,7 @@ class Members(Enum):
 
 @dataclass(frozen=True)
 class Quantity:
-    """A number that a map keeps of each point, SI; `of` takes the point and the pair or gap."""
+    """A number that a map keeps of each point, SI; `of` reads it from the point and the pair or gap."""
 
     name: str
     unit: str
@@ -274,14 +274,14 @@ class MapWork:
     def solve(self, point: OperatingPoint) -> dict[str, object]:
         """The point's numbers and warnings."""
         solved = self.solver.solve(self.pump, point)
-        told = [[remark.warning.value, remark.text] for remark in solved.pump_point.warnings]
-        return {"numbers": point_numbers(solved), "warnings": told}
+        remarks = [[remark.warning.value, remark.text] for remark in solved.pump_point.warnings]
+        return {"numbers": point_numbers(solved), "warnings": remarks}
 
     @cached_property
     def _read(self) -> str:
-        """What is read of the pump, as its file says it: no name, no operating point, no tolerances.
+        """The part of the pump's file that the numbers depend on: no name, no operating point, no tolerances.
 
-        Of that point the temperature is read where clearances change from there on.
+        The temperature of the operating point is included where clearances change with temperature.
         """
         unread = ["speed", "pressure", "inlet_pressure", "case_pressure"]
         if self.pump.physics.thermal_clearance is None:

@@ -1,8 +1,8 @@
-"""Do the joints close? All that acts on the rotating group from outside against its momentum, and the power.
+"""Closure of the joints: the external forces on the rotating group against its momentum, and the power balance.
 
 Outside the group (pistons, slippers, retainer, ball guide, spring, block with the oil in it, shaft) are swash
-plate, valve plate, bearings and drive. Joints within it cancel if each was put on both its bodies, in one
-place; the sums know of none of them.
+plate, valve plate, bearings and drive. Joints within it cancel if each acts on both its bodies, in one place; the
+sums do not contain them.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ class Closure:
 
 
 def closure(joints: JointForces) -> Closure:
-    """How well force, moment and power of the rotating group close over the turn; round-off, or a fault."""
+    """Closure of force, moment and power of the rotating group over the turn; round-off, or a fault."""
     group = joints.group
     from_plate = group.whole([wrench(one.plate, group.ball.place, one.plate_moment) for one in joints.sets])
     outside = from_plate + joints.block.valve_plate + joints.shaft.front + joints.shaft.rear
@@ -45,7 +45,7 @@ def closure(joints: JointForces) -> Closure:
 
 
 def _taken(joints: JointForces) -> Array:
-    """Where the shaft's power goes (N,) W: into the oil, into momentum and into each friction by its own speed."""
+    """Sinks of the shaft's power (N,) W: the oil, momentum, and each friction by its own speed."""
     group, speed = joints.group, joints.group.point.shaft_speed
     each = [
         one.power

@@ -21,7 +21,7 @@ def floating_joint_forces(found: FloatingPoint) -> JointForces:
 
 
 def _loads(kind: FloatingKind, axis: Array, plate_axes: Array) -> ChamberLoads:
-    """What `floating_drives.group_instant` found: the piston's balance along its bore, friction in the plate."""
+    """Result of `drives.group_instant`: the piston's balance along its bore, friction in the plate."""
     pump = kind.rotor.pump
     masses = GroupMasses(pump.piston.mass, pump.slipper.mass, kind.parts.piston.centre_of_mass)
     at = kind.drives.group

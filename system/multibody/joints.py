@@ -1,15 +1,15 @@
-"""One piston with its slipper: what ball joint, bore and swash plate bear, at all shaft angles of a turn.
+"""One piston with its slipper: loads of ball joint, bore and swash plate, at all shaft angles of a turn.
 
-Masses act in their centres of mass, without moments of inertia; a axis of the bore, n normal of the plate away
-from the block, N what the plate presses back, T its friction, R and H what the retainer presses and pushes in
-the plate:
+Masses act in their centres of mass, without moments of inertia. a is the axis of the bore, n the normal of the
+plate away from the block, N the normal force of the plate, T its friction, R and H the normal and tangential
+force of the retainer:
 
     slipper   m_s A   = B + T + H + (R - N) n          piston   m_p a_p = -B + F a + L,   L . a = 0
 
 as `gaps.loads.ball_joint`, with the retainer. F is chamber pressure over the case's on the piston's area and the
-friction of the bore. The slipper's motion in the plate gives B there, the piston's along the bore the rest of
-it. L comes from two places, the case edge of the guiding land and its inner end, by the moment about the ball;
-the plate's moment holds what acts on the slipper about the ball.
+friction of the bore. The slipper's motion in the plate gives B there, the piston's along the bore the rest of it.
+L acts at two places, the case edge of the guiding land and its inner end, by the moment about the ball; the
+plate's moment balances the moments on the slipper about the ball.
 """
 
 from __future__ import annotations
@@ -39,14 +39,12 @@ class SetLoads:
 
 @dataclass(frozen=True)
 class SetForces:
-    """What joins one piston and its slipper to the rest, over N own shaft angles; vectors (3, N) in the pump's
-    frame.
+    """Joint forces of one piston and its slipper, over N own shaft angles; vectors (3, N) in the pump's frame.
 
-    ball N, of the piston on the slipper; lift (N,) N, what the plate presses back with; plate N, all of the
-    plate on the slipper, and plate_moment N m about the ball; edge, inner N: of the bore on the piston across
-    it, at the case edge and the inner end of the guiding land, at edge_place and inner_place m; twist (N,) N m
-    about the bore's axis. momentum N and spin N m: m a and its moment about the origin, of both bodies; power W
-    that m a takes.
+    ball N, of the piston on the slipper; lift (N,) N, normal force of the plate; plate N, total force of the
+    plate on the slipper, and plate_moment N m about the ball; edge, inner N: of the bore on the piston across it,
+    at the case edge and the inner end of the guiding land, at edge_place and inner_place m; twist (N,) N m about
+    the bore's axis. momentum N and spin N m: m a and its moment about the origin, of both bodies; power W of m a.
     """
 
     ball: Array

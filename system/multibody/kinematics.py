@@ -1,7 +1,7 @@
-"""Motion of pistons, balls and slippers under a swash plate at a tilt angle that may change.
+"""Motion of pistons, balls and slippers under a swash plate at a variable tilt angle.
 
-Frame and statement as in `plate_kernels`; exact for a cone, a cross angle and a tilt axis beside the shaft. For a
-plate at rest on the shaft's axis these are Eqs. (6)-(8), `system.pump.laws.kinematics`.
+Frame and definitions as in `plate_kernels`; exact for a cone, a cross angle and a tilt axis off the shaft. For a
+fixed plate whose tilt axis meets the shaft these are Eqs. (6)-(8), `system.pump.laws.kinematics`.
 """
 
 from __future__ import annotations
@@ -19,8 +19,9 @@ SHAFT = np.array([[0.0], [0.0], [1.0]])
 
 @dataclass(frozen=True)
 class BoreCircle:
-    """Where the bores lie: pitch_radius m of the ball centres at zero tilt, cone rad; cross rad, the plate's fixed
-    tilt about the other axis; pivot_offset m of the tilt axis from the shaft's, to the inner dead centre."""
+    """Circle of the bores: pitch_radius m of the ball centres at zero tilt, cone rad; cross rad, the plate's fixed
+    tilt about the other axis; pivot_offset m of the tilt axis from the shaft's, to the inner dead centre.
+    """
 
     pitch_radius: float
     cone: float
@@ -108,7 +109,7 @@ def ball_motion(circle: BoreCircle, plate: Plate, shaft_angle: Array, speed: flo
 
 
 def swept(place: Array, axis: Array, way: Array, gain: Array, speed: float) -> Array:
-    """Acceleration (3, N) of points that slide along axes which the shaft carries round.
+    """Acceleration (3, N) of points that slide along axes which turn with the shaft.
 
     s'' a + 2 w s' z x a - w^2 r, r from the shaft's axis: `gaps.loads.ball_joint.swept_acceleration` at all
     angles.

@@ -1,4 +1,4 @@
-"""Where the joints of the rotating group lie: stated by the pump file, or taken and told."""
+"""Places of the joints of the rotating group: from the pump file, or assumed and listed."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ from system.inputs.units import Dimension
 
 @dataclass(frozen=True)
 class GroupPlaces:
-    """Heights (m) over the valve plate: pivot, where the plane of the ball centres cuts the shaft, which is the
-    ball guide's centre too; spline, where the shaft holds the block sideways; middles of front and rear
-    bearing.
+    """Heights (m) over the valve plate.
 
-    arm m, of the actuator's pin from the tilt axis; strokes: which way its force tilts the plate. retained: the
-    spring presses the slippers through the retainer, or else stands on the shaft.
+    pivot: intersection of the shaft with the plane of the ball centres, also the ball guide's centre; spline:
+    lateral support of the block on the shaft; middles of front and rear bearing. arm m, of the actuator's pin
+    from the tilt axis; strokes: sense in which its force tilts the plate. retained: the spring presses the
+    slippers through the retainer, or else rests on the shaft.
     """
 
     pivot: float
@@ -54,7 +54,7 @@ def actuator_arm(pump: PumpDescription, taken: Taken) -> float:
 
 
 def stroking(pump: PumpDescription, taken: Taken) -> Stroking:
-    """Which way the actuator's pressure tilts the plate, stated or taken."""
+    """Sense in which the actuator's pressure tilts the plate, stated or assumed."""
     if pump.actuator.strokes is not None:
         return pump.actuator.strokes
     taken.note("actuator.strokes", Stroking.UP.value, "control pressure holds the plate against the pump's moment")

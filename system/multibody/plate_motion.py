@@ -1,8 +1,8 @@
 """The variable displacement mechanism: swash plate with its inertia, stops and friction, actuator and spring.
 
-Every value is stated by [swash_plate] and [actuator], or taken and told. An actuator pushes the plate along the
-shaft by a pin at `arm` from the tilt axis: its way is arm (sin g - sin g_min), or arm (sin g_max - sin g) where
-its pressure strokes the plate down; the spring stands against it.
+[swash_plate] and [actuator] state every value, or it is assumed and listed. An actuator pushes the plate along
+the shaft by a pin at `arm` from the tilt axis: its displacement is arm (sin g - sin g_min), or arm (sin g_max -
+sin g) where its pressure strokes the plate down; the spring acts against it.
 """
 
 from __future__ import annotations
@@ -59,7 +59,7 @@ class Actuator:
 
 @dataclass(frozen=True)
 class Mechanism:
-    """Plate and actuator, complete; taken: what is not stated."""
+    """Plate and actuator, complete; taken: the values that are not stated."""
 
     plate: SwingingPlate
     actuator: Actuator
@@ -67,8 +67,9 @@ class Mechanism:
 
 
 def mechanism(pump: PumpDescription, point: OperatingPoint, control_pressure: float) -> Mechanism:
-    """The mechanism of a pump; where its actuator is not stated, one that `control_pressure` (Pa) holds it by at
-    `point`, at full displacement."""
+    """The mechanism of a pump. An actuator that is not stated balances the pump with `control_pressure` (Pa) at
+    `point`, at full displacement.
+    """
     taken = Taken()
     plate = _plate(pump, taken)
     return Mechanism(plate, _actuator(pump, plate, point, control_pressure, taken), tuple(taken.assumptions))
@@ -132,5 +133,5 @@ def _actuator(
 
 
 def _largest_moment(pump: PumpDescription, point: OperatingPoint) -> float:
-    """Largest over the turn of what holds the plate at rest at a point, N m."""
+    """Largest moment over the turn that keeps the plate at rest at a point, N m."""
     return float(np.max(np.abs(joint_forces(pump, lumped_point(pump, point)).plate.control)))

@@ -1,15 +1,15 @@
-"""Retainer and ball guide: what the spring presses and what their friction pushes, on guide and slippers.
+"""Retainer and ball guide: force of the spring and friction, on guide and slippers.
 
-The retainer turns with the shaft's speed about the plate's normal n, on a ball guide that turns about the
-shaft: they slide by W = w (n - z) about the guide's centre, in which both axes meet. Every normal of the
-contact's circle of latitude has the same share along n and none across in sum, so the guide's axial balance
-gives the sum along n, F_s/cos g, whatever the pressure. Friction -q dV/|dV|, q its size spread evenly round the
-circle, is a force along the tilt axis and a moment; its power is -q mean |dV|.
+The retainer turns with the shaft's speed about the plate's normal n, on a ball guide that turns about the shaft:
+they slide by W = w (n - z) about the guide's centre, in which both axes meet. Every normal of the contact's
+circle of latitude has the same share along n and none across in sum, so the guide's axial balance gives the sum
+along n, F_s/cos g, at any pressure. Friction -q dV/|dV|, with q spread evenly round the circle, is a force along
+the tilt axis and a moment; its power is -q mean |dV|.
 
-The retainer hands both on to the slippers, R n in their ball centres and H in the plane, with sum and moment
-about the guide's centre in balance, and without rubbing on them: sum H . (v - w n x P) = 0. Of all such forces
-the smallest are taken, in the sense of least squares: those of equal springs at the slippers, R even but for
-what holds the moment.
+The retainer transmits both to the slippers, R n in their ball centres and H in the plane, with sum and moment
+about the guide's centre in balance, and without friction on them: sum H . (v - w n x P) = 0. Of all such forces
+the smallest in the sense of least squares are used: those of equal springs at the slippers, R even except for the
+part that balances the moment.
 """
 
 from __future__ import annotations
@@ -53,7 +53,7 @@ def contact_circle(guide: BallGuide, plate_axes: Array) -> Array:
 
 
 def guide_contact(guide: BallGuide, plate_axes: Array, speed: float, spring: float, loss: float) -> GuideContact:
-    """The contact under a spring force (N) whose friction takes `loss` (W) at a shaft speed (rad/s).
+    """The contact under a spring force (N) whose friction consumes `loss` (W) at a shaft speed (rad/s).
 
     A circle that does not slide (no tilt) has no friction.
     """
@@ -81,7 +81,7 @@ def guide_loss(friction: float, spring: float, guide: BallGuide, plate_axes: Arr
 
 
 def hold(contact: GuideContact, motion: BallMotion, plate_axes: Array, speed: float, pistons: int) -> Hold:
-    """What the retainer hands on to a slipper, over the shaft angles of `motion`, a multiple of the pistons."""
+    """Forces of the retainer on a slipper, over the shaft angles of `motion`, a multiple of the pistons."""
     step = motion.place.shape[1] // pistons
     flat = np.tensordot(plate_axes[:2], motion.place, axes=1)
     onward = np.stack([-flat[1], flat[0]])

@@ -69,7 +69,7 @@ class TurningGroup:
 
     @property
     def pistons(self) -> int:
-        """How many."""
+        """Number of pistons."""
         return self.pump.pump.pistons
 
     @property
@@ -96,7 +96,7 @@ class ChamberLoads:
 class JointForces:
     """All joints at N shaft angles, vectors (3, N) in N and wrenches (6, N) about the pump's origin.
 
-    loads, sets: of each chamber over its own angle, of one where chambers are alike. hold: of the retainer on a
+    loads, sets: of each chamber over its own angle, of one where chambers are equal. hold: of the retainer on a
     slipper over its own angle; guide: of the ball guide on the retainer; guide_spline: of the shaft on the ball
     guide.
     """
@@ -114,10 +114,10 @@ class JointForces:
 
 
 def joint_forces(pump: PumpDescription, found: PumpPoint) -> JointForces:
-    """The forces between all parts at an operating point, friction being what its losses say.
+    """The forces between all parts at an operating point, with friction from the losses.
 
-    A loss at a sliding speed is a force loss/speed (`shaft_torque.forces_by_loss`). What effects of [physics]
-    put on the shaft beside the pairs is no joint of the group and is left out.
+    A loss at a sliding speed is a force loss/speed (`shaft_torque.forces_by_loss`). Torques of [physics] effects
+    on the shaft outside the pairs are no joint of the group and are left out.
     """
     full = full_drive(pump)
     ratio = found.geometric_displacement / displacement(pump.pump.pistons, piston_area(pump), stroke(full))
@@ -167,7 +167,7 @@ def _loads_by_loss(group: TurningGroup, found: PumpPoint) -> tuple[ChamberLoads,
 
 
 def levers(pump: PumpDescription, point: OperatingPoint) -> Levers:
-    """Levers of a piston in its bore over the turn: the guiding land is no longer than what is engaged."""
+    """Levers of a piston in its bore over the turn: the guiding land is no longer than the engaged length."""
     motion = piston_motion(pump, point)
     land = np.inf if pump.piston.guide_length is None else pump.piston.guide_length
     return Levers(motion.overhang, np.minimum(motion.engaged_length, land), pump.slipper.centre_of_mass_to_ball)
@@ -176,7 +176,7 @@ def levers(pump: PumpDescription, point: OperatingPoint) -> Levers:
 def _held_sets(
     group: TurningGroup, loads: Sequence[ChamberLoads], guide_loss: float
 ) -> tuple[tuple[SetForces, ...], Hold, GuideContact]:
-    """Pistons and slippers under what the retainer hands on, whose friction takes guide_loss (W)."""
+    """Pistons and slippers under the forces of the retainer, whose friction consumes guide_loss (W)."""
     part, speed, axes = group.pump.ball_guide, group.point.shaft_speed, group.plate_axes
     pressed = group.spring if group.places.retained else 0.0
     guide = guide_contact(BallGuide(part.radius, part.contact_latitude), axes, speed, pressed, guide_loss)
@@ -189,8 +189,9 @@ def _held_sets(
 
 
 def _shaft_drag(found: PumpPoint) -> ShaftDrag:
-    """What rubs about the shaft beside the ball guide: loss over speed, less what dragged oil gives the ring
-    back."""
+    """Friction torque about the shaft without that of the ball guide: loss over speed, less the torque that
+    dragged oil returns to the ring.
+    """
     speed = found.point.shaft_speed
     rubbing = (Pair.VALVE_PLATE_CYLINDER, Pair.FRONT_BEARING, Pair.REAR_BEARING)
     losses = (found.pairs.loss(pair) for pair in rubbing)
@@ -199,7 +200,7 @@ def _shaft_drag(found: PumpPoint) -> ShaftDrag:
 
 
 def _guide_spline(group: TurningGroup, guide: GuideContact) -> Array:
-    """What the shaft gives the ball guide, (6, N): all that retainer and spring leave, nothing along the shaft."""
+    """Wrench of the shaft on the ball guide, (6, N): balance of retainer and spring, none along the shaft."""
     sideways = guide.force[:, None] * np.array([[1.0], [1.0], [0.0]])
     found = wrench(sideways, group.places.pivot * SHAFT, guide.moment[:, None])
     return np.broadcast_to(found, (6, group.shaft_angle.size))

@@ -1,10 +1,10 @@
-"""Block, ball guide, shaft and swash plate: what splines, valve plate, bearings and trunnion bear.
+"""Block, ball guide, shaft and swash plate: loads of splines, valve plate, bearings and trunnion.
 
-Wrenches are (6, N): force N and moment N m about the pump's origin, on the shaft's axis in the face of the
-valve plate, over N shaft angles. The block is balanced about the shaft, turns with it and is held by the valve
-plate (along the shaft and about both axes across), and by the spline (sideways, and about the shaft). On a
-spherical valve plate part of the sideways force is the plate's: the spline is given all of it. The ball guide
-moves freely along the shaft.
+Wrenches are (6, N): force N and moment N m about the pump's origin, on the shaft's axis in the face of the valve
+plate, over N shaft angles. The block is balanced about the shaft and turns with it. The valve plate supports it
+along the shaft and about both axes across, the spline sideways and about the shaft. On a spherical valve plate
+part of the sideways force is the plate's; here the spline takes all of it. The ball guide moves freely along the
+shaft.
 """
 
 from __future__ import annotations
@@ -57,7 +57,7 @@ class PlateReactions:
 
 
 def block_reactions(on_block: Array, places: GroupPlaces, drag: ShaftDrag) -> BlockReactions:
-    """What holds the block under all else that acts on it, on_block (6, N): pistons, oil over them and spring."""
+    """Reactions on the block under all other forces on it, on_block (6, N): pistons, oil over them and spring."""
     force, moment = on_block[:3], on_block[3:]
     sideways = np.stack([-force[0], -force[1], np.zeros_like(force[0])])
     spline = wrench(sideways, places.spline * SHAFT)
@@ -70,8 +70,8 @@ def block_reactions(on_block: Array, places: GroupPlaces, drag: ShaftDrag) -> Bl
 
 
 def shaft_reactions(on_shaft: Array, places: GroupPlaces, drag: ShaftDrag) -> ShaftReactions:
-    """What bearings and drive give the shaft under on_shaft (6, N), from both splines, and a spring that stands
-    on it.
+    """Reactions of bearings and drive on the shaft under on_shaft (6, N), from both splines, and a spring that
+    rests on it.
 
     Moments across are shared by both bearings, F_F (z_F - z_R) = -(M about the rear one).
     """
@@ -89,10 +89,11 @@ def shaft_reactions(on_shaft: Array, places: GroupPlaces, drag: ShaftDrag) -> Sh
 
 
 def plate_reactions(on_plate: Array, places: GroupPlaces, tilt_axis: Array, swash_angle: float) -> PlateReactions:
-    """What holds the swash plate at rest under on_plate (6, N): trunnion in the pivot, and actuator at its pin.
+    """Reactions on the swash plate at rest under on_plate (6, N): trunnion in the pivot, and actuator at its pin.
 
     tilt_axis (3,) unit vector; a turn about it makes the swash angle (rad) larger. The pin lies in the plate's
-    plane through the tilt axis, `arm` from it, where a push out of the block tilts the plate the way it strokes.
+    plane through the tilt axis, `arm` from it, where a push out of the block tilts the plate in its stroking
+    sense.
     """
     pivot = places.pivot * SHAFT
     about_pivot = on_plate[3:] - np.cross(pivot, on_plate[:3], axis=0)

@@ -24,7 +24,7 @@ from system.pump.operating import OperatingPoint, operating_point
 from system.pump_file.file import resolved_toml
 from system.work.kept_results import KeptPoints, run_kept
 from system.work.progress import Report, silent
-from system.work.tasks import Hands, Record, Status
+from system.work.tasks import Executor, PartStatus, Record
 
 POINT_FORMAT = 1
 """Raised when the same point gives other numbers: by the laws behind it, or by what is kept."""
@@ -217,7 +217,7 @@ def solve_points(
     fidelity: PointFidelity,
     places: Sequence[Place],
     store: KeptPoints,
-    hands: Hands,
+    executor: Executor,
     report: Report = silent,
 ) -> PaperPoints:
     """The places solved, or taken from `store`. Raises FilmInputError for the first that has no solution."""
@@ -228,9 +228,9 @@ def solve_points(
             report(done, len(places), "lumped points")
             solved[place] = paper_point(work.solved(place))
         return PaperPoints(pump, fidelity, solved)
-    kept = run_kept(work, places, store, hands, report=report)
+    kept = run_kept(work, places, store, executor, report=report)
     for place, outcome in zip(places, kept.outcomes, strict=True):
-        if outcome.status is not Status.SOLVED:
+        if outcome.status is not PartStatus.SOLVED:
             raise FilmInputError(f"paper's point {place.text}", outcome.reason, "a point that can be solved")
     points = {place: _point(one.record) for place, one in zip(places, kept.outcomes, strict=True)}
     return PaperPoints(pump, fidelity, points)

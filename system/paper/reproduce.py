@@ -22,7 +22,7 @@ from system.paper.points import PaperPoints, PointFidelity, places_of, solve_poi
 from system.points.floating_gaps import FloatingOptions
 from system.work.kept_results import KeptPoints
 from system.work.progress import Report, silent
-from system.work.tasks import Hands
+from system.work.tasks import Executor
 
 OF_POINTS: Mapping[Figure, Callable[[PaperPoints], FigureResult]] = {
     Figure.TABLE1: table1,
@@ -64,7 +64,7 @@ class Means:
     """What the work is done with: where costly points are kept, who does them, how floating gaps are solved."""
 
     store: KeptPoints
-    hands: Hands
+    executor: Executor
     floating: FloatingOptions
     report: Report = silent
 
@@ -79,11 +79,11 @@ def reproduce(
     if fidelity is PaperFidelity.FLOATING:
         made = {
             result.figure: result
-            for result in floating_figures(pump, means.floating, means.store, means.hands, means.report)
+            for result in floating_figures(pump, means.floating, means.store, means.executor, means.report)
         }
         return tuple(made.get(figure, _nothing(figure)) for figure in figures)
     own = PointFidelity(fidelity.value)
-    points = solve_points(pump, own, places_of(pump, figures), means.store, means.hands, means.report)
+    points = solve_points(pump, own, places_of(pump, figures), means.store, means.executor, means.report)
     return tuple(_made(points, figures, means))
 
 
@@ -101,7 +101,7 @@ def _made(points: PaperPoints, figures: Sequence[Figure], means: Means) -> Itera
 
 
 def _lumped(pump: PumpDescription, means: Means) -> PaperPoints:
-    return solve_points(pump, PointFidelity.LUMPED, places_of(pump, (Figure.FIG13,)), means.store, means.hands)
+    return solve_points(pump, PointFidelity.LUMPED, places_of(pump, (Figure.FIG13,)), means.store, means.executor)
 
 
 def _nothing(figure: Figure) -> FigureResult:

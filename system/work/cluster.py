@@ -37,11 +37,11 @@ class Cluster:
         return max(1, sum(self._client.nthreads().values()))
 
     def attempts(self, task: Callable[[Part], Result], parts: Sequence[Part]) -> Iterator[Attempt[Part, Result]]:
-        """What comes of each part, in the order in which they are done; no part's failure ends the others.
+        """Result of each part, in the order of completion; no part's failure ends the others.
 
-        A part whose worker dies is given to another by the scheduler. After the fourth death (Dask's own
-        `allowed-failures`, 3) it is tried by itself, since Dask blames whatever else waited on the same workers;
-        if workers die of it again its fault is WorkerDied.
+        The scheduler gives a part whose worker dies to another. After the fourth death (Dask's own
+        `allowed-failures`, 3) the part is tried alone, since Dask also blames other parts that waited on the same
+        workers. If workers die of it again its fault is WorkerDied.
         """
         from distributed import KilledWorker
 
@@ -104,17 +104,17 @@ def cluster(address: str) -> Iterator[Cluster]:
         raise InputFaults("command line", [Fault("--cluster", f"{address}: {reason}", expected, RECIPE)]) from None
     with client:
         try:
-            told = client.run(about_worker)
+            versions = client.run(about_worker)
         except ImportError as reason:
             fault = Fault("workers", f"one that fails: {reason}", "swashfilm installed on every worker", RECIPE)
             raise InputFaults(f"cluster {address}", [fault]) from None
-        if faults := [*worker_faults(told, about_worker())]:
+        if faults := [*worker_faults(versions, about_worker())]:
             raise InputFaults(f"cluster {address}", faults)
         yield Cluster(client)
 
 
 def about_worker() -> dict[str, str]:
-    """What must be alike on every worker: versions, and one thread a library."""
+    """Properties that must be equal on every worker: versions, and one thread per library."""
     import os
 
     import numpy
@@ -125,7 +125,7 @@ def about_worker() -> dict[str, str]:
 
 
 def worker_faults(workers: Mapping[str, Mapping[str, Any]], own: Mapping[str, str]) -> Iterator[Fault]:
-    """Every worker that has another version than this process, or lets libraries take several threads."""
+    """Every worker that has another version than this process, or uses several threads in libraries."""
     if not workers:
         yield Fault("workers", "none", "one at least", f"{RECIPE} says how they are started")
     for name, found in workers.items():

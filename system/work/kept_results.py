@@ -1,4 +1,4 @@
-"""Results of parts kept in a folder, one file a part, named by content: what was done once is not done again."""
+"""Results of parts kept in a folder, one file per part, named by content, so that no part is solved twice."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from reynolds.errors import FilmInputError
 from system.inputs.faults import Fault, InputFaults, nearest_path
 from system.work.processes import WorkerDied
 from system.work.progress import Report, silent
-from system.work.tasks import Hands, Outcome, Status, Work, done_part, internal_reason
+from system.work.tasks import Executor, PartOutcome, PartStatus, Work, done_part, internal_reason
 
 FORMAT = 1
 POINTS = "points"
@@ -30,10 +30,10 @@ class KeptPoints:
     """A folder of outcomes; `keeps`: of which kinds. Others would come out otherwise another time."""
 
     folder: Path
-    keeps: frozenset[Status] = frozenset({Status.SOLVED, Status.NOT_CONVERGED})
+    keeps: frozenset[PartStatus] = frozenset({PartStatus.SOLVED, PartStatus.NOT_CONVERGED})
 
-    def get(self, key: str) -> Outcome | None:
-        """The outcome of that name, None where there is none; a file that is broken is none, and the log tells."""
+    def get(self, key: str) -> PartOutcome | None:
+        """The outcome of that name, None if absent; a broken file counts as absent and is logged."""
         place = self.folder / f"{key}.json"
         if not place.is_file():
             return None
@@ -42,13 +42,14 @@ class KeptPoints:
             if values["format"] != FORMAT:
                 return None
             fields = (values[name] for name in ("reason", "record", "seconds", "worker"))
-            return Outcome(key, Status(values["status"]), *fields)
+            return PartOutcome(key, PartStatus(values["status"]), *fields)
         except (OSError, ValueError, KeyError, TypeError) as fault:
             LOG.warning("%s is broken (%r): done anew", place, fault)
             return None
 
-    def put(self, outcome: Outcome) -> None:
-        """Keep an outcome of a kind that is kept: written beside and moved into place, no reader meets half of it.
+    def put(self, outcome: PartOutcome) -> None:
+        """Keep an outcome of a kind that is kept. The file is written elsewhere and moved, so no reader meets a
+        part of it.
 
         Raises FilmInputError where the folder cannot be written.
         """
@@ -77,10 +78,10 @@ def points_of_run(folder: Path) -> KeptPoints:
 
 
 @dataclass(frozen=True)
-class Kept:
+class KeptOutcomes:
     """All outcomes in the order of the parts, and how many of them were there before."""
 
-    outcomes: tuple[Outcome, ...]
+    outcomes: tuple[PartOutcome, ...]
     known: int
 
 
@@ -88,36 +89,37 @@ def run_kept(
     work: Work[Part],
     parts: Sequence[Part],
     store: KeptPoints,
-    hands: Hands,
+    executor: Executor,
     *,
     earlier: KeptPoints | None = None,
     batch: int = 1,
-    told: Callable[[Part, Outcome], str] = lambda part, outcome: outcome.status.value,
+    described: Callable[[Part, PartOutcome], str] = lambda part, outcome: outcome.status.value,
     report: Report = silent,
-) -> Kept:
-    """Every part's outcome; each lies in `store` as soon as it is known here: a break costs what was at work.
+) -> KeptOutcomes:
+    """Every part's outcome. Each is in `store` as soon as it is known here: an interruption loses only the parts
+    under way.
 
-    What `store` or `earlier` holds is taken from there. `batch` parts go to a process at a time. No part's failure
-    ends the others; parts of a batch whose process dies are tried each by itself.
+    Outcomes in `store` or `earlier` are taken from there. `batch` parts go to a process at a time. No part's
+    failure ends the others; parts of a batch whose process dies are tried one by one.
     """
     found = {index: outcome for index, part in enumerate(parts) if (outcome := _known(work, part, store, earlier))}
     known, todo = len(found), [index for index in range(len(parts)) if index not in found]
     report(0, len(todo), f"{known} points kept" if known else "solving")
-    for index, outcome in _outcomes(work, parts, todo, hands, batch):
+    for index, outcome in _outcomes(work, parts, todo, executor, batch):
         found[index] = outcome
         store.put(outcome)
-        report(len(found) - known, len(todo), told(parts[index], outcome))
-    return Kept(tuple(found[index] for index in range(len(parts))), known)
+        report(len(found) - known, len(todo), described(parts[index], outcome))
+    return KeptOutcomes(tuple(found[index] for index in range(len(parts))), known)
 
 
-def _known(work: Work[Part], part: Part, store: KeptPoints, earlier: KeptPoints | None) -> Outcome | None:
+def _known(work: Work[Part], part: Part, store: KeptPoints, earlier: KeptPoints | None) -> PartOutcome | None:
     """The outcome of a part that is kept somewhere, afterwards in `store`; unnamed where nothing is kept."""
     if not store.folder.is_dir() and earlier is None:
         return None
     try:
         key = work.key(part)
     except (InputFaults, FilmInputError):
-        return None  # told when the part is tried
+        return None  # raised again when the part is tried
     if (own := store.get(key)) is not None or earlier is None:
         return own
     if (taken := earlier.get(key)) is not None:
@@ -126,13 +128,13 @@ def _known(work: Work[Part], part: Part, store: KeptPoints, earlier: KeptPoints 
 
 
 def _outcomes(
-    work: Work[Part], parts: Sequence[Part], todo: Sequence[int], hands: Hands, batch: int
-) -> Iterator[tuple[int, Outcome]]:
+    work: Work[Part], parts: Sequence[Part], todo: Sequence[int], executor: Executor, batch: int
+) -> Iterator[tuple[int, PartOutcome]]:
     """Index and outcome of the parts that are to do, as they are done."""
     groups = [[(k, parts[k]) for k in todo[at : at + batch]] for at in range(0, len(todo), batch)]
     again: list[list[tuple[int, Part]]] = []
     for single in (False, True):
-        for attempt in hands.attempts(partial(_done, work), again if single else groups):
+        for attempt in executor.attempts(partial(_done, work), again if single else groups):
             if attempt.result is not None:
                 yield from attempt.result
             elif isinstance(attempt.fault, WorkerDied) and len(attempt.part) > 1:
@@ -141,12 +143,12 @@ def _outcomes(
                 yield from ((index, _lost(attempt.fault)) for index, _ in attempt.part)
 
 
-def _done(work: Work[Part], group: list[tuple[int, Part]]) -> list[tuple[int, Outcome]]:
+def _done(work: Work[Part], group: list[tuple[int, Part]]) -> list[tuple[int, PartOutcome]]:
     return [(index, done_part(work, part)) for index, part in group]
 
 
-def _lost(fault: Exception | None) -> Outcome:
+def _lost(fault: Exception | None) -> PartOutcome:
     """The outcome of a part that has come back without one."""
     died = isinstance(fault, WorkerDied)
     reason = str(fault) if died or fault is None else internal_reason(fault)
-    return Outcome("", Status.WORKER_DIED if died else Status.INTERNAL, reason, {}, 0.0, "")
+    return PartOutcome("", PartStatus.WORKER_DIED if died else PartStatus.INTERNAL, reason, {}, 0.0, "")

@@ -23,7 +23,7 @@ class WorkerDied(RuntimeError):
 
 @dataclass(frozen=True)
 class Attempt(Generic[Part, Result]):
-    """What came of a part: its result, or the exception that is the reason why it has none."""
+    """Result of a part, or the exception that explains its absence."""
 
     part: Part
     result: Result | None
@@ -31,21 +31,21 @@ class Attempt(Generic[Part, Result]):
 
 
 def cores() -> int:
-    """How many cores this process may use."""
+    """Number of cores available to this process."""
     if hasattr(os, "sched_getaffinity"):
         return len(os.sched_getaffinity(0))
     return os.cpu_count() or 1
 
 
-class Crew:
-    """Processes that take parts of any task, one after the other; one worker is this process itself."""
+class ProcessPool:
+    """Processes that run parts of any task, one after the other; one worker is this process itself."""
 
     def __init__(self, workers: int) -> None:
         self.workers = workers
         self._pool: ProcessPoolExecutor | None = None
 
     def do(self, task: Callable[[Part], Result], parts: Sequence[Part]) -> Iterator[Result]:
-        """The results of `task` in the order in which they are done; raises what the first part that fails raised.
+        """The results of `task` in the order of completion; raises the exception of the first part that fails.
 
         Task and parts as those of `attempts`.
         """
@@ -55,11 +55,11 @@ class Crew:
             yield attempt.result  # type: ignore[misc]  # a part without a fault has its result
 
     def attempts(self, task: Callable[[Part], Result], parts: Sequence[Part]) -> Iterator[Attempt[Part, Result]]:
-        """What comes of each part, in the order in which they are done; no part's failure ends the others.
+        """Result of each part, in the order of completion; no part's failure ends the others.
 
-        Task and parts must be fit to be sent to another process. The others are started when they are first
-        needed. Ctrl-C is for this process alone. Parts that were at work when a process died are tried once more,
-        each alone, so that the one which kills is known: its fault is WorkerDied.
+        Task and parts must be picklable. The processes start when they are first needed. Ctrl-C is for this
+        process alone. Parts under way when a process died are tried once more, each alone, so that the one which
+        kills its process is known: its fault is WorkerDied.
         """
         if self.workers == 1 or len(parts) < 2:
             yield from (_tried(task, part) for part in parts)
@@ -116,25 +116,25 @@ class Crew:
         return self._pool
 
 
-HERE = Crew(1)
+HERE = ProcessPool(1)
 """This process itself."""
 
 
 @contextmanager
-def crew(workers: int) -> Iterator[Crew]:
-    """A crew for as long as it is needed."""
-    hands = Crew(workers)
+def process_pool(workers: int) -> Iterator[ProcessPool]:
+    """A process pool, ended at the end of the block."""
+    executor = ProcessPool(workers)
     try:
-        yield hands
+        yield executor
     finally:
-        hands.leave()
+        executor.leave()
 
 
 def _tried(task: Callable[[Part], Result], part: Part) -> Attempt[Part, Result]:
     """A part done by this process itself."""
     try:
         return Attempt(part, task(part), None)
-    except Exception as fault:  # whatever it is, it is told as the part's reason, or raised by `do`
+    except Exception as fault:  # whatever it is, it is the part's reason, or raised by `do`
         return Attempt(part, None, fault)
 
 

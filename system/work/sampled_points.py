@@ -1,4 +1,4 @@
-"""Points that a response is learnt from: solved once each, kept by content, side by side where asked for."""
+"""Points from which a response is learnt: solved once each, kept by content, in parallel processes on request."""
 
 from __future__ import annotations
 
@@ -16,15 +16,15 @@ from system.inputs.errors import NotConverged
 from system.work.kept_results import POINTS, KeptPoints, run_kept
 from system.work.processes import HERE
 from system.work.progress import Report, silent
-from system.work.tasks import Hands, Outcome, Status
+from system.work.tasks import Executor, PartOutcome, PartStatus
 
 FEWEST_HELD_OUT = 2
 OUTPUTS = "outputs"
-"""Of a point's record: the numbers that `Asked.solve` gave."""
+"""Of a point's record: the numbers that `SamplingTask.solve` gave."""
 
 
-class Asked(Protocol):
-    """What is condensed over a box of inputs; frozen data that can be sent to another process."""
+class SamplingTask(Protocol):
+    """A response to condense over a box of inputs; frozen data that can be sent to another process."""
 
     @property
     def axes(self) -> tuple[Axis, ...]:
@@ -33,16 +33,16 @@ class Asked(Protocol):
 
     @property
     def learnt(self) -> int:
-        """How many points to learn from."""
+        """Number of points to learn from."""
         ...
 
     @property
     def held_out(self) -> int:
-        """How many points to take the error from."""
+        """Number of points that measure the error."""
         ...
 
     def key(self, x: Array) -> str:
-        """Name of the content that a place (d,) in the box has."""
+        """Name of the content of a place (d,) in the box."""
         ...
 
     def solve(self, x: Array) -> Array:
@@ -51,8 +51,8 @@ class Asked(Protocol):
 
 
 @dataclass(frozen=True)
-class Solved:
-    """What a point gave: where it stands among all, its outputs or why there are none, seconds it took."""
+class SampledPoint:
+    """Result of a point: its number, its outputs or the reason for their absence, seconds of computing."""
 
     index: int
     outputs: Array | None
@@ -60,24 +60,24 @@ class Solved:
     seconds: float
 
 
-def points_of(asked: Asked) -> Array:
+def points_of(asked: SamplingTask) -> Array:
     """All points (n, d), the learnt ones first."""
     learnt = learnt_points(asked.axes, asked.learnt)
     return np.concatenate([learnt, held_out_points(asked.axes, asked.learnt, asked.held_out)])
 
 
 def usual_counts(inputs: int) -> tuple[int, int]:
-    """How many points to learn from and to hold out where nobody says: 8 and 2 of one input, 120 and 30 of four.
+    """Default numbers of learnt and held-out points: 8 and 2 for one input, 120 and 30 for four.
 
-    As the square of the number of inputs, which a smooth function of so many needs for its second derivatives,
-    and twice the corners of the box.
+    They grow as the square of the number of inputs, as the second derivatives of a smooth function do, plus twice
+    the corners of the box.
     """
     learnt = max(2 ** (inputs + 1), round(7.5 * inputs**2))
     return learnt, max(FEWEST_HELD_OUT, learnt // 4)
 
 
 def tables_folder(folder: Path | None = None) -> Path:
-    """Where tables are kept, their points beside them in `points`."""
+    """Folder of the tables, with their points in `points`."""
     return cache_folder(folder) / "tables"
 
 
@@ -85,43 +85,43 @@ def tables_folder(folder: Path | None = None) -> Path:
 class TableWork:
     """The points of a box as work in parts."""
 
-    asked: Asked
+    asked: SamplingTask
 
     def key(self, x: Array) -> str:
         """Name of the content of a place (d,)."""
         return self.asked.key(x)
 
     def solve(self, x: Array) -> dict[str, list[float]]:
-        """The outputs there; raises as `Asked.solve`."""
+        """The outputs there; raises as `SamplingTask.solve`."""
         return {OUTPUTS: self.asked.solve(x).tolist()}
 
 
 def solved_points(
-    asked: Asked, *, hands: Hands = HERE, report: Report = silent, folder: Path | None = None
-) -> tuple[Solved, ...]:
-    """Every point of `points_of`, in its order; those that are kept already are not solved again.
+    asked: SamplingTask, *, executor: Executor = HERE, report: Report = silent, folder: Path | None = None
+) -> tuple[SampledPoint, ...]:
+    """Every point of `points_of`, in its order; points that are kept already are not solved again.
 
-    Interrupted, it goes on where it was at the next call. A point that does not converge, or that no law or case
-    reaches, says why and is tried again the next time.
+    After an interruption the next call continues. A point that does not converge, or that no law or case reaches,
+    has its reason and is tried again the next time.
     """
-    store = KeptPoints(tables_folder(folder) / POINTS, frozenset({Status.SOLVED}))
-    kept = run_kept(TableWork(asked), list(points_of(asked)), store, hands, told=_told, report=report)
+    store = KeptPoints(tables_folder(folder) / POINTS, frozenset({PartStatus.SOLVED}))
+    kept = run_kept(TableWork(asked), list(points_of(asked)), store, executor, described=_described, report=report)
     return tuple(_solved(index, outcome) for index, outcome in enumerate(kept.outcomes))
 
 
-def _told(x: Array, outcome: Outcome) -> str:
+def _described(x: Array, outcome: PartOutcome) -> str:
     return "point failed" if outcome.reason else "point solved"
 
 
-def _solved(index: int, outcome: Outcome) -> Solved:
+def _solved(index: int, outcome: PartOutcome) -> SampledPoint:
     """A point by its outcome; raises RuntimeError for an error of the program's own, which no table may hide."""
-    if outcome.status is Status.INTERNAL:
+    if outcome.status is PartStatus.INTERNAL:
         raise RuntimeError(outcome.reason)
-    outputs = np.array(outcome.record[OUTPUTS]) if outcome.status is Status.SOLVED else None
-    return Solved(index, outputs, outcome.reason, outcome.seconds)
+    outputs = np.array(outcome.record[OUTPUTS]) if outcome.status is PartStatus.SOLVED else None
+    return SampledPoint(index, outputs, outcome.reason, outcome.seconds)
 
 
-def samples_of(asked: Asked, found: Sequence[Solved]) -> tuple[Samples, Samples]:
+def samples_of(asked: SamplingTask, found: Sequence[SampledPoint]) -> tuple[Samples, Samples]:
     """Learnt and held-out points that have a result; raises NotConverged where these are too few."""
     points, reasons = points_of(asked), [solved.reason for solved in found if solved.reason]
     parts = found[: asked.learnt], found[asked.learnt :]

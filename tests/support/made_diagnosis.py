@@ -32,7 +32,7 @@ from system.effects.effect import EffectId, Kind
 from system.estimation.fit import maximum_posterior
 from system.estimation.observations import Channel, Observations
 from system.estimation.parameters import Parameter, Role, Scale
-from system.estimation.posterior import Effort, Posterior
+from system.estimation.posterior import FitEffort, Posterior
 from system.inputs.channels import ChannelName
 from system.inputs.units import Dimension
 from system.pump.operating import operating_point
@@ -152,7 +152,7 @@ def named_diagnosis() -> Diagnosis:
         ),
         not_identifiable=("film_thickness slipper vs film_thickness piston",),
         notes=("row 3 of Q_case was removed",),
-        effort=Effort(10, 3, 1.0),
+        effort=FitEffort(10, 3, 1.0),
     )
 
 

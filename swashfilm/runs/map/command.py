@@ -17,7 +17,7 @@ from system.inputs.faults import Fault, InputFaults, nearest_choice
 if TYPE_CHECKING:
     from swashfilm.runs.map.run import MapAsked
     from system.maps.plan import MapAxis, MapPlan
-    from system.work.tasks import Hands
+    from system.work.tasks import Executor
 
 LEVELS = {
     "--speeds": ("SPEED", "1000,1300,1700,2100rpm", "shaft speeds"),
@@ -67,31 +67,31 @@ def run_map_command(options: argparse.Namespace) -> int:
         show(f"warning: {warning}")
     name = asked.plan.pump.name
     with (
-        map_hands(options, asked) as hands,
+        map_executor(options, asked) as executor,
         run_folder(f"map-{name}", options.output) as folder,
         progress(len(asked.plan.points), f"map {name}") as report,
     ):
-        run_map(asked, folder, hands, report)
+        run_map(asked, folder, executor, report)
         found = MapRun.opened(folder)
     show_result(found, folder, before=early)
     return ended(found.summary)
 
 
 @contextmanager
-def map_hands(options: argparse.Namespace, asked: MapAsked) -> Iterator[Hands]:
+def map_executor(options: argparse.Namespace, asked: MapAsked) -> Iterator[Executor]:
     """Who does the points: processes of this machine, as many as are worth their start, or a cluster's workers."""
     from swashfilm.runs.map.run import worth_starting
-    from system.work.processes import cores, crew
+    from system.work.processes import cores, process_pool
 
     if options.cluster is not None:
         from system.work.cluster import cluster
 
-        with cluster(options.cluster) as hands:
-            yield hands
+        with cluster(options.cluster) as executor:
+            yield executor
         return
     wanted = cores() if options.workers is None else int(options.workers)
-    with crew(worth_starting(asked, wanted)) as hands:
-        yield hands
+    with process_pool(worth_starting(asked, wanted)) as executor:
+        yield executor
 
 
 def map_case(options: argparse.Namespace) -> MapAsked:

@@ -73,7 +73,7 @@ def run_compare(
                 "largest": one.largest,
                 "at": {given.value: value for given, value in one.at.items()},
                 "error": one.error,
-                "told": one.told,
+                "told": one.significant,
             }
             for one in found.differences
         ],

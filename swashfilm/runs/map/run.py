@@ -42,10 +42,10 @@ from system.points.table.sources import FilmsSolver
 from system.points.table.store import find_table, own_table
 from system.pump.operating import OperatingPoint
 from system.pump_file.file import resolved_toml
-from system.work.kept_results import POINTS, Kept, KeptPoints, points_of_run, run_kept
+from system.work.kept_results import POINTS, KeptOutcomes, KeptPoints, points_of_run, run_kept
 from system.work.progress import Report
 from system.work.sampled_points import usual_counts
-from system.work.tasks import Hands, Outcome, Status
+from system.work.tasks import Executor, PartOutcome, PartStatus
 
 FILMS_COST = 2.0
 """Seconds of processor time that a point of the films fidelity takes, about (benchmarks/map.py)."""
@@ -89,7 +89,7 @@ def worth_starting(asked: MapAsked, wanted: int) -> int:
     return max(1, min(wanted, math.floor(asked.cost / START)))
 
 
-def run_map(asked: MapAsked, folder: Path, hands: Hands, report: Report) -> dict[str, Any]:
+def run_map(asked: MapAsked, folder: Path, executor: Executor, report: Report) -> dict[str, Any]:
     """Solve a map's points and write points/, map.nc, map.csv, shares.csv, best.csv, summary.json and the page.
 
     Returns the summary. A point that fails carries its reason. Raises InputFaults where the earlier run has no
@@ -98,15 +98,15 @@ def run_map(asked: MapAsked, folder: Path, hands: Hands, report: Report) -> dict
     began, plan = time.monotonic(), asked.plan
     (folder / "input.toml").write_text(asked.given, encoding="utf-8")
     (folder / "resolved.toml").write_text(resolved_toml(plan.pump), encoding="utf-8")
-    solver = _solver(asked, hands, report)
+    solver = _solver(asked, executor, report)
     work = MapWork(plan.pump, solver)
     count = (CHECKED if solver.cost <= CHEAP else 0) if asked.checks is None else asked.checks
     fresh, size = check_points(plan, count), len(plan.points)
-    kept = _solved(work, (*plan.points, *fresh), asked.resume, folder, hands, report)
+    kept = _solved(work, (*plan.points, *fresh), asked.resume, folder, executor, report)
     data = map_data(plan, work, kept.outcomes[:size])
     error = _error(data, fresh, kept.outcomes[size:])
     summary = map_summary(plan, work, data, kept, error) | {
-        "workers": hands.workers,
+        "workers": executor.workers,
         "wall_s": time.monotonic() - began,
     }
     write_map(folder / "map.nc", data, error, summary | {"resolved_toml": resolved_toml(plan.pump)})
@@ -123,20 +123,22 @@ def _solved(
     points: tuple[OperatingPoint, ...],
     resume: Path | None,
     folder: Path,
-    hands: Hands,
+    executor: Executor,
     report: Report,
-) -> Kept:
+) -> KeptOutcomes:
     """What becomes of all points; each is in points/ as soon as it is done."""
     store, earlier = KeptPoints(folder / POINTS), points_of_run(resume) if resume else None
     batch = max(1, round(PART / work.solver.cost))
-    return run_kept(work, points, store, hands, earlier=earlier, batch=batch, told=_told, report=report)
+    return run_kept(
+        work, points, store, executor, earlier=earlier, batch=batch, described=_described, report=report
+    )
 
 
-def _told(point: OperatingPoint, outcome: Outcome) -> str:
+def _described(point: OperatingPoint, outcome: PartOutcome) -> str:
     return f"{point_words(point)}: {outcome.status.value}"
 
 
-def _solver(asked: MapAsked, hands: Hands, report: Report) -> MapSolver:
+def _solver(asked: MapAsked, executor: Executor, report: Report) -> MapSolver:
     """What solves the points; a table of films is built first, over the plan's own box."""
     match asked.fidelity:
         case Fidelity.LUMPED:
@@ -147,7 +149,7 @@ def _solver(asked: MapAsked, hands: Hands, report: Report) -> MapSolver:
             return DirectSolver(FilmsSolver(), FILMS_COST)
         case _:
             case = _table_case(asked.plan)
-            return TableSolver(build_table(case, hands=hands, report=report))
+            return TableSolver(build_table(case, executor=executor, report=report))
 
 
 def _table_case(plan: MapPlan) -> TableCase:
@@ -194,11 +196,11 @@ def _kept_table(asked: MapAsked) -> ResponseTable:
     return table
 
 
-def _error(data: MapData, fresh: tuple[OperatingPoint, ...], found: tuple[Outcome, ...]) -> MapError | None:
+def _error(data: MapData, fresh: tuple[OperatingPoint, ...], found: tuple[PartOutcome, ...]) -> MapError | None:
     """What the map misses between its levels, by fresh points or, without them, by its own levels."""
     if not np.all(data.solved):
         return None
-    good = [k for k, outcome in enumerate(found) if outcome.status is Status.SOLVED]
+    good = [k for k, outcome in enumerate(found) if outcome.status is PartStatus.SOLVED]
     if not good:
         return left_out_error(data)
     rows: list[Mapping[str, float]] = [found[k].record["numbers"] for k in good]

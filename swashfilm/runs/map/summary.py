@@ -12,21 +12,23 @@ from system.description.pump import PumpDescription
 from system.films.cycle import PLAIN
 from system.films.parts import floating_parts
 from system.films.rotor import rotor
-from system.maps.data import Best, MapData, best_points, toet_notes, told_warnings
+from system.maps.data import Best, MapData, best_points, toet_notes, warning_counts
 from system.maps.interpolation import MapError
 from system.maps.plan import MapAxis, MapInput, MapPlan, point_words, reading_levels
 from system.maps.point import LumpedSolver, MapWork, TableSolver
 from system.points.film_effects import effects_in_films, film_effects
 from system.pump.operating import operating_point
 from system.pump_file.file import check_pump
-from system.work.kept_results import Kept
-from system.work.tasks import Status
+from system.work.kept_results import KeptOutcomes
+from system.work.tasks import PartStatus
 
 
-def map_summary(plan: MapPlan, work: MapWork, data: MapData, kept: Kept, error: MapError | None) -> dict[str, Any]:
+def map_summary(
+    plan: MapPlan, work: MapWork, data: MapData, kept: KeptOutcomes, error: MapError | None
+) -> dict[str, Any]:
     """The summary of a map whose points' outcomes come first in `kept`, those of fresh points after them."""
     outcomes = kept.outcomes[: len(plan.points)]
-    solved = [outcome for outcome in outcomes if outcome.status is Status.SOLVED]
+    solved = [outcome for outcome in outcomes if outcome.status is PartStatus.SOLVED]
     return {
         "format": 1,
         "kind": "map",
@@ -41,7 +43,7 @@ def map_summary(plan: MapPlan, work: MapWork, data: MapData, kept: Kept, error: 
         "failed": [
             {"at": point_words(point), "status": outcome.status.value, "reason": outcome.reason}
             for point, outcome in zip(plan.points, outcomes, strict=True)
-            if outcome.status is not Status.SOLVED
+            if outcome.status is not PartStatus.SOLVED
         ],
         "best": [_best(data, best) for best in best_points(data)],
         "displacement": list(_displacements(data)),
@@ -148,7 +150,7 @@ def _warnings(pump: PumpDescription, plan: MapPlan, data: MapData) -> Iterator[s
     for warning in check_pump(pump).warnings:
         if not warning.path.startswith("operating.") and warning.path not in own:
             yield str(warning)
-    for name, (count, text) in told_warnings(data).items():
+    for name, (count, text) in warning_counts(data).items():
         yield f"{name}: at {count} of {int(np.sum(data.solved))} points; at the first: {text}"
 
 

@@ -54,14 +54,14 @@ def run_reproduce_command(options: argparse.Namespace) -> int:
     from swashfilm.runs.reproduce.page import count_words, markdown_page
     from swashfilm.runs.reproduce.result import Reproduction
     from swashfilm.runs.reproduce.run import run_reproduce
-    from system.work.processes import crew
+    from system.work.processes import process_pool
 
     with (
-        crew(workers) as hands,
+        process_pool(workers) as executor,
         run_folder("reproduce", options.output) as folder,
         progress(1, f"reproduce {options.figure}") as report,
     ):
-        run_reproduce(asked, hands, folder, report)
+        run_reproduce(asked, executor, folder, report)
         found = Reproduction.opened(folder)
         if options.page is not None:
             _write_page(options.page, markdown_page(folder, _command(options)))

@@ -20,7 +20,7 @@ from system.points.floating_gaps import FloatingOptions
 from system.pump_file.file import load_pump, resolved_toml
 from system.work.kept_results import KeptPoints
 from system.work.progress import Report
-from system.work.tasks import Hands
+from system.work.tasks import Executor
 
 PAPERS_OWN = ("ref90", "ref90_floating")
 """Built-in pumps that stand for the paper's."""
@@ -55,14 +55,14 @@ def about(pump: PumpDescription) -> str:
     )
 
 
-def run_reproduce(asked: ReproduceAsked, hands: Hands, folder: Path, report: Report) -> dict[str, Any]:
+def run_reproduce(asked: ReproduceAsked, executor: Executor, folder: Path, report: Report) -> dict[str, Any]:
     """Make the figures and write claims, data, pictures, resolved.toml, summary.json and report.html.
 
     Returns the summary. Points of films and floating gaps are kept, so that a run that breaks off goes on with
     them. Raises as `system.paper.reproduce.reproduce`.
     """
     began = process_time()
-    means = Means(paper_points(), hands, asked.floating, report)
+    means = Means(paper_points(), executor, asked.floating, report)
     results = _results(asked, means)
     (folder / "resolved.toml").write_text(resolved_toml(asked.pump), encoding="utf-8")
     summary = {

@@ -53,7 +53,7 @@ class GapTableCase:
     """What to condense: a gap's case, the ranges of keys of it, how many points to learn from and to hold out.
 
     study: the case at the corners of the box; dimensions: of each axis, None for bare numbers; outputs: keys of
-    the gap's summary. An `Asked`.
+    the gap's summary. A `SamplingTask`.
     """
 
     study: StudyCase

@@ -22,9 +22,9 @@ from system.films.parts import floating_parts
 from system.inputs.units import Dimension, parse_quantity
 from system.points.table.response_table import PRESSURE, RATIO, SPEED, axis_value
 from system.points.table.store import read_response, response_record, write_response
-from system.work.processes import crew
+from system.work.processes import process_pool
 from system.work.progress import Report
-from system.work.sampled_points import Solved, points_of, samples_of, solved_points
+from system.work.sampled_points import SampledPoint, points_of, samples_of, solved_points
 
 POSITIVE = (
     "leakage_flow_m3_per_s", "friction_power_W", "film_thickness_mean_m", "film_thickness_min_m",
@@ -79,8 +79,8 @@ def run_gap_table(asked: GapTableCase, folder: Path, report: Report, *, workers:
     The points are kept in the cache, as those of a pump's table are. Returns the summary. Raises NotConverged
     where too few points have a result.
     """
-    with crew(workers) as hands:
-        found = solved_points(asked, hands=hands, report=report)
+    with process_pool(workers) as executor:
+        found = solved_points(asked, executor=executor, report=report)
     learnt, held_out = samples_of(asked, found)
     outputs = _measured(asked.outputs, np.concatenate([learnt.values, held_out.values]))
     response = Response(asked.axes, outputs, learnt, held_out)
@@ -115,7 +115,7 @@ def _of_record(record: Mapping[str, Any], response: Response) -> GapTable:
     return GapTable(response, tuple(None if name is None else Dimension[name] for name in names), record)
 
 
-def _record(asked: GapTableCase, found: Sequence[Solved], response: Response) -> dict[str, Any]:
+def _record(asked: GapTableCase, found: Sequence[SampledPoint], response: Response) -> dict[str, Any]:
     """What table.json says."""
     points = points_of(asked)
     of_axes = zip(asked.axes, asked.dimensions, strict=True)
@@ -144,7 +144,7 @@ def _measured(keys: Sequence[str], values: Array) -> tuple[Output, ...]:
     )
 
 
-def _case(asked: GapTableCase, found: Sequence[Solved]) -> GapCase | RevolutionCase:
+def _case(asked: GapTableCase, found: Sequence[SampledPoint]) -> GapCase | RevolutionCase:
     """The case at the first point that has a result: what all points have in common stands in it."""
     first = next(one.index for one in found if one.outputs is not None)
     case = asked.case(points_of(asked)[first])

@@ -19,7 +19,7 @@ from system.points.table.pump_numbers import NUMBERS
 from system.points.table.response_table import LARGE_ERROR, ResponseTable, axis_value
 from system.points.table.store import keep_table, table_record
 from system.pump_file.file import resolved_toml
-from system.work.processes import crew
+from system.work.processes import process_pool
 from system.work.progress import Report
 
 TABLE = "table"
@@ -32,8 +32,8 @@ def run_table(case: TableCase, folder: Path, report: Report, *, workers: int = 1
 
     The table itself is kept in the cache, point by point. Returns the summary. Raises as `build_table`.
     """
-    with crew(workers) as hands:
-        table = build_table(case, hands=hands, report=report)
+    with process_pool(workers) as executor:
+        table = build_table(case, executor=executor, report=report)
     (folder / "resolved.toml").write_text(resolved_toml(case.pump), encoding="utf-8")
     keep_table(table, folder / TABLE)
     summary = table_summary(table) | {"assumptions": [str(taken) for taken in floating_parts(case.pump).taken]}

@@ -13,7 +13,7 @@ from system.inputs.faults import InputFaults
 from system.inputs.toml_table import Table, fault_lines, quoted, read_toml
 from system.inputs.units import Dimension, QuantityError, format_quantity, parse_quantity
 from system.multibody.kinematics import swash_angle
-from system.multibody.transient.solver import Course, Schedule, TransientCase
+from system.multibody.transient.solver import ControlPressure, TransientCase, Transition
 from system.pump.chamber_kinds import kinds
 from system.pump.laws.kinematics import drive_at_ratio
 from system.pump.lumped import full_drive
@@ -51,7 +51,7 @@ def load_transient(path: Path) -> StatedTransient:
 def _asked(table: Table, pump: CasePump | None) -> TransientCase | None:
     end = table.positive("end", Dimension.TIME)
     step = None if table.get("step") is None else table.positive("step", Dimension.ANGLE)
-    course = table.choice("course", Course, Course.STEP)
+    course = table.choice("course", Transition, Transition.STEP)
     schedule = None if course is None else _schedule(table, course)
     table.close()
     if pump is None:
@@ -62,7 +62,7 @@ def _asked(table: Table, pump: CasePump | None) -> TransientCase | None:
     return TransientCase(pump.rotor.pump, pump.rotor.point, schedule, end, step)
 
 
-def _schedule(table: Table, course: Course) -> Schedule | None:
+def _schedule(table: Table, course: Transition) -> ControlPressure | None:
     """The control pressure; None with its faults told."""
     raw = table.get("control_pressure")
     rows = [["0 s", raw]] if isinstance(raw, str) else raw
@@ -83,10 +83,10 @@ def _schedule(table: Table, course: Course) -> Schedule | None:
             "control_pressure", f"times {', '.join(str(row[0]) for row in rows)}", "times that rise from 0 s"
         )
         return None
-    return Schedule(times, values, course)
+    return ControlPressure(times, values, course)
 
 
-def _hold_pump(table: Table, pump: CasePump, end: float | None, schedule: Schedule | None) -> None:
+def _hold_pump(table: Table, pump: CasePump, end: float | None, schedule: ControlPressure | None) -> None:
     """Tell what of pump and point no transient can have."""
     whole, point = pump.rotor.pump, pump.rotor.point
     if not kinds(whole).alike:

@@ -1,15 +1,15 @@
-"""Compiled course of a pump whose swash plate swings: chambers, actuator and plate over equal steps of shaft
+"""Compiled solution of a pump whose swash plate swings: chambers, actuator and plate over equal steps of shaft
 angle.
 
-Chambers and actuator keep the mass of their oil as `chamber_kernel` does, by its implicit method of order 4;
-over a step the plate is known to second order, g + g' t + g'' t^2/2. The plate follows virtual work on its
+Chambers and actuator conserve the mass of their oil as the chamber kernels do, by their implicit method of order
+4; over a step the plate is known to second order, g + g' t + g'' t^2/2. The plate follows virtual work on its
 tilt,
 
     (I + m sum s_g^2) g'' = sum s_g [A (p - p_case) + f - m (s_phiphi w^2 + 2 s_phig w g' + s_gg g'^2
                             - w^2 sin b (R + s sin b))] + M_actuator - M_spring - c g' - M_t g'/(g'^2 + r^2)^(1/2)
 
-by velocity Verlet, order 2. f is the nominal friction of a piston in its bore. Stops are plastic: while the moment
-presses the plate on one, it rests, and the moment on the stop is told.
+by velocity Verlet, order 2. f is the nominal friction of a piston in its bore. Stops are plastic: while the
+moment presses the plate on one, it rests, and the moment on the stop is reported.
 """
 
 # mypy: allow-untyped-defs, allow-incomplete-defs, no-check-untyped-defs
@@ -193,7 +193,7 @@ def advance(chamber, plate, which, shaft_angle, tilt, control, state, stages, to
 
 @numba.njit(cache=True, error_model="numpy")
 def moments(chamber, plate, shaft_angle, angle, rate, states, row):
-    """Fill the row's moments (N m) on the plate; return their sum and what they turn (kg m2)."""
+    """Fill the row's moments (N m) on the plate; return their sum and the inertia they accelerate (kg m2)."""
     c, p = chamber[0], plate[0]
     speed, out = c.shaft_speed, np.sin(p.cone)
     lean = np.sqrt(np.tan(angle) ** 2 + np.tan(p.cross) ** 2)
@@ -224,16 +224,16 @@ def moments(chamber, plate, shaft_angle, angle, rate, states, row):
 
 @numba.njit(cache=True, error_model="numpy")
 def resting(plate, angle, moment):
-    """Whether a moment presses the plate on a stop that it lies on."""
+    """True if a moment presses the plate on a stop that it touches."""
     p = plate[0]
     return (angle >= p.angle_max and moment > 0.0) or (angle <= p.angle_min and moment < 0.0)
 
 
 @numba.njit(cache=True, error_model="numpy")
 def swing(chamber, plate, shaft_angle, tilt, step, states, row):
-    """Take the plate over a step (s) of Verlet's rule; tilt (3,) is that of its end, the row filled.
+    """Move the plate over a step (s) of Verlet's rule; tilt (3,) is that of its end, the row filled.
 
-    Returns what a stop took of its momentum, kg m2/s.
+    Returns the loss of momentum at a stop, kg m2/s.
     """
     p = plate[0]
     angle = tilt[0] + step * (tilt[1] + 0.5 * step * tilt[2])

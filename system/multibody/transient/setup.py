@@ -1,4 +1,4 @@
-"""What the compiled course of a transient starts from: its constants, and oil at rest in chambers and actuator."""
+"""Initial data of a compiled transient: its constants, and oil at rest in chambers and actuator."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ TRUNNION_FADING = 0.05
 
 
 def bore_circle(pump: PumpDescription, parts: Mechanism) -> BoreCircle:
-    """Where the bores lie under the plate, shaft angles from its own axis."""
+    """Circle of the bores under the plate, shaft angles from its own axis."""
     part = pump.pump
     return BoreCircle(part.pitch_radius, part.bore_cone_angle, part.cross_angle or 0.0, parts.plate.pivot_offset)
 
@@ -151,7 +151,7 @@ def natural_frequency(pump: PumpDescription, parts: Mechanism, angle: float) -> 
 def steps_a_pitch(asked: float | None, shaft_speed: float, pistons: int, swing: float, parts: Mechanism) -> int:
     """Steps in a piston pitch: of about `asked` rad each, or of USUAL_STEP and no more than the plate allows.
 
-    Raises FilmInputError where a step asked for is too long for a plate that swings by `swing` (rad/s).
+    Raises FilmInputError for a step that is too long for a plate that swings by `swing` (rad/s).
     """
     longest = SHARE_OF_SWING / (swing + parts.plate.damping / parts.plate.inertia) * shaft_speed
     pitch = TURN / pistons

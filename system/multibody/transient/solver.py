@@ -36,25 +36,25 @@ HELD_TURNS = 2
 """Turns with the plate held before time 0, in which chambers and actuator settle."""
 
 
-class Course(Enum):
-    """How a value goes from one stated time to the next."""
+class Transition(Enum):
+    """Transition of a value from one stated time to the next."""
 
     STEP = "step"
     RAMP = "ramp"
 
 
 @dataclass(frozen=True)
-class Schedule:
+class ControlPressure:
     """Values (M,) at times (M,) s that rise from 0: held from each on, or straight in between and then held."""
 
     times: Array
     values: Array
-    course: Course = Course.STEP
+    course: Transition = Transition.STEP
 
     def over(self, step: float, count: int) -> Array:
         """Values at begin and end of `count` steps from time 0, (count, 2); a jump waits for the next step."""
         begins = step * np.arange(count)
-        if self.course is Course.RAMP:
+        if self.course is Transition.RAMP:
             return np.stack([np.interp(at, self.times, self.values) for at in (begins, begins + step)], axis=1)
         at = np.searchsorted(self.times, begins + 1e-9 * step, side="right") - 1
         return np.repeat(self.values[at][:, None], 2, axis=1)
@@ -62,20 +62,22 @@ class Schedule:
 
 @dataclass(frozen=True)
 class TransientCase:
-    """What is asked: a pump at a point, whose displacement is that of the start; what its control pressure (Pa)
-    does; until `end` s, in equal steps of about `step` rad of shaft angle, None: by the plate's swing."""
+    """A transient: a pump at a point, whose displacement is that of the start; its control pressure (Pa) over
+    time; until `end` s, in equal steps of about `step` rad of shaft angle, None: by the plate's swing.
+    """
 
     pump: PumpDescription
     point: OperatingPoint
-    control_pressure: Schedule
+    control_pressure: ControlPressure
     end: float
     step: float | None = None
 
 
 @dataclass(frozen=True)
 class TransientChecks:
-    """mass_balance_error: oil that chambers gained and passed, of what went through their ports;
-    energy_balance_error: work of the walls on their oil against what it went into, of that work, not imposed."""
+    """mass_balance_error: oil gained and passed by chambers, over the flow through their ports;
+    energy_balance_error: work of the walls on their oil against its sinks, over that work, not imposed.
+    """
 
     mass_balance_error: float
     energy_balance_error: float
@@ -112,7 +114,7 @@ class Transient:
 
 @dataclass(frozen=True)
 class _Filled:
-    """What the compiled course fills, of so many steps in all."""
+    """Arrays that the compiled solution fills, of so many steps in all."""
 
     steps: int
     pistons: int
@@ -134,7 +136,7 @@ class _Filled:
 
 
 def run_transient(case: TransientCase) -> Transient:
-    """The course of a case, at held ports and shaft speed, films of given thickness, chambers alike.
+    """The solution of a case, at held ports and shaft speed, films of given thickness, equal chambers.
 
     Raises FilmInputError for a step too long and for [physics], ValueError for chambers that differ, NotConverged
     where a chamber finds no pressure.
@@ -175,7 +177,7 @@ def run_transient(case: TransientCase) -> Transient:
 
 
 def _checks(problem: ChamberProblem, filled: _Filled, after: Array) -> TransientChecks:
-    """How well oil and energy of the chambers balance from time 0 on."""
+    """Balance errors of oil and energy of the chambers from time 0 on."""
     totals, gained = filled.totals, after - filled.before
     outflow, work, energy = totals[:PATHS], totals[PATHS], totals[PATHS + 1 : 2 * PATHS + 1]
     to_case = float(outflow[2:].sum() * flow_energy(problem.case_pressure, problem.bulk_modulus))

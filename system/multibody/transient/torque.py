@@ -1,8 +1,8 @@
 """Drive torque of a transient: pressure and inertia by virtual work on the shaft, friction by the nominal losses.
 
-    T w = sum [m A . dX/dphi w - Ap (p - p_case) s_phi w - q_carried (p - p_case)] + losses of the pairs
+    T w = sum [m A . dX/dphi w - Ap (p - p_case) s_phi w - q_drag (p - p_case)] + losses of the pairs
 
-over the chambers; X the ball's place, A its acceleration, q_carried what the piston carries through its gap.
+over the chambers; X the ball's place, A its acceleration, q_drag the drag flow of the piston through its gap.
 Losses are those of `system.pump.lumped` at each instant's tilt, sliding and pressure.
 """
 
@@ -30,7 +30,7 @@ INSTANTS = 1000  # at once, so that long courses fit in memory
 
 @dataclass(frozen=True)
 class _Pressed:
-    """Chamber pressures as the losses take them, (M, z) Pa."""
+    """Chamber pressures as the losses use them, (M, z) Pa."""
 
     pressure: Array
 

@@ -30,7 +30,7 @@ from system.pump_file.file import resolved_toml
 from system.pump_file.floating import slipper_has_a_wedge
 from system.work.kept_results import KeptPoints, run_kept
 from system.work.progress import Report, silent
-from system.work.tasks import Hands, Record, Status
+from system.work.tasks import Executor, PartStatus, Record
 
 FLOATING_RATIOS = RATIOS[1:]
 """Displacements at which the gaps float, all at rated speed and pressure."""
@@ -108,14 +108,14 @@ def _piston_told(found: GapRevolution[Any], engaged: Array) -> Record:
 
 
 def floating_figures(
-    pump: PumpDescription, options: FloatingOptions, store: KeptPoints, hands: Hands, report: Report = silent
+    pump: PumpDescription, options: FloatingOptions, store: KeptPoints, executor: Executor, report: Report = silent
 ) -> tuple[FigureResult, FigureResult]:
     """Figs. 8 and 9 of floating gaps. Raises FilmInputError for the first point that has no solution."""
     work = FloatingWork(pump, options)
     places = [Place(RATED, PRESSURES[-1], ratio) for ratio in FLOATING_RATIOS]
-    kept = run_kept(work, places, store, hands, report=report)
+    kept = run_kept(work, places, store, executor, report=report)
     for place, outcome in zip(places, kept.outcomes, strict=True):
-        if outcome.status is not Status.SOLVED:
+        if outcome.status is not PartStatus.SOLVED:
             raise FilmInputError(f"floating gaps at {place.text}", outcome.reason, "a point that can be solved")
     records = [outcome.record for outcome in kept.outcomes]
     doubts = tuple(f"{one}." for one in run_checks((slipper_has_a_wedge,), pump).warnings)

@@ -35,8 +35,8 @@ from system.points.table.store import KEY_LENGTH, keep_table, pump_key
 from system.pump.operating import OperatingPoint, operating_point
 from system.work.processes import HERE
 from system.work.progress import Report, silent
-from system.work.sampled_points import Solved, points_of, samples_of, solved_points, tables_folder
-from system.work.tasks import Hands
+from system.work.sampled_points import SampledPoint, points_of, samples_of, solved_points, tables_folder
+from system.work.tasks import Executor
 
 SPEEDS = (0.2, 1.2)
 """Of the rated speed: the box where nothing else is stated."""
@@ -53,7 +53,7 @@ Range = tuple[float, float]
 class TableCase:
     """What to condense: a pump, who solves its points, the box, how many points to learn from and to hold out.
 
-    Of INPUTS those that have no axis are held at the pump's own operating point. An `Asked`.
+    Of INPUTS those that have no axis are held at the pump's own operating point. A `SamplingTask`.
     """
 
     pump: PumpDescription
@@ -122,7 +122,7 @@ def table_axes(
 
 
 def build_table(
-    case: TableCase, *, hands: Hands = HERE, report: Report = silent, folder: Path | None = None
+    case: TableCase, *, executor: Executor = HERE, report: Report = silent, folder: Path | None = None
 ) -> ResponseTable:
     """The table of a case, kept in the cache; its points as `solved_points`.
 
@@ -130,7 +130,7 @@ def build_table(
     too few points have a result, FilmInputError for a pump with effects of [physics], and as `table_point`.
     """
     hold_plain(case.pump)
-    found = solved_points(case, hands=hands, report=report, folder=folder)
+    found = solved_points(case, executor=executor, report=report, folder=folder)
     (learnt, _), (held_out, numbers) = (_parted(samples) for samples in samples_of(case, found))
     outputs = measured_outputs(np.concatenate([learnt.values, held_out.values]))
     table = ResponseTable(_origin(case, found), Response(case.axes, outputs, learnt, held_out))
@@ -161,7 +161,7 @@ def case_key(case: TableCase) -> str:
     return content_key(*source, case.axes, sorted(case.held.items()), case.learnt, case.held_out)[:KEY_LENGTH]
 
 
-def _origin(case: TableCase, found: Sequence[Solved]) -> Origin:
+def _origin(case: TableCase, found: Sequence[SampledPoint]) -> Origin:
     points = points_of(case)
     failed = (Failed(tuple(map(float, points[one.index])), one.reason) for one in found if one.reason)
     return Origin(

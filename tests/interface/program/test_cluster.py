@@ -13,7 +13,7 @@ from swashfilm.__main__ import main
 from system.inputs.faults import InputFaults
 from system.work.cluster import THREADS, about_worker, cluster, worker_faults
 from system.work.kept_results import KeptPoints, run_kept
-from system.work.tasks import Status
+from system.work.tasks import PartStatus
 
 PARTS = list(range(24))
 
@@ -73,13 +73,13 @@ def test_killed_workers_cost_nothing_but_time(local_cluster, tmp_path):
     solves = tmp_path / "solves"
     solves.mkdir()
     work = Halves(solves, once=frozenset({3, 11}), always=17)
-    with cluster(local_cluster) as hands:
-        assert hands.workers == 2
-        found = run_kept(work, PARTS, KeptPoints(tmp_path / "points"), hands).outcomes
-    assert [outcome.record["half"] for outcome in found if outcome.status is Status.SOLVED] == [
+    with cluster(local_cluster) as executor:
+        assert executor.workers == 2
+        found = run_kept(work, PARTS, KeptPoints(tmp_path / "points"), executor).outcomes
+    assert [outcome.record["half"] for outcome in found if outcome.status is PartStatus.SOLVED] == [
         part / 2 for part in PARTS if part not in (5, 17)
     ]
-    assert found[17].status is Status.WORKER_DIED
+    assert found[17].status is PartStatus.WORKER_DIED
     assert "by itself too" in found[17].reason
     assert found[5].reason.startswith("ZeroDivisionError: a bug (")
 

@@ -28,7 +28,7 @@ from system.pump_file.file import load_pump
 from system.pump_file.floating import slipper_has_a_wedge
 from system.work.kept_results import KeptPoints
 from system.work.processes import HERE
-from system.work.tasks import Outcome, Status
+from system.work.tasks import PartOutcome, PartStatus
 
 ROOT = Path(__file__).parents[3]
 PAGE = ROOT / "docs" / "reproduction.md"
@@ -106,7 +106,7 @@ def test_floating_films_are_drawn_from_what_is_kept(tmp_path):
         }  # fmt: skip
         record = {"slipper": {"mean": film, "least": 2e-6, "contact": 0.0}, "piston": piston}
         key = work.key(Place(RATED, PRESSURES[-1], ratio))
-        store.put(Outcome(key, Status.SOLVED, "", record, 1.0, "test"))
+        store.put(PartOutcome(key, PartStatus.SOLVED, "", record, 1.0, "test"))
     figures = floating_figures(pump, work.options, store, HERE)
     verdicts = {one.claim.id: one.verdict for figure in figures for one in figure.judged}
     assert set(verdicts) == FLOATING

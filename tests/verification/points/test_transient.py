@@ -14,10 +14,10 @@ from reynolds.errors import FilmInputError
 from system.multibody.rotating_group import joint_forces
 from system.multibody.transient import kernels as kernel
 from system.multibody.transient.solver import (
-    Course,
-    Schedule,
+    ControlPressure,
     Transient,
     TransientCase,
+    Transition,
     run_transient,
 )
 from system.points.lumped import lumped_point
@@ -31,12 +31,12 @@ FIRM = {"actuator.area": "40 cm2", "actuator.arm": "60 mm"}
 """At 10 MPa an actuator that no moment moves off its stop."""
 
 
-def held_at(pressure: float) -> Schedule:
-    return Schedule(np.zeros(1), np.array([pressure]))
+def held_at(pressure: float) -> ControlPressure:
+    return ControlPressure(np.zeros(1), np.array([pressure]))
 
 
 def run(
-    stated: dict[str, object], control: Schedule, end: float, step: float | None = None, **asked: float
+    stated: dict[str, object], control: ControlPressure, end: float, step: float | None = None, **asked: float
 ) -> Transient:
     pump = load_pump("ref90", stated)
     return run_transient(
@@ -99,7 +99,7 @@ def test_a_cross_angle_turns_the_dead_centres_not_the_flow():
     assert flow == pytest.approx(point.bench.delivery_flow, rel=2e-3)
 
 
-STROKE = Schedule(np.array([0.0, 0.01]), np.array([2.5e6, 0.3e6]))
+STROKE = ControlPressure(np.array([0.0, 0.01]), np.array([2.5e6, 0.3e6]))
 
 
 @pytest.fixture(scope="module")
@@ -191,7 +191,7 @@ def test_a_plate_swings_on_its_spring(validation):
 
 def test_a_stop_is_not_passed_and_tells_what_it_took(destroked):
     """Back up to the upper one, which it strikes: no penetration, an impulse, then a moment on the stop."""
-    up = Schedule(np.array([0.0]), np.array([6e6]))
+    up = ControlPressure(np.array([0.0]), np.array([6e6]))
     found = run({"actuator.area": "20 cm2", "actuator.arm": "60 mm", "actuator.orifice_area": "60 mm2"}, up, 0.1,
                 displacement_ratio=0.3)  # fmt: skip
     top = found.mechanism.plate.angle_max
@@ -212,7 +212,7 @@ def test_an_actuator_that_strokes_down_against_a_spring():
         "actuator.strokes": "down", "actuator.area": "12 cm2", "actuator.arm": "60 mm",
         "actuator.spring_preload": "9 kN", "actuator.spring_rate": "50 N/mm", "actuator.orifice_area": "20 mm2",
     }  # fmt: skip
-    found = run(stated, Schedule(np.array([0.0, 0.02, 0.08]), np.array([0.15e6, 12e6, 0.15e6])), 0.2)
+    found = run(stated, ControlPressure(np.array([0.0, 0.02, 0.08]), np.array([0.15e6, 12e6, 0.15e6])), 0.2)
     at = np.interp([0.019, 0.075, 0.199], found.time, found.swash_angle) / DEGREES
     assert at[0] == pytest.approx(16.2, abs=0.2)
     assert at[1] < 0.8 * at[0]
@@ -230,7 +230,7 @@ def test_a_chamber_that_cavitates_gives_numbers():
 def test_a_light_plate_that_hammers_its_stop_is_followed():
     """The small pump's plate is light, its actuator cavitates: narrow ports make the chambers' equations swing."""
     pump = load_pump(str(PUMPS / "cylindrical_block.toml"))
-    fall = Schedule(np.array([0.0, 0.02]), np.array([2e6, 0.4e6]))
+    fall = ControlPressure(np.array([0.0, 0.02]), np.array([2e6, 0.4e6]))
     found = run_transient(TransientCase(pump, operating_point(pump), fall, 0.06))
     assert np.all(np.isfinite(found.rows))
     assert found.swash_angle.max() <= found.mechanism.plate.angle_max
@@ -244,9 +244,9 @@ def test_steps_too_long_for_the_plate_are_refused():
 
 def test_schedules_hold_or_ramp():
     times, values = np.array([0.0, 0.2, 0.4]), np.array([1.0, 3.0, 2.0])
-    steps = Schedule(times, values).over(0.1, 6)
+    steps = ControlPressure(times, values).over(0.1, 6)
     np.testing.assert_allclose(steps[:, 0], [1, 1, 3, 3, 2, 2])
     np.testing.assert_allclose(steps[:, 1], steps[:, 0])
-    ramp = Schedule(times, values, Course.RAMP).over(0.1, 6)
+    ramp = ControlPressure(times, values, Transition.RAMP).over(0.1, 6)
     np.testing.assert_allclose(ramp[:, 0], [1, 2, 3, 2.5, 2, 2])
     np.testing.assert_allclose(ramp[:-1, 1], ramp[1:, 0])

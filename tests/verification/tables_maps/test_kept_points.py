@@ -13,8 +13,8 @@ import pytest
 
 from reynolds.errors import FilmInputError, FilmNotConverged
 from system.work.kept_results import KeptPoints, points_of_run, run_kept
-from system.work.processes import Crew, WorkerDied, crew
-from system.work.tasks import Status
+from system.work.processes import ProcessPool, WorkerDied, process_pool
+from system.work.tasks import PartStatus
 
 PARTS = list(range(8))
 
@@ -61,38 +61,38 @@ def solves(tmp_path):
 
 def test_what_is_kept_is_not_done_again(solves, tmp_path):
     work, store = Squares(solves), KeptPoints(tmp_path / "points")
-    first = run_kept(work, PARTS[:5], store, Crew(1))
+    first = run_kept(work, PARTS[:5], store, ProcessPool(1))
     assert [outcome.record["square"] for outcome in first.outcomes] == [0, 1, 4, 9, 16]
     told = []
-    again = run_kept(work, PARTS, store, Crew(1), report=lambda *step: told.append(step))
+    again = run_kept(work, PARTS, store, ProcessPool(1), report=lambda *step: told.append(step))
     assert (again.known, work.solves()) == (5, 8)
     assert told[0] == (0, 3, "5 points kept")
     assert told[-1] == (3, 3, "solved")
     elsewhere = KeptPoints(tmp_path / "resumed" / "points")
-    run_kept(work, PARTS, elsewhere, Crew(1), earlier=points_of_run(tmp_path))
+    run_kept(work, PARTS, elsewhere, ProcessPool(1), earlier=points_of_run(tmp_path))
     assert work.solves() == 8
     assert len(list(elsewhere.folder.glob("*.json"))) == 8
 
 
 def test_a_part_that_fails_says_why_and_stops_no_other(solves, tmp_path):
     work = Squares(solves, faulty=1, stalls=3, breaks=5)
-    found = run_kept(work, PARTS, KeptPoints(tmp_path / "points"), Crew(1), batch=3).outcomes
-    assert [outcome.status for outcome in found].count(Status.SOLVED) == 5
-    assert found[1].status is Status.FAULTY
-    assert found[3].status is Status.NOT_CONVERGED
+    found = run_kept(work, PARTS, KeptPoints(tmp_path / "points"), ProcessPool(1), batch=3).outcomes
+    assert [outcome.status for outcome in found].count(PartStatus.SOLVED) == 5
+    assert found[1].status is PartStatus.FAULTY
+    assert found[3].status is PartStatus.NOT_CONVERGED
     assert found[3].reason.startswith("it stalls")
-    assert found[5].status is Status.INTERNAL
+    assert found[5].status is PartStatus.INTERNAL
     assert found[5].reason.startswith("ZeroDivisionError: a bug (")
     assert "test_kept_points.py" in found[5].reason
-    run_kept(work, PARTS, KeptPoints(tmp_path / "points"), Crew(1))
+    run_kept(work, PARTS, KeptPoints(tmp_path / "points"), ProcessPool(1))
     assert work.solves() == 10  # what would fail again the same way is kept with its reason
 
 
 def test_a_broken_file_is_done_anew(solves, tmp_path, caplog):
     work, store = Squares(solves), KeptPoints(tmp_path / "points")
-    run_kept(work, PARTS, store, Crew(1))
+    run_kept(work, PARTS, store, ProcessPool(1))
     (store.folder / "square-2.json").write_text("{")
-    assert run_kept(work, PARTS, store, Crew(1)).known == 7
+    assert run_kept(work, PARTS, store, ProcessPool(1)).known == 7
     assert "square-2.json is broken" in caplog.text
     assert json.loads((store.folder / "square-2.json").read_text())["record"] == {"square": 4}
 
@@ -102,8 +102,8 @@ def test_a_number_that_is_none_is_told(tmp_path, solves):
         def solve(self, part):
             return {"square": float("nan")}
 
-    (found,) = run_kept(Void(solves), [1], KeptPoints(tmp_path / "points"), Crew(1)).outcomes
-    assert found.status is Status.INTERNAL
+    (found,) = run_kept(Void(solves), [1], KeptPoints(tmp_path / "points"), ProcessPool(1)).outcomes
+    assert found.status is PartStatus.INTERNAL
     assert not (tmp_path / "points").exists()
 
 
@@ -111,21 +111,21 @@ def test_a_number_that_is_none_is_told(tmp_path, solves):
 def test_a_process_that_dies_costs_its_part_only(solves, tmp_path):
     """One part kills its process at every try, one only once; both go out with others, in batches of two."""
     work = Squares(solves, kills=3, kills_once=6)
-    with crew(2) as hands:
-        found = run_kept(work, PARTS, KeptPoints(tmp_path / "points"), hands, batch=2).outcomes
-        assert sorted(hands.do(abs, [-1, -2])) == [1, 2]
-    assert [outcome.status for outcome in found].count(Status.SOLVED) == 7
-    assert found[3].status is Status.WORKER_DIED
+    with process_pool(2) as executor:
+        found = run_kept(work, PARTS, KeptPoints(tmp_path / "points"), executor, batch=2).outcomes
+        assert sorted(executor.do(abs, [-1, -2])) == [1, 2]
+    assert [outcome.status for outcome in found].count(PartStatus.SOLVED) == 7
+    assert found[3].status is PartStatus.WORKER_DIED
     assert "died twice" in found[3].reason
 
 
 @pytest.mark.slow
 def test_do_raises_what_a_part_raised():
-    with crew(2) as hands:
+    with process_pool(2) as executor:
         with pytest.raises(ZeroDivisionError):
-            list(hands.do(divided, [1, 0, 2]))
+            list(executor.do(divided, [1, 0, 2]))
         with pytest.raises(WorkerDied):
-            list(hands.do(killed, [1, 2]))
+            list(executor.do(killed, [1, 2]))
 
 
 def divided(number):
@@ -148,10 +148,10 @@ def test_a_killed_run_costs_what_was_at_work(solves, tmp_path):
     time.sleep(2.0)
     kept, begun = len(list(store.folder.glob("*.json"))), len(list(solves.iterdir()))
     assert 3 <= kept < begun <= kept + 2
-    assert run_kept(Squares(solves), PARTS, store, Crew(1)).known == kept
+    assert run_kept(Squares(solves), PARTS, store, ProcessPool(1)).known == kept
     assert Squares(solves).solves() == begun + len(PARTS) - kept
 
 
 if __name__ == "__main__":
-    with crew(2) as hands:
-        run_kept(Squares(Path(sys.argv[1]), seconds=0.4), PARTS, KeptPoints(Path(sys.argv[2])), hands)
+    with process_pool(2) as executor:
+        run_kept(Squares(Path(sys.argv[1]), seconds=0.4), PARTS, KeptPoints(Path(sys.argv[2])), executor)

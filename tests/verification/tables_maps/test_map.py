@@ -25,7 +25,7 @@ from system.points.lumped import lumped_point
 from system.pump.efficiency import EfficiencyDefinition
 from system.pump.operating import operating_point
 from system.pump_file.file import load_pump
-from system.work.tasks import Status, done_part
+from system.work.tasks import PartStatus, done_part
 
 PUMP = load_pump("ref90")
 RPM = np.pi / 30.0
@@ -140,7 +140,7 @@ def test_displacement_by_toet_is_below_the_swept_one():
 def test_a_failed_point_leaves_a_gap():
     plan, work = map_plan(PUMP, AXES[1:2]), MapWork(PUMP, LumpedSolver())
     outcomes = [done_part(work, point) for point in plan.points]
-    outcomes[2] = replace(outcomes[2], status=Status.NOT_CONVERGED, reason="it stalls", record={})
+    outcomes[2] = replace(outcomes[2], status=PartStatus.NOT_CONVERGED, reason="it stalls", record={})
     data = map_data(plan, work, tuple(outcomes))
     assert np.sum(data.solved) == 4
     assert np.isnan(data.efficiency(EfficiencyDefinition.PAPER).overall[0, 2, 0, 0, 0])
@@ -222,7 +222,7 @@ def test_a_map_beside_itself_has_no_difference():
     worn = load_pump("ref90", {"piston.radial_clearance": "25 um"})
     differences = {one.words: one for one in compare(solved(), solved(pump=worn), (None, None)).differences}
     assert differences["leakage of pistons"].largest > 0.0
-    assert differences["leakage of pistons"].told
+    assert differences["leakage of pistons"].significant
     assert differences["ball guide retainer"].largest == 0.0
 
 
@@ -237,7 +237,7 @@ def test_maps_of_other_levels_meet_in_their_common_box():
     errors = left_out_error(solved()), left_out_error(other)
     found = compare(solved(), other, errors)
     assert found.one.axes[1].values == (8e6, 12e6, 20e6, 28e6, 30e6)
-    assert not any(one.told for one in found.differences if one.unit == "W")
+    assert not any(one.significant for one in found.differences if one.unit == "W")
     far = solved((MapAxis(MapInput.PRESSURE, (40e6, 41e6, 42e6)),))
     with pytest.raises(InputFaults, match="delivery pressure"):
         compare(solved(), far, (None, None))

@@ -37,7 +37,7 @@ from system.pump.laws.friction_pairs import Pair
 from system.pump.operating import operating_point
 from system.pump.power import Gaps
 from system.pump_file.file import load_pump
-from system.work.processes import crew
+from system.work.processes import process_pool
 from system.work.sampled_points import points_of
 
 PUMP = load_pump("ref90")
@@ -233,9 +233,9 @@ def test_a_case_can_be_sent_to_another_process():
     there = pickle.loads(pickle.dumps(here))
     assert there == here
     assert there.key(points_of(there)[0]) == here.key(points_of(here)[0])
-    with crew(2) as hands:
-        assert sorted(hands.do(math.sqrt, [1.0, 4.0])) == [1.0, 2.0]
-        assert sorted(hands.do(math.exp, [0.0, 0.0])) == [1.0, 1.0]
+    with process_pool(2) as executor:
+        assert sorted(executor.do(math.sqrt, [1.0, 4.0])) == [1.0, 2.0]
+        assert sorted(executor.do(math.exp, [0.0, 0.0])) == [1.0, 1.0]
 
 
 def test_a_table_is_found_by_its_pump(table, folder, tmp_path):

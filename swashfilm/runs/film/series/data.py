@@ -13,7 +13,8 @@ import numpy as np
 from swashfilm.case.study import Combine, StudyCase
 from swashfilm.output.headline import headline_numbers, named, titled
 from swashfilm.runs.film.series.courses import course_variables
-from swashfilm.runs.film.series.points import Outcome, Status
+from swashfilm.runs.film.series.points import Outcome
+from system.work.tasks import PartStatus
 
 if TYPE_CHECKING:
     import xarray
@@ -55,7 +56,7 @@ def study_dataset(study: StudyCase, outcomes: Sequence[Outcome]) -> xarray.Datas
 
 def study_summary(study: StudyCase, outcomes: Sequence[Outcome]) -> dict[str, Any]:
     """What varied, what was solved, the span of every number, the points without a result and the warnings."""
-    solved = [outcome for outcome in outcomes if outcome.status is Status.SOLVED]
+    solved = [outcome for outcome in outcomes if outcome.status is PartStatus.SOLVED]
     rows = [headline_numbers(outcome.summary) for outcome in solved]
     keys = list(dict.fromkeys(key for row in rows for key in row))
     return {
@@ -75,7 +76,7 @@ def study_summary(study: StudyCase, outcomes: Sequence[Outcome]) -> dict[str, An
         "failed": [
             {"values": study.values(o.point), "status": o.status.value, "reason": o.reason}
             for o in outcomes
-            if o.status is not Status.SOLVED
+            if o.status is not PartStatus.SOLVED
         ],
         "mass_balance_error_max": max((o.summary["mass_balance_error"] for o in solved), default=0.0),
         "solve_seconds": sum(o.summary["solve_seconds"] for o in solved),

@@ -20,10 +20,9 @@ from swashfilm.runs.film.revolution.solve import (
 from swashfilm.runs.film.solve.study import solve_case
 from swashfilm.runs.film.summary import film_summary
 from system.work.kept_results import POINTS, KeptPoints, points_of_run, run_kept
-from system.work.processes import crew
+from system.work.processes import process_pool
 from system.work.progress import Report
-from system.work.tasks import Outcome as WorkOutcome
-from system.work.tasks import Status
+from system.work.tasks import PartOutcome, PartStatus
 
 COURSE = "course"
 """Of a revolution, beside its summary: what a study compares over the shaft angle."""
@@ -34,7 +33,7 @@ class Outcome:
     """A point of a study: its film's summary, or why there is none."""
 
     point: Point
-    status: Status
+    status: PartStatus
     reason: str
     summary: Mapping[str, Any]
 
@@ -53,7 +52,7 @@ class StudyWork:
         """The summary of the point's film; raises as its solver."""
         return solved_summary(self.study.case(point))
 
-    def told(self, point: Point, outcome: WorkOutcome) -> str:
+    def told(self, point: Point, outcome: PartOutcome) -> str:
         """Where the point is, and what became of it."""
         values = ", ".join(f"{key} = {value}" for key, value in self.study.values(point).items())
         return f"{values}: {outcome.status.value}"
@@ -69,8 +68,8 @@ def run_points(
     """
     work, store = StudyWork(study), KeptPoints(folder / POINTS)
     earlier = points_of_run(resumed) if resumed else None
-    with crew(workers) as hands:
-        kept = run_kept(work, study.points, store, hands, earlier=earlier, told=work.told, report=report)
+    with process_pool(workers) as executor:
+        kept = run_kept(work, study.points, store, executor, earlier=earlier, described=work.told, report=report)
     return [
         Outcome(point, found.status, found.reason, found.record)
         for point, found in zip(study.points, kept.outcomes, strict=True)
