@@ -6,7 +6,7 @@ from enum import Enum
 
 
 class Component(Enum):
-    """One contribution to what a bench reads, located without a catalogue of effects."""
+    """One contribution to the bench readings, located without a catalogue of effects."""
 
     PISTON_LEAKAGE = "piston_leakage"
     SLIPPER_LEAKAGE = "slipper_leakage"

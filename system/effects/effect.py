@@ -1,4 +1,4 @@
-"""Effects by their id, what their laws may see of the pump, and what they change in it."""
+"""Effects by their id, the inputs of their laws, and the changes they make in the pump."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from system.description.pump import PumpDescription
 
 
 class Kind(Enum):
-    """What a mismatch comes from, as the verdict says it."""
+    """Kind of cause of a mismatch, as in the verdict."""
 
     MISSING_PHYSICS = "missing_physics"
     SENSOR_FAULT = "sensor_fault"
@@ -22,7 +22,7 @@ class Kind(Enum):
 
 
 class EffectId(Enum):
-    """The ids of the catalogue: missing physics, sensor faults, wrong parameters, and what stands in none."""
+    """The ids of the catalogue: missing physics, sensor faults, wrong parameters, and unknown physics."""
 
     FILM_HEATING = "film_heating"
     VISCOSITY_PRESSURE = "viscosity_pressure"
@@ -70,10 +70,10 @@ class EffectId(Enum):
 class GapCourse:
     """One gap over the turn at N points, M shaft angles each: arrays (N, M), of one piston, one slipper, the ring.
 
-    pressure: chamber over case pressure in Pa; sliding_speed: of the two walls in m/s, never negative;
-    film: thickness in m; normal_force: what Coulomb friction multiplies, N; coulomb, viscous: loss in W without
-    any effect; leakage: through the lands, m3/s, without any; width (N,): of the film across its sliding, m;
-    land_area (N,): of the sealing lands in m2.
+    pressure: chamber over case pressure in Pa; sliding_speed: of the two walls in m/s, never negative; film:
+    thickness in m; normal_force: the force that Coulomb friction multiplies, N; coulomb, viscous: loss in W
+    without any effect; leakage: through the lands, m3/s, without any; width (N,): of the film across its sliding,
+    m; land_area (N,): of the sealing lands in m2.
     """
 
     pressure: Array
@@ -104,16 +104,16 @@ class BenchState:
 
 @dataclass(frozen=True)
 class Effects:
-    """What a law changes at N points and M angles; ones and zeros change nothing.
+    """Changes by a law at N points and M angles; ones and zeros change nothing.
 
     conductance, viscous, coulomb: (3, N, M), factors on leakage, shear and Coulomb friction of the gaps in the
     order of `Gap`; extra_coulomb: (5, N, M), W, of one piston, one slipper, the valve plate, one socket, the ball
     guide. Then (N,) each, flows in m3/s of volume at the port they leave: cross_flow (delivery to inlet),
-    drain_flow (delivery to case), drain_from_inlet; torque in N m on the shaft; ideal: factor on the displacement;
-    intake: share of the displaced volume that is filled with oil; delivery_reading: factor on what the delivery's
-    meter reads; groove_advance in rad and groove_area, factor: by how much sooner and wider the relief grooves
-    ahead of both kidneys open; suction_area: factor on the kidney that chambers draw through; carried_off: W,
-    where the power of the flows and the torque goes, a sink of the power balance.
+    drain_flow (delivery to case), drain_from_inlet; torque in N m on the shaft; ideal: factor on the
+    displacement; intake: share of the displaced volume that is filled with oil; delivery_reading: factor on the
+    reading of the delivery's meter; groove_advance in rad and groove_area, factor: earlier and wider opening of
+    the relief grooves ahead of both kidneys; suction_area: factor on the kidney of the suction side; carried_off:
+    W, power of the flows and the torque, a sink of the power balance.
     """
 
     conductance: Array

@@ -19,10 +19,10 @@ Law = Callable[[Values, Mapping[Gap, GapCourse], BenchState], Effects]  # values
 class Extension:
     """One law switched on, at one gap or (None) at the pump as a whole.
 
-    Parameters are named as in a pump file, `elastic_opening.slipper.opening`; the law knows the last part. `grid`
-    lists the values of parameters that set a scale rather than a size and are tried one after the other: one empty
-    mapping where there is none. `scales` are those of them that are continuous: a fit of a member sets them free
-    about the member's values. Values are those of the grid's first member beside the parameters'.
+    Parameters are named as in a pump file, `elastic_opening.slipper.opening`; the law uses the last part. `grid`
+    lists the values of parameters that set a scale rather than a size and are tried one after the other: one
+    empty mapping where there is none. `scales` are the continuous ones of them: a fit of a member frees them
+    about the member's values. Values are those of the grid's first member and the parameters'.
     """
 
     id: EffectId
@@ -48,7 +48,7 @@ class Extension:
         return {parameter.name: parameter.centre for parameter in self.parameters}
 
     def effects(self, values: Mapping[str, float], courses: Mapping[Gap, GapCourse], state: BenchState) -> Effects:
-        """What the law changes with parameters by name; those of other extensions beside them do not matter."""
+        """Changes by the law with parameters by name; parameters of other extensions are ignored."""
         return self.law(self.stated(values), courses, state)
 
     def stated(self, values: Mapping[str, float]) -> dict[str, float]:
@@ -70,7 +70,7 @@ THEORY = "docs/theory.md, Physics left out, as laws"
 
 @dataclass(frozen=True)
 class Entry:
-    """One id of the catalogue: where it acts, the channels it shows in, what it is mistaken for, its words."""
+    """One id of the catalogue: its places, the channels in which it shows, the ids that resemble it, its text."""
 
     id: EffectId
     verdict: Kind

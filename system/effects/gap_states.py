@@ -1,4 +1,4 @@
-"""The three gaps over the turn at points of a bench map, as the laws of what physics left out see them."""
+"""The three gaps over the turn at points of a bench map, as inputs of the laws of effects."""
 
 from __future__ import annotations
 

@@ -1,10 +1,10 @@
-"""Elastic opening as the film solver has it: leakage and shear of films between elastic walls, learnt once.
+"""Elastic opening by the film solver: leakage and shear of films between elastic walls, learnt once.
 
-A film held at its place between walls that give way in proportion to its pressures is opened by C p over its
-thickness h, whatever its viscosity: its leakage and shear over those between rigid walls are functions of C p/h
-alone, as long as pressure moves the walls and sliding does not. So one table over the pressure, made for the pump
-as it stands, serves softer walls and other films too: at the pressure x p h0/h, x the share of the computed
-compliance. Pressures and walls are those of the lands' whole shape, which a closed form has not.
+A film held at its place between linear elastic walls is opened by C p over its thickness h, at any viscosity. Its
+leakage and shear over those between rigid walls are functions of C p/h alone, as long as pressure deforms the
+walls and sliding does not. So one table over the pressure, for the pump as described, holds for more compliant
+walls and other films too: at the pressure x p h0/h, x the share of the computed compliance. Pressures and walls
+have the whole shape of the lands, unlike a closed form.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""What effects add to a bench's readings without passing through the chambers."""
+"""Contributions of effects to a bench's readings that do not pass through the chambers."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from system.effects.state import ideal_flow
 
 @dataclass(frozen=True)
 class Outside:
-    """What is added to the readings at N points: delivery, inlet and drain flow in m3/s, torque in N m, (N,)."""
+    """Additions to the readings at N points: delivery, inlet and drain flow in m3/s, torque in N m, (N,)."""
 
     delivery: Array
     inlet: Array

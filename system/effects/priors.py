@@ -1,4 +1,4 @@
-"""Priors of extensions: what a parameter of a law may be before a recording is looked at."""
+"""Priors of extensions: range of the parameters of a law before any recording."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What several laws need of a bench point: displaced and dead volume, orifices, warmer oil."""
+"""Common inputs of several laws at a bench point: displaced and dead volume, orifices, warmer oil."""
 
 from __future__ import annotations
 

@@ -46,6 +46,6 @@ def hold_plain(pump: PumpDescription) -> None:
 def stated_effects(
     laws: tuple[tuple[Law, Values], ...], courses: Mapping[Gap, GapCourse], state: BenchState
 ) -> Effects:
-    """What `stated_laws` change together; nothing where none is on."""
+    """Combined changes by `stated_laws`; none where all are off."""
     found = (law(values, courses, state) for law, values in laws)
     return reduce(both, found, unchanged(courses))

@@ -1,4 +1,4 @@
-"""Figures and tables of Xu, Hu, Zhang and Mao (2017) as data: curves, panels, readings."""
+"""Figures and tables of the paper as reproduced here, and the curves that replace them."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from reynolds.numerics.arrays import Array
 
 
 class Figure(Enum):
-    """A figure or table of the paper by its name on the command line, with what it shows."""
+    """A figure or table of the paper by its name on the command line, with its content."""
 
     TABLE1 = ("table1", "the simulated pump (the paper's Table 1 is lost; what its text states)")
     FIG2 = ("fig2", "overall efficiency at rated speed")
@@ -57,7 +57,7 @@ DRAWINGS = {
 
 
 class Unit(Enum):
-    """What a number is measured in: SI unit, the unit it is shown in, and the factor from the one to the other."""
+    """Unit of a number: SI unit, the unit shown, and the factor from the one to the other."""
 
     NUMBER = ("1", "1", 1.0)
     SHARE = ("1 as a share", "%", 100.0)
@@ -89,8 +89,8 @@ class Unit(Enum):
 
 
 @dataclass(frozen=True)
-class Axis:
-    """What is drawn along an axis; its numbers are SI."""
+class FigureAxis:
+    """Quantity along an axis; its numbers are SI."""
 
     words: str
     unit: Unit
@@ -107,10 +107,10 @@ class Curve:
 
 
 @dataclass(frozen=True)
-class Field:
+class FigureField:
     """Values (m, n) over x (n,) and y (m,)."""
 
-    axis: Axis
+    axis: FigureAxis
     x: Array
     y: Array
     values: Array
@@ -133,7 +133,7 @@ class Panel:
 
     title: str
     kind: PanelKind
-    x: Axis
-    y: Axis
+    x: FigureAxis
+    y: FigureAxis
     curves: tuple[Curve, ...] = ()
-    field: Field | None = None
+    field: FigureField | None = None

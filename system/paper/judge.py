@@ -15,8 +15,8 @@ ROUND_OFF = 1e-6
 """Of a shown number: below it stands 0."""
 
 
-class Verdict(Enum):
-    """What becomes of a statement; CONTRADICTED must be earned by an impossibility that holds."""
+class StatementVerdict(Enum):
+    """Verdict on a statement; CONTRADICTED needs an impossibility that holds."""
 
     REACHED = "reached"
     MISSED = "missed"
@@ -35,7 +35,7 @@ class Range:
             raise FilmInputError("range", f"{self.low} to {self.high}", "a low end below the high one")
 
     def holds(self, other: Range) -> bool:
-        """Whether all of another range lies within."""
+        """True if all of another range lies within."""
         return self.low <= other.low and other.high <= self.high
 
     def text(self, unit: Unit, digits: int = 4) -> str:
@@ -50,7 +50,7 @@ class Range:
 
 
 def _shown(value: float, digits: int) -> str:
-    """So many digits; what is nothing but round-off is nothing."""
+    """So many digits; round-off is shown as zero."""
     return "0" if abs(value) < ROUND_OFF else f"{value:.{digits}g}"
 
 
@@ -61,11 +61,11 @@ def range_of(values: Iterable[float]) -> Range:
 
 
 @dataclass(frozen=True)
-class Claim:
-    """A statement of the paper: its words, the quantity that judges it, and the range it is to lie in, SI.
+class PaperClaim:
+    """A statement of the paper: its words, the quantity that judges it, and its expected range, SI.
 
-    A number in print is met where it agrees in its last digit. `taken`: what a word without a number ("small") is
-    taken for, which is ours.
+    A number in print is met where it agrees in its last digit. `taken`: our interpretation of a word without a
+    number ("small").
     """
 
     id: str
@@ -83,16 +83,16 @@ OURS = "a bound of ours; the paper gives none"
 
 def share_claim(
     name: str, figure: Figure, words: str, quantity: str, low: float, high: float, taken: str = ""
-) -> Claim:
+) -> PaperClaim:
     """A statement about a share, shown in percent."""
-    return Claim(name, figure, words, quantity, Unit.SHARE, Range(low, high), taken)
+    return PaperClaim(name, figure, words, quantity, Unit.SHARE, Range(low, high), taken)
 
 
 def number_claim(
     name: str, figure: Figure, words: str, quantity: str, low: float, high: float, taken: str = ""
-) -> Claim:
+) -> PaperClaim:
     """A statement about a bare number."""
-    return Claim(name, figure, words, quantity, Unit.NUMBER, Range(low, high), taken)
+    return PaperClaim(name, figure, words, quantity, Unit.NUMBER, Range(low, high), taken)
 
 
 @dataclass(frozen=True)
@@ -109,7 +109,7 @@ class Impossibility:
 
     @property
     def holds(self) -> bool:
-        """Whether the quantity does lie outside."""
+        """True if the quantity lies outside its bound."""
         return not self.bound.holds(Range(self.value, self.value))
 
     @property
@@ -121,19 +121,19 @@ class Impossibility:
 
 @dataclass(frozen=True)
 class Judged:
-    """A claim with what was found, in one reading of the losses (None: where they do not matter)."""
+    """A claim with the range found, in one reading of the losses (None: where they do not matter)."""
 
-    claim: Claim
+    claim: PaperClaim
     reading: Reading | None
     found: Range
-    verdict: Verdict
+    verdict: StatementVerdict
     reason: str
     impossible: Impossibility | None
 
 
 @dataclass(frozen=True)
 class FigureResult:
-    """A figure anew: its pictures, its statements judged, and what else is to be told."""
+    """A reproduced figure: its pictures, its statements judged, and further remarks."""
 
     figure: Figure
     panels: tuple[Panel, ...] = ()
@@ -142,7 +142,7 @@ class FigureResult:
 
 
 def judge(
-    claim: Claim,
+    claim: PaperClaim,
     found: Range,
     *,
     reading: Reading | None = None,
@@ -151,11 +151,11 @@ def judge(
 ) -> Judged:
     """A claim with its verdict.
 
-    REACHED where all that was found lies within what is expected; else CONTRADICTED where an impossibility holds;
-    else MISSED. An impossibility that holds no longer is not told.
+    REACHED where the whole range found lies within the expected one; else CONTRADICTED where an impossibility
+    holds; else MISSED. An impossibility that no longer holds is left out.
     """
     if claim.expected.holds(found):
-        return Judged(claim, reading, found, Verdict.REACHED, reason, None)
+        return Judged(claim, reading, found, StatementVerdict.REACHED, reason, None)
     if impossible is not None and impossible.holds:
-        return Judged(claim, reading, found, Verdict.CONTRADICTED, reason, impossible)
-    return Judged(claim, reading, found, Verdict.MISSED, reason, None)
+        return Judged(claim, reading, found, StatementVerdict.CONTRADICTED, reason, impossible)
+    return Judged(claim, reading, found, StatementVerdict.MISSED, reason, None)

@@ -1,4 +1,4 @@
-"""Bench readings made of solved points at the test plan of Xu, Hu, Zhang and Mao (2017), and Eq. (21) of them."""
+"""Bench readings at the paper's test plan, made from solved points, and Eq. (21) of the same points."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ PLAN = tuple((speed, pressure, ratio) for ratio in RATIOS[1:] for speed in SPEED
 
 
 def made_readings(seen: PaperPoints) -> tuple[BenchPoints, Observations]:
-    """What a bench with sensors of NOISE would read at PLAN; the same at each call."""
+    """Readings of a bench with sensors of NOISE at PLAN; the same at each call."""
     rows = [seen.at(*place) for place in PLAN]
     true = np.array([
         [of.delivery_flow, of.inlet_flow, of.drain_flow, of.shaft_torque] for of in (one.bench for one in rows)
@@ -59,7 +59,7 @@ def _bench_points(rows: Sequence[PaperPoint], seen: PaperPoints) -> BenchPoints:
 
 
 def equation_of(model: PaperPoints) -> EqTwentyOne:
-    """Eq. (21) at PLAN: each pair's Coulomb loss at a coefficient of 1, and what Eq. (2) counts besides."""
+    """Eq. (21) at PLAN: each pair's Coulomb loss at a coefficient of 1, and the rest of Eq. (2)."""
     priors, _ = paper_priors(model.pump)
     rows = [model.at(*place) for place in PLAN]
     pairs = [Pair(prior.name.rpartition(".")[2]) for prior in priors]

@@ -1,4 +1,4 @@
-"""Statements of Xu, Hu, Zhang and Mao (2017) on the friction pairs and their motion; `statements` has the rest."""
+"""Statements of the paper's text on its friction pairs and their motion; the others are in `statements`."""
 
 from __future__ import annotations
 

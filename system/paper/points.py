@@ -40,17 +40,17 @@ NEAR_ZERO = 5e5
 
 
 class PointFidelity(Enum):
-    """How a point is solved: films of given thickness, or films solved at given positions."""
+    """Fidelity of a point: films of given thickness, or films solved at given positions."""
 
     LUMPED = "lumped"
     FILMS = "films"
 
 
 class Reading(Enum):
-    """How a pair's loss is read.
+    """Reading of a pair's loss.
 
-    WITH_SHEAR: a Coulomb coefficient and the shear of the film beside it, REF90's loss model. MIXED: coefficients
-    alone, as in the paper, whose coefficients hold the film's shear too; the shaft's torque then lacks the shear.
+    WITH_SHEAR: a Coulomb coefficient and the shear of the film, REF90's loss model. MIXED: coefficients alone, as
+    in the paper, whose coefficients contain the film's shear too; the shaft's torque then lacks the shear.
     """
 
     WITH_SHEAR = "with shear"
@@ -59,7 +59,7 @@ class Reading(Enum):
 
 @dataclass(frozen=True)
 class Place:
-    """Where a point stands: shaft speed rad/s, delivery pressure Pa gauge, share of the full displacement."""
+    """Coordinates of a point: shaft speed rad/s, delivery pressure Pa gauge, share of the full displacement."""
 
     speed: float
     pressure: float
@@ -99,7 +99,7 @@ class PaperPoint:
         return self.loss(pair, reading) / float(self.pair_losses(reading).sum())
 
     def read(self, reading: Reading) -> BenchReading:
-        """What a bench reads; mixed coefficients alone leave the torque of the films' shear out."""
+        """Bench readings; mixed coefficients alone leave the torque of the films' shear out."""
         if reading is Reading.WITH_SHEAR:
             return self.bench
         return replace(
@@ -116,7 +116,7 @@ class PaperPoint:
 
 
 def paper_point(found: PumpPoint) -> PaperPoint:
-    """What the paper's figures need of a solved point."""
+    """Numbers of a solved point for the paper's figures."""
     losses = [found.pairs.loss(pair) for pair in Pair]
     return PaperPoint(
         bench=found.bench,
@@ -151,7 +151,7 @@ class PaperWork:
         return films_point(self.pump, point).pump_point
 
     def at(self, place: Place) -> OperatingPoint:
-        """The operating point of a place, all else the pump's own."""
+        """The point of a place; KeyError if it was not solved."""
         return operating_point(
             self.pump,
             shaft_speed=place.speed,

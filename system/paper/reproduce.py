@@ -44,7 +44,7 @@ OF_POINTS: Mapping[Figure, Callable[[PaperPoints], FigureResult]] = {
 
 
 class PaperFidelity(Enum):
-    """How the paper's numbers are had: films of given thickness, solved at given positions, or floating."""
+    """Fidelity of the paper's numbers: films of given thickness, solved at given positions, or floating."""
 
     LUMPED = "lumped"
     FILMS = "films"
@@ -61,7 +61,7 @@ FLOATING = (Figure.FIG8, Figure.FIG9)
 
 @dataclass(frozen=True)
 class Means:
-    """What the work is done with: where costly points are kept, who does them, how floating gaps are solved."""
+    """Means of the work: folder of costly points, executor, options of floating gaps."""
 
     store: KeptPoints
     executor: Executor
@@ -72,9 +72,9 @@ class Means:
 def reproduce(
     pump: PumpDescription, figures: Sequence[Figure], fidelity: PaperFidelity, means: Means
 ) -> tuple[FigureResult, ...]:
-    """The figures, in the order asked for; of those that mean nothing in this fidelity the reason alone.
+    """The figures, in the given order; for those without meaning in this fidelity the reason alone.
 
-    Raises FilmInputError where a point has no solution, as the fidelity where the pump is none for it.
+    Raises FilmInputError where a point has no solution, as the fidelity where the pump is unsuitable for it.
     """
     if fidelity is PaperFidelity.FLOATING:
         made = {

@@ -1,4 +1,4 @@
-"""Statements of Xu, Hu, Zhang and Mao (2017) on their figures, one by one."""
+"""Statements of the paper's text on its figures, one by one."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from math import inf
 
 from system.paper.figure import Figure, Unit
-from system.paper.judge import OURS, Claim, Range, number_claim, share_claim
+from system.paper.judge import OURS, PaperClaim, Range, number_claim, share_claim
 from system.paper.pair_statements import MOTION_CLAIMS, PAIR_CLAIMS
 
 _TABLE = (
@@ -55,7 +55,7 @@ _TABLE = (
     ("bearings", "initial friction coefficients of bearings .. are set to 0.001", Unit.NUMBER, 0.0005, 0.0015),
 )
 _TABLE_CLAIMS = tuple(
-    Claim(f"table1.{name}", Figure.TABLE1, words, name.replace("_", " "), unit, Range(low, high))
+    PaperClaim(f"table1.{name}", Figure.TABLE1, words, name.replace("_", " "), unit, Range(low, high))
     for name, words, unit, low, high in _TABLE
 )
 _EFFICIENCY_CLAIMS = (
@@ -110,7 +110,7 @@ _EFFICIENCY_CLAIMS = (
     ),
 )
 _FILM_CLAIMS = (
-    Claim(
+    PaperClaim(
         "fig8.mean",
         Figure.FIG8,
         "The mean depth of oil film .. is approximately 15 μm, mainly determined by the fit tolerance",
@@ -222,7 +222,7 @@ _FIT_CLAIMS = (
         f"well: within 10 %, {OURS}; the test points stand in no text",
     ),
 )
-CLAIMS: Mapping[str, Claim] = {
+CLAIMS: Mapping[str, PaperClaim] = {
     claim.id: claim
     for claim in (
         *_TABLE_CLAIMS,

@@ -12,7 +12,7 @@ from swashfilm.output.figures import png_of
 from swashfilm.output.page import PLOTS
 from swashfilm.output.run_folder import write_json
 from swashfilm.runs.reproduce.plots import figure_picture
-from system.paper.figure import Axis, Panel
+from system.paper.figure import FigureAxis, Panel
 from system.paper.judge import FigureResult, Judged, Range
 
 CLAIMS, DATA = "claims.json", "data"
@@ -121,5 +121,5 @@ def _points(panel: Panel) -> Iterator[list[str]]:
                 yield [panel.title, field.axis.words, *place, "", *_number(value, field.axis)]
 
 
-def _number(value: float, axis: Axis) -> tuple[str, str]:
+def _number(value: float, axis: FigureAxis) -> tuple[str, str]:
     return f"{axis.unit.factor * value:.8g}", axis.unit.shown

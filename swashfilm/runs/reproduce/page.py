@@ -11,7 +11,7 @@ from typing import Any
 
 from swashfilm.output.page import PLOTS, expect_files, inlined, write_page
 from swashfilm.runs.reproduce.files import CLAIMS
-from system.paper.judge import Verdict
+from system.paper.judge import StatementVerdict
 
 FILES = ("summary.json", CLAIMS, "resolved.toml")
 HEAD = """
@@ -64,7 +64,7 @@ def verdict_rows(rows: Sequence[Row]) -> Iterator[tuple[str, ...]]:
 def count_words(rows: Sequence[Row]) -> str:
     """How many statements came out how, each reading by itself."""
     found = Counter(row["verdict"] for row in rows)
-    return ", ".join(f"{found[verdict.value]} {verdict.value}" for verdict in Verdict)
+    return ", ".join(f"{found[verdict.value]} {verdict.value}" for verdict in StatementVerdict)
 
 
 def why(row: Row) -> str:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from swashfilm.output.figures import figure_of
-from system.paper.figure import Axis, Panel, PanelKind, Unit
+from system.paper.figure import FigureAxis, Panel, PanelKind, Unit
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -125,5 +125,5 @@ def _colour(number: int) -> str:
     return COLOURS[number % len(COLOURS)]
 
 
-def _words(axis: Axis) -> str:
+def _words(axis: FigureAxis) -> str:
     return axis.words if axis.unit is Unit.NUMBER else f"{axis.words} / {axis.unit.shown}"

@@ -1,4 +1,4 @@
-"""The catalogue: every effect that can be named, but what stands in none."""
+"""The catalogue: every effect that can be named, without unknown physics."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The catalogue of what happens in films: oil under pressure, heat and shear; faces that touch or part."""
+"""The catalogue of effects in films: oil under pressure, heat and shear; faces that touch or separate."""
 
 from __future__ import annotations
 

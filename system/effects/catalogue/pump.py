@@ -1,4 +1,4 @@
-"""The catalogue of what happens outside the films: filling, drag, other paths, ports, swash plate."""
+"""The catalogue of effects outside the films: filling, drag, other paths, ports, swash plate."""
 
 from __future__ import annotations
 

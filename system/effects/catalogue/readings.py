@@ -1,4 +1,4 @@
-"""The catalogue of what is no physics left out: meters that are off, parameters that are not what was stated."""
+"""The catalogue of causes that are no missing physics: faulty meters, parameters with wrong stated values."""
 
 from __future__ import annotations
 

@@ -33,10 +33,10 @@ def stribeck_share(number: Array, scale: float, exponent: float) -> Array:
 
 
 def mixed_friction(values: Values, courses: Mapping[Gap, GapCourse], state: BenchState) -> Effects:
-    """Friction f_b exp(-(H/H0)^d) N v beside the Coulomb loss, in each pair at every angle.
+    """Friction f_b exp(-(H/H0)^d) N v in addition to the Coulomb loss, in each pair at every angle.
 
-    `piston`, `slipper`, `valve_plate`: f_b of the pair's boundary layer; `hersey_scale`: H0; `exponent`: d. Most
-    where parts slide slowly under load, and in hot oil.
+    `piston`, `slipper`, `valve_plate`: f_b of the pair's boundary layer; `hersey_scale`: H0; `exponent`: d.
+    Largest where parts slide slowly under load, and in hot oil.
     """
     effects = unchanged(courses)
     extra = effects.extra_coulomb.copy()

@@ -1,4 +1,4 @@
-"""Laws of what brakes the shaft beside the seven pairs: oil in the case, seal, charge pump, ports."""
+"""Laws of drag on the shaft outside the seven pairs: oil in the case, seal, charge pump, ports."""
 
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ def barrel_torque(state: BenchState) -> Array:
 
 
 def pistons_torque(state: BenchState) -> Array:
-    """Torque (N,) N m of the pistons that stand out of the barrel: cylinders across a stream."""
+    """Torque (N,) N m of the pistons that protrude from the barrel: cylinders across a stream."""
     part, density = state.geometry.pump, state.geometry.oil.density
     out = state.geometry.piston.overhang - state.geometry.slipper.ball_joint_radius + 0.5 * full_stroke(state)
     pressure = 0.5 * density * (state.speed * part.pitch_radius) ** 2 * SHELTER * CO_ROTATION

@@ -1,4 +1,4 @@
-"""Laws of the films: oil that thickens under pressure, warms or thins by shear, walls that give way or expand."""
+"""Laws of the films: viscosity over pressure, temperature and shear rate; walls that deform or expand."""
 
 from __future__ import annotations
 
@@ -28,8 +28,8 @@ Courses = Mapping[Gap, GapCourse]
 def barus_flow(exponent: Array) -> Array:
     """(1 - exp(-a p))/(a p): flow through a film of falling pressure p .. 0 over that of constant viscosity.
 
-    Barus 1893, mu = mu0 exp(a p); exact for plane and annular films alike. `exponent` a p, 0 or more; up to about
-    100 MPa, beyond it Roelands' law rises less.
+    Barus 1893, mu = mu0 exp(a p); exact for plane and annular films. `exponent` a p, 0 or more; up to about 100
+    MPa, beyond it Roelands' law rises less.
     """
     return np.asarray(np.where(exponent > SMALL, -np.expm1(-exponent) / np.maximum(exponent, SMALL), 1.0))
 
@@ -102,11 +102,11 @@ def shear_thinning(values: Values, courses: Courses, state: BenchState) -> Effec
 
 
 def film_heating(values: Values, courses: Courses, state: BenchState) -> Effects:
-    """Films warmer than the case: what they lose and throttle, less what walls and oil take off.
+    """Films warmer than the case: heat of loss and throttling, less the heat to walls and oil.
 
-    `piston`, `slipper`, `valve_plate` R (m2 K/W): of the way through the gap's walls to the case; `carried_share`,
-    `throttled_share`, `carry_over`: `HeatShares`. Mean rise of a film over the turn by `film_rise`; viscosity at
-    that temperature serves leakage and shear, both in balance with it.
+    `piston`, `slipper`, `valve_plate` R (m2 K/W): resistance through the gap's walls to the case;
+    `carried_share`, `throttled_share`, `carry_over`: `HeatShares`. Mean rise of a film over the turn by
+    `film_rise`; viscosity at that temperature holds for leakage and shear, both in balance with it.
     """
     shares = HeatShares(values["carried_share"], values["throttled_share"], values["carry_over"])
     ratios = []
@@ -118,11 +118,12 @@ def film_heating(values: Values, courses: Courses, state: BenchState) -> Effects
 
 @dataclass(frozen=True)
 class HeatShares:
-    """What of a film's heat goes which way, each 0 to 1; the defaults are those of films solved with heat.
+    """Shares of a film's heat by path, each 0 to 1; the defaults are those of films solved with heat.
 
-    carried: of the heat, that leaves with the oil before it comes to a wall; throttled: of 0.45 K/MPa, that warms
-    the film above the case: 1 where oil comes as warm as the case, less where it comes from cooler chambers;
-    carry_over: of the oil that sliding draws in, that is the film's own come back (Ettles 1969: .7 to .9 of pads).
+    carried: share of the heat that leaves with the oil before it reaches a wall; throttled: share of 0.45 K/MPa
+    that warms the film above the case: 1 where oil comes as warm as the case, less where it comes from cooler
+    chambers; carry_over: share of the film's own warm oil in the oil that sliding draws in (Ettles 1969: .7 to .9
+    of pads).
     """
 
     carried: float = 0.0
@@ -168,8 +169,8 @@ def in_one_film(gap: Gap, courses: Courses, state: BenchState, flow: Array, shea
 def _in_films(courses: Courses, state: BenchState, flows: list[Array], shears: list[Array]) -> Effects:
     """Effects of factors (N, M) on the flow through each gap's lands and on its shear.
 
-    The slipper's orifice takes its share of the pressure as before; the ring's shear is that of all chambers, so
-    it takes the turn's mean.
+    The slipper's orifice has its share of the pressure as before; the ring's shear is that of all chambers, so it
+    uses the turn's mean.
     """
     behind = GAPS.index(Gap.SLIPPER)
     ring = GAPS.index(Gap.VALVE_PLATE)
@@ -179,7 +180,7 @@ def _in_films(courses: Courses, state: BenchState, flows: list[Array], shears: l
 
 
 def through_orifice(lands: Array, state: BenchState) -> Array:
-    """Factor on a slipper's leakage when its lands let through `lands` times as much: Eq. (16)."""
+    """Factor on a slipper's leakage for `lands` times the flow through its lands: Eq. (16)."""
     slipper = state.geometry.slipper
     d4, h3 = slipper.orifice_diameter**4, slipper.film_thickness**3
     share = 128.0 * h3 * slipper.orifice_length

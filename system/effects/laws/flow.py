@@ -45,12 +45,12 @@ def entrained_air(values: Values, courses: Courses, state: BenchState) -> Effect
 
 
 def incomplete_filling(values: Values, courses: Courses, state: BenchState) -> Effects:
-    """An inlet line that loses `inlet_loss` times the pressure that the kidney loses at suction.
+    """An inlet line that loses `inlet_loss` times the pressure loss of the kidney at suction.
 
-    Chambers draw through line and kidney as through a kidney (1 + inlet_loss)^(-1/2) as wide, dp = rho/2 (Q/(Cd
-    A))^2. Where that takes all of the inlet's pressure a cavity opens, and above a speed n_c, which goes with the
-    root of that pressure, chambers no longer fill: the share n_c/n. The line's loss counts at each piston's own
-    flow, not at their sum: alike where chambers starve, a little early where they just fill.
+    Line and kidney act as a kidney (1 + inlet_loss)^(-1/2) as wide, dp = rho/2 (Q/(Cd A))^2. Where that loss
+    equals the inlet's pressure a cavity opens. Above a speed n_c, which is proportional to the root of that
+    pressure, chambers no longer fill: the share n_c/n. The line's loss uses each piston's own flow, not their
+    sum. Both are equal where chambers starve; the loss begins a little early where they just fill.
     """
     narrowed = (1.0 + values["inlet_loss"]) ** -0.5
     return replace(unchanged(courses), suction_area=np.full_like(state.speed, narrowed))
@@ -75,11 +75,11 @@ def laminar_cross_leak(values: Values, courses: Courses, state: BenchState) -> E
 
 
 def control_flow(values: Values, courses: Courses, state: BenchState) -> Effects:
-    """What the control draws from delivery into the case, at any speed and displacement.
+    """Flow of the control from delivery into the case, at any speed and displacement.
 
-    A clearance and an orifice one behind the other, dp/p0 = l (mu/mu0) Q/Q0 + (1 - l) (Q/Q0)^2: `area` m2 of an
-    orifice with the flow Q0 at rated pressure p0, where `laminar` l is the clearance's share of the pressure at
-    mu0 = 25 mPa s; 0: an orifice alone, 1: a clearance alone.
+    A clearance and an orifice in series, dp/p0 = l (mu/mu0) Q/Q0 + (1 - l) (Q/Q0)^2: `area` m2 of an orifice with
+    the flow Q0 at rated pressure p0, where `laminar` l is the clearance's share of the pressure at mu0 = 25 mPa
+    s; 0: an orifice alone, 1: a clearance alone.
     """
     drop = state.delivery_pressure - state.case_pressure
     rated = state.geometry.pump.rated_pressure

@@ -1,4 +1,4 @@
-"""Laws of the swash plate and the ports: a plate that gives way, grooves that wear, a line that resonates."""
+"""Laws of the swash plate and the ports: a plate that deflects, grooves that wear, a line that resonates."""
 
 from __future__ import annotations
 
@@ -21,10 +21,11 @@ Courses = Mapping[Gap, GapCourse]
 
 
 def swash_droop(values: Values, courses: Courses, state: BenchState) -> Effects:
-    """A plate that gives way under load by an angle, whatever its own: `rate` rad/Pa, and `play` rad at any load.
+    """A plate that deflects under load by an angle, independent of its own: `rate` rad/Pa, and `play` rad at any
+    load.
 
-    The moment of the pistons under pressure bends stop, actuator and trunnions. Ideal flow and torque
-    fall alike, the more of them the less the plate is tilted; it gives way no further than upright.
+    The moment of the pistons under pressure deforms stop, actuator and trunnions. Ideal flow and torque fall by
+    the same share, larger at small tilt; the plate deflects no further than upright.
     """
     angle = np.arctan(swash_tangent(state))
     left = np.maximum(angle - values["rate"] * pressure_difference(state) - values["play"], 0.0)

@@ -20,8 +20,8 @@ ONSET = 0.2
 Courses = Mapping[Gap, GapCourse]
 
 
-def gives_way(ratio: Array) -> Array:
-    """How far a part has lost its seat, 0 to 1, at a ratio of the moment that tips it to that which holds it."""
+def unseated_share(ratio: Array) -> Array:
+    """Degree of tipping of a part, 0 to 1, at a ratio of the tipping moment to the holding moment."""
     way = np.clip((ratio - 1.0) / ONSET, 0.0, 1.0)
     return np.asarray(way * way * (3.0 - 2.0 * way))
 
@@ -29,7 +29,7 @@ def gives_way(ratio: Array) -> Array:
 def slipper_ratio(state: BenchState, pressure: Array, retainer_force: float) -> Array:
     """Tipping over holding moment (N, M) of a slipper: m w^2 R l against (Ap p + F) r1, p over case pressure.
 
-    The mass of a slipper outside its ball turns it outwards; chamber pressure and retainer hold it on its land.
+    The mass of a slipper outside its ball turns it outwards; chamber pressure and retainer press it on its land.
     """
     slipper, part = state.geometry.slipper, state.geometry.pump
     tips = slipper.mass * state.speed**2 * part.pitch_radius * slipper.centre_of_mass_to_ball
@@ -40,7 +40,7 @@ def slipper_ratio(state: BenchState, pressure: Array, retainer_force: float) -> 
 def slipper_lift(values: Values, courses: Courses, state: BenchState) -> Effects:
     """Slippers that tip off by `ride_height` m where chamber and `retainer_force` (N each) hold too little."""
     course, effects = courses[Gap.SLIPPER], unchanged(courses)
-    away = gives_way(slipper_ratio(state, course.pressure, values["retainer_force"]))
+    away = unseated_share(slipper_ratio(state, course.pressure, values["retainer_force"]))
     film = 1.0 + values["ride_height"] * away / course.film
     row = GAPS.index(Gap.SLIPPER)
     conductance, viscous = effects.conductance.copy(), effects.viscous.copy()
@@ -51,8 +51,8 @@ def slipper_lift(values: Values, courses: Courses, state: BenchState) -> Effects
 def block_ratio(state: BenchState, course: GapCourse) -> Array:
     """Tipping over holding moment (N,) of the block.
 
-    The pistons' accelerations tip it, z/2 m w^2 R^2 tan(swash); spring and residual clamping hold it at the outer
-    land, the clamping from where the loaded half's thrust stands, 2/pi of the pitch radius off.
+    The pistons' accelerations tip it, z/2 m w^2 R^2 tan(swash). Spring and residual clamping hold it at the outer
+    land, the clamping with the lever of the loaded half's thrust, 2/pi of the pitch radius.
     """
     pump = state.geometry
     guide, plate, part = pump.ball_guide, pump.valve_plate, pump.pump
@@ -67,11 +67,12 @@ def block_ratio(state: BenchState, course: GapCourse) -> Array:
 def block_tipping(values: Values, courses: Courses, state: BenchState) -> Effects:
     """A block that tips open by `wedge` m on one side: more flow over the lands, and between the kidneys.
 
-    A wedge 0 .. w over a film h lets (h + w/2)^3 + 3/2 (h + w/2)(w/2)^2 through in the mean round the plate. Of
-    the plate between the kidneys, two webs as long as a chamber's pitch, as much more goes from delivery to inlet.
+    A wedge 0 .. w over a film h has the mean conductance (h + w/2)^3 + 3/2 (h + w/2)(w/2)^2 round the plate. Of
+    the plate between the kidneys, two webs as long as a chamber's pitch, the same additional flow goes from
+    delivery to inlet.
     """
     course, effects = courses[Gap.VALVE_PLATE], unchanged(courses)
-    pump, half = state.geometry, 0.5 * values["wedge"] * gives_way(block_ratio(state, course))[:, None]
+    pump, half = state.geometry, 0.5 * values["wedge"] * unseated_share(block_ratio(state, course))[:, None]
     film = course.film + half
     cubed = film**3 + 1.5 * film * half**2
     row = GAPS.index(Gap.VALVE_PLATE)

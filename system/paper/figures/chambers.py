@@ -8,7 +8,7 @@ import numpy as np
 
 from system.description.pump import PumpDescription
 from system.inputs.units import TURN
-from system.paper.figure import Axis, Curve, Figure, Panel, PanelKind, Unit
+from system.paper.figure import Curve, Figure, FigureAxis, Panel, PanelKind, Unit
 from system.paper.judge import FigureResult, Judged, Range, judge
 from system.paper.points import FULL, PRESSURES, RATED, PaperPoint, PaperPoints
 from system.paper.statements import CLAIMS
@@ -18,18 +18,18 @@ from system.pump.ports.areas import PortOpening, break_angles, opening_area
 ANGLES = np.linspace(0.0, TURN, 1441)
 BEFORE, AFTER = pi - pi / 6.0, pi + 5.0 * pi / 18.0
 """The pre-relief transition (rad): 30 deg before the outer dead centre, where delivery begins, to 50 after."""
-_ANGLE = Axis("shaft angle from inner dead centre", Unit.ANGLE)
+_ANGLE = FigureAxis("shaft angle from inner dead centre", Unit.ANGLE)
 
 
 def fig10(points: PaperPoints) -> FigureResult:
-    """Area of both ports over a turn, its sections, and what the relief groove does to the pressure."""
+    """Area of both ports over a turn, its sections, and the effect of the relief groove on the pressure."""
     pump = points.pump
     suction, delivery = port_openings(pump)
     curves = tuple(
         Curve(name, ANGLES, opening_area(port, ANGLES))
         for name, port in (("suction", suction), ("delivery", delivery))
     )
-    area = Axis("area", Unit.AREA)
+    area = FigureAxis("area", Unit.AREA)
     panels = (
         Panel("Flow area of the ports", PanelKind.LINES, _ANGLE, area, curves),
         Panel("Relief groove of the delivery", PanelKind.LINES, _ANGLE, area, (_groove(delivery),)),
@@ -51,7 +51,7 @@ def _groove(port: PortOpening) -> Curve:
 
 
 def sections(port: PortOpening) -> int:
-    """How many pieces the area of an open port is put together from over a turn."""
+    """Number of sections of the area of an open port over a turn."""
     breaks = break_angles(port)
     middles = breaks + 0.5 * np.diff(breaks, append=breaks[0] + TURN)
     return int(np.sum(opening_area(port, middles) > 0.0))
@@ -76,9 +76,10 @@ def fig11(points: PaperPoints) -> FigureResult:
         for one in (low, high)
     )  # fmt: skip
     panels = (
-        Panel("Chamber pressure over a turn", PanelKind.LINES, _ANGLE, Axis("pressure", Unit.PRESSURE), curves),
+        Panel("Chamber pressure over a turn", PanelKind.LINES, _ANGLE,
+              FigureAxis("pressure", Unit.PRESSURE), curves),
         Panel("Pre-relief transition", PanelKind.LINES, _ANGLE,
-              Axis("pressure over delivery pressure", Unit.SHARE), tuple(map(_transition, (low, high)))),
+              FigureAxis("pressure over delivery pressure", Unit.SHARE), tuple(map(_transition, (low, high)))),
     )  # fmt: skip
     judged = (_impact("fig11.small", low, rated), _impact("fig11.none", high, rated))
     return FigureResult(Figure.FIG11, panels, judged, tuple(_trapped(one) for one in (low, high)))

@@ -1,4 +1,6 @@
-"""Fig. 13: friction coefficients tuned by Eq. (21), and what points at one speed and displacement determine."""
+"""Fig. 13: friction coefficients tuned by Eq. (21), and the combinations that points at one speed and displacement
+determine.
+"""
 
 from __future__ import annotations
 
@@ -8,7 +10,7 @@ import numpy as np
 
 from reynolds.numerics.arrays import Array
 from system.bench.calibration.equation_21 import RANGES, EqFit, eq_fits, measured_losses
-from system.paper.figure import Axis, Curve, Figure, Panel, PanelKind, Unit
+from system.paper.figure import Curve, Figure, FigureAxis, Panel, PanelKind, Unit
 from system.paper.judge import FigureResult, Impossibility, Judged, Range, judge, range_of
 from system.paper.made_readings import MADE, SEED, equation_of, made_readings
 from system.paper.points import PaperPoints, Reading
@@ -17,10 +19,10 @@ from system.pump.laws.friction_pairs import Pair
 
 
 def fig13(model: PaperPoints, seen: PaperPoints) -> FigureResult:
-    """Coefficients by Eq. (21) of `model`, tuned to readings made of the points in `seen` with noise.
+    """Coefficients by Eq. (21) of `model`, tuned to readings made from the points in `seen` with noise.
 
-    model: by the lumped fidelity. The paper's test points stand in no text, so readings are made: by another
-    fidelity where `seen` is one, else by the model itself, which flatters it.
+    model: by the lumped fidelity. No text gives the paper's test points, so readings are made: by another
+    fidelity if `seen` is one, else by the model itself, which favours it.
     """
     points, readings = made_readings(seen)
     equation, losses = equation_of(model), measured_losses(points, readings)
@@ -30,14 +32,14 @@ def fig13(model: PaperPoints, seen: PaperPoints) -> FigureResult:
         Reading.MIXED: eq_fits(equation.mixed, losses, points, rated),
     }
     own = ", the model's own, so that the fit finds what it was made of" if seen.fidelity is model.fidelity else ""
-    told = f"Readings are {MADE}: of {seen.fidelity.value} points{own}; with a bench's noise, seed {SEED}."
-    return fig13_of(fits, (told,))
+    remarks = f"Readings are {MADE}: of {seen.fidelity.value} points{own}; with a bench's noise, seed {SEED}."
+    return fig13_of(fits, (remarks,))
 
 
-def fig13_of(fits: Mapping[Reading, Sequence[EqFit]], told: Sequence[str]) -> FigureResult:
-    """The figure of fits at one speed, displacement by displacement, and of the whole map; `told`: of what.
+def fig13_of(fits: Mapping[Reading, Sequence[EqFit]], remarks: Sequence[str]) -> FigureResult:
+    """The figure of fits at one speed, displacement by displacement, and of the whole map, with `remarks`.
 
-    By both readings: beside the films' shear, and holding it.
+    By both readings: with the films' shear separate, and with the shear in the coefficients.
     """
     cells = {reading: [fit for fit in own if fit.ratio is not None] for reading, own in fits.items()}
     panels = (
@@ -49,10 +51,13 @@ def fig13_of(fits: Mapping[Reading, Sequence[EqFit]], told: Sequence[str]) -> Fi
         *(_in_range(own, reading) for reading, own in cells.items()),
     )
     widths = tuple(_widths(own[-1], reading) for reading, own in fits.items())
-    return FigureResult(Figure.FIG13, panels, judged, (*told, _rank(fits[Reading.MIXED]), *widths))
+    return FigureResult(Figure.FIG13, panels, judged, (*remarks, _rank(fits[Reading.MIXED]), *widths))
 
 
-_DISPLACEMENT, _COEFFICIENT = Axis("displacement", Unit.SHARE), Axis("friction coefficient", Unit.NUMBER)
+_DISPLACEMENT, _COEFFICIENT = (
+    FigureAxis("displacement", Unit.SHARE),
+    FigureAxis("friction coefficient", Unit.NUMBER),
+)
 
 
 def _names(fit: EqFit) -> list[str]:
@@ -76,7 +81,7 @@ def _bounded(cells: Sequence[EqFit], reading: Reading) -> Panel:
 
 
 def _printed(cells: Sequence[EqFit]) -> Panel:
-    """Size of what plain least squares gives."""
+    """Size of the coefficients by plain least squares."""
     curves = tuple(
         Curve(name, x, np.array([abs(fit.printed[k]) for fit in cells])) for k, name, x in _columns(cells)
     )
@@ -93,7 +98,7 @@ def _columns(cells: Sequence[EqFit]) -> Iterator[tuple[int, str, Array]]:
 
 
 def _rank(fits: Sequence[EqFit]) -> str:
-    """How many combinations the points tell apart, displacement by displacement and all together."""
+    """Number of combinations that the points determine, displacement by displacement and all together."""
     ranks = ", ".join(f"{fit.rank} at {100.0 * fit.ratio:.0f} %" for fit in fits if fit.ratio is not None)
     whole = fits[-1]
     return (
@@ -141,25 +146,25 @@ def _in_range(cells: Sequence[EqFit], reading: Reading) -> Judged:
 
 
 def beyond_range(ends: tuple[float, float], value: float) -> float:
-    """How many times beyond the nearer end of a range of positive numbers a value lies; 1 within."""
+    """Factor by which a value lies beyond the nearer end of a range of positive numbers; 1 within."""
     low, high = ends
     return max(1.0, low / value, value / high)
 
 
 def _widths(whole: EqFit, reading: Reading) -> str:
-    """What the whole map knows of each coefficient."""
+    """Width of each coefficient from the whole map."""
     posterior, names = whole.posterior, _names(whole)
     spread = np.sqrt(np.diag(posterior.covariance))
-    told = ", ".join(
+    shown = ", ".join(
         f"{name.replace('_', ' ')} {value:.4f} ({100.0 * width:.0f} %)"
         for name, value, width in zip(names, posterior.values, spread, strict=True)
     )
     return (
-        f"All {whole.points} points together, {reading.value}, and how wide still of the prior: {told}; left are "
+        f"All {whole.points} points together, {reading.value}, and how wide still of the prior: {shown}; left are "
         f"{_left([whole]):.1f} sigma in the mean."
     )
 
 
 def _left(fits: Sequence[EqFit]) -> float:
-    """Root mean square of what fits leave, in sigma."""
+    """Root mean square of the residuals of fits, in sigma."""
     return float(np.sqrt(np.mean(np.concatenate([fit.posterior.residual for fit in fits]) ** 2)))

@@ -8,7 +8,7 @@ from math import radians
 import numpy as np
 
 from system.description.pump import PumpDescription
-from system.paper.figure import Axis, Curve, Field, Figure, Panel, PanelKind, Unit
+from system.paper.figure import Curve, Figure, FigureAxis, FigureField, Panel, PanelKind, Unit
 from system.paper.judge import FigureResult, Judged, Range, judge, range_of
 from system.paper.points import (
     FULL,
@@ -42,7 +42,7 @@ def fig2(points: PaperPoints) -> FigureResult:
         panels.append(
             Panel(
                 f"Overall efficiency, Eq. (3), rated speed, {reading.value}", PanelKind.FIELD,
-                Axis("displacement", Unit.SHARE), Axis("delivery pressure", Unit.PRESSURE),
+                FigureAxis("displacement", Unit.SHARE), FigureAxis("delivery pressure", Unit.PRESSURE),
                 (_best_point(field),), field,
             )
         )  # fmt: skip
@@ -65,8 +65,8 @@ def fig3(points: PaperPoints) -> FigureResult:
     for reading in Reading:
         judged += _judged_cases(points, reading)
     cases = (
-        ("Case 1: 5 MPa, rated speed", Axis("displacement", Unit.SHARE), np.array(RATIOS), case_one(points)),
-        ("Case 2: 13 % displacement, rated speed", Axis("delivery pressure", Unit.PRESSURE),
+        ("Case 1: 5 MPa, rated speed", FigureAxis("displacement", Unit.SHARE), np.array(RATIOS), case_one(points)),
+        ("Case 2: 13 % displacement, rated speed", FigureAxis("delivery pressure", Unit.PRESSURE),
          np.array([near_zero(points.pump), *PRESSURES]), case_two(points)),
     )  # fmt: skip
     panels = [panel for words, x, at, own in cases for panel in _case_panels(words, x, at, own)]
@@ -83,7 +83,7 @@ def fig3(points: PaperPoints) -> FigureResult:
 
 
 def _undelivered(points: PaperPoints, figure: Figure) -> tuple[str, ...]:
-    """Where the pump leaks all that it displaces, so that efficiencies have no value; else nothing."""
+    """Points at which leakage takes all of the displacement, so that efficiencies have no value; else empty."""
     places = places_of(points.pump, (figure,))
     idle = [place.text for place in places if points.points[place].bench.delivery_flow <= 0.0]
     if not idle:
@@ -119,37 +119,39 @@ def share_with_drain(split: LossSplit, drain: float, fall: float) -> float:
     return split.hydromechanical / (split.hydromechanical + split.volumetric + drain * fall)
 
 
-def _field(points: PaperPoints, reading: Reading) -> Field:
+def _field(points: PaperPoints, reading: Reading) -> FigureField:
     rows = [[points.at(RATED, p, ratio).overall(reading) for ratio in RATIOS] for p in PRESSURES]
-    return Field(Axis("overall efficiency", Unit.SHARE), np.array(RATIOS), np.array(PRESSURES), np.array(rows))
+    return FigureField(
+        FigureAxis("overall efficiency", Unit.SHARE), np.array(RATIOS), np.array(PRESSURES), np.array(rows)
+    )
 
 
-def _best_point(field: Field) -> Curve:
-    """Where the best efficiency stands."""
+def _best_point(field: FigureField) -> Curve:
+    """Place of the best efficiency."""
     row, column = np.unravel_index(int(np.argmax(field.values)), field.values.shape)
     best = Unit.SHARE.factor * float(field.values[row, column])
     return Curve(f"best {best:.1f} %", field.x[column : column + 1], field.y[row : row + 1])
 
 
 def _best_reason(points: PaperPoints, best: float, reading: Reading) -> str:
-    """What the best efficiency would be by the other reading, and without oil trapped at the inner dead centre."""
+    """The best efficiency by the other reading, and without oil trapped at the inner dead centre."""
     at = max(
         (Place(RATED, p, ratio) for p in PRESSURES for ratio in RATIOS),
         key=lambda one: points.points[one].overall(reading),
     )
     open_longer = paper_point(PaperWork(without_trapped_oil(points.pump), points.fidelity).solved(at))
     stated, own = points.points[at], open_longer.overall(reading)
-    told = (
+    text = (
         f"ports throttle {stated.throttling:.0f} W there, {open_longer.throttling:.0f} W if the kidneys shut at "
         f"{np.degrees(LATE_END):.0f} deg in place of the {np.degrees(points.pump.ports.kidney_end):.0f} deg "
         "assumed: "
         f"then {100.0 * own:.1f} % in place of {100.0 * best:.1f} %"
     )
     if reading is Reading.MIXED:
-        return told
+        return text
     mixed = 100.0 * open_longer.overall(Reading.MIXED)
     return (
-        f"{told}, and {mixed:.1f} % without the {sum(stated.viscous):.0f} W of the films' shear, which is "
+        f"{text}, and {mixed:.1f} % without the {sum(stated.viscous):.0f} W of the films' shear, which is "
         "counted "
         "beside coefficients that hold it in the paper"
     )
@@ -182,7 +184,7 @@ def _falls(point: PaperPoint) -> float:
 
 
 def _needed_drain(points: PaperPoints, reading: Reading) -> str:
-    """What flow into the case Case 1 needs, and what it would leave of Case 2 by its law of pressure."""
+    """The flow into the case that Case 1 needs, and its effect on Case 2 by its law of pressure."""
     expected = CLAIMS["fig3.case1"].expected
     needed = [
         drain_for_share(one.split(reading), share, _falls(one))
@@ -206,7 +208,7 @@ def _needed_drain(points: PaperPoints, reading: Reading) -> str:
 
 
 def _steady_drain(points: PaperPoints, reading: Reading) -> str:
-    """Which flow into the case would meet the lower end of Case 2, and how far it goes with Case 1."""
+    """The flow into the case that meets the lower end of Case 2, and its agreement with Case 1."""
     last, expected = case_two(points)[-1], CLAIMS["fig3.case2"].expected
     drain = drain_for_share(last.split(reading), expected.low, _falls(last))
     first = [share_with_drain(one.split(reading), drain, _falls(one)) for one in case_one(points)]
@@ -218,10 +220,10 @@ def _steady_drain(points: PaperPoints, reading: Reading) -> str:
     )
 
 
-def _case_panels(words: str, x: Axis, at: np.ndarray, case: tuple[PaperPoint, ...]) -> Iterator[Panel]:
+def _case_panels(words: str, x: FigureAxis, at: np.ndarray, case: tuple[PaperPoint, ...]) -> Iterator[Panel]:
     found = [paper_efficiency(one.bench) for one in case]
     yield Panel(
-        f"{words}: efficiencies", PanelKind.LINES, x, Axis("efficiency", Unit.SHARE),
+        f"{words}: efficiencies", PanelKind.LINES, x, FigureAxis("efficiency", Unit.SHARE),
         (
             Curve("volumetric, Eq. (4)", at, np.array([one.volumetric for one in found])),
             Curve("mechanical, Eq. (5)", at, np.array([one.hydromechanical for one in found])),
@@ -230,7 +232,7 @@ def _case_panels(words: str, x: Axis, at: np.ndarray, case: tuple[PaperPoint, ..
     )  # fmt: skip
     splits = [one.split(Reading.WITH_SHEAR) for one in case]
     yield Panel(
-        f"{words}: losses", PanelKind.LINES, x, Axis("loss", Unit.POWER),
+        f"{words}: losses", PanelKind.LINES, x, FigureAxis("loss", Unit.POWER),
         (
             Curve("volumetric, Eq. (1)", at, np.array([one.volumetric for one in splits])),
             Curve("hydro-mechanical, Eq. (2)", at, np.array([one.hydromechanical for one in splits])),
@@ -241,14 +243,14 @@ def _case_panels(words: str, x: Axis, at: np.ndarray, case: tuple[PaperPoint, ..
 def _rated_panels(rated: PaperPoint) -> Iterator[Panel]:
     """Case 3, one point."""
     found, split = paper_efficiency(rated.bench), rated.split(Reading.WITH_SHEAR)
-    none = Axis("", Unit.NUMBER)
+    none = FigureAxis("", Unit.NUMBER)
     yield Panel(
-        "Case 3: rated point, efficiencies", PanelKind.BARS, none, Axis("efficiency", Unit.SHARE),
+        "Case 3: rated point, efficiencies", PanelKind.BARS, none, FigureAxis("efficiency", Unit.SHARE),
         (_bar("volumetric", found.volumetric), _bar("mechanical", found.hydromechanical),
          _bar("overall", found.overall)),
     )  # fmt: skip
     yield Panel(
-        "Case 3: rated point, losses", PanelKind.BARS, none, Axis("loss", Unit.POWER),
+        "Case 3: rated point, losses", PanelKind.BARS, none, FigureAxis("loss", Unit.POWER),
         (_bar("volumetric", split.volumetric), _bar("hydro-mechanical", split.hydromechanical)),
     )  # fmt: skip
 

@@ -30,7 +30,7 @@ _SAME = Range(0.999, 1.001)
 
 
 def equations(points: PaperPoints) -> FigureResult:
-    """Eqs. (8), (9), (12), (14) and (15) as printed against what geometry and conservation make of them."""
+    """Eqs. (8), (9), (12), (14) and (15) as printed against geometry and conservation."""
     drive = full_drive(points.pump)
     judged = (_eq8(drive), _eq9(drive), _eq12(points, drive), _eq14(drive), _eq15(points))
     return FigureResult(Figure.EQUATIONS, (), judged, ("The corrected forms are those of docs/theory.md.",))

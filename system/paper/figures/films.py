@@ -8,13 +8,13 @@ import numpy as np
 
 from reynolds.problem import FilmSolution
 from system.description.pump import PumpDescription
-from system.paper.figure import Axis, Field, Figure, Panel, PanelKind, Unit
+from system.paper.figure import Figure, FigureAxis, FigureField, Panel, PanelKind, Unit
 from system.paper.judge import FigureResult, Range, judge
 from system.paper.points import FULL, PRESSURES, RATED, PaperWork, Place, PointFidelity
 from system.paper.statements import CLAIMS
 from system.points.films import films_point
 
-FILM = Axis("film", Unit.FILM)
+FILM = FigureAxis("film", Unit.FILM)
 SHOWN_ANGLE = 1.5 * pi
 """Shaft angle (rad) of the film that is drawn: the middle of the delivery half."""
 NO_FIELD = "Films of given thickness have no field: --fidelity films or floating."
@@ -39,15 +39,15 @@ def fig8_of_films(pump: PumpDescription) -> FigureResult:
     return FigureResult(Figure.FIG8, (film_panel(field, float(found.shaft_angle[at])),), judged)
 
 
-def film_panel(field: Field, shaft_angle: float) -> Panel:
+def film_panel(field: FigureField, shaft_angle: float) -> Panel:
     """A piston's film at a shaft angle (rad) as the paper's Fig. 8 has it."""
     return Panel(
         f"Film of the piston at {np.degrees(shaft_angle):.0f} deg", PanelKind.FIELD,
-        Axis("angle round the piston", Unit.ANGLE), Axis("length ratio", Unit.NUMBER), field=field,
+        FigureAxis("angle round the piston", Unit.ANGLE), FigureAxis("length ratio", Unit.NUMBER), field=field,
     )  # fmt: skip
 
 
-def film_field(solution: FilmSolution) -> Field:
+def film_field(solution: FilmSolution) -> FigureField:
     """Thickness at a film's quadrature points over angle (rad) and share of the length."""
     space = solution.problem.space
     x, y = (one.ravel() for one in space.points)
@@ -58,4 +58,4 @@ def film_field(solution: FilmSolution) -> Field:
     values[row, column] = thickness
     angle = 2.0 * pi * (columns - columns[0]) / (columns[-1] - columns[0] + columns[1] - columns[0])
     length = (rows - rows[0]) / (rows[-1] - rows[0])
-    return Field(FILM, angle, length, values)
+    return FigureField(FILM, angle, length, values)

@@ -18,7 +18,7 @@ from system.effects.switched import hold_plain
 from system.films.drives import drives, no_rubbing
 from system.films.parts import floating_parts
 from system.films.rotor import engaged_share, rotor
-from system.paper.figure import Axis, Curve, Field, Figure, Panel, PanelKind, Unit
+from system.paper.figure import Curve, Figure, FigureAxis, FigureField, Panel, PanelKind, Unit
 from system.paper.figures.films import FILM, SHOWN_ANGLE, film_field, film_panel
 from system.paper.judge import FigureResult, Range, judge, range_of
 from system.paper.points import KEY_LENGTH, PRESSURES, RATED, RATIOS, PaperWork, Place, PointFidelity
@@ -50,7 +50,7 @@ class FloatingWork:
 
     @property
     def stated(self) -> str:
-        """Physics, meshes and accuracy, in words."""
+        """Physics, meshes and accuracy, as text."""
         own, exact = self.options, self.options.accuracy
         left_out = ", ".join(effect.value.replace("_", " ") for effect in own.physics.left_out)
         cells = " and ".join(f"{x} x {y}" for x, y in (own.piston_cells, own.slipper_cells))
@@ -119,11 +119,11 @@ def floating_figures(
             raise FilmInputError(f"floating gaps at {place.text}", outcome.reason, "a point that can be solved")
     records = [outcome.record for outcome in kept.outcomes]
     doubts = tuple(f"{one}." for one in run_checks((slipper_has_a_wedge,), pump).warnings)
-    told = (ALONE, work.stated, *doubts)
-    return _fig8(pump, records[-1]["piston"], told), _fig9(records, told)
+    remarks = (ALONE, work.stated, *doubts)
+    return _fig8(pump, records[-1]["piston"], remarks), _fig9(records, remarks)
 
 
-def _fig8(pump: PumpDescription, piston: Mapping[str, Any], told: tuple[str, ...]) -> FigureResult:
+def _fig8(pump: PumpDescription, piston: Mapping[str, Any], remarks: tuple[str, ...]) -> FigureResult:
     clearance = pump.piston.radial_clearance
     x, y, values = (np.array(one) for one in piston["field"])
     ratios = np.array(piston["eccentricity"]) / clearance
@@ -131,11 +131,11 @@ def _fig8(pump: PumpDescription, piston: Mapping[str, Any], told: tuple[str, ...
         Curve(f"at the film's {end}", np.array(piston["angle"]), own)
         for end, own in zip(ENDS, ratios, strict=True)
     )
-    angle = Axis("shaft angle from inner dead centre", Unit.ANGLE)
+    angle = FigureAxis("shaft angle from inner dead centre", Unit.ANGLE)
     panels = (
-        film_panel(Field(FILM, x, y, values), piston["shown"]),
+        film_panel(FigureField(FILM, x, y, values), piston["shown"]),
         Panel("Eccentricity of the piston over its clearance", PanelKind.LINES, angle,
-              Axis("eccentricity over clearance", Unit.NUMBER), courses),
+              FigureAxis("eccentricity over clearance", Unit.NUMBER), courses),
     )  # fmt: skip
     mean, over = piston["mean"], float(values.mean() / values.min())
     wider = (
@@ -153,18 +153,18 @@ def _fig8(pump: PumpDescription, piston: Mapping[str, Any], told: tuple[str, ...
         f"{ratios[1].mean():.2f} at its case edge, where it tilts on opposite sides; Eq. (15) knows that of a "
         f"parallel piston, for which the pump file gives {given:g}."
     )
-    return FigureResult(Figure.FIG8, panels, judged, (remark, *told))
+    return FigureResult(Figure.FIG8, panels, judged, (remark, *remarks))
 
 
-def _fig9(records: Sequence[Mapping[str, Mapping[str, float]]], told: tuple[str, ...]) -> FigureResult:
+def _fig9(records: Sequence[Mapping[str, Mapping[str, float]]], remarks: tuple[str, ...]) -> FigureResult:
     x = np.array(FLOATING_RATIOS)
     means = {gap: np.array([record[gap]["mean"] for record in records]) for gap in ("slipper", "piston")}
-    along = Axis("displacement", Unit.SHARE)
+    along = FigureAxis("displacement", Unit.SHARE)
     panels = (
-        Panel("Mean film, rated speed and pressure", PanelKind.LINES, along, Axis("mean film", Unit.FILM),
+        Panel("Mean film, rated speed and pressure", PanelKind.LINES, along, FigureAxis("mean film", Unit.FILM),
               tuple(Curve(gap, x, film) for gap, film in means.items())),
         Panel("Mean film over that at full displacement", PanelKind.LINES, along,
-              Axis("mean film over that at full displacement", Unit.SHARE),
+              FigureAxis("mean film over that at full displacement", Unit.SHARE),
               tuple(Curve(gap, x, film / film[-1]) for gap, film in means.items())),
     )  # fmt: skip
     slipper = means["slipper"]
@@ -175,11 +175,11 @@ def _fig9(records: Sequence[Mapping[str, Mapping[str, float]]], told: tuple[str,
         judge(CLAIMS["fig9.falls"], range_of(slipper[1:] / slipper[:-1]), reason=_slipper_films(records)),
         judge(CLAIMS["fig9.faster"], Range(faster, faster), reason=f"mean film over the displacements: {spans}"),
     )
-    return FigureResult(Figure.FIG9, panels, judged, told)
+    return FigureResult(Figure.FIG9, panels, judged, remarks)
 
 
 def _slipper_films(records: Sequence[Mapping[str, Mapping[str, float]]]) -> str:
-    """Mean film of the slipper by displacement, and what asperities bear."""
+    """Mean film of the slipper by displacement, and the load on asperities."""
     films = " ".join(f"{record['slipper']['mean'] * 1e6:.2f}" for record in records)
     bear = " ".join(f"{record['slipper']['contact']:.0f}" for record in records)
     at = " ".join(f"{100.0 * ratio:.0f}" for ratio in FLOATING_RATIOS)

@@ -8,7 +8,7 @@ from reynolds.numerics.arrays import Array
 from system.description.pump import PumpDescription
 from system.inputs.units import RPM
 from system.multibody.retainer import contact_circle, guide_loss
-from system.paper.figure import Axis, Curve, Figure, Panel, PanelKind, Unit
+from system.paper.figure import Curve, Figure, FigureAxis, Panel, PanelKind, Unit
 from system.paper.judge import FigureResult, Range, judge, range_of
 from system.paper.points import FULL, PRESSURES, RATED, SPEEDS, PaperPoints, Reading
 from system.paper.statements import CLAIMS
@@ -28,19 +28,19 @@ def fig15(points: PaperPoints) -> FigureResult:
     rigid = rigid_locus(guide, drive, AZIMUTHS)
     off = float(np.max(np.linalg.norm(rigid - printed, axis=0)))
     length = float(np.sum(np.linalg.norm(np.diff(printed, axis=1), axis=0)))
-    told = {"Eq. (10)": printed, "rigid retainer turned about the plate's normal": rigid}
-    shaft = Axis("along the shaft", Unit.LENGTH)
+    laws = {"Eq. (10)": printed, "rigid retainer turned about the plate's normal": rigid}
+    shaft = FigureAxis("along the shaft", Unit.LENGTH)
     panels = (
         Panel(
             "Relative locus, in the pump", PanelKind.TRUE_SCALE,
-            Axis("square to the shaft, in the plane of tilt", Unit.LENGTH), shaft,
-            tuple(Curve(name, way[1], way[0]) for name, way in told.items()),
+            FigureAxis("square to the shaft, in the plane of tilt", Unit.LENGTH), shaft,
+            tuple(Curve(name, way[1], way[0]) for name, way in laws.items()),
         ),
         Panel(
             "Relative locus, seen from the ball guide", PanelKind.TRUE_SCALE,
-            Axis("round the ball guide", Unit.LENGTH), shaft,
+            FigureAxis("round the ball guide", Unit.LENGTH), shaft,
             tuple(Curve(name, way[2] * np.cos(AZIMUTHS) - way[1] * np.sin(AZIMUTHS), way[0])
-                  for name, way in told.items()),
+                  for name, way in laws.items()),
         ),
     )  # fmt: skip
     sizes = " x ".join(f"{Unit.LENGTH.factor * float(np.ptp(row)):.2f}" for row in printed[:2])
@@ -72,12 +72,12 @@ def fig19(points: PaperPoints) -> FigureResult:
     x = np.array(SPEEDS)
     curves = (Curve("equation (25), rigid retainer", x, law), Curve("multibody", x, bodies),
               Curve("equation (25), k as printed", x, printed))  # fmt: skip
-    loss = Axis("loss", Unit.POWER)
+    loss = FigureAxis("loss", Unit.POWER)
     panels = (
-        Panel("Loss of ball guide and retainer over speed", PanelKind.LINES, Axis("shaft speed", Unit.SPEED), loss,
-              curves),
-        Panel("The pump's own, over pressure", PanelKind.LINES, Axis("delivery pressure", Unit.PRESSURE), loss,
-              _over_pressure(points)),
+        Panel("Loss of ball guide and retainer over speed", PanelKind.LINES,
+              FigureAxis("shaft speed", Unit.SPEED), loss, curves),
+        Panel("The pump's own, over pressure", PanelKind.LINES,
+              FigureAxis("delivery pressure", Unit.PRESSURE), loss, _over_pressure(points)),
     )  # fmt: skip
     apart = bodies / law - 1.0
     tilt = 1.0 / float(np.cos(drive.swash_angle))

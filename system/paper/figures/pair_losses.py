@@ -8,7 +8,7 @@ import numpy as np
 
 from reynolds.numerics.arrays import Array
 from system.inputs.units import RPM
-from system.paper.figure import Axis, Curve, Figure, Panel, PanelKind, Unit
+from system.paper.figure import Curve, Figure, FigureAxis, Panel, PanelKind, Unit
 from system.paper.judge import FigureResult, Impossibility, Judged, Range, judge, range_of
 from system.paper.points import (
     FULL,
@@ -29,8 +29,8 @@ GUIDE = Pair.BALL_GUIDE_RETAINER
 PRINTED = ((SPEEDS[3], 1.0), (SPEEDS[3], 0.28), (SPEEDS[2], 1.0), (SPEEDS[2], 0.28), (SPEEDS[1], 1.0),
            (SPEEDS[1], 0.28), (SPEEDS[0], 0.51), (SPEEDS[0], 0.28))  # fmt: skip
 """Speed and displacement ratio of Fig. 16 (a) to (h); (g) prints 0.52 where the test plan has 51 %."""
-_PRESSURE = Axis("delivery pressure", Unit.PRESSURE)
-_SHARE = Axis("share of the pairs' loss", Unit.SHARE)
+_PRESSURE = FigureAxis("delivery pressure", Unit.PRESSURE)
+_SHARE = FigureAxis("share of the pairs' loss", Unit.SHARE)
 
 
 def pair_words(pair: Pair) -> str:
@@ -65,7 +65,7 @@ def _case(letter: str, at: tuple[float, float], row: Sequence[PaperPoint]) -> Pa
         for what, of in (("pairs", _pairs_sum), ("Eq. (2)", _by_bench))
     )
     words = f"({letter}) {speed / RPM:.0f} r/min, {100.0 * ratio:.0f} % of displacement"
-    return Panel(words, PanelKind.LINES, _PRESSURE, Axis("hydro-mechanical loss", Unit.POWER), curves)
+    return Panel(words, PanelKind.LINES, _PRESSURE, FigureAxis("hydro-mechanical loss", Unit.POWER), curves)
 
 
 def _pairs_sum(row: Sequence[PaperPoint], reading: Reading) -> Array:
@@ -83,7 +83,7 @@ def from_line(x: Array, y: Array) -> float:
 
 
 def _bench_reason(points: PaperPoints, reading: Reading) -> str:
-    """What Eq. (2) counts beside the pairs at the rated point, and how far its loss is from a line."""
+    """The part of Eq. (2) outside the pairs at the rated point, and the distance of its loss from a line."""
     row = points.over_pressure(RATED, FULL)
     rated, bench = row[-1], _by_bench(row, reading)
     beside = rated.split(reading).hydromechanical - float(rated.pair_losses(reading).sum())
@@ -133,7 +133,7 @@ def fig18(points: PaperPoints) -> FigureResult:
         losses = np.array([one.pair_losses(reading) for one in row])
         curves = tuple(Curve(pair_words(pair), np.array(PRESSURES), losses[:, k]) for k, pair in enumerate(Pair))
         title = f"Loss of each pair, rated speed, full displacement, {reading.value}"
-        panels.append(Panel(title, PanelKind.LINES, _PRESSURE, Axis("loss", Unit.POWER), curves))
+        panels.append(Panel(title, PanelKind.LINES, _PRESSURE, FigureAxis("loss", Unit.POWER), curves))
         others = [k for k, pair in enumerate(Pair) if pair is not GUIDE]
         guide = losses[:, list(Pair).index(GUIDE)]
         change = float(np.ptp(guide) / guide.mean())
@@ -151,16 +151,16 @@ def fig20(points: PaperPoints) -> FigureResult:
     row = [points.at(RATED, PRESSURES[0], ratio) for ratio in RATIOS]
     panels, judged = [], []
     for reading in Reading:
-        axis = Axis("displacement", Unit.SHARE)
+        axis = FigureAxis("displacement", Unit.SHARE)
         panels.append(stacked(f"rated speed, 5 MPa, {reading.value}", axis, RATIOS, row, reading))
         steps = {pair: np.array([one.share(pair, reading) for one in row]) for pair in MAIN}
         falling = {pair: shares[:-1] / shares[1:] for pair, shares in steps.items()}
         others = np.concatenate([falling[SLIPPER], falling[PLATE]])
         reason = ", ".join(f"{pair_words(pair)} {_percent(steps[pair])} %" for pair in MAIN)
-        told = f"from {_percent(np.array(RATIOS))} % of displacement: {reason}"
+        text = f"from {_percent(np.array(RATIOS))} % of displacement: {reason}"
         judged += [
-            judge(CLAIMS["fig20.piston"], range_of(falling[PISTON]), reading=reading, reason=told),
-            judge(CLAIMS["fig20.others"], range_of(others), reading=reading, reason=told),
+            judge(CLAIMS["fig20.piston"], range_of(falling[PISTON]), reading=reading, reason=text),
+            judge(CLAIMS["fig20.others"], range_of(others), reading=reading, reason=text),
         ]
     return FigureResult(Figure.FIG20, tuple(panels), tuple(judged))
 
@@ -174,11 +174,11 @@ def fig21(points: PaperPoints) -> FigureResult:
 def fig22(points: PaperPoints) -> FigureResult:
     """Shares over speed at 28 % and the least pressure."""
     row = [points.at(speed, PRESSURES[0], RATIOS[1]) for speed in SPEEDS]
-    return _leading(Figure.FIG22, "fig22.lead", "5 MPa, 28 %", Axis("shaft speed", Unit.SPEED), SPEEDS, row)
+    return _leading(Figure.FIG22, "fig22.lead", "5 MPa, 28 %", FigureAxis("shaft speed", Unit.SPEED), SPEEDS, row)
 
 
 def _leading(
-    figure: Figure, claim: str, words: str, axis: Axis, at: Sequence[float], row: Sequence[PaperPoint]
+    figure: Figure, claim: str, words: str, axis: FigureAxis, at: Sequence[float], row: Sequence[PaperPoint]
 ) -> FigureResult:
     panels = tuple(stacked(f"{words}, {reading.value}", axis, at, row, reading) for reading in Reading)
     judged = []
@@ -192,7 +192,9 @@ def _leading(
     return FigureResult(figure, panels, tuple(judged))
 
 
-def stacked(words: str, axis: Axis, at: Sequence[float], row: Sequence[PaperPoint], reading: Reading) -> Panel:
+def stacked(
+    words: str, axis: FigureAxis, at: Sequence[float], row: Sequence[PaperPoint], reading: Reading
+) -> Panel:
     """Shares of all pairs on top of each other."""
     curves = tuple(
         Curve(pair_words(pair), np.array(at), np.array([one.share(pair, reading) for one in row])) for pair in Pair
@@ -206,9 +208,10 @@ def uppermost(point: PaperPoint, reading: Reading, count: int) -> set[Pair]:
 
 
 def coefficient_for_share(point: PaperPoint, pair: Pair, share: float, reading: Reading) -> float:
-    """By what factor a pair's Coulomb coefficient would have to be larger for its share to be this one.
+    """Factor on a pair's Coulomb coefficient at which the pair has this share.
 
-    All other losses stay: share (rest + c k + s) = c k + s, with s the pair's own shear (0 of mixed coefficients).
+    All other losses stay: share (rest + c k + s) = c k + s, with s the pair's own shear (0 of mixed
+    coefficients).
     """
     own = point.coulomb[list(Pair).index(pair)]
     shear = point.loss(pair, reading) - own
@@ -217,7 +220,7 @@ def coefficient_for_share(point: PaperPoint, pair: Pair, share: float, reading: 
 
 
 def _share_reason(points: PaperPoints, every: Sequence[PaperPoint], pair: Pair, reading: Reading) -> str:
-    """How much of the paper's range ours spans, and which coefficient its upper end would take."""
+    """The part of the paper's range that ours covers, and the coefficient for its upper end."""
     expected, found = CLAIMS[f"fig17.{pair.value}"].expected, range_of(one.share(pair, reading) for one in every)
     spans = (found.high - found.low) / (expected.high - expected.low)
     stated = getattr(points.pump.friction, pair.value)
@@ -230,10 +233,10 @@ def _share_reason(points: PaperPoints, every: Sequence[PaperPoint], pair: Pair, 
 
 
 def _others_reason(every: Sequence[PaperPoint], reading: Reading) -> str:
-    """Which pairs are among the three uppermost where the paper's three are not."""
+    """Pairs among the three uppermost that are not the paper's three."""
     others = {pair for one in every for pair in uppermost(one, reading, 3)} - set(MAIN)
-    told = ", ".join(sorted(pair_words(pair) for pair in others))
-    return f"the third place goes to {told} at some points" if told else ""
+    text = ", ".join(sorted(pair_words(pair) for pair in others))
+    return f"the third place goes to {text} at some points" if text else ""
 
 
 def _guide_reason(point: PaperPoint) -> str:

@@ -1,4 +1,4 @@
-"""Table 1: the simulated pump against what the paper's text states of its own."""
+"""Table 1: the simulated pump against the values in the paper's text."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ _PAIRS = {pair.value: pair for pair in Pair}
 
 
 def table1(points: PaperPoints) -> FigureResult:
-    """Rated values, films and start coefficients of the pump beside those in the text."""
+    """Rated values, films and start coefficients of the pump with those in the text."""
     pump = points.pump
     friction = pump.friction
     found = {
@@ -43,15 +43,15 @@ def table1(points: PaperPoints) -> FigureResult:
 
 
 def _holding_shear(points: PaperPoints, pair: Pair) -> str:
-    """What a pair's coefficient would be, held the film's shear in it as the paper's do."""
-    told = "a start value in the paper, to be tuned"
+    """A pair's coefficient with the film's shear in it, as in the paper."""
+    text = "a start value in the paper, to be tuned"
     ends = [points.at(RATED, pressure, FULL) for pressure in (PRESSURES[-1], PRESSURES[0])]
     mixed, alone = ([one.loss(pair, reading) for one in ends] for reading in (Reading.WITH_SHEAR, Reading.MIXED))
     if mixed == alone:
-        return told
+        return text
     stated = getattr(points.pump.friction, pair.value)
     held = [stated * both / own for both, own in zip(mixed, alone, strict=True)]
     return (
-        f"{told}; the film's shear is counted beside it, held in it the coefficient would be {held[0]:.4f} at 35 "
+        f"{text}; the film's shear is counted beside it, held in it the coefficient would be {held[0]:.4f} at 35 "
         f"MPa and {held[1]:.4f} at 5, rated speed and full displacement"
     )

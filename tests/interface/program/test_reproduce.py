@@ -18,7 +18,7 @@ from swashfilm.runs.reproduce.plots import figure_picture
 from swashfilm.runs.reproduce.run import about, paper_points
 from system.paper.figure import Figure
 from system.paper.figures.floating_films import FLOATING_RATIOS, FloatingWork, floating_figures
-from system.paper.judge import Verdict
+from system.paper.judge import StatementVerdict
 from system.paper.points import PRESSURES, RATED, Place
 from system.paper.reproduce import Means, PaperFidelity, reproduce
 from system.paper.statements import CLAIMS
@@ -110,7 +110,7 @@ def test_floating_films_are_drawn_from_what_is_kept(tmp_path):
     figures = floating_figures(pump, work.options, store, HERE)
     verdicts = {one.claim.id: one.verdict for figure in figures for one in figure.judged}
     assert set(verdicts) == FLOATING
-    assert set(verdicts.values()) == {Verdict.REACHED}
+    assert set(verdicts.values()) == {StatementVerdict.REACHED}
     for figure in figures:
         assert len(figure_picture(figure.panels).axes) >= len(figure.panels)
     assert "0.80 at the film's inner end" in figures[0].remarks[0]

@@ -25,7 +25,7 @@ from system.paper.figures.pair_losses import (
     from_line,
     zero_share,
 )
-from system.paper.judge import Claim, Impossibility, Range, Verdict, judge
+from system.paper.judge import Impossibility, PaperClaim, Range, StatementVerdict, judge
 from system.paper.points import PRESSURES, PaperPoint, PointFidelity, Reading, places_of, solve_points
 from system.paper.statements import CLAIMS
 from system.pump.bench import LossSplit
@@ -36,7 +36,7 @@ from system.work.processes import HERE
 
 PUMPS = Path(__file__).parents[3] / "examples" / "pumps"
 REF90 = load_pump("ref90")
-CLAIM = Claim("a", Figure.FIG2, "words", "quantity", Unit.SHARE, Range(0.2, 0.4))
+CLAIM = PaperClaim("a", Figure.FIG2, "words", "quantity", Unit.SHARE, Range(0.2, 0.4))
 NEEDED = Impossibility("needed", Unit.NUMBER, 5.0, Range(high=3.0))
 
 
@@ -48,17 +48,17 @@ def _points(tmp_path, pump, figure):
 @pytest.mark.parametrize(
     ("found", "impossible", "verdict"),
     [
-        (Range(0.2, 0.4), None, Verdict.REACHED),
-        (Range(0.3, 0.3), NEEDED, Verdict.REACHED),
-        (Range(0.19, 0.3), None, Verdict.MISSED),
-        (Range(0.3, 0.41), NEEDED, Verdict.CONTRADICTED),
-        (Range(0.3, 0.41), Impossibility("needed", Unit.NUMBER, 3.0, Range(high=3.0)), Verdict.MISSED),
+        (Range(0.2, 0.4), None, StatementVerdict.REACHED),
+        (Range(0.3, 0.3), NEEDED, StatementVerdict.REACHED),
+        (Range(0.19, 0.3), None, StatementVerdict.MISSED),
+        (Range(0.3, 0.41), NEEDED, StatementVerdict.CONTRADICTED),
+        (Range(0.3, 0.41), Impossibility("needed", Unit.NUMBER, 3.0, Range(high=3.0)), StatementVerdict.MISSED),
     ],
 )
 def test_a_contradiction_takes_an_impossibility_that_holds(found, impossible, verdict):
     judged = judge(CLAIM, found, impossible=impossible)
     assert judged.verdict is verdict
-    assert (judged.impossible is not None) == (verdict is Verdict.CONTRADICTED)
+    assert (judged.impossible is not None) == (verdict is StatementVerdict.CONTRADICTED)
 
 
 def test_ranges_tell_their_ends():
@@ -113,14 +113,14 @@ def test_shares_move_with_the_pump(tmp_path):
         result = fig17(_points(tmp_path, pump, Figure.FIG17))
         found = {(one.claim.id, one.reading): one for one in result.judged}
         verdicts.append(found["fig17.piston_cylinder", Reading.WITH_SHEAR].verdict)
-    assert verdicts == [Verdict.MISSED, Verdict.REACHED]
+    assert verdicts == [StatementVerdict.MISSED, StatementVerdict.REACHED]
 
 
 def test_losses_without_spring_shear_and_charge_pressure_would_be_proportional(tmp_path):
     """The contradiction of Fig. 18 rests on what does not go with pressure; the ball guide stands apart."""
     result = fig18(_points(tmp_path, REF90, Figure.FIG18))
     judged = {one.reading: one for one in result.judged if one.claim.id == "fig18.proportional"}
-    assert {one.verdict for one in judged.values()} == {Verdict.CONTRADICTED}
+    assert {one.verdict for one in judged.values()} == {StatementVerdict.CONTRADICTED}
     left = {reading: one.impossible.value for reading, one in judged.items()}
     assert left[Reading.WITH_SHEAR] > left[Reading.MIXED] > 0.05
 
@@ -128,7 +128,7 @@ def test_losses_without_spring_shear_and_charge_pressure_would_be_proportional(t
 def test_equations_in_print_are_contradicted(tmp_path):
     points = solve_points(REF90, PointFidelity.LUMPED, (), KeptPoints(tmp_path), HERE)
     found = {one.claim.id: one for one in equations(points).judged}
-    assert {one.verdict for one in found.values()} == {Verdict.CONTRADICTED}
+    assert {one.verdict for one in found.values()} == {StatementVerdict.CONTRADICTED}
     assert found["equations.8"].found.low == pytest.approx(39.0, rel=0.05)
     assert found["equations.9"].found.low == pytest.approx(0.975, abs=1e-3)
     assert found["equations.9"].found.high == pytest.approx(1.079, abs=1e-3)
