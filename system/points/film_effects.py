@@ -1,11 +1,11 @@
-"""[physics] as films have it: what heats, stiffens or opens a film is solved in it, not put on as a factor.
+"""[physics] in films: effects that heat, stiffen or open a film are solved in it, not applied as a factor.
 
-    film_heating        films warm, between walls by which their heat has the stated resistance to the case
+    film_heating        films warm, between walls with the stated thermal resistance to the case
     viscosity_pressure  Barus' law at every place of the films
-    elastic_opening     by compliance: the parts' own bodies, so many times as soft; by opening: a wall on springs
-    thermal_clearance   films as thick as their walls leave them at the point's temperature (`given_thickness`)
+    elastic_opening     by compliance: the parts' own bodies, so many times as compliant; by opening: springs
+    thermal_clearance   films of the thickness at the point's temperature (`film_thickness`)
 
-All other effects stay the closed laws that they are at the lumped fidelity, beside the films.
+All other effects remain the closed laws of the lumped fidelity.
 """
 
 from __future__ import annotations
@@ -64,7 +64,7 @@ _HEAT: Mapping[Gap, Callable[[Rotor, FloatingParts], GapHeat]] = {
 
 @dataclass(frozen=True)
 class FilmEffects:
-    """Films with the physics that [physics] has them solve: their parts, and what is on in each gap."""
+    """Films with the physics that [physics] switches on: their parts, and the effects in each gap."""
 
     parts: FloatingParts
     physics: GapPhysics
@@ -72,7 +72,7 @@ class FilmEffects:
 
 @dataclass(frozen=True)
 class BarusAboveCase:
-    """Barus' law from the case's pressure (Pa) on, at which a point's viscosity stands; coefficient 1/Pa."""
+    """Barus' law from the case's pressure (Pa) on, at which the point's viscosity holds; coefficient 1/Pa."""
 
     coefficient: float
     case_pressure: float
@@ -84,7 +84,7 @@ class BarusAboveCase:
 
 
 def effects_in_films(pump: PumpDescription) -> tuple[tuple[EffectId, ...], tuple[EffectId, ...]]:
-    """Effects of [physics] that films solve, and those that stay closed laws beside them."""
+    """Effects of [physics] that films solve, and those that remain closed laws."""
     on = dict.fromkeys(extension.id for extension, _ in switched_on(pump))
     return tuple(one for one in on if one in SOLVED), tuple(one for one in on if one not in SOLVED)
 
@@ -96,10 +96,10 @@ def closed_laws(pump: PumpDescription) -> PumpDescription:
 
 
 def film_effects(rotor: Rotor, parts: FloatingParts, pump: PumpDescription, physics: GapPhysics) -> FilmEffects:
-    """Parts and physics of the films with what the pump's [physics] has them solve, beside `physics`.
+    """Parts and physics of the films with the pump's [physics], in addition to `physics`.
 
-    rotor, parts: of the pump as its films stand (`given_thickness`). What films take otherwise than the closed
-    laws is told among the parts' assumptions.
+    rotor, parts: of the pump with its film thicknesses. Differences between films and closed laws are listed
+    among the parts' assumptions.
     """
     stated, taken = pump.physics, list(parts.taken)
     on: dict[Gap, Physics] = {gap: getattr(physics, gap.value) for gap in Gap}
@@ -195,7 +195,9 @@ def even_rise(across: float, one: float, two: float) -> float:
 
 
 def resisting(wanted: float, across: float, one: float, two: float) -> float:
-    """How many times as resistant walls give a film the wanted `even_rise` (m2 K/W); 0 where it has more alone."""
+    """Factor on the resistance of the walls for the wanted `even_rise` (m2 K/W) of a film; 0 where the film alone
+    exceeds it.
+    """
     if wanted <= across / 12.0:
         return 0.0
     most = 2.0 * wanted / min(one, two) + 2.0  # there even the better wall alone would let it rise more

@@ -1,8 +1,9 @@
 """The films fidelity: leakage and viscous friction of the three gaps from films at given positions.
 
-Parts stand where the pump's description puts them; chamber pressure and films are solved in turn until the
-pressure of the whole revolution repeats. Coulomb losses are those of the lumped fidelity: a smooth film knows no
-contact. Of [physics] films solve what is theirs (`film_effects`); the rest acts as at the lumped fidelity.
+The parts have the positions of the pump's description. Chamber pressure and films are solved in turn until the
+pressure of the whole revolution repeats. Coulomb losses are those of the lumped fidelity, since a smooth film has
+no contact. Films solve some effects of [physics] themselves (`film_effects`); the others act as at the lumped
+fidelity.
 """
 
 from __future__ import annotations
@@ -67,9 +68,9 @@ ROUND_LIMIT = 40
 class FilmsPoint:
     """One coupled operating point: the pump, its films over the revolution, and the evidence of convergence.
 
-    rotor: of the pump with its films as they stand; parts: with every value taken, physics of their films; rounds
-    of films and chamber; pressure_change: the last round's largest, Pa; sampling_error: relative change of the
-    leakage when the chamber knows only every second film angle.
+    rotor: of the pump with its films at their positions; parts: with every assumed value, physics of their films;
+    rounds of films and chamber; pressure_change: the last round's largest, Pa; sampling_error: relative change of
+    the leakage when the chamber uses only every second film angle.
     """
 
     rotor: Rotor
@@ -94,13 +95,13 @@ def films_point(
 ) -> FilmsPoint:
     """One periodic operating point with films solved over the revolution, on meshes `finer` times the usual.
 
-    Chamber pressure repeats to `tolerance` of the ports' difference. What the pump's [physics] has films solve is
-    on beside `physics`. With heat the pairs' Coulomb loss warms their walls too.
+    Chamber pressure repeats to `tolerance` of the ports' difference. The effects of [physics] that films solve
+    are on in addition to `physics`. With heat the pairs' Coulomb loss warms their walls too.
 
-    Raises NotConverged when chamber pressure and films do not settle within ROUND_LIMIT rounds, or oil stiffens
-    without bound, ValueError when `positions_per_pitch` is no even divisor of SAMPLES_PER_PITCH or chambers
-    differ, FilmInputError where parts touch at a given position. Films have no history; smooth, and rigid and
-    isothermal but for [physics].
+    Raises NotConverged when chamber pressure and films do not converge within ROUND_LIMIT rounds, or viscosity
+    grows without bound, ValueError when `positions_per_pitch` is no even divisor of SAMPLES_PER_PITCH or chambers
+    differ, FilmInputError where parts touch at a given position. Films have no history; they are smooth, and
+    rigid and isothermal except for [physics].
     """
     kinds(pump).hold_alike()
     if positions_per_pitch % 2 or SAMPLES_PER_PITCH % positions_per_pitch:
@@ -152,10 +153,10 @@ def _run_away(pump: PumpDescription, reason: FilmInputError) -> FilmInputError |
 
 
 @dataclass(frozen=True)
-class _Work:
-    """What stays through the rounds, and where they start: rotor and cycle of the lumped pump without effects.
+class _Coupling:
+    """Constants of the rounds, and their start: rotor and cycle of the lumped pump without effects.
 
-    pump: with only those effects that films do not solve; point: with the stroke that effects leave.
+    pump: with only those effects that films do not solve; point: with the stroke after effects.
     """
 
     pump: PumpDescription
@@ -167,7 +168,7 @@ class _Work:
     cycle: ChamberCycle
 
     def losses(self, cycle: ChamberCycle, gaps: GapCycle | None = None) -> FrictionPairs:
-        """The pairs' losses at a cycle's pressures, shear of films as these tell it, with what effects add."""
+        """The pairs' losses at a cycle's pressures, with the shear of these films and the contributions of effects."""
         found = lumped_pairs(self.pump, self.point, self.motion, cycle)
         if gaps is not None:
             found = with_film_shear(found, gaps, self.point.case_pressure)
@@ -176,17 +177,17 @@ class _Work:
         return found
 
 
-def _work(pump: PumpDescription, point: OperatingPoint, physics: GapPhysics) -> _Work:
+def _work(pump: PumpDescription, point: OperatingPoint, physics: GapPhysics) -> _Coupling:
     warm = at_temperature(pump, point.temperature)
     own, stands = closed_laws(warm), unpressed(warm, point.case_pressure)
     plain = lumped_point(own.model_copy(update={"physics": PhysicsSection()}), point)
     effects = (point_effects(own, plain.point, plain.cycle),) if own.physics.on else ()
     asked, at = displaced(point, effects), rotor(stands, displaced(plain.point, effects))
     films = film_effects(at, floating_parts(stands), warm, physics)
-    return _Work(own, asked, piston_motion(own, asked), effects, films, at, plain.cycle)
+    return _Coupling(own, asked, piston_motion(own, asked), effects, films, at, plain.cycle)
 
 
-def _ported(work: _Work, gaps: GapCycle, met: OperatingPoint) -> tuple[PortedCycle, LeakTable]:
+def _ported(work: _Coupling, gaps: GapCycle, met: OperatingPoint) -> tuple[PortedCycle, LeakTable]:
     """Chambers and ports with the films' leaks, ports as `met` before; and these leaks without closed laws."""
     leaks = edged_leaks(work.pump, work.point, gaps)
     problem = chamber_problem(work.pump, work.point, work.motion, leaks)
@@ -197,7 +198,7 @@ def _ported(work: _Work, gaps: GapCycle, met: OperatingPoint) -> tuple[PortedCyc
     return ported_cycle((problem,), lines, work.pump.pump.pistons, samples, draws=draws), leaks
 
 
-def _told(work: _Work, asked: OperatingPoint, gaps: GapCycle, ported: PortedCycle) -> PumpPoint:
+def _told(work: _Coupling, asked: OperatingPoint, gaps: GapCycle, ported: PortedCycle) -> PumpPoint:
     """The pump whose films and chambers agree."""
     pump, pistons = work.pump, work.pump.pump.pistons
     exchange = gap_exchange(gaps, ported.cycle, pistons, work.point)
@@ -219,7 +220,7 @@ def leak_table(gaps: GapCycle, case_pressure: float) -> LeakTable:
 
 
 def edged_leaks(pump: PumpDescription, point: OperatingPoint, gaps: GapCycle) -> LeakTable:
-    """`leak_table` with what the lands' edges lose where files say it (`land_losses`); pressures of films stay."""
+    """`leak_table` with the losses of the lands' edges from files (`land_losses`); pressures of films remain."""
     leaks = leak_table(gaps, point.case_pressure)
     if not land_losses(pump).any:
         return leaks
@@ -229,7 +230,7 @@ def edged_leaks(pump: PumpDescription, point: OperatingPoint, gaps: GapCycle) ->
 
 
 def gap_exchange(gaps: GapCycle, cycle: ChamberCycle, pistons: int, point: OperatingPoint) -> GapExchange:
-    """Power of the oil that moving walls drag along, and what the valve plate's film takes from the ports."""
+    """Power of the oil that moving walls drag along, and the flow from the ports into the valve plate's film."""
     rate = pistons * point.shaft_speed / TURN
     piston, slipper = rate * cycle.carried_energy[:2]
     return GapExchange(
@@ -240,7 +241,7 @@ def gap_exchange(gaps: GapCycle, cycle: ChamberCycle, pistons: int, point: Opera
 
 
 def port_draws(gaps: GapCycle, point: OperatingPoint, bulk_modulus: float) -> tuple[float, float]:
-    """What the valve plate's film takes from delivery and suction port, mean, m3/s at zero gauge pressure."""
+    """Flow from delivery and suction port into the valve plate's film, mean, m3/s at zero gauge pressure."""
     delivery = float(np.mean([film.delivery_flow for film in gaps.valve_plate]))
     suction = float(np.mean([film.suction_flow for film in gaps.valve_plate]))
     dense = np.exp(np.array([point.delivery_pressure, point.inlet_pressure]) / bulk_modulus)
@@ -250,8 +251,8 @@ def port_draws(gaps: GapCycle, point: OperatingPoint, bulk_modulus: float) -> tu
 def film_shear(gaps: GapCycle, case_pressure: float) -> tuple[Array, Array, Array]:
     """Viscous loss (W) of one piston (N,), one slipper (N,) and the ring (N/z,).
 
-    Power of the walls plus what the oil they drag along gives back, P + C (p - p_case): the film's dissipation
-    less that of its pressure flow, which is leakage loss.
+    Power of the walls plus the power returned by the oil that they drag along, P + C (p - p_case): the film's
+    dissipation less that of its pressure flow, which is leakage loss.
     """
     carried = leak_table(gaps, case_pressure).carried_flow * (gaps.chamber_pressure - case_pressure)
     piston = np.array([film.friction_power for film in gaps.piston]) + carried[0]

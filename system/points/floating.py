@@ -1,9 +1,9 @@
 """The floating fidelity: gaps whose films come from the balance of forces, coupled with the chambers.
 
-Rounds of the three gaps over the revolution and of the chamber's cycle: films leak into the chamber's balance,
-the parts' small motion moves its volume, and their friction loads each other through the ball joint. Friction of
-the three gaps is shear of their films and contact of their asperities, with no Coulomb's law beside it; the ball
-joint rubs by its forces and spins, and the other pairs are the lumped fidelity's.
+Rounds alternate between the three gaps over the revolution and the chamber's cycle. Films leak into the chamber's
+balance, the parts' small motion changes its volume, and their friction loads each other through the ball joint.
+Friction of the three gaps is shear of their films and contact of their asperities, without Coulomb's law. The
+ball joint rubs by its forces and spins; the other pairs are the lumped fidelity's.
 """
 
 from __future__ import annotations
@@ -36,8 +36,8 @@ from system.points.floating_exchange import (
 )
 from system.points.floating_gaps import FloatingOptions
 from system.points.floating_kinds import (
-    Asked,
     Group,
+    RoundDrives,
     by_chamber,
     chamber_problems,
     drives_of,
@@ -77,9 +77,11 @@ ROUND_LIMIT = 12
 
 @dataclass(frozen=True)
 class Round:
-    """One round of gaps and chamber: what it changed (as the tolerances count it), the steps of its turns and how
-    nearly they closed (share of the mean film), films solved, time s; what of it its gaps spent on each leg, s,
-    pistons beside the others counted, too."""
+    """One round of gaps and chamber.
+
+    Changes by the round (as the tolerances count them), the steps of its turns and their closure (share of the
+    mean film), films solved, time s; time of its gaps on each leg, s, with that of pistons in their own process.
+    """
 
     pressure_change: float
     friction_change: float
@@ -93,9 +95,9 @@ class Round:
 
 @dataclass(frozen=True)
 class FloatingKind:
-    """Chambers that are alike: their parts, what drove their gaps last, and the gaps.
+    """Equal chambers: their parts, the last drives of their gaps, and the gaps.
 
-    chambers, from 0; of a pump whose chambers are all alike the first alone.
+    chambers, from 0; of a pump whose chambers are all equal the first alone.
     """
 
     chambers: tuple[int, ...]
@@ -142,7 +144,7 @@ def floating_point(
     group, angle = group_of(at), lumped.cycle.shaft_angle
     still = (no_rubbing(angle.size),) * len(group.parts)
     pressures = tuple(one.pressure for one in lumped.chambers)
-    asked = Asked(at, angle, pressures, still, (None,) * len(group.parts), options)
+    asked = RoundDrives(at, angle, pressures, still, (None,) * len(group.parts), options)
     gaps: tuple[FloatingGaps, ...] | None = None
     rounds: list[Round] = []
     with piston_beside(group.parts) if side_by_side else nullcontext() as beside:
@@ -158,16 +160,16 @@ def floating_point(
 
 @dataclass(frozen=True)
 class _Found:
-    """Where a round ends: what would drive the next, gaps by kind, chambers and ports, and what the round took."""
+    """End of a round: the next drives, gaps by kind, chambers and ports, and the record of the round."""
 
-    asked: Asked
+    asked: RoundDrives
     gaps: tuple[FloatingGaps, ...]
     ported: PortedCycle
     taken: Round
 
 
 def _round(
-    asked: Asked,
+    asked: RoundDrives,
     group: Group,
     point: OperatingPoint,
     before: tuple[FloatingGaps, ...] | None,
@@ -228,7 +230,7 @@ def _of_round(report: Report, number: int) -> Report:
 
 
 def _loosened(options: FloatingOptions, rounds: list[Round], pistons: int) -> FloatingOptions:
-    """How a round turns its gaps: before they nearly agree with the chambers, no better than it is worth."""
+    """Accuracy of a round's gaps: reduced before they nearly agree with the chambers."""
     if rounds and (_agree(rounds[-1], NEARLY) or _exact(rounds[-1], options)):
         return options
     last = rounds[-1] if rounds else None
@@ -240,7 +242,7 @@ def _loosened(options: FloatingOptions, rounds: list[Round], pistons: int) -> Fl
 
 
 def _agree(taken: Round, times: float = 1.0) -> bool:
-    """Whether a round changed no more than the tolerances, or so many times them."""
+    """True if a round's changes are within the tolerances, or within so many times them."""
     changes = (
         (taken.pressure_change, PRESSURE_TOLERANCE),
         (taken.friction_change, FRICTION_TOLERANCE),

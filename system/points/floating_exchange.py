@@ -1,7 +1,7 @@
-"""What three floating gaps tell chambers, shaft and power balance, over the turn.
+"""Exchange of three floating gaps with chambers, shaft and power balance, over the turn.
 
-Arrays over n equidistant angles of a chamber from 0, those of the gaps' reported angles. Of the block only a pitch
-is known where chambers are alike; then it repeats.
+Arrays over n equidistant angles of a chamber from 0, those of the gaps' reported angles. Of the block only a
+pitch is known where chambers are equal; then it repeats.
 """
 
 from __future__ import annotations
@@ -41,19 +41,19 @@ class FloatingGaps:
 
 
 def of_each(revolution: GapRevolution[Seen], tell: Callable[[Seen], float | Array]) -> Array:
-    """What `tell` says of each reported angle, (n, ...), from shaft angle 0 on."""
+    """Values of `tell` at each reported angle, (n, ...), from shaft angle 0 on."""
     return np.roll(np.array([tell(instant.seen) for instant in revolution.turn.instants]), 1, axis=0)
 
 
 def passing(revolution: GapRevolution[Seen], tell: Callable[[Seen], float | Array]) -> Array:
-    """What `tell` says in the mean around each reported angle, (n, ...), from shaft angle 0 on."""
+    """Means of `tell` around each reported angle, (n, ...), from shaft angle 0 on."""
     return around(np.roll(np.array([tell(instant.passed) for instant in revolution.turn.instants]), 1, axis=0))
 
 
 def around(means: Array) -> Array:
     """Means over the steps on both sides of equidistant angles, (n, ...), from means up to each angle.
 
-    What passes over the turn stays what it was, however short the bursts in which it does.
+    The total over the turn is unchanged, however short its bursts.
     """
     return np.asarray(0.5 * (means + np.roll(means, -1, axis=0)))
 
@@ -86,7 +86,7 @@ def leak_table(gaps: FloatingGaps) -> LeakTable:
 def chamber_draws(block: GapRevolution[BlockSeen], chamber: int, steps: int) -> Array:
     """Flow (steps,) m3/s out of a chamber into the block's film, in the mean around the chamber's own angles.
 
-    Of a block that is known over a pitch alone, each of its chambers tells a part.
+    If the block is known over a pitch alone, each of its chambers gives a part.
     """
     flow = np.array([instant.passed.flow for instant in block.turn.instants])
     known, pistons = flow.shape
@@ -100,10 +100,10 @@ def chamber_draws(block: GapRevolution[BlockSeen], chamber: int, steps: int) -> 
 
 
 def ball_shift(gaps: FloatingGaps, rotor: Rotor, parts: FloatingParts) -> Array:
-    """How far the ball is from where rigid parts without films would have it, (n, 3) m.
+    """Displacement of the ball from its place in rigid parts without films, (n, 3) m.
 
-    The piston's axis leaves the bore's by e at the ball; the slipper keeps the ball on the swash plate, its film h
-    thick, so that it goes along the bore besides: d = e - a (n . e + h)/(n . a).
+    The piston's axis leaves the bore's by e at the ball; the slipper keeps the ball on the swash plate, its film
+    h thick, so the ball also moves along the bore: d = e - a (n . e + h)/(n . a).
     """
     normal, across = plate_axes(rotor.drive)[2], axis_shift(gaps, rotor, parts, 0.0)
     axis, film = bore_axes(rotor, len(across)), positions(gaps.slipper)[:, 0]
@@ -127,10 +127,10 @@ def bore_axes(rotor: Rotor, count: int) -> Array:
 
 
 def growth(gaps: FloatingGaps, rotor: Rotor, parts: FloatingParts) -> Array:
-    """Growth (n,) m3 of the chamber by the parts' small motion: the ball along its bore, the block's lift, and how
-    piston and bore give way.
+    """Growth (n,) m3 of the chamber by the parts' small motion: the ball along its bore, the block's lift, and the
+    deformation of piston and bore.
 
-    Ap (d . a) - Ap z + A_kidney z_kidney, z the block's way off the plate at the bore's and at the kidney's place.
+    Ap (d . a) - Ap z + A_kidney z_kidney, z the block's distance from the plate at the bore and at the kidney.
     """
     pump, plate = rotor.pump, valve_plate_geometry(rotor.pump)
     block, rim = positions(gaps.block), plate.land_radii[3]
@@ -147,7 +147,7 @@ def growth(gaps: FloatingGaps, rotor: Rotor, parts: FloatingParts) -> Array:
 
 
 def rubbing(gaps: FloatingGaps, samples: int) -> Rubbing:
-    """What the films do to piston and slipper at `samples` angles."""
+    """Forces of the films on piston and slipper at `samples` angles."""
     return Rubbing(
         resampled(of_each(gaps.piston, lambda seen: seen.friction.force), samples),
         resampled(of_each(gaps.piston, lambda seen: seen.friction.moment), samples),
@@ -156,7 +156,7 @@ def rubbing(gaps: FloatingGaps, samples: int) -> Rubbing:
 
 
 def spin_torques(gaps: FloatingGaps, rotor: Rotor, group: tuple[GroupInstant, ...]) -> SpinTorques:
-    """What sets the spins of piston and slipper by their films and the joint's forces, means over the turn."""
+    """Torques on the spins of piston and slipper by their films and the joint's forces, means over the turn."""
     pump = rotor.pump
     force = float(np.mean([np.linalg.norm(at.forces.ball) for at in group]))
     friction = pump.friction.piston_slipper_socket * force * pump.slipper.ball_joint_radius
@@ -171,8 +171,8 @@ def shaft_moment(gaps: FloatingGaps, rotor: Rotor, parts: FloatingParts, group: 
     """Torque (N,) N m by which the piston with its slipper resists the shaft, from the forces on them.
 
     The moment about the shaft of the swash plate's force and friction and of inertia, at the places where the
-    films hold the parts; the plate holds the joint's friction about its normal. The joint's forces leave out the
-    acceleration d'' of the parts' small motion; to first order it asks the shaft for m d'' . r', by virtual work
+    films hold the parts; the plate balances the joint's friction about its normal. The joint's forces neglect the
+    acceleration d'' of the parts' small motion. To first order this is m d'' . r' on the shaft, by virtual work
     on the rigid parts, r' = dr/d angle of their centres of mass.
     """
     ball, normal = ball_shift(gaps, rotor, parts), plate_axes(rotor.drive)[2]
@@ -204,8 +204,8 @@ def _swung(rotor: Rotor, places: Array, shift: Array) -> Array:
 def _applied(rotor: Rotor, parts: FloatingParts, group: tuple[GroupInstant, ...]) -> Iterator[tuple[Array, Array]]:
     """Places and forces (4, 3) on each piston and slipper: inertia of both, the plate's lift and its friction.
 
-    Lift stands where it holds the slipper's moments, friction under the ball: its moment about the plate's normal
-    is that of the film, with the joint's.
+    Lift acts where it balances the slipper's moments, friction under the ball: its moment about the plate's
+    normal is that of the film, with the joint's.
     """
     normal = plate_axes(rotor.drive)[2]
     foot = parts.slipper.ball_height - rotor.pump.slipper.centre_of_mass_to_ball
@@ -257,9 +257,9 @@ def leakage_heat(gaps: FloatingGaps, pistons: int) -> Gaps:
 
 
 def gap_exchange(gaps: FloatingGaps, pistons: int, shaft_speed: float) -> GapExchange:
-    """What the gaps give the moving parts, and the block's draws.
+    """Power of the gaps on the moving parts, and the block's draws.
 
-    Heat of sliding less the power of the walls, and what films spend on the parts' small motion: both reach the
+    Heat of sliding less the power of the walls, and power of films on the parts' small motion: both reach the
     chambers without the shaft.
     """
     return GapExchange(
@@ -276,7 +276,7 @@ def gap_exchange(gaps: FloatingGaps, pistons: int, shaft_speed: float) -> GapExc
 
 
 def _pushed(revolution: GapRevolution[Seen]) -> float:
-    """Power (W) by which a film moves what presses on it, mean over the turn."""
+    """Power (W) of a film on the parts that press on it, mean over the turn."""
     return float(np.mean([instant.pushed for instant in revolution.turn.instants]))
 
 
@@ -291,7 +291,7 @@ def _mean(revolution: GapRevolution[Seen], tell: Callable[[Seen], float]) -> flo
 def port_draws(
     block: GapRevolution[BlockSeen], pressures: tuple[float, float], modulus: float, count: int
 ) -> tuple[Array, Array]:
-    """What the block's film takes from delivery and suction port while it repeats, (count,) m3/s at zero gauge."""
+    """Flow from delivery and suction port into the block's film over its period, (count,) m3/s at zero gauge."""
     delivery = resampled(passing(block, lambda seen: seen.delivery_draw), count)
     suction = resampled(passing(block, lambda seen: seen.suction_draw), count)
     dense = np.exp(np.array(pressures) / modulus)

@@ -53,16 +53,16 @@ USUAL = Physics()
 
 
 def usual_finer(physics: Physics) -> float:
-    """Times the usual cells each way where nothing is said: half of them between walls that give way (price)."""
+    """Default multiple of the usual cells each way: a half between elastic walls, for their cost."""
     return SOFT_FINER if physics.elastic_walls else RIGID_FINER
 
 
 @dataclass(frozen=True)
 class FloatingOptions:
-    """How the gaps float: what physics, in how many steps a turn, how exactly, meshes how many times `finer`.
+    """Options of floating gaps: physics, steps per turn, accuracy, meshes `finer` times the usual.
 
-    A mesh less than one time finer is coarser; left out it is that of elastic walls (`usual_finer`). Every
-    `keep`th film is kept.
+    `finer` below one gives larger cells; left out it is that of elastic walls (`usual_finer`). Every `keep`th
+    film is kept.
     """
 
     physics: Physics = field(default=USUAL)
@@ -129,7 +129,7 @@ def slipper_revolution(
 ) -> GapRevolution[SlipperSeen]:
     """The slipper over the turn, from a film of SLIPPER_START without tilt or on from a revolution `before`.
 
-    Raises as `run_revolution`; where nothing presses the slipper on, that is told as the reason.
+    Raises as `run_revolution`; where nothing presses the slipper on, that is the reason given.
     """
     cells = options.slipper_cells
     film = slipper_film(rotor, parts, drive, options.physics, cells)
@@ -166,11 +166,11 @@ def block_revolution(
     before: GapRevolution[BlockSeen] | None = None,
     report: Report = silent,
 ) -> GapRevolution[BlockSeen]:
-    """The block over the turn, or over a piston pitch where chambers are alike, after which all repeats.
+    """The block over the turn, or over a piston pitch where chambers are equal, after which all repeats.
 
-    From a film of BLOCK_START without tilt or on from a revolution `before`; between elastic walls from where it
-    is between rigid ones. Raises ValueError where the steps do not divide among the pitches, else as
-    `run_revolution`; where its lands cannot hold it, that is told as the reason.
+    From a film of BLOCK_START without tilt or on from a revolution `before`; between elastic walls from the
+    result between rigid ones. Raises ValueError where the steps do not divide among the pitches, else as
+    `run_revolution`; where its lands cannot support it, that is the reason given.
     """
     pistons, pump = rotor.pump.pump.pistons, rotor.pump
     if options.steps % pistons:
@@ -194,7 +194,7 @@ def block_revolution(
 
 
 def _off_its_plate(pump: PumpDescription, stopped: FilmNotConverged) -> FilmNotConverged:
-    """Why a block's turn has ended, with what is doubtful about its lands, if anything is."""
+    """Reason for the end of a block's turn, with any doubt about its lands."""
     doubts = run_checks((block_tips,), pump).warnings
     what = "; ".join([stopped.what, *(f"{doubt.path}: {doubt.value}" for doubt in doubts)])
     return FilmNotConverged(what, "; ".join([*(doubt.remedy for doubt in doubts), stopped.remedy]))
@@ -203,10 +203,10 @@ def _off_its_plate(pump: PumpDescription, stopped: FilmNotConverged) -> FilmNotC
 def _between_rigid(
     rotor: Rotor, parts: FloatingParts, drive: BlockDrive, options: FloatingOptions, report: Report
 ) -> GapRevolution[BlockSeen] | None:
-    """Where a block whose walls give way begins: its turn between rigid ones, at a tenth of the price.
+    """Start of a block between elastic walls: its turn between rigid ones, at a tenth of the cost.
 
-    A block forgets where it began only over several pitches. None where walls are rigid, and where nothing settles
-    between rigid ones: elastic ones may do so all the same.
+    A block approaches its periodic motion only over several pitches. None where walls are rigid, and where no
+    turn converges between rigid ones: elastic ones may still converge.
     """
     if not options.physics.elastic_walls:
         return None

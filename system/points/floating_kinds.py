@@ -1,7 +1,8 @@
-"""The floating gaps of a pump's kinds of chambers: what drives each, their revolutions, and their chambers.
+"""The floating gaps of a pump's kinds of chambers: their drives, their revolutions, and their chambers.
 
 A kind has one piston and one slipper over the turn, driven by the mean pressure of its chambers; each chamber has
-its own cycle. Where all are alike, one chamber and a pitch of the block tell of all; else the block takes a turn.
+its own cycle. Where all are equal, one chamber and a pitch of the block represent all; else the block is solved
+over a turn.
 """
 
 from __future__ import annotations
@@ -44,14 +45,14 @@ class Group:
     kinds: Kinds
     parts: tuple[FloatingParts, ...]
 
-    def rotors(self, asked: Asked) -> tuple[Rotor, ...]:
-        """The rotating group at the point asked for, with the parts of each kind."""
+    def rotors(self, asked: RoundDrives) -> tuple[Rotor, ...]:
+        """The rotating group at the operating point, with the parts of each kind."""
         each = zip(self.kinds.pumps, asked.spin_torques, strict=True)
         return tuple(replace(asked.rotor, pump=pump, spin_torques=torques) for pump, torques in each)
 
 
 def work_of(pump: PumpDescription) -> float:
-    """About how many times the work of a pump with chambers that are alike the floating gaps of a pump take."""
+    """Estimated work of a pump's floating gaps over that of a pump with equal chambers."""
     found = kinds(pump)
     if found.alike:
         return 1.0
@@ -65,8 +66,8 @@ def group_of(rotor: Rotor) -> Group:
 
 
 @dataclass(frozen=True)
-class Asked:
-    """What drives a round: pressures (N,) Pa of the chambers over their own angles (N,) rad, friction by kind.
+class RoundDrives:
+    """Drives of a round: pressures (N,) Pa of the chambers over their own angles (N,) rad, friction by kind.
 
     spin_torques by kind, None before films are solved.
     """
@@ -79,8 +80,8 @@ class Asked:
     options: FloatingOptions
 
 
-def driven_by(asked: Asked, group: Group) -> tuple[Driven, ...]:
-    """What drives piston and slipper of each kind."""
+def driven_by(asked: RoundDrives, group: Group) -> tuple[Driven, ...]:
+    """Drives of piston and slipper of each kind."""
     pressure = np.array(asked.pressure)
     return tuple(
         Driven(
@@ -94,7 +95,7 @@ def driven_by(asked: Asked, group: Group) -> tuple[Driven, ...]:
     )
 
 
-def drives_of(asked: Asked, group: Group) -> tuple[Drives, ...]:
+def drives_of(asked: RoundDrives, group: Group) -> tuple[Drives, ...]:
     """The drives of each kind's gaps; the block's is one for all."""
     found = [
         drives(one.rotor, parts, one.shaft_angle, one.pressure, one.rubbing)
@@ -108,14 +109,14 @@ def drives_of(asked: Asked, group: Group) -> tuple[Drives, ...]:
 
 
 def gap_revolutions(
-    asked: Asked,
+    asked: RoundDrives,
     group: Group,
     driven: Sequence[Drives],
     before: Sequence[FloatingGaps] | None,
     beside: PistonBeside | None,
     report: Report,
 ) -> tuple[FloatingGaps, ...]:
-    """The gaps of each kind over the revolution, on from those before; pistons by the process beside, if any."""
+    """The gaps of each kind over the revolution, on from those before; pistons in their own process, if any."""
     options, block_before = asked.options, None if before is None else before[0].block
     last_of: Sequence[FloatingGaps | None] = [None] * len(driven) if before is None else before
     each = list(zip(group.rotors(asked), group.parts, driven, last_of, strict=True))
@@ -141,14 +142,14 @@ def gap_revolutions(
 
 
 def by_chamber(group: Group, gaps: Sequence[FloatingGaps]) -> tuple[FloatingGaps, ...]:
-    """The gaps of each chamber, of one where all are alike."""
+    """The gaps of each chamber, of one where all are equal."""
     return tuple(replace(own, chamber=k) for k, own in enumerate(group.kinds.by_chamber(gaps)))
 
 
 def chamber_problems(
-    asked: Asked, group: Group, point: OperatingPoint, motion: PistonMotion, gaps: Sequence[FloatingGaps]
+    asked: RoundDrives, group: Group, point: OperatingPoint, motion: PistonMotion, gaps: Sequence[FloatingGaps]
 ) -> tuple[ChamberProblem, ...]:
-    """Each chamber between its gaps: what they leak, and what the parts' small motion adds to its volume."""
+    """Each chamber between its gaps: their leakage, and the change of its volume by the parts' small motion."""
     rotors = group.kinds.by_chamber(group.rotors(asked))
     return tuple(
         replace(chamber_problem(at.pump, point, motion, leak_table(own)), growth=growth(own, at, parts))

@@ -1,7 +1,7 @@
-"""The piston's revolutions in a process of their own, beside slipper and block.
+"""The piston's revolutions in their own process, parallel to slipper and block.
 
-The piston takes about as long as the other two together. Its process keeps what the last revolution left in the
-film, so that what goes to and fro is what drives it and what is told of it.
+The piston takes about as long as the other two together. Its process keeps the last revolution's films, so that
+only drives and reports are exchanged.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ TOLD_A_TURN = 12
 
 @dataclass(frozen=True)
 class Driven:
-    """What drives piston and slipper of a kind of chambers.
+    """Drives of piston and slipper of a kind of chambers.
 
     The pump at its point, pressure (N,) Pa over the chamber's angle (N,), friction.
     """
@@ -49,7 +49,7 @@ class _Progress:
 
 
 class PistonBeside:
-    """A process that solves pistons, one of each kind: start them, do something else, fetch what it found."""
+    """A process that solves pistons, one of each kind: start them, continue, fetch the results."""
 
     def __init__(self, connection: Connection) -> None:
         self._connection = connection
@@ -59,9 +59,9 @@ class PistonBeside:
         self._connection.send(driven)
 
     def fetch(self, report: Report) -> tuple[Found, ...]:
-        """The revolutions of the round begun, without what the next start from; tells progress while it waits.
+        """The revolutions of the round begun, without the start data of the next; reports progress while it waits.
 
-        Raises what `piston_revolution` raises, NotConverged where the process has died.
+        Raises as `piston_revolution`, NotConverged where the process has died.
         """
         while True:
             try:
@@ -96,7 +96,7 @@ def piston_beside(parts: tuple[FloatingParts, ...]) -> Iterator[PistonBeside]:
 
 
 def _serve(connection: Connection, parts: tuple[FloatingParts, ...]) -> None:
-    """Rounds of the pistons, one for each that is asked for, until nobody asks."""
+    """Rounds of the pistons, one for each request, until the process ends."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     before: list[Found | None] = [None] * len(parts)
     while True:

@@ -17,10 +17,10 @@ SPEED_TOLERANCE = 1e-9
 
 @dataclass(frozen=True)
 class Transmission:
-    """Both machines at the speeds at which they agree.
+    """Both machines at their common operating speeds.
 
     The motor is a pump that turns the same way with the high pressure at its suction port: its powers count into
-    it, so that its shaft power is negative, and its efficiencies as a pump are void (`no_delivery` says so).
+    it, so its shaft power is negative, and its efficiencies as a pump are void (`no_delivery`).
     """
 
     pump: PumpPoint
@@ -40,9 +40,9 @@ class Transmission:
 def transmission(pump: PumpDescription, motor: PumpDescription, point: OperatingPoint) -> Transmission:
     """The transmission at the pump's operating point, whose `inlet_pressure` is that of the low-pressure line.
 
-    The motor takes at full displacement, temperature and case pressure being the same, what the pump delivers;
-    nothing is lost between them. What a line to line relief valve, a flushing valve or the control take is not in
-    it: the flushing valve and the charge pump stand at the low pressure. Raises ValueError where the pump delivers
+    The motor takes the pump's delivery at full displacement, with the same temperature and case pressure; nothing
+    is lost between them. Flows of a line-to-line relief valve, a flushing valve or the control are not included:
+    the flushing valve and the charge pump are at the low pressure. Raises ValueError where the pump delivers
     nothing that would turn the motor, NotConverged as `lumped_point`.
     """
     from scipy.optimize import brentq

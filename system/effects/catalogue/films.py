@@ -59,7 +59,7 @@ def _carried() -> Parameter:
 
 
 def _share(key: str, upper: float, source: str) -> Parameter:
-    """A share that nothing but its range is known of."""
+    """A share of which only the range is known."""
     name = path_of(EffectId.FILM_HEATING, key)
     return Parameter(name, Role.EXTENSION, Scale.NORMAL, 0.5, 0.5, 0.0, upper, None, source)
 

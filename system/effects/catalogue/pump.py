@@ -170,7 +170,7 @@ PORT_ENTRIES = (
         ),
         (Component.DISPLACEMENT,), (*FLOWS, ChannelName.TORQUE), (E.DISPLACEMENT, E.TORQUE_GAIN),
         "high pressure and small displacement, every speed, flow and torque alike",
-        "the swash plate gives way under load", THEORY,
+        "the swash plate deflects under load", THEORY,
     ),
     _entry(
         _whole(

@@ -15,7 +15,7 @@ from system.effects.laws.film import through_orifice
 from system.effects.state import GAPS, piston_area, pressure_difference, swash_tangent, unchanged
 
 ONSET = 0.2
-"""Of the moment that holds a part: from it on to the same again beyond it parts give way smoothly."""
+"""Share of the holding moment over which a part tips smoothly, from that moment on."""
 
 Courses = Mapping[Gap, GapCourse]
 

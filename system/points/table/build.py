@@ -1,4 +1,4 @@
-"""Building a pump's response table: its box of operating points, and what the solved ones teach."""
+"""Building a pump's response table: its box of operating points, and the response learnt from the solved ones."""
 
 from __future__ import annotations
 
@@ -27,8 +27,8 @@ from system.points.table.response_table import (
     SPEED,
     VISCOSITY,
     Failed,
-    Origin,
     ResponseTable,
+    TableOrigin,
 )
 from system.points.table.sources import PointSolver, with_held_ports
 from system.points.table.store import KEY_LENGTH, keep_table, pump_key
@@ -51,9 +51,9 @@ Range = tuple[float, float]
 
 @dataclass(frozen=True)
 class TableCase:
-    """What to condense: a pump, who solves its points, the box, how many points to learn from and to hold out.
+    """A table to build: a pump, the solver of its points, the box, numbers of learnt and held-out points.
 
-    Of INPUTS those that have no axis are held at the pump's own operating point. A `SamplingTask`.
+    INPUTS without an axis are held at the pump's own operating point. A `SamplingTask`.
     """
 
     pump: PumpDescription
@@ -69,7 +69,7 @@ class TableCase:
         return {name: getattr(point, name) for name in INPUTS if name not in varied}
 
     def key(self, x: Array) -> str:
-        """Name of a point's content: the pump, the solver with what it states, the format, the place."""
+        """Name of a point's content: the pump, the solver with its inputs, the format, the place."""
         solver, point = self.solver, point_at(self, x)
         place = np.array([getattr(point, name) for name in INPUTS])
         return content_key(
@@ -91,11 +91,11 @@ def table_axes(
     temperatures: Range | None = None,
     held: Collection[str] = (),
 ) -> tuple[Axis, ...]:
-    """The box of a pump's table, SI, temperatures standing for the viscosities of its oil, without what is `held`.
+    """The box of a pump's table, SI, with temperatures for the viscosities of its oil, without the inputs `held`.
 
-    What is None is taken from the rating (SPEEDS, PRESSURES) or as RATIOS and TEMPERATURES. Raises FilmInputError
-    for a range that is none, where the oil's law is void, and where no pump is: a delivery pressure that is not
-    above inlet and case, a displacement ratio above 1.
+    None takes the default: from the rating (SPEEDS, PRESSURES) or as RATIOS and TEMPERATURES. Raises
+    FilmInputError for an empty range, where the oil's law is void, and where no pump runs: a delivery pressure
+    that is not above inlet and case, a displacement ratio above 1.
     """
     rated = pump.pump
     low, high = speeds or (SPEEDS[0] * rated.rated_speed, SPEEDS[1] * rated.rated_speed)
@@ -126,8 +126,8 @@ def build_table(
 ) -> ResponseTable:
     """The table of a case, kept in the cache; its points as `solved_points`.
 
-    Held-out points are run by the table, too, for what it misses of the pump's numbers. Raises NotConverged where
-    too few points have a result, FilmInputError for a pump with effects of [physics], and as `table_point`.
+    Held-out points are also run by the table, for its error in the pump's numbers. Raises NotConverged where too
+    few points have a result, FilmInputError for a pump with effects of [physics], and as `table_point`.
     """
     hold_plain(case.pump)
     found = solved_points(case, executor=executor, report=report, folder=folder)
@@ -161,10 +161,10 @@ def case_key(case: TableCase) -> str:
     return content_key(*source, case.axes, sorted(case.held.items()), case.learnt, case.held_out)[:KEY_LENGTH]
 
 
-def _origin(case: TableCase, found: Sequence[SampledPoint]) -> Origin:
+def _origin(case: TableCase, found: Sequence[SampledPoint]) -> TableOrigin:
     points = points_of(case)
     failed = (Failed(tuple(map(float, points[one.index])), one.reason) for one in found if one.reason)
-    return Origin(
+    return TableOrigin(
         pump=case.pump.name,
         pump_key=pump_key(case.pump),
         source=case.solver.source,

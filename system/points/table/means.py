@@ -1,7 +1,7 @@
-"""What a response table holds of one solved point: the gaps' means over the turn, as ratios to the lumped law.
+"""Entries of a response table for one solved point: the gaps' means over the turn, as ratios to the lumped law.
 
-The lumped law knows pressure, speed and viscosity already; what is left of a solved point is of order one and
-smooth. Ratios are taken at the solved point's own chamber pressure, so that they hold the gap and nothing else.
+The lumped law contains pressure, speed and viscosity already; the ratio is of order one and smooth. Ratios are
+taken at the solved point's own chamber pressure, so that they describe the gap alone.
 """
 
 from __future__ import annotations
@@ -77,10 +77,10 @@ class SolvedPoint:
 class LawMoments:
     """One chamber by the lumped law at a given pressure, means over the turn, of the gaps (3,).
 
-    flow: of the pressure flow G (p - p_case), m3/s; carried, one: of the law's carried flow, m3/s (nothing but in
-    the piston's gap), and of a flow of 1 m3/s; all three by mass, at case pressure. power: what carried oil is
-    measured by, W: the oil carried in the piston's gap, the pressure flow in the others, in which the law knows
-    none; above: p - p_case, Pa.
+    flow: of the pressure flow G (p - p_case), m3/s; carried, one: of the law's drag flow, m3/s (only in the
+    piston's gap), and of a flow of 1 m3/s; all three by mass, at case pressure. power: scale of the drag power,
+    W: the oil dragged in the piston's gap, the pressure flow in the others, in which the law has no drag; above:
+    p - p_case, Pa.
     """
 
     flow: Array
@@ -148,5 +148,5 @@ def plate_flow(pump: PumpDescription, point: OperatingPoint) -> float:
 
 
 def net_loss(point: PumpPoint, gap: str) -> float:
-    """Loss of a gap's pair less what carried oil gives back, W: what the shaft feels of it."""
+    """Loss of a gap's pair less the power that dragged oil returns, W: the net load on the shaft."""
     return point.pairs.loss(GAP_PAIRS[gap]).mean - float(getattr(point.exchange.carried, gap))

@@ -51,10 +51,10 @@ class TablePoint:
 
 
 def table_point(pump: PumpDescription, point: OperatingPoint, table: ResponseTable) -> TablePoint:
-    """One periodic operating point by the lumped kernel, its gaps leaking and rubbing as the table says.
+    """One periodic operating point by the lumped kernel, with leakage and friction of its gaps from the table.
 
     Raises FilmInputError outside the table's box or at another inlet or case pressure, NotConverged as
-    `ported_cycle` and where an orifice line does not settle, ValueError where chambers differ.
+    `ported_cycle` and where an orifice line does not converge, ValueError where chambers differ.
     """
     kinds(pump).hold_alike()
     hold_plain(pump)
@@ -94,11 +94,11 @@ def table_point(pump: PumpDescription, point: OperatingPoint, table: ResponseTab
 def _leaks(
     pump: PumpDescription, point: OperatingPoint, motion: PistonMotion, means: Mapping[str, float]
 ) -> LeakTable:
-    """Flow out of a chamber into each gap, of the table's mean and carried power: a G (p - p_case) + b C + c.
+    """Flow out of a chamber into each gap, of the table's mean and drag power: a G (p - p_case) + b C + c.
 
-    G and C are the lumped law's, moments those at the pressure of its own cycle. The piston's oil is carried by
-    b C, the others' by c. A conductance is not negative: where carried oil is more than all, a is 0 and c keeps
-    the mean flow.
+    G and C are the lumped law's, moments those at the pressure of its own cycle. The piston's drag flow is b C,
+    the others' is c. A conductance is not negative: where drag exceeds the whole flow, a is 0 and c keeps the
+    mean flow.
     """
     law = lumped_leaks(pump, point, motion)
     cycle = solve_cycle(chamber_problem(pump, point, motion, law), motion.shaft_angle.size)
@@ -113,7 +113,7 @@ def _leaks(
 
 
 def _draws(pump: PumpDescription, point: OperatingPoint, means: Mapping[str, float]) -> tuple[float, float]:
-    """What the valve plate's film takes from delivery and suction port, m3/s at port pressure."""
+    """Flow from delivery and suction port into the valve plate's film, m3/s at port pressure."""
     scale = plate_flow(pump, point)
     return scale * means["valve_plate.delivery_draw"], scale * means["valve_plate.suction_draw"]
 
@@ -121,7 +121,7 @@ def _draws(pump: PumpDescription, point: OperatingPoint, means: Mapping[str, flo
 def _losses(by_law: FrictionPairs, carried: Array, means: Mapping[str, float]) -> FrictionPairs:
     """The lumped pairs, those of gaps and joints with the table's means.
 
-    carried (3,) W: the power that the table's carried oil is a ratio to; what is learnt is the loss less that oil.
+    carried (3,) W: the reference power of the table's drag ratios; the table learns the loss less that power.
     """
     told = {
         pair.value: _with_mean(

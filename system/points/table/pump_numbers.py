@@ -1,8 +1,8 @@
-"""What a run by a response table is read for, and how far it is off at the points that the table has not seen.
+"""Numbers of a run by a response table, and their error at points that the table has not learnt.
 
-A table learns ratios to the lumped law, means over the turn. What comes out of a run by it misses more: the course
-over the angle, which is the law's, and the chamber pressure that goes with it. So held-out points are run by the
-table as well, and their numbers set against those solved.
+A table learns ratios to the lumped law, means over the turn. A run by it has further errors: the shape over the
+angle, which is the law's, and its chamber pressure. So held-out points are run by the table as well, and their
+numbers compared with those solved.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ NUMBERS: Mapping[str, str] = {
 
 @dataclass(frozen=True)
 class NumbersError:
-    """How far the numbers of runs by a table are off at the held-out points, in the order of NUMBERS.
+    """Errors of the numbers of runs by a table at the held-out points, in the order of NUMBERS.
 
     measures: relative, or of the largest where a number is not positive at all points.
     """
@@ -60,7 +60,7 @@ def pump_numbers(point: PumpPoint) -> Array:
 
 
 def numbers_error(told: Array, solved: Array) -> NumbersError:
-    """The error of numbers (n, r) told by a table against those solved (n, r)."""
+    """The error of numbers (n, r) by a table against those solved (n, r)."""
     positive, largest = np.all(solved > 0.0, axis=0), np.abs(solved).max(axis=0)
     scale = np.where(positive, solved, np.where(largest > 0.0, largest, 1.0))
     off = np.abs((told - solved) / scale)

@@ -43,12 +43,12 @@ class Failed:
 
 
 @dataclass(frozen=True)
-class Origin:
-    """Where a table's numbers come from.
+class TableOrigin:
+    """Origin of a table's numbers.
 
-    pump, pump_key: its name and its content; source with what it states of physics, mesh and accuracy; package:
-    the program's version; inlet_pressure, case_pressure Pa gauge; held: those of INPUTS that have no axis, SI;
-    failed: points without a result; seconds of computing that a point took, mean.
+    pump, pump_key: its name and its content; source with its physics, mesh and accuracy; package: the program's
+    version; inlet_pressure, case_pressure Pa gauge; held: INPUTS without an axis, SI; failed: points without a
+    result; seconds of computing per point, mean.
     """
 
     pump: str
@@ -70,14 +70,14 @@ class ResponseTable:
     numbers: how far runs by the table are off at the held-out points; None before they were run.
     """
 
-    origin: Origin
+    origin: TableOrigin
     response: Response
     numbers: NumbersError | None = None
 
     def at(self, point: OperatingPoint) -> dict[str, float]:
-        """The outputs by name at an operating point; shares of contact are held to 0 .. 1, which a share is.
+        """The outputs by name at an operating point; shares of contact are limited to 0 .. 1.
 
-        Raises FilmInputError for a point outside the box or at another value of what is held.
+        Raises FilmInputError for a point outside the box or at another value of a held input.
         """
         self._check_held(point)
         values = self.response.at(np.array([[getattr(point, axis.name) for axis in self.response.axes]]))[0]
@@ -86,7 +86,7 @@ class ResponseTable:
         return found | shares
 
     def holds(self, point: OperatingPoint) -> bool:
-        """Whether a point lies in the box, and what is held is as the table has it."""
+        """True if a point lies in the box, with the table's values of held inputs."""
         held = all(_same(value, getattr(point, name)) for name, value in self.origin.held.items())
         return held and all(axis.lower <= getattr(point, axis.name) <= axis.upper for axis in self.response.axes)
 
@@ -116,7 +116,7 @@ class ResponseTable:
 
 
 def _same(one: float, other: float) -> bool:
-    """Whether two values of an input are one but for round-off and what a port's pressure settles to."""
+    """True if two values of an input are equal up to round-off and the tolerance of a port's pressure."""
     return abs(one - other) <= HELD_TO * abs(one)
 
 
@@ -126,7 +126,7 @@ def axis_value(name: str, value: float) -> str:
 
 
 def box_text(table: ResponseTable) -> str:
-    """The box of a table as people read it, with what is held."""
+    """The box of a table as text, with the held inputs."""
     ranges = {
         axis.name: f"{axis_value(axis.name, axis.lower)} .. {axis_value(axis.name, axis.upper)}"
         for axis in table.response.axes

@@ -1,4 +1,4 @@
-"""Where the points of a response table come from: a fidelity that solves the films, by one call."""
+"""Sources of the points of a response table: a fidelity that solves the films, by one call."""
 
 from __future__ import annotations
 
@@ -27,10 +27,9 @@ class Source(Enum):
 
 
 class PointSolver(Protocol):
-    """Solves one operating point: frozen data that can be sent to another process.
+    """Solver of one operating point: frozen data that can be sent to another process.
 
-    `stated`: physics, mesh and accuracy in words and numbers, all that its result depends on beside pump and
-    point.
+    `stated`: physics, mesh and accuracy in words and numbers, all inputs of its result besides pump and point.
     """
 
     @property
@@ -40,7 +39,7 @@ class PointSolver(Protocol):
 
     @property
     def stated(self) -> Mapping[str, str]:
-        """What its numbers rest on."""
+        """Inputs of its numbers."""
         ...
 
     def solve(self, pump: PumpDescription, point: OperatingPoint) -> SolvedPoint:
@@ -57,7 +56,7 @@ class FilmsSolver:
 
     @property
     def stated(self) -> Mapping[str, str]:
-        """What its numbers rest on."""
+        """Inputs of its numbers."""
         return {
             "physics": "rigid, isothermal, mass-conserving cavitation; positions and Coulomb coefficients given",
             "mesh": f"meshes of the films fidelity, {self.positions_per_pitch} film angles a piston pitch",
@@ -82,7 +81,7 @@ class FloatingSolver:
 
     @property
     def stated(self) -> Mapping[str, str]:
-        """What its numbers rest on."""
+        """Inputs of its numbers."""
         options = self.options
         cells = (options.piston_cells, options.slipper_cells, options.block_cells)
         left_out = [effect.value.replace("_", " ") for effect in options.physics.left_out]
@@ -106,7 +105,7 @@ class FloatingSolver:
 
 
 def solver_of(source: Source, options: FloatingOptions) -> PointSolver:
-    """What solves the points of a source; `options` are those of floating gaps."""
+    """The solver of the points of a source; `options` are those of floating gaps."""
     match source:
         case Source.FILMS:
             return FilmsSolver()

@@ -1,4 +1,4 @@
-"""Response tables on disk: written beside each other, found by the content of the pump they belong to."""
+"""Response tables on disk: kept in one folder, found by the content of their pump."""
 
 from __future__ import annotations
 
@@ -21,8 +21,8 @@ from system.points.table.pump_numbers import NUMBERS, NumbersError
 from system.points.table.response_table import (
     DIMENSIONS,
     Failed,
-    Origin,
     ResponseTable,
+    TableOrigin,
     box_text,
     point_text,
 )
@@ -35,7 +35,7 @@ KEY_LENGTH = 24
 
 
 def pump_key(pump: PumpDescription) -> str:
-    """Hash of all that a pump's gaps depend on beside the axes: not its name, not its lines."""
+    """Hash of all inputs of a pump's gaps besides the axes: without its name and its lines."""
     stated = pump.operating.model_copy(
         update={"speed": 0.0, "pressure": 0.0, "displacement_ratio": 1.0, "temperature": 0.0}
     )
@@ -45,12 +45,12 @@ def pump_key(pump: PumpDescription) -> str:
 
 
 def keep_table(table: ResponseTable, place: Path) -> None:
-    """Write `place`.npz, the points with their values, and `place`.json, all that says what they are."""
+    """Write `place`.npz, the points with their values, and `place`.json, their record."""
     write_response(place, table.response, table_record(table))
 
 
 def write_response(place: Path, response: Response, record: Mapping[str, Any]) -> None:
-    """Write `place`.npz, the points of a response with values, and `place`.json, the record of what it is."""
+    """Write `place`.npz, the points of a response with values, and `place`.json, the record of the response."""
     place.parent.mkdir(parents=True, exist_ok=True)
     np.savez(
         place.with_suffix(".npz"),
@@ -66,7 +66,7 @@ Read = TypeVar("Read")
 
 
 def read_response(path: Path, table_format: int, made: Callable[[Mapping[str, Any], Response], Read]) -> Read:
-    """What is `made` of the record and response that `write_response` wrote, by its .json or .npz.
+    """Result of `made` for the record and response written by `write_response`, from its .json or .npz.
 
     Raises InputFaults where there is none, or of another format.
     """
@@ -112,9 +112,10 @@ def tables_of(pump: PumpDescription, folder: Path | None = None) -> Iterator[Res
 
 
 def find_table(pump: PumpDescription, point: OperatingPoint, folder: Path | None = None) -> ResponseTable:
-    """The kept table of a pump that holds a point: of the last source in `Source`, then with the most points.
+    """The kept table of a pump whose box contains a point: of the last source in `Source`, then with the most
+    points.
 
-    Raises InputFaults where there is none, telling the boxes of those that do not hold it.
+    Raises InputFaults where there is none, with the boxes of the other tables.
     """
     tables = list(tables_of(pump, folder))
     fit = [table for table in tables if table.holds(point)]
@@ -147,7 +148,7 @@ def own_table(path: Path, pump: PumpDescription) -> ResponseTable:
 
 
 def table_record(table: ResponseTable) -> dict[str, Any]:
-    """What the .json says: origin, box, outputs with their errors."""
+    """Content of the .json: origin, box, outputs with their errors."""
     origin = table.origin
     return {
         "kind": "response_table_data",
@@ -162,7 +163,7 @@ def table_record(table: ResponseTable) -> dict[str, Any]:
 
 
 def _numbers_record(table: ResponseTable) -> list[dict[str, Any]]:
-    """The rows of what runs by the table miss, none before they were run."""
+    """The rows of errors of runs by the table, none before they were run."""
     if table.numbers is None:
         return []
     return [
@@ -181,7 +182,7 @@ def _errors(response: Response, error: HeldOutError, k: int) -> dict[str, Any]:
 
 
 def response_record(response: Response, dimensions: Mapping[str, Dimension]) -> dict[str, Any]:
-    """What the .json says of a response: its box (axes of these dimensions), its outputs and their errors."""
+    """Content of the .json for a response: its box (axes of these dimensions), its outputs and their errors."""
     error = response.held_out_error
     return {
         "axes": [
@@ -205,10 +206,10 @@ def response_record(response: Response, dimensions: Mapping[str, Dimension]) -> 
     }
 
 
-def _origin(record: Mapping[str, Any]) -> Origin:
+def _origin(record: Mapping[str, Any]) -> TableOrigin:
     plain = ("pump", "pump_key", "stated", "package", "inlet_pressure", "case_pressure", "held", "seconds")
     failed = tuple(Failed(tuple(one["at"]), one["reason"]) for one in record["failed"])
-    return Origin(source=Source(record["source"]), failed=failed, **{key: record[key] for key in plain})
+    return TableOrigin(source=Source(record["source"]), failed=failed, **{key: record[key] for key in plain})
 
 
 def _axes(record: Mapping[str, Any]) -> tuple[Axis, ...]:
