@@ -13,11 +13,21 @@ from system.description.pump import PumpDescription
 from system.inputs.errors import NotConverged
 from system.inputs.units import TURN
 from system.pump.chamber import kernels as kernel
-from system.pump.chamber import state_kernels as chamber_state
 from system.pump.chamber.cycle import PERIODICITY, REVOLUTION_LIMIT
+from system.pump.chamber.layout import (
+    CARRIED_ENERGY,
+    CAVITY_PRESSURE,
+    DELIVERY,
+    GAPS,
+    INTEGRALS,
+    PISTON,
+    SUCTION,
+    TABLE,
+)
 from system.pump.chamber.map_kernels import beside_map, chamber_map
 from system.pump.chamber.problem import LeakTable
 from system.pump.chamber.setup import periodic_cubics
+from system.pump.chamber.state_kernels import CHAMBER
 from system.pump.lumped import PistonMotion, chamber_problem
 from system.pump.operating import OperatingPoint
 
@@ -29,7 +39,7 @@ OF_GAPS = ("case_pressure", "kinematic_viscosity")
 class Courses:
     """Periodic revolutions at N points: pressure (N, M) Pa gauge at M equidistant shaft angles from 0, and totals.
 
-    totals (N, INTEGRALS): the integrals of `chamber_state_kernels` over one turn, one chamber. Where they were
+    totals (N, INTEGRALS): the integrals of `state_kernels` over one turn, one chamber. Where they were
     solved for themselves, trail: the steps of all points end to end, those of point i from begins[i] to
     begins[i + 1].
     """
@@ -44,7 +54,7 @@ class Courses:
 class MapProblem:
     """The chamber at N points as compiled code reads it.
 
-    chambers (N,) of `chamber_state_kernels.CHAMBER`, ports not yet filled in; leaks (N, 3, M); ports (N, 4):
+    chambers (N,) of `state_kernels.CHAMBER`, ports not yet filled in; leaks (N, 3, M); ports (N, 4):
     their state for `map_ports`.
     """
 
@@ -60,7 +70,7 @@ class MapProblem:
 
     def differs_in_gaps_alone(self, other: MapProblem) -> bool:
         """Whether the other's chambers differ, if at all, by what leaks out of their gaps."""
-        names = [name for name in chamber_state.CHAMBER.names or () if name not in OF_GAPS]
+        names = [name for name in CHAMBER.names or () if name not in OF_GAPS]
         same = all(np.array_equal(self.chambers[name], other.chambers[name]) for name in names)
         return same and self.has_ports_of(other)
 
@@ -74,10 +84,10 @@ def map_problem(
 ) -> MapProblem:
     """The chamber of a pump at N points, given as columns (N, 1), with gaps that leak as `leaks` (N, 3, M)."""
     problem = chamber_problem(pump, point, motion, leaks)
-    chambers = np.zeros(point.shaft_speed.size, dtype=chamber_state.CHAMBER)
+    chambers = np.zeros(point.shaft_speed.size, dtype=CHAMBER)
     chambers["stroke_scale"] = np.ravel(problem.drive.stroke_scale)
     chambers["cone_swash_product"] = np.ravel(problem.drive.cone_swash_product)
-    for name in chamber_state.CHAMBER.names or ():
+    for name in CHAMBER.names or ():
         if hasattr(problem, name) and not name.endswith("_port"):
             chambers[name] = np.ravel(getattr(problem, name))
     ports = np.zeros((chambers.size, 4))
@@ -124,7 +134,7 @@ class _Run:
         held[:, 0, 0, 0], held[:, 0, 1, 0] = chambers["delivery_pressure"], chambers["inlet_pressure"]
         control = tolerance, max(PERIODICITY, 0.1 * tolerance), REVOLUTION_LIMIT
         given = chambers, _tables(problem.leaks), held, ports.nodes, ports.firsts, control
-        totals = np.empty((points, 2 * chamber_state.INTEGRALS))
+        totals = np.empty((points, 2 * INTEGRALS))
         return cls(given, (np.empty((points, samples)), totals, np.empty(points, dtype=np.int64)))
 
     def courses(self, problem: MapProblem) -> Courses:
@@ -132,7 +142,7 @@ class _Run:
         pressure, totals, statuses = self.filled
         if np.any(statuses != kernel.OK):
             _tell(problem, int(np.argmax(statuses != kernel.OK)))
-        return Courses(pressure, totals[:, : chamber_state.INTEGRALS])
+        return Courses(pressure, totals[:, :INTEGRALS])
 
 
 def other_gaps(courses: Courses, solved: MapProblem, other: MapProblem) -> Courses:
@@ -148,10 +158,10 @@ def other_gaps(courses: Courses, solved: MapProblem, other: MapProblem) -> Cours
     delivering = np.sin(angle) < 0.0
     mass, work = after[0] - before[0], after[1] - before[1]
     totals = courses.totals.copy()
-    totals[:, 0] -= (mass.sum(axis=1) * delivering).mean(axis=1)
-    totals[:, 1] -= (mass.sum(axis=1) * ~delivering).mean(axis=1)
-    totals[:, 2:5] += mass.mean(axis=2)
-    totals[:, 11:14] += work.mean(axis=2)
+    totals[:, DELIVERY] -= (mass.sum(axis=1) * delivering).mean(axis=1)
+    totals[:, SUCTION] -= (mass.sum(axis=1) * ~delivering).mean(axis=1)
+    totals[:, PISTON : PISTON + GAPS] += mass.mean(axis=2)
+    totals[:, CARRIED_ENERGY : CARRIED_ENERGY + GAPS] += work.mean(axis=2)
     return Courses(courses.pressure, totals)
 
 
@@ -159,7 +169,7 @@ def _gap_rates(pressure: Array, problem: MapProblem) -> tuple[Array, Array]:
     """Of each gap (N, 3, M): oil out in m3 at zero gauge pressure, and work of carried oil in J, a turn."""
     case = problem.chambers["case_pressure"][:, None, None]
     modulus = problem.chambers["bulk_modulus"][:, None, None]
-    inside = np.maximum(pressure, chamber_state.CAVITY_PRESSURE)[:, None, :]
+    inside = np.maximum(pressure, CAVITY_PRESSURE)[:, None, :]
     dense = np.exp(inside / modulus) * TURN / problem.chambers["shaft_speed"][:, None, None]
     flow = problem.leaks.conductance * (pressure[:, None, :] - case) + problem.leaks.carried_flow
     fall = modulus * (np.exp(-case / modulus) - np.exp(-inside / modulus))
@@ -168,9 +178,9 @@ def _gap_rates(pressure: Array, problem: MapProblem) -> tuple[Array, Array]:
 
 def _tables(leaks: LeakTable) -> Array:
     """The gaps' tables (N, M, 7, 4) as the kernel reads them; the volume does not grow besides."""
-    points, gaps, samples = leaks.conductance.shape
+    points, _, samples = leaks.conductance.shape
     rows = np.concatenate([leaks.conductance, leaks.carried_flow, np.zeros((points, 1, samples))], axis=1)
-    cubics = periodic_cubics(rows.reshape(-1, samples)).reshape(samples, points, 2 * gaps + 1, 4)
+    cubics = periodic_cubics(rows.reshape(-1, samples)).reshape(samples, points, TABLE, 4)
     return np.ascontiguousarray(cubics.transpose(1, 0, 2, 3))
 
 

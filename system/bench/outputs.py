@@ -14,6 +14,7 @@ from system.effects.friction import rubbed
 from system.effects.outside import outside
 from system.inputs.channels import ChannelName
 from system.inputs.units import TURN
+from system.pump.chamber.layout import CARRIED_ENERGY, DELIVERY, GAPS, PATH_ENERGY, PISTON, PORTS, SUCTION, WORK
 from system.pump.laws.friction_pairs import FrictionPairs, Pair, PairLoss
 from system.pump.lumped import lumped_pairs
 
@@ -73,7 +74,9 @@ def truth(solved: Solved) -> Array:
 
 def throttling_torque(setting: Setting, courses: Courses) -> Array:
     """Torque (N,) N m that throttling in both ports takes."""
-    return np.asarray(setting.pump.pump.pistons / TURN * courses.totals[:, 6:8].sum(axis=1))
+    return np.asarray(
+        setting.pump.pump.pistons / TURN * courses.totals[:, PATH_ENERGY : PATH_ENERGY + PORTS].sum(axis=1)
+    )
 
 
 def _chambers(setting: Setting, courses: Courses) -> tuple[tuple[Array, Array, Array], Array]:
@@ -86,8 +89,10 @@ def _chambers(setting: Setting, courses: Courses) -> tuple[tuple[Array, Array, A
         for name in ("delivery_pressure", "inlet_pressure", "case_pressure")
     }
     flows = (
-        rate * totals[:, 0] * volume["delivery_pressure"],
-        -rate * totals[:, 1] * volume["inlet_pressure"],
-        rate * totals[:, 2:5].sum(axis=1) * volume["case_pressure"],
+        rate * totals[:, DELIVERY] * volume["delivery_pressure"],
+        -rate * totals[:, SUCTION] * volume["inlet_pressure"],
+        rate * totals[:, PISTON : PISTON + GAPS].sum(axis=1) * volume["case_pressure"],
     )
-    return flows, pistons / TURN * (totals[:, 5] - totals[:, 11:14].sum(axis=1))
+    return flows, pistons / TURN * (
+        totals[:, WORK] - totals[:, CARRIED_ENERGY : CARRIED_ENERGY + GAPS].sum(axis=1)
+    )

@@ -38,7 +38,7 @@ from system.description.parts import RetainerKind
 from system.films.parts import FloatingParts
 from system.films.places import ball_centre
 from system.films.rotor import Rotor, travel
-from system.pump.chamber.state_kernels import CAVITY_PRESSURE
+from system.pump.chamber.layout import CAVITY_PRESSURE
 from system.pump.land_losses import bore_table
 from system.pump.laws.directions import bore_axis, bore_sides, plate_axes
 from system.pump.laws.kinematics import (

@@ -18,7 +18,7 @@ from system.inputs.point_files import read_rows
 from system.inputs.toml_table import Table, quoted
 from system.inputs.units import Dimension, QuantityError, format_quantity, parse_quantity
 from system.points.lumped import lumped_point
-from system.pump.chamber.state_kernels import CAVITY_PRESSURE
+from system.pump.chamber.layout import CAVITY_PRESSURE
 from system.pump.lumped import piston_motion
 
 CYCLE = "cycle"

@@ -25,7 +25,7 @@ from system.films.problems import RIGID
 from system.films.rotor import Rotor, rotor
 from system.inputs.toml_table import Table, quoted
 from system.inputs.units import Dimension, format_quantity
-from system.pump.chamber.state_kernels import CAVITY_PRESSURE
+from system.pump.chamber.layout import CAVITY_PRESSURE
 from system.pump.operating import operating_point
 from system.pump_file.file import load_pump
 

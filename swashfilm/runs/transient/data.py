@@ -14,7 +14,7 @@ from reynolds.numerics.arrays import Array
 from system.multibody.transient import kernels as kernel
 from system.multibody.transient.solver import Transient
 from system.multibody.transient.torque import drive_torque
-from system.pump.chamber.state_kernels import CAVITY_PRESSURE
+from system.pump.chamber.layout import CAVITY_PRESSURE
 from system.pump.laws.kinematics import SwashDrive, stroke
 from system.pump.lumped import full_drive
 

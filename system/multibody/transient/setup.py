@@ -13,8 +13,9 @@ from system.inputs.units import TURN, Dimension, format_quantity
 from system.multibody.kinematics import BoreCircle, Plate, axial_rates
 from system.multibody.plate_motion import Actuator, Mechanism
 from system.multibody.transient.kernels import PLATE, actuator_at
+from system.pump.chamber.layout import CAVITY_PRESSURE, WAYS
 from system.pump.chamber.problem import ChamberProblem
-from system.pump.chamber.state_kernels import CAVITY_PRESSURE, WAYS, oil_volume
+from system.pump.chamber.state_kernels import oil_volume
 from system.pump.laws import friction_pairs as pairs
 from system.pump.laws.leakage import piston_carried_flow, piston_conductance
 from system.pump.lumped import (

@@ -24,9 +24,9 @@ from system.multibody.transient.setup import (
 )
 from system.points.lumped import lumped_point
 from system.pump.chamber.cycle import flow_energy
+from system.pump.chamber.layout import INTEGRALS, OUTFLOW, PATH_ENERGY, PATHS, PISTON, PORT_ENERGY, PORTS, WORK
 from system.pump.chamber.problem import ChamberProblem
 from system.pump.chamber.setup import constants
-from system.pump.chamber.state_kernels import INTEGRALS, PATHS
 from system.pump.chamber_kinds import kinds
 from system.pump.laws.kinematics import drive_at_ratio
 from system.pump.lumped import full_drive
@@ -179,10 +179,11 @@ def run_transient(case: TransientCase) -> Transient:
 def _checks(problem: ChamberProblem, filled: _Filled, after: Array) -> TransientChecks:
     """Balance errors of oil and energy of the chambers from time 0 on."""
     totals, gained = filled.totals, after - filled.before
-    outflow, work, energy = totals[:PATHS], totals[PATHS], totals[PATHS + 1 : 2 * PATHS + 1]
-    to_case = float(outflow[2:].sum() * flow_energy(problem.case_pressure, problem.bulk_modulus))
-    taken = float(energy.sum() + totals[14:16].sum()) + to_case + float(gained[1])
-    passed = float(np.abs(outflow[:2]).sum())
+    outflow, energy = totals[OUTFLOW : OUTFLOW + PATHS], totals[PATH_ENERGY : PATH_ENERGY + PATHS]
+    work = totals[WORK]
+    to_case = float(outflow[PISTON:].sum() * flow_energy(problem.case_pressure, problem.bulk_modulus))
+    taken = float(energy.sum() + totals[PORT_ENERGY : PORT_ENERGY + PORTS].sum()) + to_case + float(gained[1])
+    passed = float(np.abs(outflow[:PORTS]).sum())
     return TransientChecks(
         mass_balance_error=abs(float(outflow.sum() + gained[0])) / passed,
         energy_balance_error=abs(float(work) - taken) / max(abs(float(work)), passed * problem.pressure_span),

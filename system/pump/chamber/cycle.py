@@ -18,10 +18,23 @@ from reynolds.numerics.arrays import Array
 from system.inputs.errors import NotConverged
 from system.inputs.units import TURN
 from system.pump.chamber import kernels as kernel
-from system.pump.chamber import state_kernels as chamber_state
+from system.pump.chamber.layout import (
+    CARRIED_ENERGY,
+    CAVITY_PRESSURE,
+    GAPS,
+    INTEGRALS,
+    OUTFLOW,
+    PATH_ENERGY,
+    PATHS,
+    PISTON,
+    PORT_ENERGY,
+    PORTS,
+    WORK,
+)
 from system.pump.chamber.map_kernels import run_in
 from system.pump.chamber.problem import ChamberProblem
 from system.pump.chamber.setup import Course, constants, periodic_values, turn_nodes
+from system.pump.chamber.state_kernels import oil_change
 from system.pump.laws.kinematics import piston_displacement, stroke
 
 TOLERANCE = 1e-6
@@ -98,16 +111,16 @@ class ChamberCycle:
     @property
     def cavitates(self) -> bool:
         """Whether the chamber holds a cavity at any sampled shaft angle."""
-        return bool(np.min(self.pressure) < chamber_state.CAVITY_PRESSURE)
+        return bool(np.min(self.pressure) < CAVITY_PRESSURE)
 
 
 def solve_cycle(problem: ChamberProblem, samples: int, tolerance: float = TOLERANCE) -> ChamberCycle:
     """The periodic revolution of a chamber, sampled at `samples` equidistant shaft angles.
 
-    Integrates Eq. (14) in its conservative form (see `chamber_state_kernels`) from break to break of the ports,
+    Integrates Eq. (14) in its conservative form (see `state_kernels`) from break to break of the ports,
     turn by turn, until the oil in the chamber where a turn begins repeats to PERIODICITY. Raises NotConverged when
     it does not within REVOLUTION_LIMIT turns or when a step fails. Where the pressure falls to
-    `chamber_state_kernels.CAVITY_PRESSURE` a cavity opens and fills again; the ports' and case's oil is always
+    CAVITY_PRESSURE a cavity opens and fills again; the ports' and case's oil is always
     liquid.
     """
     given = constants(problem)
@@ -126,7 +139,7 @@ def solve_cycle(problem: ChamberProblem, samples: int, tolerance: float = TOLERA
         if status != kernel.OK:
             raise NotConverged(_step_message(status, problem))
         turns += 1
-        change = chamber_state.oil_change(start, course.pressures[-1], problem.bulk_modulus)
+        change = oil_change(start, course.pressures[-1], problem.bulk_modulus)
         start = float(course.pressures[-1])
     checks = _checks(problem, course.totals, drift, change)
     effort = Effort(turns, steps, refused)
@@ -142,15 +155,15 @@ def _step_message(status: int, problem: ChamberProblem) -> str:
 
 
 def _checks(problem: ChamberProblem, totals: Array, drift: float, change: float) -> ChamberChecks:
-    outflow, work, energy = totals[:5], totals[5], totals[6:11]
-    to_case = outflow[2:].sum() * flow_energy(problem.case_pressure, problem.bulk_modulus)
-    carried_away = totals[14:16].sum() + to_case
+    outflow, energy = totals[OUTFLOW : OUTFLOW + PATHS], totals[PATH_ENERGY : PATH_ENERGY + PATHS]
+    to_case = outflow[PISTON:].sum() * flow_energy(problem.case_pressure, problem.bulk_modulus)
+    carried_away = totals[PORT_ENERGY : PORT_ENERGY + PORTS].sum() + to_case
     swept = problem.piston_area * stroke(problem.drive)
     ideal_work = swept * problem.pressure_span
     return ChamberChecks(
         mass_balance_error=float(abs(outflow.sum() + drift) / swept),
-        energy_balance_error=float(abs(work - energy.sum() - carried_away) / ideal_work),
-        work_error=float(abs(totals[chamber_state.INTEGRALS + 5]) / ideal_work),
+        energy_balance_error=float(abs(totals[WORK] - energy.sum() - carried_away) / ideal_work),
+        work_error=float(abs(totals[INTEGRALS + WORK]) / ideal_work),
         periodicity_error=abs(change),
     )
 
@@ -169,19 +182,19 @@ def _cycle(
     samples = course.pressures.size
     angle = TURN * np.arange(samples) / samples
     growth = 0.0 if problem.growth is None else periodic_values(problem.growth[None], samples)[0]
-    liquid = np.exp(-np.maximum(course.pressures, chamber_state.CAVITY_PRESSURE) / problem.bulk_modulus)
+    liquid = np.exp(-np.maximum(course.pressures, CAVITY_PRESSURE) / problem.bulk_modulus)
     return ChamberCycle(
         shaft_angle=angle,
         pressure=course.pressures,
         volume=problem.dead_volume + problem.piston_area * piston_displacement(problem.drive, angle) + growth,
         flow=Paths(*(course.rates * problem.shaft_speed * liquid[:, None]).T),
-        outflow=Paths(*totals[:5]),
-        path_energy=Paths(*totals[6:11]),
-        carried_energy=totals[11:14],
-        indicated_work=float(totals[5]),
+        outflow=Paths(*totals[OUTFLOW : OUTFLOW + PATHS]),
+        path_energy=Paths(*totals[PATH_ENERGY : PATH_ENERGY + PATHS]),
+        carried_energy=totals[CARRIED_ENERGY : CARRIED_ENERGY + GAPS],
+        indicated_work=float(totals[WORK]),
         growth_work=_growth_work(problem, course.pressures),
-        port_energy=totals[14:16],
-        surge=course.passed[:, :2].T,
+        port_energy=totals[PORT_ENERGY : PORT_ENERGY + PORTS],
+        surge=course.passed[:, :PORTS].T,
         checks=checks,
         effort=effort,
     )

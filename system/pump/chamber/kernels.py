@@ -14,11 +14,26 @@ from __future__ import annotations
 import numba
 import numpy as np
 
-from system.pump.chamber.state_kernels import (
+from system.pump.chamber.layout import (
+    AREA,
     CAVITY_PRESSURE,
+    CONDUCTANCE,
+    DELIVERY,
+    FIRST_GAP,
+    GAPS,
     INTEGRALS,
+    OUTFLOW,
+    PATH_ENERGY,
     PATHS,
+    PISTON,
+    PORTS,
+    SLIPPER,
+    SUCTION,
+    VALVE_PLATE,
     WAYS,
+    WORK,
+)
+from system.pump.chamber.state_kernels import (
     cubics,
     f8,
     integral_rates,
@@ -31,13 +46,14 @@ from system.pump.chamber.state_kernels import (
 )
 
 STAGES = 6
-LEFT, PRESSURE, DELIVERY, SUCTION = INTEGRALS, INTEGRALS + 1, INTEGRALS + 2, INTEGRALS + 3
-COLUMNS = INTEGRALS + 4
-"""Of a stage: what `fill_stage` fills, its integrals' rates, mass out by all paths per radian, pressure; then the
-areas of both ports."""
-KEPT = 3
-TRAIL = 2 + KEPT * STAGES
-"""Numbers of a step that is kept: where it begins and its length (rad), of each stage all from PRESSURE on."""
+LEFT, PRESSURE, OPEN = INTEGRALS, INTEGRALS + 1, INTEGRALS + 2
+COLUMNS = OPEN + PORTS
+"""Columns of a stage: what `fill_stage` fills, its integrals' rates, mass out by all paths per radian, pressure;
+then the areas of both ports."""
+BEGIN, LENGTH, STAGE = 0, 1, 2
+KEPT = 1 + PORTS
+TRAIL = STAGE + KEPT * STAGES
+"""Columns of a step that is kept: its begin and its length (rad), of each stage its pressure and its areas."""
 
 # Butcher table: row i holds a_ij, the last row is also b; ERROR is b minus the embedded weights.
 GAMMA = 0.25
@@ -89,6 +105,12 @@ CAVITY_STEP = 1e-4  # rad; no longer step may open or close a cavity, where dp/d
 _matrix = numba.f8[:, ::1]
 
 
+@numba.njit(f8(vector), cache=True, error_model="numpy")
+def total_of(flows):
+    """Sum over all paths."""
+    return flows[DELIVERY] + flows[SUCTION] + flows[PISTON] + flows[SLIPPER] + flows[VALVE_PLATE]
+
+
 @numba.njit(
     numba.types.Tuple((f8, f8, f8, numba.b1))(records, f8, f8, f8, f8, f8, vector, vector),
     cache=True,
@@ -105,7 +127,7 @@ def stage_pressure(chamber, guess, content, mass, weight, close, ways, flows):
     low, high, pressure, sharp = -np.inf, np.inf, guess, NEWTON_TOLERANCE * bulk
     for _ in range(NEWTON_LIMIT):
         delivery, suction, slope = outflows(chamber, pressure, ways, flows)
-        total = flows[0] + flows[1] + flows[2] + flows[3] + flows[4]
+        total = total_of(flows)
         specific, liquid, compressibility = oil_volume(pressure, bulk)
         mixed = specific / liquid if pressure < CAVITY_PRESSURE else 1.0
         rest = content - mass * specific + weight * total * mixed
@@ -123,10 +145,10 @@ def stage_pressure(chamber, guess, content, mass, weight, close, ways, flows):
         new = pressure - min(max(change, -0.1 * bulk), 0.1 * bulk)
         crosses = (new < CAVITY_PRESSURE) != (pressure < CAVITY_PRESSURE)
         if abs(change) <= (sharp if crosses else max(close, sharp)):
-            flows[0] -= delivery * change
-            flows[1] -= suction * change
-            for gap in range(3):
-                flows[2 + gap] -= ways[gap] * change
+            flows[DELIVERY] -= delivery * change
+            flows[SUCTION] -= suction * change
+            for gap in range(GAPS):
+                flows[FIRST_GAP + gap] -= ways[CONDUCTANCE + gap] * change
             return new, specific + compressibility * change, stiff / max(soft, 1e-300), True
         if new <= low or new >= high:
             new = 0.5 * (low + high)
@@ -138,7 +160,7 @@ def stage_pressure(chamber, guess, content, mass, weight, close, ways, flows):
 def fill_stage(chamber, pressure, specific, swell, ways, flows, out):
     """A row of the stages that `step` needs."""
     integral_rates(chamber, pressure, specific, swell, ways, flows, out)
-    out[LEFT] = out[0] + out[1] + out[2] + out[3] + out[4]
+    out[LEFT] = total_of(out)
     out[PRESSURE] = pressure
 
 
@@ -172,7 +194,8 @@ def step(chamber, table, ports, shaft_angle, length, mass, slope, close, stages,
         if not found:
             return mass, 0.0, False
         fill_stage(chamber, pressure, specific, swell, ways, flows, stages[stage])
-        stages[stage, DELIVERY], stages[stage, SUCTION] = ways[12], ways[13]
+        for port in range(PORTS):
+            stages[stage, OPEN + port] = ways[AREA + port]
     out, error = 0.0, 0.0
     for stage in range(STAGES):
         out += WEIGHTS[stage] * stages[stage, LEFT]
@@ -217,7 +240,7 @@ def to_cavity(chamber, table, shaft_angle, length, mass, new_mass, left):
 def step_size(mass_error, work, stages):
     """Error of a step, of what it may be: that of the mass as given, those of the energies times `work`."""
     size = mass_error
-    for k in range(5, 8):
+    for k in (WORK, PATH_ENERGY + DELIVERY, PATH_ENERGY + SUCTION):
         slip = 0.0
         for stage in range(STAGES):
             slip += ERROR[stage] * stages[stage, k]
@@ -228,10 +251,10 @@ def step_size(mass_error, work, stages):
 @numba.njit(numba.void(f8, f8, _matrix, vector), cache=True, error_model="numpy")
 def keep(angle, length, stages, out):
     """A step as a row of the trail."""
-    out[0], out[1] = angle, length
+    out[BEGIN], out[LENGTH] = angle, length
     for stage in range(STAGES):
         for k in range(KEPT):
-            out[2 + KEPT * stage + k] = stages[stage, PRESSURE + k]
+            out[STAGE + KEPT * stage + k] = stages[stage, PRESSURE + k]
 
 
 @numba.njit(
@@ -260,7 +283,8 @@ def revolution(chamber, table, ports, nodes, pressure, tolerance, pressures, pat
     openings(chamber, table, ports, nodes[0], ways)
     outflows(chamber, pressure, ways, flows)
     fill_stage(chamber, pressure, specific, swell, ways, flows, stages[0])
-    stages[0, DELIVERY], stages[0, SUCTION] = ways[12], ways[13]
+    for port in range(PORTS):
+        stages[0, OPEN + port] = ways[AREA + port]
     begin = content / specific
     mass, slope = begin, 0.0
     totals[:] = 0.0
@@ -311,6 +335,6 @@ def revolution(chamber, table, ports, nodes, pressure, tolerance, pressures, pat
             wish = max(wish, grown) if length < wish else grown
         pressures[node - 1] = stages[0, PRESSURE]
         for path in range(PATHS):
-            path_rates[node - 1, path] = stages[0, path]
-            passed[node - 1, path] = totals[path]
+            path_rates[node - 1, path] = stages[0, OUTFLOW + path]
+            passed[node - 1, path] = totals[OUTFLOW + path]
     return mass - begin, taken, refused, OK

@@ -8,7 +8,8 @@ import numba
 import numpy as np
 
 from system.pump.chamber.kernels import OK, TRAIL, revolution, slaved_pressure
-from system.pump.chamber.state_kernels import INTEGRALS, PATHS, oil_change
+from system.pump.chamber.layout import INTEGRALS, PATHS
+from system.pump.chamber.state_kernels import oil_change
 from system.pump.chamber.trail_kernels import NOT_PERIODIC, RUN_IN, follow_turn, sample
 
 ROOM = 256

@@ -18,9 +18,9 @@ from reynolds.numerics.arrays import Array
 from system.inputs.errors import NotConverged
 from system.inputs.units import TURN
 from system.pump.chamber.cycle import TOLERANCE, ChamberCycle, flow_energy, solve_cycle
+from system.pump.chamber.layout import CAVITY_PRESSURE
 from system.pump.chamber.port_volume import Supply, line_power, port_balance
 from system.pump.chamber.problem import ChamberProblem, PortPressure
-from system.pump.chamber.state_kernels import CAVITY_PRESSURE
 from system.pump.laws.friction_pairs import over_chambers
 from system.pump.ports.areas import PortOpening, opening_area
 from system.pump.ports.lines import HeldPressure, Line, Lines, OrificeLine

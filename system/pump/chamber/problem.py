@@ -8,7 +8,7 @@ from typing import Generic
 import numpy as np
 
 from reynolds.numerics.arrays import Array
-from system.pump.chamber import state_kernels as chamber_state
+from system.pump.chamber.state_kernels import oil_volume
 from system.pump.laws.kinematics import Number, SwashDrive
 from system.pump.ports.areas import PortOpening
 
@@ -86,7 +86,7 @@ class ChamberProblem(Generic[Number]):
 
     def specific_volume(self, pressure: float) -> float:
         """Volume of the oil at a pressure in Pa over its volume at zero gauge pressure."""
-        return float(chamber_state.oil_volume(pressure, self.bulk_modulus)[0])
+        return float(oil_volume(pressure, self.bulk_modulus)[0])
 
     @property
     def pressure_span(self) -> Number:

@@ -9,8 +9,9 @@ import numpy as np
 from reynolds.numerics.arrays import Array
 from system.inputs.units import TURN
 from system.pump.chamber import kernels as kernel
-from system.pump.chamber import state_kernels as chamber_state
+from system.pump.chamber.layout import INTEGRALS, PATHS
 from system.pump.chamber.problem import ChamberProblem
+from system.pump.chamber.state_kernels import CHAMBER
 from system.pump.ports.areas import PortOpening, as_array, break_angles
 
 Constants = tuple[np.ndarray, Array, Array]
@@ -49,10 +50,8 @@ class Course:
     @classmethod
     def over(cls, nodes: Array) -> Course:
         """An empty one for a revolution over these nodes."""
-        paths = (nodes.size - 1, chamber_state.PATHS)
-        return cls(
-            np.empty(nodes.size - 1), np.empty(paths), np.empty(paths), np.empty(2 * chamber_state.INTEGRALS)
-        )
+        paths = (nodes.size - 1, PATHS)
+        return cls(np.empty(nodes.size - 1), np.empty(paths), np.empty(paths), np.empty(2 * INTEGRALS))
 
     def run(self, given: Constants, nodes: Array, start: float, tolerance: float) -> tuple[float, int, int, int]:
         """Fill it from a pressure at nodes[0]; what `revolution` returns."""
@@ -63,17 +62,17 @@ class Course:
     def at(self, nodes: Array, where: np.ndarray) -> Course:
         """The same at the places `where` in nodes[1:], of the oil passed only what goes beyond the mean flow."""
         turned = (nodes[1:] - nodes[0]) / TURN
-        surge = self.passed - turned[:, None] * self.totals[: chamber_state.PATHS]
+        surge = self.passed - turned[:, None] * self.totals[:PATHS]
         return Course(self.pressures[where], self.rates[where], surge[where] - surge[where[0]], self.totals)
 
 
 def _record(problem: ChamberProblem) -> np.ndarray:
-    chamber = np.zeros(1, dtype=chamber_state.CHAMBER)
+    chamber = np.zeros(1, dtype=CHAMBER)
     chamber["stroke_scale"] = problem.drive.stroke_scale
     chamber["cone_swash_product"] = problem.drive.cone_swash_product
     chamber["delivery_port"] = as_array(problem.delivery_port)
     chamber["suction_port"] = as_array(problem.suction_port)
-    for name in chamber_state.CHAMBER.names or ():
+    for name in CHAMBER.names or ():
         if name not in ("stroke_scale", "cone_swash_product", "delivery_port", "suction_port"):
             chamber[name] = getattr(problem, name)
     return chamber

@@ -5,9 +5,9 @@ gauge pressure, s = exp(-p/K) while it is liquid. Then dM/dphi = -sum(q)/(s w) i
 divided by M, the corrected Eq. (14). Every q > 0 leaves the chamber and is a volume of liquid at chamber pressure:
 beside a cavity too it is liquid that passes ports and gaps, so its mass is q over the s of the liquid.
 
-What varies over the turn comes as periodic cubics on equal intervals of shaft angle, in unit cells: `table` (N, 7,
-4) has the gaps' conductances (0-2) and carried flows (3-5) and the growth of the volume by the parts' own motion
-(6, m3); `ports` (M, 2, 4) the pressures of delivery and suction port, M = 1 where held.
+What varies over the turn comes as periodic cubics on equal intervals of shaft angle, in unit cells: `table` (N,
+TABLE, 4) has the gaps' conductances and carried flows and the growth of the volume by the parts' own motion in m3;
+`ports` (M, 2, 4) the pressures of delivery and suction port, M = 1 where held. `layout` names the columns.
 """
 
 # mypy: allow-untyped-defs, allow-incomplete-defs, no-check-untyped-defs
@@ -17,6 +17,28 @@ from __future__ import annotations
 import numba
 import numpy as np
 
+from system.pump.chamber.layout import (
+    AREA,
+    BEHIND,
+    CARRIED,
+    CARRIED_ENERGY,
+    CAVITY_PRESSURE,
+    CAVITY_SOFTNESS,
+    CONDUCTANCE,
+    DELIVERY,
+    FIRST_GAP,
+    FLOW_SCALE,
+    GAPS,
+    GROWTH,
+    ORIFICE,
+    OUTFLOW,
+    PATH_ENERGY,
+    PATHS,
+    PORT_ENERGY,
+    PORTS,
+    SUCTION,
+    WORK,
+)
 from system.pump.ports.areas import FLOW_FROM, PORT_SIZE, orifice, orifice_coefficients, section_area
 from system.pump.ports.flow_coefficients import flow_scale, with_factor
 
@@ -41,19 +63,6 @@ CHAMBER = np.dtype(
     align=True,
 )
 """Constants of one chamber at one operating point, SI, as the compiled code reads them."""
-
-PATHS = 5
-"""Ways out of the chamber: delivery port, suction port, then the gaps of piston, slipper, valve plate."""
-INTEGRALS = 16
-"""Mass out by each path (0-4), work -p dV (5), energy left in each path (6-10), work of moving walls (11-13),
-energy carried into delivery and suction port (14, 15)."""
-WAYS = 16
-
-CAVITY_PRESSURE = 1e3 - 101325.0
-"""Gauge pressure in Pa at which a cavity opens (1 kPa absolute): oil bears no tension. Its vapour pressure is
-lower still, and dissolved air leaves it earlier; neither moves a chamber pressure that is shown in bar."""
-CAVITY_SOFTNESS = 1e3
-"""Fall of the pressure in Pa below CAVITY_PRESSURE while the void grows to the oil's own volume."""
 
 records = numba.from_dtype(CHAMBER)[::1]
 f8, vector, cubics = numba.f8, numba.f8[::1], numba.f8[:, :, ::1]
@@ -124,36 +133,34 @@ def volume(chamber, table, shaft_angle):
     scale = c.piston_area * c.stroke_scale
     count = table.shape[0]
     at, x = cell(count, shaft_angle)
-    swell = (table[at, 6, 1] + x * (2.0 * table[at, 6, 2] + 3.0 * x * table[at, 6, 3])) * count / (2.0 * np.pi)
+    grown = table[at, GROWTH]
+    swell = (grown[1] + x * (2.0 * grown[2] + 3.0 * x * grown[3])) * count / (2.0 * np.pi)
     content = c.dead_volume + scale * (1.0 - cosine) / ((1.0 + t) * swing)
-    return content + cubic(table, at, 6, x), scale * np.sin(shaft_angle) / (swing * swing) + swell
+    return content + cubic(table, at, GROWTH, x), scale * np.sin(shaft_angle) / (swing * swing) + swell
 
 
 @numba.njit(numba.void(records, f8, f8, vector), cache=True, error_model="numpy")
 def port_ways(chamber, delivery_area, suction_area, out):
-    """Of `ways_out` what the ports' areas (m2) give: 6-9 and 12-15."""
+    """Fill of `ways_out` what the ports' areas (m2) give: ORIFICE, AREA and FLOW_SCALE."""
     c = chamber[0]
     law = (c.flow_coefficient, c.density, c.kinematic_viscosity, c.critical_reynolds)
-    out[6], out[7] = orifice_coefficients(delivery_area, *law)
-    out[8], out[9] = orifice_coefficients(suction_area, *law)
-    out[12], out[13] = delivery_area, suction_area
-    out[14] = flow_scale(delivery_area, c.density, c.kinematic_viscosity, c.delivery_port[FLOW_FROM:])
-    out[15] = flow_scale(suction_area, c.density, c.kinematic_viscosity, c.suction_port[FLOW_FROM:])
+    out[ORIFICE], out[ORIFICE + 1] = orifice_coefficients(delivery_area, *law)
+    out[ORIFICE + 2], out[ORIFICE + 3] = orifice_coefficients(suction_area, *law)
+    out[AREA + DELIVERY], out[AREA + SUCTION] = delivery_area, suction_area
+    viscosity = c.kinematic_viscosity
+    out[FLOW_SCALE + DELIVERY] = flow_scale(delivery_area, c.density, viscosity, c.delivery_port[FLOW_FROM:])
+    out[FLOW_SCALE + SUCTION] = flow_scale(suction_area, c.density, viscosity, c.suction_port[FLOW_FROM:])
 
 
 @numba.njit(numba.void(records, cubics, cubics, f8, f8, f8, vector), cache=True, error_model="numpy")
 def ways_out(chamber, table, ports, shaft_angle, delivery_area, suction_area, out):
-    """What lets oil out at a shaft angle at which the ports open these areas (m2), WAYS numbers.
-
-    Conductances (0-2) and carried flows (3-5) of the gaps; then both orifice coefficients of the delivery (6, 7)
-    and of the suction port (8, 9), the pressures in Pa behind them (10, 11), their areas (12, 13) and their
-    `flow_scale` (14, 15).
-    """
+    """Fill the ways out (WAYS,) at a shaft angle at which the ports open these areas (m2)."""
     at, x = cell(table.shape[0], shaft_angle)
-    for row in range(6):
+    for row in range(2 * GAPS):
         out[row] = cubic(table, at, row, x)
     at, x = cell(ports.shape[0], shaft_angle)
-    out[10], out[11] = cubic(ports, at, 0, x), cubic(ports, at, 1, x)
+    for port in range(PORTS):
+        out[BEHIND + port] = cubic(ports, at, port, x)
     port_ways(chamber, delivery_area, suction_area, out)
 
 
@@ -169,19 +176,23 @@ def openings(chamber, table, ports, shaft_angle, out):
 def outflows(chamber, pressure, ways, flows):
     """Fill the volume flows in m3/s of the five paths; return the slopes in m3/(s Pa) of the ports' and of all."""
     c = chamber[0]
-    case, ahead, behind = c.case_pressure, pressure - ways[10], pressure - ways[11]
-    flow, slope = orifice(ahead, ways[6], ways[7])
-    flows[0], delivery = with_factor(flow, slope, ahead, ways[14], ways[12], c.delivery_port[FLOW_FROM:])
-    flow, slope = orifice(behind, ways[8], ways[9])
-    flows[1], suction = with_factor(flow, slope, behind, ways[15], ways[13], c.suction_port[FLOW_FROM:])
-    for gap in range(3):
-        flows[2 + gap] = ways[gap] * (pressure - case) + ways[3 + gap]
-    return delivery, suction, delivery + suction + ways[0] + ways[1] + ways[2]
+    ahead, behind = pressure - ways[BEHIND + DELIVERY], pressure - ways[BEHIND + SUCTION]
+    flow, slope = orifice(ahead, ways[ORIFICE], ways[ORIFICE + 1])
+    area, scale = ways[AREA + DELIVERY], ways[FLOW_SCALE + DELIVERY]
+    flows[DELIVERY], delivery = with_factor(flow, slope, ahead, scale, area, c.delivery_port[FLOW_FROM:])
+    flow, slope = orifice(behind, ways[ORIFICE + 2], ways[ORIFICE + 3])
+    area, scale = ways[AREA + SUCTION], ways[FLOW_SCALE + SUCTION]
+    flows[SUCTION], suction = with_factor(flow, slope, behind, scale, area, c.suction_port[FLOW_FROM:])
+    slope = delivery + suction
+    for gap in range(GAPS):
+        flows[FIRST_GAP + gap] = ways[CONDUCTANCE + gap] * (pressure - c.case_pressure) + ways[CARRIED + gap]
+        slope += ways[CONDUCTANCE + gap]
+    return delivery, suction, slope
 
 
 @numba.njit(numba.void(records, f8, f8, f8, vector, vector, vector), cache=True, error_model="numpy")
 def integral_rates(chamber, pressure, specific, swell, ways, flows, out):
-    """Rates per radian of the integrals, in the order of INTEGRALS; `swell` is dV/dphi.
+    """Rates per radian of the integrals, (INTEGRALS,); `swell` is dV/dphi.
 
     The energy left in a path is its mass flow times h(p) - h(p_outside): what throttling and leaking turn into
     heat. Walls that carry oil do the same work on the carried part, kept apart because it is not a loss.
@@ -193,12 +204,12 @@ def integral_rates(chamber, pressure, specific, swell, ways, flows, out):
     case = energy - energy_at(c.case_pressure, bulk)
     per_radian = 1.0 / (liquid * c.shaft_speed)
     for path in range(PATHS):
-        out[path] = flows[path] * per_radian
-        out[6 + path] = out[path] * case
-    for port in range(2):
-        behind = energy_at(ways[10 + port], bulk)
-        out[6 + port] = out[port] * (energy - behind)
-        out[14 + port] = out[port] * behind
-    for gap in range(3):
-        out[11 + gap] = ways[3 + gap] * per_radian * case
-    out[5] = -pressure * swell
+        out[OUTFLOW + path] = flows[path] * per_radian
+        out[PATH_ENERGY + path] = out[OUTFLOW + path] * case
+    for port in range(PORTS):
+        behind = energy_at(ways[BEHIND + port], bulk)
+        out[PATH_ENERGY + port] = out[OUTFLOW + port] * (energy - behind)
+        out[PORT_ENERGY + port] = out[OUTFLOW + port] * behind
+    for gap in range(GAPS):
+        out[CARRIED_ENERGY + gap] = ways[CARRIED + gap] * per_radian * case
+    out[WORK] = -pressure * swell

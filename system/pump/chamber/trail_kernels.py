@@ -13,16 +13,19 @@ import numba
 import numpy as np
 
 from system.pump.chamber.kernels import (
+    BEGIN,
     COLUMNS,
     ERROR,
     GAMMA,
     KEPT,
     LEFT,
+    LENGTH,
     NEWTON_SHARE,
     NO_STAGE,
     NODES,
     OK,
     PRESSURE,
+    STAGE,
     STAGES,
     TABLEAU,
     WEIGHTS,
@@ -30,10 +33,8 @@ from system.pump.chamber.kernels import (
     stage_pressure,
     step_size,
 )
+from system.pump.chamber.layout import DELIVERY, INTEGRALS, PATHS, SUCTION, WAYS
 from system.pump.chamber.state_kernels import (
-    INTEGRALS,
-    PATHS,
-    WAYS,
     oil_change,
     oil_volume,
     outflows,
@@ -42,7 +43,7 @@ from system.pump.chamber.state_kernels import (
 )
 
 NOT_PERIODIC, TOO_ROUGH = 3, 4
-"""Statuses beside those of `chamber_kernel`."""
+"""Statuses beside those of `kernels`."""
 RUN_IN = np.pi / 9.0
 """Angle (rad) over which an open port makes the pressure its own, whatever it was."""
 ROUGH = 4.0
@@ -56,13 +57,14 @@ def sample(trail, pressures):
     """Fill the pressures at equidistant angles from 0, by the stages' pressures of a turn (T, TRAIL)."""
     samples = pressures.size
     spacing = 2.0 * np.pi / samples
-    first = round(trail[0, 0] / spacing)
+    first = round(trail[0, BEGIN] / spacing)
     row = 0
     for number in range(1, samples + 1):
         angle = (first + number) * spacing
-        while row < trail.shape[0] - 1 and angle > trail[row, 0] + trail[row, 1] * (1.0 + 1e-9):
+        while row < trail.shape[0] - 1 and angle > trail[row, BEGIN] + trail[row, LENGTH] * (1.0 + 1e-9):
             row += 1
-        pressures[(first + number) % samples] = within(trail[row], (angle - trail[row, 0]) / trail[row, 1])
+        share = (angle - trail[row, BEGIN]) / trail[row, LENGTH]
+        pressures[(first + number) % samples] = within(trail[row], share)
 
 
 @numba.njit(cache=True, error_model="numpy")
@@ -74,7 +76,7 @@ def within(step, share):
         for other in BETWEEN:
             if other != one:
                 weight *= (share - NODES[other]) / (NODES[one] - NODES[other])
-        pressure += weight * step[2 + KEPT * one]
+        pressure += weight * step[STAGE + KEPT * one]
     return pressure
 
 
@@ -88,15 +90,16 @@ def follow(chamber, table, ports, trail, pressure, tolerance, along, totals):
     scale = tolerance * (abs(c.delivery_pressure - c.inlet_pressure) + 1e5)
     work_scale = scale * c.piston_area * 2.0 * c.stroke_scale
     stages, ways, flows = np.empty((STAGES, COLUMNS)), np.empty(WAYS), np.empty(PATHS)
-    content, swell = volume(chamber, table, trail[0, 0])
+    begin, first = trail[0, BEGIN], trail[0, STAGE + 1 : STAGE + KEPT]
+    content, swell = volume(chamber, table, begin)
     specific = oil_volume(pressure, c.bulk_modulus)[0]
-    ways_out(chamber, table, ports, trail[0, 0], trail[0, 3], trail[0, 4], ways)
+    ways_out(chamber, table, ports, begin, first[DELIVERY], first[SUCTION], ways)
     outflows(chamber, pressure, ways, flows)
     fill_stage(chamber, pressure, specific, swell, ways, flows, stages[0])
     mass = content / specific
     totals[:] = 0.0
     for row in range(trail.shape[0]):
-        length = trail[row, 1]
+        length = trail[row, LENGTH]
         mass, error, fine = step_along(
             chamber, table, ports, trail[row], mass, NEWTON_SHARE * scale, stages, ways, flows
         )
@@ -104,10 +107,10 @@ def follow(chamber, table, ports, trail, pressure, tolerance, along, totals):
             return stages[0, PRESSURE], NO_STAGE
         if step_size(c.bulk_modulus * abs(error) / mass / scale, length / work_scale, stages) > ROUGH:
             return stages[0, PRESSURE], TOO_ROUGH
-        along[row, :2] = trail[row, :2]
+        along[row, :STAGE] = trail[row, :STAGE]
         for stage in range(STAGES):
             share = length * WEIGHTS[stage]
-            along[row, 2 + KEPT * stage] = stages[stage, PRESSURE]
+            along[row, STAGE + KEPT * stage] = stages[stage, PRESSURE]
             for k in range(INTEGRALS):
                 totals[k] += share * stages[stage, k]
         stages[0] = stages[STAGES - 1]
@@ -121,9 +124,9 @@ def follow_turn(given, trail, tolerance, limit, turns, along, totals):
     Periodic when `oil_change` over it is no more than `limit`; the first is run in where the other's ends.
     """
     last = trail.shape[0] - 1
-    while last > 0 and trail[last, 0] > trail[-1, 0] + trail[-1, 1] - RUN_IN:
+    while last > 0 and trail[last, BEGIN] > trail[-1, BEGIN] + trail[-1, LENGTH] - RUN_IN:
         last -= 1
-    start, status = follow(*given, trail[last:], trail[last, 2], tolerance, along, totals)
+    start, status = follow(*given, trail[last:], trail[last, STAGE], tolerance, along, totals)
     for _ in range(turns):
         if status != OK:
             return status
@@ -136,15 +139,16 @@ def follow_turn(given, trail, tolerance, limit, turns, along, totals):
 
 @numba.njit(cache=True, error_model="numpy")
 def step_along(chamber, table, ports, kept, mass, close, stages, ways, flows):
-    """`chamber_kernel.step` with the ports' areas and the first guesses of a step that another has taken."""
-    angle, length = kept[0], kept[1]
+    """`kernels.step` with the ports' areas and the first guesses of a step that another has taken."""
+    angle, length = kept[BEGIN], kept[LENGTH]
     weight = GAMMA * length / chamber[0].shaft_speed
     stiffness = 0.0
     for stage in range(1, STAGES):
         at = angle + NODES[stage] * length
         content, swell = volume(chamber, table, at)
-        own = 2 + KEPT * stage
-        ways_out(chamber, table, ports, at, kept[own + 1], kept[own + 2], ways)
+        own = STAGE + KEPT * stage
+        areas = kept[own + 1 : own + KEPT]
+        ways_out(chamber, table, ports, at, areas[DELIVERY], areas[SUCTION], ways)
         base = 0.0
         for earlier in range(stage):
             base += TABLEAU[stage, earlier] * stages[earlier, LEFT]

@@ -9,8 +9,8 @@ from scipy.integrate import solve_ivp
 
 from system.inputs.errors import NotConverged
 from system.pump.chamber import kernels as kernel
-from system.pump.chamber import state_kernels as chamber_state
 from system.pump.chamber.cycle import solve_cycle
+from system.pump.chamber.layout import CAVITY_PRESSURE
 from system.pump.chamber.problem import ChamberProblem, LeakTable, PortPressure
 from system.pump.chamber.setup import periodic_cubics
 from system.pump.laws.kinematics import (
@@ -267,7 +267,7 @@ def test_oil_bears_no_tension_and_the_cavity_keeps_its_mass():
     cycle = solve_cycle(problem, 360)
     assert cycle.cavitates
     assert cycle.pressure.min() > -101325.0
-    void = cycle.pressure < chamber_state.CAVITY_PRESSURE
+    void = cycle.pressure < CAVITY_PRESSURE
     assert 0.01 < void.mean() < 0.06
     assert not solve_cycle(pump(20e6, 0.13), 360).cavitates
 
@@ -283,12 +283,12 @@ def test_a_starved_chamber_takes_in_what_its_orifice_passes():
         delivery_port=replace(narrow, dead_centre=np.pi),
     )
     cycle = solve_cycle(problem, 360)
-    void = cycle.pressure < chamber_state.CAVITY_PRESSURE
+    void = cycle.pressure < CAVITY_PRESSURE
     assert void.mean() > 0.4  # so that the void's share of the volume matters
     law = (problem.flow_coefficient, problem.density, problem.kinematic_viscosity, problem.critical_reynolds)
     areas = opening_area(problem.suction_port, cycle.shaft_angle)
     taken = [orifice_flow(-p, area, *law) for p, area in zip(cycle.pressure, areas, strict=True)]
-    density = np.exp(np.maximum(cycle.pressure, chamber_state.CAVITY_PRESSURE) / problem.bulk_modulus)
+    density = np.exp(np.maximum(cycle.pressure, CAVITY_PRESSURE) / problem.bulk_modulus)
     assert -cycle.outflow.suction == pytest.approx(
         np.mean(density * taken) * 2 * np.pi / problem.shaft_speed, rel=2e-3
     )

@@ -8,7 +8,7 @@ import pytest
 from system.description.pump import PumpDescription
 from system.points.lumped import lumped_point
 from system.pump.assembly import PumpPoint
-from system.pump.chamber.state_kernels import CAVITY_PRESSURE
+from system.pump.chamber.layout import CAVITY_PRESSURE
 from system.pump.lumped import port_openings
 from system.pump.operating import operating_point
 from system.pump.ports.areas import opening_area
