@@ -11,10 +11,11 @@ import numpy as np
 from reynolds.numerics.arrays import Array
 from system.inputs.units import STANDARD_ATMOSPHERE, TURN
 from system.pump.bench import BenchReading, Efficiency, iso_efficiency, paper_efficiency
-from system.pump.chamber.cycle import ChamberCycle, Paths
+from system.pump.chamber.cycle import ChamberCycle
 from system.pump.chamber.layout import CAVITY_PRESSURE
 from system.pump.chamber.port_coupling import Port, PortedCycle
 from system.pump.chamber.problem import ChamberProblem, LeakTable
+from system.pump.chamber.turn import Paths
 from system.pump.laws.friction_pairs import FrictionPairs, Pair, over_chambers
 from system.pump.laws.kinematics import stroke
 from system.pump.operating import OperatingPoint

@@ -18,7 +18,7 @@ ROOM = 256
 
 @numba.njit(cache=True, error_model="numpy")
 def chamber_map(constants, tables, ports, nodes, firsts, control, pressures, totals, statuses):
-    """The periodic revolution of the chamber at each of P points: `chamber.solve_cycle`'s without its checks.
+    """The periodic revolution of the chamber at each of P points: `cycle.solve_cycle`'s without its checks.
 
     constants (P,) of CHAMBER, tables (P, N, 7, 4), ports (P, M, 2, 4): the points' constants; nodes: their nodes
     end to end, those of point i from firsts[i] to firsts[i + 1]; control: tolerance, periodicity, turns. A point
@@ -31,15 +31,21 @@ def chamber_map(constants, tables, ports, nodes, firsts, control, pressures, tot
     for point in range(constants.size):
         given = constants[point : point + 1], tables[point], ports[point]
         own = nodes[firsts[point] : firsts[point + 1]]
-        begin = begins[point]
-        steps, statuses[point] = periodic(given, own, control, totals[point], trail[begin:])
+        begin, filled = begins[point], room(own.size - 1, totals[point])
+        _, steps, _, _, _, statuses[point] = periodic(given, own, control, (*filled, trail[begin:]))
         if begin + steps > trail.shape[0]:
             trail = np.concatenate((trail[:begin], np.empty((2 * (begin + steps), TRAIL))))
-            steps, statuses[point] = periodic(given, own, control, totals[point], trail[begin:])
+            _, steps, _, _, _, statuses[point] = periodic(given, own, control, (*filled, trail[begin:]))
         begins[point + 1] = begin + steps
         if statuses[point] == OK:
             sample(trail[begin : begin + steps], pressures[point])
     return trail[: begins[-1]].copy(), begins
+
+
+@numba.njit(cache=True, error_model="numpy")
+def room(count, totals):
+    """What `revolution` fills besides a trail, over so many nodes."""
+    return np.empty(count), np.empty((count, PATHS)), np.empty((count, PATHS)), totals
 
 
 @numba.njit(cache=True, error_model="numpy")
@@ -76,23 +82,25 @@ def turn_limit(chamber, periodicity):
 
 
 @numba.njit(cache=True, error_model="numpy")
-def periodic(given, nodes, control, totals, trail):
-    """The periodic revolution of one chamber: steps of its last turn, status; totals and trail are filled."""
+def periodic(given, nodes, control, filled):
+    """The periodic revolution of one chamber; `filled` are the last five arguments of `revolution`.
+
+    control: tolerance, periodicity, turns. Returned: turns; of the last one its steps, its refused steps and its
+    change of mass in m3; `oil_change` over it in Pa; status.
+    """
     tolerance, periodicity, turns = control
-    count = nodes.size - 1
-    filled = np.empty(count), np.empty((count, PATHS)), np.empty((count, PATHS)), totals, trail
     limit = turn_limit(given[0][0], periodicity)
-    start = run_in(given, nodes, tolerance, totals)
-    steps = 0
-    for _ in range(turns):
-        _, steps, _, status = revolution(*given, nodes, start, tolerance, *filled)
+    start = run_in(given, nodes, tolerance, filled[3])
+    steps, refused, drift, change = 0, 0, 0.0, np.inf
+    for turn in range(1, turns + 1):
+        drift, steps, refused, status = revolution(*given, nodes, start, tolerance, *filled)
         if status != OK:
-            return steps, status
-        change = oil_change(start, filled[0][count - 1], given[0][0].bulk_modulus)
-        start = filled[0][count - 1]
+            return turn, steps, refused, drift, change, status
+        end = filled[0][nodes.size - 2]
+        change, start = oil_change(start, end, given[0][0].bulk_modulus), end
         if abs(change) <= limit:
-            return steps, OK
-    return steps, NOT_PERIODIC
+            return turn, steps, refused, drift, change, OK
+    return turns, steps, refused, drift, change, NOT_PERIODIC
 
 
 @numba.njit(cache=True, error_model="numpy")
@@ -103,8 +111,8 @@ def run_in(given, nodes, tolerance, totals):
     start, found = slaved_pressure(*given, before[0])
     if found:
         count = before.size - 1
-        filled = np.empty(count), np.empty((count, PATHS)), np.empty((count, PATHS)), totals, np.empty((0, TRAIL))
-        status = revolution(*given, before, start, tolerance, *filled)[3]
+        filled = room(count, totals)
+        status = revolution(*given, before, start, tolerance, *filled, np.empty((0, TRAIL)))[3]
         if status == OK:
             return filled[0][count - 1]
     return given[0][0].inlet_pressure

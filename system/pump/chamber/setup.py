@@ -19,7 +19,7 @@ Constants = tuple[np.ndarray, Array, Array]
 
 
 def constants(problem: ChamberProblem) -> Constants:
-    """A chamber problem as `chamber_kernel` reads it."""
+    """A chamber problem as `kernels` reads it."""
     return _record(problem), _gap_cubics(problem), _port_cubics(problem)
 
 
@@ -40,7 +40,7 @@ def turn_nodes(suction: PortOpening, delivery: PortOpening, samples: int) -> tup
 
 @dataclass(frozen=True)
 class Course:
-    """What `chamber_kernel.revolution` fills: pressures, path rates, oil passed at nodes[1:], and the totals."""
+    """What `kernels.revolution` fills: pressures, path rates, oil passed at nodes[1:], and the totals."""
 
     pressures: Array
     rates: Array
@@ -53,11 +53,10 @@ class Course:
         paths = (nodes.size - 1, PATHS)
         return cls(np.empty(nodes.size - 1), np.empty(paths), np.empty(paths), np.empty(2 * INTEGRALS))
 
-    def run(self, given: Constants, nodes: Array, start: float, tolerance: float) -> tuple[float, int, int, int]:
-        """Fill it from a pressure at nodes[0]; what `revolution` returns."""
-        out = (self.pressures, self.rates, self.passed, self.totals, np.empty((0, kernel.TRAIL)))
-        found: tuple[float, int, int, int] = kernel.revolution(*given, nodes, start, tolerance, *out)
-        return found
+    @property
+    def filled(self) -> tuple[Array, ...]:
+        """The arrays that the kernel fills; it keeps no trail."""
+        return self.pressures, self.rates, self.passed, self.totals, np.empty((0, kernel.TRAIL))
 
     def at(self, nodes: Array, where: np.ndarray) -> Course:
         """The same at the places `where` in nodes[1:], of the oil passed only what goes beyond the mean flow."""
