@@ -60,7 +60,7 @@ def port_events(pump: PumpDescription) -> tuple[PortEvent, ...]:
     return tuple(sorted((*found, *dead_centres), key=lambda event: event.angle))
 
 
-def _of(port: PortOpening[float]) -> Iterator[tuple[float, str]]:
+def _of(port: PortOpening) -> Iterator[tuple[float, str]]:
     for groove in port.grooves:
         ahead = groove.begins < groove.deep
         yield groove.begins, "groove begins to open" if ahead else "groove is shut"

@@ -10,26 +10,16 @@ import numpy as np
 from reynolds.numerics.arrays import Array
 from system.bench.ports import map_ports
 from system.description.pump import PumpDescription
-from system.inputs.errors import NotConverged
 from system.inputs.units import TURN
 from system.pump.chamber import kernels as kernel
-from system.pump.chamber.cycle import PERIODICITY, REVOLUTION_LIMIT
-from system.pump.chamber.layout import (
-    CARRIED_ENERGY,
-    CAVITY_PRESSURE,
-    DELIVERY,
-    GAPS,
-    INTEGRALS,
-    PISTON,
-    SUCTION,
-    TABLE,
-)
+from system.pump.chamber.cycle import PERIODICITY, REVOLUTION_LIMIT, unsolved
+from system.pump.chamber.layout import CAVITY_PRESSURE, INTEGRALS
 from system.pump.chamber.map_kernels import beside_map, chamber_map
-from system.pump.chamber.problem import LeakTable
-from system.pump.chamber.setup import periodic_cubics
+from system.pump.chamber.problem import Chamber, LeakTable
+from system.pump.chamber.setup import PORT_NAMES, chamber_records, gap_cubics
 from system.pump.chamber.state_kernels import CHAMBER
-from system.pump.lumped import PistonMotion, chamber_problem
-from system.pump.operating import OperatingPoint
+from system.pump.chamber.turn import Paths, TurnTotals, turn_totals
+from system.pump.ports.wear import PortWear
 
 OF_GAPS = ("case_pressure", "kinematic_viscosity")
 """Constants of a chamber that act by its gaps alone; ports turn from laminar to turbulent at a few kPa."""
@@ -39,60 +29,54 @@ OF_GAPS = ("case_pressure", "kinematic_viscosity")
 class Courses:
     """Periodic revolutions at N points: pressure (N, M) Pa gauge at M equidistant shaft angles from 0, and totals.
 
-    totals (N, INTEGRALS): the integrals of `state_kernels` over one turn, one chamber. Where they were
-    solved for themselves, trail: the steps of all points end to end, those of point i from begins[i] to
-    begins[i + 1].
+    totals: of one chamber. Where they were solved for themselves, trail: the steps of all points end to end, those
+    of point i from begins[i] to begins[i + 1].
     """
 
     pressure: Array
-    totals: Array
+    totals: TurnTotals[Array]
     trail: Array | None = None
     begins: Array | None = None
 
 
 @dataclass(frozen=True)
 class MapProblem:
-    """The chamber at N points as compiled code reads it.
+    """The chamber at N points, arrays (N,): leaks (N, 3, M), and by what its ports differ from the drawing."""
 
-    chambers (N,) of `state_kernels.CHAMBER`, ports not yet filled in; leaks (N, 3, M); ports (N, 4):
-    their state for `map_ports`.
-    """
-
-    chambers: np.ndarray
+    chamber: Chamber[Array]
     leaks: LeakTable
-    ports: Array
+    wear: PortWear[Array]
+
+    @property
+    def records(self) -> np.ndarray:
+        """The chambers (N,) as compiled code reads them, ports not yet filled in."""
+        return chamber_records(self.chamber)
+
+    @property
+    def shift(self) -> Array:
+        """Angle (N,) rad by which the ports lie later."""
+        return np.zeros_like(self.chamber.shaft_speed) + self.chamber.drive.dead_centre_shift
+
+    @property
+    def ports(self) -> Array:
+        """What tells the ports of points apart, one row a quantity, (4, N)."""
+        return np.stack([self.shift, *vars(self.wear).values()])
 
     @property
     def key(self) -> bytes:
         """All that the courses hang on."""
-        arrays = (self.chambers, self.leaks.conductance, self.leaks.carried_flow, self.ports)
+        arrays = (self.records, self.leaks.conductance, self.leaks.carried_flow, self.ports)
         return b"".join(array.tobytes() for array in arrays)
 
     def differs_in_gaps_alone(self, other: MapProblem) -> bool:
         """Whether the other's chambers differ, if at all, by what leaks out of their gaps."""
+        own, others = self.records, other.records
         names = [name for name in CHAMBER.names or () if name not in OF_GAPS]
-        same = all(np.array_equal(self.chambers[name], other.chambers[name]) for name in names)
-        return same and self.has_ports_of(other)
+        return all(np.array_equal(own[name], others[name]) for name in names) and self.has_ports_of(other)
 
     def has_ports_of(self, other: MapProblem) -> bool:
         """Whether the other's ports open just as these, so that its chambers can go along these's steps."""
         return np.array_equal(self.ports, other.ports)
-
-
-def map_problem(
-    pump: PumpDescription, point: OperatingPoint[Array], motion: PistonMotion[Array], leaks: LeakTable
-) -> MapProblem:
-    """The chamber of a pump at N points, given as columns (N, 1), with gaps that leak as `leaks` (N, 3, M)."""
-    problem = chamber_problem(pump, point, motion, leaks)
-    chambers = np.zeros(point.shaft_speed.size, dtype=CHAMBER)
-    chambers["stroke_scale"] = np.ravel(problem.drive.stroke_scale)
-    chambers["cone_swash_product"] = np.ravel(problem.drive.cone_swash_product)
-    for name in CHAMBER.names or ():
-        if hasattr(problem, name) and not name.endswith("_port"):
-            chambers[name] = np.ravel(getattr(problem, name))
-    ports = np.zeros((chambers.size, 4))
-    ports[:, 0], ports[:, 2:] = np.ravel(motion.drive.dead_centre_shift), 1.0
-    return MapProblem(chambers, leaks, ports)
 
 
 def solve_map(pump: PumpDescription, problem: MapProblem, tolerance: float) -> Courses:
@@ -127,13 +111,14 @@ class _Run:
     @classmethod
     def of(cls, pump: PumpDescription, problem: MapProblem, tolerance: float) -> _Run:
         points, _, samples = problem.leaks.conductance.shape
-        ports = map_ports(pump, problem.ports, samples)
-        chambers = problem.chambers.copy()
-        chambers["suction_port"], chambers["delivery_port"] = ports.suction, ports.delivery
+        ports = map_ports(pump, problem.shift, problem.wear, samples)
+        records = problem.records
+        for name, rows in zip(PORT_NAMES, (ports.delivery, ports.suction), strict=True):
+            records[name] = rows
         held = np.zeros((points, 1, 2, 4))
-        held[:, 0, 0, 0], held[:, 0, 1, 0] = chambers["delivery_pressure"], chambers["inlet_pressure"]
+        held[:, 0, :, 0] = np.column_stack([records["delivery_pressure"], records["inlet_pressure"]])
         control = tolerance, max(PERIODICITY, 0.1 * tolerance), REVOLUTION_LIMIT
-        given = chambers, _tables(problem.leaks), held, ports.nodes, ports.firsts, control
+        given = records, gap_cubics(problem.leaks), held, ports.nodes, ports.firsts, control
         totals = np.empty((points, 2 * INTEGRALS))
         return cls(given, (np.empty((points, samples)), totals, np.empty(points, dtype=np.int64)))
 
@@ -141,8 +126,10 @@ class _Run:
         """What was filled. Raises NotConverged with the first point that is not periodic."""
         pressure, totals, statuses = self.filled
         if np.any(statuses != kernel.OK):
-            _tell(problem, int(np.argmax(statuses != kernel.OK)))
-        return Courses(pressure, totals[:, :INTEGRALS])
+            first = int(np.argmax(statuses != kernel.OK))
+            at = float(problem.chamber.delivery_pressure[first]), float(problem.chamber.shaft_speed[first])
+            raise unsolved("no periodic revolution", *at)
+        return Courses(pressure, turn_totals(totals))
 
 
 def other_gaps(courses: Courses, solved: MapProblem, other: MapProblem) -> Courses:
@@ -154,40 +141,26 @@ def other_gaps(courses: Courses, solved: MapProblem, other: MapProblem) -> Cours
     """
     before, after = (_gap_rates(courses.pressure, problem) for problem in (solved, other))
     samples = courses.pressure.shape[1]
-    angle = TURN * np.arange(samples) / samples - solved.ports[:, :1]
+    angle = TURN * np.arange(samples) / samples - solved.shift[:, None]
     delivering = np.sin(angle) < 0.0
     mass, work = after[0] - before[0], after[1] - before[1]
-    totals = courses.totals.copy()
-    totals[:, DELIVERY] -= (mass.sum(axis=1) * delivering).mean(axis=1)
-    totals[:, SUCTION] -= (mass.sum(axis=1) * ~delivering).mean(axis=1)
-    totals[:, PISTON : PISTON + GAPS] += mass.mean(axis=2)
-    totals[:, CARRIED_ENERGY : CARRIED_ENERGY + GAPS] += work.mean(axis=2)
-    return Courses(courses.pressure, totals)
+    out, lost, more = courses.totals.outflow, mass.sum(axis=1), mass.mean(axis=2).T
+    outflow = Paths(
+        delivery=out.delivery - (lost * delivering).mean(axis=1),
+        suction=out.suction - (lost * ~delivering).mean(axis=1),
+        piston=out.piston + more[0],
+        slipper=out.slipper + more[1],
+        valve_plate=out.valve_plate + more[2],
+    )
+    carried = courses.totals.carried_energy + work.mean(axis=2).T
+    return Courses(courses.pressure, replace(courses.totals, outflow=outflow, carried_energy=carried))
 
 
 def _gap_rates(pressure: Array, problem: MapProblem) -> tuple[Array, Array]:
     """Of each gap (N, 3, M): oil out in m3 at zero gauge pressure, and work of carried oil in J, a turn."""
-    case = problem.chambers["case_pressure"][:, None, None]
-    modulus = problem.chambers["bulk_modulus"][:, None, None]
+    case, modulus = problem.chamber.case_pressure[:, None, None], problem.chamber.bulk_modulus
     inside = np.maximum(pressure, CAVITY_PRESSURE)[:, None, :]
-    dense = np.exp(inside / modulus) * TURN / problem.chambers["shaft_speed"][:, None, None]
+    dense = np.exp(inside / modulus) * TURN / problem.chamber.shaft_speed[:, None, None]
     flow = problem.leaks.conductance * (pressure[:, None, :] - case) + problem.leaks.carried_flow
     fall = modulus * (np.exp(-case / modulus) - np.exp(-inside / modulus))
     return flow * dense, problem.leaks.carried_flow * dense * fall
-
-
-def _tables(leaks: LeakTable) -> Array:
-    """The gaps' tables (N, M, 7, 4) as the kernel reads them; the volume does not grow besides."""
-    points, _, samples = leaks.conductance.shape
-    rows = np.concatenate([leaks.conductance, leaks.carried_flow, np.zeros((points, 1, samples))], axis=1)
-    cubics = periodic_cubics(rows.reshape(-1, samples)).reshape(samples, points, TABLE, 4)
-    return np.ascontiguousarray(cubics.transpose(1, 0, 2, 3))
-
-
-def _tell(problem: MapProblem, point: int) -> None:
-    chamber = problem.chambers[point]
-    raise NotConverged(
-        "chamber pressure: no periodic revolution at "
-        f"{chamber['delivery_pressure'] / 1e6:.3g} MPa and {chamber['shaft_speed'] * 60 / TURN:.4g} r/min; check "
-        "dead volume, bulk modulus and port areas"
-    )

@@ -9,13 +9,13 @@ import numpy as np
 
 from reynolds.numerics.arrays import Array
 from system.bench.chamber_map import other_gaps
-from system.bench.outputs import SIMULATED, Solved, losses, pair_torque, throttling_torque, truth
+from system.bench.outputs import SIMULATED, Solved, losses, throttling_torque, truth
 from system.effects.components import Component
 from system.effects.gap_states import bench_state
 from system.effects.state import ideal_flow
 from system.inputs.channels import ChannelName
 from system.pump.chamber.problem import LeakTable
-from system.pump.laws.friction_pairs import FrictionPairs, Pair
+from system.pump.laws.friction_pairs import Pair
 
 UNIT_SHARE = 0.01
 """Of what the pump displaces at its rating: size of flows and drag that the model has none of."""
@@ -74,9 +74,9 @@ def _leakage(solved: Solved, whole: Array) -> dict[Component, Array]:
 
 
 def _friction(solved: Solved) -> dict[Component, Array]:
-    pairs: FrictionPairs = losses(solved)
+    pairs, speed = losses(solved), solved.setting.problem.chamber.shaft_speed
     return {
-        component: _one(np.sum([pair_torque(solved.setting, pairs.loss(pair)) for pair in own], axis=0), _TORQUE)
+        component: _one(np.sum([pairs.loss(pair).mean for pair in own], axis=0) / speed, _TORQUE)
         for component, own in FRICTION.items()
     }
 

@@ -9,10 +9,10 @@ from numpy.typing import NDArray
 
 from reynolds.numerics.arrays import Array
 from system.description.pump import PumpDescription
-from system.effects.laws.port import eroded, narrowed
 from system.pump.chamber.setup import turn_nodes
 from system.pump.lumped import port_openings
 from system.pump.ports.areas import as_array
+from system.pump.ports.wear import PortWear
 
 
 @dataclass(frozen=True)
@@ -29,25 +29,22 @@ class MapPorts:
     firsts: NDArray[np.int64]
 
 
-def map_ports(pump: PumpDescription, state: Array, samples: int) -> MapPorts:
-    """The ports at N points of which state (N, 4) tells what differs.
+def map_ports(pump: PumpDescription, shift: Array, wear: PortWear[Array], samples: int) -> MapPorts:
+    """The ports at N points, later by shift (N,) rad (`SwashDrive.dead_centre_shift`), with their wear.
 
-    Its columns: by how much the ports lie later (rad, `SwashDrive.dead_centre_shift`), by how much sooner the
-    grooves ahead of the kidneys begin (rad), by what factor their throats are larger, and the suction kidney.
     Nodes are the breaks of the ports and, of an even number of samples, every second: over steps no longer the
     stages tell the pressure as well as the steps do. Points alike share the work.
     """
-    kinds, of_point = np.unique(state, axis=0, return_inverse=True)
-    found = [_kind(pump, tuple(map(float, kind)), samples) for kind in kinds]
+    rows = np.column_stack([shift, *vars(wear).values()])
+    kinds, of_point = np.unique(rows, axis=0, return_inverse=True)
+    found = [_kind(pump, *map(float, kind), samples=samples) for kind in kinds]
     by_point = [found[kind] for kind in of_point.ravel()]
     suction, delivery, nodes = zip(*by_point, strict=True)
     firsts = np.cumsum([0, *(own.size for own in nodes)])
     return MapPorts(np.stack(suction), np.stack(delivery), np.concatenate(nodes), firsts)
 
 
-def _kind(pump: PumpDescription, state: tuple[float, ...], samples: int) -> tuple[Array, Array, Array]:
-    shift, advance, area, kidney = state
-    suction, delivery = (eroded(port, advance, area) for port in port_openings(pump, shift))
-    suction = narrowed(suction, kidney)
+def _kind(pump: PumpDescription, shift: float, *wear: float, samples: int) -> tuple[Array, Array, Array]:
+    suction, delivery = port_openings(pump, shift, PortWear(*wear))
     ends = samples // 2 if samples % 2 == 0 else samples
     return as_array(suction), as_array(delivery), turn_nodes(suction, delivery, ends)[0]

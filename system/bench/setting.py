@@ -3,21 +3,23 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
 from reynolds.laws.oil import walther
 from reynolds.numerics.arrays import Array
-from system.bench.chamber_map import MapProblem, map_problem
+from system.bench.chamber_map import MapProblem
 from system.bench.parameters import GROOVE_ADVANCE, GROOVE_AREA, pump_with
 from system.bench.points import BenchPoints
 from system.bench.sensors import actual
 from system.description.pump import PumpDescription
+from system.effects.applied import affected_leaks, affected_wear, displaced
 from system.effects.effect import Effects
 from system.pump.chamber.problem import LeakTable
-from system.pump.lumped import PistonMotion, lumped_leaks, piston_motion
-from system.pump.operating import OperatingPoint
+from system.pump.lumped import PistonMotion, chamber, lumped_leaks, piston_motion
+from system.pump.operating import OperatingPoint, flat
+from system.pump.ports.wear import PortWear
 
 
 @dataclass(frozen=True)
@@ -28,6 +30,18 @@ class Setting:
     point: OperatingPoint[Array]
     motion: PistonMotion[Array]
     problem: MapProblem
+
+    @classmethod
+    def of(
+        cls,
+        pump: PumpDescription,
+        point: OperatingPoint[Array],
+        motion: PistonMotion[Array],
+        leaks: LeakTable,
+        wear: PortWear[Array],
+    ) -> Setting:
+        """The pump with gaps that leak as `leaks` says."""
+        return cls(pump, point, motion, MapProblem(chamber(pump, flat(point), flat(motion.drive)), leaks, wear))
 
 
 def setting(
@@ -46,28 +60,20 @@ def setting(
         temperature=temperature,
         viscosity=walther(temperature, own.oil.fluid) * own.oil.density,
     )
-    motion = piston_motion(own, point, samples_per_pitch)
-    problem = map_problem(own, point, motion, lumped_leaks(own, point, motion))
-    problem.ports[:, 1] += values.get(GROOVE_ADVANCE, 0.0)
-    problem.ports[:, 2] *= values.get(GROOVE_AREA, 1.0)
-    return Setting(own, point, motion, problem)
+    motion, ones = piston_motion(own, point, samples_per_pitch), np.ones(len(at.speed))
+    cut = values.get(GROOVE_ADVANCE, 0.0), values.get(GROOVE_AREA, 1.0)
+    wear = PortWear(cut[0] * ones, cut[1] * ones, ones)
+    return Setting.of(own, point, motion, lumped_leaks(own, point, motion), wear)
 
 
 def affected(given: Setting, effects: Effects) -> Setting:
     """The same with what effects change of displacement, gaps and ports, at their points and angles."""
-    point, motion = given.point, given.motion
+    pump, point, motion = given.pump, given.point, given.motion
     if np.any(effects.ideal != 1.0):
-        ratio = point.displacement_ratio * _column(effects.ideal)
-        point = replace(point, displacement_ratio=ratio)
-        motion = piston_motion(given.pump, point, motion.shaft_angle.size // given.pump.pump.pistons)
-    leaks = lumped_leaks(given.pump, point, motion)
-    leaks = LeakTable(leaks.conductance * np.swapaxes(effects.conductance, 0, 1), leaks.carried_flow)
-    problem = map_problem(given.pump, point, motion, leaks)
-    ports = problem.ports.copy()
-    ports[:, 1] = given.problem.ports[:, 1] + effects.groove_advance
-    ports[:, 2] = given.problem.ports[:, 2] * effects.groove_area
-    ports[:, 3] = given.problem.ports[:, 3] * effects.suction_area
-    return Setting(given.pump, point, motion, replace(problem, ports=ports))
+        point = displaced(point, _column(effects.ideal))
+        motion = piston_motion(pump, point, motion.shaft_angle.size // pump.pump.pistons)
+    leaks = affected_leaks(lumped_leaks(pump, point, motion), effects)
+    return Setting.of(pump, point, motion, leaks, affected_wear(given.problem.wear, effects))
 
 
 def _column(values: Array) -> Array:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import replace
-from functools import reduce
 from hashlib import blake2b
 
 import numpy as np
@@ -13,22 +12,20 @@ from reynolds.errors import FilmInputError
 from reynolds.numerics.arrays import Array
 from system.bench.chamber_map import Courses, beside, other_gaps, solve_map
 from system.bench.components import WARMER, components
-from system.bench.outputs import SIMULATED, Affected, Solved, truth
+from system.bench.outputs import SIMULATED, Solved, truth
 from system.bench.parameters import BASE_NAMES
 from system.bench.points import BenchPoints
 from system.bench.sensors import READING_NAMES, SENSOR_NAMES, TRACE_NAMES, read, read_turns
 from system.bench.setting import Setting, affected, setting
 from system.description.pump import PumpDescription
+from system.effects.applied import effects_at
 from system.effects.components import Component
-from system.effects.effect import both
 from system.effects.extension import Extension
-from system.effects.gap_states import bench_state, gap_courses
-from system.effects.switched import stated_effects, stated_laws
+from system.effects.switched import stated_laws
 from system.estimation.parameters import Parameter, Scale
 from system.inputs.channels import INPUTS, ChannelName
 from system.inputs.errors import NotConverged
 from system.pump.chamber_kinds import kinds
-from system.pump.lumped import lumped_pairs
 
 SAMPLES_PER_PITCH = 10
 """Shaft angles a piston pitch: torque within .07 sigma of a class A bench, flows within 5e-4."""
@@ -231,14 +228,11 @@ class LumpedBench:
         """Laws at the pressures of chambers without them, then chambers with them: leakage moves these little."""
         if not (self.physics or plain.pump.physics.on):
             return Solved(plain, courses, plain, courses, None)
-        found = lumped_pairs(plain.pump, plain.point, plain.motion, courses)
-        gaps = gap_courses(plain.pump, plain.point, plain.motion, courses, found)
-        state = bench_state(plain.pump, plain.point, self.points.hours)
         named = self._named(values)
-        stated = stated_effects(self._stated, gaps, state)
-        effects = reduce(both, (law.effects(named, gaps, state) for law in self.physics), stated)
-        changed = affected(plain, effects)
-        return Solved(plain, courses, changed, solve(changed), Affected(effects, state))
+        laws = *self._stated, *((one.law, one.stated(named)) for one in self.physics)
+        found = effects_at(plain.pump, plain.point, plain.motion, courses, laws, self.points.hours)
+        changed = affected(plain, found.effects)
+        return Solved(plain, courses, changed, solve(changed), found)
 
     def _read(self, solved: Solved, values: Array, points: BenchPoints) -> Array:
         found = truth(solved)[:, self._columns]

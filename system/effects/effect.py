@@ -4,11 +4,16 @@ from __future__ import annotations
 
 from dataclasses import dataclass, fields
 from enum import Enum
+from typing import Any, Generic
 
 import numpy as np
+from typing_extensions import TypeVar
 
 from reynolds.numerics.arrays import Array
 from system.description.pump import PumpDescription
+
+Value = TypeVar("Value", float, Array, default=Array)
+"""Numbers of one point, or arrays (N,) of N points."""
 
 
 class Kind(Enum):
@@ -88,22 +93,25 @@ class GapCourse:
 
 
 @dataclass(frozen=True)
-class BenchState:
-    """N bench points as laws see them: rad/s, Pa gauge, Pa s, K, h run; arrays (N,). `geometry` is the pump."""
+class BenchState(Generic[Value]):
+    """N bench points as laws see them: rad/s, Pa gauge, Pa s, K, h run; arrays (N,). `geometry` is the pump.
 
-    speed: Array
-    displacement_ratio: Array
-    delivery_pressure: Array
-    inlet_pressure: Array
-    case_pressure: Array
-    viscosity: Array
-    temperature: Array
-    hours: Array
+    BenchState[float]: one point.
+    """
+
+    speed: Value
+    displacement_ratio: Value
+    delivery_pressure: Value
+    inlet_pressure: Value
+    case_pressure: Value
+    viscosity: Value
+    temperature: Value
+    hours: Value
     geometry: PumpDescription
 
 
 @dataclass(frozen=True)
-class Effects:
+class Effects(Generic[Value]):
     """Changes by a law at N points and M angles; ones and zeros change nothing.
 
     conductance, viscous, coulomb: (3, N, M), factors on leakage, shear and Coulomb friction of the gaps in the
@@ -113,24 +121,33 @@ class Effects:
     displacement; intake: share of the displaced volume that is filled with oil; delivery_reading: factor on the
     reading of the delivery's meter; groove_advance in rad and groove_area, factor: earlier and wider opening of
     the relief grooves ahead of both kidneys; suction_area: factor on the kidney of the suction side; carried_off:
-    W, power of the flows and the torque, a sink of the power balance.
+    W, power of the flows and the torque, a sink of the power balance. Effects[float]: one point, its
+    arrays (3, M) and (5, M).
     """
 
     conductance: Array
     viscous: Array
     coulomb: Array
     extra_coulomb: Array
-    cross_flow: Array
-    drain_flow: Array
-    drain_from_inlet: Array
-    torque: Array
-    ideal: Array
-    intake: Array
-    delivery_reading: Array
-    groove_advance: Array
-    groove_area: Array
-    suction_area: Array
-    carried_off: Array
+    cross_flow: Value
+    drain_flow: Value
+    drain_from_inlet: Value
+    torque: Value
+    ideal: Value
+    intake: Value
+    delivery_reading: Value
+    groove_advance: Value
+    groove_area: Value
+    suction_area: Value
+    carried_off: Value
+
+    def at(self, point: int) -> Effects[float]:
+        """The effects at one of N points."""
+        every: dict[str, Any] = vars(self)
+        own: dict[str, Any] = {
+            name: one[:, point] if one.ndim > 1 else float(one[point]) for name, one in every.items()
+        }
+        return Effects(**own)
 
 
 FACTORS = (

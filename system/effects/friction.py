@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from reynolds.numerics.arrays import Array
 from system.description.gap import Gap
-from system.effects.effect import Effects
+from system.effects.effect import Effects, Value
 from system.effects.state import GAPS
 from system.pump.laws.friction_pairs import FrictionPairs, Pair, PairLoss
 
@@ -19,8 +19,8 @@ SOCKET, GUIDE = 3, 4
 """Rows of `Effects.extra_coulomb` behind those of the gaps."""
 
 
-def rubbed(losses: FrictionPairs, effects: Effects) -> FrictionPairs:
-    """The pairs' losses over N points and M angles, arrays (N, M), with an effect's factors and additions."""
+def rubbed(losses: FrictionPairs[Value], effects: Effects[Value]) -> FrictionPairs[Value]:
+    """The pairs' losses with an effect's factors and additions."""
     changed = {
         pair.value: _rubbed(
             losses.loss(pair), effects.coulomb[row], effects.viscous[row], effects.extra_coulomb[row]
@@ -35,5 +35,7 @@ def rubbed(losses: FrictionPairs, effects: Effects) -> FrictionPairs:
     )
 
 
-def _rubbed(loss: PairLoss, coulomb: Array | float, viscous: Array | float, extra: Array) -> PairLoss:
+def _rubbed(
+    loss: PairLoss[Value], coulomb: Array | float, viscous: Array | float, extra: Array
+) -> PairLoss[Value]:
     return replace(loss, coulomb=loss.coulomb * coulomb + extra, viscous=loss.viscous * viscous)

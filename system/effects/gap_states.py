@@ -7,12 +7,12 @@ import numpy as np
 from reynolds.numerics.arrays import Array
 from system.description.gap import Gap
 from system.description.pump import PumpDescription
-from system.effects.effect import BenchState, GapCourse
+from system.effects.effect import BenchState, GapCourse, Value
 from system.effects.state import GAPS
 from system.pump.laws import friction_pairs as pairs
 from system.pump.laws.friction_pairs import FrictionPairs
 from system.pump.lumped import PistonMotion, Pressed, block_clamping, lumped_leaks, piston_forces
-from system.pump.operating import OperatingPoint
+from system.pump.operating import OperatingPoint, flat
 
 
 def gap_courses(
@@ -20,7 +20,7 @@ def gap_courses(
     point: OperatingPoint[Array],
     motion: PistonMotion[Array],
     cycle: Pressed,
-    losses: FrictionPairs,
+    losses: FrictionPairs[Array],
 ) -> dict[Gap, GapCourse]:
     """Films of given thickness at N points with the losses that no law has changed yet.
 
@@ -77,16 +77,17 @@ def gap_courses(
     }
 
 
-def bench_state(pump: PumpDescription, point: OperatingPoint[Array], hours: Array) -> BenchState:
-    """N points, given as columns (N, 1), and the hours (N,) run until then, as laws see them."""
+def bench_state(pump: PumpDescription, point: OperatingPoint[Value], hours: Value) -> BenchState[Value]:
+    """N points, given as columns (N, 1), and the hours (N,) run until then, as laws see them; or one point."""
+    at = flat(point)
     return BenchState(
-        speed=np.ravel(point.shaft_speed),
-        displacement_ratio=np.ravel(point.displacement_ratio),
-        delivery_pressure=np.ravel(point.delivery_pressure),
-        inlet_pressure=np.ravel(point.inlet_pressure),
-        case_pressure=np.ravel(point.case_pressure),
-        viscosity=np.ravel(point.viscosity),
-        temperature=np.ravel(point.temperature),
+        speed=at.shaft_speed,
+        displacement_ratio=at.displacement_ratio,
+        delivery_pressure=at.delivery_pressure,
+        inlet_pressure=at.inlet_pressure,
+        case_pressure=at.case_pressure,
+        viscosity=at.viscosity,
+        temperature=at.temperature,
         hours=hours,
         geometry=pump,
     )

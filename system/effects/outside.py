@@ -2,32 +2,19 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 
-from reynolds.numerics.arrays import Array
-from system.effects.effect import BenchState, Effects
+from system.effects.effect import BenchState, Effects, Value
 from system.effects.state import ideal_flow
+from system.pump.bench import Outside
 
 
-@dataclass(frozen=True)
-class Outside:
-    """Additions to the readings at N points: delivery, inlet and drain flow in m3/s, torque in N m, (N,)."""
-
-    delivery: Array
-    inlet: Array
-    drain: Array
-    torque: Array
-
-
-def outside(effects: Effects, state: BenchState) -> Outside:
+def outside(effects: Effects[Value], state: BenchState[Value]) -> Outside[Value]:
     """Flows past the chambers, drag on the shaft and the part of the displacement that is not filled.
 
     Oil keeps its mass from port to port at the constant bulk modulus K: volumes go with exp(-p/K). A part 1 -
     intake of the displaced volume holds no oil at inlet pressure: it is neither taken in nor delivered, and its
-    work per volume at zero pressure, h(delivery) - h(inlet), h = K (1 - exp(-p/K)), is not done. The factor
-    `delivery_reading` is not in here: it belongs to the meter.
+    work per volume at zero pressure, h(delivery) - h(inlet), h = K (1 - exp(-p/K)), is not done.
     """
     modulus = state.geometry.oil.bulk_modulus
     delivery, inlet, case = (
@@ -42,4 +29,6 @@ def outside(effects: Effects, state: BenchState) -> Outside:
         inlet=effects.drain_from_inlet - effects.cross_flow * inlet / delivery - missing,
         drain=effects.drain_flow * case / delivery + effects.drain_from_inlet * case / inlet,
         torque=effects.torque - not_done / state.speed,
+        carried_off=effects.carried_off,
+        delivery_reading=effects.delivery_reading,
     )

@@ -9,7 +9,7 @@ import numpy as np
 from reynolds.laws.oil import WALTHER_SHIFT, walther_coefficients
 from reynolds.numerics.arrays import Array
 from system.description.gap import Gap
-from system.effects.effect import BenchState, Effects, GapCourse, neutral
+from system.effects.effect import BenchState, Effects, GapCourse, Value, neutral
 from system.inputs.units import STANDARD_ATMOSPHERE, TURN
 from system.pump.laws.kinematics import crossed_drive, stroke
 
@@ -22,12 +22,12 @@ def unchanged(courses: Mapping[Gap, GapCourse]) -> Effects:
     return neutral(*courses[Gap.PISTON].pressure.shape)
 
 
-def piston_area(state: BenchState) -> float:
+def piston_area(state: BenchState[Value]) -> float:
     """Cross section of a piston in m2."""
     return float(np.pi / 4.0 * state.geometry.pump.piston_diameter**2)
 
 
-def full_stroke(state: BenchState) -> float:
+def full_stroke(state: BenchState[Value]) -> float:
     """Stroke in m at the largest swash angle."""
     part = state.geometry.pump
     return stroke(
@@ -40,16 +40,14 @@ def swash_tangent(state: BenchState) -> Array:
     return np.asarray(state.displacement_ratio * np.tan(state.geometry.pump.swash_angle_max))
 
 
-def displaced(state: BenchState) -> Array:
+def displaced(state: BenchState[Value]) -> Value:
     """Volume (N,) m3 that all pistons displace in a turn."""
-    return np.asarray(
-        state.geometry.pump.pistons * piston_area(state) * full_stroke(state) * state.displacement_ratio
-    )
+    return state.geometry.pump.pistons * piston_area(state) * full_stroke(state) * state.displacement_ratio
 
 
-def ideal_flow(state: BenchState) -> Array:
+def ideal_flow(state: BenchState[Value]) -> Value:
     """Displaced volume over time (N,), m3/s."""
-    return np.asarray(displaced(state) * state.speed / TURN)
+    return displaced(state) * state.speed / TURN
 
 
 def dead_volume(state: BenchState) -> Array:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from functools import reduce
 
 from reynolds.errors import FilmInputError
@@ -44,7 +44,7 @@ def hold_plain(pump: PumpDescription) -> None:
 
 
 def stated_effects(
-    laws: tuple[tuple[Law, Values], ...], courses: Mapping[Gap, GapCourse], state: BenchState
+    laws: Sequence[tuple[Law, Values]], courses: Mapping[Gap, GapCourse], state: BenchState
 ) -> Effects:
     """Combined changes by `stated_laws`; none where all are off."""
     found = (law(values, courses, state) for law, values in laws)

@@ -17,20 +17,15 @@ from reynolds.errors import FilmInputError
 from reynolds.numerics.arrays import Array
 from system.description.effects import PhysicsSection
 from system.description.pump import PumpDescription
+from system.effects.applied import affected_leaks, affected_wear
 from system.effects.effect import Effects
+from system.effects.friction import rubbed
 from system.films.cycle import PLAIN, GapCycle, GapPhysics, gap_cycle
 from system.films.parts import FloatingParts, floating_parts
 from system.films.rotor import Rotor, rotor
 from system.inputs.errors import NotConverged
 from system.inputs.units import TURN
-from system.points.effects import (
-    affected,
-    affected_leaks,
-    displaced,
-    point_effects,
-    rubbed_pairs,
-    with_outside,
-)
+from system.points.effects import mean_outside, point_effects, with_stroke
 from system.points.film_effects import FilmEffects, closed_laws, film_effects
 from system.points.lumped import lumped_point
 from system.pump.assembly import PumpPoint, assemble, met_point
@@ -52,6 +47,7 @@ from system.pump.lumped import (
     swept_displacement,
 )
 from system.pump.operating import OperatingPoint
+from system.pump.ports.wear import AS_DRAWN
 from system.pump.power import GapExchange, Gaps
 from system.work.progress import Report, silent
 
@@ -162,7 +158,7 @@ class _Coupling:
     pump: PumpDescription
     point: OperatingPoint
     motion: PistonMotion
-    effects: tuple[Effects, ...]
+    effects: tuple[Effects[float], ...]
     films: FilmEffects
     rotor: Rotor
     cycle: ChamberCycle
@@ -173,7 +169,7 @@ class _Coupling:
         if gaps is not None:
             found = with_film_shear(found, gaps, self.point.case_pressure)
         for one in self.effects:
-            found = rubbed_pairs(found, one)
+            found = rubbed(found, one)
         return found
 
 
@@ -182,7 +178,7 @@ def _work(pump: PumpDescription, point: OperatingPoint, physics: GapPhysics) -> 
     own, stands = closed_laws(warm), unpressed(warm, point.case_pressure)
     plain = lumped_point(own.model_copy(update={"physics": PhysicsSection()}), point)
     effects = (point_effects(own, plain.point, plain.cycle),) if own.physics.on else ()
-    asked, at = displaced(point, effects), rotor(stands, displaced(plain.point, effects))
+    asked, at = with_stroke(point, effects), rotor(stands, with_stroke(plain.point, effects))
     films = film_effects(at, floating_parts(stands), warm, physics)
     return _Coupling(own, asked, piston_motion(own, asked), effects, films, at, plain.cycle)
 
@@ -190,9 +186,10 @@ def _work(pump: PumpDescription, point: OperatingPoint, physics: GapPhysics) -> 
 def _ported(work: _Coupling, gaps: GapCycle, met: OperatingPoint) -> tuple[PortedCycle, LeakTable]:
     """Chambers and ports with the films' leaks, ports as `met` before; and these leaks without closed laws."""
     leaks = edged_leaks(work.pump, work.point, gaps)
-    problem = chamber_problem(work.pump, work.point, work.motion, leaks)
+    acting, wear = leaks, AS_DRAWN
     for one in work.effects:
-        problem = affected(problem, one)
+        acting, wear = affected_leaks(acting, one), affected_wear(wear, one)
+    problem = chamber_problem(work.pump, work.point, work.motion, acting, wear)
     lines, draws = port_lines(work.pump, work.point), port_draws(gaps, met, work.pump.oil.bulk_modulus)
     samples = work.motion.shaft_angle.size
     return ported_cycle((problem,), lines, work.pump.pump.pistons, samples, draws=draws), leaks
@@ -203,8 +200,8 @@ def _told(work: _Coupling, asked: OperatingPoint, gaps: GapCycle, ported: Ported
     pump, pistons = work.pump, work.pump.pump.pistons
     exchange = gap_exchange(gaps, ported.cycle, pistons, work.point)
     losses, derived = work.losses(ported.cycle, gaps), swept_displacement(pump, work.motion.drive)
-    found = assemble(asked, ported, (losses,), pistons, derived, exchange, (group_masses(pump),))
-    return with_outside(found, pump, work.effects) if work.effects else found
+    outside = mean_outside(pump, met_point(asked, ported), work.effects)
+    return assemble(asked, ported, (losses,), pistons, derived, exchange, (group_masses(pump),), outside)
 
 
 def _rubbing(losses: FrictionPairs) -> tuple[float, float, float]:
@@ -283,7 +280,7 @@ def _refine(periodic: Array, samples: int) -> Array:
 
 
 def _sampling_error(
-    problem: ChamberProblem, leaks: LeakTable, effects: Sequence[Effects], cycle: ChamberCycle
+    problem: ChamberProblem, leaks: LeakTable, effects: Sequence[Effects[float]], cycle: ChamberCycle
 ) -> float:
     """Relative change of the leakage when the chamber knows only every second angle of the films' leaks."""
     halved = LeakTable(leaks.conductance[:, ::2].copy(), leaks.carried_flow[:, ::2].copy())

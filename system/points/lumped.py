@@ -7,11 +7,13 @@ from collections.abc import Sequence
 import numpy as np
 
 from system.description.pump import PumpDescription
+from system.effects.applied import affected_leaks, affected_wear
 from system.effects.effect import Effects
+from system.effects.friction import rubbed
 from system.inputs.errors import NotConverged
 from system.inputs.units import TURN
-from system.points.effects import affected, displaced, point_effects, rubbed_pairs, with_outside
-from system.pump.assembly import PumpPoint, assemble
+from system.points.effects import mean_outside, point_effects, with_stroke
+from system.pump.assembly import PumpPoint, assemble, met_point
 from system.pump.chamber.cycle import TOLERANCE, ChamberCycle
 from system.pump.chamber.port_coupling import PortedCycle, ported_cycle
 from system.pump.chamber.problem import LeakTable
@@ -29,6 +31,7 @@ from system.pump.lumped import (
     swept_displacement,
 )
 from system.pump.operating import OperatingPoint
+from system.pump.ports.wear import AS_DRAWN
 from system.pump.power import chamber_exchange
 
 ROUND_LIMIT = 20
@@ -52,26 +55,26 @@ def lumped_point(pump: PumpDescription, point: OperatingPoint, tolerance: float 
         return plain
     cycles = [plain.chambers[found.of_chamber.index(kind)] for kind in range(len(found.pumps))]
     effects = [point_effects(own, plain.point, cycle) for own, cycle in zip(found.pumps, cycles, strict=True)]
-    inside = _solved(found, pump, point, effects, tolerance)
-    return with_outside(inside, pump, found.by_chamber(effects))
+    return _solved(found, pump, point, effects, tolerance)
 
 
 def _solved(
-    found: Kinds, pump: PumpDescription, asked: OperatingPoint, effects: Sequence[Effects], tolerance: float
+    found: Kinds, pump: PumpDescription, asked: OperatingPoint, effects: Sequence[Effects[float]], tolerance: float
 ) -> PumpPoint:
-    """The point with what effects change in chambers and pairs, kind by kind, or with none."""
-    point = displaced(asked, effects)
+    """The point with what effects change, kind by kind, or with none."""
+    point = with_stroke(asked, effects)
     motions = [piston_motion(own, point) for own in found.pumps]
     ported = _ported(found, pump, point, motions, effects, tolerance)
     pistons = pump.pump.pistons
     chambers = list(zip(found.by_chamber(found.pumps), found.by_chamber(motions), ported.cycles, strict=True))
     losses = [lumped_pairs(own, point, motion, cycle) for own, motion, cycle in chambers]
     if effects:
-        losses = [rubbed_pairs(*each) for each in zip(losses, found.by_chamber(effects), strict=True)]
+        losses = [rubbed(*each) for each in zip(losses, found.by_chamber(effects), strict=True)]
     exchange = chamber_exchange(ported.cycle, pistons * point.shaft_speed / TURN)
     derived = float(np.mean([swept_displacement(own, motion.drive) for own, motion, _ in chambers]))
     masses = [group_masses(own) for own, _, _ in chambers]
-    return assemble(asked, ported, losses, pistons, derived, exchange, masses)
+    outside = mean_outside(pump, met_point(asked, ported), found.by_chamber(effects) if effects else ())
+    return assemble(asked, ported, losses, pistons, derived, exchange, masses, outside)
 
 
 def _ported(
@@ -79,7 +82,7 @@ def _ported(
     pump: PumpDescription,
     point: OperatingPoint,
     motions: Sequence[PistonMotion],
-    effects: Sequence[Effects],
+    effects: Sequence[Effects[float]],
     tolerance: float,
 ) -> PortedCycle:
     """Chambers and ports; where lands lose by inertia (`land_losses`), at pressures that these losses leave.
@@ -90,12 +93,14 @@ def _ported(
     creeping = [lumped_leaks(own, point, motion) for own, motion in zip(found.pumps, motions, strict=True)]
     leaks = creeping
     for _ in range(ROUND_LIMIT):
-        problems = [
-            chamber_problem(own, point, motion, leak)
-            for own, motion, leak in zip(found.pumps, motions, leaks, strict=True)
-        ]
+        acting, wear = leaks, [AS_DRAWN] * len(leaks)
         if effects:
-            problems = [affected(*each) for each in zip(problems, effects, strict=True)]
+            acting = [affected_leaks(*each) for each in zip(leaks, effects, strict=True)]
+            wear = [affected_wear(AS_DRAWN, one) for one in effects]
+        problems = [
+            chamber_problem(own, point, motion, leak, cut)
+            for own, motion, leak, cut in zip(found.pumps, motions, acting, wear, strict=True)
+        ]
         ported = ported_cycle(found.by_chamber(problems), lines, pistons, samples, tolerance)
         before, leaks = (
             leaks,

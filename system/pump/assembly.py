@@ -10,12 +10,11 @@ import numpy as np
 
 from reynolds.numerics.arrays import Array
 from system.inputs.units import STANDARD_ATMOSPHERE, TURN
-from system.pump.bench import BenchReading, Efficiency, iso_efficiency, paper_efficiency
+from system.pump.bench import NOTHING_OUTSIDE, BenchReading, Efficiency, Outside, iso_efficiency, paper_efficiency
 from system.pump.chamber.cycle import ChamberCycle
 from system.pump.chamber.layout import CAVITY_PRESSURE
 from system.pump.chamber.port_coupling import Port, PortedCycle
-from system.pump.chamber.problem import ChamberProblem, LeakTable
-from system.pump.chamber.turn import Paths
+from system.pump.chamber.problem import LeakTable
 from system.pump.laws.friction_pairs import FrictionPairs, Pair, over_chambers
 from system.pump.laws.kinematics import stroke
 from system.pump.operating import OperatingPoint
@@ -24,10 +23,11 @@ from system.pump.power import (
     GapExchange,
     Gaps,
     PowerBalance,
+    bench_reading,
+    gap_leakage,
     leakage_by_flow,
-    port_draw,
+    metered,
     power_balance,
-    shaft_work,
 )
 from system.pump.shaft_torque import GroupMasses, shaft_torque
 from system.work.means import mean_of
@@ -134,16 +134,19 @@ def assemble(
     derived_displacement: float,
     exchange: GapExchange,
     masses: Sequence[GroupMasses],
+    outside: Outside[float] = NOTHING_OUTSIDE,
 ) -> PumpPoint:
     """The pump's flows, torque and powers from the chambers' periodic cycles and the friction of their pairs.
 
-    pairs, masses: of one chamber for all, or of each of z. Gaps leak heat by their flow, and the torque comes from
+    pairs, masses: of one chamber for all, or of each of z. outside: flows and torque that pass the chambers by;
+    they do not load the lines on the ports. Gaps leak heat by their flow, and the torque comes from
     the forces behind the losses: `put_together`.
     """
     ring = exchange.carried.valve_plate
     torque = shaft_torque(ported.problems, ported.cycles, pairs, masses, pistons, ring)
     leakage = leakage_by_flow(ported, pistons * point.shaft_speed / TURN, exchange)
-    return put_together(point, ported, mean_of(pairs), pistons, derived_displacement, exchange, torque, leakage)
+    mean = mean_of(pairs)
+    return put_together(point, ported, mean, pistons, derived_displacement, exchange, torque, leakage, outside)
 
 
 def put_together(
@@ -155,6 +158,7 @@ def put_together(
     exchange: GapExchange,
     torque: Array,
     leakage: Gaps,
+    outside: Outside[float] = NOTHING_OUTSIDE,
 ) -> PumpPoint:
     """The pump from its chambers' cycle, the friction of its pairs, the shaft's torque (N,) N m by forces and the
     heat (W) of the flow through each gap.
@@ -166,9 +170,9 @@ def put_together(
     problem, cycle, asked = ported.problem, ported.cycle, point
     point = met_point(point, ported)
     rate = pistons * point.shaft_speed / TURN
-    work = shaft_work(cycle, rate, pairs.power, exchange)
-    reading = _reading(point, problem, cycle.outflow, rate, work, exchange)
-    power = power_balance(ported, reading, rate, pairs.power, leakage)
+    reading = bench_reading(problem, cycle, pistons, pairs.power, exchange, outside)
+    power = power_balance(ported, reading, rate, pairs.power, leakage, outside.carried_off)
+    torque = torque + outside.torque
     energy = abs(point.shaft_speed * float(np.mean(torque)) - power.accounted) / abs(power.shaft)
     quadrature = sum(pairs.loss(pair).quadrature_error for pair in Pair)
     return PumpPoint(
@@ -183,11 +187,11 @@ def put_together(
         delivery=ported.delivery,
         suction=ported.suction,
         shaft_torque=torque,
-        leakage_flow=_leakage_flow(problem, cycle.outflow, rate, exchange),
+        leakage_flow=gap_leakage(problem, cycle, rate, exchange),
         leaks=mean_of([own.leaks for own in ported.problems]),
         pairs=pairs,
         exchange=exchange,
-        bench=reading,
+        bench=metered(reading, outside),
         power=power,
         geometric_displacement=pistons * problem.piston_area * stroke(problem.drive),
         derived_displacement=derived_displacement,
@@ -273,33 +277,3 @@ def _ports_off(asked: OperatingPoint, ported: PortedCycle) -> Iterator[Remark]:
                 f"makes of the flow, not {pressure * 1e-6:.4g} MPa (limit {allowed * 1e-6:.2g} MPa off); leave "
                 "the orifice's area out and it is found",
             )
-
-
-def _leakage_flow(problem: ChamberProblem, outflow: Paths, rate: float, exchange: GapExchange) -> Gaps:
-    scale = rate * problem.specific_volume(problem.case_pressure)
-    draw = problem.specific_volume(problem.case_pressure) * sum(port_draw(problem, exchange))
-    return Gaps(
-        scale * float(outflow.piston), scale * float(outflow.slipper), scale * float(outflow.valve_plate) + draw
-    )
-
-
-def _reading(
-    point: OperatingPoint,
-    problem: ChamberProblem,
-    outflow: Paths,
-    rate: float,
-    shaft_power: float,
-    exchange: GapExchange,
-) -> BenchReading:
-    delivered = rate * float(outflow.delivery) * problem.specific_volume(point.delivery_pressure)
-    drawn_in = -rate * float(outflow.suction) * problem.specific_volume(point.inlet_pressure)
-    return BenchReading(
-        shaft_speed=point.shaft_speed,
-        shaft_torque=shaft_power / point.shaft_speed,
-        delivery_pressure=point.delivery_pressure,
-        inlet_pressure=point.inlet_pressure,
-        drain_pressure=point.case_pressure,
-        delivery_flow=delivered - exchange.delivery_draw,
-        inlet_flow=drawn_in + exchange.suction_draw,
-        drain_flow=_leakage_flow(problem, outflow, rate, exchange).total,
-    )

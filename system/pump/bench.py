@@ -5,31 +5,53 @@ Eqs. (1)-(5) of Xu, Hu, Zhang and Mao (2017), ISO 4391/4409, and an energy-exact
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Generic
 
 import numpy as np
 
+from system.pump.laws.kinematics import Number
+
 
 @dataclass(frozen=True)
-class BenchReading:
+class BenchReading(Generic[Number]):
     """One steady reading: shaft_speed in rad/s, shaft_torque in N m, pressures in Pa gauge, flows in m3/s.
 
     Each flow is the volume at its own port's pressure, positive in the pump's sense: delivery and drain out of it,
-    inlet into it.
+    inlet into it. BenchReading[Array]: N readings, arrays (N,).
     """
 
-    shaft_speed: float
-    shaft_torque: float
-    delivery_pressure: float
-    inlet_pressure: float
-    drain_pressure: float
-    delivery_flow: float
-    inlet_flow: float
-    drain_flow: float
+    shaft_speed: Number
+    shaft_torque: Number
+    delivery_pressure: Number
+    inlet_pressure: Number
+    drain_pressure: Number
+    delivery_flow: Number
+    inlet_flow: Number
+    drain_flow: Number
 
     @property
-    def shaft_power(self) -> float:
+    def shaft_power(self) -> Number:
         """2 pi n T in W."""
         return self.shaft_speed * self.shaft_torque
+
+
+@dataclass(frozen=True)
+class Outside(Generic[Number]):
+    """What passes a pump's chambers by; Outside[Array]: at N points, arrays (N,).
+
+    Added to delivery, inlet and drain flow in m3/s and to the shaft's torque in N m; carried_off in W: where the
+    power of flows and torque goes; delivery_reading: factor on the flow that the delivery's meter reads.
+    """
+
+    delivery: Number
+    inlet: Number
+    drain: Number
+    torque: Number
+    carried_off: Number
+    delivery_reading: Number
+
+
+NOTHING_OUTSIDE: Outside[float] = Outside(0.0, 0.0, 0.0, 0.0, 0.0, 1.0)
 
 
 @dataclass(frozen=True)

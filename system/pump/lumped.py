@@ -10,7 +10,7 @@ import numpy as np
 from reynolds.numerics.arrays import Array
 from system.description.pump import PortsSection, PumpDescription
 from system.inputs.units import TURN
-from system.pump.chamber.problem import ChamberProblem, LeakTable
+from system.pump.chamber.problem import Chamber, ChamberProblem, LeakTable
 from system.pump.land_losses import land_losses
 from system.pump.laws import friction_pairs as pairs
 from system.pump.laws.friction_pairs import FrictionPairs, PairLoss
@@ -37,6 +37,7 @@ from system.pump.ports.areas import PortOpening
 from system.pump.ports.described import line_of, relief_groove
 from system.pump.ports.flow_coefficients import FlowTable, port_table
 from system.pump.ports.lines import Lines
+from system.pump.ports.wear import AS_DRAWN, PortWear, worn_ports
 from system.pump.ports.webs import PortWebs
 from system.pump.shaft_torque import GroupMasses
 
@@ -168,16 +169,26 @@ def lumped_leaks(pump: PumpDescription, point: OperatingPoint[Number], motion: P
 
 
 def chamber_problem(
-    pump: PumpDescription, point: OperatingPoint[Number], motion: PistonMotion[Number], leaks: LeakTable
-) -> ChamberProblem[Number]:
-    """One chamber of the pump at the point, with gaps that leak as `leaks` says, whoever filled it."""
+    pump: PumpDescription,
+    point: OperatingPoint,
+    motion: PistonMotion,
+    leaks: LeakTable,
+    wear: PortWear[float] = AS_DRAWN,
+) -> ChamberProblem:
+    """One chamber of the pump at the point with its ports, and with gaps that leak as `leaks` says."""
+    suction, delivery = port_openings(pump, motion.drive.dead_centre_shift, wear)
+    one = chamber(pump, point, motion.drive)
+    return ChamberProblem(**vars(one), delivery_port=delivery, suction_port=suction, leaks=leaks)
+
+
+def chamber(pump: PumpDescription, point: OperatingPoint[Number], drive: SwashDrive[Number]) -> Chamber[Number]:
+    """One chamber of the pump at the point; of N points, arrays (N,), N chambers."""
     area = piston_area(pump)
-    suction, delivery = port_openings(pump, motion.drive.dead_centre_shift)
-    return ChamberProblem(
-        drive=motion.drive,
+    return Chamber(
+        drive=drive,
         shaft_speed=point.shaft_speed,
         piston_area=area,
-        dead_volume=pump.pump.dead_volume + area * stand_out(full_drive(pump), motion.drive),
+        dead_volume=pump.pump.dead_volume + area * stand_out(full_drive(pump), drive),
         delivery_pressure=point.delivery_pressure,
         inlet_pressure=point.inlet_pressure,
         case_pressure=point.case_pressure,
@@ -186,24 +197,21 @@ def chamber_problem(
         kinematic_viscosity=point.viscosity / pump.oil.density,
         flow_coefficient=pump.ports.flow_coefficient,
         critical_reynolds=pump.ports.critical_reynolds,
-        delivery_port=delivery,
-        suction_port=suction,
-        leaks=leaks,
     )
 
 
 def port_openings(
-    pump: PumpDescription, shift: Number | float = 0.0
-) -> tuple[PortOpening[Number], PortOpening[Number]]:
-    """The valve plate's ports, that of suction from shaft angle 0 on, that of delivery from pi.
+    pump: PumpDescription, shift: float = 0.0, wear: PortWear[float] = AS_DRAWN
+) -> tuple[PortOpening, PortOpening]:
+    """The valve plate's ports with their wear, suction from shaft angle 0 on and delivery from pi.
 
     With a cross angle both lie later by the drive's `dead_centre_shift`, `shift`: the plate's own dead centres.
     """
     suction, delivery = pump.ports.sides
-    return _port_opening(pump, suction, shift), _port_opening(pump, delivery, np.pi + shift)
+    return worn_ports(_port_opening(pump, suction, shift), _port_opening(pump, delivery, np.pi + shift), wear)
 
 
-def _port_opening(pump: PumpDescription, p: PortsSection, dead_centre: Number | float) -> PortOpening[Number]:
+def _port_opening(pump: PumpDescription, p: PortsSection, dead_centre: float) -> PortOpening:
     radius = pump.valve_plate.kidney_pitch_radius
     return PortOpening(
         dead_centre=dead_centre,
@@ -244,7 +252,7 @@ def block_clamping(pump: PumpDescription, point: OperatingPoint[Number], cycle: 
 
 def lumped_pairs(
     pump: PumpDescription, point: OperatingPoint[Number], motion: PistonMotion[Number], cycle: Pressed
-) -> FrictionPairs:
+) -> FrictionPairs[Number]:
     """REF90's nominal losses of the seven pairs at the pressures of a cycle (sampled at the motion's angles)."""
     axial, side = piston_forces(pump, point, motion, cycle)
     side_sum = pairs.over_chambers([side], pump.pump.pistons)
@@ -269,7 +277,7 @@ def lumped_pairs(
 
 def _piston_cylinder(
     pump: PumpDescription, point: OperatingPoint[Number], motion: PistonMotion[Number], side: Array
-) -> PairLoss:
+) -> PairLoss[Number]:
     length, velocity = motion.engaged_length, motion.velocity
     coulomb = pairs.piston_cylinder_coulomb(pump.friction.piston_cylinder, side, length, motion.overhang, velocity)
     viscous = pairs.piston_cylinder_shear(
@@ -285,7 +293,7 @@ def _piston_cylinder(
 
 def _slipper_swash_plate(
     pump: PumpDescription, point: OperatingPoint[Number], motion: PistonMotion[Number], axial: Array
-) -> PairLoss:
+) -> PairLoss[Number]:
     s, speed = pump.slipper, motion.sliding_speed
     coulomb = pairs.slipper_swash_plate_coulomb(
         pump.friction.slipper_swash_plate, axial, motion.drive.swash_angle, speed
@@ -296,7 +304,7 @@ def _slipper_swash_plate(
 
 def _piston_slipper_socket(
     pump: PumpDescription, point: OperatingPoint[Number], motion: PistonMotion[Number], axial: Array
-) -> PairLoss:
+) -> PairLoss[Number]:
     coulomb = pairs.piston_slipper_socket_coulomb(
         pump.friction.piston_slipper_socket,
         axial,
@@ -307,7 +315,9 @@ def _piston_slipper_socket(
     return PairLoss(pump.pump.pistons, coulomb, np.zeros_like(axial))
 
 
-def _valve_plate_cylinder(pump: PumpDescription, point: OperatingPoint[Number], cycle: Pressed) -> PairLoss:
+def _valve_plate_cylinder(
+    pump: PumpDescription, point: OperatingPoint[Number], cycle: Pressed
+) -> PairLoss[Number]:
     v, radius = pump.valve_plate, pump.valve_plate.kidney_pitch_radius
     clamping = block_clamping(pump, point, cycle)
     coulomb = pairs.valve_plate_coulomb(pump.friction.valve_plate_cylinder, clamping, point.shaft_speed, radius)
@@ -321,12 +331,13 @@ def _valve_plate_cylinder(pump: PumpDescription, point: OperatingPoint[Number], 
 
 def _ball_guide_retainer(
     pump: PumpDescription, point: OperatingPoint[Number], motion: PistonMotion[Number]
-) -> PairLoss:
+) -> PairLoss[Number]:
     guide = BallGuide(pump.ball_guide.radius, pump.ball_guide.contact_latitude)
     speed = mean_sliding_speed(guide, motion.drive.swash_angle, point.shaft_speed)
     friction = pump.friction.ball_guide_retainer
     loss = pairs.ball_guide_coulomb(friction, block_spring(pump), guide.contact_latitude, speed)
-    return PairLoss(1, loss * np.ones_like(motion.shaft_angle), np.zeros_like(motion.shaft_angle))
+    coulomb = loss * np.ones_like(motion.shaft_angle)
+    return PairLoss(1, coulomb, np.zeros_like(coulomb))
 
 
 def block_spring(pump: PumpDescription) -> float:

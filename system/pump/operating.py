@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Generic
+from dataclasses import dataclass, replace
+from typing import Any, Generic, TypeVar, cast
+
+import numpy as np
 
 from reynolds.laws.oil import dynamic_viscosity
+from reynolds.numerics.arrays import Array
 from system.description.pump import PumpDescription
 from system.pump.laws.kinematics import Number
+
+Of = TypeVar("Of")
 
 
 @dataclass(frozen=True)
@@ -24,6 +29,18 @@ class OperatingPoint(Generic[Number]):
     displacement_ratio: Number
     temperature: Number
     viscosity: Number
+
+
+def columns(point: OperatingPoint) -> OperatingPoint[Array]:
+    """One point as N = 1 points, columns (1, 1)."""
+    return OperatingPoint(**{name: np.full((1, 1), value) for name, value in vars(point).items()})
+
+
+def flat(item: Of) -> Of:
+    """The same dataclass with its columns (N, 1) as arrays (N,); numbers stay."""
+    changed = {name: value.ravel() for name, value in vars(item).items() if isinstance(value, np.ndarray)}
+    made: Any = replace(cast(Any, item), **changed)
+    return cast(Of, made)
 
 
 def operating_point(

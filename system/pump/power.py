@@ -2,44 +2,48 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import Generic
 
-from system.pump.bench import BenchReading, elastic_energy
-from system.pump.chamber.cycle import ChamberCycle, flow_energy
+from system.inputs.units import TURN
+from system.pump.bench import BenchReading, Outside, elastic_energy
+from system.pump.chamber.cycle import flow_energy, specific_volume
 from system.pump.chamber.port_coupling import PortedCycle
-from system.pump.chamber.problem import ChamberProblem
+from system.pump.chamber.problem import Chamber
+from system.pump.chamber.turn import TurnTotals, as_number
+from system.pump.laws.kinematics import Number
 
 
 @dataclass(frozen=True)
-class Gaps:
-    """One number for each of the three gaps."""
+class Gaps(Generic[Number]):
+    """One number for each of the three gaps; Gaps[Array]: at N points, arrays (N,)."""
 
-    piston: float
-    slipper: float
-    valve_plate: float
+    piston: Number
+    slipper: Number
+    valve_plate: Number
 
     @property
-    def total(self) -> float:
+    def total(self) -> Number:
         """All three together."""
         return self.piston + self.slipper + self.valve_plate
 
 
 @dataclass(frozen=True)
-class GapExchange:
+class GapExchange(Generic[Number]):
     """What the gaps exchange beside one chamber's leakage, mean over the revolution.
 
     carried: power in W that oil dragged along by moving walls gives them back, all chambers; delivery_draw,
     suction_draw: flow in m3/s (at port pressure) that the valve plate's film takes from the ports themselves.
     """
 
-    carried: Gaps
-    delivery_draw: float
-    suction_draw: float
+    carried: Gaps[Number]
+    delivery_draw: Number
+    suction_draw: Number
 
 
-def chamber_exchange(cycle: ChamberCycle, rate: float) -> GapExchange:
+def chamber_exchange(totals: TurnTotals[Number], rate: Number) -> GapExchange[Number]:
     """The exchange of gaps that know nothing but their own chamber; `rate` is chambers times turns per second."""
-    return GapExchange(Gaps(*(rate * float(work) for work in cycle.carried_energy)), 0.0, 0.0)
+    return GapExchange(Gaps(*(as_number(rate * work) for work in totals.carried_energy)), 0.0 * rate, 0.0 * rate)
 
 
 @dataclass(frozen=True)
@@ -61,7 +65,7 @@ class PowerBalance:
     throttling_delivery: float
     throttling_suction: float
     friction: float
-    extended: float = 0.0
+    extended: float
 
     @property
     def throttling(self) -> float:
@@ -75,21 +79,72 @@ class PowerBalance:
         return delivered + self.leakage.total + self.throttling + self.friction + self.extended
 
 
-def port_draw(problem: ChamberProblem, exchange: GapExchange) -> tuple[float, float]:
+def port_draw(chamber: Chamber[Number], exchange: GapExchange[Number]) -> tuple[Number, Number]:
     """What the valve plate's film takes from delivery and suction port, m3/s at zero gauge pressure."""
     return (
-        exchange.delivery_draw / problem.specific_volume(problem.delivery_pressure),
-        exchange.suction_draw / problem.specific_volume(problem.inlet_pressure),
+        exchange.delivery_draw / specific_volume(chamber.delivery_pressure, chamber.bulk_modulus),
+        exchange.suction_draw / specific_volume(chamber.inlet_pressure, chamber.bulk_modulus),
     )
 
 
-def shaft_work(cycle: ChamberCycle, rate: float, friction: float, exchange: GapExchange) -> float:
+def gap_leakage(
+    chamber: Chamber[Number], totals: TurnTotals[Number], rate: Number, exchange: GapExchange[Number]
+) -> Gaps[Number]:
+    """Leakage of each gap to the case, mean, all chambers, in m3/s at case pressure."""
+    case, out = specific_volume(chamber.case_pressure, chamber.bulk_modulus), totals.outflow
+    from_ports = case * sum(port_draw(chamber, exchange))
+    scale = rate * case
+    return Gaps(
+        as_number(scale * out.piston),
+        as_number(scale * out.slipper),
+        as_number(scale * out.valve_plate + from_ports),
+    )
+
+
+def bench_reading(
+    chamber: Chamber[Number],
+    totals: TurnTotals[Number],
+    pistons: int,
+    friction: Number,
+    exchange: GapExchange[Number],
+    outside: Outside[Number],
+) -> BenchReading[Number]:
+    """Flows and torque of a pump by its chambers' totals, the friction (W) of its pairs and what passes by.
+
+    The torque is that of `shaft_work`, good to the chambers' integration. The delivery's flow is the pump's own,
+    before the factor of its meter (`metered`).
+    """
+    rate, modulus, out = pistons * chamber.shaft_speed / TURN, chamber.bulk_modulus, totals.outflow
+    delivered = rate * out.delivery * specific_volume(chamber.delivery_pressure, modulus)
+    drawn_in = -rate * out.suction * specific_volume(chamber.inlet_pressure, modulus)
+    drained = gap_leakage(chamber, totals, rate, exchange).total
+    work = shaft_work(totals, rate, friction, exchange)
+    return BenchReading(
+        shaft_speed=chamber.shaft_speed,
+        shaft_torque=work / chamber.shaft_speed + outside.torque,
+        delivery_pressure=chamber.delivery_pressure,
+        inlet_pressure=chamber.inlet_pressure,
+        drain_pressure=chamber.case_pressure,
+        delivery_flow=as_number(delivered - exchange.delivery_draw + outside.delivery),
+        inlet_flow=as_number(drawn_in + exchange.suction_draw + outside.inlet),
+        drain_flow=drained + outside.drain,
+    )
+
+
+def metered(reading: BenchReading[Number], outside: Outside[Number]) -> BenchReading[Number]:
+    """The reading with what the delivery's meter reads."""
+    return replace(reading, delivery_flow=reading.delivery_flow * outside.delivery_reading)
+
+
+def shaft_work(
+    totals: TurnTotals[Number], rate: Number, friction: Number, exchange: GapExchange[Number]
+) -> Number:
     """Shaft power in W by the pistons' work on the chambers, less what carried oil gives back, and friction.
 
     What carried oil gives is the pull of the gap's pressure gradient on the piston: with it the torque, like the
     flow, belongs to the mean of piston and bore area.
     """
-    return rate * cycle.indicated_work - exchange.carried.total + friction
+    return rate * totals.indicated_work - exchange.carried.total + friction
 
 
 def leakage_by_flow(ported: PortedCycle, rate: float, exchange: GapExchange) -> Gaps:
@@ -109,11 +164,12 @@ def leakage_by_flow(ported: PortedCycle, rate: float, exchange: GapExchange) -> 
 
 
 def power_balance(
-    ported: PortedCycle, reading: BenchReading, rate: float, friction: float, leakage: Gaps
+    ported: PortedCycle, reading: BenchReading, rate: float, friction: float, leakage: Gaps, extended: float
 ) -> PowerBalance:
     """A reading's shaft power and its sinks.
 
-    rate: chambers times turns per second; friction: W of all pairs; leakage: W of each gap.
+    rate: chambers times turns per second; friction: W of all pairs; leakage: W of each gap; extended: W that goes
+    past chambers and pairs.
     """
     problem, cycle = ported.problem, ported.cycle
     ports = (
@@ -131,4 +187,5 @@ def power_balance(
         throttling_delivery=rate * float(energy.delivery),
         throttling_suction=rate * float(energy.suction),
         friction=friction,
+        extended=extended,
     )

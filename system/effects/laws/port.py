@@ -12,7 +12,6 @@ from system.description.gap import Gap
 from system.effects.effect import BenchState, Effects, GapCourse
 from system.effects.extension import Values
 from system.effects.state import pressure_difference, swash_tangent, unchanged
-from system.pump.ports.areas import PortOpening
 
 RESONANCE_WIDTH = 0.05
 """Half width of a line's resonance, of its speed: a quality of 10 (5 to 15 are usual)."""
@@ -39,22 +38,6 @@ def notch_erosion(values: Values, courses: Courses, state: BenchState) -> Effect
     return replace(
         unchanged(courses), groove_advance=values["advance"] * ones, groove_area=(1.0 + values["widening"]) * ones
     )
-
-
-def eroded(port: PortOpening, advance: float, area: float) -> PortOpening:
-    """A port whose grooves ahead of the kidney begin `advance` rad sooner, throats `area` times as wide."""
-    grooves = tuple(
-        replace(groove, begins=groove.begins - advance, area=groove.area * area)
-        if groove.begins < groove.deep
-        else groove
-        for groove in port.grooves
-    )
-    return replace(port, grooves=grooves)
-
-
-def narrowed(port: PortOpening, area: float) -> PortOpening:
-    """A port whose kidney is `area` times as wide; grooves stay."""
-    return replace(port, kidney_area=port.kidney_area * area)
 
 
 def lorentz(speed: Array, at: float) -> Array:

@@ -23,7 +23,7 @@ from system.pump.laws.friction_pairs import FrictionPairs, Pair
 from system.pump.laws.kinematics import SwashDrive
 from system.pump.laws.leakage import piston_carried_flow
 from system.pump.lumped import PistonMotion, lumped_pairs, piston_area
-from system.pump.operating import OperatingPoint
+from system.pump.operating import columns
 
 INSTANTS = 1000  # at once, so that long courses fit in memory
 
@@ -73,12 +73,11 @@ def _torque(found: Transient, part: slice) -> Array:
         pump.piston.engaged_length - out,
         pump.piston.overhang + out,
     )
-    column = OperatingPoint(**{name: np.array([[value]]) for name, value in vars(point).items()})
-    losses = lumped_pairs(pump, column, motion, _Pressed(pressure))
+    losses = lumped_pairs(pump, columns(point), motion, _Pressed(pressure))
     return np.asarray(pushed.sum(axis=1) + _power(losses) / speed)
 
 
-def _power(losses: FrictionPairs) -> Array:
+def _power(losses: FrictionPairs[Array]) -> Array:
     """All losses (M,) W at each instant."""
     total = np.zeros(losses.piston_cylinder.coulomb.shape[0])
     for pair in Pair:

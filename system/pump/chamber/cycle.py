@@ -23,8 +23,8 @@ from system.pump.chamber.map_kernels import periodic
 from system.pump.chamber.problem import ChamberProblem
 from system.pump.chamber.setup import Course, constants, periodic_values, turn_nodes
 from system.pump.chamber.trail_kernels import NOT_PERIODIC
-from system.pump.chamber.turn import Paths, TurnTotals, turn_totals
-from system.pump.laws.kinematics import piston_displacement, stroke
+from system.pump.chamber.turn import Paths, TurnTotals, as_number, turn_totals
+from system.pump.laws.kinematics import Number, piston_displacement, stroke
 
 TOLERANCE = 1e-6
 """Largest local error of a step, of the port pressure difference; the closed revolution is good to about this."""
@@ -138,6 +138,12 @@ def flow_energy(pressure: Array | float, bulk_modulus: float) -> Array:
     Pressure work plus elastic energy of an oil of constant bulk modulus; p (1 - p/2K) to second order.
     """
     return np.asarray(-bulk_modulus * np.expm1(-np.asarray(pressure) / bulk_modulus))
+
+
+def specific_volume(pressure: Number, bulk_modulus: float) -> Number:
+    """Volume of liquid oil at a pressure in Pa over its volume at zero gauge pressure: exp(-p/K)."""
+    found: Number = as_number(np.exp(-pressure / bulk_modulus))
+    return found
 
 
 def _cycle(problem: ChamberProblem, effort: Effort, course: Course, checks: ChamberChecks) -> ChamberCycle:

@@ -8,7 +8,6 @@ from typing import Generic
 import numpy as np
 
 from reynolds.numerics.arrays import Array
-from system.pump.chamber.state_kernels import oil_volume
 from system.pump.laws.kinematics import Number, SwashDrive
 from system.pump.ports.areas import PortOpening
 
@@ -57,13 +56,11 @@ class PortPressure:
 
 
 @dataclass(frozen=True)
-class ChamberProblem(Generic[Number]):
-    """One chamber at one operating point: SI units, pressures gauge, oil properties constant.
+class Chamber(Generic[Number]):
+    """One chamber at one operating point without ports and gaps: SI units, pressures gauge, oil constant.
 
-    delivery_pressure and inlet_pressure are the ports' means over the turn; without `port_pressure` they are held.
-    growth (N,) m3 at N equidistant shaft angles from 0: what the parts' own small motion adds to the volume.
-
-    ChamberProblem[Array]: at P operating points, each value a column (P, 1); so may the ports' `dead_centre` be.
+    delivery_pressure and inlet_pressure are the ports' means over the turn. Chamber[Array]: at N operating points,
+    arrays (N,).
     """
 
     drive: SwashDrive[Number]
@@ -78,17 +75,23 @@ class ChamberProblem(Generic[Number]):
     kinematic_viscosity: Number
     flow_coefficient: float
     critical_reynolds: float
-    delivery_port: PortOpening[Number]
-    suction_port: PortOpening[Number]
-    leaks: LeakTable
-    port_pressure: PortPressure | None = None
-    growth: Array | None = None
-
-    def specific_volume(self, pressure: float) -> float:
-        """Volume of the oil at a pressure in Pa over its volume at zero gauge pressure."""
-        return float(oil_volume(pressure, self.bulk_modulus)[0])
 
     @property
     def pressure_span(self) -> Number:
         """Pressure difference of the ports and 1 bar, Pa: the size by which pressures are judged."""
         return abs(self.delivery_pressure - self.inlet_pressure) + 1e5
+
+
+@dataclass(frozen=True)
+class ChamberProblem(Chamber):
+    """One chamber at one operating point with its ports and its leaking gaps.
+
+    Without `port_pressure` the ports' pressures are held at their means. growth (N,) m3 at N equidistant shaft
+    angles from 0: what the parts' own small motion adds to the volume.
+    """
+
+    delivery_port: PortOpening
+    suction_port: PortOpening
+    leaks: LeakTable
+    port_pressure: PortPressure | None = None
+    growth: Array | None = None

@@ -9,18 +9,25 @@ import numpy as np
 from reynolds.numerics.arrays import Array
 from system.inputs.units import TURN
 from system.pump.chamber import kernels as kernel
-from system.pump.chamber.layout import INTEGRALS, PATHS
-from system.pump.chamber.problem import ChamberProblem
+from system.pump.chamber.layout import INTEGRALS, PATHS, TABLE
+from system.pump.chamber.problem import Chamber, ChamberProblem, LeakTable
 from system.pump.chamber.state_kernels import CHAMBER
+from system.pump.laws.kinematics import Number
 from system.pump.ports.areas import PortOpening, as_array, break_angles
 
 Constants = tuple[np.ndarray, Array, Array]
 """The record of the chamber's constants, the table of its gaps and that of its ports."""
+PORT_NAMES = ("delivery_port", "suction_port")
 
 
 def constants(problem: ChamberProblem) -> Constants:
     """A chamber problem as `kernels` reads it."""
-    return _record(problem), _gap_cubics(problem), _port_cubics(problem)
+    record = chamber_records(problem)
+    record["delivery_port"], record["suction_port"] = (
+        as_array(problem.delivery_port),
+        as_array(problem.suction_port),
+    )
+    return record, gap_cubics(problem.leaks, problem.growth), _port_cubics(problem)
 
 
 def turn_nodes(suction: PortOpening, delivery: PortOpening, samples: int) -> tuple[Array, np.ndarray]:
@@ -65,28 +72,30 @@ class Course:
         return Course(self.pressures[where], self.rates[where], surge[where] - surge[where[0]], self.totals)
 
 
-def _record(problem: ChamberProblem) -> np.ndarray:
-    chamber = np.zeros(1, dtype=CHAMBER)
-    chamber["stroke_scale"] = problem.drive.stroke_scale
-    chamber["cone_swash_product"] = problem.drive.cone_swash_product
-    chamber["delivery_port"] = as_array(problem.delivery_port)
-    chamber["suction_port"] = as_array(problem.suction_port)
+def chamber_records(chamber: Chamber[Number]) -> np.ndarray:
+    """The records (N,) of a chamber's constants, CHAMBER without its ports: N points, or one."""
+    found = np.zeros(np.size(chamber.shaft_speed), dtype=CHAMBER)
     for name in CHAMBER.names or ():
-        if name not in ("stroke_scale", "cone_swash_product", "delivery_port", "suction_port"):
-            chamber[name] = getattr(problem, name)
-    return chamber
+        owner = chamber if hasattr(chamber, name) else chamber.drive
+        if name not in PORT_NAMES:
+            found[name] = getattr(owner, name)
+    return found
 
 
-def _gap_cubics(problem: ChamberProblem) -> Array:
-    """The gaps' table and the growth of the volume as the kernel reads them, (N, 7, 4)."""
-    leaks = problem.leaks
-    count = leaks.conductance.shape[1]
-    growth = np.zeros(count) if problem.growth is None else problem.growth
-    if growth.shape != (count,):
+def gap_cubics(leaks: LeakTable, growth: Array | None = None) -> Array:
+    """The gaps' table and the growth (M,) of the volume as the kernel reads them, (M, TABLE, 4).
+
+    Of N points at once (N, M, TABLE, 4). Raises ValueError for a growth of another length than the leaks'.
+    """
+    *points, _, samples = leaks.conductance.shape
+    grown = np.zeros(samples) if growth is None else growth
+    if grown.shape != (samples,):
         raise ValueError(
-            f"growth of the chamber: found shape {growth.shape}, expected the leak table's ({count},)"
+            f"growth of the chamber: found shape {grown.shape}, expected the leak table's ({samples},)"
         )
-    return periodic_cubics(np.concatenate([leaks.conductance, leaks.carried_flow, growth[None]]))
+    rows = [leaks.conductance, leaks.carried_flow, np.broadcast_to(grown, (*points, 1, samples))]
+    cubics = periodic_cubics(np.concatenate(rows, axis=-2).reshape(-1, samples))
+    return np.ascontiguousarray(np.moveaxis(cubics.reshape(samples, *points, TABLE, 4), 0, -3))
 
 
 def _port_cubics(problem: ChamberProblem) -> Array:

@@ -48,6 +48,11 @@ class Paths:
         return self.delivery + self.suction + self.piston + self.slipper + self.valve_plate
 
 
+def as_number(value: Any) -> Any:
+    """A float for one point, the array for N points."""
+    return float(value) if np.ndim(value) == 0 else value
+
+
 @dataclass(frozen=True)
 class TurnTotals(Generic[Number]):
     """Integrals over one turn of one chamber; TurnTotals[Array]: at N operating points, arrays (N,).
@@ -73,6 +78,6 @@ def turn_totals(integrals: Array) -> TurnTotals[Any]:
         outflow=Paths(*column[OUTFLOW : OUTFLOW + PATHS]),
         path_energy=Paths(*column[PATH_ENERGY : PATH_ENERGY + PATHS]),
         carried_energy=column[CARRIED_ENERGY : CARRIED_ENERGY + GAPS],
-        indicated_work=float(column[WORK]) if integrals.ndim == 1 else column[WORK],
+        indicated_work=as_number(column[WORK]),
         port_energy=column[PORT_ENERGY : PORT_ENERGY + PORTS],
     )

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import Enum
+from typing import Any, Generic
 
 import numpy as np
 
@@ -29,11 +30,12 @@ class Pair(Enum):
 
 
 @dataclass(frozen=True)
-class PairLoss:
+class PairLoss(Generic[Number]):
     """Loss of one pair over equidistant shaft angles in W, Coulomb and viscous part, and how many pairs there are.
 
     `count` is z for the pistons' and slippers' pairs, whose arrays belong to one of them (the mean of all where
-    chambers differ), and 1 for the others.
+    chambers differ), and 1 for the others. PairLoss[Array]: at N operating points, each over its M angles, (N, M);
+    means (N,).
     """
 
     count: int
@@ -41,60 +43,67 @@ class PairLoss:
     viscous: Array
 
     @property
-    def mean_coulomb(self) -> float:
+    def mean_coulomb(self) -> Number:
         """Mean Coulomb loss of all such pairs in W, paper Eq. (22)."""
-        return revolution_mean(self.coulomb, self.count)
+        found: Number = revolution_mean(self.coulomb, self.count)
+        return found
 
     @property
-    def mean_viscous(self) -> float:
+    def mean_viscous(self) -> Number:
         """Mean viscous loss of all such pairs in W, paper Eq. (22)."""
-        return revolution_mean(self.viscous, self.count)
+        found: Number = revolution_mean(self.viscous, self.count)
+        return found
 
     @property
-    def mean(self) -> float:
+    def mean(self) -> Number:
         """Mean loss of all such pairs in W, paper Eq. (22)."""
         return self.mean_coulomb + self.mean_viscous
 
     @property
-    def quadrature_error(self) -> float:
+    def quadrature_error(self) -> Number:
         """Estimate for `mean` in W: its change when every second shaft angle is left out."""
         total = self.coulomb + self.viscous
-        return abs(revolution_mean(total, self.count) - revolution_mean(total[::2], self.count))
+        found: Number = abs(revolution_mean(total, self.count) - revolution_mean(total[..., ::2], self.count))
+        return found
 
 
 @dataclass(frozen=True)
-class FrictionPairs:
+class FrictionPairs(Generic[Number]):
     """The losses of the seven pairs, in the order of `Pair`."""
 
-    piston_cylinder: PairLoss
-    slipper_swash_plate: PairLoss
-    valve_plate_cylinder: PairLoss
-    ball_guide_retainer: PairLoss
-    piston_slipper_socket: PairLoss
-    front_bearing: PairLoss
-    rear_bearing: PairLoss
+    piston_cylinder: PairLoss[Number]
+    slipper_swash_plate: PairLoss[Number]
+    valve_plate_cylinder: PairLoss[Number]
+    ball_guide_retainer: PairLoss[Number]
+    piston_slipper_socket: PairLoss[Number]
+    front_bearing: PairLoss[Number]
+    rear_bearing: PairLoss[Number]
 
-    def loss(self, pair: Pair) -> PairLoss:
+    def loss(self, pair: Pair) -> PairLoss[Number]:
         """The loss of one pair."""
-        found: PairLoss = getattr(self, pair.value)
+        found: PairLoss[Number] = getattr(self, pair.value)
         return found
 
     @property
-    def power(self) -> float:
+    def power(self) -> Number:
         """Mean loss of all pairs in W: the hydromechanical loss."""
-        return sum(self.loss(pair).mean for pair in Pair)
+        total: Any = sum(self.loss(pair).mean for pair in Pair)
+        found: Number = total
+        return found
 
-    def share(self, pair: Pair) -> float:
+    def share(self, pair: Pair) -> Number:
         """Share of one pair in the hydromechanical loss."""
         return self.loss(pair).mean / self.power
 
 
-def revolution_mean(loss: Array, count: int) -> float:
+def revolution_mean(loss: Array, count: int) -> Any:
     """Mean power of `count` equal pairs in W; paper Eq. (22) by the periodic trapezoidal rule.
 
-    Spectrally accurate where the loss is smooth, second order in the angle step at its bends.
+    A float for a loss (M,) over the angles, (N,) for (N, M). Spectrally accurate where the loss is smooth, second
+    order in the angle step at its bends.
     """
-    return count * float(np.mean(loss))
+    mean = np.mean(loss, axis=-1)
+    return count * (float(mean) if loss.ndim == 1 else mean)
 
 
 def over_chambers(values: Sequence[Array], pistons: int) -> Array:

@@ -8,14 +8,12 @@ suction port counts its angles from the inner dead centre (shaft angle 0), the d
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Generic
 
 import numba
 import numpy as np
 
 from reynolds.numerics.arrays import Array
 from system.inputs.units import TURN
-from system.pump.laws.kinematics import Number
 from system.pump.ports.flow_coefficients import FLOW_SIZE, FlowTable
 from system.pump.ports.relief_grooves import SIZE, ReliefGroove, throat_area
 from system.pump.ports.webs import WEBS_SIZE, PortWebs, covered_share
@@ -32,7 +30,7 @@ PLAIN = FlowTable()
 
 
 @dataclass(frozen=True)
-class PortOpening(Generic[Number]):
+class PortOpening:
     """One port: angles in rad from its own dead centre, in rising order, and the area of its kidney in m2.
 
     `dead_centre` is the shaft angle of that dead centre: 0 for suction, pi for delivery. Grooves that sink with
@@ -40,7 +38,7 @@ class PortOpening(Generic[Number]):
     than MOST_GROOVES.
     """
 
-    dead_centre: Number | float
+    dead_centre: float
     kidney_start: float
     kidney_full_start: float
     kidney_full_end: float

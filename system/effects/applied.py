@@ -1,0 +1,73 @@
+"""Effects applied to a pump, at N points of a bench map or at one: its stroke, its leakage, its ports."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from scipy.interpolate import CubicSpline
+
+from reynolds.numerics.arrays import Array
+from system.description.pump import PumpDescription
+from system.effects.effect import BenchState, Effects, Value
+from system.effects.extension import Law, Values
+from system.effects.gap_states import bench_state, gap_courses
+from system.effects.switched import stated_effects
+from system.pump.chamber.problem import LeakTable
+from system.pump.laws.kinematics import Number
+from system.pump.lumped import PistonMotion, Pressed, lumped_pairs
+from system.pump.operating import OperatingPoint
+from system.pump.ports.wear import PortWear
+
+
+@dataclass(frozen=True)
+class Affected:
+    """What laws change at N points, and the state they see."""
+
+    effects: Effects
+    state: BenchState
+
+
+def effects_at(
+    pump: PumpDescription,
+    point: OperatingPoint[Array],
+    motion: PistonMotion[Array],
+    cycle: Pressed,
+    laws: Sequence[tuple[Law, Values]],
+    hours: Array,
+) -> Affected:
+    """What laws with their values change at N points, columns (N, 1), at chamber pressures without any effect."""
+    courses = gap_courses(pump, point, motion, cycle, lumped_pairs(pump, point, motion, cycle))
+    state = bench_state(pump, point, hours)
+    return Affected(stated_effects(laws, courses, state), state)
+
+
+def displaced(point: OperatingPoint[Number], ideal: Number) -> OperatingPoint[Number]:
+    """The point with the stroke that effects leave, `ideal` of the displacement."""
+    return replace(point, displacement_ratio=point.displacement_ratio * ideal)
+
+
+def affected_leaks(leaks: LeakTable, effects: Effects[Value]) -> LeakTable:
+    """Leaks with the effects' factors at the effects' angles; of fewer angles, by a periodic spline."""
+    factor, count = np.moveaxis(effects.conductance, 0, -2), effects.conductance.shape[-1]
+    if leaks.conductance.shape[-1] == count:
+        return LeakTable(leaks.conductance * factor, leaks.carried_flow)
+    conductance, carried = (_at_angles(table, count) for table in (leaks.conductance, leaks.carried_flow))
+    return LeakTable(np.maximum(conductance, 0.0) * factor, carried)
+
+
+def affected_wear(wear: PortWear[Value], effects: Effects[Value]) -> PortWear[Value]:
+    """The ports' wear with that of the effects."""
+    return PortWear(
+        wear.groove_advance + effects.groove_advance,
+        wear.groove_area * effects.groove_area,
+        wear.suction_area * effects.suction_area,
+    )
+
+
+def _at_angles(table: Array, count: int) -> Array:
+    """A table over the turn (..., N) at so many angles."""
+    closed = np.concatenate([table, table[..., :1]], axis=-1)
+    spline = CubicSpline(np.linspace(0.0, 1.0, closed.shape[-1]), closed, axis=-1, bc_type="periodic")
+    return np.asarray(spline(np.arange(count) / count))
