@@ -85,9 +85,9 @@ def solve_map(pump: PumpDescription, problem: MapProblem, tolerance: float) -> C
     Periodic to a tenth of the tolerance (PERIODICITY at least), both of the ports' pressure difference. Raises
     NotConverged with the first point that does not become periodic.
     """
-    run = _Run.of(pump, problem, tolerance)
-    trail, begins = chamber_map(*run.given, *run.filled)
-    return replace(run.courses(problem), trail=trail, begins=begins)
+    given, filled = _run(pump, problem, tolerance)
+    trail, begins = chamber_map(*given, *filled)
+    return replace(_courses(problem, filled), trail=trail, begins=begins)
 
 
 def beside(pump: PumpDescription, courses: Courses, problem: MapProblem, tolerance: float) -> Courses:
@@ -96,40 +96,35 @@ def beside(pump: PumpDescription, courses: Courses, problem: MapProblem, toleran
     They go along the steps of these, so that differences are smoother than those of two maps solved apart, at
     six tenths of the price. Points that those steps do not lead well are solved for themselves.
     """
-    run = _Run.of(pump, problem, tolerance)
-    beside_map(*run.given, courses.trail, courses.begins, *run.filled)
-    return run.courses(problem)
+    given, filled = _run(pump, problem, tolerance)
+    beside_map(*given, courses.trail, courses.begins, *filled)
+    return _courses(problem, filled)
 
 
-@dataclass(frozen=True)
-class _Run:
-    """What the compiled maps are given, and what they fill: pressures, totals, statuses."""
+def _run(
+    pump: PumpDescription, problem: MapProblem, tolerance: float
+) -> tuple[tuple[Any, ...], tuple[Array, ...]]:
+    """Arguments of the compiled maps, and the arrays that they fill: pressures, totals, statuses."""
+    points, _, samples = problem.leaks.conductance.shape
+    ports, records = map_ports(pump, problem.shift, problem.wear, samples), problem.records
+    for name, rows in zip(PORT_NAMES, (ports.delivery, ports.suction), strict=True):
+        records[name] = rows
+    held = np.zeros((points, 1, 2, 4))
+    held[:, 0, :, 0] = np.column_stack([records["delivery_pressure"], records["inlet_pressure"]])
+    control = tolerance, max(PERIODICITY, 0.1 * tolerance), REVOLUTION_LIMIT
+    given = records, gap_cubics(problem.leaks), held, ports.nodes, ports.firsts, control
+    totals = np.empty((points, 2 * INTEGRALS))
+    return given, (np.empty((points, samples)), totals, np.empty(points, dtype=np.int64))
 
-    given: tuple[Any, ...]
-    filled: tuple[Array, Array, Array]
 
-    @classmethod
-    def of(cls, pump: PumpDescription, problem: MapProblem, tolerance: float) -> _Run:
-        points, _, samples = problem.leaks.conductance.shape
-        ports = map_ports(pump, problem.shift, problem.wear, samples)
-        records = problem.records
-        for name, rows in zip(PORT_NAMES, (ports.delivery, ports.suction), strict=True):
-            records[name] = rows
-        held = np.zeros((points, 1, 2, 4))
-        held[:, 0, :, 0] = np.column_stack([records["delivery_pressure"], records["inlet_pressure"]])
-        control = tolerance, max(PERIODICITY, 0.1 * tolerance), REVOLUTION_LIMIT
-        given = records, gap_cubics(problem.leaks), held, ports.nodes, ports.firsts, control
-        totals = np.empty((points, 2 * INTEGRALS))
-        return cls(given, (np.empty((points, samples)), totals, np.empty(points, dtype=np.int64)))
-
-    def courses(self, problem: MapProblem) -> Courses:
-        """What was filled. Raises NotConverged with the first point that is not periodic."""
-        pressure, totals, statuses = self.filled
-        if np.any(statuses != kernel.OK):
-            first = int(np.argmax(statuses != kernel.OK))
-            at = float(problem.chamber.delivery_pressure[first]), float(problem.chamber.shaft_speed[first])
-            raise unsolved("no periodic revolution", *at)
-        return Courses(pressure, turn_totals(totals))
+def _courses(problem: MapProblem, filled: tuple[Array, ...]) -> Courses:
+    """The courses that were filled. Raises NotConverged with the first point that is not periodic."""
+    pressure, totals, statuses = filled
+    if np.any(statuses != kernel.OK):
+        first = int(np.argmax(statuses != kernel.OK))
+        at = float(problem.chamber.delivery_pressure[first]), float(problem.chamber.shaft_speed[first])
+        raise unsolved("no periodic revolution", *at)
+    return Courses(pressure, turn_totals(totals))
 
 
 def other_gaps(courses: Courses, solved: MapProblem, other: MapProblem) -> Courses:

@@ -14,7 +14,7 @@ from system.effects.friction import rubbed
 from system.effects.outside import outside
 from system.inputs.channels import ChannelName
 from system.inputs.units import TURN
-from system.pump.bench import Outside
+from system.pump.bench import NOTHING_OUTSIDE
 from system.pump.laws.friction_pairs import FrictionPairs
 from system.pump.lumped import lumped_pairs
 from system.pump.power import bench_reading, chamber_exchange, metered
@@ -44,7 +44,8 @@ def losses(solved: Solved) -> FrictionPairs[Array]:
 def truth(solved: Solved) -> Array:
     """Delivery, inlet and drain flow in m3/s at their own port's pressure and shaft torque in N m, (N, 4)."""
     at, totals, pistons = solved.setting.problem.chamber, solved.courses.totals, solved.setting.pump.pump.pistons
-    exchange, added = chamber_exchange(totals, pistons * at.shaft_speed / TURN), _outside(solved)
+    exchange, changed = chamber_exchange(totals, pistons * at.shaft_speed / TURN), solved.affected
+    added = NOTHING_OUTSIDE if changed is None else outside(changed.effects, changed.state)
     found = metered(bench_reading(at, totals, pistons, losses(solved).power, exchange, added), added)
     return np.column_stack([found.delivery_flow, found.inlet_flow, found.drain_flow, found.shaft_torque])
 
@@ -52,10 +53,3 @@ def truth(solved: Solved) -> Array:
 def throttling_torque(setting: Setting, courses: Courses) -> Array:
     """Torque (N,) N m that throttling in both ports takes."""
     return np.asarray(setting.pump.pump.pistons / TURN * courses.totals.path_energy.ports)
-
-
-def _outside(solved: Solved) -> Outside[Array]:
-    if solved.affected is not None:
-        return outside(solved.affected.effects, solved.affected.state)
-    nothing = np.zeros_like(solved.setting.problem.chamber.shaft_speed)
-    return Outside(nothing, nothing, nothing, nothing, nothing, 1.0 + nothing)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -24,24 +25,19 @@ from system.pump.ports.wear import PortWear
 
 @dataclass(frozen=True)
 class Setting:
-    """A pump at N points, columns (N, 1): its motion over M shaft angles, and its chambers."""
+    """A pump at N points, columns (N, 1): its motion over M shaft angles, what its gaps leak, its ports' wear."""
 
     pump: PumpDescription
     point: OperatingPoint[Array]
     motion: PistonMotion[Array]
-    problem: MapProblem
+    leaks: LeakTable
+    wear: PortWear[Array]
 
-    @classmethod
-    def of(
-        cls,
-        pump: PumpDescription,
-        point: OperatingPoint[Array],
-        motion: PistonMotion[Array],
-        leaks: LeakTable,
-        wear: PortWear[Array],
-    ) -> Setting:
-        """The pump with gaps that leak as `leaks` says."""
-        return cls(pump, point, motion, MapProblem(chamber(pump, flat(point), flat(motion.drive)), leaks, wear))
+    @cached_property
+    def problem(self) -> MapProblem:
+        """The chambers."""
+        one = chamber(self.pump, flat(self.point), flat(self.motion.drive))
+        return MapProblem(one, self.leaks, self.wear)
 
 
 def setting(
@@ -63,7 +59,7 @@ def setting(
     motion, ones = piston_motion(own, point, samples_per_pitch), np.ones(len(at.speed))
     cut = values.get(GROOVE_ADVANCE, 0.0), values.get(GROOVE_AREA, 1.0)
     wear = PortWear(cut[0] * ones, cut[1] * ones, ones)
-    return Setting.of(own, point, motion, lumped_leaks(own, point, motion), wear)
+    return Setting(own, point, motion, lumped_leaks(own, point, motion), wear)
 
 
 def affected(given: Setting, effects: Effects) -> Setting:
@@ -73,7 +69,7 @@ def affected(given: Setting, effects: Effects) -> Setting:
         point = displaced(point, _column(effects.ideal))
         motion = piston_motion(pump, point, motion.shaft_angle.size // pump.pump.pistons)
     leaks = affected_leaks(lumped_leaks(pump, point, motion), effects)
-    return Setting.of(pump, point, motion, leaks, affected_wear(given.problem.wear, effects))
+    return Setting(pump, point, motion, leaks, affected_wear(given.wear, effects))
 
 
 def _column(values: Array) -> Array:

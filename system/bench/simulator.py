@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 from hashlib import blake2b
+from typing import Any
 
 import numpy as np
 
@@ -146,10 +147,7 @@ class LumpedBench:
 
     def elsewhere(self, points: BenchPoints) -> LumpedBench:
         """The same pump with the same parameters and laws at other points."""
-        return LumpedBench(
-            self.pump, points, self.channels, self.parameters, self.physics, self.inputs, self.samples_per_pitch,
-            self.tolerance,
-        )  # fmt: skip
+        return self._like(points=points)
 
     def traces(self, values: Array, points: tuple[int, ...], angles: Array) -> Array:
         """Chamber pressure (len(points), K) in Pa gauge at shaft angles (K,) rad, as `turns` of a finer bench."""
@@ -159,10 +157,7 @@ class LumpedBench:
         """The same bench at some of its points, with as many shaft angles as a trace asks for."""
         chosen = list(points)
         some = replace(self.points, **{name: getattr(self.points, name)[chosen] for name in vars(self.points)})
-        return LumpedBench(
-            self.pump, some, self.channels, self.parameters, self.physics, self.inputs, TRACE_SAMPLES_PER_PITCH,
-            self.tolerance,
-        )  # fmt: skip
+        return self._like(points=some, samples_per_pitch=TRACE_SAMPLES_PER_PITCH)
 
     def turns(self, values: Array, angles: Array) -> Array:
         """Chamber pressure (N, K) in Pa gauge at shaft angles (K,) rad, as encoder and transducer read it."""
@@ -247,13 +242,15 @@ class LumpedBench:
             step = min(step, LOG_STEP * value)
         return -step if value + step > parameter.upper else step
 
+    def _like(self, **changed: Any) -> LumpedBench:
+        """The same bench with some of its arguments changed."""
+        names = "pump", "points", "channels", "parameters", "physics", "inputs", "samples_per_pitch", "tolerance"
+        return LumpedBench(**{name: getattr(self, name) for name in names} | changed)
+
     def _with(self, parameters: tuple[Parameter, ...], physics: tuple[Extension, ...]) -> LumpedBench:
         new = {parameter.name: parameter for parameter in parameters}
         own = tuple(new.pop(parameter.name, parameter) for parameter in self.parameters)
-        bench = LumpedBench(
-            self.pump, self.points, self.channels, (*own, *new.values()), physics, self.inputs,
-            self.samples_per_pitch, self.tolerance,
-        )  # fmt: skip
+        bench = self._like(parameters=(*own, *new.values()), physics=physics)
         bench._kept = self._kept
         return bench
 

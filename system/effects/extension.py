@@ -47,10 +47,6 @@ class Extension:
         """Parameters by name with which the law changes nothing: their centres."""
         return {parameter.name: parameter.centre for parameter in self.parameters}
 
-    def effects(self, values: Mapping[str, float], courses: Mapping[Gap, GapCourse], state: BenchState) -> Effects:
-        """Changes by the law with parameters by name; parameters of other extensions are ignored."""
-        return self.law(self.stated(values), courses, state)
-
     def stated(self, values: Mapping[str, float]) -> dict[str, float]:
         """The law's values by its own keys, as a pump file's table states them, of parameters by name."""
         return {**self.grid[0], **{_key(one): values[one.name] for one in self.free if one.name in values}}

@@ -3,28 +3,43 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
-from reynolds.numerics.arrays import Array
 from system.description.pump import PumpDescription
-from system.effects.applied import displaced, effects_at
+from system.effects.applied import affected_leaks, affected_wear, displaced, effects_at
 from system.effects.effect import Effects
 from system.effects.gap_states import bench_state
 from system.effects.outside import outside
 from system.effects.switched import stated_laws
 from system.pump.bench import NOTHING_OUTSIDE, Outside
 from system.pump.chamber.cycle import ChamberCycle
-from system.pump.lumped import piston_motion
+from system.pump.chamber.problem import ChamberProblem, LeakTable
+from system.pump.lumped import PistonMotion, Pressures, chamber_problem, piston_motion
 from system.pump.operating import OperatingPoint, columns
+from system.pump.ports.wear import AS_DRAWN
 from system.work.means import mean_of
 
 
 def point_effects(pump: PumpDescription, point: OperatingPoint, cycle: ChamberCycle) -> Effects[float]:
     """What [physics] changes at one point, over the angles of a cycle without any effect."""
-    at, row = columns(point), _Row(cycle.pressure[None])
-    return effects_at(pump, at, piston_motion(pump, at), row, stated_laws(pump), np.zeros(1)).effects.at(0)
+    at, pressures = columns(point), Pressures(cycle.pressure[None])
+    found = effects_at(pump, at, piston_motion(pump, at), pressures, stated_laws(pump), np.zeros(1))
+    return found.effects.at(0)
+
+
+def affected_problem(
+    pump: PumpDescription,
+    point: OperatingPoint,
+    motion: PistonMotion,
+    leaks: LeakTable,
+    effects: Sequence[Effects[float]],
+) -> ChamberProblem:
+    """One chamber of the pump at the point, with what effects change of its leaks and ports."""
+    wear = AS_DRAWN
+    for one in effects:
+        leaks, wear = affected_leaks(leaks, one), affected_wear(wear, one)
+    return chamber_problem(pump, point, motion, leaks, wear)
 
 
 def with_stroke(point: OperatingPoint, effects: Sequence[Effects[float]]) -> OperatingPoint:
@@ -38,10 +53,3 @@ def mean_outside(
     """What passes the chambers by at a point, mean of the chambers' effects."""
     state = bench_state(pump, point, 0.0)
     return mean_of([outside(one, state) for one in effects]) if effects else NOTHING_OUTSIDE
-
-
-@dataclass(frozen=True)
-class _Row:
-    """A cycle's pressure as a map of one point has it, (1, M)."""
-
-    pressure: Array

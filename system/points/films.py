@@ -17,7 +17,7 @@ from reynolds.errors import FilmInputError
 from reynolds.numerics.arrays import Array
 from system.description.effects import PhysicsSection
 from system.description.pump import PumpDescription
-from system.effects.applied import affected_leaks, affected_wear
+from system.effects.applied import affected_leaks
 from system.effects.effect import Effects
 from system.effects.friction import rubbed
 from system.films.cycle import PLAIN, GapCycle, GapPhysics, gap_cycle
@@ -25,7 +25,7 @@ from system.films.parts import FloatingParts, floating_parts
 from system.films.rotor import Rotor, rotor
 from system.inputs.errors import NotConverged
 from system.inputs.units import TURN
-from system.points.effects import mean_outside, point_effects, with_stroke
+from system.points.effects import affected_problem, mean_outside, point_effects, with_stroke
 from system.points.film_effects import FilmEffects, closed_laws, film_effects
 from system.points.lumped import lumped_point
 from system.pump.assembly import PumpPoint, assemble, met_point
@@ -39,7 +39,6 @@ from system.pump.laws.friction_pairs import FrictionPairs
 from system.pump.lumped import (
     SAMPLES_PER_PITCH,
     PistonMotion,
-    chamber_problem,
     group_masses,
     lumped_pairs,
     piston_motion,
@@ -47,7 +46,6 @@ from system.pump.lumped import (
     swept_displacement,
 )
 from system.pump.operating import OperatingPoint
-from system.pump.ports.wear import AS_DRAWN
 from system.pump.power import GapExchange, Gaps
 from system.work.progress import Report, silent
 
@@ -164,7 +162,9 @@ class _Coupling:
     cycle: ChamberCycle
 
     def losses(self, cycle: ChamberCycle, gaps: GapCycle | None = None) -> FrictionPairs:
-        """The pairs' losses at a cycle's pressures, with the shear of these films and the contributions of effects."""
+        """The pairs' losses at a cycle's pressures, with the shear of these films and the contributions of
+        effects.
+        """
         found = lumped_pairs(self.pump, self.point, self.motion, cycle)
         if gaps is not None:
             found = with_film_shear(found, gaps, self.point.case_pressure)
@@ -186,10 +186,7 @@ def _work(pump: PumpDescription, point: OperatingPoint, physics: GapPhysics) -> 
 def _ported(work: _Coupling, gaps: GapCycle, met: OperatingPoint) -> tuple[PortedCycle, LeakTable]:
     """Chambers and ports with the films' leaks, ports as `met` before; and these leaks without closed laws."""
     leaks = edged_leaks(work.pump, work.point, gaps)
-    acting, wear = leaks, AS_DRAWN
-    for one in work.effects:
-        acting, wear = affected_leaks(acting, one), affected_wear(wear, one)
-    problem = chamber_problem(work.pump, work.point, work.motion, acting, wear)
+    problem = affected_problem(work.pump, work.point, work.motion, leaks, work.effects)
     lines, draws = port_lines(work.pump, work.point), port_draws(gaps, met, work.pump.oil.bulk_modulus)
     samples = work.motion.shaft_angle.size
     return ported_cycle((problem,), lines, work.pump.pump.pistons, samples, draws=draws), leaks

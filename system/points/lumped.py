@@ -7,12 +7,11 @@ from collections.abc import Sequence
 import numpy as np
 
 from system.description.pump import PumpDescription
-from system.effects.applied import affected_leaks, affected_wear
 from system.effects.effect import Effects
 from system.effects.friction import rubbed
 from system.inputs.errors import NotConverged
 from system.inputs.units import TURN
-from system.points.effects import mean_outside, point_effects, with_stroke
+from system.points.effects import affected_problem, mean_outside, point_effects, with_stroke
 from system.pump.assembly import PumpPoint, assemble, met_point
 from system.pump.chamber.cycle import TOLERANCE, ChamberCycle
 from system.pump.chamber.port_coupling import PortedCycle, ported_cycle
@@ -22,7 +21,6 @@ from system.pump.film_thickness import expansion
 from system.pump.land_losses import land_losses, with_inertia
 from system.pump.lumped import (
     PistonMotion,
-    chamber_problem,
     group_masses,
     lumped_leaks,
     lumped_pairs,
@@ -31,7 +29,6 @@ from system.pump.lumped import (
     swept_displacement,
 )
 from system.pump.operating import OperatingPoint
-from system.pump.ports.wear import AS_DRAWN
 from system.pump.power import chamber_exchange
 
 ROUND_LIMIT = 20
@@ -93,13 +90,9 @@ def _ported(
     creeping = [lumped_leaks(own, point, motion) for own, motion in zip(found.pumps, motions, strict=True)]
     leaks = creeping
     for _ in range(ROUND_LIMIT):
-        acting, wear = leaks, [AS_DRAWN] * len(leaks)
-        if effects:
-            acting = [affected_leaks(*each) for each in zip(leaks, effects, strict=True)]
-            wear = [affected_wear(AS_DRAWN, one) for one in effects]
         problems = [
-            chamber_problem(own, point, motion, leak, cut)
-            for own, motion, leak, cut in zip(found.pumps, motions, acting, wear, strict=True)
+            affected_problem(own, point, motion, leak, effects[kind : kind + 1])
+            for kind, (own, motion, leak) in enumerate(zip(found.pumps, motions, leaks, strict=True))
         ]
         ported = ported_cycle(found.by_chamber(problems), lines, pistons, samples, tolerance)
         before, leaks = (

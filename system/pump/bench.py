@@ -34,6 +34,15 @@ class BenchReading(Generic[Number]):
         """2 pi n T in W."""
         return self.shaft_speed * self.shaft_torque
 
+    @property
+    def ports(self) -> tuple[tuple[Number, Number], ...]:
+        """Flow out of the pump and pressure, of delivery, inlet and drain."""
+        return (
+            (self.delivery_flow, self.delivery_pressure),
+            (-self.inlet_flow, self.inlet_pressure),
+            (self.drain_flow, self.drain_pressure),
+        )
+
 
 @dataclass(frozen=True)
 class Outside(Generic[Number]):
@@ -155,13 +164,8 @@ def energy_split(reading: BenchReading, bulk_modulus: float) -> EnergySplit:
     drained volume is taken to have been raised to the delivery pressure first, as in Eq. (1).
     """
     r = reading
-    ports = (
-        (r.delivery_flow, r.delivery_pressure),
-        (-r.inlet_flow, r.inlet_pressure),
-        (r.drain_flow, r.drain_pressure),
-    )
-    hydraulic = sum(flow * pressure for flow, pressure in ports)
-    elastic = sum(flow * elastic_energy(pressure, bulk_modulus) for flow, pressure in ports)
+    hydraulic = sum(flow * pressure for flow, pressure in r.ports)
+    elastic = sum(flow * elastic_energy(pressure, bulk_modulus) for flow, pressure in r.ports)
     fall = r.delivery_pressure - r.drain_pressure
     leakage = -r.drain_flow * bulk_modulus * float(np.expm1(-fall / bulk_modulus))
     return EnergySplit(hydraulic, elastic, leakage, r.shaft_power - hydraulic - elastic - leakage)

@@ -71,6 +71,13 @@ class Pressed(Protocol):
         ...
 
 
+@dataclass(frozen=True)
+class Pressures:
+    """Chamber pressures (Pa gauge) without a cycle, (N,) or (P, N)."""
+
+    pressure: Array
+
+
 def port_lines(pump: PumpDescription, point: OperatingPoint) -> Lines:
     """What hangs on the ports by [delivery_line] and [suction_line].
 

@@ -10,7 +10,7 @@ from system.pump.bench import BenchReading, Outside, elastic_energy
 from system.pump.chamber.cycle import flow_energy, specific_volume
 from system.pump.chamber.port_coupling import PortedCycle
 from system.pump.chamber.problem import Chamber
-from system.pump.chamber.turn import TurnTotals, as_number
+from system.pump.chamber.turn import TurnTotals
 from system.pump.laws.kinematics import Number
 
 
@@ -43,7 +43,7 @@ class GapExchange(Generic[Number]):
 
 def chamber_exchange(totals: TurnTotals[Number], rate: Number) -> GapExchange[Number]:
     """The exchange of gaps that know nothing but their own chamber; `rate` is chambers times turns per second."""
-    return GapExchange(Gaps(*(as_number(rate * work) for work in totals.carried_energy)), 0.0 * rate, 0.0 * rate)
+    return GapExchange(Gaps(*(rate * work for work in totals.carried_energy)), 0.0 * rate, 0.0 * rate)
 
 
 @dataclass(frozen=True)
@@ -94,11 +94,7 @@ def gap_leakage(
     case, out = specific_volume(chamber.case_pressure, chamber.bulk_modulus), totals.outflow
     from_ports = case * sum(port_draw(chamber, exchange))
     scale = rate * case
-    return Gaps(
-        as_number(scale * out.piston),
-        as_number(scale * out.slipper),
-        as_number(scale * out.valve_plate + from_ports),
-    )
+    return Gaps(scale * out.piston, scale * out.slipper, scale * out.valve_plate + from_ports)
 
 
 def bench_reading(
@@ -107,7 +103,7 @@ def bench_reading(
     pistons: int,
     friction: Number,
     exchange: GapExchange[Number],
-    outside: Outside[Number],
+    outside: Outside[Number] | Outside[float],
 ) -> BenchReading[Number]:
     """Flows and torque of a pump by its chambers' totals, the friction (W) of its pairs and what passes by.
 
@@ -125,13 +121,13 @@ def bench_reading(
         delivery_pressure=chamber.delivery_pressure,
         inlet_pressure=chamber.inlet_pressure,
         drain_pressure=chamber.case_pressure,
-        delivery_flow=as_number(delivered - exchange.delivery_draw + outside.delivery),
-        inlet_flow=as_number(drawn_in + exchange.suction_draw + outside.inlet),
+        delivery_flow=delivered - exchange.delivery_draw + outside.delivery,
+        inlet_flow=drawn_in + exchange.suction_draw + outside.inlet,
         drain_flow=drained + outside.drain,
     )
 
 
-def metered(reading: BenchReading[Number], outside: Outside[Number]) -> BenchReading[Number]:
+def metered(reading: BenchReading[Number], outside: Outside[Number] | Outside[float]) -> BenchReading[Number]:
     """The reading with what the delivery's meter reads."""
     return replace(reading, delivery_flow=reading.delivery_flow * outside.delivery_reading)
 
@@ -171,13 +167,7 @@ def power_balance(
     rate: chambers times turns per second; friction: W of all pairs; leakage: W of each gap; extended: W that goes
     past chambers and pairs.
     """
-    problem, cycle = ported.problem, ported.cycle
-    ports = (
-        (reading.delivery_flow, reading.delivery_pressure),
-        (-reading.inlet_flow, reading.inlet_pressure),
-        (reading.drain_flow, reading.drain_pressure),
-    )
-    energy, modulus = cycle.path_energy, problem.bulk_modulus
+    energy, modulus, ports = ported.cycle.path_energy, ported.problem.bulk_modulus, reading.ports
     return PowerBalance(
         shaft=reading.shaft_power,
         hydraulic=sum(flow * pressure for flow, pressure in ports),

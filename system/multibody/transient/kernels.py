@@ -20,6 +20,7 @@ import numba
 import numpy as np
 
 from system.multibody.plate_kernels import axial
+from system.pump.chamber import layout as col
 from system.pump.chamber.kernels import (
     GAMMA,
     LEFT,
@@ -30,19 +31,7 @@ from system.pump.chamber.kernels import (
     fill_stage,
     stage_pressure,
 )
-from system.pump.chamber.layout import (
-    BEHIND,
-    CARRIED,
-    CONDUCTANCE,
-    INTEGRALS,
-    ORIFICE,
-    OUTFLOW,
-    PATHS,
-    PISTON,
-    SLIPPER,
-    VALVE_PLATE,
-    WAYS,
-)
+from system.pump.chamber.layout import INTEGRALS, PATHS, WAYS
 from system.pump.chamber.state_kernels import (
     oil_energy,
     oil_volume,
@@ -121,12 +110,13 @@ def piston_at(chamber, plate, shaft_angle, angle, rate, ways):
     place, by_phi, by_g, _, _, _ = axial(shaft_angle, angle, p.pitch_radius, p.cone, p.cross, p.pivot_offset)
     out = place - p.inner_place
     way = by_phi + by_g * rate / c.shaft_speed
-    ways[CONDUCTANCE] = p.piston_leak / (p.engaged_length - out)
-    ways[CONDUCTANCE + 1], ways[CONDUCTANCE + 2] = p.slipper_leak, p.ring_leak
-    ways[CARRIED], ways[CARRIED + 1], ways[CARRIED + 2] = p.carried * way * c.shaft_speed, 0.0, 0.0
+    ways[col.CONDUCTANCE] = p.piston_leak / (p.engaged_length - out)
+    ways[col.CONDUCTANCE + 1], ways[col.CONDUCTANCE + 2] = p.slipper_leak, p.ring_leak
+    ways[col.CARRIED] = p.carried * way * c.shaft_speed
+    ways[col.CARRIED + 1], ways[col.CARRIED + 2] = 0.0, 0.0
     ports = section_area(shaft_angle, c.delivery_port), section_area(shaft_angle, c.suction_port)
     port_ways(chamber, ports[0], ports[1], ways)
-    ways[BEHIND], ways[BEHIND + 1] = c.delivery_pressure, c.inlet_pressure
+    ways[col.BEHIND], ways[col.BEHIND + 1] = c.delivery_pressure, c.inlet_pressure
     return c.dead_volume + c.piston_area * out, c.piston_area * way
 
 
@@ -144,11 +134,11 @@ def actuator_at(chamber, plate, angle, rate, control, ways):
     """The same of the actuator: its orifice stands in the place of the delivery port, its leak in the piston's."""
     c, p = chamber[0], plate[0]
     ways[:] = 0.0
-    ways[CONDUCTANCE] = p.actuator_leak
+    ways[col.CONDUCTANCE] = p.actuator_leak
     law = (c.flow_coefficient, c.density, c.kinematic_viscosity, c.critical_reynolds)
-    ways[ORIFICE], ways[ORIFICE + 1] = orifice_coefficients(p.actuator_orifice, *law)
-    ways[ORIFICE + 3] = 1.0
-    ways[BEHIND], ways[BEHIND + 1] = control, c.case_pressure
+    ways[col.ORIFICE], ways[col.ORIFICE + 1] = orifice_coefficients(p.actuator_orifice, *law)
+    ways[col.ORIFICE + 3] = 1.0
+    ways[col.BEHIND], ways[col.BEHIND + 1] = control, c.case_pressure
     swept = p.sense * p.actuator_area * p.arm * np.cos(angle) * rate
     return p.actuator_volume + p.actuator_area * actuator_reach(plate, angle), swept / c.shaft_speed
 
@@ -324,6 +314,6 @@ def course(chamber, plate, held, step, controls, tilt, states, rows, pressures, 
             return n + 1
         if n >= held:
             totals += one
-        rows[n + 1, DELIVERY], rows[n + 1, SUCTION] = one[OUTFLOW] / step, one[OUTFLOW + 1] / step
-        rows[n + 1, CASE] = (one[PISTON] + one[SLIPPER] + one[VALVE_PLATE]) / step
+        rows[n + 1, DELIVERY], rows[n + 1, SUCTION] = one[col.OUTFLOW] / step, one[col.OUTFLOW + 1] / step
+        rows[n + 1, CASE] = (one[col.PISTON] + one[col.SLIPPER] + one[col.VALVE_PLATE]) / step
     return 0

@@ -24,9 +24,10 @@ from system.multibody.transient.setup import (
 )
 from system.points.lumped import lumped_point
 from system.pump.chamber.cycle import flow_energy
-from system.pump.chamber.layout import INTEGRALS, OUTFLOW, PATH_ENERGY, PATHS, PISTON, PORT_ENERGY, PORTS, WORK
+from system.pump.chamber.layout import INTEGRALS
 from system.pump.chamber.problem import ChamberProblem
 from system.pump.chamber.setup import constants
+from system.pump.chamber.turn import turn_totals
 from system.pump.chamber_kinds import kinds
 from system.pump.laws.kinematics import drive_at_ratio
 from system.pump.lumped import full_drive
@@ -178,13 +179,12 @@ def run_transient(case: TransientCase) -> Transient:
 
 def _checks(problem: ChamberProblem, filled: _Filled, after: Array) -> TransientChecks:
     """Balance errors of oil and energy of the chambers from time 0 on."""
-    totals, gained = filled.totals, after - filled.before
-    outflow, energy = totals[OUTFLOW : OUTFLOW + PATHS], totals[PATH_ENERGY : PATH_ENERGY + PATHS]
-    work = totals[WORK]
-    to_case = float(outflow[PISTON:].sum() * flow_energy(problem.case_pressure, problem.bulk_modulus))
-    taken = float(energy.sum() + totals[PORT_ENERGY : PORT_ENERGY + PORTS].sum()) + to_case + float(gained[1])
-    passed = float(np.abs(outflow[:PORTS]).sum())
+    totals, gained = turn_totals(filled.totals), after - filled.before
+    out, work = totals.outflow, totals.indicated_work
+    to_case = float(out.gaps * flow_energy(problem.case_pressure, problem.bulk_modulus))
+    taken = float(totals.path_energy.total + totals.port_energy.sum()) + to_case + float(gained[1])
+    passed = float(abs(out.delivery) + abs(out.suction))
     return TransientChecks(
-        mass_balance_error=abs(float(outflow.sum() + gained[0])) / passed,
-        energy_balance_error=abs(float(work) - taken) / max(abs(float(work)), passed * problem.pressure_span),
+        mass_balance_error=abs(float(out.total + gained[0])) / passed,
+        energy_balance_error=abs(work - taken) / max(abs(work), passed * problem.pressure_span),
     )

@@ -9,7 +9,6 @@ Losses are those of `system.pump.lumped` at each instant's tilt, sliding and pre
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -22,17 +21,10 @@ from system.multibody.transient.solver import Transient
 from system.pump.laws.friction_pairs import FrictionPairs, Pair
 from system.pump.laws.kinematics import SwashDrive
 from system.pump.laws.leakage import piston_carried_flow
-from system.pump.lumped import PistonMotion, lumped_pairs, piston_area
+from system.pump.lumped import PistonMotion, Pressures, lumped_pairs, piston_area
 from system.pump.operating import columns
 
 INSTANTS = 1000  # at once, so that long courses fit in memory
-
-
-@dataclass(frozen=True)
-class _Pressed:
-    """Chamber pressures as the losses use them, (M, z) Pa."""
-
-    pressure: Array
 
 
 def drive_torque(found: Transient) -> Array:
@@ -73,7 +65,7 @@ def _torque(found: Transient, part: slice) -> Array:
         pump.piston.engaged_length - out,
         pump.piston.overhang + out,
     )
-    losses = lumped_pairs(pump, columns(point), motion, _Pressed(pressure))
+    losses = lumped_pairs(pump, columns(point), motion, Pressures(pressure))
     return np.asarray(pushed.sum(axis=1) + _power(losses) / speed)
 
 

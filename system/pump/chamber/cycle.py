@@ -11,6 +11,7 @@ grow besides by what the parts themselves move, and the pressures behind the por
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -23,7 +24,7 @@ from system.pump.chamber.map_kernels import periodic
 from system.pump.chamber.problem import ChamberProblem
 from system.pump.chamber.setup import Course, constants, periodic_values, turn_nodes
 from system.pump.chamber.trail_kernels import NOT_PERIODIC
-from system.pump.chamber.turn import Paths, TurnTotals, as_number, turn_totals
+from system.pump.chamber.turn import Paths, TurnTotals, turn_totals
 from system.pump.laws.kinematics import Number, piston_displacement, stroke
 
 TOLERANCE = 1e-6
@@ -71,7 +72,7 @@ class ChamberCycle(TurnTotals):
     shaft_angle: Array
     pressure: Array
     volume: Array
-    flow: Paths
+    flow: Paths[Array]
     growth_work: float
     surge: Array
     checks: ChamberChecks
@@ -142,8 +143,9 @@ def flow_energy(pressure: Array | float, bulk_modulus: float) -> Array:
 
 def specific_volume(pressure: Number, bulk_modulus: float) -> Number:
     """Volume of liquid oil at a pressure in Pa over its volume at zero gauge pressure: exp(-p/K)."""
-    found: Number = as_number(np.exp(-pressure / bulk_modulus))
-    return found
+    found: Any = np.exp(-pressure / bulk_modulus)
+    volume: Number = float(found) if isinstance(pressure, float) else found
+    return volume
 
 
 def _cycle(problem: ChamberProblem, effort: Effort, course: Course, checks: ChamberChecks) -> ChamberCycle:

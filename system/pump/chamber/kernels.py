@@ -14,25 +14,8 @@ from __future__ import annotations
 import numba
 import numpy as np
 
-from system.pump.chamber.layout import (
-    AREA,
-    CAVITY_PRESSURE,
-    CONDUCTANCE,
-    DELIVERY,
-    FIRST_GAP,
-    GAPS,
-    INTEGRALS,
-    OUTFLOW,
-    PATH_ENERGY,
-    PATHS,
-    PISTON,
-    PORTS,
-    SLIPPER,
-    SUCTION,
-    VALVE_PLATE,
-    WAYS,
-    WORK,
-)
+from system.pump.chamber import layout as col
+from system.pump.chamber.layout import CAVITY_PRESSURE, INTEGRALS, PATHS, WAYS
 from system.pump.chamber.state_kernels import (
     cubics,
     f8,
@@ -47,11 +30,11 @@ from system.pump.chamber.state_kernels import (
 
 STAGES = 6
 LEFT, PRESSURE, OPEN = INTEGRALS, INTEGRALS + 1, INTEGRALS + 2
-COLUMNS = OPEN + PORTS
+COLUMNS = OPEN + col.PORTS
 """Columns of a stage: what `fill_stage` fills, its integrals' rates, mass out by all paths per radian, pressure;
 then the areas of both ports."""
 BEGIN, LENGTH, STAGE = 0, 1, 2
-KEPT = 1 + PORTS
+KEPT = 1 + col.PORTS
 TRAIL = STAGE + KEPT * STAGES
 """Columns of a step that is kept: its begin and its length (rad), of each stage its pressure and its areas."""
 
@@ -108,7 +91,10 @@ _matrix = numba.f8[:, ::1]
 @numba.njit(f8(vector), cache=True, error_model="numpy")
 def total_of(flows):
     """Sum over all paths."""
-    return flows[DELIVERY] + flows[SUCTION] + flows[PISTON] + flows[SLIPPER] + flows[VALVE_PLATE]
+    total = 0.0
+    for path in range(PATHS):
+        total += flows[path]
+    return total
 
 
 @numba.njit(
@@ -145,10 +131,10 @@ def stage_pressure(chamber, guess, content, mass, weight, close, ways, flows):
         new = pressure - min(max(change, -0.1 * bulk), 0.1 * bulk)
         crosses = (new < CAVITY_PRESSURE) != (pressure < CAVITY_PRESSURE)
         if abs(change) <= (sharp if crosses else max(close, sharp)):
-            flows[DELIVERY] -= delivery * change
-            flows[SUCTION] -= suction * change
-            for gap in range(GAPS):
-                flows[FIRST_GAP + gap] -= ways[CONDUCTANCE + gap] * change
+            flows[col.DELIVERY] -= delivery * change
+            flows[col.SUCTION] -= suction * change
+            for gap in range(col.GAPS):
+                flows[col.FIRST_GAP + gap] -= ways[col.CONDUCTANCE + gap] * change
             return new, specific + compressibility * change, stiff / max(soft, 1e-300), True
         if new <= low or new >= high:
             new = 0.5 * (low + high)
@@ -194,8 +180,8 @@ def step(chamber, table, ports, shaft_angle, length, mass, slope, close, stages,
         if not found:
             return mass, 0.0, False
         fill_stage(chamber, pressure, specific, swell, ways, flows, stages[stage])
-        for port in range(PORTS):
-            stages[stage, OPEN + port] = ways[AREA + port]
+        for port in range(col.PORTS):
+            stages[stage, OPEN + port] = ways[col.AREA + port]
     out, error = 0.0, 0.0
     for stage in range(STAGES):
         out += WEIGHTS[stage] * stages[stage, LEFT]
@@ -240,7 +226,7 @@ def to_cavity(chamber, table, shaft_angle, length, mass, new_mass, left):
 def step_size(mass_error, work, stages):
     """Error of a step, of what it may be: that of the mass as given, those of the energies times `work`."""
     size = mass_error
-    for k in (WORK, PATH_ENERGY + DELIVERY, PATH_ENERGY + SUCTION):
+    for k in (col.WORK, col.PATH_ENERGY + col.DELIVERY, col.PATH_ENERGY + col.SUCTION):
         slip = 0.0
         for stage in range(STAGES):
             slip += ERROR[stage] * stages[stage, k]
@@ -283,8 +269,8 @@ def revolution(chamber, table, ports, nodes, pressure, tolerance, pressures, pat
     openings(chamber, table, ports, nodes[0], ways)
     outflows(chamber, pressure, ways, flows)
     fill_stage(chamber, pressure, specific, swell, ways, flows, stages[0])
-    for port in range(PORTS):
-        stages[0, OPEN + port] = ways[AREA + port]
+    for port in range(col.PORTS):
+        stages[0, OPEN + port] = ways[col.AREA + port]
     begin = content / specific
     mass, slope = begin, 0.0
     totals[:] = 0.0
@@ -335,6 +321,6 @@ def revolution(chamber, table, ports, nodes, pressure, tolerance, pressures, pat
             wish = max(wish, grown) if length < wish else grown
         pressures[node - 1] = stages[0, PRESSURE]
         for path in range(PATHS):
-            path_rates[node - 1, path] = stages[0, OUTFLOW + path]
-            passed[node - 1, path] = totals[OUTFLOW + path]
+            path_rates[node - 1, path] = stages[0, col.OUTFLOW + path]
+            passed[node - 1, path] = totals[col.OUTFLOW + path]
     return mass - begin, taken, refused, OK

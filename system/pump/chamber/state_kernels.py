@@ -17,28 +17,8 @@ from __future__ import annotations
 import numba
 import numpy as np
 
-from system.pump.chamber.layout import (
-    AREA,
-    BEHIND,
-    CARRIED,
-    CARRIED_ENERGY,
-    CAVITY_PRESSURE,
-    CAVITY_SOFTNESS,
-    CONDUCTANCE,
-    DELIVERY,
-    FIRST_GAP,
-    FLOW_SCALE,
-    GAPS,
-    GROWTH,
-    ORIFICE,
-    OUTFLOW,
-    PATH_ENERGY,
-    PATHS,
-    PORT_ENERGY,
-    PORTS,
-    SUCTION,
-    WORK,
-)
+from system.pump.chamber import layout as col
+from system.pump.chamber.layout import CAVITY_PRESSURE, CAVITY_SOFTNESS, PATHS
 from system.pump.ports.areas import FLOW_FROM, PORT_SIZE, orifice, orifice_coefficients, section_area
 from system.pump.ports.flow_coefficients import flow_scale, with_factor
 
@@ -133,10 +113,10 @@ def volume(chamber, table, shaft_angle):
     scale = c.piston_area * c.stroke_scale
     count = table.shape[0]
     at, x = cell(count, shaft_angle)
-    grown = table[at, GROWTH]
+    grown = table[at, col.GROWTH]
     swell = (grown[1] + x * (2.0 * grown[2] + 3.0 * x * grown[3])) * count / (2.0 * np.pi)
     content = c.dead_volume + scale * (1.0 - cosine) / ((1.0 + t) * swing)
-    return content + cubic(table, at, GROWTH, x), scale * np.sin(shaft_angle) / (swing * swing) + swell
+    return content + cubic(table, at, col.GROWTH, x), scale * np.sin(shaft_angle) / (swing * swing) + swell
 
 
 @numba.njit(numba.void(records, f8, f8, vector), cache=True, error_model="numpy")
@@ -144,23 +124,24 @@ def port_ways(chamber, delivery_area, suction_area, out):
     """Fill of `ways_out` what the ports' areas (m2) give: ORIFICE, AREA and FLOW_SCALE."""
     c = chamber[0]
     law = (c.flow_coefficient, c.density, c.kinematic_viscosity, c.critical_reynolds)
-    out[ORIFICE], out[ORIFICE + 1] = orifice_coefficients(delivery_area, *law)
-    out[ORIFICE + 2], out[ORIFICE + 3] = orifice_coefficients(suction_area, *law)
-    out[AREA + DELIVERY], out[AREA + SUCTION] = delivery_area, suction_area
+    out[col.ORIFICE], out[col.ORIFICE + 1] = orifice_coefficients(delivery_area, *law)
+    out[col.ORIFICE + 2], out[col.ORIFICE + 3] = orifice_coefficients(suction_area, *law)
+    out[col.AREA + col.DELIVERY], out[col.AREA + col.SUCTION] = delivery_area, suction_area
     viscosity = c.kinematic_viscosity
-    out[FLOW_SCALE + DELIVERY] = flow_scale(delivery_area, c.density, viscosity, c.delivery_port[FLOW_FROM:])
-    out[FLOW_SCALE + SUCTION] = flow_scale(suction_area, c.density, viscosity, c.suction_port[FLOW_FROM:])
+    tables = c.delivery_port[FLOW_FROM:], c.suction_port[FLOW_FROM:]
+    out[col.FLOW_SCALE + col.DELIVERY] = flow_scale(delivery_area, c.density, viscosity, tables[0])
+    out[col.FLOW_SCALE + col.SUCTION] = flow_scale(suction_area, c.density, viscosity, tables[1])
 
 
 @numba.njit(numba.void(records, cubics, cubics, f8, f8, f8, vector), cache=True, error_model="numpy")
 def ways_out(chamber, table, ports, shaft_angle, delivery_area, suction_area, out):
     """Fill the ways out (WAYS,) at a shaft angle at which the ports open these areas (m2)."""
     at, x = cell(table.shape[0], shaft_angle)
-    for row in range(2 * GAPS):
+    for row in range(2 * col.GAPS):
         out[row] = cubic(table, at, row, x)
     at, x = cell(ports.shape[0], shaft_angle)
-    for port in range(PORTS):
-        out[BEHIND + port] = cubic(ports, at, port, x)
+    for port in range(col.PORTS):
+        out[col.BEHIND + port] = cubic(ports, at, port, x)
     port_ways(chamber, delivery_area, suction_area, out)
 
 
@@ -176,17 +157,18 @@ def openings(chamber, table, ports, shaft_angle, out):
 def outflows(chamber, pressure, ways, flows):
     """Fill the volume flows in m3/s of the five paths; return the slopes in m3/(s Pa) of the ports' and of all."""
     c = chamber[0]
-    ahead, behind = pressure - ways[BEHIND + DELIVERY], pressure - ways[BEHIND + SUCTION]
-    flow, slope = orifice(ahead, ways[ORIFICE], ways[ORIFICE + 1])
-    area, scale = ways[AREA + DELIVERY], ways[FLOW_SCALE + DELIVERY]
-    flows[DELIVERY], delivery = with_factor(flow, slope, ahead, scale, area, c.delivery_port[FLOW_FROM:])
-    flow, slope = orifice(behind, ways[ORIFICE + 2], ways[ORIFICE + 3])
-    area, scale = ways[AREA + SUCTION], ways[FLOW_SCALE + SUCTION]
-    flows[SUCTION], suction = with_factor(flow, slope, behind, scale, area, c.suction_port[FLOW_FROM:])
+    ahead, behind = pressure - ways[col.BEHIND + col.DELIVERY], pressure - ways[col.BEHIND + col.SUCTION]
+    flow, slope = orifice(ahead, ways[col.ORIFICE], ways[col.ORIFICE + 1])
+    area, scale = ways[col.AREA + col.DELIVERY], ways[col.FLOW_SCALE + col.DELIVERY]
+    flows[col.DELIVERY], delivery = with_factor(flow, slope, ahead, scale, area, c.delivery_port[FLOW_FROM:])
+    flow, slope = orifice(behind, ways[col.ORIFICE + 2], ways[col.ORIFICE + 3])
+    area, scale = ways[col.AREA + col.SUCTION], ways[col.FLOW_SCALE + col.SUCTION]
+    flows[col.SUCTION], suction = with_factor(flow, slope, behind, scale, area, c.suction_port[FLOW_FROM:])
     slope = delivery + suction
-    for gap in range(GAPS):
-        flows[FIRST_GAP + gap] = ways[CONDUCTANCE + gap] * (pressure - c.case_pressure) + ways[CARRIED + gap]
-        slope += ways[CONDUCTANCE + gap]
+    for gap in range(col.GAPS):
+        conductance = ways[col.CONDUCTANCE + gap]
+        flows[col.FIRST_GAP + gap] = conductance * (pressure - c.case_pressure) + ways[col.CARRIED + gap]
+        slope += conductance
     return delivery, suction, slope
 
 
@@ -204,12 +186,12 @@ def integral_rates(chamber, pressure, specific, swell, ways, flows, out):
     case = energy - energy_at(c.case_pressure, bulk)
     per_radian = 1.0 / (liquid * c.shaft_speed)
     for path in range(PATHS):
-        out[OUTFLOW + path] = flows[path] * per_radian
-        out[PATH_ENERGY + path] = out[OUTFLOW + path] * case
-    for port in range(PORTS):
-        behind = energy_at(ways[BEHIND + port], bulk)
-        out[PATH_ENERGY + port] = out[OUTFLOW + port] * (energy - behind)
-        out[PORT_ENERGY + port] = out[OUTFLOW + port] * behind
-    for gap in range(GAPS):
-        out[CARRIED_ENERGY + gap] = ways[CARRIED + gap] * per_radian * case
-    out[WORK] = -pressure * swell
+        out[col.OUTFLOW + path] = flows[path] * per_radian
+        out[col.PATH_ENERGY + path] = out[col.OUTFLOW + path] * case
+    for port in range(col.PORTS):
+        behind = energy_at(ways[col.BEHIND + port], bulk)
+        out[col.PATH_ENERGY + port] = out[col.OUTFLOW + port] * (energy - behind)
+        out[col.PORT_ENERGY + port] = out[col.OUTFLOW + port] * behind
+    for gap in range(col.GAPS):
+        out[col.CARRIED_ENERGY + gap] = ways[col.CARRIED + gap] * per_radian * case
+    out[col.WORK] = -pressure * swell

@@ -12,6 +12,7 @@ from __future__ import annotations
 import numba
 import numpy as np
 
+from system.pump.chamber import layout as col
 from system.pump.chamber.kernels import (
     BEGIN,
     COLUMNS,
@@ -33,7 +34,7 @@ from system.pump.chamber.kernels import (
     stage_pressure,
     step_size,
 )
-from system.pump.chamber.layout import DELIVERY, INTEGRALS, PATHS, SUCTION, WAYS
+from system.pump.chamber.layout import INTEGRALS, PATHS, WAYS
 from system.pump.chamber.state_kernels import (
     oil_change,
     oil_volume,
@@ -93,7 +94,7 @@ def follow(chamber, table, ports, trail, pressure, tolerance, along, totals):
     begin, first = trail[0, BEGIN], trail[0, STAGE + 1 : STAGE + KEPT]
     content, swell = volume(chamber, table, begin)
     specific = oil_volume(pressure, c.bulk_modulus)[0]
-    ways_out(chamber, table, ports, begin, first[DELIVERY], first[SUCTION], ways)
+    ways_out(chamber, table, ports, begin, first[col.DELIVERY], first[col.SUCTION], ways)
     outflows(chamber, pressure, ways, flows)
     fill_stage(chamber, pressure, specific, swell, ways, flows, stages[0])
     mass = content / specific
@@ -148,7 +149,7 @@ def step_along(chamber, table, ports, kept, mass, close, stages, ways, flows):
         content, swell = volume(chamber, table, at)
         own = STAGE + KEPT * stage
         areas = kept[own + 1 : own + KEPT]
-        ways_out(chamber, table, ports, at, areas[DELIVERY], areas[SUCTION], ways)
+        ways_out(chamber, table, ports, at, areas[col.DELIVERY], areas[col.SUCTION], ways)
         base = 0.0
         for earlier in range(stage):
             base += TABLEAU[stage, earlier] * stages[earlier, LEFT]

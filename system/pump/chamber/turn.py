@@ -8,49 +8,35 @@ from typing import Any, Generic
 import numpy as np
 
 from reynolds.numerics.arrays import Array
-from system.pump.chamber.layout import (
-    CARRIED_ENERGY,
-    GAPS,
-    INTEGRALS,
-    OUTFLOW,
-    PATH_ENERGY,
-    PATHS,
-    PORT_ENERGY,
-    PORTS,
-    WORK,
-)
+from system.pump.chamber import layout as col
+from system.pump.chamber.layout import INTEGRALS, PATHS
 from system.pump.laws.kinematics import Number
 
 
 @dataclass(frozen=True)
-class Paths:
-    """One number, or one array, for each path out of the chamber."""
+class Paths(Generic[Number]):
+    """One number for each path out of the chamber; Paths[Array]: one array."""
 
-    delivery: Array
-    suction: Array
-    piston: Array
-    slipper: Array
-    valve_plate: Array
+    delivery: Number
+    suction: Number
+    piston: Number
+    slipper: Number
+    valve_plate: Number
 
     @property
-    def ports(self) -> Array:
+    def ports(self) -> Number:
         """Sum over both ports."""
         return self.delivery + self.suction
 
     @property
-    def gaps(self) -> Array:
+    def gaps(self) -> Number:
         """Sum over the three gaps."""
         return self.piston + self.slipper + self.valve_plate
 
     @property
-    def total(self) -> Array:
+    def total(self) -> Number:
         """Sum over all paths."""
         return self.delivery + self.suction + self.piston + self.slipper + self.valve_plate
-
-
-def as_number(value: Any) -> Any:
-    """A float for one point, the array for N points."""
-    return float(value) if np.ndim(value) == 0 else value
 
 
 @dataclass(frozen=True)
@@ -64,8 +50,8 @@ class TurnTotals(Generic[Number]):
     energy of the oil that goes into delivery and suction port.
     """
 
-    outflow: Paths
-    path_energy: Paths
+    outflow: Paths[Number]
+    path_energy: Paths[Number]
     carried_energy: Array
     indicated_work: Number
     port_energy: Array
@@ -73,11 +59,12 @@ class TurnTotals(Generic[Number]):
 
 def turn_totals(integrals: Array) -> TurnTotals[Any]:
     """The totals of integrals (INTEGRALS,) of one point, or of (N, INTEGRALS) of N points."""
-    column = np.moveaxis(integrals[..., :INTEGRALS], -1, 0)
+    whole = integrals[..., :INTEGRALS]
+    column: Any = whole.tolist() if whole.ndim == 1 else whole.T
     return TurnTotals(
-        outflow=Paths(*column[OUTFLOW : OUTFLOW + PATHS]),
-        path_energy=Paths(*column[PATH_ENERGY : PATH_ENERGY + PATHS]),
-        carried_energy=column[CARRIED_ENERGY : CARRIED_ENERGY + GAPS],
-        indicated_work=as_number(column[WORK]),
-        port_energy=column[PORT_ENERGY : PORT_ENERGY + PORTS],
+        outflow=Paths(*column[col.OUTFLOW : col.OUTFLOW + PATHS]),
+        path_energy=Paths(*column[col.PATH_ENERGY : col.PATH_ENERGY + PATHS]),
+        carried_energy=np.array(column[col.CARRIED_ENERGY : col.CARRIED_ENERGY + col.GAPS]),
+        indicated_work=column[col.WORK],
+        port_energy=np.array(column[col.PORT_ENERGY : col.PORT_ENERGY + col.PORTS]),
     )

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import Enum
-from typing import Any, Generic
+from typing import Any, Generic, cast
 
 import numpy as np
 
@@ -45,14 +45,12 @@ class PairLoss(Generic[Number]):
     @property
     def mean_coulomb(self) -> Number:
         """Mean Coulomb loss of all such pairs in W, paper Eq. (22)."""
-        found: Number = revolution_mean(self.coulomb, self.count)
-        return found
+        return cast(Number, revolution_mean(self.coulomb, self.count))
 
     @property
     def mean_viscous(self) -> Number:
         """Mean viscous loss of all such pairs in W, paper Eq. (22)."""
-        found: Number = revolution_mean(self.viscous, self.count)
-        return found
+        return cast(Number, revolution_mean(self.viscous, self.count))
 
     @property
     def mean(self) -> Number:
@@ -63,8 +61,7 @@ class PairLoss(Generic[Number]):
     def quadrature_error(self) -> Number:
         """Estimate for `mean` in W: its change when every second shaft angle is left out."""
         total = self.coulomb + self.viscous
-        found: Number = abs(revolution_mean(total, self.count) - revolution_mean(total[..., ::2], self.count))
-        return found
+        return cast(Number, abs(revolution_mean(total, self.count) - revolution_mean(total[..., ::2], self.count)))
 
 
 @dataclass(frozen=True)
@@ -87,9 +84,7 @@ class FrictionPairs(Generic[Number]):
     @property
     def power(self) -> Number:
         """Mean loss of all pairs in W: the hydromechanical loss."""
-        total: Any = sum(self.loss(pair).mean for pair in Pair)
-        found: Number = total
-        return found
+        return cast(Number, sum(self.loss(pair).mean for pair in Pair))
 
     def share(self, pair: Pair) -> Number:
         """Share of one pair in the hydromechanical loss."""

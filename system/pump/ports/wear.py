@@ -29,7 +29,8 @@ def worn_ports(
     suction: PortOpening, delivery: PortOpening, wear: PortWear[float]
 ) -> tuple[PortOpening, PortOpening]:
     """Suction and delivery port with their wear."""
-    return narrowed(eroded(suction, wear), wear.suction_area), eroded(delivery, wear)
+    kidney = suction.kidney_area * wear.suction_area
+    return replace(eroded(suction, wear), kidney_area=kidney), eroded(delivery, wear)
 
 
 def eroded(port: PortOpening, wear: PortWear[float]) -> PortOpening:
@@ -41,8 +42,3 @@ def eroded(port: PortOpening, wear: PortWear[float]) -> PortOpening:
         for groove in port.grooves
     )
     return replace(port, grooves=grooves)
-
-
-def narrowed(port: PortOpening, area: float) -> PortOpening:
-    """A port whose kidney is `area` times as wide; grooves stay."""
-    return replace(port, kidney_area=port.kidney_area * area)

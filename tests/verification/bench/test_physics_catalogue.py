@@ -29,6 +29,10 @@ def courses():
     return {gap: GapCourse(pressure, *rest, np.full(POINTS, 0.03), np.full(POINTS, 4e-4)) for gap in Gap}
 
 
+def _effects(extension, courses, state, values):
+    return extension.law(extension.stated(values), courses, state)
+
+
 def _differs(one, other):
     return {name for name, value in vars(one).items() if not np.array_equal(value, getattr(other, name))}
 
@@ -58,14 +62,14 @@ def test_entries_say_where_what_and_whence(entry):
 @pytest.mark.parametrize("extension", BY_NAME)
 def test_off_is_nothing_at_all(extension, courses, state):
     for member in extension.members:
-        assert not _differs(member.effects(extension.neutral, courses, state), neutral(POINTS, ANGLES))
+        assert not _differs(_effects(member, courses, state, extension.neutral), neutral(POINTS, ANGLES))
 
 
 @pytest.mark.parametrize("extension", BY_NAME)
 def test_on_each_parameter_changes_something_finite(extension, courses, state):
     for parameter in extension.parameters:
         values = extension.neutral | {parameter.name: parameter.value(1.0)}
-        found = [member.effects(values, courses, state) for member in extension.members]
+        found = [_effects(member, courses, state, values) for member in extension.members]
         assert any(_differs(one, neutral(POINTS, ANGLES)) for one in found), parameter.name
         assert all(np.isfinite(value).all() for one in found for value in vars(one).values())
 
@@ -74,7 +78,7 @@ def test_on_each_parameter_changes_something_finite(extension, courses, state):
 def test_at_their_bounds_laws_stay_physical(extension, courses, state):
     values = {parameter.name: parameter.upper for parameter in extension.parameters}
     for member in extension.members:
-        found = member.effects(values, courses, state)
+        found = _effects(member, courses, state, values)
         assert all((getattr(found, name) > 0).all() for name in ("conductance", "viscous", "coulomb", "ideal"))
         assert ((found.intake > 0) & (found.intake <= 1)).all()
         assert (found.extra_coulomb >= 0).all()
@@ -83,7 +87,7 @@ def test_at_their_bounds_laws_stay_physical(extension, courses, state):
 def test_two_at_once_are_product_and_sum(courses, state):
     one, other = entry_of(EffectId.VISCOSITY_PRESSURE).extensions[0], entry_of(EffectId.CHURNING).extensions[0]
     values = {"viscosity_pressure.coefficient": 2e-8, "churning.factor": 1.0}
-    thick, churned = one.effects(values, courses, state), other.effects(values, courses, state)
+    thick, churned = _effects(one, courses, state, values), _effects(other, courses, state, values)
     found = both(thick, churned)
     assert not _differs(both(thick, neutral(POINTS, ANGLES)), thick)
     np.testing.assert_array_equal(found.conductance, thick.conductance)
