@@ -18,7 +18,7 @@ from system.pump.chamber.map_kernels import beside_map, chamber_map
 from system.pump.chamber.problem import Chamber, LeakTable
 from system.pump.chamber.setup import PORT_NAMES, chamber_records, gap_cubics
 from system.pump.chamber.state_kernels import CHAMBER
-from system.pump.chamber.turn import Paths, TurnTotals, turn_totals
+from system.pump.chamber.turn import Gaps, Paths, TurnTotals, turn_totals
 from system.pump.ports.wear import PortWear
 
 OF_GAPS = ("case_pressure", "kinematic_viscosity")
@@ -147,7 +147,8 @@ def other_gaps(courses: Courses, solved: MapProblem, other: MapProblem) -> Cours
         slipper=out.slipper + more[1],
         valve_plate=out.valve_plate + more[2],
     )
-    carried = courses.totals.carried_energy + work.mean(axis=2).T
+    before_it, pulled = courses.totals.carried_energy, work.mean(axis=2).T
+    carried = Gaps(before_it.piston + pulled[0], before_it.slipper + pulled[1], before_it.valve_plate + pulled[2])
     return Courses(courses.pressure, replace(courses.totals, outflow=outflow, carried_energy=carried))
 
 

@@ -46,7 +46,7 @@ from system.pump.lumped import (
     swept_displacement,
 )
 from system.pump.operating import OperatingPoint
-from system.pump.power import GapExchange, Gaps
+from system.pump.power import GapExchange, chamber_exchange
 from system.work.progress import Report, silent
 
 POSITIONS_PER_PITCH = 4
@@ -224,11 +224,10 @@ def edged_leaks(pump: PumpDescription, point: OperatingPoint, gaps: GapCycle) ->
 
 
 def gap_exchange(gaps: GapCycle, cycle: ChamberCycle, pistons: int, point: OperatingPoint) -> GapExchange:
-    """Power of the oil that moving walls drag along, and the flow from the ports into the valve plate's film."""
-    rate = pistons * point.shaft_speed / TURN
-    piston, slipper = rate * cycle.carried_energy[:2]
+    """Power of the oil that moving walls drag along, and what the valve plate's film takes from the ports."""
+    carried = chamber_exchange(cycle, pistons * point.shaft_speed / TURN).carried
     return GapExchange(
-        carried=Gaps(float(piston), float(slipper), float(gaps.carried_power.mean())),
+        carried=replace(carried, valve_plate=float(gaps.carried_power.mean())),
         delivery_draw=float(np.mean([film.delivery_flow for film in gaps.valve_plate])),
         suction_draw=float(np.mean([film.suction_flow for film in gaps.valve_plate])),
     )

@@ -48,10 +48,10 @@ from system.points.lumped import lumped_point
 from system.points.piston_process import PistonBeside, piston_beside
 from system.pump.assembly import PumpPoint, met_point, put_together
 from system.pump.chamber.port_coupling import PortedCycle, ported_cycle
+from system.pump.chamber.turn import Gaps
 from system.pump.laws.friction_pairs import over_chambers
 from system.pump.lumped import lumped_pairs, piston_motion, port_lines, swept_displacement
 from system.pump.operating import OperatingPoint
-from system.pump.power import Gaps
 from system.work.means import mean_of
 from system.work.progress import Report, silent
 

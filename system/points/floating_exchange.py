@@ -21,10 +21,11 @@ from system.films.spins import SpinTorques, torques_of_films
 from system.inputs.units import TURN
 from system.pump.chamber.problem import LeakTable
 from system.pump.chamber.setup import periodic_values
+from system.pump.chamber.turn import Gaps
 from system.pump.laws.directions import bore_axis, bore_sides, plate_axes
 from system.pump.laws.friction_pairs import FrictionPairs, PairLoss
 from system.pump.lumped import piston_area
-from system.pump.power import GapExchange, Gaps
+from system.pump.power import GapExchange
 
 
 @dataclass(frozen=True)

@@ -15,13 +15,13 @@ from system.pump.chamber.cycle import ChamberCycle
 from system.pump.chamber.layout import CAVITY_PRESSURE
 from system.pump.chamber.port_coupling import Port, PortedCycle
 from system.pump.chamber.problem import LeakTable
+from system.pump.chamber.turn import Gaps
 from system.pump.laws.friction_pairs import FrictionPairs, Pair, over_chambers
 from system.pump.laws.kinematics import stroke
 from system.pump.operating import OperatingPoint
 from system.pump.ports.areas import opening_area
 from system.pump.power import (
     GapExchange,
-    Gaps,
     PowerBalance,
     bench_reading,
     gap_leakage,

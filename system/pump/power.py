@@ -10,22 +10,8 @@ from system.pump.bench import BenchReading, Outside, elastic_energy
 from system.pump.chamber.cycle import flow_energy, specific_volume
 from system.pump.chamber.port_coupling import PortedCycle
 from system.pump.chamber.problem import Chamber
-from system.pump.chamber.turn import TurnTotals
+from system.pump.chamber.turn import Gaps, TurnTotals
 from system.pump.laws.kinematics import Number
-
-
-@dataclass(frozen=True)
-class Gaps(Generic[Number]):
-    """One number for each of the three gaps; Gaps[Array]: at N points, arrays (N,)."""
-
-    piston: Number
-    slipper: Number
-    valve_plate: Number
-
-    @property
-    def total(self) -> Number:
-        """All three together."""
-        return self.piston + self.slipper + self.valve_plate
 
 
 @dataclass(frozen=True)
@@ -43,7 +29,9 @@ class GapExchange(Generic[Number]):
 
 def chamber_exchange(totals: TurnTotals[Number], rate: Number) -> GapExchange[Number]:
     """The exchange of gaps that know nothing but their own chamber; `rate` is chambers times turns per second."""
-    return GapExchange(Gaps(*(rate * work for work in totals.carried_energy)), 0.0 * rate, 0.0 * rate)
+    carried = totals.carried_energy
+    each = rate * carried.piston, rate * carried.slipper, rate * carried.valve_plate
+    return GapExchange(Gaps(*each), 0.0 * rate, 0.0 * rate)
 
 
 @dataclass(frozen=True)

@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 
 from system.points.lumped import lumped_point
-from system.pump.assembly import PumpPoint
+from system.pump.assembly import PointWarning, PumpPoint
 from system.pump.bench import ideal_flow, ideal_torque
 from system.pump.laws.friction_pairs import Pair
-from system.pump.lumped import lumped_pairs, piston_motion
+from system.pump.lumped import lumped_pairs, piston_area, piston_motion
 from system.pump.operating import operating_point
 from system.pump_file.file import load_pump
 
@@ -233,6 +233,17 @@ def test_efficiencies_are_ordered(rated):
     assert iso.overall == pytest.approx(paper.overall, rel=1e-12)
     assert 0.8 < iso.overall < iso.volumetric < 1.0
     assert iso.volumetric < paper.volumetric  # Eq. (4) leaves most of the compression out
+
+
+def test_part_displacement():
+    """Where the plate pivots on the shaft axis half of the stroke set back is dead volume."""
+    found = run(ratio=0.28)
+    stroke = [displacement / (9 * piston_area(PUMP)) for displacement in (89.86e-6, found.geometric_displacement)]
+    dead = PUMP.pump.dead_volume + piston_area(PUMP) * (stroke[0] - stroke[1]) / 2
+    assert found.cycle.volume[0] == pytest.approx(dead, rel=1e-4)
+    assert found.bench.delivery_flow * 6e4 == pytest.approx(46.53, rel=1e-4)
+    assert found.iso_efficiency.overall == pytest.approx(0.7149, abs=5e-5)
+    assert PointWarning.CHAMBER_OVERPRESSURE not in {remark.warning for remark in found.warnings}
 
 
 def test_pairs_follow_the_pressures_they_are_given(rated):

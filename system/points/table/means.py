@@ -17,11 +17,11 @@ from system.description.pump import PumpDescription
 from system.pump.assembly import PumpPoint
 from system.pump.chamber.problem import LeakTable
 from system.pump.chamber.setup import periodic_values
+from system.pump.chamber.turn import Gaps
 from system.pump.film_thickness import given_film
 from system.pump.laws.friction_pairs import Pair
 from system.pump.lumped import lumped_leaks, lumped_pairs, piston_motion
 from system.pump.operating import OperatingPoint
-from system.pump.power import Gaps
 
 TABLE_FORMAT = 3
 """Raised when solved points give other numbers in a table: by what is kept of them, or by the laws behind it."""

@@ -18,6 +18,7 @@ from system.pump.assembly import PumpPoint, assemble, met_point
 from system.pump.chamber.cycle import solve_cycle
 from system.pump.chamber.port_coupling import ported_cycle
 from system.pump.chamber.problem import LeakTable
+from system.pump.chamber.turn import Gaps
 from system.pump.chamber_kinds import kinds
 from system.pump.laws.friction_pairs import FrictionPairs, Pair, PairLoss
 from system.pump.lumped import (
@@ -31,7 +32,7 @@ from system.pump.lumped import (
     swept_displacement,
 )
 from system.pump.operating import OperatingPoint
-from system.pump.power import GapExchange, Gaps, chamber_exchange, port_draw
+from system.pump.power import GapExchange, chamber_exchange, port_draw
 
 ROUND_LIMIT = 12
 SETTLED = 1e-6

@@ -15,8 +15,8 @@ from system.points.films import POSITIONS_PER_PITCH, TOLERANCE, films_point
 from system.points.floating import PRESSURE_TOLERANCE, floating_point
 from system.points.floating_gaps import FloatingOptions
 from system.points.table.means import SolvedPoint
+from system.pump.chamber.turn import Gaps
 from system.pump.operating import OperatingPoint
-from system.pump.power import Gaps
 
 
 class Source(Enum):

@@ -16,8 +16,8 @@ from system.points.table import sources as table_sources
 from system.points.table.means import GAP_PAIRS, MEANINGS, SolvedPoint, given_films
 from system.points.table.pump_numbers import NUMBERS
 from system.points.table.sources import Source
+from system.pump.chamber.turn import Gaps
 from system.pump.operating import operating_point
-from system.pump.power import Gaps
 from system.pump_file.file import load_pump
 
 PUMP = load_pump("ref90")

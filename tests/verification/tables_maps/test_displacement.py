@@ -46,6 +46,17 @@ def test_set_points_may_scatter():
     assert abs(found.value - V) < 4 * found.sigma
 
 
+def test_sigma_of_three_points_is_that_of_their_line():
+    """Displacements V + d (1, -2, 1) at 1, 2, 3 x 10 MPa: a level line, 6 d^2/(3 - 2) about it."""
+    speed, step = np.full(3, SPEEDS[0]), 1e-9
+    difference = np.array([1.0, 2.0, 3.0]) * 1e7
+    flow = speed / (2 * np.pi) * (V + step * np.array([1.0, -2.0, 1.0]))
+    found = intercept_displacement(speed, difference, flow)
+    assert found.value == pytest.approx(V, rel=1e-12)
+    assert found.sigma == pytest.approx(step * np.sqrt(6.0 * (1.0 / 3.0 + 2.0**2 / 2.0)), rel=1e-6)
+    assert found.residual == pytest.approx(step * np.sqrt(2.0), rel=1e-6)
+
+
 def test_the_intercept_takes_a_loss_without_pressure_for_displacement():
     one = MAP[MAP[:, 0] == SPEEDS[3]].T
     lost = 1e-5

@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 from functools import cache
+from itertools import product
 
 import numpy as np
 import pytest
@@ -192,6 +193,18 @@ def test_a_constant_cycle_is_its_point_times_the_time():
     sinks = sum(found.energies[words].value for words in LOSSES.values() if words in found.energies)
     assert sinks == pytest.approx(found.energies["loss"].value, rel=1e-3)
     assert found.marked["chamber_overpressure"] == pytest.approx(1.0)
+
+
+@pytest.mark.parametrize("corner", list(product((1, 2), (2, 3), (1, 2))))
+def test_one_warned_corner_marks_the_cells_around_it(corner):
+    """Time in a cell counts where any of its corners carries the warning, and no other time does."""
+    warnings = np.full(solved().shape, None, dtype=object)
+    for index in np.ndindex(warnings.shape):
+        warnings[index] = (("told", "once"),) if index == (*corner, 0, 0) else ()
+    interpolant = MapInterpolant(replace(solved(), warnings=warnings))
+    within, beyond = (1500 * RPM, 22e6, 0.8), (1200 * RPM, 7e6, 0.6)
+    cycle = cycle_of([0, 3, 3, 12], *([one, one, other, other] for one, other in zip(within, beyond, strict=True)))
+    assert duty(interpolant, cycle, left_out_error(solved())).marked["told"] == pytest.approx(3.0 / 12.0)
 
 
 def test_a_cycle_with_steps_and_ramps_is_within_its_error():

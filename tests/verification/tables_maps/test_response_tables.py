@@ -33,9 +33,9 @@ from system.points.table.store import (
     table_record,
 )
 from system.pump.assembly import PumpPoint
+from system.pump.chamber.turn import Gaps
 from system.pump.laws.friction_pairs import Pair
 from system.pump.operating import operating_point
-from system.pump.power import Gaps
 from system.pump_file.file import load_pump
 from system.work.processes import process_pool
 from system.work.sampled_points import points_of
