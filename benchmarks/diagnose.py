@@ -8,12 +8,12 @@ from __future__ import annotations
 import argparse
 import os
 import sys
-import tempfile
 from pathlib import Path
 from time import perf_counter
 
+from diagnosis.finding import diagnose
+from diagnosis.study.acceptance import checked_recording
 from diagnosis.study.scaled_pump import load_known_pump
-from swashfilm.runs.diagnose.run import checked_recording, run_diagnosis
 
 
 def main() -> None:
@@ -29,10 +29,9 @@ def main() -> None:
     )
     for path in options.recordings:
         recording = checked_recording(path, known)
-        with tempfile.TemporaryDirectory() as folder:
-            begun, used = perf_counter(), _used()
-            found = run_diagnosis(known, recording, Path(folder), lambda *_: None, options.workers)
-            wall, spent = perf_counter() - begun, _used() - used
+        begun, used = perf_counter(), _used()
+        found = diagnose(known, recording, workers=options.workers).diagnosis
+        wall, spent = perf_counter() - begun, _used() - used
         row = (
             path.name, len(recording.steady.values), found.kind.value, found.status.value, f"{wall:.1f}",
             f"{spent:.1f}", f"{found.effort.seconds:.1f}", found.effort.predictions, found.effort.slopes,

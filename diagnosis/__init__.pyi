@@ -1,9 +1,14 @@
+from .calibration import Calibration as Calibration
+from .calibration import calibrate as calibrate
 from .checks.check import check_recording as check_recording
-from .next_test import with_next_point as with_next_point
-from .procedure import diagnose_study as diagnose_study
+from .finding import Finding as Finding
+from .finding import diagnose as diagnose
+from .procedure.next_test import with_next_point as with_next_point
+from .procedure.stages import diagnose_study as diagnose_study
 from .recording.reader import read_recording as read_recording
 from .report.json_file import write_diagnosis as write_diagnosis
 from .report.text import statement as statement
+from .study.acceptance import checked_recording as checked_recording
 from .study.prepare import prepare as prepare
 from .thresholds import load_thresholds as load_thresholds
 from .verdict.diagnosis import Diagnosis as Diagnosis

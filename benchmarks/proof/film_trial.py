@@ -7,11 +7,10 @@ from collections.abc import Iterable
 from pathlib import Path
 from time import process_time
 
+from diagnosis.finding import diagnose
 from diagnosis.study.scaled_pump import load_known_pump
 from diagnosis.verdict.diagnosis import Claim, Diagnosis
-from swashfilm.runs.diagnose.run import checked_recording, run_diagnosis
 from system.effects.catalogue.entries import CATALOGUE, with_films_solved
-from system.work.progress import silent
 
 from .film_plant import FilmPlant, readings
 from .writing import write_recording
@@ -33,8 +32,7 @@ def diagnosed(plant: FilmPlant, seed: int = SEED, film_tables: bool = False) -> 
     with tempfile.TemporaryDirectory() as folder:
         write_film_recording(plant, Path(folder), seed)
         catalogue = with_films_solved(known.pump) if film_tables else CATALOGUE
-        recording = checked_recording(Path(folder), known)
-        found = run_diagnosis(known, recording, Path(folder), silent, catalogue=catalogue)
+        found = diagnose(known, Path(folder), catalogue=catalogue).diagnosis
     spent = f"{process_time() - begun:.0f}"
     return plant.case.value, _effects(plant.concealed) or "nothing", *_row(found), spent
 

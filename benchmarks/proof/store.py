@@ -16,8 +16,8 @@ HERE = Path(__file__).resolve().parent
 PACKAGES = ("diagnosis", "system", "gaps", "reynolds")
 ASKED = (
     "diagnosis.checks.check",
-    "diagnosis.procedure",
-    "diagnosis.next_test",
+    "diagnosis.procedure.stages",
+    "diagnosis.procedure.next_test",
     "diagnosis.recording.reader",
     "diagnosis.study.inputs",
     "diagnosis.study.prepare",

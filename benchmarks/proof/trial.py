@@ -11,8 +11,9 @@ from time import process_time
 import numpy as np
 
 from diagnosis.explain.ranked import Weighed
-from diagnosis.next_test import with_next_point
-from diagnosis.procedure import diagnose_study
+from diagnosis.procedure.next_test import with_next_point
+from diagnosis.procedure.stages import diagnose_study
+from diagnosis.study.acceptance import checked_recording
 from diagnosis.study.inputs import bench_points
 from diagnosis.study.map_axes import axis_values, inside
 from diagnosis.study.model import Study
@@ -23,7 +24,6 @@ from diagnosis.verdict.diagnosis import Claim, Diagnosis
 from diagnosis.verdict.locate import Location
 from reynolds.errors import FilmInputError
 from reynolds.laws.oil import walther
-from swashfilm.runs.diagnose.run import checked_recording
 from system.description.pump import PumpDescription
 from system.description.tolerances import tolerances
 from system.effects.effect import EffectId, Kind

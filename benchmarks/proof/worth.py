@@ -11,7 +11,7 @@ import numpy as np
 from diagnosis.next_point.choose import READINGS
 from diagnosis.next_point.forecast import forecasts, log_density
 from diagnosis.next_point.operating_box import BenchBox
-from diagnosis.next_test import contender, rivals
+from diagnosis.procedure.next_test import contender, rivals
 from diagnosis.study.model import Study
 from diagnosis.thresholds import Thresholds
 from diagnosis.verdict.diagnosis import Diagnosis

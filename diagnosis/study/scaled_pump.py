@@ -74,6 +74,11 @@ class KnownPump:
     assumptions: tuple[Assumption, ...]
 
 
+def known_pump(pump: PumpDescription | KnownPump) -> KnownPump:
+    """The pump itself if it is partly known, else a pump that is stated in full."""
+    return pump if isinstance(pump, KnownPump) else KnownPump(pump, False, frozenset(), ())
+
+
 def load_known_pump(source: str | Path) -> KnownPump:
     """Return a built-in pump or that of a file, which may be scant: state little more than displacement and oil.
 
@@ -85,8 +90,7 @@ def load_known_pump(source: str | Path) -> KnownPump:
         text, tables = read_toml(Path(source))
         if any(name not in tables for name in TELLING):
             return _scaled(str(source), text, tables, Path(source).parent)
-    pump = load_pump(source)
-    return KnownPump(pump, False, frozenset(), ())
+    return known_pump(load_pump(source))
 
 
 @dataclass(frozen=True)

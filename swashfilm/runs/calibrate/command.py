@@ -58,14 +58,14 @@ def run_calibrate_command(options: argparse.Namespace) -> int:
 
 
 def _calibrate(options: argparse.Namespace, models: Sequence[LossModelName]) -> int:
+    from diagnosis.calibration import calibrate
     from diagnosis.recording.model import NoteKind
+    from diagnosis.study.acceptance import checked_recording, other_pump
     from diagnosis.study.scaled_pump import load_known_pump
     from swashfilm.console.progress import progress
     from swashfilm.output.run_folder import final_folder, run_folder
     from swashfilm.runs.calibrate.files import CALIBRATED, write_calibration_files
     from swashfilm.runs.calibrate.page import headline, held_out_table, pair_table
-    from swashfilm.runs.calibrate.run import calibrate
-    from swashfilm.runs.diagnose.run import checked_recording, other_pump
 
     known = load_known_pump(options.pump)
     recording = checked_recording(options.recording, known)
@@ -74,9 +74,8 @@ def _calibrate(options: argparse.Namespace, models: Sequence[LossModelName]) -> 
         run_folder(f"calibrate-{title}", options.output) as folder,
         progress(1, f"calibrate {known.pump.name}") as report,
     ):
-        found = calibrate(known.pump, recording, models, options.laws == LAWS[0], report)
-        assumptions = tuple(str(one) for one in known.assumptions)
-        write_calibration_files(folder, known.pump, found, title, assumptions)
+        found = calibrate(known, recording, report, models, options.laws == LAWS[0])
+        write_calibration_files(folder, found, title)
         told, pairs, compared = headline(folder), pair_table(folder), held_out_table(folder)
     for text in (*(note.text for note in other_pump(recording, known)), *told):
         show(text)

@@ -8,14 +8,12 @@ from typing import Any
 
 import numpy as np
 
+from diagnosis.calibration import Calibration
 from diagnosis.recording.units import channel_unit, difference, difference_unit, reading
 from diagnosis.verdict.row_numbers import table_rows
 from swashfilm.output.run_folder import write_json
-from swashfilm.runs.calibrate.run import Calibration
 from swashfilm.runs.diagnose.files import write_rows
-from system.bench.calibration.calibrated_pump import calibrated_pump
 from system.bench.calibration.held_out import PHYSICS
-from system.description.pump import PumpDescription
 from system.estimation.posterior import Posterior
 from system.inputs.channels import ChannelName
 from system.inputs.units import RPM, Dimension
@@ -27,9 +25,7 @@ CALIBRATED = "pump_calibrated.toml"
 Row = Mapping[str, str]
 
 
-def write_calibration_files(
-    folder: Path, pump: PumpDescription, found: Calibration, title: str, assumptions: tuple[str, ...]
-) -> None:
+def write_calibration_files(folder: Path, found: Calibration, title: str) -> None:
     """Write six tables, the calibrated pump, summary.json and report.html into a run folder."""
     write_rows(folder / "parameters.csv", parameter_rows(found.best))
     write_rows(folder / "undetermined.csv", undetermined_rows(found))
@@ -37,16 +33,15 @@ def write_calibration_files(
     write_rows(folder / "hersey.csv", hersey_rows(found))
     write_rows(folder / "heldout.csv", heldout_rows(found))
     write_rows(folder / "residuals.csv", residual_rows(found))
-    (folder / "resolved.toml").write_text(resolved_toml(pump), encoding="utf-8")
-    calibrated = calibrated_pump(pump, found.best, found.laws)
-    (folder / CALIBRATED).write_text(resolved_toml(calibrated), encoding="utf-8")
-    write_json(folder / "summary.json", summary(found, title, assumptions))
+    (folder / "resolved.toml").write_text(resolved_toml(found.pump), encoding="utf-8")
+    (folder / CALIBRATED).write_text(resolved_toml(found.calibrated_pump), encoding="utf-8")
+    write_json(folder / "summary.json", summary(found, title))
     from swashfilm.runs.calibrate.page import write_calibrate_page
 
     write_calibrate_page(folder)
 
 
-def summary(found: Calibration, title: str, assumptions: tuple[str, ...]) -> dict[str, Any]:
+def summary(found: Calibration, title: str) -> dict[str, Any]:
     """What the page needs beside the tables."""
     fit = found.best
     return {
@@ -61,9 +56,9 @@ def summary(found: Calibration, title: str, assumptions: tuple[str, ...]) -> dic
         "undetermined": len(found.undetermined),
         "hersey": None
         if found.hersey is None
-        else {"evidence_nats": found.hersey.evidence, "carried": found.hersey.carried},
+        else {"evidence_nats": found.hersey.evidence, "carried": found.hersey.supported},
         "notes": list(found.notes),
-        "assumptions": list(assumptions),
+        "assumptions": list(found.assumptions),
         "seconds": found.seconds,
     }
 

@@ -52,14 +52,16 @@ def run_diagnose_command(options: argparse.Namespace) -> int:
     workers, apply = _workers(options, faults), _apply(options, faults)
     if faults:
         raise InputFaults("command line", faults)
+    from diagnosis.finding import diagnose
     from diagnosis.recording.model import NoteKind
     from diagnosis.report.json_file import read_diagnosis
     from diagnosis.report.text import paragraphs
+    from diagnosis.study.acceptance import checked_recording, other_pump
     from diagnosis.study.scaled_pump import load_known_pump
     from swashfilm.console.progress import progress
     from swashfilm.output.run_folder import final_folder, run_folder
     from swashfilm.runs.diagnose.page import CHANNEL_HEAD, channel_rows, read_summary, remarks
-    from swashfilm.runs.diagnose.run import EXTENDED, checked_recording, other_pump, run_diagnosis
+    from swashfilm.runs.diagnose.run import EXTENDED, write_finding
     from system.effects.catalogue.entries import CATALOGUE, with_films_solved
     from system.effects.effect import Kind
 
@@ -68,8 +70,10 @@ def run_diagnose_command(options: argparse.Namespace) -> int:
     name = f"diagnose-{recording.title or options.recording.stem}"
     with run_folder(name, options.output) as folder, progress(1, "diagnosis") as report:
         catalogue = with_films_solved(known.pump, report) if options.film_tables else CATALOGUE
-        found = run_diagnosis(known, recording, folder, report, workers, catalogue)
+        finding = diagnose(known, recording, report, workers, catalogue)
+        write_finding(folder, finding)
         record, summary = read_diagnosis(folder / "diagnosis.json"), read_summary(folder)
+    found = finding.diagnosis
     for text in (*(note.text for note in other_pump(recording, known)), *paragraphs(found)):
         show(text)
     show_table("Channels", [CHANNEL_HEAD, *channel_rows(record)])
@@ -93,7 +97,7 @@ def is_recording(path: Path, tables: Sequence[str]) -> bool:
 def check_recording_command(path: Path) -> None:
     """Show a recording as understood; raises InputFaults with every fault of its files and readings at once."""
     from diagnosis.checks.notes import note_text
-    from swashfilm.runs.diagnose.run import checked_recording
+    from diagnosis.study.acceptance import checked_recording
 
     recording = checked_recording(path)
     show(f"{recording.title or path.stem}: {len(recording.steady.values)} points")

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from diagnosis.checks.notes import note_text
+from diagnosis.procedure.pump_comparison import NO_COMPARISON, WITH, WITHOUT, FilmComparison, PumpComparison
 from diagnosis.recording.units import reading
 from diagnosis.report.json_file import write_diagnosis
 from diagnosis.report.tables import (
@@ -25,14 +26,11 @@ from diagnosis.study.model import Study
 from diagnosis.thresholds import Thresholds
 from diagnosis.verdict.diagnosis import Diagnosis
 from swashfilm.output.run_folder import write_json
-from swashfilm.runs.diagnose.before_after import NOTHING, Told
 from system.inputs.channels import ChannelName
 
 KIND = "diagnosis"
 TRACES = "trace_residuals.csv"
 """In the run folder of a recording with traces: what residuals.csv is of steady readings."""
-NO_NEXT_POINT = "no next point is foretold"
-"""How the note begins that says why."""
 
 
 def write_diagnosis_files(
@@ -41,11 +39,11 @@ def write_diagnosis_files(
     diagnosis: Diagnosis,
     thresholds: Thresholds,
     assumptions: Sequence[str] = (),
-    told: Told = NOTHING,
+    comparison: PumpComparison = NO_COMPARISON,
 ) -> None:
     """Write diagnosis.json, summary.json, and seven tables (of traces an eighth) into a run folder.
 
-    assumptions: what was taken of the pump; told: of the pump run without and with the finding.
+    assumptions: of the pump; comparison: the pump without and with the finding.
     """
     write_rows(folder / "steady.csv", steady_rows(study.recording))
     write_rows(folder / "residuals.csv", residual_rows(study, diagnosis, thresholds))
@@ -54,11 +52,28 @@ def write_diagnosis_files(
     write_rows(folder / "hypotheses.csv", hypothesis_rows(diagnosis))
     write_rows(folder / "parameters.csv", parameter_rows(diagnosis))
     write_rows(folder / "next_points.csv", next_point_rows(diagnosis.next_point))
-    write_rows(folder / "changes.csv", told.rows)
-    write_rows(folder / "films.csv", told.films.rows)
+    write_rows(folder / "changes.csv", change_rows(comparison))
+    write_rows(folder / "films.csv", film_rows(comparison.films))
     write_diagnosis(folder / "diagnosis.json", diagnosis)
     summary = diagnosis_summary(study, diagnosis, thresholds, assumptions)
-    write_json(folder / "summary.json", summary | {"runs": told.text, "films": told.films.text})
+    write_json(folder / "summary.json", summary | {"runs": comparison.text, "films": comparison.films.text})
+
+
+def change_rows(comparison: PumpComparison) -> Iterator[Mapping[str, str]]:
+    """Rows of quantity, unit, without, with, change."""
+    for one in comparison.changes:
+        yield {
+            "quantity": one.quantity, "unit": one.unit, WITHOUT: f"{one.without:.6g}", WITH: f"{one.found:.6g}",
+            "change": f"{one.found - one.without:.3g}",
+        }  # fmt: skip
+
+
+def film_rows(comparison: FilmComparison) -> Iterator[Mapping[str, str]]:
+    """Rows of quantity, unit, lumped_NAME and films_NAME: by closed laws, and by films."""
+    for one in comparison.changes:
+        lumped = {f"lumped_{name}": f"{value:.6g}" for name, value in one.lumped.items()}
+        films = {f"films_{name}": f"{value:.6g}" for name, value in one.films.items()}
+        yield {"quantity": one.quantity, "unit": one.unit, **lumped, **films}
 
 
 def with_stated(study: Study, rows: Iterable[Mapping[str, str]]) -> Iterator[Mapping[str, str]]:

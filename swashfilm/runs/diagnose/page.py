@@ -10,13 +10,14 @@ from typing import Any
 
 import numpy as np
 
+from diagnosis.finding import NO_NEXT_POINT
+from diagnosis.procedure.pump_comparison import HYDRAULIC, SHAFT, WITH, WITHOUT
 from diagnosis.report.format import chance
 from diagnosis.report.json_file import read_diagnosis
 from reynolds.numerics.arrays import Array
 from swashfilm.runs.diagnose import plots as diagnose_plots
-from swashfilm.runs.diagnose.before_after import HYDRAULIC, SHAFT, WITH, WITHOUT
-from swashfilm.runs.diagnose.files import NO_NEXT_POINT, TRACES, read_rows
-from swashfilm.runs.diagnose.films import film_pictures
+from swashfilm.runs.diagnose.fields import film_pictures
+from swashfilm.runs.diagnose.files import TRACES, read_rows
 from swashfilm.runs.diagnose.trace_plots import trace_residuals
 from system.inputs.faults import Fault, InputFaults
 from system.inputs.units import Dimension, in_unit, reading_unit

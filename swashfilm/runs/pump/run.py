@@ -76,7 +76,12 @@ def solve_pump(case: PumpCase, report: Report = silent) -> PumpRun:
 
 
 def _lumped(case: PumpCase) -> PumpRun:
-    pump, point = case.pump, lumped_point(case.pump, operating_point(case.pump))
+    return lumped_run(case, lumped_point(case.pump, operating_point(case.pump)))
+
+
+def lumped_run(case: PumpCase, point: PumpPoint) -> PumpRun:
+    """The run of a lumped point of the case's pump that is already solved."""
+    pump = case.pump
     summary = pump_summary(pump, point, None, _warnings(pump, point) + loss_warnings(pump, point))
     return _run(case, point, summary, joint_forces(pump, point))
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from diagnosis.calibration import calibrate
 from diagnosis.recording.model import Recording
+from diagnosis.study.acceptance import checked_recording
 from diagnosis.study.scaled_pump import load_known_pump
-from swashfilm.runs.calibrate.run import calibrate
-from swashfilm.runs.diagnose.run import checked_recording
 from system.bench.calibration.equation_21 import LOSS_CHANNELS
 from system.description.pump import PumpDescription
 from system.inputs.faults import Fault, InputFaults
@@ -32,7 +32,7 @@ def recorded_fig13(pump: PumpDescription, recording: Recording, report: Report) 
 
     Raises InputFaults where Eq. (2) cannot be had of it or it has too few readings, NotConverged.
     """
-    found = calibrate(pump, recording, (), False, report)
+    found = calibrate(pump, recording, report, models=(), with_hersey=False)
     title = recording.title or "recording"
     if not found.equation:
         raise InputFaults(title, [Fault("--recording", "; ".join(found.notes), "what Eq. (2) is made of")])

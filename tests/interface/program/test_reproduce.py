@@ -10,9 +10,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from diagnosis.study.acceptance import checked_recording
 from diagnosis.study.scaled_pump import load_known_pump
 from swashfilm.__main__ import main
-from swashfilm.runs.diagnose.run import checked_recording
 from swashfilm.runs.reproduce.files import claim_rows
 from swashfilm.runs.reproduce.plots import figure_picture
 from swashfilm.runs.reproduce.run import about, paper_points

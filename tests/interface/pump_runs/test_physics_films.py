@@ -7,12 +7,13 @@ import pytest
 import pyvista
 import xarray
 
+from diagnosis.procedure.pump_comparison import OF_FILMS, compare_films
 from gaps.films.physics import Effect, Physics
 from swashfilm.__main__ import main
-from swashfilm.runs.diagnose.films import FIELDS_FILE, OF_FILMS, film_pictures, films_of_both
+from swashfilm.runs.diagnose.fields import FIELDS_FILE, film_pictures, write_film_fields
+from swashfilm.runs.diagnose.files import film_rows
 from swashfilm.runs.pump.data import PICTURED_TURN
 from swashfilm.runs.pump.oil_fields import oil_state
-from swashfilm.runs.pump.summary import pump_summary
 from system.description.effects import PhysicsSection
 from system.effects.effect import EffectId
 from system.films.cycle import SMOOTH
@@ -117,16 +118,15 @@ def test_a_run_at_the_pumps_own_temperature_keeps_the_law(tmp_path):
 
 @pytest.fixture(scope="module")
 def both(tmp_path_factory):
-    """Run folders' films without and with a slipper that opens, and what is told of them."""
+    """Run folders of films without and with a slipper that opens, and their comparison."""
     folder = tmp_path_factory.mktemp("both")
     pumps = {"without": REF90, "with": extended({"elastic_opening": {"slipper": {"opening": 2e-8}}})}
-    summaries = {
-        name: pump_summary(pump, lumped_point(pump, operating_point(pump)), None, [])
-        for name, pump in pumps.items()
-    }
-    for name in pumps:
+    points = {name: lumped_point(pump, operating_point(pump)) for name, pump in pumps.items()}
+    compared = compare_films(pumps, points, {EffectId.ELASTIC_OPENING}, silent)
+    for name, films in compared.points.items():
         (folder / name).mkdir()
-    return folder, films_of_both(folder, pumps, summaries, {EffectId.ELASTIC_OPENING}, silent)
+        write_film_fields(folder / name, films)
+    return folder, compared
 
 
 def test_a_finding_is_followed_into_the_films(both):
@@ -135,7 +135,7 @@ def test_a_finding_is_followed_into_the_films(both):
     for name in NAMES:
         assert (folder / name / "pump.pvd").is_file()
         assert (folder / name / FIELDS_FILE).is_file()
-    rows = {row["quantity"]: row for row in told.rows}
+    rows = {row["quantity"]: row for row in film_rows(told)}
     assert list(rows) == [
         f"{what}, {gap}" for gap in ("piston", "slipper", "valve plate") for what in ("leakage", "shear")
     ]
@@ -160,22 +160,22 @@ def test_the_gap_that_opens_is_drawn_without_beside_with(both):
     assert film_pictures(folder / "with", NAMES, found) == {}
 
 
-def test_a_finding_beside_the_films_solves_none(tmp_path):
-    told = films_of_both(tmp_path, {"without": REF90}, {}, {EffectId.CHURNING}, silent)
-    assert told.rows == ()
+def test_a_finding_beside_the_films_solves_none():
+    told = compare_films({"without": REF90}, {}, {EffectId.CHURNING}, silent)
+    assert told.points == {}
     assert "beside the films" in told.text
     assert set(SOLVED) < set(OF_FILMS)
 
 
-def test_films_that_cannot_be_solved_tell_why(tmp_path):
+def test_films_that_cannot_be_solved_tell_why():
     """Single parts, and a part that stands in a wall."""
     single = load_pump("ref90", {"piston.3.radial_clearance": "25 um"})
-    told = films_of_both(tmp_path, {"without": single}, {}, {EffectId.FILM_HEATING}, silent)
+    told = compare_films({"without": single}, {}, {EffectId.FILM_HEATING}, silent)
     assert told.text.startswith("Chambers differ")
     touching = REF90.model_copy(update={"slipper": REF90.slipper.model_copy(update={"tilt_radial": 2e-3})})
-    told = films_of_both(tmp_path, {"without": touching}, {}, {EffectId.FILM_HEATING}, silent)
+    told = compare_films({"without": touching}, {}, {EffectId.FILM_HEATING}, silent)
     assert told.text.startswith("The films could not be solved: ")
-    assert not list(tmp_path.iterdir())
+    assert told.points == {}
 
 
 @pytest.mark.parametrize(

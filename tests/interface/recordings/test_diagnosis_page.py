@@ -11,15 +11,21 @@ from made_diagnosis import LPM, PRESSURE, Q, agreeing
 
 from diagnosis.detect.time_scan import TimeKind, TimeMark
 from diagnosis.explain.ranked import HeldOut
+from diagnosis.procedure.pump_comparison import (
+    NO_COMPARISON,
+    Change,
+    FilmChange,
+    FilmComparison,
+    PumpComparison,
+    compare_pumps,
+)
 from diagnosis.report.json_file import diagnosis_record
 from diagnosis.report.tables import pull_sums
 from diagnosis.study.model import Study
 from diagnosis.thresholds import load_thresholds
 from diagnosis.verdict.diagnosis import Claim, Diagnosis
 from swashfilm.__main__ import main
-from swashfilm.runs.diagnose.before_after import NOTHING, Told, run_both
 from swashfilm.runs.diagnose.files import read_rows, write_diagnosis_files
-from swashfilm.runs.diagnose.films import FilmsTold
 from swashfilm.runs.diagnose.page import (
     AXES,
     claim_rows,
@@ -32,9 +38,11 @@ from swashfilm.runs.diagnose.plots import effect_courses, residual_maps
 from system.effects.effect import EffectId, Kind
 from system.inputs.channels import ChannelName
 from system.pump_file.file import load_pump
+from system.work.progress import silent
 
 PNG = b"\x89PNG"
 E = EffectId
+LEAKAGES = {"without": 0.4, "with": 1.0}, {"without": 0.4, "with": 1.1}
 
 
 def test_the_page_tells_gaps_that_cannot_be_told_apart() -> None:
@@ -83,9 +91,10 @@ def test_a_page_says_what_changes_in_the_pump(study: Study, named: Diagnosis, tm
         "quantity": "leakage, slipper", "unit": "L/min", "lumped_without": "0.4", "lumped_with": "1",
         "films_without": "0.4", "films_with": "1.1",
     }  # fmt: skip
-    films = FilmsTold((film,), "Films as they stand.")
-    told = Told((row,), "Point 7, where the finding adds most: 2100 rpm.", films)
-    write_diagnosis_files(tmp_path, study, named, load_thresholds(), told=told)
+    films = FilmComparison({}, (FilmChange("leakage, slipper", "L/min", *LEAKAGES),), "Films as they stand.")
+    text = "Point 7, where the finding adds most: 2100 rpm."
+    comparison = PumpComparison({}, {}, (Change("case drain", "L/min", 1.2, 1.9),), text, films)
+    write_diagnosis_files(tmp_path, study, named, load_thresholds(), comparison=comparison)
     write_diagnose_page(tmp_path)
     page = (tmp_path / "report.html").read_text("utf-8")
     for part in (
@@ -102,14 +111,13 @@ def test_a_page_says_what_changes_in_the_pump(study: Study, named: Diagnosis, tm
     assert read_rows(tmp_path / "films.csv") == [film]
 
 
-def test_a_meters_fault_is_no_change_of_the_pump(study: Study, named: Diagnosis, tmp_path: Path) -> None:
+def test_a_meters_fault_is_no_change_of_the_pump(study: Study, named: Diagnosis) -> None:
     """Nothing is run, and why is told; nothing is told where nothing is claimed."""
     fault = replace(named, effects=(Claim(E.TORQUE_OFFSET, None, 0.99, (), ()),))
     pump = load_pump("ref90")
-    told = run_both(tmp_path, pump, study, fault, load_thresholds(), lambda *_: None)
-    assert told.text == "A sensor's fault changes nothing in the pump."
-    assert not list(tmp_path.iterdir())
-    assert run_both(tmp_path, pump, study, agreeing(named), load_thresholds(), lambda *_: None) == NOTHING
+    compared = compare_pumps(pump, study, fault, load_thresholds(), silent)
+    assert compared == replace(NO_COMPARISON, text="A sensor's fault changes nothing in the pump.")
+    assert compare_pumps(pump, study, agreeing(named), load_thresholds(), silent) == NO_COMPARISON
 
 
 def test_numbers_are_told_in_the_units_people_read(study: Study, named: Diagnosis, tmp_path: Path) -> None:

@@ -17,7 +17,7 @@ from diagnosis.explain.ranked import Weighed, with_probabilities
 from diagnosis.explain.refit import refit
 from diagnosis.explain.scaling import scaling
 from diagnosis.explain.screen import joint_evidence, screen
-from diagnosis.procedure import diagnose_study
+from diagnosis.procedure.stages import diagnose_study
 from diagnosis.recording.model import Recording
 from diagnosis.study.map_axes import AXES, scaled_axes
 from diagnosis.study.model import Candidate, Study, study_of

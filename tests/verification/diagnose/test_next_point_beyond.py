@@ -9,10 +9,10 @@ from typing import Any
 import numpy as np
 import pytest
 
-import diagnosis.next_test as ask
-from diagnosis.gap_leak_test import LEAKS, own_leak
+import diagnosis.procedure.next_test as ask
 from diagnosis.next_point.forecast import Contender
 from diagnosis.next_point.operating_box import BenchBox, ordinary_box, rig_box
+from diagnosis.procedure.gap_leak_test import LEAKS, own_leak
 from diagnosis.recording.model import Circuit, RecordedChannel, Recording, SteadyTable
 from reynolds.numerics.arrays import Array
 from system.bench.points import BenchPoints

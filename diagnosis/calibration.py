@@ -1,22 +1,25 @@
-"""A pump calibrated by a recording: coefficients with their widths, what is left open, and models compared."""
+"""A pump calibrated by a recording: coefficients with their sigmas, undetermined combinations, models compared."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from pathlib import Path
 from time import process_time
 
-from diagnosis.checks.check import too_few
 from diagnosis.checks.notes import note_text
 from diagnosis.explain.hypotheses import hypotheses
 from diagnosis.explain.ranked import Weighed
 from diagnosis.explain.refit import refit
 from diagnosis.recording.model import Recording
+from diagnosis.study.acceptance import accepted_recording, refuse_too_few
 from diagnosis.study.inputs import bench_points
 from diagnosis.study.model import Study, study_of
 from diagnosis.study.prepare import prepare
+from diagnosis.study.scaled_pump import KnownPump, known_pump
 from diagnosis.thresholds import Thresholds, load_thresholds
 from reynolds.errors import FilmInputError
+from system.bench.calibration.calibrated_pump import calibrated_pump
 from system.bench.calibration.equation_21 import (
     EqFit,
     eq_fits,
@@ -38,33 +41,34 @@ from system.estimation.determined import Combination, undetermined
 from system.estimation.posterior import Posterior
 from system.inputs.channels import ChannelName
 from system.inputs.errors import NotConverged
-from system.inputs.faults import Fault, InputFaults
-from system.work.progress import Report
+from system.work.progress import Report, silent
 
 
 @dataclass(frozen=True)
 class Hersey:
     """Friction over the Hersey number beside constant coefficients: its fit, and ln odds for it.
 
-    laws: what the fit has switched on; carried: the odds are what a name needs.
+    laws: switched on in the fit; supported: the odds are at least those that a named effect needs.
     """
 
     fit: Posterior
     laws: tuple[Extension, ...]
     evidence: float
-    carried: bool
+    supported: bool
 
 
 @dataclass(frozen=True)
 class Calibration:
-    """What a recording says about a pump of which nothing is taken to be missing.
+    """A pump calibrated by a recording, without missing physics.
 
-    fit: base and sensor parameters, friction by the paper's ranges, constant; hersey: None where it was not asked
-    for or not to be fitted; undetermined, rows: what `best` leaves to the priors, and it beside loss models in the
-    same splits; equation: Eq. (21) by itself, mixed: of coefficients that hold the films' shear too; notes: what
-    was taken, and what could not be done.
+    fit: base and sensor parameters, friction within the paper's ranges, constant; hersey: None where it was not
+    asked for or has no fit; undetermined: combinations of parameters that `best` leaves to the priors; equation:
+    Eq. (21) by itself, mixed: of coefficients that include the films' shear; rows: `best` and loss models in the
+    same splits; assumptions: of the pump; notes: assumptions of the recording, and parts that could not be fitted.
     """
 
+    pump: PumpDescription
+    assumptions: tuple[str, ...]
     study: Study
     points: BenchPoints
     fit: Posterior
@@ -79,42 +83,55 @@ class Calibration:
 
     @property
     def best(self) -> Posterior:
-        """The fit that the calibrated pump is made of: with the Hersey number where the data carry it."""
-        return self.hersey.fit if self.hersey is not None and self.hersey.carried else self.fit
+        """The fit of the calibrated pump: over the Hersey number where the readings support it."""
+        return self.hersey.fit if self.hersey is not None and self.hersey.supported else self.fit
 
     @property
     def laws(self) -> tuple[Extension, ...]:
-        """What that pump has switched on."""
-        return self.hersey.laws if self.hersey is not None and self.hersey.carried else ()
+        """Laws that are switched on in the calibrated pump."""
+        return self.hersey.laws if self.hersey is not None and self.hersey.supported else ()
+
+    @property
+    def calibrated_pump(self) -> PumpDescription:
+        """The pump with the values of `best`, and the fit's sigmas as its tolerances."""
+        return calibrated_pump(self.pump, self.best, self.laws)
 
 
 def calibrate(
-    pump: PumpDescription,
-    recording: Recording,
-    models: Sequence[LossModelName],
-    with_hersey: bool,
-    report: Report,
+    pump: PumpDescription | KnownPump,
+    recording: Recording | Path,
+    report: Report = silent,
+    models: Sequence[LossModelName] = tuple(LossModelName),
+    with_hersey: bool = True,
 ) -> Calibration:
-    """Calibrate a pump by a checked recording. Raises InputFaults for too few readings, NotConverged."""
+    """Calibrate a pump by a recording.
+
+    recording: a path, or what `checked_recording` returns; models: loss models fitted to the same readings;
+    with_hersey: try friction over the Hersey number beside constant coefficients. Raises InputFaults for a
+    recording with faults or too few readings, NotConverged where no fit converges.
+    """
     begun, thresholds, steps = process_time(), load_thresholds(), 4 + len(models)
+    known = known_pump(pump)
     report(0, steps, "simulating the recording")
-    study, bench, notes = _prepared(pump, recording, with_hersey, thresholds)
+    study, bench, notes = _prepared(known.pump, accepted_recording(recording, known), with_hersey, thresholds)
     report(1, steps, "fitting the pump")
     null = refit(study, hypotheses(study, thresholds)[0], thresholds)
     fit = _fit_of(null)
     report(2, steps, "friction over the Hersey number")
     hersey = _hersey(study, null, thresholds, notes) if with_hersey else None
-    shown, laws = (hersey.fit, hersey.laws) if hersey is not None and hersey.carried else (fit, ())
+    best, laws = (hersey.fit, hersey.laws) if hersey is not None and hersey.supported else (fit, ())
     report(3, steps, "Eq. (21)")
-    equation, mixed = _equations(pump, bench, fit, study, notes)
-    rows = _compared(pump, bench, shown, study, models, notes, report)
+    equation, mixed = _equations(known.pump, bench, fit, study, notes)
+    rows = _compared(known.pump, bench, best, study, models, notes, report)
     return Calibration(
+        pump=known.pump,
+        assumptions=tuple(str(one) for one in known.assumptions),
         study=study,
         points=bench.points,
         fit=fit,
-        undetermined=undetermined(shown),
+        undetermined=undetermined(best),
         hersey=hersey,
-        curves=hersey_curves(bench, shown, laws),
+        curves=hersey_curves(bench, best, laws),
         equation=equation,
         mixed=mixed,
         rows=rows,
@@ -126,25 +143,23 @@ def calibrate(
 def _prepared(
     pump: PumpDescription, recording: Recording, with_hersey: bool, thresholds: Thresholds
 ) -> tuple[Study, LumpedBench, list[str]]:
-    """The study with the paper's priors of friction, its bench by itself, and what is to be told."""
+    """The study with the paper's priors of friction, its bench, and the notes."""
     catalogue = (entry_of(EffectId.MIXED_FRICTION),) if with_hersey else ()
     allowed, taken = tolerances(pump)
     plain = prepare(pump, replace(recording, traces=()), allowed, thresholds, ())
-    few = too_few(plain.recording, len(plain.simulator.parameters))
-    if few is not None:
-        raise InputFaults(recording.title, [Fault("recording", few.text, "more readings than parameters")])
-    priors, told = paper_priors(pump)
+    refuse_too_few(plain)
+    priors, assumed = paper_priors(pump)
     parameters = plain.simulator.with_parameters(priors).parameters
     points, _ = bench_points(plain.recording, pump)
     channels = tuple(ChannelName.named(one.name) for one in plain.observations.channels)
     inputs = tuple(ChannelName.named(one) for one in plain.observations.inputs)
     bench = LumpedBench(pump, points, channels, parameters, inputs=inputs)
     study = study_of(plain.recording, bench, plain.observations, plain.axes, catalogue, thresholds)
-    return study, bench, [*map(note_text, plain.recording.notes), *map(str, taken), *told]
+    return study, bench, [*map(note_text, plain.recording.notes), *map(str, taken), *assumed]
 
 
 def _hersey(study: Study, null: Weighed, thresholds: Thresholds, notes: list[str]) -> Hersey | None:
-    """Mixed friction fitted beside the constant coefficients; None, and told, where that fails."""
+    """Mixed friction fitted beside the constant coefficients; None, with a note, where that fails."""
     asked = (EffectId.MIXED_FRICTION,)
     listed = [one for one in hypotheses(study, thresholds) if one.effects == asked]
     if not listed:
@@ -162,7 +177,7 @@ def _hersey(study: Study, null: Weighed, thresholds: Thresholds, notes: list[str
 def _equations(
     pump: PumpDescription, bench: LumpedBench, fit: Posterior, study: Study, notes: list[str]
 ) -> tuple[tuple[EqFit, ...], tuple[EqFit, ...]]:
-    """Eq. (21) beside the films' shear and with it held, all else as fitted; nothing, and told, without flows."""
+    """Eq. (21) beside the films' shear and including it, all else as fitted; none, with a note, without flows."""
     own = tuple(one for one in bench.parameters if one.name.startswith("friction."))
     if not own:
         notes.append("Eq. (21) by itself: every friction coefficient of the pump is 0")
@@ -186,7 +201,7 @@ def _compared(
     notes: list[str],
     report: Report,
 ) -> tuple[HeldOutRow, ...]:
-    """The fitted pump and loss models in the same splits; nothing, and told, without the channels of these."""
+    """The fitted pump and loss models in the same splits; nothing, with a note, without their channels."""
     if not models:
         return ()
     try:

@@ -1,4 +1,4 @@
-"""The way through: detect, locate, name."""
+"""Stages of a diagnosis: detect, locate, explain, judge."""
 
 from __future__ import annotations
 

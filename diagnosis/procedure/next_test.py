@@ -7,10 +7,10 @@ from dataclasses import replace
 
 from diagnosis.explain.hypotheses import simulator_of
 from diagnosis.explain.ranked import Weighed
-from diagnosis.gap_leak_test import own_leak
 from diagnosis.next_point.choose import NextPoint, next_point
 from diagnosis.next_point.forecast import Contender
 from diagnosis.next_point.operating_box import ordinary_box, rig_box
+from diagnosis.procedure.gap_leak_test import own_leak
 from diagnosis.report.text import explanation_words
 from diagnosis.study.model import Study
 from diagnosis.thresholds import Thresholds

@@ -1,0 +1,94 @@
+"""A recording diagnosed against its pump: study, verdict, next point, the pump without and with the finding."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from diagnosis.procedure.next_test import with_next_point
+from diagnosis.procedure.pump_comparison import PumpComparison, claimed_pump, compare_pumps
+from diagnosis.procedure.stages import diagnose_study
+from diagnosis.recording.model import Recording
+from diagnosis.study.acceptance import accepted_recording, refuse_too_few, refuse_too_smooth
+from diagnosis.study.inputs import bench_points
+from diagnosis.study.model import Study
+from diagnosis.study.prepare import prepare
+from diagnosis.study.scaled_pump import KnownPump, known_pump
+from diagnosis.thresholds import Thresholds, load_thresholds
+from diagnosis.verdict.diagnosis import Diagnosis, Status
+from diagnosis.verdict.row_numbers import by_table_rows
+from reynolds.errors import FilmInputError
+from reynolds.laws.oil import walther
+from system.description.pump import PumpDescription
+from system.description.tolerances import tolerances
+from system.effects.catalogue.entries import CATALOGUE
+from system.effects.effect import Kind
+from system.effects.extension import Entry
+from system.inputs.errors import NotConverged
+from system.work.progress import Report, silent
+
+NO_NEXT_POINT = "no next point is foretold"
+"""First words of the note that gives the reason."""
+
+
+@dataclass(frozen=True)
+class Finding:
+    """A diagnosis with all that it was made from.
+
+    assumptions: of the pump and of its tolerances, as text; extended_pump: the pump with what is claimed, None
+    where nothing is; comparison: the pump without and with it at one operating point.
+    """
+
+    pump: PumpDescription
+    study: Study
+    diagnosis: Diagnosis
+    thresholds: Thresholds
+    assumptions: tuple[str, ...]
+    extended_pump: PumpDescription | None
+    comparison: PumpComparison
+
+
+def diagnose(
+    pump: PumpDescription | KnownPump,
+    recording: Recording | Path,
+    report: Report = silent,
+    workers: int = 1,
+    catalogue: tuple[Entry, ...] = CATALOGUE,
+) -> Finding:
+    """Diagnose a recording of a pump; `workers` processes fit hypotheses side by side.
+
+    recording: a path, or what `checked_recording` returns. Raises InputFaults for a recording with faults, too few
+    or too smooth readings; NotConverged where no fit converges.
+    """
+    known, thresholds = known_pump(pump), load_thresholds()
+    described = known.pump
+    allowed, assumed = tolerances(described)
+    study = prepare(described, accepted_recording(recording, known), allowed, thresholds, catalogue)
+    refuse_too_few(study)
+    refuse_too_smooth(study)
+    points, _ = bench_points(study.recording, described)
+    viscosity = walther(points.T_case, described.oil.fluid) * described.oil.density
+    found = diagnose_study(study, viscosity, thresholds, report, workers)
+    found = by_table_rows(_with_next_point(study, described, found, thresholds), study.recording)
+    return Finding(
+        pump=described,
+        study=study,
+        diagnosis=found,
+        thresholds=thresholds,
+        assumptions=tuple(str(one) for one in (*known.assumptions, *assumed)),
+        extended_pump=claimed_pump(described, found) if found.effects else None,
+        comparison=compare_pumps(described, study, found, thresholds, report),
+    )
+
+
+def _with_next_point(study: Study, pump: PumpDescription, found: Diagnosis, thresholds: Thresholds) -> Diagnosis:
+    """The diagnosis with the next point to record; without one, the reason is a note.
+
+    Unknown physics gets none: the rivals are effects that do not explain the mismatch.
+    """
+    if found.kind is Kind.UNKNOWN_PHYSICS and found.status is Status.NAMED:
+        return found
+    try:
+        return with_next_point(study, pump, found, thresholds)
+    except (NotConverged, FilmInputError) as reason:
+        return replace(found, notes=(*found.notes, f"{NO_NEXT_POINT}: {reason}"))

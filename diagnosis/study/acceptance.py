@@ -1,0 +1,68 @@
+"""A recording accepted for a pump: read, checked against the pump, refused with every fault at once."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+from pathlib import Path
+
+from diagnosis.checks.check import check_recording, too_few, too_smooth
+from diagnosis.checks.notes import point_ranges
+from diagnosis.recording.model import DataNote, NoteKind, Recording
+from diagnosis.recording.reader import read_recording
+from diagnosis.study.model import Study
+from diagnosis.study.scaled_pump import KnownPump, load_known_pump
+from system.inputs.faults import Fault, InputFaults
+from system.pump_file.file import builtin_pumps
+
+
+def accepted_recording(source: Recording | Path, known: KnownPump) -> Recording:
+    """The recording itself, which `checked_recording` has returned, or the checked recording of a path."""
+    return source if isinstance(source, Recording) else checked_recording(source, known)
+
+
+def checked_recording(path: Path, known: KnownPump | None = None) -> Recording:
+    """The recording of a path, checked against its pump: the given pump, or the built-in pump that it names.
+
+    Raises InputFaults with every fault of the files and of the readings.
+    """
+    recording = read_recording(path)
+    if known is None and recording.pump in builtin_pumps():
+        known = load_known_pump(recording.pump)
+    recording = check_recording(recording, None if known is None else known.pump.pump.displacement)
+    recording = replace(recording, notes=(*recording.notes, *other_pump(recording, known)))
+    faults = [note for note in recording.notes if note.kind is NoteKind.FAULT]
+    if faults:
+        raise InputFaults(str(path), [_fault(note) for note in faults])
+    return recording
+
+
+def other_pump(recording: Recording, known: KnownPump | None) -> Iterator[DataNote]:
+    """A note if the recording names another pump than the one that it is compared with."""
+    if known is not None and recording.pump not in ("", known.pump.name):
+        text = f"the recording is of {recording.pump}; it is held against {known.pump.name}"
+        yield DataNote(NoteKind.TOLD, None, (), text)
+
+
+def refuse_too_few(study: Study) -> None:
+    """Raises InputFaults for a study with no more readings than parameters."""
+    few = too_few(study.recording, len(study.simulator.parameters))
+    if few is not None:
+        raise InputFaults(study.recording.title, [Fault("recording", few.text, "more readings than parameters")])
+
+
+def refuse_too_smooth(study: Study) -> None:
+    """Raises InputFaults for readings that scatter about the fit by far less than their noise."""
+    smooth = too_smooth(study.base.objective, study.base.residual.size)
+    if smooth is not None:
+        raise InputFaults(
+            study.recording.title, [Fault("recording", smooth.text, "readings with the noise stated")]
+        )
+
+
+def _fault(note: DataNote) -> Fault:
+    """A note as a fault of its channel; the text behind a semicolon, a remedy, is the nearest choice."""
+    where = f"channel.{note.channel.value}" if note.channel else "recording"
+    found, _, mend = note.text.partition("; ")
+    at = f"point {point_ranges(note.points)}: " if note.points else ""
+    return Fault(where, at + found, "readings as they were taken, with their units", mend.removesuffix("?"))
