@@ -42,7 +42,6 @@ class Finding:
     pump: PumpDescription
     study: Study
     diagnosis: Diagnosis
-    thresholds: Thresholds
     assumptions: tuple[str, ...]
     extended_pump: PumpDescription | None
     comparison: PumpComparison
@@ -65,7 +64,7 @@ def diagnose(
     allowed, assumed = tolerances(described)
     study = prepare(described, accepted_recording(recording, known), allowed, thresholds, catalogue)
     refuse_too_few(study)
-    refuse_too_smooth(study)
+    refuse_too_smooth(study, thresholds.data.least_chi2)
     points, _ = bench_points(study.recording, described)
     viscosity = walther(points.T_case, described.oil.fluid) * described.oil.density
     found = diagnose_study(study, viscosity, thresholds, report, workers)
@@ -74,10 +73,9 @@ def diagnose(
         pump=described,
         study=study,
         diagnosis=found,
-        thresholds=thresholds,
         assumptions=tuple(str(one) for one in (*known.assumptions, *assumed)),
         extended_pump=claimed_pump(described, found) if found.effects else None,
-        comparison=compare_pumps(described, study, found, thresholds, report),
+        comparison=compare_pumps(described, study, found, report),
     )
 
 

@@ -6,7 +6,7 @@ import tomllib
 from dataclasses import dataclass, fields
 from functools import cache
 from hashlib import sha256
-from math import radians
+from math import log, radians
 from pathlib import Path
 from typing import Any
 
@@ -23,7 +23,12 @@ class MismatchLimits:
     null_probability: float
     suspicion: float
     draws: int
+    smooth: float
     memory: float
+    memory_apart: float
+    memory_pairs: int
+    memory_most: float
+    memory_clip: float
     flag_rate: float
     pull: float
 
@@ -34,9 +39,15 @@ class LocateLimits:
 
     channel_share: float
     region_share: float
+    edges: int
+    least_points: int
+    strong: float
+    bound: float
     p_value: float
     narrowest_window: float
     widest_window: float
+    trace_memory: float
+    ends: int
     draws: int
     multiplier_widths: tuple[float, ...]
 
@@ -44,6 +55,23 @@ class LocateLimits:
     def windows(self) -> tuple[float, float]:
         """The narrowest and the widest window in rad."""
         return radians(self.narrowest_window), radians(self.widest_window)
+
+
+@dataclass(frozen=True)
+class RefitLimits:
+    """Explanations that are refitted, priors of their parameters, and where a fit is given up (nats)."""
+
+    shortlisted_parameters: int
+    additions: int
+    most_additions: int
+    most_effects: int
+    grid_members: int
+    gross: float
+    tolerated: float
+    reach: float
+    farther: float
+    hopeless: float
+    held_out: int
 
 
 @dataclass(frozen=True)
@@ -60,6 +88,23 @@ class NameLimits:
     fault_factor: float
     allowance: float
     temperature: float
+    alike: float
+    possible: float
+
+
+@dataclass(frozen=True)
+class FormLimits:
+    """Errors of form that a right law may have: shares of squares and of nats, powers of a coordinate."""
+
+    true_to: float
+    placed_by: float
+    slight: float
+    second: float
+    slack: float
+    own: float
+    material: float
+    flat: float
+    least_range: float
 
 
 @dataclass(frozen=True)
@@ -69,6 +114,37 @@ class HeldOutLimits:
     veto_gain: float
     negative_gain: float
     veto_regions: int
+    least_points: int
+    open: float
+    half: float
+
+
+@dataclass(frozen=True)
+class NextPointLimits:
+    """Odds that readings at a proposed point are to reach, and the number of these readings."""
+
+    rival: float
+    readings: int
+    odds: float
+    promised: float
+    enough: float
+    most_repeats: int
+    gauge: float
+
+    @property
+    def settled(self) -> float:
+        """The odds in nats."""
+        return log(self.odds)
+
+
+@dataclass(frozen=True)
+class DataLimits:
+    """Single readings that are put aside, and readings too smooth for their noise."""
+
+    outlier: float
+    leverage: float
+    outlier_share: float
+    least_chi2: float
 
 
 @dataclass(frozen=True)
@@ -99,8 +175,12 @@ class Thresholds:
 
     mismatch: MismatchLimits
     locate: LocateLimits
+    fit: RefitLimits
     name: NameLimits
+    form: FormLimits
     heldout: HeldOutLimits
+    next_point: NextPointLimits
+    data: DataLimits
     prior: PriorMasses
     seeds: Seeds
     digest: str
@@ -118,8 +198,12 @@ def load_thresholds(path: Path = FILE) -> Thresholds:
     return Thresholds(
         read(MismatchLimits, "mismatch"),
         read(LocateLimits, "locate"),
+        read(RefitLimits, "fit"),
         read(NameLimits, "name"),
+        read(FormLimits, "form"),
         read(HeldOutLimits, "heldout"),
+        read(NextPointLimits, "next_point"),
+        read(DataLimits, "data"),
         read(PriorMasses, "prior"),
         read(Seeds, "seeds"),
         sha256(content).hexdigest(),

@@ -8,7 +8,7 @@ from typing import TypeVar
 
 import numpy as np
 
-from diagnosis.next_point.choose import PROMISED, SETTLED
+from diagnosis.thresholds import load_thresholds
 
 from .calibration import brier, calibration_error, wilson
 from .judged import in_set, is_grave, is_named, is_right, is_wrong_name, rank
@@ -23,6 +23,7 @@ CLEAR = 7.5  # score from which a case counts as z >= 8: sizes are found to 2 %
 TRACED = "map"  # the campaign with chamber traces
 Outcomes = Sequence[Outcome]
 T = TypeVar("T")
+LIMITS = load_thresholds().next_point
 
 
 @dataclass(frozen=True)
@@ -177,8 +178,8 @@ def _asked(outcomes: Outcomes) -> tuple[Gate, ...]:
 
     By the point asked for, by one drawn at random; and by the point where the verdict says that it will.
     """
-    left_open = [one.worth for one in outcomes if one.worth is not None and abs(one.worth.before) < SETTLED]
-    promised = [worth for worth in left_open if worth.promised >= PROMISED]
+    left_open = [one.worth for one in outcomes if one.worth is not None and abs(one.worth.before) < LIMITS.settled]
+    promised = [worth for worth in left_open if worth.promised >= LIMITS.promised]
     return (
         _share("pairs left open, settled by the point asked for, 3 readings", left_open, _by_asked, at_least=0.8),
         _share(
@@ -200,7 +201,7 @@ def _by_other(worth: Worth) -> bool:
 
 
 def _settles(worth: Worth, told: float) -> bool:
-    return worth.before + told >= SETTLED
+    return worth.before + told >= LIMITS.settled
 
 
 def _removed_of_all(right: Outcomes, nulls: Outcomes) -> Gate:

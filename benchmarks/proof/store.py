@@ -19,6 +19,7 @@ ASKED = (
     "diagnosis.procedure.stages",
     "diagnosis.procedure.next_test",
     "diagnosis.recording.reader",
+    "diagnosis.study.acceptance",
     "diagnosis.study.inputs",
     "diagnosis.study.prepare",
     "diagnosis.study.scaled_pump",

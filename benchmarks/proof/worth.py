@@ -8,7 +8,6 @@ from math import log
 
 import numpy as np
 
-from diagnosis.next_point.choose import READINGS
 from diagnosis.next_point.forecast import forecasts, log_density
 from diagnosis.next_point.operating_box import BenchBox
 from diagnosis.procedure.next_test import contender, rivals
@@ -46,7 +45,7 @@ def worth(
     None too where neither of the two explanations is the truth.
     """
     case, made, expected = truth
-    asked, two = found.next_point, rivals(found)
+    asked, two = found.next_point, rivals(found, thresholds)
     if asked is None or two is None or not any(is_of_truth(each, expected) for each in two):
         return None
     true, false = two if is_of_truth(two[0], expected) else two[::-1]
@@ -54,7 +53,7 @@ def worth(
     explained = [contender(study, each, thresholds) for each in (true, false)]
 
     def told(place: tuple[float, ...]) -> float:
-        points, values = _recorded(study, box, place, case, made, rng)
+        points, values = _recorded(study, box, place, case, made, asked.limits.readings, rng)
         one, other = (log_density(study, each, points, values) for each in explained)
         return one - other
 
@@ -62,17 +61,23 @@ def worth(
     there = point.shaft_speed, point.delivery_pressure, point.displacement_ratio, point.temperature
     anywhere = tuple(float(rng.uniform(*ends)) for ends in box.ends)
     wanted = box.points(tuple(np.array([value]) for value in there))
-    brought, _ = next(forecasts(study, *explained, wanted)).brought(READINGS)
+    brought, _ = next(forecasts(study, *explained, wanted)).brought(asked.limits.readings)
     before = log(true.probability / false.probability)
     return Worth(before, told(there), told(anywhere), asked.chance, brought.mean)
 
 
 def _recorded(
-    study: Study, box: BenchBox, place: tuple[float, ...], case: Case, made: Made, rng: np.random.Generator
+    study: Study,
+    box: BenchBox,
+    place: tuple[float, ...],
+    case: Case,
+    made: Made,
+    count: int,
+    rng: np.random.Generator,
 ) -> tuple[BenchPoints, Array]:
-    """READINGS readings at a place of the box as the bench takes them: inputs as read, outputs (n, C) in SI."""
+    """`count` readings at a place of the box as the bench takes them: inputs as read, outputs (n, C) in SI."""
     wanted = box.points(tuple(np.array([value]) for value in place))
-    wanted = replace(wanted, **{name: np.repeat(value, READINGS) for name, value in vars(wanted).items()})
+    wanted = replace(wanted, **{name: np.repeat(value, count) for name, value in vars(wanted).items()})
     campaign = replace(campaigns()[case.campaign], points=_settings(wanted), traces=())
     at = held(campaign, rng)
     truth = run(made.machine, at.moved("ratio", made.setting), made.hidden, STEPS)

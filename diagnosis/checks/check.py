@@ -12,16 +12,15 @@ from diagnosis.checks.readings import impossible
 from diagnosis.checks.sensors import coarse, copies, noiseless, repeated_rows, stuck, stuck_inputs
 from diagnosis.checks.units import implausible, trace_sizes
 from diagnosis.recording.model import DataNote, NoteKind, Recording
+from diagnosis.thresholds import DataLimits
 from system.bench.outputs import SIMULATED
 from system.inputs.channels import OUTPUTS, ChannelName
 
 VARIED = 2.0
 """Of flow over displacement ratio from point to point: more than leakage makes, so that the speed varied."""
-LEAST_CHI2 = 0.2
-"""Of chi-square per reading: chance makes less of 20 readings once in twenty thousand recordings."""
 
 
-def check_recording(recording: Recording, displacement: float | None) -> Recording:
+def check_recording(recording: Recording, displacement: float | None, limits: DataLimits) -> Recording:
     """Return the recording with what its readings tell: notes added, readings that are put aside made nan.
 
     displacement: of the pump in m3/rev, against which flow and torque are held; None where it is not known.
@@ -32,9 +31,9 @@ def check_recording(recording: Recording, displacement: float | None) -> Recordi
     with np.errstate(divide="ignore", invalid="ignore"):
         recording = _noted(recording, [*implausible(recording, displacement), *trace_sizes(recording)])
     recording = _noted(recording, _speed(recording))
-    for find in (coarse, stuck, stuck_inputs, repeated_rows, copies, noiseless, outliers):
+    for find in (coarse, stuck, stuck_inputs, repeated_rows, copies, noiseless):
         recording = _noted(recording, find(recording))
-    return recording
+    return _noted(recording, outliers(recording, limits))
 
 
 def too_few(recording: Recording, parameters: int) -> DataNote | None:
@@ -47,12 +46,12 @@ def too_few(recording: Recording, parameters: int) -> DataNote | None:
     )
 
 
-def too_smooth(chi2: float, readings: int) -> DataNote | None:
+def too_smooth(chi2: float, readings: int, least: float) -> DataNote | None:
     """Return the fault of readings that scatter about a fit by far less than their noise; None where they scatter.
 
-    chi2: of all readings; below `LEAST_CHI2` of their number they are simulated, smoothed, or better than said.
+    chi2: of all readings; below `least` of their number they are simulated, smoothed, or better than said.
     """
-    if chi2 >= LEAST_CHI2 * readings:
+    if chi2 >= least * readings:
         return None
     return DataNote(
         NoteKind.FAULT,

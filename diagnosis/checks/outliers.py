@@ -8,25 +8,23 @@ from itertools import combinations_with_replacement
 import numpy as np
 
 from diagnosis.recording.model import DataNote, NoteKind, Recording, reading_sigma
+from diagnosis.thresholds import DataLimits
 from reynolds.numerics.arrays import Array
 from system.inputs.channels import OUTPUTS, ChannelName
 
-FAR = 6.0  # robust standard deviations
 ROUNDS = 12
 NEIGHBOURS = 6
-MOST_LEVERAGE = 0.5  # of a point that its own neighbours cannot vouch for
-SHARE = 0.03  # most readings of a channel that may be outliers: more of them are an effect
 NORMAL = 1.4826  # standard deviation of a normal distribution per median magnitude
 _AXES = (ChannelName.SPEED, ChannelName.P_OUT, ChannelName.DISPLACEMENT_RATIO, ChannelName.T_CASE)
 
 
-def outliers(recording: Recording) -> Iterator[DataNote]:
-    """Yield single readings of outputs that stand out from a smooth map by more than `FAR` robust deviations.
+def outliers(recording: Recording, limits: DataLimits) -> Iterator[DataNote]:
+    """Yield single readings of outputs that deviate from a smooth map by more than `outlier` robust deviations.
 
     The map is a polynomial in speed, pressure, displacement ratio and temperature, fitted by least absolute
     deviations, of the highest degree up to three that leaves a third of the points free; the deviation is that of
     a point left out of the fit. Points at the rim, which no neighbour vouches for, are kept; so are groups of
-    neighbours (an effect, not a slip) and whatever is within `FAR` sigma of repeatability.
+    neighbours (an effect, not a slip) and whatever is within `outlier` sigma of repeatability.
     """
     shapes, places = _shapes(recording)
     if shapes is None:
@@ -40,9 +38,9 @@ def outliers(recording: Recording) -> Iterator[DataNote]:
         deviation, leverage = _left_out(shapes[known], values[known])
         scale = np.maximum(NORMAL * np.median(np.abs(deviation)), reading_sigma(channel, values[known]))
         score = deviation / scale
-        far = (np.abs(score) > FAR) & (leverage < MOST_LEVERAGE)
+        far = (np.abs(score) > limits.outlier) & (leverage < limits.leverage)
         lone = [k for k in np.flatnonzero(far) if _alone(k, score, places[known])]
-        if lone and len(lone) <= max(1.0, SHARE * len(points)):
+        if lone and len(lone) <= max(1.0, limits.outlier_share * len(points)):
             for k in lone:
                 text = (
                     f"{name.value} at point {points[k] + 1} is {abs(score[k]):.0f} deviations off its neighbours"

@@ -16,7 +16,6 @@ from reynolds.numerics.arrays import Array
 from system.inputs.units import TURN
 
 SIGMA_OF_MEDIAN = 1.4826  # of a normal distribution, over its median deviation
-MOST_MEMORY = 0.95  # lag-1 correlation of a trace's noise: above it the trace is too short to tell
 SETTLING = 100  # samples of drawn noise thrown away
 
 
@@ -101,7 +100,7 @@ def _memory(residual: Array, limits: LocateLimits) -> tuple[float, float]:
     centred = rest - np.median(rest)
     scale = SIGMA_OF_MEDIAN * float(np.median(np.abs(centred)))
     memory = float(centred[1:] @ centred[:-1] / (centred @ centred)) if scale > 0 else 0.0
-    return min(max(memory, 0.0), MOST_MEMORY), max(scale, 1.0)
+    return min(max(memory, 0.0), limits.trace_memory), max(scale, 1.0)
 
 
 def _without_nuisances(trace: TraceMisfit, whitened: Array) -> Array:

@@ -60,7 +60,7 @@ def detect(study: Study, thresholds: Thresholds) -> Detection:
         channels=channel_misfits(study),
         chance=chance,
         strongest=strongest,
-        flags=flagged(by_channel, axis_values(study.recording), thresholds.mismatch.flag_rate),
+        flags=flagged(by_channel, axis_values(study.recording), thresholds),
     )
 
 

@@ -11,16 +11,12 @@ from scipy.stats import norm
 
 from diagnosis.detect.contrasts import Contrasts
 from diagnosis.study.map_axes import bound_text, inside
+from diagnosis.thresholds import LocateLimits, Thresholds
 from reynolds.numerics.arrays import Array
 from system.inputs.channels import ChannelName
 
 Places = NDArray[np.int64]
 Marks = NDArray[np.bool_]
-
-EDGES = 6  # parts of equal size between whose edges boxes are looked for
-LEAST_POINTS = 3  # of a part: fewer are single readings
-HALF = 0.5  # of the most that an explanation adds: what adds less lies outside its region
-BOUND = 0.05  # of overlap, that a bound has to bring
 
 
 @dataclass(frozen=True)
@@ -35,9 +31,9 @@ class Region:
 
 
 def flagged(
-    by_channel: Mapping[ChannelName, Contrasts], axes: Mapping[ChannelName, Array], rate: float
+    by_channel: Mapping[ChannelName, Contrasts], axes: Mapping[ChannelName, Array], thresholds: Thresholds
 ) -> tuple[Region, ...]:
-    """The thirds of all axes and channels that stand out, strongest first; `rate` of them falsely, at most.
+    """The thirds of all axes and channels that stand out, strongest first; `flag_rate` of them falsely, at most.
 
     Benjamini and Hochberg (1995), two-sided.
     """
@@ -45,56 +41,56 @@ def flagged(
         region
         for channel, found in by_channel.items()
         for axis, values in axes.items()
-        for region in _thirds(channel, found, axis, values)
+        for region in _thirds(channel, found, axis, values, thresholds.locate.least_points)
     ]
     ranked = sorted(regions, key=lambda region: -abs(region.contrast))
     p_values = np.array([2.0 * norm.sf(abs(region.contrast)) for region in ranked])
-    allowed = rate * np.arange(1, len(ranked) + 1) / max(len(ranked), 1)
+    allowed = thresholds.mismatch.flag_rate * np.arange(1, len(ranked) + 1) / max(len(ranked), 1)
     holds = np.flatnonzero(p_values <= allowed)
     return tuple(ranked[: holds[-1] + 1]) if holds.size else ()
 
 
 def densest_region(
-    channel: ChannelName, found: Contrasts, pattern: Array, axes: Mapping[ChannelName, Array], share: float
+    channel: ChannelName, found: Contrasts, pattern: Array, axes: Mapping[ChannelName, Array], limits: LocateLimits
 ) -> Region | None:
     """The box of half lines in which the channel's mismatch lies; None where it fills the map.
 
-    Of all boxes whose z^2 is at least `share` of the best, those of fewest bounds; of these the greatest z^2.
-    A zero that is free makes a box and its complement one contrast: only those count within which `pattern` (N,),
-    what is missing in sigma, is the greater.
+    Among the boxes whose z^2 is at least `region_share` of the best, those of fewest bounds; of these the greatest
+    z^2. A free zero gives a box and its complement the same contrast: only boxes count inside which `pattern`
+    (N,), the missing part in sigma, is the greater.
     """
     if not axes:
         return None
-    sides = [_half_lines(axis, values) for axis, values in axes.items()]
+    sides = [_half_lines(axis, values, limits.edges) for axis, values in axes.items()]
     chosen, marks = _all_boxes(sides, axes)
     z = found.z(marks.astype(float))
     count = marks.sum(axis=0)
     within = pattern**2 @ marks >= np.mean(pattern**2) * count
-    squares = np.where(within & (count >= LEAST_POINTS), z**2, 0.0)
+    squares = np.where(within & (count >= limits.least_points), z**2, 0.0)
     bounds = (chosen > 0).sum(axis=0)
-    good = squares >= share * squares.max()
+    good = squares >= limits.region_share * squares.max()
     best = int(np.argmax(np.where(good & (bounds == bounds[good].min()), squares, -1.0)))
     picked = [side[number] for side, number in zip(sides, chosen[:, best], strict=True)]
     return _region(channel, picked, float(z[best]))
 
 
 def strongest_region(
-    channel: ChannelName, found: Contrasts, pattern: Array, axes: Mapping[ChannelName, Array]
+    channel: ChannelName, found: Contrasts, pattern: Array, axes: Mapping[ChannelName, Array], limits: LocateLimits
 ) -> Region | None:
-    """The box of half lines that comes nearest to the points at which `pattern` (N,) is at least half its most.
+    """The box of half lines nearest to the points with `pattern` (N,) at least `strong` of its maximum.
 
-    pattern: what an explanation adds to the channel, in sigma. Nearest: points in both over points in one (Jaccard
-    1912), less BOUND for each bound. None where no box is nearer than the whole map.
+    pattern: addition of an explanation to the channel, in sigma. Nearest: points in both over points in one
+    (Jaccard 1912), less `bound` for each bound. None where no box is nearer than the whole map.
     """
     if not axes:
         return None
-    sides = [_half_lines(axis, values) for axis, values in axes.items()]
+    sides = [_half_lines(axis, values, limits.edges) for axis, values in axes.items()]
     chosen, marks = _all_boxes(sides, axes)
-    strong = np.abs(pattern) >= HALF * np.abs(pattern).max()
+    strong = np.abs(pattern) >= limits.strong * np.abs(pattern).max()
     both = strong.astype(float) @ marks
     count = marks.sum(axis=0)
-    overlap = both / (count + strong.sum() - both) - BOUND * (chosen > 0).sum(axis=0)
-    best = int(np.argmax(np.where(count >= LEAST_POINTS, overlap, -np.inf)))
+    overlap = both / (count + strong.sum() - both) - limits.bound * (chosen > 0).sum(axis=0)
+    best = int(np.argmax(np.where(count >= limits.least_points, overlap, -np.inf)))
     picked = [side[number] for side, number in zip(sides, chosen[:, best], strict=True)]
     return _region(channel, picked, float(found.z(marks[:, best : best + 1].astype(float))[0]))
 
@@ -126,8 +122,8 @@ def _region(channel: ChannelName, picked: Sequence[_HalfLine], contrast: float) 
     return Region(channel, lower, upper, contrast, ", ".join(part.text for part in bounded))
 
 
-def _half_lines(axis: ChannelName, values: Array) -> list[_HalfLine]:
-    edges = _edges(values)
+def _half_lines(axis: ChannelName, values: Array, parts: int) -> list[_HalfLine]:
+    edges = _edges(values, parts)
     return [
         _HalfLine(axis),
         *(_HalfLine(axis, lower=edge) for edge in edges),
@@ -135,14 +131,14 @@ def _half_lines(axis: ChannelName, values: Array) -> list[_HalfLine]:
     ]
 
 
-def _edges(values: Array) -> list[float]:
-    """Edges that part the points into some EDGES of about the same number, each in the widest gap near by."""
+def _edges(values: Array, parts: int) -> list[float]:
+    """Edges that part the points into `parts` of about the same number, each in the widest gap near by."""
     ordered = np.sort(values)
     gaps = np.diff(ordered)
-    reach = max(len(values) // (2 * EDGES), 1)
+    reach = max(len(values) // (2 * parts), 1)
     found = set()
-    for part in range(1, EDGES):
-        middle = part * len(values) // EDGES
+    for part in range(1, parts):
+        middle = part * len(values) // parts
         first = max(middle - reach, 0)
         near = gaps[first : middle + reach]
         if near.size and near.max() > 0:
@@ -166,14 +162,16 @@ def _holds(part: _HalfLine, axes: Mapping[ChannelName, Array]) -> Marks:
     return inside(axes, lower, upper)
 
 
-def _thirds(channel: ChannelName, found: Contrasts, axis: ChannelName, values: Array) -> list[Region]:
+def _thirds(
+    channel: ChannelName, found: Contrasts, axis: ChannelName, values: Array, least_points: int
+) -> list[Region]:
     edges = np.linspace(values.min(), values.max(), 4)[1:3]
     regions = []
     for lower, upper in ((None, edges[0]), (edges[0], edges[1]), (edges[1], None)):
         low = {} if lower is None else {axis.value: float(lower)}
         high = {} if upper is None else {axis.value: float(upper)}
         within = inside({axis: values}, low, high)
-        if within.sum() >= LEAST_POINTS:
+        if within.sum() >= least_points:
             contrast = float(found.z(within.astype(float)[:, None])[0])
             text = bound_text(axis, low.get(axis.value), high.get(axis.value))
             regions.append(Region(channel, low, high, contrast, text))

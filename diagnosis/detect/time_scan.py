@@ -16,9 +16,6 @@ from reynolds.numerics.arrays import Array
 from system.estimation.evidence import multiplier_evidence
 from system.inputs.channels import ChannelName
 
-SMOOTH = 30.0  # sigma: prior width of a smooth mismatch over the map, which a drift must stand out of
-EDGE = 3  # points at either end after which no onset is looked for
-
 
 class TimeKind(Enum):
     """How a mismatch goes with the order of the points."""
@@ -47,11 +44,11 @@ def scan_time(study: Study, thresholds: Thresholds) -> TimeMark | None:
     against that of drawn readings (Westfall and Young 1993), or Bonferroni's bound where it is less.
     """
     limits = thresholds.locate
-    patterns = _patterns(len(study.observations.values))
+    patterns = _patterns(len(study.observations.values), limits.ends)
     shapes = smooth_shapes(study.axes)
     found = []
     for at, name in enumerate(study.channels):
-        own = contrasts(study.base, at, beside=_smooth_columns(study, at, shapes))
+        own = contrasts(study.base, at, beside=_smooth_columns(study, at, shapes, thresholds.mismatch.smooth))
         found.append((name, own, own.z(patterns) / own.scatter))
     best = max(found, key=lambda each: np.abs(each[2]).max())
     channel, own, z = best
@@ -60,7 +57,9 @@ def scan_time(study: Study, thresholds: Thresholds) -> TimeMark | None:
         return None
     place = int(np.abs(z).argmax())
     kind = TimeKind.DRIFT if place == 0 else TimeKind.ONSET
-    return TimeMark(kind, channel, 0 if place == 0 else place - 1 + EDGE, p_value, wandering(study, thresholds))
+    return TimeMark(
+        kind, channel, 0 if place == 0 else place - 1 + limits.ends, p_value, wandering(study, thresholds)
+    )
 
 
 def wandering(study: Study, thresholds: Thresholds) -> str | None:
@@ -77,17 +76,17 @@ def wandering(study: Study, thresholds: Thresholds) -> str | None:
     return base.parameters[best].name if evidence[best] >= thresholds.name.odds else None
 
 
-def _patterns(points: int) -> Array:
+def _patterns(points: int, ends: int) -> Array:
     """(N, m): a straight line, then a step at each point but those near the ends."""
     order = np.arange(points)
-    steps = order[:, None] >= order[None, EDGE : points - EDGE + 1]
+    steps = order[:, None] >= order[None, ends : points - ends + 1]
     return np.column_stack([np.linspace(-0.5, 0.5, points), steps.astype(float)])
 
 
-def _smooth_columns(study: Study, channel: int, shapes: Array) -> Array:
+def _smooth_columns(study: Study, channel: int, shapes: Array, width: float) -> Array:
     whitening = study.base.whitening
     columns = np.zeros((*whitening.measured.shape, shapes.shape[1]))
-    columns[:, channel] = SMOOTH * whitening.sigma[:, channel, None] * shapes
+    columns[:, channel] = width * whitening.sigma[:, channel, None] * shapes
     return whitening.whiten(columns)
 
 

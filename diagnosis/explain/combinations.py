@@ -17,10 +17,6 @@ from system.estimation.posterior import Posterior, settled
 from system.work.processes import ProcessPool
 from system.work.progress import Report
 
-REFITTED = 2  # of the additions to the best, and of the pairs at the prior mean
-MOST_REFITTED = 4  # where more stand within the gap of a class: what cannot be told apart is told together
-MOST_EFFECTS = 3
-
 
 def combine(
     study: Study, weighed: Sequence[Weighed], thresholds: Thresholds, executor: ProcessPool, report: Report
@@ -36,7 +32,7 @@ def combine(
     best = max((each for each in known if each.posterior is not None), key=_weight, default=None)
     found: list[Weighed] = []
     failed: list[str] = []
-    while best is not None and len(best.hypothesis.effects) < MOST_EFFECTS:
+    while best is not None and len(best.hypothesis.effects) < thresholds.fit.most_effects:
         tried = _additions(study, best, known, thresholds)
         if len(best.hypothesis.effects) == 1:
             tried += [each for each in _pairs(study, known, thresholds) if not _holds(tried, each)]
@@ -85,10 +81,10 @@ def _pairs(study: Study, known: Sequence[Weighed], thresholds: Thresholds) -> li
 
 
 def _likeliest(found: Sequence[Weighed], thresholds: Thresholds) -> list[Weighed]:
-    """The first REFITTED, and what stands within the gap of a class behind the first, MOST_REFITTED in all."""
-    ranked = sorted(found, key=_weight, reverse=True)[:MOST_REFITTED]
+    """The first `additions`, and those within the gap of a class behind the first, `most_additions` in all."""
+    ranked = sorted(found, key=_weight, reverse=True)[: thresholds.fit.most_additions]
     near = [each for each in ranked if ranked[0].log_weight - each.log_weight <= thresholds.name.class_gap]
-    return ranked[: max(REFITTED, len(near))]
+    return ranked[: max(thresholds.fit.additions, len(near))]
 
 
 def _best_member(study: Study, posterior: Posterior, both: Hypothesis, thresholds: Thresholds) -> float:

@@ -40,7 +40,7 @@ def repair(study: Study, weighed: Weighed, thresholds: Thresholds) -> Repair:
     if posterior is None:
         nothing = np.zeros_like(study.base.predictions)
         return Repair(nothing, study.observations.values - study.base.predictions)
-    simulator = simulator_of(study, own, thresholds.name.fault_factor)
+    simulator = simulator_of(study, own, thresholds)
     without = simulator.predict(_closed(posterior, own))
     return Repair(posterior.predictions - without, study.observations.values - posterior.predictions)
 
@@ -53,7 +53,7 @@ def unexplained_traces(study: Study, weighed: Weighed, thresholds: Thresholds) -
     posterior, own = weighed.posterior, weighed.hypothesis
     if posterior is None:
         return study.traces
-    simulator = simulator_of(study, own, thresholds.name.fault_factor)
+    simulator = simulator_of(study, own, thresholds)
     values = _closed(posterior, own)
 
     def left(block: TraceBlock) -> Array:

@@ -20,11 +20,8 @@ from system.inputs.channels import ChannelName
 
 Marks = NDArray[np.bool_]
 
-LEAST_POINTS = 3
 THIRD = 1.0 / 3.0  # of a scaled axis -1 .. 1: what lies beyond it is an outer third
 PARTS = 5
-OPEN = 0.9  # of its prior variance: a parameter known no better is open
-HALF = 0.5  # of that: a fold that brings so much alone tests the prior, not the model
 
 
 def held_out(study: Study, null: Posterior, own: Posterior, thresholds: Thresholds) -> HeldOut:
@@ -34,7 +31,7 @@ def held_out(study: Study, null: Posterior, own: Posterior, thresholds: Threshol
     without them by one linear step. They veto (`speak_against`) as far as they are more than the law's form makes
     of what the explanation gains (`by_form`). RMS in SI; `noise` is what repeatability and inputs alone make.
     """
-    folds = regions(study, (null, own))
+    folds = regions(study, (null, own), thresholds.heldout)
     gains = {name: _density(own, points) - _density(null, points) for name, points in folds.items()}
     coarse = by_form(own.log_evidence - null.log_evidence, thresholds)
     vetoed = speak_against(np.array(list(gains.values())) / coarse, thresholds.heldout)
@@ -53,7 +50,7 @@ def held_out(study: Study, null: Posterior, own: Posterior, thresholds: Threshol
     return HeldOut(gains, rms(left_out(null, fifths)), rms(after), rms(own.whitening.sigma), vetoed, how)
 
 
-def regions(study: Study, fits: tuple[Posterior, ...]) -> Mapping[str, Marks]:
+def regions(study: Study, fits: tuple[Posterior, ...], limits: HeldOutLimits) -> Mapping[str, Marks]:
     """Points (N,) of each region by name: outer thirds of the map's axes, at most half of all points.
 
     Left out are regions without which a parameter of one of the fits would be open: they test its prior.
@@ -70,8 +67,8 @@ def regions(study: Study, fits: tuple[Posterior, ...]) -> Mapping[str, Marks]:
     return {
         name: points
         for name, points in all_regions.items()
-        if LEAST_POINTS <= points.sum() <= len(points) / 2
-        and not any(_tests_a_prior(fit, _rows(fit, points)) for fit in fits)
+        if limits.least_points <= points.sum() <= len(points) / 2
+        and not any(_tests_a_prior(fit, _rows(fit, points), limits) for fit in fits)
     }
 
 
@@ -93,10 +90,10 @@ def _rows(posterior: Posterior, points: Marks) -> Marks:
     return points[posterior.whitening.rows[:, 0]]
 
 
-def _tests_a_prior(posterior: Posterior, rows: Marks) -> bool:
+def _tests_a_prior(posterior: Posterior, rows: Marks, limits: HeldOutLimits) -> bool:
     rest = posterior.slopes[~rows]
     without = np.diag(np.linalg.inv(rest.T @ rest + np.eye(rest.shape[1])))
-    return bool(np.any((without > OPEN) & (np.diag(posterior.covariance) < HALF * without)))
+    return bool(np.any((without > limits.open) & (np.diag(posterior.covariance) < limits.half * without)))
 
 
 def _density(posterior: Posterior, points: Marks) -> float:

@@ -21,7 +21,6 @@ RUBBED = {
     "valve_plate_cylinder": Gap.VALVE_PLATE,
 }
 """Gaps by the names of their friction pairs; the other pairs rub in none."""
-TOLERATED = 5.0  # sigma of a stated tolerance: beyond it lies nothing that no hypothesis sets free
 
 
 @dataclass(frozen=True)
@@ -124,19 +123,19 @@ def gap_of(parameter: str) -> Gap | None:
     return RUBBED.get(part) or next((gap for gap in Gap if gap.value == part), None)
 
 
-def simulator_of(study: Study, hypothesis: Hypothesis, factor: float) -> PumpSimulator:
+def simulator_of(study: Study, hypothesis: Hypothesis, thresholds: Thresholds) -> PumpSimulator:
     """The simulator with a hypothesis's laws on (first member of each grid) and its parameters widened.
 
-    What no hypothesis sets free stays within TOLERATED of its stated tolerance: ports whose flow coefficient is
-    nine sigma off would explain a starved pump, but no drawing allows them.
+    Parameters that no hypothesis sets free stay within `tolerated` sigma: a flow coefficient of the ports nine
+    sigma off would explain a starved pump, but no drawing allows it.
     """
     simulator = study.simulator
     if hypothesis.laws:
         simulator = simulator.with_extensions(tuple(law.members[0] for law in hypothesis.laws))
-    factor *= hypothesis.reach
+    factor = thresholds.name.fault_factor * hypothesis.reach
     questioned = {each.parameter for each in study.candidates if each.extension is None}
     changed = [
-        each.widened(factor) if each.name in hypothesis.widened else each.held(TOLERATED)
+        each.widened(factor) if each.name in hypothesis.widened else each.held(thresholds.fit.tolerated)
         for each in simulator.parameters
         if each.name in hypothesis.widened or (each.role is not Role.EXTENSION and each.name not in questioned)
     ]

@@ -13,16 +13,14 @@ from diagnosis.explain.ranked import Weighed
 from diagnosis.thresholds import Thresholds
 from system.effects.effect import Kind
 
-TRUE_TO = 0.01  # of what an explanation brings: the square of a form that is off by a tenth
-PLACED_BY = 0.05  # the same of one law at several places, which nothing but its form there tells apart
-
 
 def by_form(gained: float, thresholds: Thresholds) -> float:
     """Nats that the form of a law makes of `gained` nats over nothing, over those that noise makes; 1 at least.
 
-    A form off by a tenth leaves TRUE_TO of what it gains: up to 300 nats that is less than the gap of a class.
+    A form off by a tenth leaves the share `true_to` of its gain: up to 300 nats that is less than the gap of a
+    class.
     """
-    return max(1.0, TRUE_TO * gained / thresholds.name.class_gap)
+    return max(1.0, thresholds.form.true_to * gained / thresholds.name.class_gap)
 
 
 def class_gap(weighed: Sequence[Weighed], thresholds: Thresholds) -> float:
@@ -31,12 +29,12 @@ def class_gap(weighed: Sequence[Weighed], thresholds: Thresholds) -> float:
 
 
 def place_gap(weighed: Sequence[Weighed], thresholds: Thresholds) -> float:
-    """The same of one law at several places: PLACED_BY of what is gained.
+    """The same of one law at several places: the share `placed_by` of what is gained.
 
     By 24 recordings of the development set with one film that opens or warms: at the true gap the law stood as
     much as .06 of what it gained behind another gap's, and in half of them less than .02 ahead or behind.
     """
-    return max(thresholds.name.class_gap, PLACED_BY * _gained(weighed))
+    return max(thresholds.name.class_gap, thresholds.form.placed_by * _gained(weighed))
 
 
 def _gained(weighed: Sequence[Weighed]) -> float:

@@ -29,37 +29,34 @@ from system.work.progress import Report
 SIZES = (0.1, 0.3, 1.0, 2.0)  # spreads that a start is looked for at
 BESIDE = (0.75, 0.9)  # of the best size: tried too, and their inverses
 ROUGHLY = (0.3, 1.0)  # the same for a first look
-REACH = 3.0  # xi of a nuisance where a fit may start: the linear model knows no bounds
-FARTHER = 10.0  # times the fault factor: the wider prior of what is out of order
 LIMITS = FitLimits(change=0.1)  # of the objective: a twentieth of a nat decides nothing, and costs sixfold less
-GRID_MEMBERS = 2  # of a grid that are refitted: the likeliest
-GROSS = 3.0  # of the objective per reading, from which on slopes about the prior mean tell little
 
 
 def refit(study: Study, hypothesis: Hypothesis, thresholds: Thresholds, hopeless: float = inf) -> Weighed:
     """The hypothesis at the peak of its posterior; of a grid the best member, its evidence averaged over all.
 
     What is out of order is so by no multiple of its tolerance: of a widened parameter that would go farther than
-    REACH the prior is a mixture, with a tenth of its mass ten times as wide (a size as likely in each decade).
+    `reach` the prior is a mixture, with a tenth of its mass ten times as wide (a size as likely in each decade).
     hopeless: an objective above which a fit is left where it stands. Raises NotConverged where no member comes to
     a peak.
     """
     near = _refitted(study, replace(hypothesis, reach=1.0), thresholds, hopeless)
-    if not _strained(near):
+    limits = thresholds.fit
+    if not _strained(near, limits.reach):
         return near
     try:
-        far = _refitted(study, replace(hypothesis, reach=FARTHER), thresholds, hopeless)
+        far = _refitted(study, replace(hypothesis, reach=limits.farther), thresholds, hopeless)
     except NotConverged:
         return near
-    shares = near.log_evidence + log(1.0 - 1.0 / FARTHER), far.log_evidence - log(FARTHER)
+    shares = near.log_evidence + log(1.0 - 1.0 / limits.farther), far.log_evidence - log(limits.farther)
     return replace(max((near, far), key=lambda each: each.log_evidence), log_evidence=float(np.logaddexp(*shares)))
 
 
-def _strained(weighed: Weighed) -> bool:
+def _strained(weighed: Weighed, reach: float) -> bool:
     """Whether a widened parameter lies where even its wide prior hardly lets it."""
     posterior = weighed.posterior
     return posterior is not None and any(
-        abs(posterior.xi[posterior.index(name)]) > REACH for name in weighed.hypothesis.widened
+        abs(posterior.xi[posterior.index(name)]) > reach for name in weighed.hypothesis.widened
     )
 
 
@@ -68,14 +65,14 @@ def _refitted(study: Study, hypothesis: Hypothesis, thresholds: Thresholds, hope
 
     Members of a grid that are not refitted count as nothing, so that their average is never too high.
     """
-    limits = replace(LIMITS, hopeless=inf if _gross(study) else hopeless)
+    limits = replace(LIMITS, hopeless=inf if _gross(study, thresholds) else hopeless)
     members = _likeliest(study, hypothesis, thresholds)
     found: list[tuple[Hypothesis, Posterior]] = []
     failed: list[NotConverged] = []
     for member in members:
-        simulator = simulator_of(study, member, thresholds.name.fault_factor)
+        simulator = simulator_of(study, member, thresholds)
         try:
-            start = _start(study, simulator, member.open_names, SIZES)[1]
+            start = _start(study, simulator, member.open_names, SIZES, thresholds.fit.reach)[1]
             lent = _lent_slopes(study, simulator, member.open_names, start)
             found.append((member, maximum_posterior(simulator, study.observations, start, limits, lent)))
         except NotConverged as reason:
@@ -87,8 +84,8 @@ def _refitted(study: Study, hypothesis: Hypothesis, thresholds: Thresholds, hope
     return Weighed(best, evidence, False, posterior, _size_over_sigma(posterior, best), 0.0, None)
 
 
-def _gross(study: Study) -> bool:
-    return study.base.objective > GROSS * study.base.residual.size
+def _gross(study: Study, thresholds: Thresholds) -> bool:
+    return study.base.objective > thresholds.fit.gross * study.base.residual.size
 
 
 def try_refit(
@@ -137,17 +134,17 @@ def _likeliest(study: Study, hypothesis: Hypothesis, thresholds: Thresholds) -> 
         return list(members)
 
     def promised(member: Hypothesis) -> float:
-        simulator = simulator_of(study, member, thresholds.name.fault_factor)
-        return _start(study, simulator, member.open_names, SIZES)[0]
+        simulator = simulator_of(study, member, thresholds)
+        return _start(study, simulator, member.open_names, SIZES, thresholds.fit.reach)[0]
 
-    if _gross(study):
-        return sorted(members, key=promised)[:GRID_MEMBERS]
+    if _gross(study, thresholds):
+        return sorted(members, key=promised)[: thresholds.fit.grid_members]
     widths = thresholds.name.mixture_widths
 
     def evidence(member: Hypothesis) -> float:
         return joint_evidence(study.base, candidates_of(study, member), widths).evidence
 
-    return sorted(members, key=evidence, reverse=True)[:GRID_MEMBERS]
+    return sorted(members, key=evidence, reverse=True)[: thresholds.fit.grid_members]
 
 
 @dataclass(frozen=True)
@@ -163,8 +160,8 @@ def first_look(study: Study, hypothesis: Hypothesis, thresholds: Thresholds) -> 
 
     For parameters whose slope tells little of what a large change does.
     """
-    simulator = simulator_of(study, hypothesis, thresholds.name.fault_factor)
-    promised, xi = _start(study, simulator, hypothesis.open_names, ROUGHLY)
+    simulator = simulator_of(study, hypothesis, thresholds)
+    promised, xi = _start(study, simulator, hypothesis.open_names, ROUGHLY, thresholds.fit.reach)
     predicted = simulator.predict(values_at(simulator.parameters, xi))
     left = study.base.whitening.whiten(study.observations.values - predicted)
     return Look(promised, float(left @ left + xi @ xi))
@@ -190,14 +187,14 @@ def _lent_slopes(study: Study, simulator: Simulator, names: tuple[str, ...], sta
 
 
 def _start(
-    study: Study, simulator: Simulator, names: tuple[str, ...], sizes: tuple[float, ...]
+    study: Study, simulator: Simulator, names: tuple[str, ...], sizes: tuple[float, ...], reach: float
 ) -> tuple[float, Array]:
     """The objective and xi where a fit starts: of the sizes tried what leaves least, the nuisances linear.
 
     What a hypothesis sets free is tried one after the other, in full; its slope at nothing may tell little of it
     (a threshold, a film twice as thick). The best size is tried again a little smaller and larger.
     """
-    nuisances = _Nuisances(study, simulator, names)
+    nuisances = _Nuisances(study, simulator, names, reach)
     least, start = nuisances.settled(np.zeros(len(simulator.parameters)))
     for name in names:
         at = [parameter.name for parameter in simulator.parameters].index(name)
@@ -233,8 +230,8 @@ def _signed(sizes: tuple[float, ...], parameter: Parameter) -> list[float]:
 class _Nuisances:
     """What the null has and a hypothesis does not set free, with its slopes at the prior mean."""
 
-    def __init__(self, study: Study, simulator: Simulator, names: tuple[str, ...]) -> None:
-        self.study, self.simulator = study, simulator
+    def __init__(self, study: Study, simulator: Simulator, names: tuple[str, ...], reach: float) -> None:
+        self.study, self.simulator, self.reach = study, simulator, reach
         known = {parameter.name for parameter in study.base.parameters} - set(names)
         self.free = np.array([parameter.name in known for parameter in simulator.parameters])
         kept = [parameter.name for parameter in simulator.parameters if parameter.name in known]
@@ -252,7 +249,7 @@ class _Nuisances:
         taken = cho_solve(self.factor, self.slopes.T @ offset)
         left = offset - self.slopes @ taken
         settled = xi.copy()
-        settled[self.free] = np.clip(taken, -REACH, REACH)
+        settled[self.free] = np.clip(taken, -self.reach, self.reach)
         return float(left @ left + taken @ taken + xi @ xi), self.bounds.within(settled)
 
 

@@ -10,7 +10,6 @@ import numpy as np
 from reynolds.numerics.arrays import Array
 from system.inputs.channels import ChannelName
 
-LEAST_RANGE = 1.2  # largest over smallest value of a coordinate that an exponent is asked for
 STEPS = 50
 LARGEST_STEP = 1.0  # of an exponent
 
@@ -28,17 +27,24 @@ class Scaling:
     sigma: Mapping[str, float]
 
 
-def scaling(channel: ChannelName, signal: Array, sigma: Array, coordinates: Mapping[str, Array]) -> Scaling | None:
+def scaling(
+    channel: ChannelName, signal: Array, sigma: Array, coordinates: Mapping[str, Array], least_range: float
+) -> Scaling | None:
     """Exponents n_k of signal = C prod x_k^n_k: least squares on the signal itself, which may be noise at places.
 
-    signal, sigma: (N,) in SI; coordinates: (N,) each, positive where a point is to count; those that hardly move
-    get no exponent. Sigma of the exponents is scaled with what the power law leaves (Birge 1932), where that is
-    more than noise. None where too few points are left or no power law is found.
+    signal, sigma: (N,) in SI; coordinates: (N,) each, positive where a point counts; a coordinate whose
+    values vary by less than `least_range` times gets no exponent. Sigma of the exponents is scaled with the
+    residual of the power law (Birge 1932), where that is more than noise. None where too few points are left or
+    no power law is found.
     """
     used = np.isfinite(signal) & (sigma > 0)
     for values in coordinates.values():
         used &= values > 0
-    moving = {name: values[used] for name, values in coordinates.items() if used.any() and _moves(values[used])}
+    moving = {
+        name: values[used]
+        for name, values in coordinates.items()
+        if used.any() and moves(values[used], least_range)
+    }
     if used.sum() < len(moving) + 2:
         return None
     logs = np.stack([np.ones(int(used.sum())), *(np.log(x / np.median(x)) for x in moving.values())], axis=1)
@@ -84,5 +90,6 @@ def _power_law(target: Array, logs: Array, weight: Array) -> tuple[Array, Array]
     return found, np.sqrt(np.diag(np.linalg.inv(precision)) * excess)
 
 
-def _moves(values: Array) -> bool:
-    return bool(values.max() > LEAST_RANGE * values.min())
+def moves(values: Array, least_range: float) -> bool:
+    """True if the largest value is more than `least_range` times the smallest."""
+    return bool(values.max() > least_range * values.min())

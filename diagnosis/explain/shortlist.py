@@ -14,8 +14,6 @@ from diagnosis.thresholds import Thresholds
 from system.effects.effect import Kind
 from system.inputs.errors import NotConverged
 
-PARAMETERS = 4  # wrong parameters that are refitted in any case where there is a mismatch
-
 
 def is_settled(detection: Detection, null: Weighed, thresholds: Thresholds) -> bool:
     """Whether nothing speaks against the null's own refit: no candidate's score, no goodness of fit."""
@@ -55,7 +53,7 @@ def wrong_parameters(
     """
     wrong = [each for each in _ranked(screened) if each.hypothesis.kind is Kind.WRONG_PARAMETER]
     looks = [(each, _look(study, each, thresholds)) for each in wrong]
-    return tuple(sorted(looks, key=lambda look: look[1].promised)[:PARAMETERS])
+    return tuple(sorted(looks, key=lambda look: look[1].promised)[: thresholds.fit.shortlisted_parameters])
 
 
 def _ranked(screened: Sequence[Weighed]) -> list[Weighed]:

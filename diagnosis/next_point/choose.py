@@ -14,6 +14,7 @@ import numpy as np
 from diagnosis.next_point.forecast import Contender, Forecast, forecasts, foretold, readings
 from diagnosis.next_point.operating_box import BenchBox, rows
 from diagnosis.study.model import Study
+from diagnosis.thresholds import NextPointLimits
 from reynolds.numerics.arrays import Array
 from system.bench.points import BenchPoints, operating_at
 from system.description.pump import PumpDescription
@@ -21,18 +22,13 @@ from system.effects.effect import EffectId
 from system.inputs.units import Dimension, format_quantity
 from system.pump.operating import OperatingPoint
 
-READINGS = 3  # at the point that is asked for
-SETTLED = log(20.0)  # nats: odds of 20 to 1
-PROMISED = 0.8  # chance of that, from which a point is said to settle a pair
-ENOUGH = 5.0  # nats: odds of 150 to 1, that readings at the point are to bring
-MOST_REPEATS = 20
 LOOKED_AT = 48  # points whose slopes are asked for: those where the predictions part the most
 LEVELS = (6, 6, 3, 3)  # of speed, delivery pressure, displacement ratio, case temperature over the box
 
 
 @dataclass(frozen=True)
 class Gained:
-    """A point and what READINGS readings there bring at least, in nats; temperatures as of a `NextPoint`."""
+    """A point and the nats that readings there bring at least; temperatures as of a `NextPoint`."""
 
     point: OperatingPoint
     inlet_temperature: float
@@ -41,13 +37,13 @@ class Gained:
 
 @dataclass(frozen=True)
 class NextPoint:
-    """The best point of a box for two explanations, and what READINGS readings there do to their odds.
+    """The best point of a box for two explanations, and the odds after `limits.readings` readings there.
 
     point.temperature is that of the case; inlet_temperature, in K, what it goes with in the recording. between:
     the two in words, the likelier first; separates: their ids. before: ln odds of the first against the second by
     the recording; gain: nats that the readings bring on average, whichever of the two is true; after: ln odds for
     the true one that they lead to on average, and chance of odds of 20 to 1 for it, each the lesser of both cases.
-    repeats: readings that bring ENOUGH nats, None where MOST_REPEATS do not;
+    repeats: readings that bring `limits.enough` nats, None where `limits.most_repeats` do not;
     why: in words; ranked: all points whose gain was asked for, this one first; instead: what would settle the two
     where the point does not, in words; beyond: the box goes beyond what was recorded.
     """
@@ -63,6 +59,7 @@ class NextPoint:
     chance: float
     repeats: int | None
     why: str
+    limits: NextPointLimits
     ranked: tuple[Gained, ...] = ()
     beyond: bool = False
     instead: str = ""
@@ -70,30 +67,35 @@ class NextPoint:
     @property
     def settles(self) -> bool:
         """Whether the point is said to settle the two: odds of 20 to 1 are likely, whichever of them is true."""
-        return self.chance >= PROMISED
+        return self.chance >= self.limits.promised
 
     @property
     def is_open(self) -> bool:
         """Whether the recording leaves the odds of the two below 20 to 1."""
-        return abs(self.before) < SETTLED
+        return abs(self.before) < self.limits.settled
 
 
 def next_point(
-    study: Study, pump: PumpDescription, box: BenchBox, first: Contender, second: Contender
+    study: Study,
+    pump: PumpDescription,
+    box: BenchBox,
+    first: Contender,
+    second: Contender,
+    limits: NextPointLimits,
 ) -> NextPoint:
-    """The point of a box at which READINGS readings separate two explanations best."""
+    """The point of a box at which `limits.readings` readings separate two explanations best."""
     points = box.points(tuple(_levels(*ends, count) for ends, count in zip(box.ends, LEVELS, strict=True)))
     best = np.sort(np.argsort(_parting(study, first, second, points))[::-1][:LOOKED_AT])
     some = rows(points, best)
     found = list(forecasts(study, first, second, some))
-    gains = [forecast.gain(READINGS) for forecast in found]
+    gains = [forecast.gain(limits.readings) for forecast in found]
     order = np.argsort(gains)[::-1]
     at = int(order[0])
     ranked = tuple(
         Gained(operating_at(pump, some, place), float(some.T_in[place]), gains[place]) for place in order
     )
     before = log(first.probability / second.probability)
-    after, chance = _led_to(found[at], before)
+    after, chance = _led_to(found[at], before, limits)
     return NextPoint(
         box=box,
         point=ranked[0].point,
@@ -104,22 +106,23 @@ def next_point(
         gain=gains[at],
         after=after,
         chance=chance,
-        repeats=next((n for n in range(1, MOST_REPEATS + 1) if found[at].gain(n) >= ENOUGH), None),
+        repeats=next((n for n in range(1, limits.most_repeats + 1) if found[at].gain(n) >= limits.enough), None),
         why=_why(study, first, second, rows(some, np.array([at]))),
+        limits=limits,
         ranked=ranked,
     )
 
 
-def gains_at(study: Study, first: Contender, second: Contender, points: BenchPoints) -> Array:
-    """(N,), nats that READINGS readings at each of the points bring at least, whichever of the two is true."""
-    return np.array([forecast.gain(READINGS) for forecast in forecasts(study, first, second, points)])
+def gains_at(study: Study, first: Contender, second: Contender, points: BenchPoints, count: int) -> Array:
+    """(N,), nats that `count` readings at each of the points bring at least, whichever of the two is true."""
+    return np.array([forecast.gain(count) for forecast in forecasts(study, first, second, points)])
 
 
-def _led_to(forecast: Forecast, before: float) -> tuple[float, float]:
-    """ln odds for the true one after READINGS readings, chance of SETTLED, each the lesser of both cases."""
-    cases = list(zip((before, -before), forecast.brought(READINGS), strict=True))
+def _led_to(forecast: Forecast, before: float, limits: NextPointLimits) -> tuple[float, float]:
+    """ln odds for the true explanation after the readings, chance of `settled`, each the lesser of both cases."""
+    cases = list(zip((before, -before), forecast.brought(limits.readings), strict=True))
     after = min(odds + told.mean for odds, told in cases)
-    return after, min(told.chance(SETTLED - odds) for odds, told in cases)
+    return after, min(told.chance(limits.settled - odds) for odds, told in cases)
 
 
 def _levels(lower: float, upper: float, count: int) -> Array:

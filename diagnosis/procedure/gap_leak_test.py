@@ -11,12 +11,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from diagnosis.next_point.choose import READINGS, SETTLED
 from diagnosis.next_point.forecast import Contender, Forecast
 from diagnosis.next_point.operating_box import BenchBox
 from diagnosis.recording.units import channel_unit, difference, reading
 from diagnosis.report.format import PLACES
 from diagnosis.study.model import Study
+from diagnosis.thresholds import NextPointLimits
 from reynolds.numerics.arrays import Array
 from system.bench.points import BenchPoints
 from system.description.gap import Gap
@@ -29,7 +29,6 @@ LEAKS: Mapping[Gap, Component] = {
     Gap.SLIPPER: Component.SLIPPER_LEAKAGE,
     Gap.VALVE_PLATE: Component.PLATE_LEAKAGE,
 }
-RELATIVE = 0.01  # one sigma of such a measurement, beside that of the case drain's meter
 STEP = 0.1  # of slopes, in spreads of a parameter
 
 
@@ -61,11 +60,13 @@ class OwnLeak:
         )
 
 
-def own_leak(study: Study, box: BenchBox, first: Contender, second: Contender) -> OwnLeak | None:
-    """The gap whose leak tells the two apart best at the box's highest pressure; None where none settles them.
+def own_leak(
+    study: Study, box: BenchBox, first: Contender, second: Contender, limits: NextPointLimits
+) -> OwnLeak | None:
+    """The gap whose leak separates the two best at the box's highest pressure; None where none settles them.
 
-    Settled: by READINGS readings odds of 20 to 1 on average, whichever of the two is true. None too where the case
-    drain is not measured: its meter's noise is that of the leak's.
+    Settled: `limits.readings` readings give odds of 20 to 1 on average, whichever of the two is true. None too
+    where the case drain is not measured: the noise of its meter is assumed for the leak.
     """
     meter = study.recording.channel(ChannelName.Q_CASE)
     if meter is None or ChannelName.Q_CASE not in study.channels:
@@ -75,12 +76,12 @@ def own_leak(study: Study, box: BenchBox, first: Contender, second: Contender) -
     found = []
     for at, gap in enumerate(LEAKS):
         (one, one_spread), (other, other_spread) = ((leak[at], spread[at]) for leak, spread in known)
-        sigma = meter.sigma + RELATIVE * abs(one)
+        sigma = meter.sigma + limits.gauge * abs(one)
         first_spread, second_spread = (np.array([[each @ each / sigma**2]]) for each in (one_spread, other_spread))
-        gain = Forecast(np.array([(other - one) / sigma]), first_spread, second_spread).gain(READINGS)
+        gain = Forecast(np.array([(other - one) / sigma]), first_spread, second_spread).gain(limits.readings)
         found.append(OwnLeak(gap, place, (float(one), float(other)), float(sigma), gain))
     best = max(found, key=lambda each: each.gain)
-    return best if best.gain >= SETTLED else None
+    return best if best.gain >= limits.settled else None
 
 
 def _loaded(box: BenchBox) -> BenchPoints:

@@ -13,13 +13,11 @@ from diagnosis.next_point.operating_box import ordinary_box, rig_box
 from diagnosis.procedure.gap_leak_test import own_leak
 from diagnosis.report.text import explanation_words
 from diagnosis.study.model import Study
-from diagnosis.thresholds import Thresholds
+from diagnosis.thresholds import NextPointLimits, Thresholds
 from diagnosis.verdict.diagnosis import Diagnosis
 from reynolds.errors import FilmInputError
 from system.description.pump import PumpDescription
 from system.inputs.errors import NotConverged
-
-STANDS = 0.001  # probability of a rival worth a reading
 
 
 def with_next_point(study: Study, pump: PumpDescription, found: Diagnosis, thresholds: Thresholds) -> Diagnosis:
@@ -27,46 +25,48 @@ def with_next_point(study: Study, pump: PumpDescription, found: Diagnosis, thres
 
     Unchanged where no refitted rival stands. Raises NotConverged where a point cannot be simulated.
     """
-    asked = rivals(found)
+    asked = rivals(found, thresholds)
     if asked is None:
         return found
     first, second = (contender(study, each, thresholds) for each in asked)
-    return replace(found, next_point=asked_for(study, pump, first, second))
+    return replace(found, next_point=asked_for(study, pump, first, second, thresholds.next_point))
 
 
-def asked_for(study: Study, pump: PumpDescription, first: Contender, second: Contender) -> NextPoint:
+def asked_for(
+    study: Study, pump: PumpDescription, first: Contender, second: Contender, limits: NextPointLimits
+) -> NextPoint:
     """A point of the rig's box if one settles two that are open, else one of an ordinary bench's if that does.
 
     Else the rig's best, with what would instead. Raises NotConverged where a point of the rig's box cannot be
     simulated; where one farther out cannot, that is told.
     """
     box = rig_box(study.recording, pump)
-    point = next_point(study, pump, box, first, second)
+    point = next_point(study, pump, box, first, second, limits)
     if point.settles or not point.is_open:
         return point
     try:
-        farther = next_point(study, pump, ordinary_box(study.recording, pump), first, second)
+        farther = next_point(study, pump, ordinary_box(study.recording, pump), first, second, limits)
     except (NotConverged, FilmInputError) as reason:
         return replace(point, instead=f"Farther out nothing can be foretold: {reason}.")
     if farther.settles:
         return replace(farther, beyond=True)
-    leak = own_leak(study, box, first, second)
+    leak = own_leak(study, box, first, second, limits)
     return replace(point, instead=leak.text if leak else "")
 
 
-def rivals(found: Diagnosis) -> tuple[Weighed, Weighed] | None:
+def rivals(found: Diagnosis, thresholds: Thresholds) -> tuple[Weighed, Weighed] | None:
     """The first explanation and the likeliest other that stands, both refitted; None where none stands."""
     fitted = [each for each in found.hypotheses if each.posterior is not None]
-    rival = _rival(fitted)
+    rival = _rival(fitted, thresholds.next_point.rival)
     return None if rival is None else (fitted[0], rival)
 
 
-def _rival(fitted: Sequence[Weighed]) -> Weighed | None:
+def _rival(fitted: Sequence[Weighed], least: float) -> Weighed | None:
     """The likeliest of the explanations that are not the first at the same places."""
     others = [
         each
         for each in fitted[1:]
-        if each.probability >= STANDS and each.hypothesis.open_names != fitted[0].hypothesis.open_names
+        if each.probability >= least and each.hypothesis.open_names != fitted[0].hypothesis.open_names
     ]
     return max(others, key=lambda each: each.probability, default=None)
 
@@ -75,7 +75,7 @@ def contender(study: Study, weighed: Weighed, thresholds: Thresholds) -> Contend
     """A refitted explanation with the simulator of its fit."""
     if weighed.posterior is None:
         raise ValueError(f"{weighed.hypothesis.text}: not refitted")
-    simulator = simulator_of(study, weighed.hypothesis, thresholds.name.fault_factor)
+    simulator = simulator_of(study, weighed.hypothesis, thresholds)
     own = weighed.hypothesis
     text = explanation_words(own) + (", of another form" if own.bent else "")
     return Contender(own.effects, simulator, weighed.posterior, text, weighed.probability)

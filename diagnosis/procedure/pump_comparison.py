@@ -11,7 +11,6 @@ from diagnosis.recording.units import channel_unit, reading
 from diagnosis.report.tables import added_by_claim
 from diagnosis.study.inputs import bench_points
 from diagnosis.study.model import Study
-from diagnosis.thresholds import Thresholds
 from diagnosis.verdict.diagnosis import Diagnosis
 from diagnosis.verdict.row_numbers import table_rows
 from reynolds.errors import FilmInputError, FilmNotConverged
@@ -98,9 +97,7 @@ def claimed_pump(pump: PumpDescription, found: Diagnosis) -> PumpDescription:
     )
 
 
-def compare_pumps(
-    pump: PumpDescription, study: Study, found: Diagnosis, thresholds: Thresholds, report: Report
-) -> PumpComparison:
+def compare_pumps(pump: PumpDescription, study: Study, found: Diagnosis, report: Report) -> PumpComparison:
     """Both pumps of the claimed fit, solved at the recorded point where the claim adds most to the readings.
 
     Without: its effects off, its wrong values as stated, all else as fitted. Nothing is solved where nothing is
@@ -110,7 +107,7 @@ def compare_pumps(
         return NO_COMPARISON
     if all(entry_of(claim.effect).verdict is Kind.SENSOR_FAULT for claim in found.effects):
         return replace(NO_COMPARISON, text="A sensor's fault changes nothing in the pump.")
-    own, added = found.hypotheses[0].hypothesis, added_by_claim(study, found, thresholds)
+    own, added = found.hypotheses[0].hypothesis, added_by_claim(study, found)
     at = int(np.argmax(np.nansum((added / found.after.whitening.sigma) ** 2, axis=1)))
     number = table_rows(study.recording)[at]
     point = operating_at(pump, bench_points(study.recording, pump)[0], at)

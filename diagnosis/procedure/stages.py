@@ -33,10 +33,6 @@ from system.inputs.channels import ChannelName
 from system.work.processes import ProcessPool, process_pool
 from system.work.progress import Report, silent
 
-FORETOLD = 6  # explanations, the likeliest, whose held-out points are looked at
-HOPELESS = 100.0  # nats behind what another explanation is seen to reach: there a fit is given up
-ALIKE = 0.9  # correlation beyond which two parameters are told as not identifiable
-
 
 def diagnose_study(
     study: Study, viscosity: Array, thresholds: Thresholds, report: Report = silent, workers: int = 1
@@ -87,7 +83,7 @@ def _fits(
         more = tuple(each for each, _ in wrong if each not in listed)
         reached = [look.reached for _, look in wrong]
         reached += [] if null.linear else [_fit_of(null).objective]
-        hopeless = min(reached, default=inf) + 2.0 * HOPELESS
+        hopeless = min(reached, default=inf) + 2.0 * thresholds.fit.hopeless
         refitted, failed = refit_all(study, (*listed, *more), thresholds, executor, report, hopeless)
         placed = _placed(study, screened, null, refitted)
         combined, not_combined = combine(study, placed, thresholds, executor, report)
@@ -175,7 +171,7 @@ def _foretold(
     before = null.posterior
     if before is None:
         return tuple(ranked)
-    known = [each for each in ranked if each.posterior is not None][:FORETOLD]
+    known = [each for each in ranked if each.posterior is not None][: thresholds.fit.held_out]
 
     def foretold(each: Weighed) -> Weighed:
         if each not in known or each.posterior is None:
@@ -219,9 +215,10 @@ def _finding(
         fit=shown.heldout or held_out(study, before, after, thresholds),
         scaling=None if described is None else scaling_of(study, described, viscosity, thresholds),
         next_point=None,
-        not_identifiable=_not_identifiable(verdict, after),
+        not_identifiable=_not_identifiable(verdict, after, thresholds.name.alike),
         notes=notes,
         effort=_effort(ranked),
+        thresholds=thresholds,
     )
 
 
@@ -237,7 +234,9 @@ def scaling_of(study: Study, weighed: Weighed, viscosity: Array, thresholds: Thr
     if study.shown_channels[at] is ChannelName.P_CHAMBER:
         return None
     channel = study.channels[at]
-    return scaling(channel, found.mismatch[:, at], sigma[:, at], coordinates(study, viscosity))
+    return scaling(
+        channel, found.mismatch[:, at], sigma[:, at], coordinates(study, viscosity), thresholds.form.least_range
+    )
 
 
 def _fit_of(weighed: Weighed) -> Posterior:
@@ -246,13 +245,13 @@ def _fit_of(weighed: Weighed) -> Posterior:
     return weighed.posterior
 
 
-def _not_identifiable(verdict: Verdict, after: Posterior) -> tuple[str, ...]:
+def _not_identifiable(verdict: Verdict, after: Posterior, alike: float) -> tuple[str, ...]:
     """Members of the class that is claimed, and parameters that the readings tie to each other."""
     told = [f"{verdict.members[0].hypothesis.text} vs {each.hypothesis.text}" for each in verdict.members[1:]]
     spread = np.sqrt(np.diag(after.covariance))
     correlation = np.triu(after.covariance / np.outer(spread, spread), 1)
     names = [parameter.name for parameter in after.parameters]
-    tied = [f"{names[one]} vs {names[other]}" for one, other in np.argwhere(np.abs(correlation) > ALIKE)]
+    tied = [f"{names[one]} vs {names[other]}" for one, other in np.argwhere(np.abs(correlation) > alike)]
     return (*told, *tied)
 
 

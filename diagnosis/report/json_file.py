@@ -10,7 +10,7 @@ from typing import Any
 
 from diagnosis.detect.time_scan import TimeKind, TimeMark
 from diagnosis.explain.ranked import HeldOut, Weighed
-from diagnosis.next_point.choose import READINGS, NextPoint
+from diagnosis.next_point.choose import NextPoint
 from diagnosis.recording.units import difference, difference_unit, reading
 from diagnosis.report.format import last_word
 from diagnosis.report.text import paragraphs, statement
@@ -174,7 +174,7 @@ def _next_test(found: NextPoint) -> dict[str, Any]:
         "between": list(found.between),
         "settles": found.settles,
         "chance": found.chance,
-        "readings": READINGS,
+        "readings": found.limits.readings,
         "gain_nats": found.gain,
         "log_odds": {"now": found.before, "foretold": found.after},
         "beyond_recorded": found.beyond,

@@ -15,7 +15,6 @@ from diagnosis.next_point.choose import NextPoint
 from diagnosis.recording.model import Recording
 from diagnosis.recording.units import channel_unit, difference, reading
 from diagnosis.study.model import Study
-from diagnosis.thresholds import Thresholds
 from diagnosis.verdict.diagnosis import Diagnosis
 from diagnosis.verdict.row_numbers import table_rows
 from reynolds.numerics.arrays import Array
@@ -40,20 +39,20 @@ def steady_rows(recording: Recording) -> Iterator[Row]:
         yield row
 
 
-def added_by_claim(study: Study, diagnosis: Diagnosis, thresholds: Thresholds) -> Array:
+def added_by_claim(study: Study, diagnosis: Diagnosis) -> Array:
     """(N, C) in SI, what the claimed effects add to the simulated readings, all else as fitted; 0 for no claim."""
     if not diagnosis.effects:
         return np.zeros_like(study.observations.values)
-    return repair(study, diagnosis.hypotheses[0], thresholds).added
+    return repair(study, diagnosis.hypotheses[0], diagnosis.thresholds).added
 
 
-def residual_rows(study: Study, diagnosis: Diagnosis, thresholds: Thresholds) -> Iterator[Row]:
+def residual_rows(study: Study, diagnosis: Diagnosis) -> Iterator[Row]:
     """Each reading: row from 1, where it was taken, measured and simulated by the null and by what is claimed.
 
     sigma is that of a reading, the noise of the point's inputs included; pull = (measured - simulated) / sigma;
     added: what the claimed effects have in the reading simulated after.
     """
-    order, added = list(ChannelName), added_by_claim(study, diagnosis, thresholds)
+    order, added = list(ChannelName), added_by_claim(study, diagnosis)
     sigma = diagnosis.before.whitening.sigma
     before, after = diagnosis.before.predictions, diagnosis.after.predictions
     numbers = table_rows(study.recording)

@@ -10,7 +10,7 @@ from diagnosis.detect.time_scan import TimeKind
 from diagnosis.explain.hypotheses import Hypothesis
 from diagnosis.explain.ranked import Weighed
 from diagnosis.explain.scaling import Scaling
-from diagnosis.next_point.choose import READINGS, NextPoint
+from diagnosis.next_point.choose import NextPoint
 from diagnosis.recording.units import channel_unit, difference, difference_unit, reading
 from diagnosis.report.format import (
     CHANNELS,
@@ -26,13 +26,11 @@ from diagnosis.report.format import (
 from diagnosis.study.model import SUBJECTS
 from diagnosis.verdict.diagnosis import Diagnosis, Status
 from diagnosis.verdict.locate import Location
-from diagnosis.verdict.trend import FLAT
 from system.effects.catalogue.entries import entry_of
 from system.effects.effect import Kind
 from system.inputs.channels import ChannelName
 
 RIVALS = 3  # told by name at most
-WORTH_TELLING = 0.01  # probability of a rival
 OTHER = 0.05  # share of the probability of an effect's other places, from which they are told
 
 
@@ -86,7 +84,7 @@ def next_point_text(found: NextPoint) -> str:
     first, second = found.between
     ahead, behind = (first, second) if found.before >= 0.0 else (second, first)
     pair = f"{ahead} from {behind} (odds now {_odds(abs(found.before))})"
-    times = f"{_point(found)}, {READINGS} times"
+    times = f"{_point(found)}, {found.limits.readings} times"
     if found.settles:
         beyond = ", outside the range recorded," if found.beyond else ""
         sure = f"1:20 or better with a chance of {chance(found.chance)}"
@@ -134,7 +132,8 @@ def _where(diagnosis: Diagnosis) -> str:
     if scaling is None:
         return place
     side = "higher" if scaling.above else "lower"
-    return f"{place}: {scaling.channel.value} reads {side} than simulated, by what {_course(scaling)}"
+    grows = _course(scaling, diagnosis.thresholds.form.flat)
+    return f"{place}: {scaling.channel.value} reads {side} than simulated, by what {grows}"
 
 
 def _places(location: Location) -> Iterator[str]:
@@ -232,17 +231,17 @@ def _unknown(diagnosis: Diagnosis) -> str:
     return f"no effect of the catalogue explains the mismatch ({_misfit(diagnosis)}){place}"
 
 
-def _course(scaling: Scaling) -> str:
+def _course(scaling: Scaling, flat: float) -> str:
     """What the difference grows with, and along what it stays, where exponents are known well enough to say."""
     powers = [
         f"{name}^({exponent:.2g} +- {scaling.sigma[name]:.1g})"
         for name, exponent in scaling.exponents.items()
-        if abs(exponent) > max(2.0 * scaling.sigma[name], FLAT)
+        if abs(exponent) > max(2.0 * scaling.sigma[name], flat)
     ]
     same = [
         name
         for name, exponent in scaling.exponents.items()
-        if abs(exponent) <= FLAT and scaling.sigma[name] <= FLAT
+        if abs(exponent) <= flat and scaling.sigma[name] <= flat
     ]
     grows = [f"grows as {' '.join(powers)}"] if powers else []
     alike = (
@@ -259,7 +258,8 @@ def _misfit(diagnosis: Diagnosis) -> str:
 
 def _likeliest(diagnosis: Diagnosis) -> list[str]:
     """The likeliest hypotheses with an effect, with their probabilities."""
-    listed_so = [one for one in _explained(diagnosis) if one.probability >= WORTH_TELLING][:RIVALS]
+    least = diagnosis.thresholds.name.possible
+    listed_so = [one for one in _explained(diagnosis) if one.probability >= least][:RIVALS]
     return [f"{explanation_words(one.hypothesis)} ({chance(one.probability)})" for one in listed_so]
 
 
@@ -269,7 +269,10 @@ def _rivals(diagnosis: Diagnosis) -> str:
         return ""
     first, *others = _explained(diagnosis, bent=False)
     told = [(explanation_words(one.hypothesis), one.probability) for one in others][: 2 * RIVALS]
-    odds = [(words, odds_text(first.probability, each), each >= WORTH_TELLING) for words, each in told]
+    odds = [
+        (words, odds_text(first.probability, each), each >= diagnosis.thresholds.name.possible)
+        for words, each in told
+    ]
     standing = [f"{words} ({against})" for words, against, stands in odds if stands]
     excluded = [f"{words} ({against})" for words, against, stands in odds if not stands][:RIVALS]
     parts = [f"Still possible, odds to the first: {listed(standing)}." if standing else ""]

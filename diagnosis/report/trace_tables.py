@@ -8,7 +8,6 @@ from diagnosis.explain.hypotheses import simulator_of
 from diagnosis.recording.units import channel_unit, difference, reading
 from diagnosis.report.tables import Row
 from diagnosis.study.model import Study
-from diagnosis.thresholds import Thresholds
 from diagnosis.verdict.diagnosis import Diagnosis
 from diagnosis.verdict.row_numbers import table_rows
 from reynolds.numerics.arrays import Array
@@ -17,7 +16,7 @@ from system.inputs.channels import ChannelName
 ANGLE = f"angle [{channel_unit(ChannelName.ANGLE)}]"
 
 
-def trace_residual_rows(study: Study, diagnosis: Diagnosis, thresholds: Thresholds) -> Iterator[Row]:
+def trace_residual_rows(study: Study, diagnosis: Diagnosis) -> Iterator[Row]:
     """Each sample of each trace: measured, simulated by the null's fit and by that of what is claimed, pulls.
 
     sigma is that of the recorded mean, an angle known to its step; point: row of the steady table, from 1.
@@ -25,7 +24,7 @@ def trace_residual_rows(study: Study, diagnosis: Diagnosis, thresholds: Threshol
     numbers = table_rows(study.recording)
     for trace in study.traces:
         point, angle = trace.block.point, trace.block.angle
-        before, after = simulated_traces(study, diagnosis, thresholds, (point,), angle)
+        before, after = simulated_traces(study, diagnosis, (point,), angle)
         for at, measured in enumerate(trace.block.mean):
             one = trace.sigma[at]
             yield {
@@ -41,7 +40,7 @@ def trace_residual_rows(study: Study, diagnosis: Diagnosis, thresholds: Threshol
 
 
 def simulated_traces(
-    study: Study, diagnosis: Diagnosis, thresholds: Thresholds, points: tuple[int, ...], angle: Array
+    study: Study, diagnosis: Diagnosis, points: tuple[int, ...], angle: Array
 ) -> tuple[Array, Array]:
     """Chamber pressure (len(points), K), Pa gauge, at shaft angles (K,) rad: by the null's fit, by the claimed.
 
@@ -51,7 +50,7 @@ def simulated_traces(
     own = diagnosis.hypotheses[0]
     if not diagnosis.effects or own.posterior is None:
         return before, before
-    simulator = simulator_of(study, own.hypothesis, thresholds.name.fault_factor)
+    simulator = simulator_of(study, own.hypothesis, diagnosis.thresholds)
     return before, simulator.traces(own.posterior.values, points, angle)
 
 

@@ -12,6 +12,7 @@ from diagnosis.recording.model import DataNote, NoteKind, Recording
 from diagnosis.recording.reader import read_recording
 from diagnosis.study.model import Study
 from diagnosis.study.scaled_pump import KnownPump, load_known_pump
+from diagnosis.thresholds import load_thresholds
 from system.inputs.faults import Fault, InputFaults
 from system.pump_file.file import builtin_pumps
 
@@ -29,7 +30,8 @@ def checked_recording(path: Path, known: KnownPump | None = None) -> Recording:
     recording = read_recording(path)
     if known is None and recording.pump in builtin_pumps():
         known = load_known_pump(recording.pump)
-    recording = check_recording(recording, None if known is None else known.pump.pump.displacement)
+    displacement = None if known is None else known.pump.pump.displacement
+    recording = check_recording(recording, displacement, load_thresholds().data)
     recording = replace(recording, notes=(*recording.notes, *other_pump(recording, known)))
     faults = [note for note in recording.notes if note.kind is NoteKind.FAULT]
     if faults:
@@ -51,9 +53,9 @@ def refuse_too_few(study: Study) -> None:
         raise InputFaults(study.recording.title, [Fault("recording", few.text, "more readings than parameters")])
 
 
-def refuse_too_smooth(study: Study) -> None:
+def refuse_too_smooth(study: Study, least_chi2: float) -> None:
     """Raises InputFaults for readings that scatter about the fit by far less than their noise."""
-    smooth = too_smooth(study.base.objective, study.base.residual.size)
+    smooth = too_smooth(study.base.objective, study.base.residual.size, least_chi2)
     if smooth is not None:
         raise InputFaults(
             study.recording.title, [Fault("recording", smooth.text, "readings with the noise stated")]

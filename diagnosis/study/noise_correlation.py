@@ -7,31 +7,27 @@ from scipy.linalg import cho_factor, cho_solve
 
 from diagnosis.study.map_axes import smooth_shapes
 from diagnosis.study.model import Study
+from diagnosis.thresholds import MismatchLimits
 from reynolds.numerics.arrays import Array
 
-SMOOTH = 30.0  # sigma: prior width of a smooth mismatch over the map, which is no memory
-APART = 0.5  # on the map's axes, scaled to -1 .. 1: points nearer to each other share their mismatch
-FEWEST_PAIRS = 20
-MOST = 0.9
-OUTLYING = 4.0  # sigma of one residual, beyond which it counts as this
 
-
-def noise_memory(study: Study, significant: float) -> tuple[float, ...]:
-    """Lag-1 correlation of what is left along the order, (rho,); () where it is not `significant` sigma above 0.
+def noise_memory(study: Study, limits: MismatchLimits) -> tuple[float, ...]:
+    """Lag-1 correlation of what is left along the order, (rho,); () where it is not `memory` sigma above 0.
 
     Score test of an autoregressive noise (Rao 1948): with r ~ N(0, P) where noise is white and M half on every
     pair of consecutive readings of a channel, s^2 = 2 tr M P M P, z = (r.M r - tr M P)/s and rho = z/s, r in units
     of its own scatter where that is more than it should be. A smooth mismatch over the map is taken out, and only
     pairs that lie apart on the map count: in sweeps, where none do, memory cannot be told from mismatch.
     """
-    pairs = _pairs(study)
-    if len(pairs) < FEWEST_PAIRS:
+    pairs = _pairs(study, limits.memory_apart)
+    if len(pairs) < limits.memory_pairs:
         return ()
     base = study.base
-    slopes = np.hstack([base.slopes, _smooth_columns(study)])
+    slopes = np.hstack([base.slopes, _smooth_columns(study, limits.smooth)])
     factor = cho_factor(slopes.T @ slopes + np.eye(slopes.shape[1]))
     offset = base.residual + base.slopes @ base.xi
-    residual = np.clip(offset - slopes @ cho_solve(factor, slopes.T @ offset), -OUTLYING, OUTLYING)
+    clip = limits.memory_clip
+    residual = np.clip(offset - slopes @ cho_solve(factor, slopes.T @ offset), -clip, clip)
     left = np.eye(len(offset)) - slopes @ cho_solve(factor, slopes.T)
     one, other = pairs.T
     half = np.zeros_like(left)
@@ -40,26 +36,26 @@ def noise_memory(study: Study, significant: float) -> tuple[float, ...]:
     spread = float(np.sqrt(2.0 * np.einsum("ij,ji->", seen, seen)))
     scatter = max(1.0, float(residual @ residual) / float(np.trace(left)))
     excess = float(residual @ half @ residual) / scatter - float(np.trace(seen))
-    if excess < significant * spread:
+    if excess < limits.memory * spread:
         return ()
-    return (min(excess / spread**2, MOST),)
+    return (min(excess / spread**2, limits.memory_most),)
 
 
-def _pairs(study: Study) -> Array:
+def _pairs(study: Study, least: float) -> Array:
     """(m, 2), whitened rows of one channel at consecutive points that lie apart on the map."""
     point, channel = study.base.whitening.rows.T
     row = np.full((len(study.axes), channel.max() + 1), -1)
     row[point, channel] = np.arange(len(point))
-    apart = np.linalg.norm(np.diff(study.axes, axis=0), axis=1) > APART
+    apart = np.linalg.norm(np.diff(study.axes, axis=0), axis=1) > least
     both = (row[:-1] >= 0) & (row[1:] >= 0) & apart[:, None]
     return np.stack([row[:-1][both], row[1:][both]], axis=1)
 
 
-def _smooth_columns(study: Study) -> Array:
+def _smooth_columns(study: Study, width: float) -> Array:
     """Whitened columns of a smooth mismatch of every channel by itself."""
     whitening, shapes = study.base.whitening, smooth_shapes(study.axes)
     count = whitening.measured.shape[1]
     columns = np.zeros((*whitening.measured.shape, count, shapes.shape[1]))
     for channel in range(count):
-        columns[:, channel, channel] = SMOOTH * whitening.sigma[:, channel, None] * shapes
+        columns[:, channel, channel] = width * whitening.sigma[:, channel, None] * shapes
     return whitening.whiten(columns.reshape(*whitening.measured.shape, -1))

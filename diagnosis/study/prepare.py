@@ -63,7 +63,7 @@ def prepare(
     found, axes = observations(usable, channels, inputs), scaled_axes(usable)
     traces = usable.channel(ChannelName.P_CHAMBER) if usable.traces else None
     study = study_of(usable, bench, found, axes, () if traces else catalogue, thresholds)
-    memory = noise_memory(study, thresholds.mismatch.memory)
+    memory = noise_memory(study, thresholds.mismatch)
     if memory:
         told = (
             f"what is left goes on from point to point: noise taken as correlated by {memory[0]:.2f} in the order"

@@ -9,6 +9,7 @@ from diagnosis.detect.mismatch import Detection
 from diagnosis.explain.ranked import HeldOut, Weighed
 from diagnosis.explain.scaling import Scaling
 from diagnosis.next_point.choose import NextPoint
+from diagnosis.thresholds import Thresholds
 from diagnosis.verdict.locate import Location
 from system.description.gap import Gap
 from system.effects.effect import EffectId, Kind
@@ -53,8 +54,10 @@ class Claim:
 
 @dataclass(frozen=True)
 class Diagnosis:
-    """The whole finding. hypotheses: all that were weighed, claimed first; before: the null's own fit, after: the
-    claimed one's; fit: held-out residuals; not_identifiable: pairs of things this recording cannot tell, in words.
+    """Verdict on a recording with its evidence.
+
+    hypotheses: all, the claimed one first; before: the null's fit, after: the claimed one's; fit: held-out
+    residuals; not_identifiable: pairs that this recording cannot separate, as text; thresholds: decided by these.
     """
 
     kind: Kind
@@ -71,3 +74,4 @@ class Diagnosis:
     not_identifiable: tuple[str, ...]
     notes: tuple[str, ...]
     effort: FitEffort
+    thresholds: Thresholds

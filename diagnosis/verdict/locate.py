@@ -55,7 +55,7 @@ def locate(study: Study, thresholds: Thresholds) -> Location:
     tie = tied(ranking, thresholds.name.odds)
     pattern = missing_pattern(study, tie[0], thresholds) if tie else np.zeros(study.observations.values.shape)
     channels = _channels(study, pattern, limits.channel_share)
-    densest = partial(densest_region, share=limits.region_share)
+    densest = partial(densest_region, limits=limits)
     return Location(
         channels=channels,
         region=_region(study, channels[0], pattern, densest) if channels else None,
@@ -78,7 +78,8 @@ def of_explanation(study: Study, location: Location, added: Array, thresholds: T
     sigma = np.where(whitening.measured, whitening.sigma, np.inf)
     pattern = added / sigma
     channels = _channels(study, pattern, thresholds.locate.channel_share)
-    region = _region(study, channels[0], pattern, strongest_region) if channels else None
+    strongest = partial(strongest_region, limits=thresholds.locate)
+    region = _region(study, channels[0], pattern, strongest) if channels else None
     tie = location.tie if set(channels) & set(study.channels) else ()
     return replace(location, channels=channels, region=region, tie=tie)
 

@@ -24,7 +24,6 @@ from system.estimation.parameters import Role
 from system.estimation.posterior import Posterior, settled
 from system.inputs.errors import NotConverged
 
-MATERIAL = 0.1  # of the mismatch in square: what explains nine tenths of it is all of it, but for its form
 BROADER = 5.44  # n times the variance of a squared scale from the median (Rousseeuw and Croux 1993)
 MEDIAN = float(norm.isf(0.25))  # of |r| in sigma
 
@@ -34,9 +33,9 @@ def left_over(
 ) -> tuple[str, ...]:
     """What the best explanation leaves of the mismatch, in words; () where it is complete.
 
-    Parts of the map and candidates that stand out of what is left tell of it where chance hardly makes one and its
-    square is MATERIAL of what is explained in its channel: a law of another form than the pump's leaves a little
-    at any size.
+    A part of the map or a candidate that stands out of the residual counts where chance hardly makes it and its
+    square exceeds the share `material` of what is explained in its channel: a law of another form than the pump's
+    leaves a little at any size.
     along: coordinates (N,) with which an effect may grow, by name.
     """
     after, before = best.posterior, null.posterior
@@ -44,7 +43,8 @@ def left_over(
         return ()
     found = list(_bent(best.hypothesis))
     found += _scatter(after.residual, thresholds)
-    least = np.sqrt(MATERIAL * max(before.objective - after.objective, 0.0) * _shares(study, best, thresholds))
+    gained = max(before.objective - after.objective, 0.0)
+    least = np.sqrt(thresholds.form.material * gained * _shares(study, best, thresholds))
     found += _regions(study, after, least, thresholds)
     found += _striking(study, after, best.hypothesis, least, thresholds)
     found += [growth.text for growth in misgrown(study, best, along, thresholds)[:1]]
@@ -86,7 +86,7 @@ def _shares(study: Study, best: Weighed, thresholds: Thresholds) -> Array:
 def _regions(study: Study, after: Posterior, least: Array, thresholds: Thresholds) -> Iterator[str]:
     """The first two parts of the map that stand out of what is left."""
     by_channel = {name: contrasts(after, at) for at, name in enumerate(study.channels)}
-    flags = flagged(by_channel, axis_values(study.recording), thresholds.mismatch.flag_rate)
+    flags = flagged(by_channel, axis_values(study.recording), thresholds)
     for flag in flags[:2]:
         if abs(flag.contrast) > least[study.channels.index(flag.channel)]:
             yield f"{flag.channel.value} stays {flag.contrast:+.1f} sigma off at {flag.text}"

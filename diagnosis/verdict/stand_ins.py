@@ -19,7 +19,7 @@ from diagnosis.explain.explained import repair
 from diagnosis.explain.ranked import Weighed
 from diagnosis.study.map_axes import smooth_shapes
 from diagnosis.study.model import Study
-from diagnosis.thresholds import Thresholds
+from diagnosis.thresholds import FormLimits, Thresholds
 from reynolds.numerics.arrays import Array
 from system.effects.effect import EffectId, Kind
 from system.estimation.evidence import multiplier_evidence
@@ -28,21 +28,16 @@ from system.inputs.errors import NotConverged
 
 Evidence = Callable[[Weighed], float | None]
 
-FORM = 0.03  # of a law's square: what a closed form that is off by a sixth of itself may leave
-THIRD = 0.1  # of a law's square: what is off by a third of itself is more than its form
-SLACK = 9.0  # of a sum of squares: one parameter more takes up as much of noise once in 370 times
-OWN = 4.0  # a law that is off by half of itself, a fifth of the mismatch in square, is another law
-
 
 def without_stand_ins(study: Study, weighed: Sequence[Weighed], thresholds: Thresholds) -> tuple[Weighed, ...]:
     """Explanations of one and more effects, those whose last effects are stand-ins cut to what they stand on.
 
     Of A + B, where A has a law and was refitted, B stands in if A bent does as well within the odds of a name, and
-    B takes up no more than THIRD of what A does.
+    B takes up no more than the share `second` of what A does.
     What is left is A with the evidence that the two have, or A bent, whichever is less: it claims A, and that its
-    form is not all. B stands in too if in each channel it takes up less than FORM of what A does there: then A
+    form is not all. B stands in too if in each channel it takes up less than `slight` of what A does there: then A
     has the evidence of the two. So it is with unknown physics, a component bent freely: it stands in where one
-    law, bent, does as well, and its own form explains OWN times what the bending adds.
+    law, bent, does as well, and its own form explains `own` times what the bending adds.
     """
     bent: Evidence = cache(lambda each: bent_evidence(study, each, thresholds))
     null = next((each for each in weighed if each.hypothesis.kind is Kind.NO_MISMATCH), None)
@@ -88,9 +83,9 @@ def _cut(
         found = bent(each)
         if found is None:
             continue
-        if _is_slight(study, whole, each, null):
+        if _is_slight(study, whole, each, null, thresholds.form):
             stands.append((each, whole.log_evidence))
-        elif found >= whole.log_evidence - odds and not _is_more(whole, each, null):
+        elif found >= whole.log_evidence - odds and not _is_more(whole, each, null, thresholds.form):
             stands.append((each, min(found, whole.log_evidence)))
     if not stands:
         return whole
@@ -99,24 +94,24 @@ def _cut(
     return _as_bent(part, found, whole.hypothesis.log_prior, beside)
 
 
-def _is_slight(study: Study, whole: Weighed, part: Weighed, null: Weighed) -> bool:
+def _is_slight(study: Study, whole: Weighed, part: Weighed, null: Weighed, form: FormLimits) -> bool:
     """Whether the rest of an explanation takes up no more of a channel's sum of squares than its part's form may.
 
-    Sum r^2 falls by G_c from nothing to the part, by D_c from the part to the whole: D_c < FORM G_c + SLACK.
+    Sum r^2 falls by G_c from nothing to the part, by D_c from the part to the whole: D_c < slight G_c + slack.
     So it is with the objectives, into which goes what parameters were moved for it.
     """
     fits = [each.posterior for each in (null, part, whole)]
     if any(fit is None for fit in fits):
         return False
     before, by_part, by_whole = (_squares(study, fit) for fit in fits if fit is not None)
-    return bool(np.all(by_part - by_whole < FORM * np.maximum(before - by_part, 0.0) + SLACK))
+    return bool(np.all(by_part - by_whole < form.slight * np.maximum(before - by_part, 0.0) + form.slack))
 
 
-def _is_more(whole: Weighed, part: Weighed, null: Weighed) -> bool:
+def _is_more(whole: Weighed, part: Weighed, null: Weighed, form: FormLimits) -> bool:
     """Whether the rest of an explanation takes up more of the objective than the form of a part can be off by."""
     fits = [each.posterior for each in (null, part, whole)]
     before, by_part, by_whole = (nan if fit is None else fit.objective for fit in fits)
-    return by_part - by_whole > THIRD * (before - by_part)
+    return by_part - by_whole > form.second * (before - by_part)
 
 
 def _squares(study: Study, fit: Posterior) -> Array:
@@ -138,7 +133,7 @@ def _known_after_all(
         gained = each.log_evidence - null.log_evidence
         single = len(each.hypothesis.effects) == 1 and gained > thresholds.name.odds
         found = bent(each) if single else None
-        if found is not None and OWN * (found - each.log_evidence) < gained:
+        if found is not None and thresholds.form.own * (found - each.log_evidence) < gained:
             standing.append((each, found))
     law, most = max(standing, key=lambda one: one[1] + one[0].hypothesis.log_prior, default=(null, -inf))
     taken = [each for each in unknown if each.log_evidence <= most]

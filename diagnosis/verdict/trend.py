@@ -10,7 +10,7 @@ from scipy.stats import norm
 
 from diagnosis.explain.explained import repair
 from diagnosis.explain.ranked import Weighed
-from diagnosis.explain.scaling import LEAST_RANGE
+from diagnosis.explain.scaling import moves
 from diagnosis.study.map_axes import AXES
 from diagnosis.study.model import Study
 from diagnosis.thresholds import Thresholds
@@ -19,8 +19,6 @@ from system.estimation.evidence import score
 from system.estimation.posterior import settled
 from system.inputs.channels import ChannelName
 from system.inputs.errors import NotConverged
-
-FLAT = 0.25  # of a power: what grows by less more or less grows alike
 
 
 @dataclass(frozen=True)
@@ -54,11 +52,13 @@ def misgrown(
 
     What it adds to the readings, d, becomes d x^b: to first order b d ln x, whose score (Rao 1948) is taken about
     the refit, one coordinate x at a time. Of explanations of the right form at most one in twenty is told (rate of
-    false flags; Holm 1979), and no power below FLAT. The pattern is of one direction, and so sees what a free
+    false flags; Holm 1979), and no power below `flat`. The pattern is of one direction, and so sees what a free
     bend, paid for in all directions, does not. Empty where nothing was refitted.
     """
-    posterior = weighed.posterior
-    logs = {name: np.log(x / np.median(x)) for name, x in along.items() if x.min() > 0 and _moves(x)}
+    posterior, form = weighed.posterior, thresholds.form
+    logs = {
+        name: np.log(x / np.median(x)) for name, x in along.items() if x.min() > 0 and moves(x, form.least_range)
+    }
     if posterior is None or not logs:
         return ()
     try:
@@ -68,11 +68,9 @@ def misgrown(
     fit = settled(posterior)
     scores = {name: score(fit, fit.whitening.whiten(added * x[:, None])) for name, x in logs.items()}
     least = float(norm.isf(0.5 * thresholds.mismatch.flag_rate / len(logs)))
-    told = [(name, found) for name, found in scores.items() if abs(found.z) > least and abs(found.size) > FLAT]
+    told = [
+        (name, found) for name, found in scores.items() if abs(found.z) > least and abs(found.size) > form.flat
+    ]
     return tuple(
         Growth(name, found.size, found.sigma) for name, found in sorted(told, key=lambda one: -abs(one[1].z))
     )
-
-
-def _moves(values: Array) -> bool:
-    return bool(values.max() > LEAST_RANGE * values.min())

@@ -23,6 +23,7 @@ from diagnosis.recording.model import (
     SteadyTable,
 )
 from diagnosis.study.model import Study
+from diagnosis.thresholds import load_thresholds
 from diagnosis.verdict.diagnosis import Claim, Diagnosis, Estimate, Status
 from diagnosis.verdict.locate import Location
 from reynolds.numerics.arrays import Array
@@ -149,10 +150,12 @@ def named_diagnosis() -> Diagnosis:
             chance=0.87,
             repeats=3,
             why="there Q_case parts",
+            limits=load_thresholds().next_point,
         ),
         not_identifiable=("film_thickness slipper vs film_thickness piston",),
         notes=("row 3 of Q_case was removed",),
         effort=FitEffort(10, 3, 1.0),
+        thresholds=load_thresholds(),
     )
 
 

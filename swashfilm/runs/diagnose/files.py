@@ -23,7 +23,6 @@ from diagnosis.report.tables import (
 )
 from diagnosis.report.trace_tables import trace_residual_rows
 from diagnosis.study.model import Study
-from diagnosis.thresholds import Thresholds
 from diagnosis.verdict.diagnosis import Diagnosis
 from swashfilm.output.run_folder import write_json
 from system.inputs.channels import ChannelName
@@ -37,7 +36,6 @@ def write_diagnosis_files(
     folder: Path,
     study: Study,
     diagnosis: Diagnosis,
-    thresholds: Thresholds,
     assumptions: Sequence[str] = (),
     comparison: PumpComparison = NO_COMPARISON,
 ) -> None:
@@ -46,16 +44,16 @@ def write_diagnosis_files(
     assumptions: of the pump; comparison: the pump without and with the finding.
     """
     write_rows(folder / "steady.csv", steady_rows(study.recording))
-    write_rows(folder / "residuals.csv", residual_rows(study, diagnosis, thresholds))
+    write_rows(folder / "residuals.csv", residual_rows(study, diagnosis))
     if study.traces:
-        write_rows(folder / TRACES, with_stated(study, trace_residual_rows(study, diagnosis, thresholds)))
+        write_rows(folder / TRACES, with_stated(study, trace_residual_rows(study, diagnosis)))
     write_rows(folder / "hypotheses.csv", hypothesis_rows(diagnosis))
     write_rows(folder / "parameters.csv", parameter_rows(diagnosis))
     write_rows(folder / "next_points.csv", next_point_rows(diagnosis.next_point))
     write_rows(folder / "changes.csv", change_rows(comparison))
     write_rows(folder / "films.csv", film_rows(comparison.films))
     write_diagnosis(folder / "diagnosis.json", diagnosis)
-    summary = diagnosis_summary(study, diagnosis, thresholds, assumptions)
+    summary = diagnosis_summary(study, diagnosis, assumptions)
     write_json(folder / "summary.json", summary | {"runs": comparison.text, "films": comparison.films.text})
 
 
@@ -83,9 +81,7 @@ def with_stated(study: Study, rows: Iterable[Mapping[str, str]]) -> Iterator[Map
         yield {**row, "stated [bar]": f"{reading(ChannelName.P_CHAMBER, float(pressure)):.6g}"}
 
 
-def diagnosis_summary(
-    study: Study, diagnosis: Diagnosis, thresholds: Thresholds, assumptions: Sequence[str]
-) -> dict[str, Any]:
+def diagnosis_summary(study: Study, diagnosis: Diagnosis, assumptions: Sequence[str]) -> dict[str, Any]:
     """What the page needs beside diagnosis.json: the recording, its data notes, what was taken, what decides."""
     before, after = pull_sums(diagnosis.before, diagnosis.after)
     recording = study.recording
@@ -100,7 +96,7 @@ def diagnosis_summary(
         "data_notes": [note_text(note) for note in recording.notes],
         "assumptions": list(assumptions),
         "squared_pulls": {"before": before, "after": after},
-        "thresholds_sha256": thresholds.digest,
+        "thresholds_sha256": diagnosis.thresholds.digest,
         "seconds": diagnosis.effort.seconds,
     }
 

@@ -27,7 +27,5 @@ def write_finding(folder: Path, found: Finding) -> None:
         lumped_run(case, found.comparison.points[name]).write(folder / name)
     for name, films in found.comparison.films.points.items():
         write_film_fields(folder / name, films)
-    write_diagnosis_files(
-        folder, found.study, found.diagnosis, found.thresholds, found.assumptions, found.comparison
-    )
+    write_diagnosis_files(folder, found.study, found.diagnosis, found.assumptions, found.comparison)
     write_diagnose_page(folder)

@@ -15,9 +15,9 @@ import numpy as np
 import pytest
 from recording_heads import HEAD
 
+import diagnosis.finding
 from reynolds.numerics.arrays import Array
 from swashfilm.__main__ import main
-from swashfilm.runs.diagnose import run as diagnose_run
 from swashfilm.runs.diagnose.files import read_rows
 from system.bench.points import BenchPoints
 from system.bench.simulator import LumpedBench
@@ -91,7 +91,7 @@ def test_nothing_left_out_is_no_mismatch(
     def no_point(*given: object) -> None:
         raise NotConverged("the pump at 400 bar")
 
-    monkeypatch.setattr(diagnose_run, "with_next_point", no_point)
+    monkeypatch.setattr(diagnosis.finding, "with_next_point", no_point)
     words = ["diagnose", "ref90", str(folder), "-o", str(out), "--apply", str(pump), "--workers", "1"]
     assert main(words) == 0
     found = json.loads((out / "diagnosis.json").read_text("utf-8"))

@@ -22,7 +22,6 @@ from diagnosis.procedure.pump_comparison import (
 from diagnosis.report.json_file import diagnosis_record
 from diagnosis.report.tables import pull_sums
 from diagnosis.study.model import Study
-from diagnosis.thresholds import load_thresholds
 from diagnosis.verdict.diagnosis import Claim, Diagnosis
 from swashfilm.__main__ import main
 from swashfilm.runs.diagnose.files import read_rows, write_diagnosis_files
@@ -57,7 +56,7 @@ def test_the_page_tells_gaps_that_cannot_be_told_apart() -> None:
 
 def test_the_folder_holds_tables_and_a_page(study: Study, named: Diagnosis, tmp_path: Path) -> None:
     """Pulls in residuals.csv are of the fit they name; the page is made anew from the folder alone."""
-    write_diagnosis_files(tmp_path, study, named, load_thresholds())
+    write_diagnosis_files(tmp_path, study, named)
     write_diagnose_page(tmp_path)
     rows = read_rows(tmp_path / "residuals.csv")
     assert len(rows) == 2 * PRESSURE.size
@@ -94,7 +93,7 @@ def test_a_page_says_what_changes_in_the_pump(study: Study, named: Diagnosis, tm
     films = FilmComparison({}, (FilmChange("leakage, slipper", "L/min", *LEAKAGES),), "Films as they stand.")
     text = "Point 7, where the finding adds most: 2100 rpm."
     comparison = PumpComparison({}, {}, (Change("case drain", "L/min", 1.2, 1.9),), text, films)
-    write_diagnosis_files(tmp_path, study, named, load_thresholds(), comparison=comparison)
+    write_diagnosis_files(tmp_path, study, named, comparison=comparison)
     write_diagnose_page(tmp_path)
     page = (tmp_path / "report.html").read_text("utf-8")
     for part in (
@@ -115,14 +114,14 @@ def test_a_meters_fault_is_no_change_of_the_pump(study: Study, named: Diagnosis)
     """Nothing is run, and why is told; nothing is told where nothing is claimed."""
     fault = replace(named, effects=(Claim(E.TORQUE_OFFSET, None, 0.99, (), ()),))
     pump = load_pump("ref90")
-    compared = compare_pumps(pump, study, fault, load_thresholds(), silent)
+    compared = compare_pumps(pump, study, fault, silent)
     assert compared == replace(NO_COMPARISON, text="A sensor's fault changes nothing in the pump.")
-    assert compare_pumps(pump, study, agreeing(named), load_thresholds(), silent) == NO_COMPARISON
+    assert compare_pumps(pump, study, agreeing(named), silent) == NO_COMPARISON
 
 
 def test_numbers_are_told_in_the_units_people_read(study: Study, named: Diagnosis, tmp_path: Path) -> None:
     """An opening in 1/GPa and not 1/Pa, in the table of what is claimed."""
-    write_diagnosis_files(tmp_path, study, named, load_thresholds())
+    write_diagnosis_files(tmp_path, study, named)
     write_diagnose_page(tmp_path)
     assert "opening 22 +- 2 1/GPa</td>" in (tmp_path / "report.html").read_text("utf-8")
 
@@ -137,7 +136,7 @@ def test_a_page_without_a_claim(study: Study, named: Diagnosis, tmp_path: Path, 
     found = replace(
         agreeing(named), kind=kind, after=named.before, fit=HeldOut({}, {}, {}, {}, False, "not split")
     )
-    write_diagnosis_files(tmp_path, study, found, load_thresholds())
+    write_diagnosis_files(tmp_path, study, found)
     write_diagnose_page(tmp_path)
     page = (tmp_path / "report.html").read_text("utf-8")
     assert "<h2>What</h2>" not in page
@@ -147,7 +146,7 @@ def test_a_value_claimed_to_be_wrong_is_shown_as_stated(study: Study, named: Dia
     """Its prior is the stated one and not the tenfold of the hypothesis; no pull of a prior that was set free."""
     free = tuple(one.widened(10.0) if one.name == "film" else one for one in named.after.parameters)
     found = replace(named, after=replace(named.after, parameters=free))
-    write_diagnosis_files(tmp_path, study, found, load_thresholds())
+    write_diagnosis_files(tmp_path, study, found)
     write_diagnose_page(tmp_path)
     row = next(row for row in read_rows(tmp_path / "parameters.csv") if row["name"] == "film")
     assert (row["prior"], row["prior_sigma"], row["pull_after"]) == ("1", "0.05", "")
@@ -160,7 +159,7 @@ def test_a_value_claimed_to_be_wrong_is_shown_as_stated(study: Study, named: Dia
 @pytest.mark.parametrize("gone", ["speed [rpm]", "p_out [bar]", "both"])
 def test_maps_are_drawn_without_an_axis(study: Study, named: Diagnosis, tmp_path: Path, gone: str) -> None:
     """An axis that no reading has, and a channel that was read at one displacement only."""
-    write_diagnosis_files(tmp_path, study, named, load_thresholds())
+    write_diagnosis_files(tmp_path, study, named)
     write_diagnose_page(tmp_path)
     rows = read_rows(tmp_path / "residuals.csv")
     for row in rows:
@@ -173,7 +172,7 @@ def test_maps_are_drawn_without_an_axis(study: Study, named: Diagnosis, tmp_path
 
 def test_what_is_added_is_drawn_over_an_axis_that_is_there(study: Study, named: Diagnosis, tmp_path: Path) -> None:
     """A constant goes with no axis, a delivery pressure that was not recorded is none."""
-    write_diagnosis_files(tmp_path, study, named, load_thresholds())
+    write_diagnosis_files(tmp_path, study, named)
     write_diagnose_page(tmp_path)
     rows = read_rows(tmp_path / "residuals.csv")
     for row in rows:

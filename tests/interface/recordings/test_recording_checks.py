@@ -14,9 +14,11 @@ from diagnosis.recording.model import (
     SteadyTable,
     TraceBlock,
 )
+from diagnosis.thresholds import load_thresholds
 from system.inputs.channels import INPUTS, OUTPUTS, ChannelName
 
 DISPLACEMENT = 90e-6  # m3/rev
+LIMITS = load_thresholds().data
 COLUMNS = {name: place for place, name in enumerate(ChannelName)}
 UNITS = {
     "speed": ("rpm", 0.05), "displacement_ratio": ("1", 0.0), "p_out": ("bar", 1.5e4), "p_in": ("bar", 2e3),
@@ -62,13 +64,15 @@ def _with(name: str, change) -> Recording:
 
 
 def _told(recording: Recording) -> list:
-    return [(note.kind, note.channel, note.text) for note in check_recording(recording, DISPLACEMENT).notes]
+    return [
+        (note.kind, note.channel, note.text) for note in check_recording(recording, DISPLACEMENT, LIMITS).notes
+    ]
 
 
 @pytest.mark.parametrize("seed", range(5))
 def test_sound_readings_tell_nothing(seed):
     recording = _sound(seed)
-    checked = check_recording(recording, DISPLACEMENT)
+    checked = check_recording(recording, DISPLACEMENT, LIMITS)
     assert checked.notes == ()
     assert np.array_equal(checked.steady.values, recording.steady.values, equal_nan=True)
 
@@ -147,7 +151,7 @@ def test_one_slip_is_put_aside_and_nothing_else(name, size):
         return column
 
     recording = _with(name, slip)
-    checked = check_recording(recording, DISPLACEMENT)
+    checked = check_recording(recording, DISPLACEMENT, LIMITS)
     removed = [note for note in checked.notes if note.kind is NoteKind.REMOVED]
     assert [(note.channel.value, note.points) for note in removed] == [(name, (41,))]
     assert np.isnan(checked.steady.column(ChannelName.named(name))[41])
@@ -172,14 +176,14 @@ def _held(column):
 
 
 def test_stuck_sensor_is_put_aside():
-    notes = check_recording(_with("torque", _held), DISPLACEMENT).notes
+    notes = check_recording(_with("torque", _held), DISPLACEMENT, LIMITS).notes
     removed = [note for note in notes if note.kind is NoteKind.REMOVED]
     assert removed[0].channel is ChannelName.TORQUE
     assert removed[0].points == tuple(range(20, 27))
 
 
 def test_a_stuck_input_is_put_aside_and_a_set_one_told():
-    notes = check_recording(_with("T_case", _held), DISPLACEMENT).notes
+    notes = check_recording(_with("T_case", _held), DISPLACEMENT, LIMITS).notes
     removed = [note for note in notes if note.kind is NoteKind.REMOVED]
     assert [(n.channel, n.points) for n in removed] == [(ChannelName.T_CASE, tuple(range(20, 27)))]
     told = _told(_with("p_in", lambda x: 0.0 * x + 2.4e6))
@@ -225,7 +229,9 @@ def test_copies_and_readings_without_noise_are_faults():
     values[1::2, COLUMNS[ChannelName.TORQUE]] += 0.3
     numbers = np.repeat(np.arange(len(values) // 2), 2)
     repeated = replace(recording, steady=replace(recording.steady, values=values, repeats=numbers))
-    found = {n.channel for n in check_recording(repeated, DISPLACEMENT).notes if "without noise at" in n.text}
+    found = {
+        n.channel for n in check_recording(repeated, DISPLACEMENT, LIMITS).notes if "without noise at" in n.text
+    }
     assert found == {ChannelName.Q_OUT, ChannelName.Q_IN, ChannelName.Q_CASE}
 
 
@@ -258,7 +264,7 @@ def test_bench_recordings_tell_nothing(shared):
 
     for folder in sorted((shared / "recordings" / "bench").glob("open-*")):
         recording = read_recording(folder)
-        assert check_recording(recording, DISPLACEMENT).notes == recording.notes, folder.name
+        assert check_recording(recording, DISPLACEMENT, LIMITS).notes == recording.notes, folder.name
 
 
 def _without_speed(recording: Recording) -> Recording:
@@ -305,7 +311,7 @@ def test_readings_that_no_bench_gives_are_put_aside(name, value, told):
         values[at] = value
         return values
 
-    checked = check_recording(_with(name, slip), DISPLACEMENT)
+    checked = check_recording(_with(name, slip), DISPLACEMENT, LIMITS)
     (note,) = checked.notes
     assert (note.kind, note.channel, note.points) == (NoteKind.REMOVED, ChannelName.named(name), tuple(at))
     assert told in note.text
@@ -318,7 +324,7 @@ def test_nines_among_their_like_are_readings():
     values = sound.steady.values.copy()
     values[0, COLUMNS[ChannelName.P_OUT]] = 99.9e5
     values[1, [COLUMNS[ChannelName.DISPLACEMENT_RATIO], COLUMNS[ChannelName.Q_OUT]]] = 0.0
-    found = check_recording(replace(sound, steady=replace(sound.steady, values=values)), None)
+    found = check_recording(replace(sound, steady=replace(sound.steady, values=values)), None, LIMITS)
     assert not any("nines" in note.text or "no signal" in note.text for note in found.notes)
 
 
@@ -339,7 +345,7 @@ def test_rows_without_any_reading_are_not_written_twice():
     sound = _sound()
     values = sound.steady.values.copy()
     values[4:12] = np.nan
-    found = check_recording(replace(sound, steady=replace(sound.steady, values=values)), DISPLACEMENT)
+    found = check_recording(replace(sound, steady=replace(sound.steady, values=values)), DISPLACEMENT, LIMITS)
     assert not any("written twice" in note.text for note in found.notes)
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import tomllib
 from hashlib import sha256
 from pathlib import Path
 
@@ -22,6 +23,22 @@ def test_what_decides_is_consistent() -> None:
     assert limits.locate.windows[0] < limits.locate.windows[1]
     assert list(limits.name.mixture_widths) == sorted(limits.name.mixture_widths)
     assert limits.heldout.veto_gain < 0
+    assert limits.form.true_to <= limits.form.slight <= limits.form.placed_by <= limits.form.second
+    assert limits.fit.additions <= limits.fit.most_additions <= limits.name.shortlist
+    assert limits.next_point.settled < limits.next_point.enough
+    assert limits.name.possible < 1 - limits.name.probability
+
+
+def test_the_head_of_the_file_names_numbers_that_are_there() -> None:
+    """Each name of the list of added numbers is a key of its table."""
+    head, tables = (
+        FILE.read_text(encoding="utf-8").partition("# Sources")[0],
+        tomllib.loads(FILE.read_text("utf-8")),
+    )
+    listed = head.replace("\n#", "").partition("run with: ")[2].partition("; all of")[0]
+    for part in listed.split("; "):
+        table, _, names = part.partition("] ")
+        assert set(names.split(", ")) <= set(tables[table.strip("[")])
 
 
 @pytest.mark.parametrize(

@@ -29,7 +29,7 @@ def _rows(points=(4, 9)):
     nothing = SimpleNamespace(
         effects=(), hypotheses=(SimpleNamespace(posterior=None),), before=SimpleNamespace(values=np.zeros(0))
     )
-    return list(with_stated(study, trace_residual_rows(study, nothing, None)))
+    return list(with_stated(study, trace_residual_rows(study, nothing)))
 
 
 def test_each_sample_stands_in_the_table_with_its_pulls():

@@ -9,6 +9,7 @@ import pytest
 from diagnosis.checks.check import check_recording
 from diagnosis.recording.model import NoteKind
 from diagnosis.recording.reader import read_recording
+from diagnosis.thresholds import load_thresholds
 from system.inputs.channels import ChannelName
 
 RIG = runpy.run_path(str(Path(__file__).parents[3] / "examples" / "uci_hydraulic" / "rig.py"))
@@ -22,7 +23,7 @@ def recordings(tmp_path_factory):
     folder, found = tmp_path_factory.mktemp("uci"), []
     for leak in (0, 1, 2):
         RIG["write_recording"](RIG["cycle_means"](data, leak, 100), folder / str(leak), leak, 100)
-        found.append(check_recording(read_recording(folder / str(leak)), None))
+        found.append(check_recording(read_recording(folder / str(leak)), None, load_thresholds().data))
     return found
 
 

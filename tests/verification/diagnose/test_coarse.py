@@ -7,7 +7,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from diagnosis.explain.model_error import PLACED_BY, TRUE_TO, class_gap, place_gap, shared_out
+from diagnosis.explain.model_error import class_gap, place_gap, shared_out
 from diagnosis.explain.ranked import Weighed, with_probabilities
 from diagnosis.thresholds import load_thresholds
 from system.effects.effect import EffectId, Kind
@@ -38,7 +38,7 @@ def _weighed(gained: float, behind: float, second: tuple[EffectId, ...] = CHURNI
 
 
 def test_up_to_three_hundred_nats_noise_alone_makes_a_class() -> None:
-    listed = _weighed(LIMITS.name.class_gap / TRUE_TO, behind=2.0)
+    listed = _weighed(LIMITS.name.class_gap / LIMITS.form.true_to, behind=2.0)
     assert class_gap(listed, LIMITS) == LIMITS.name.class_gap
     found, members = shared_out(listed, listed[:2], LIMITS)
     assert [each.probability for each in found] == pytest.approx([each.probability for each in listed])
@@ -55,7 +55,9 @@ def test_beyond_a_class_grows_with_what_is_explained() -> None:
     assert sum(each.probability for each in found) == pytest.approx(1.0)
 
 
-@pytest.mark.parametrize(("gained", "warmth"), [(0.9 * LIMITS.name.class_gap / PLACED_BY, 1.0), (600.0, 10.0)])
+@pytest.mark.parametrize(
+    ("gained", "warmth"), [(0.9 * LIMITS.name.class_gap / LIMITS.form.placed_by, 1.0), (600.0, 10.0)]
+)
 def test_places_of_one_law_are_told_apart_by_its_form_alone(gained: float, warmth: float) -> None:
     """No more surely than by the evidence itself, and by 30 nats of 600: odds of e^(2/10) where it is 2 ahead."""
     listed = _weighed(gained, behind=2.0, second=OPENING)

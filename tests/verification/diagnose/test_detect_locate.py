@@ -15,7 +15,7 @@ from diagnosis.detect.component_evidence import ComponentGroup
 from diagnosis.detect.contrasts import contrasts, misfit
 from diagnosis.detect.mismatch import Detection, detect
 from diagnosis.detect.multiplicity import family_chance, holm, log_chances
-from diagnosis.detect.regions import EDGES, strongest_region
+from diagnosis.detect.regions import strongest_region
 from diagnosis.detect.time_scan import TimeKind
 from diagnosis.recording.model import Recording
 from diagnosis.study.map_axes import axis_values, inside, scaled_axes
@@ -178,9 +178,9 @@ def test_noise_that_remembers_is_told_from_white_noise() -> None:
             noise[at] = 0.5 * noise[at - 1] + np.sqrt(0.75) * noise[at]
         return 3.0 * SIGMA * noise
 
-    white = [noise_memory(_study(seed=seed), 3.0) for seed in range(40)]
+    white = [noise_memory(_study(seed=seed), LIMITS.mismatch) for seed in range(40)]
     assert sum(bool(found) for found in white) <= 2  # one in 740 each
-    found = [noise_memory(_study(remembering(seed), seed), 3.0) for seed in range(10)]
+    found = [noise_memory(_study(remembering(seed), seed), LIMITS.mismatch) for seed in range(10)]
     sizes = [one[0] for one in found if one]
     assert len(sizes) >= 9
     assert abs(np.mean(sizes) - 0.45) < 0.1  # 190 pairs: .07 each
@@ -188,7 +188,7 @@ def test_noise_that_remembers_is_told_from_white_noise() -> None:
 
 def test_an_effect_is_no_memory() -> None:
     """An effect of thirty sigma, and points in an order of no system: nothing goes on from one to the next."""
-    assert noise_memory(_study(_sized(EffectId.ELASTIC_OPENING, 30.0), seed=3), 3.0) == ()
+    assert noise_memory(_study(_sized(EffectId.ELASTIC_OPENING, 30.0), seed=3), LIMITS.mismatch) == ()
 
 
 def test_pulls_have_the_variance_that_is_promised() -> None:
@@ -268,14 +268,14 @@ def test_an_effect_is_strongest_where_it_is_half_its_most(power: int) -> None:
     study, axes = _study(seed=4), axis_values(_map())
     pressure = axes[ChannelName.P_OUT]
     found = contrasts(study.base, 1)
-    region = strongest_region(ChannelName.Q_CASE, found, -(pressure**power), axes)
+    region = strongest_region(ChannelName.Q_CASE, found, -(pressure**power), axes, LIMITS.locate)
     assert region is not None
     assert region.lower.keys() == {"p_out"}
     assert not region.upper
     strong = pressure >= 0.5 ** (1.0 / power) * pressure.max()
     within = inside(axes, region.lower, region.upper)
-    assert np.sum(strong & within) / np.sum(strong | within) >= 1.0 - 1.0 / EDGES
-    assert strongest_region(ChannelName.Q_CASE, found, np.ones_like(pressure), axes) is None
+    assert np.sum(strong & within) / np.sum(strong | within) >= 1.0 - 1.0 / LIMITS.locate.edges
+    assert strongest_region(ChannelName.Q_CASE, found, np.ones_like(pressure), axes, LIMITS.locate) is None
 
 
 def test_no_regions_are_flagged_without_a_mismatch(nulls: list[Detection]) -> None:

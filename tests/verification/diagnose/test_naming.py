@@ -12,7 +12,7 @@ from toy_maps import LIMITS, SIGMA, ToySimulator, toy_observations, toy_recordin
 
 from diagnosis.detect.mismatch import confirmed, detect
 from diagnosis.explain.held_out import held_out, regions, speak_against
-from diagnosis.explain.hypotheses import TOLERATED, hypotheses, simulator_of
+from diagnosis.explain.hypotheses import hypotheses, simulator_of
 from diagnosis.explain.ranked import Weighed, with_probabilities
 from diagnosis.explain.refit import refit
 from diagnosis.explain.scaling import scaling
@@ -430,11 +430,13 @@ def test_what_no_hypothesis_questions_stays_near_its_tolerance() -> None:
     questioned = {each.parameter for each in study.candidates if each.extension is None}
     wrong = next(each for each in hypotheses(study, LIMITS) if each.widened)
     for hypothesis in (hypotheses(study, LIMITS)[0], wrong):
-        found = simulator_of(study, hypothesis, LIMITS.name.fault_factor)
+        found = simulator_of(study, hypothesis, LIMITS)
         for one, stated in zip(found.parameters, study.simulator.parameters, strict=True):
             if one.name in hypothesis.widened:
                 assert one.spread == pytest.approx(LIMITS.name.fault_factor * stated.spread)
-            assert (one.highest <= TOLERATED + 1e-9) == (one.name not in questioned or stated.highest <= TOLERATED)
+            assert (one.highest <= LIMITS.fit.tolerated + 1e-9) == (
+                one.name not in questioned or stated.highest <= LIMITS.fit.tolerated
+            )
     assert questioned < {one.name for one in study.simulator.parameters}
 
 
@@ -594,8 +596,8 @@ def test_a_region_that_alone_tells_a_parameter_is_no_test() -> None:
     slopes = study.base.slopes.copy()
     slopes[:, 0] = np.where(hot[study.base.whitening.rows[:, 0]], 10.0, 0.0)
     own = replace(study.base, slopes=slopes, precision=slopes.T @ slopes + np.eye(slopes.shape[1]))
-    assert "hot" in regions(study, (study.base,))
-    assert "hot" not in regions(study, (study.base, own))
+    assert "hot" in regions(study, (study.base,), LIMITS.heldout)
+    assert "hot" not in regions(study, (study.base, own), LIMITS.heldout)
 
 
 @pytest.mark.parametrize("sign", [1.0, -1.0])
@@ -606,7 +608,7 @@ def test_exponents_of_a_power_law(sign: float) -> None:
     signal = sign * 3.0 * speed**-1.0 * pressure**2.5
     noisy = signal + 0.3 * rng.normal(size=200)
     coordinates = {"speed": speed, "pressure": pressure, "viscosity": np.ones(200)}
-    found = scaling(ChannelName.Q_CASE, noisy, np.full(200, 0.3), coordinates)
+    found = scaling(ChannelName.Q_CASE, noisy, np.full(200, 0.3), coordinates, LIMITS.form.least_range)
     assert found is not None
     assert set(found.exponents) == {"speed", "pressure"}
     for name, exponent in (("speed", -1.0), ("pressure", 2.5)):

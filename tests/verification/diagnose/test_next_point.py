@@ -11,11 +11,12 @@ import pytest
 from scipy.special import softmax
 from scipy.stats import norm
 
-from diagnosis.next_point.choose import READINGS, SETTLED, NextPoint, gains_at, next_point
+from diagnosis.next_point.choose import NextPoint, gains_at, next_point
 from diagnosis.next_point.forecast import Contender, brought, forecasts, independent, log_density
 from diagnosis.next_point.operating_box import BenchBox, rig_box
 from diagnosis.recording.model import Circuit, RecordedChannel, Recording, SteadyTable
 from diagnosis.study.model import Study
+from diagnosis.thresholds import load_thresholds
 from reynolds.numerics.arrays import Array
 from system.bench.parameters import base_parameters
 from system.bench.points import BenchPoints
@@ -34,6 +35,7 @@ from system.pump_file.file import load_pump
 MPA, LPM = 1e6, 1.0 / 60000.0
 SPEED, PRESSURE = 150.0, 20 * MPA
 SIGMA = 0.01 * LPM
+LIMITS = load_thresholds().next_point
 Law = Callable[[BenchPoints], Array]
 
 
@@ -152,17 +154,17 @@ def _repeated(points: BenchPoints, count: int) -> BenchPoints:
 def test_next_point_separates_twice_as_well_as_one_more_of_the_same(true: Law) -> None:
     """The gate of diagnosis.md 2.3: at least twice the separation of a reading at the campaign's median point."""
     study, first, second = _rivals(true, seed=5)
-    found = next_point(study, load_pump("ref90"), _box(study), first, second)
-    per_point = gains_at(study, first, second, _points())
+    found = next_point(study, load_pump("ref90"), _box(study), first, second, LIMITS)
+    per_point = gains_at(study, first, second, _points(), LIMITS.readings)
     assert found.gain >= 2 * np.median(per_point)
-    assert found.gain == pytest.approx(gains_at(study, first, second, _asked(found))[0], rel=1e-9)
+    assert found.gain == pytest.approx(gains_at(study, first, second, _asked(found), LIMITS.readings)[0], rel=1e-9)
     assert found.separates == (EffectId.ELASTIC_OPENING, EffectId.FILM_HEATING)
 
 
 def test_next_point_leaves_the_line_that_the_campaign_ran_along() -> None:
     """Speed and pressure went together: what separates p^2 from p n is to take them apart."""
     study, first, second = _rivals(_square, seed=5)
-    found = next_point(study, load_pump("ref90"), _box(study), first, second)
+    found = next_point(study, load_pump("ref90"), _box(study), first, second, LIMITS)
     apart = found.point.shaft_speed / SPEED - found.point.delivery_pressure / PRESSURE
     assert abs(apart) > 0.3
     assert "Q_case" in found.why
@@ -201,14 +203,16 @@ def test_what_the_point_promises_comes_about() -> None:
     settled, foretold, reached = [], [], []
     for seed in range(24):
         study, first, second = _rivals(_square, seed, size=0.03)
-        found = next_point(study, load_pump("ref90"), _box(study), first, second)
-        place = _repeated(_asked(found), READINGS)
+        found = next_point(study, load_pump("ref90"), _box(study), first, second, LIMITS)
+        place = _repeated(_asked(found), LIMITS.readings)
         rng = np.random.default_rng(1000 + seed)
-        one = next(forecasts(study, first, second, _asked(found))).brought(READINGS)[0]
-        flow = place.p_out / PRESSURE * LPM + 0.03 * LPM * _square(place) + SIGMA * rng.normal(size=READINGS)
+        one = next(forecasts(study, first, second, _asked(found))).brought(LIMITS.readings)[0]
+        flow = (
+            place.p_out / PRESSURE * LPM + 0.03 * LPM * _square(place) + SIGMA * rng.normal(size=LIMITS.readings)
+        )
         odds = log_density(study, first, place, flow[:, None]) - log_density(study, second, place, flow[:, None])
-        settled.append(found.before + odds >= SETTLED)
-        foretold.append(one.chance(SETTLED - found.before))
+        settled.append(found.before + odds >= LIMITS.settled)
+        foretold.append(one.chance(LIMITS.settled - found.before))
         reached.append((odds - one.mean) / one.sigma)
     assert abs(np.mean(reached)) < 3 / np.sqrt(24)
     spread = np.sqrt(np.sum(np.array(foretold) * (1 - np.array(foretold)))) / 24
@@ -219,7 +223,7 @@ def test_what_the_point_promises_comes_about() -> None:
 def test_readings_speak_by_the_forecast_of_each_law() -> None:
     """Odds of a reading are those of two normal densities, each as wide as noise and parameters make it."""
     study, first, second = _rivals(_square, seed=5)
-    found = next_point(study, load_pump("ref90"), _box(study), first, second)
+    found = next_point(study, load_pump("ref90"), _box(study), first, second, LIMITS)
     point, reading = _asked(found), np.array([[0.9 * LPM]])
     told, expected = [], []
     for one in (first, second):
@@ -234,9 +238,8 @@ def test_readings_speak_by_the_forecast_of_each_law() -> None:
 def test_no_point_is_said_to_settle_two_names_for_one_law() -> None:
     """Where nothing of the box parts two explanations, the best point brings nothing and none is promised."""
     study, first, _ = _rivals(_square, seed=5)
-    found = next_point(
-        study, load_pump("ref90"), _box(study), first, replace(first, effects=(EffectId.FILM_HEATING,))
-    )
+    second = replace(first, effects=(EffectId.FILM_HEATING,))
+    found = next_point(study, load_pump("ref90"), _box(study), first, second, LIMITS)
     assert found.gain == pytest.approx(0.0, abs=1e-9)
     assert found.is_open
     assert not found.settles

@@ -6,6 +6,7 @@ import numpy as np
 
 from diagnosis.explain.combinations import _apart
 from diagnosis.explain.hypotheses import Hypothesis, simulator_of, together
+from diagnosis.thresholds import load_thresholds
 from system.bench.calibration.extended_pump import extended_pump
 from system.bench.outputs import SIMULATED
 from system.bench.points import BenchPoints
@@ -55,7 +56,7 @@ def test_both_gaps_open_in_the_map_and_in_the_pump_file():
     values = {"elastic_opening.slipper.opening": 1e-8, "elastic_opening.piston.opening": 2e-8}
 
     def read(hypothesis):
-        bench = simulator_of(SimpleNamespace(simulator=plain, candidates=()), hypothesis, 1.0)
+        bench = simulator_of(SimpleNamespace(simulator=plain, candidates=()), hypothesis, load_thresholds())
         return bench.predict(np.array([values[one.name] for one in bench.parameters]))[0]
 
     nothing = plain.predict(np.array([]))[0]

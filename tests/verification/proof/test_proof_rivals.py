@@ -28,7 +28,7 @@ def study(proof: SimpleNamespace, tmp_path_factory: pytest.TempPathFactory) -> I
     folder = tmp_path_factory.mktemp("third")
     proof.writing.write_recording(folder, "third", made.readings, "closed")
     pump = load_pump("ref90")
-    recording = check_recording(read_recording(folder), pump.pump.displacement)
+    recording = check_recording(read_recording(folder), pump.pump.displacement, load_thresholds().data)
     yield prepare(pump, recording, tolerances(pump)[0], load_thresholds())
     del proof.campaigns.campaigns()["third"]
 
