@@ -19,7 +19,6 @@ from diagnosis.study.prepare import prepare
 from diagnosis.study.scaled_pump import KnownPump, known_pump
 from diagnosis.thresholds import Thresholds, load_thresholds
 from reynolds.errors import FilmInputError
-from system.bench.calibration.calibrated_pump import calibrated_pump
 from system.bench.calibration.equation_21 import (
     EqFit,
     eq_fits,
@@ -27,6 +26,7 @@ from system.bench.calibration.equation_21 import (
     measured_losses,
     paper_priors,
 )
+from system.bench.calibration.extended_pump import calibrated_pump
 from system.bench.calibration.held_out import HeldOutRow, model_rows, physics_rows
 from system.bench.calibration.hersey_curve import HerseyCurve, hersey_curves
 from system.bench.loss_models.model import LossModelName

@@ -113,11 +113,6 @@ def next_point(
     )
 
 
-def gains_at(study: Study, first: Contender, second: Contender, points: BenchPoints, count: int) -> Array:
-    """(N,), nats that `count` readings at each of the points bring at least, whichever of the two is true."""
-    return np.array([forecast.gain(count) for forecast in forecasts(study, first, second, points)])
-
-
 def _led_to(forecast: Forecast, before: float, limits: NextPointLimits) -> tuple[float, float]:
     """ln odds for the true explanation after the readings, chance of `settled`, each the lesser of both cases."""
     cases = list(zip((before, -before), forecast.brought(limits.readings), strict=True))

@@ -18,7 +18,7 @@ from diagnosis.recording.model import RecordedChannel, Recording, SteadyTable
 from diagnosis.recording.replicates import repeatability, set_points
 from diagnosis.recording.series_points import series_points
 from diagnosis.recording.tables.table import Columns, TableFault
-from diagnosis.recording.trace_reader import ReadTraces, read_traces
+from diagnosis.recording.traces import ReadTraces, read_traces
 from reynolds.numerics.arrays import Array
 from system.inputs.channels import INPUTS, ChannelName
 from system.inputs.faults import Fault, InputFaults, nearest_path

@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 
 from reynolds.numerics.arrays import Array
 
-Flags = NDArray[np.bool_]
 LONGEST_MEMORY = 0.99  # lag-one correlation beyond which a window counts as one sample
 PARTS = 10
 ROUNDING = 1e-12

@@ -38,8 +38,6 @@ FILLING_PRESSURE_ABS = 80e3
 # Of its volume; a mineral oil (1.4 to 2 GPa, stiffer as it is pressed) is not pressed so far by any pump.
 LARGE_COMPRESSION = 0.1
 
-_PRESSURES = ("pressure", "inlet_pressure", "case_pressure")
-
 
 def _above_cavitation(path: str, value: float) -> Iterator[Finding]:
     if to_absolute(value) <= CAVITATION_PRESSURE_ABS:

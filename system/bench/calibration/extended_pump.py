@@ -1,16 +1,24 @@
-"""The pump that a fit of its readings makes: parameters at their values, effects switched on."""
+"""Pump with the parameters of a fit, its effects switched on; [tolerance] from the fit of a calibration."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+import numpy as np
+
 from reynolds.numerics.arrays import Array
-from system.bench.parameters import pump_with
+from system.bench.parameters import BEARINGS, GUIDE, pump_with
 from system.description.effects import PhysicsSection
 from system.description.pump import PumpDescription
 from system.effects.extension import Extension
 from system.estimation.parameters import Parameter
+from system.estimation.posterior import Posterior
+
+_OF_FRICTION: Mapping[str, str] = {
+    f"friction.{GUIDE}": "guide_friction",
+    **{f"friction.{pair}": "bearing_friction" for pair in BEARINGS},
+}
 
 
 def values_by_name(parameters: Sequence[Parameter], values: Array) -> dict[str, float]:
@@ -46,3 +54,19 @@ def extended_pump(
     if physics.viscosity_pressure is not None and oil.pressure_viscosity is not None:
         oil = oil.model_copy(update={"pressure_viscosity": physics.viscosity_pressure.coefficient})
     return own.model_copy(update={"pump": part, "oil": oil, "physics": physics})
+
+
+def calibrated_pump(pump: PumpDescription, fit: Posterior, laws: Sequence[Extension] = ()) -> PumpDescription:
+    """The pump with a fit's values, and with `laws` switched on; [tolerance] holds the fit's own sigmas.
+
+    A key of [tolerance] that stands for several parameters takes the widest of them. What the fit did not have
+    keeps its tolerance. Raises pydantic's ValidationError for values outside an effect's bounds.
+    """
+    own = extended_pump(pump, values_by_name(fit.parameters, fit.values), laws)
+    sigma = np.sqrt(np.diag(fit.covariance))
+    known: dict[str, float] = {}
+    for parameter, width in zip(fit.parameters, sigma, strict=True):
+        key = _OF_FRICTION.get(parameter.name, parameter.name.partition(".")[0])
+        if key in type(own.tolerance).model_fields:
+            known[key] = max(known.get(key, 0.0), float(parameter.spread * width))
+    return own.model_copy(update={"tolerance": own.tolerance.model_copy(update=known)})

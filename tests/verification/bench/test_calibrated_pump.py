@@ -9,7 +9,7 @@ from itertools import product
 import numpy as np
 import pytest
 
-from system.bench.calibration.calibrated_pump import calibrated_pump
+from system.bench.calibration.extended_pump import calibrated_pump
 from system.bench.calibration.hersey_curve import PAIRS, hersey_curves
 from system.bench.outputs import SIMULATED
 from system.bench.parameters import base_parameters

@@ -11,7 +11,7 @@ import pytest
 from scipy.special import softmax
 from scipy.stats import norm
 
-from diagnosis.next_point.choose import NextPoint, gains_at, next_point
+from diagnosis.next_point.choose import NextPoint, next_point
 from diagnosis.next_point.forecast import Contender, brought, forecasts, independent, log_density
 from diagnosis.next_point.operating_box import BenchBox, rig_box
 from diagnosis.recording.model import Circuit, RecordedChannel, Recording, SteadyTable
@@ -103,6 +103,11 @@ def _recording(points: BenchPoints, flow: Array) -> Recording:
     return Recording("toy", "ref90", "", Circuit.CLOSED, channels, steady, (), ())
 
 
+def _gains(study: Study, first: Contender, second: Contender, points: BenchPoints) -> Array:
+    """(N,), nats that readings at each of the points bring at least, whichever of the two is true."""
+    return np.array([one.gain(LIMITS.readings) for one in forecasts(study, first, second, points)])
+
+
 def _rivals(true: Law, seed: int, size: float = 0.3) -> tuple[Study, Contender, Contender]:
     """Readings made by one law, so many L/min large, and both laws fitted to them."""
     points = _points()
@@ -155,9 +160,9 @@ def test_next_point_separates_twice_as_well_as_one_more_of_the_same(true: Law) -
     """The gate of diagnosis.md 2.3: at least twice the separation of a reading at the campaign's median point."""
     study, first, second = _rivals(true, seed=5)
     found = next_point(study, load_pump("ref90"), _box(study), first, second, LIMITS)
-    per_point = gains_at(study, first, second, _points(), LIMITS.readings)
+    per_point = _gains(study, first, second, _points())
     assert found.gain >= 2 * np.median(per_point)
-    assert found.gain == pytest.approx(gains_at(study, first, second, _asked(found), LIMITS.readings)[0], rel=1e-9)
+    assert found.gain == pytest.approx(_gains(study, first, second, _asked(found))[0], rel=1e-9)
     assert found.separates == (EffectId.ELASTIC_OPENING, EffectId.FILM_HEATING)
 
 
