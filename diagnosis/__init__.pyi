@@ -1,7 +1,7 @@
 from .calibration import Calibration as Calibration
 from .calibration import calibrate as calibrate
 from .checks.check import check_recording as check_recording
-from .finding import Finding as Finding
+from .finding import DiagnosisResult as DiagnosisResult
 from .finding import diagnose as diagnose
 from .procedure.next_test import with_next_point as with_next_point
 from .procedure.stages import diagnose_study as diagnose_study

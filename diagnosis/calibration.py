@@ -9,7 +9,7 @@ from time import process_time
 
 from diagnosis.checks.notes import note_text
 from diagnosis.explain.hypotheses import hypotheses
-from diagnosis.explain.ranked import Weighed
+from diagnosis.explain.ranked import Explanation
 from diagnosis.explain.refit import refit
 from diagnosis.recording.model import Recording
 from diagnosis.study.acceptance import accepted_recording, refuse_too_few
@@ -158,7 +158,7 @@ def _prepared(
     return study, bench, [*map(note_text, plain.recording.notes), *map(str, taken), *assumed]
 
 
-def _hersey(study: Study, null: Weighed, thresholds: Thresholds, notes: list[str]) -> Hersey | None:
+def _hersey(study: Study, null: Explanation, thresholds: Thresholds, notes: list[str]) -> Hersey | None:
     """Mixed friction fitted beside the constant coefficients; None, with a note, where that fails."""
     asked = (EffectId.MIXED_FRICTION,)
     listed = [one for one in hypotheses(study, thresholds) if one.effects == asked]
@@ -215,7 +215,7 @@ def _compared(
     return tuple(rows)
 
 
-def _fit_of(weighed: Weighed) -> Posterior:
+def _fit_of(weighed: Explanation) -> Posterior:
     if weighed.posterior is None:
         raise ValueError(f"{weighed.hypothesis.text}: not fitted")
     return weighed.posterior

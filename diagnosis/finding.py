@@ -15,7 +15,7 @@ from diagnosis.study.model import Study
 from diagnosis.study.prepare import prepare
 from diagnosis.study.scaled_pump import KnownPump, known_pump
 from diagnosis.thresholds import Thresholds, load_thresholds
-from diagnosis.verdict.diagnosis import Diagnosis, Status
+from diagnosis.verdict.diagnosis import Diagnosis, VerdictStatus
 from diagnosis.verdict.row_numbers import by_table_rows
 from reynolds.errors import FilmInputError
 from reynolds.laws.oil import walther
@@ -32,7 +32,7 @@ NO_NEXT_POINT = "no next point is foretold"
 
 
 @dataclass(frozen=True)
-class Finding:
+class DiagnosisResult:
     """A diagnosis with all that it was made from.
 
     assumptions: of the pump and of its tolerances, as text; extended_pump: the pump with what is claimed, None
@@ -53,7 +53,7 @@ def diagnose(
     report: Report = silent,
     workers: int = 1,
     catalogue: tuple[Entry, ...] = CATALOGUE,
-) -> Finding:
+) -> DiagnosisResult:
     """Diagnose a recording of a pump; `workers` processes fit hypotheses side by side.
 
     recording: a path, or what `checked_recording` returns. Raises InputFaults for a recording with faults, too few
@@ -69,7 +69,7 @@ def diagnose(
     viscosity = walther(points.T_case, described.oil.fluid) * described.oil.density
     found = diagnose_study(study, viscosity, thresholds, report, workers)
     found = by_table_rows(_with_next_point(study, described, found, thresholds), study.recording)
-    return Finding(
+    return DiagnosisResult(
         pump=described,
         study=study,
         diagnosis=found,
@@ -84,7 +84,7 @@ def _with_next_point(study: Study, pump: PumpDescription, found: Diagnosis, thre
 
     Unknown physics gets none: the rivals are effects that do not explain the mismatch.
     """
-    if found.kind is Kind.UNKNOWN_PHYSICS and found.status is Status.NAMED:
+    if found.kind is Kind.UNKNOWN_PHYSICS and found.status is VerdictStatus.NAMED:
         return found
     try:
         return with_next_point(study, pump, found, thresholds)

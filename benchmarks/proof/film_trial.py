@@ -9,7 +9,7 @@ from time import process_time
 
 from diagnosis.finding import diagnose
 from diagnosis.study.scaled_pump import load_known_pump
-from diagnosis.verdict.diagnosis import Claim, Diagnosis
+from diagnosis.verdict.diagnosis import ClaimedEffect, Diagnosis
 from system.effects.catalogue.entries import CATALOGUE, with_films_solved
 
 from .film_plant import FilmPlant, readings
@@ -41,7 +41,7 @@ def _effects(listed: Iterable[tuple[str, str | None]]) -> str:
     return ", ".join(f"{effect} ({pair})" if pair else effect for effect, pair in listed)
 
 
-def _gaps(claim: Claim) -> str | None:
+def _gaps(claim: ClaimedEffect) -> str | None:
     """The likeliest gap, and those that cannot be told from it."""
     if claim.pair is None:
         return None

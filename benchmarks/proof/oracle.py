@@ -8,7 +8,7 @@ import numpy as np
 
 from diagnosis.explain.held_out import held_out
 from diagnosis.explain.hypotheses import together
-from diagnosis.explain.ranked import Weighed
+from diagnosis.explain.ranked import Explanation
 from diagnosis.explain.refit import refit
 from diagnosis.study.model import Study
 from diagnosis.thresholds import Thresholds
@@ -18,7 +18,7 @@ from system.inputs.errors import NotConverged
 from .outcome import Outcome
 
 
-def is_of_truth(weighed: Weighed, expected: Outcome) -> bool:
+def is_of_truth(weighed: Explanation, expected: Outcome) -> bool:
     """Whether an explanation is the truth: its effects, each at its gap where both name one."""
     own = weighed.hypothesis
     if own.bent or own.component is not None or len(own.effects) != len(expected.effects):
@@ -41,7 +41,7 @@ def oracle(study: Study, found: Diagnosis, expected: Outcome, thresholds: Thresh
     return {channel.value: rms for channel, rms in left.items()}
 
 
-def _truth(study: Study, found: Diagnosis, expected: Outcome, thresholds: Thresholds) -> Weighed | None:
+def _truth(study: Study, found: Diagnosis, expected: Outcome, thresholds: Thresholds) -> Explanation | None:
     """The truth's explanation, refitted here where the diagnosis did not."""
     if not expected.effects:
         return None
@@ -66,7 +66,7 @@ def _truth(study: Study, found: Diagnosis, expected: Outcome, thresholds: Thresh
         return None
 
 
-def _single(found: Diagnosis, effect: str, pair: str | None) -> Weighed | None:
+def _single(found: Diagnosis, effect: str, pair: str | None) -> Explanation | None:
     """The likeliest explanation that is this effect alone."""
     alone = [
         each

@@ -10,7 +10,7 @@ from time import process_time
 
 import numpy as np
 
-from diagnosis.explain.ranked import Weighed
+from diagnosis.explain.ranked import Explanation
 from diagnosis.procedure.next_test import with_next_point
 from diagnosis.procedure.stages import diagnose_study
 from diagnosis.study.acceptance import checked_recording
@@ -20,7 +20,7 @@ from diagnosis.study.model import Study
 from diagnosis.study.prepare import prepare
 from diagnosis.study.scaled_pump import load_known_pump
 from diagnosis.thresholds import load_thresholds
-from diagnosis.verdict.diagnosis import Claim, Diagnosis
+from diagnosis.verdict.diagnosis import ClaimedEffect, Diagnosis
 from diagnosis.verdict.locate import Location
 from reynolds.errors import FilmInputError
 from reynolds.laws.oil import walther
@@ -148,18 +148,18 @@ def _region(study: Study, location: Location) -> tuple[int, ...] | None:
     return tuple(int(point) for point in np.flatnonzero(inside(axis_values(study.recording), lower, upper)))
 
 
-def _claimed(one: Claim) -> Claimed:
+def _claimed(one: ClaimedEffect) -> Claimed:
     place = one.pair.value if one.pair else _joint(one)
     equivalent, elsewhere = (each.value for each in one.equivalent), (gap.value for gap, _ in one.elsewhere)
     return Claimed(one.effect.value, place, one.probability, tuple(equivalent), tuple(elsewhere))
 
 
-def _joint(one: Claim) -> str | None:
+def _joint(one: ClaimedEffect) -> str | None:
     """Where a coefficient of friction acts that is of no gap, which its parameter's name tells."""
     return one.parameters[0].name.rpartition(".")[2] if one.effect is EffectId.FRICTION_COEFFICIENT else None
 
 
-def _ranked(each: Weighed) -> Ranked:
+def _ranked(each: Explanation) -> Ranked:
     own = each.hypothesis
     effects = tuple(effect.value for effect in own.effects)
     places = tuple(place.value if place else None for place in own.places)

@@ -10,7 +10,7 @@ from scipy.stats import chi2
 
 from diagnosis.detect.contrasts import contrasts, misfit
 from diagnosis.detect.multiplicity import family_chance, log_chances
-from diagnosis.detect.regions import Region, flagged
+from diagnosis.detect.regions import MapRegion, flagged
 from diagnosis.study.map_axes import axis_values
 from diagnosis.study.model import Candidate, Study
 from diagnosis.thresholds import Thresholds
@@ -40,7 +40,7 @@ class Detection:
     channels: Mapping[ChannelName, ChannelMisfit]
     chance: float
     strongest: tuple[tuple[Candidate, Score], ...]
-    flags: tuple[Region, ...]
+    flags: tuple[MapRegion, ...]
 
 
 def detect(study: Study, thresholds: Thresholds) -> Detection:

@@ -20,7 +20,7 @@ Marks = NDArray[np.bool_]
 
 
 @dataclass(frozen=True)
-class Region:
+class MapRegion:
     """A part of the map where a channel stands out: bounds in SI by input name, contrast in sigma, and words."""
 
     channel: ChannelName
@@ -32,7 +32,7 @@ class Region:
 
 def flagged(
     by_channel: Mapping[ChannelName, Contrasts], axes: Mapping[ChannelName, Array], thresholds: Thresholds
-) -> tuple[Region, ...]:
+) -> tuple[MapRegion, ...]:
     """The thirds of all axes and channels that stand out, strongest first; `flag_rate` of them falsely, at most.
 
     Benjamini and Hochberg (1995), two-sided.
@@ -52,7 +52,7 @@ def flagged(
 
 def densest_region(
     channel: ChannelName, found: Contrasts, pattern: Array, axes: Mapping[ChannelName, Array], limits: LocateLimits
-) -> Region | None:
+) -> MapRegion | None:
     """The box of half lines in which the channel's mismatch lies; None where it fills the map.
 
     Among the boxes whose z^2 is at least `region_share` of the best, those of fewest bounds; of these the greatest
@@ -76,7 +76,7 @@ def densest_region(
 
 def strongest_region(
     channel: ChannelName, found: Contrasts, pattern: Array, axes: Mapping[ChannelName, Array], limits: LocateLimits
-) -> Region | None:
+) -> MapRegion | None:
     """The box of half lines nearest to the points with `pattern` (N,) at least `strong` of its maximum.
 
     pattern: addition of an explanation to the channel, in sigma. Nearest: points in both over points in one
@@ -112,14 +112,14 @@ class _HalfLine:
         return bound_text(self.axis, self.lower, self.upper)
 
 
-def _region(channel: ChannelName, picked: Sequence[_HalfLine], contrast: float) -> Region | None:
+def _region(channel: ChannelName, picked: Sequence[_HalfLine], contrast: float) -> MapRegion | None:
     """The box of one part of each axis, None where it is the whole map."""
     bounded = [part for part in picked if part.bounded]
     if not bounded:
         return None
     lower = {part.axis.value: part.lower for part in bounded if part.lower is not None}
     upper = {part.axis.value: part.upper for part in bounded if part.upper is not None}
-    return Region(channel, lower, upper, contrast, ", ".join(part.text for part in bounded))
+    return MapRegion(channel, lower, upper, contrast, ", ".join(part.text for part in bounded))
 
 
 def _half_lines(axis: ChannelName, values: Array, parts: int) -> list[_HalfLine]:
@@ -164,7 +164,7 @@ def _holds(part: _HalfLine, axes: Mapping[ChannelName, Array]) -> Marks:
 
 def _thirds(
     channel: ChannelName, found: Contrasts, axis: ChannelName, values: Array, least_points: int
-) -> list[Region]:
+) -> list[MapRegion]:
     edges = np.linspace(values.min(), values.max(), 4)[1:3]
     regions = []
     for lower, upper in ((None, edges[0]), (edges[0], edges[1]), (edges[1], None)):
@@ -174,5 +174,5 @@ def _thirds(
         if within.sum() >= least_points:
             contrast = float(found.z(within.astype(float)[:, None])[0])
             text = bound_text(axis, low.get(axis.value), high.get(axis.value))
-            regions.append(Region(channel, low, high, contrast, text))
+            regions.append(MapRegion(channel, low, high, contrast, text))
     return regions

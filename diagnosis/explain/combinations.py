@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from itertools import combinations
 
 from diagnosis.explain.hypotheses import Hypothesis, candidates_of, together
-from diagnosis.explain.ranked import Weighed
+from diagnosis.explain.ranked import Explanation
 from diagnosis.explain.refit import refit_all
 from diagnosis.explain.screen import joint_evidence, linear_gain
 from diagnosis.study.model import Study
@@ -19,8 +19,8 @@ from system.work.progress import Report
 
 
 def combine(
-    study: Study, weighed: Sequence[Weighed], thresholds: Thresholds, executor: ProcessPool, report: Report
-) -> tuple[tuple[Weighed, ...], tuple[str, ...]]:
+    study: Study, weighed: Sequence[Explanation], thresholds: Thresholds, executor: ProcessPool, report: Report
+) -> tuple[tuple[Explanation, ...], tuple[str, ...]]:
     """Explanations of several effects that were worth a refit, and what could not be refitted.
 
     Effects are added to the best explanation while that gains more than the odds of a name. Besides, all pairs of
@@ -30,7 +30,7 @@ def combine(
     if not known:
         return (), ()
     best = max((each for each in known if each.posterior is not None), key=_weight, default=None)
-    found: list[Weighed] = []
+    found: list[Explanation] = []
     failed: list[str] = []
     while best is not None and len(best.hypothesis.effects) < thresholds.fit.most_effects:
         tried = _additions(study, best, known, thresholds)
@@ -46,11 +46,13 @@ def combine(
     return tuple(found), tuple(failed)
 
 
-def _weight(weighed: Weighed) -> float:
+def _weight(weighed: Explanation) -> float:
     return weighed.log_weight
 
 
-def _additions(study: Study, best: Weighed, known: Sequence[Weighed], thresholds: Thresholds) -> list[Weighed]:
+def _additions(
+    study: Study, best: Explanation, known: Sequence[Explanation], thresholds: Thresholds
+) -> list[Explanation]:
     """The likeliest additions to the best explanation, about its refit; those that gain nothing are left out."""
     if best.posterior is None:
         return []
@@ -60,11 +62,11 @@ def _additions(study: Study, best: Weighed, known: Sequence[Weighed], thresholds
         if _apart(best.hypothesis, each.hypothesis):
             both = together(best.hypothesis, each.hypothesis, thresholds.prior.pair_penalty)
             gain = linear_gain(study, posterior, each.hypothesis, thresholds)
-            found.append(Weighed(both, best.log_evidence + gain, True, None, 0.0, 0.0, None))
+            found.append(Explanation(both, best.log_evidence + gain, True, None, 0.0, 0.0, None))
     return _likeliest([each for each in found if each.log_weight > best.log_weight], thresholds)
 
 
-def _pairs(study: Study, known: Sequence[Weighed], thresholds: Thresholds) -> list[Weighed]:
+def _pairs(study: Study, known: Sequence[Explanation], thresholds: Thresholds) -> list[Explanation]:
     """The likeliest pairs of the best singles in the linear model; none unless ahead of the best single there."""
     singles = sorted(known, key=lambda each: each.log_evidence, reverse=True)[: thresholds.name.shortlist]
     alone = [linear_gain(study, study.base, each.hypothesis, thresholds) for each in singles]
@@ -73,14 +75,14 @@ def _pairs(study: Study, known: Sequence[Weighed], thresholds: Thresholds) -> li
         if _apart(one.hypothesis, other.hypothesis):
             both = together(one.hypothesis, other.hypothesis, thresholds.prior.pair_penalty)
             gain = _best_member(study, study.base, both, thresholds)
-            found.append(Weighed(both, study.base.log_evidence + gain, True, None, 0.0, 0.0, None))
+            found.append(Explanation(both, study.base.log_evidence + gain, True, None, 0.0, 0.0, None))
     least = study.base.log_evidence + max(
         gain + each.hypothesis.log_prior for gain, each in zip(alone, singles, strict=True)
     )
     return _likeliest([each for each in found if each.log_weight > least], thresholds)
 
 
-def _likeliest(found: Sequence[Weighed], thresholds: Thresholds) -> list[Weighed]:
+def _likeliest(found: Sequence[Explanation], thresholds: Thresholds) -> list[Explanation]:
     """The first `additions`, and those within the gap of a class behind the first, `most_additions` in all."""
     ranked = sorted(found, key=_weight, reverse=True)[: thresholds.fit.most_additions]
     near = [each for each in ranked if ranked[0].log_weight - each.log_weight <= thresholds.name.class_gap]
@@ -102,6 +104,6 @@ def _acting(one: Hypothesis) -> set[tuple[EffectId, Gap | None]]:
     return set(zip(one.effects, places, strict=True))
 
 
-def _holds(tried: Sequence[Weighed], other: Weighed) -> bool:
+def _holds(tried: Sequence[Explanation], other: Explanation) -> bool:
     names = set(other.hypothesis.open_names)
     return any(set(each.hypothesis.open_names) == names for each in tried)

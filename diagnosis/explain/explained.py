@@ -8,7 +8,7 @@ import numpy as np
 
 from diagnosis.detect.component_evidence import likeliest_multiplier, multiplier_columns
 from diagnosis.explain.hypotheses import Hypothesis, simulator_of
-from diagnosis.explain.ranked import Weighed
+from diagnosis.explain.ranked import Explanation
 from diagnosis.recording.model import TraceBlock
 from diagnosis.study.map_axes import smooth_shapes
 from diagnosis.study.model import Study, TraceMisfit
@@ -20,7 +20,7 @@ from system.estimation.posterior import Posterior, values_at
 
 
 @dataclass(frozen=True)
-class Repair:
+class ExplainedMismatch:
     """added: what the explanation adds to the predictions; left: reading less prediction with it; (N, C) in SI."""
 
     added: Array
@@ -32,20 +32,20 @@ class Repair:
         return self.added + self.left
 
 
-def repair(study: Study, weighed: Weighed, thresholds: Thresholds) -> Repair:
+def repair(study: Study, weighed: Explanation, thresholds: Thresholds) -> ExplainedMismatch:
     """The repair by a refitted explanation, or by a component's law bent freely. Raises NotConverged."""
     if weighed.hypothesis.component is not None:
         return _bent(study, weighed.hypothesis.component, thresholds)
     posterior, own = weighed.posterior, weighed.hypothesis
     if posterior is None:
         nothing = np.zeros_like(study.base.predictions)
-        return Repair(nothing, study.observations.values - study.base.predictions)
+        return ExplainedMismatch(nothing, study.observations.values - study.base.predictions)
     simulator = simulator_of(study, own, thresholds)
     without = simulator.predict(_closed(posterior, own))
-    return Repair(posterior.predictions - without, study.observations.values - posterior.predictions)
+    return ExplainedMismatch(posterior.predictions - without, study.observations.values - posterior.predictions)
 
 
-def unexplained_traces(study: Study, weighed: Weighed, thresholds: Thresholds) -> tuple[TraceMisfit, ...]:
+def unexplained_traces(study: Study, weighed: Explanation, thresholds: Thresholds) -> tuple[TraceMisfit, ...]:
     """The study's traces less those of an explanation's refit that has the explanation taken out.
 
     Raises NotConverged.
@@ -68,11 +68,11 @@ def _closed(posterior: Posterior, own: Hypothesis) -> Array:
     return values_at(posterior.parameters, np.where(free, 0.0, posterior.xi))
 
 
-def _bent(study: Study, component: Component, thresholds: Thresholds) -> Repair:
+def _bent(study: Study, component: Component, thresholds: Thresholds) -> ExplainedMismatch:
     """The component's law times 1 + Phi beta, beta at its most likely in the linear model."""
     base = study.base
     beta = likeliest_multiplier(study, component, thresholds)
     added = study.components[component] * (smooth_shapes(study.axes) @ beta)[:, None]
     apart = project(base, multiplier_columns(study, base, component))
     left = base.whitening.unwhiten(base.residual - apart @ beta)
-    return Repair(added, np.where(study.observations.measured, left, np.nan))
+    return ExplainedMismatch(added, np.where(study.observations.measured, left, np.nan))

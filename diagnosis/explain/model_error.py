@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import log_softmax
 
-from diagnosis.explain.ranked import Weighed
+from diagnosis.explain.ranked import Explanation
 from diagnosis.thresholds import Thresholds
 from system.effects.effect import Kind
 
@@ -23,12 +23,12 @@ def by_form(gained: float, thresholds: Thresholds) -> float:
     return max(1.0, thresholds.form.true_to * gained / thresholds.name.class_gap)
 
 
-def class_gap(weighed: Sequence[Weighed], thresholds: Thresholds) -> float:
+def class_gap(weighed: Sequence[Explanation], thresholds: Thresholds) -> float:
     """Nats within which refitted explanations are one class: what noise makes, or the error of their forms."""
     return thresholds.name.class_gap * by_form(_gained(weighed), thresholds)
 
 
-def place_gap(weighed: Sequence[Weighed], thresholds: Thresholds) -> float:
+def place_gap(weighed: Sequence[Explanation], thresholds: Thresholds) -> float:
     """The same of one law at several places: the share `placed_by` of what is gained.
 
     By 24 recordings of the development set with one film that opens or warms: at the true gap the law stood as
@@ -37,14 +37,14 @@ def place_gap(weighed: Sequence[Weighed], thresholds: Thresholds) -> float:
     return max(thresholds.name.class_gap, thresholds.form.placed_by * _gained(weighed))
 
 
-def _gained(weighed: Sequence[Weighed]) -> float:
+def _gained(weighed: Sequence[Explanation]) -> float:
     nothing = max(each.log_evidence for each in weighed if each.hypothesis.kind is Kind.NO_MISMATCH)
     return max(each.log_evidence for each in weighed) - nothing
 
 
 def shared_out(
-    weighed: Sequence[Weighed], members: Sequence[Weighed], thresholds: Thresholds
-) -> tuple[tuple[Weighed, ...], tuple[Weighed, ...]]:
+    weighed: Sequence[Explanation], members: Sequence[Explanation], thresholds: Thresholds
+) -> tuple[tuple[Explanation, ...], tuple[Explanation, ...]]:
     """The explanations and the members of a class among them, the class's probability shared out by its gaps.
 
     P ~ exp(ln weight / temperature): a likelihood that holds only about is tempered (Miller and Dunson 2019,
@@ -65,7 +65,7 @@ def shared_out(
     return tuple(told.get(id(each), each) for each in weighed), tuple(told[id(each)] for each in members)
 
 
-def _alike(members: Sequence[Weighed]) -> list[NDArray[np.int64]]:
+def _alike(members: Sequence[Explanation]) -> list[NDArray[np.int64]]:
     """The numbers of members that claim the same effects, those of several places."""
     effects = [each.hypothesis.effects for each in members]
     found = [np.flatnonzero([other == one for other in effects]) for one in dict.fromkeys(effects)]

@@ -29,7 +29,7 @@ class HeldOut:
 
 
 @dataclass(frozen=True, eq=False)
-class Weighed:
+class Explanation:
     """A hypothesis with its evidence (natural logarithm), from the linear model or from a refit (`posterior`).
 
     z: score of the linear model, or the size over its sigma of a refit. Compared by identity.
@@ -49,7 +49,7 @@ class Weighed:
         return self.log_evidence + self.hypothesis.log_prior
 
 
-def with_probabilities(weighed: Sequence[Weighed], temperature: float) -> tuple[Weighed, ...]:
+def with_probabilities(weighed: Sequence[Explanation], temperature: float) -> tuple[Explanation, ...]:
     """The same with probabilities that sum to 1, the likeliest first.
 
     P ~ exp((ln evidence + ln prior) / temperature).

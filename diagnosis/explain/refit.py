@@ -12,7 +12,7 @@ from scipy.linalg import cho_factor, cho_solve
 from scipy.special import logsumexp
 
 from diagnosis.explain.hypotheses import Hypothesis, candidates_of, simulator_of
-from diagnosis.explain.ranked import Weighed
+from diagnosis.explain.ranked import Explanation
 from diagnosis.explain.screen import joint_evidence
 from diagnosis.study.model import Study
 from diagnosis.thresholds import Thresholds
@@ -32,7 +32,7 @@ ROUGHLY = (0.3, 1.0)  # the same for a first look
 LIMITS = FitLimits(change=0.1)  # of the objective: a twentieth of a nat decides nothing, and costs sixfold less
 
 
-def refit(study: Study, hypothesis: Hypothesis, thresholds: Thresholds, hopeless: float = inf) -> Weighed:
+def refit(study: Study, hypothesis: Hypothesis, thresholds: Thresholds, hopeless: float = inf) -> Explanation:
     """The hypothesis at the peak of its posterior; of a grid the best member, its evidence averaged over all.
 
     What is out of order is so by no multiple of its tolerance: of a widened parameter that would go farther than
@@ -52,7 +52,7 @@ def refit(study: Study, hypothesis: Hypothesis, thresholds: Thresholds, hopeless
     return replace(max((near, far), key=lambda each: each.log_evidence), log_evidence=float(np.logaddexp(*shares)))
 
 
-def _strained(weighed: Weighed, reach: float) -> bool:
+def _strained(weighed: Explanation, reach: float) -> bool:
     """Whether a widened parameter lies where even its wide prior hardly lets it."""
     posterior = weighed.posterior
     return posterior is not None and any(
@@ -60,7 +60,7 @@ def _strained(weighed: Weighed, reach: float) -> bool:
     )
 
 
-def _refitted(study: Study, hypothesis: Hypothesis, thresholds: Thresholds, hopeless: float) -> Weighed:
+def _refitted(study: Study, hypothesis: Hypothesis, thresholds: Thresholds, hopeless: float) -> Explanation:
     """The same with one width of prior.
 
     Members of a grid that are not refitted count as nothing, so that their average is never too high.
@@ -81,7 +81,7 @@ def _refitted(study: Study, hypothesis: Hypothesis, thresholds: Thresholds, hope
         raise failed[0]
     best, posterior = max(found, key=lambda each: each[1].log_evidence)
     evidence = float(logsumexp([each.log_evidence for _, each in found])) - log(len(hypothesis.members))
-    return Weighed(best, evidence, False, posterior, _size_over_sigma(posterior, best), 0.0, None)
+    return Explanation(best, evidence, False, posterior, _size_over_sigma(posterior, best), 0.0, None)
 
 
 def _gross(study: Study, thresholds: Thresholds) -> bool:
@@ -89,8 +89,8 @@ def _gross(study: Study, thresholds: Thresholds) -> bool:
 
 
 def try_refit(
-    study: Study, linear: Weighed, thresholds: Thresholds, hopeless: float = inf
-) -> tuple[Weighed, str | None]:
+    study: Study, linear: Explanation, thresholds: Thresholds, hopeless: float = inf
+) -> tuple[Explanation, str | None]:
     """The hypothesis refitted; where that fails as it stands in the linear model, with what failed in words."""
     try:
         return replace(refit(study, linear.hypothesis, thresholds, hopeless), heldout=linear.heldout), None
@@ -100,17 +100,17 @@ def try_refit(
 
 def refit_all(
     study: Study,
-    listed: Sequence[Weighed],
+    listed: Sequence[Explanation],
     thresholds: Thresholds,
     executor: ProcessPool,
     report: Report,
     hopeless: float = inf,
-) -> tuple[tuple[Weighed, ...], tuple[str, ...]]:
+) -> tuple[tuple[Explanation, ...], tuple[str, ...]]:
     """The refits of some hypotheses in their order, by a crew, and what could not be refitted."""
     if not listed:
         return (), ()
     task = partial(_numbered, study, thresholds, hopeless)
-    found: dict[int, tuple[Weighed, str | None]] = {}
+    found: dict[int, tuple[Explanation, str | None]] = {}
     report(0, len(listed), f"fitting {', '.join(each.hypothesis.text for each in listed[: executor.workers])}")
     for number, done in executor.do(task, list(enumerate(listed))):
         found[number] = done
@@ -120,8 +120,8 @@ def refit_all(
 
 
 def _numbered(
-    study: Study, thresholds: Thresholds, hopeless: float, part: tuple[int, Weighed]
-) -> tuple[int, tuple[Weighed, str | None]]:
+    study: Study, thresholds: Thresholds, hopeless: float, part: tuple[int, Explanation]
+) -> tuple[int, tuple[Explanation, str | None]]:
     """One refit with its place in the list."""
     number, linear = part
     return number, try_refit(study, linear, thresholds, hopeless)
@@ -148,14 +148,14 @@ def _likeliest(study: Study, hypothesis: Hypothesis, thresholds: Thresholds) -> 
 
 
 @dataclass(frozen=True)
-class Look:
+class FirstLook:
     """A hypothesis glanced at: the least objective that the linear model promises, and one reached in full."""
 
     promised: float
     reached: float
 
 
-def first_look(study: Study, hypothesis: Hypothesis, thresholds: Thresholds) -> Look:
+def first_look(study: Study, hypothesis: Hypothesis, thresholds: Thresholds) -> FirstLook:
     """What a few sizes of that which a hypothesis sets free leave, the nuisances linear: no fit.
 
     For parameters whose slope tells little of what a large change does.
@@ -164,7 +164,7 @@ def first_look(study: Study, hypothesis: Hypothesis, thresholds: Thresholds) -> 
     promised, xi = _start(study, simulator, hypothesis.open_names, ROUGHLY, thresholds.fit.reach)
     predicted = simulator.predict(values_at(simulator.parameters, xi))
     left = study.base.whitening.whiten(study.observations.values - predicted)
-    return Look(promised, float(left @ left + xi @ xi))
+    return FirstLook(promised, float(left @ left + xi @ xi))
 
 
 def _lent_slopes(study: Study, simulator: Simulator, names: tuple[str, ...], start: Array) -> Array:

@@ -11,7 +11,7 @@ from scipy.special import log_ndtr, logsumexp
 
 from diagnosis.detect.component_evidence import multiplier_columns
 from diagnosis.explain.hypotheses import Hypothesis, candidates_of
-from diagnosis.explain.ranked import Weighed
+from diagnosis.explain.ranked import Explanation
 from diagnosis.study.model import Candidate, Study
 from diagnosis.thresholds import Thresholds
 from reynolds.numerics.arrays import Array
@@ -21,7 +21,7 @@ from system.estimation.posterior import Posterior
 
 
 @dataclass(frozen=True)
-class Joint:
+class JointEvidence:
     """Some columns together: ln evidence over none of them, and their sizes in spreads at the best width."""
 
     evidence: float
@@ -30,7 +30,7 @@ class Joint:
 
 def screen(
     study: Study, posterior: Posterior, single: Sequence[Hypothesis], thresholds: Thresholds
-) -> tuple[Weighed, ...]:
+) -> tuple[Explanation, ...]:
     """All hypotheses with their linear evidence about a posterior that has none of them, in the order given.
 
     Those on a grid are averaged over it. The scale of the evidence is that of the posterior.
@@ -46,14 +46,16 @@ def linear_gain(study: Study, posterior: Posterior, hypothesis: Hypothesis, thre
     return float(logsumexp(found)) - log(len(found))
 
 
-def joint_evidence(posterior: Posterior, candidates: Sequence[Candidate], widths: Sequence[float]) -> Joint:
+def joint_evidence(
+    posterior: Posterior, candidates: Sequence[Candidate], widths: Sequence[float]
+) -> JointEvidence:
     """ln evidence for the columns of several candidates together over none, averaged over prior widths.
 
     For one width, V the columns times it, g = V^T r, G = V^T P V: g^T (1 + G)^-1 g / 2 - ln det(1 + G) / 2, and
     for each size of one sign the ln of twice its mass on that side. One column: `mixture_evidence`.
     """
     if not candidates:
-        return Joint(0.0, np.zeros(0))
+        return JointEvidence(0.0, np.zeros(0))
     columns = np.stack([each.column * each.width for each in candidates], axis=1)
     sign = np.array([_SIGNS[each.sign] for each in candidates])
     agreement, content = columns.T @ posterior.residual, columns.T @ project(posterior, columns)
@@ -66,7 +68,7 @@ def joint_evidence(posterior: Posterior, candidates: Sequence[Candidate], widths
         gain = 0.5 * width * float(agreement @ mean) - 0.5 * float(np.linalg.slogdet(precision)[1])
         found.append(gain + float(one_sided.sum()))
         means.append(mean * width * np.array([each.width for each in candidates]))
-    return Joint(float(logsumexp(found)) - log(len(found)), means[int(np.argmax(found))])
+    return JointEvidence(float(logsumexp(found)) - log(len(found)), means[int(np.argmax(found))])
 
 
 def unknown_gain(study: Study, posterior: Posterior, component: Component, thresholds: Thresholds) -> float:
@@ -75,7 +77,7 @@ def unknown_gain(study: Study, posterior: Posterior, component: Component, thres
     return multiplier_evidence(posterior, columns, thresholds.locate.multiplier_widths)
 
 
-def _weighed(study: Study, posterior: Posterior, hypothesis: Hypothesis, thresholds: Thresholds) -> Weighed:
+def _weighed(study: Study, posterior: Posterior, hypothesis: Hypothesis, thresholds: Thresholds) -> Explanation:
     if hypothesis.component is not None:
         gain = unknown_gain(study, posterior, hypothesis.component, thresholds)
     elif hypothesis.effects:
@@ -84,7 +86,7 @@ def _weighed(study: Study, posterior: Posterior, hypothesis: Hypothesis, thresho
         gain = 0.0
     columns = [each.column for member in hypothesis.members for each in candidates_of(study, member)]
     z = max((score(posterior, column).z for column in columns), key=abs, default=0.0)
-    return Weighed(hypothesis, posterior.log_evidence + gain, True, None, z, 0.0, None)
+    return Explanation(hypothesis, posterior.log_evidence + gain, True, None, z, 0.0, None)
 
 
 _SIGNS = {Sign.POSITIVE: 1.0, Sign.NEGATIVE: -1.0, Sign.EITHER: 0.0}

@@ -7,15 +7,15 @@ from collections.abc import Sequence
 from scipy.stats import chi2
 
 from diagnosis.detect.mismatch import Detection
-from diagnosis.explain.ranked import Weighed, with_probabilities
-from diagnosis.explain.refit import Look, first_look
+from diagnosis.explain.ranked import Explanation, with_probabilities
+from diagnosis.explain.refit import FirstLook, first_look
 from diagnosis.study.model import Study
 from diagnosis.thresholds import Thresholds
 from system.effects.effect import Kind
 from system.inputs.errors import NotConverged
 
 
-def is_settled(detection: Detection, null: Weighed, thresholds: Thresholds) -> bool:
+def is_settled(detection: Detection, null: Explanation, thresholds: Thresholds) -> bool:
     """Whether nothing speaks against the null's own refit: no candidate's score, no goodness of fit."""
     fit = null.posterior
     if fit is None:
@@ -25,7 +25,7 @@ def is_settled(detection: Detection, null: Weighed, thresholds: Thresholds) -> b
     return detection.chance >= limits.suspicion and p_value >= limits.chance
 
 
-def shortlist(screened: Sequence[Weighed], settled: bool, thresholds: Thresholds) -> tuple[Weighed, ...]:
+def shortlist(screened: Sequence[Explanation], settled: bool, thresholds: Thresholds) -> tuple[Explanation, ...]:
     """The explanations of the catalogue to refit: those within the gap of the best in the linear model.
 
     Where the null holds, only those that gain on it, and none while the null is not improbable: a verdict needs
@@ -44,8 +44,8 @@ def shortlist(screened: Sequence[Weighed], settled: bool, thresholds: Thresholds
 
 
 def wrong_parameters(
-    study: Study, screened: Sequence[Weighed], thresholds: Thresholds
-) -> tuple[tuple[Weighed, Look], ...]:
+    study: Study, screened: Sequence[Explanation], thresholds: Thresholds
+) -> tuple[tuple[Explanation, FirstLook], ...]:
     """Wrong parameters to refit where there is a mismatch, each with its first look.
 
     Large changes of a film move the slopes of all others, so that the linear model puts them anywhere; those that
@@ -56,17 +56,17 @@ def wrong_parameters(
     return tuple(sorted(looks, key=lambda look: look[1].promised)[: thresholds.fit.shortlisted_parameters])
 
 
-def _ranked(screened: Sequence[Weighed]) -> list[Weighed]:
+def _ranked(screened: Sequence[Explanation]) -> list[Explanation]:
     """Those of the catalogue, the likeliest in the linear model first."""
     return sorted((each for each in screened if each.hypothesis.open_names), key=lambda each: -each.log_weight)
 
 
-def _is_null(each: Weighed) -> bool:
+def _is_null(each: Explanation) -> bool:
     return each.hypothesis.kind is Kind.NO_MISMATCH
 
 
-def _look(study: Study, wrong: Weighed, thresholds: Thresholds) -> Look:
+def _look(study: Study, wrong: Explanation, thresholds: Thresholds) -> FirstLook:
     try:
         return first_look(study, wrong.hypothesis, thresholds)
     except NotConverged:
-        return Look(float("inf"), float("inf"))
+        return FirstLook(float("inf"), float("inf"))

@@ -27,7 +27,7 @@ LEVELS = (6, 6, 3, 3)  # of speed, delivery pressure, displacement ratio, case t
 
 
 @dataclass(frozen=True)
-class Gained:
+class RankedPoint:
     """A point and the nats that readings there bring at least; temperatures as of a `NextPoint`."""
 
     point: OperatingPoint
@@ -60,7 +60,7 @@ class NextPoint:
     repeats: int | None
     why: str
     limits: NextPointLimits
-    ranked: tuple[Gained, ...] = ()
+    ranked: tuple[RankedPoint, ...] = ()
     beyond: bool = False
     instead: str = ""
 
@@ -92,7 +92,7 @@ def next_point(
     order = np.argsort(gains)[::-1]
     at = int(order[0])
     ranked = tuple(
-        Gained(operating_at(pump, some, place), float(some.T_in[place]), gains[place]) for place in order
+        RankedPoint(operating_at(pump, some, place), float(some.T_in[place]), gains[place]) for place in order
     )
     before = log(first.probability / second.probability)
     after, chance = _led_to(found[at], before, limits)

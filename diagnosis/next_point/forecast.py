@@ -37,7 +37,7 @@ class Contender:
 
 
 @dataclass(frozen=True)
-class Brought:
+class OddsForecast:
     """ln odds that readings bring for the explanation that is true: their mean and one sigma, nats."""
 
     mean: float
@@ -60,7 +60,7 @@ class Forecast:
     second: Array
     memory: tuple[float, ...] = ()
 
-    def brought(self, repeats: int) -> tuple[Brought, Brought]:
+    def brought(self, repeats: int) -> tuple[OddsForecast, OddsForecast]:
         """What `repeats` readings bring if the first is true, and if the second is."""
         noise = np.eye(self.difference.size) / independent(repeats, self.memory)
         one, two = noise + self.first, noise + self.second
@@ -105,7 +105,7 @@ def log_density(study: Study, contender: Contender, points: BenchPoints, values:
     return whitening.log_determinant - 0.5 * (squares + float(np.linalg.slogdet(covariance)[1]))
 
 
-def brought(difference: Array, true: Array, other: Array) -> Brought:
+def brought(difference: Array, true: Array, other: Array) -> OddsForecast:
     """ln odds of N(0, true) against N(difference, other) by readings of the first: mean and sigma.
 
     Mean (tr(B) - m + d^T S2^-1 d + ln det S2 - ln det S1) / 2, the divergence (Kullback and Leibler 1951), never
@@ -119,7 +119,7 @@ def brought(difference: Array, true: Array, other: Array) -> Brought:
     mean = 0.5 * (float(np.trace(ratio)) - difference.size + float(difference @ pull) + volume)
     excess = ratio - np.eye(difference.size)
     variance = 0.5 * float(np.trace(excess @ excess)) + float(pull @ true @ pull)
-    return Brought(mean, float(np.sqrt(variance)))
+    return OddsForecast(mean, float(np.sqrt(variance)))
 
 
 def independent(repeats: int, memory: tuple[float, ...]) -> float:

@@ -33,7 +33,7 @@ STEP = 0.1  # of slopes, in spreads of a parameter
 
 
 @dataclass(frozen=True)
-class OwnLeak:
+class GapLeakTest:
     """Leak of one gap at a point as two explanations have it, SI, with one sigma of a reading; nats it brings."""
 
     gap: Gap
@@ -62,7 +62,7 @@ class OwnLeak:
 
 def own_leak(
     study: Study, box: BenchBox, first: Contender, second: Contender, limits: NextPointLimits
-) -> OwnLeak | None:
+) -> GapLeakTest | None:
     """The gap whose leak separates the two best at the box's highest pressure; None where none settles them.
 
     Settled: `limits.readings` readings give odds of 20 to 1 on average, whichever of the two is true. None too
@@ -79,7 +79,7 @@ def own_leak(
         sigma = meter.sigma + limits.gauge * abs(one)
         first_spread, second_spread = (np.array([[each @ each / sigma**2]]) for each in (one_spread, other_spread))
         gain = Forecast(np.array([(other - one) / sigma]), first_spread, second_spread).gain(limits.readings)
-        found.append(OwnLeak(gap, place, (float(one), float(other)), float(sigma), gain))
+        found.append(GapLeakTest(gap, place, (float(one), float(other)), float(sigma), gain))
     best = max(found, key=lambda each: each.gain)
     return best if best.gain >= limits.settled else None
 

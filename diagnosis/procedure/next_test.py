@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from diagnosis.explain.hypotheses import simulator_of
-from diagnosis.explain.ranked import Weighed
+from diagnosis.explain.ranked import Explanation
 from diagnosis.next_point.choose import NextPoint, next_point
 from diagnosis.next_point.forecast import Contender
 from diagnosis.next_point.operating_box import ordinary_box, rig_box
@@ -54,14 +54,14 @@ def asked_for(
     return replace(point, instead=leak.text if leak else "")
 
 
-def rivals(found: Diagnosis, thresholds: Thresholds) -> tuple[Weighed, Weighed] | None:
+def rivals(found: Diagnosis, thresholds: Thresholds) -> tuple[Explanation, Explanation] | None:
     """The first explanation and the likeliest other that stands, both refitted; None where none stands."""
     fitted = [each for each in found.hypotheses if each.posterior is not None]
     rival = _rival(fitted, thresholds.next_point.rival)
     return None if rival is None else (fitted[0], rival)
 
 
-def _rival(fitted: Sequence[Weighed], least: float) -> Weighed | None:
+def _rival(fitted: Sequence[Explanation], least: float) -> Explanation | None:
     """The likeliest of the explanations that are not the first at the same places."""
     others = [
         each
@@ -71,7 +71,7 @@ def _rival(fitted: Sequence[Weighed], least: float) -> Weighed | None:
     return max(others, key=lambda each: each.probability, default=None)
 
 
-def contender(study: Study, weighed: Weighed, thresholds: Thresholds) -> Contender:
+def contender(study: Study, weighed: Explanation, thresholds: Thresholds) -> Contender:
     """A refitted explanation with the simulator of its fit."""
     if weighed.posterior is None:
         raise ValueError(f"{weighed.hypothesis.text}: not refitted")

@@ -14,15 +14,15 @@ from diagnosis.explain.combinations import combine
 from diagnosis.explain.explained import repair
 from diagnosis.explain.held_out import held_out
 from diagnosis.explain.hypotheses import hypotheses
-from diagnosis.explain.ranked import Weighed, with_probabilities
+from diagnosis.explain.ranked import Explanation, with_probabilities
 from diagnosis.explain.refit import refit_all, try_refit
 from diagnosis.explain.scaling import Scaling, scaling
 from diagnosis.explain.screen import screen, unknown_gain
 from diagnosis.explain.shortlist import is_settled, shortlist, wrong_parameters
 from diagnosis.study.model import Study
 from diagnosis.thresholds import Thresholds
-from diagnosis.verdict.diagnosis import Diagnosis, Status
-from diagnosis.verdict.judge import Verdict, judge
+from diagnosis.verdict.diagnosis import Diagnosis, VerdictStatus
+from diagnosis.verdict.judge import Judgement, judge
 from diagnosis.verdict.locate import Location, locate, of_explanation, without_explanation
 from diagnosis.verdict.stand_ins import without_stand_ins
 from diagnosis.verdict.trend import coordinates
@@ -60,22 +60,22 @@ def diagnose_study(
 class _Fits:
     """All explanations weighed on one scale, and what could not be refitted, in words."""
 
-    weighed: tuple[Weighed, ...]
+    weighed: tuple[Explanation, ...]
     failed: tuple[str, ...]
 
 
 def _fits(
     study: Study,
     detection: Detection,
-    screened: Sequence[Weighed],
-    null: Weighed,
+    screened: Sequence[Explanation],
+    null: Explanation,
     thresholds: Thresholds,
     executor: ProcessPool,
     report: Report,
 ) -> _Fits:
     """The likeliest refitted; where there is a mismatch wrong parameters too, and several effects together."""
     listed = shortlist(screened, is_settled(detection, null, thresholds), thresholds)
-    combined: tuple[Weighed, ...] = ()
+    combined: tuple[Explanation, ...] = ()
     if is_settled(detection, null, thresholds):
         refitted, failed = refit_all(study, listed, thresholds, executor, report)
     else:
@@ -93,7 +93,7 @@ def _fits(
     return _Fits(without_stand_ins(study, (*single, *combined), thresholds), failed)
 
 
-def _parts(placed: Sequence[Weighed], combined: Sequence[Weighed]) -> tuple[Weighed, ...]:
+def _parts(placed: Sequence[Explanation], combined: Sequence[Explanation]) -> tuple[Explanation, ...]:
     """Of what the likeliest explanation has several effects of: those that were not refitted alone."""
     best = max((*placed, *combined), key=lambda each: each.log_weight)
     names = set(best.hypothesis.open_names)
@@ -105,15 +105,19 @@ def _parts(placed: Sequence[Weighed], combined: Sequence[Weighed]) -> tuple[Weig
     )  # fmt: skip
 
 
-def _null(study: Study, linear: Weighed, thresholds: Thresholds) -> tuple[Weighed, tuple[str, ...]]:
+def _null(study: Study, linear: Explanation, thresholds: Thresholds) -> tuple[Explanation, tuple[str, ...]]:
     """The null refitted; where that fails, in the linear model about the prior mean, with what failed in words."""
     null, reason = try_refit(study, linear, thresholds)
     return (null, ()) if reason is None else (replace(null, posterior=study.base), (reason,))
 
 
 def _screened_anew(
-    study: Study, detection: Detection, screened: tuple[Weighed, ...], null: Weighed, thresholds: Thresholds
-) -> tuple[Weighed, ...]:
+    study: Study,
+    detection: Detection,
+    screened: tuple[Explanation, ...],
+    null: Explanation,
+    thresholds: Thresholds,
+) -> tuple[Explanation, ...]:
     """The same about the null's own fit where nothing speaks against it.
 
     About the prior mean what lies within tolerance but bends the readings (an encoder's offset on the flank of a
@@ -126,8 +130,8 @@ def _screened_anew(
 
 
 def _placed(
-    study: Study, screened: Sequence[Weighed], null: Weighed, refitted: Sequence[Weighed]
-) -> tuple[Weighed, ...]:
+    study: Study, screened: Sequence[Explanation], null: Explanation, refitted: Sequence[Explanation]
+) -> tuple[Explanation, ...]:
     """All singles on one scale: the refits in the place of their linear forms, the others moved along.
 
     What was not refitted stays as far behind as the linear model has it, measured from the best of those that
@@ -144,17 +148,17 @@ def _placed(
     )
 
 
-def _key(each: Weighed) -> tuple[str, ...] | None:
+def _key(each: Explanation) -> tuple[str, ...] | None:
     return None if each.hypothesis.component is not None else each.hypothesis.open_names
 
 
 def _unknown_anew(
-    study: Study, weighed: Sequence[Weighed], null: Weighed, thresholds: Thresholds
-) -> tuple[Weighed, ...]:
+    study: Study, weighed: Sequence[Explanation], null: Explanation, thresholds: Thresholds
+) -> tuple[Explanation, ...]:
     """Unknown physics seen from the prior mean and from the null's refit, whichever is better for it."""
     fit = None if null.posterior is None else settled(null.posterior)
 
-    def seen(each: Weighed) -> Weighed:
+    def seen(each: Explanation) -> Explanation:
         component = each.hypothesis.component
         if component is None or fit is None:
             return each
@@ -165,15 +169,15 @@ def _unknown_anew(
 
 
 def _foretold(
-    study: Study, null: Weighed, ranked: Sequence[Weighed], thresholds: Thresholds
-) -> tuple[Weighed, ...]:
+    study: Study, null: Explanation, ranked: Sequence[Explanation], thresholds: Thresholds
+) -> tuple[Explanation, ...]:
     """The same with held-out points of the likeliest refits."""
     before = null.posterior
     if before is None:
         return tuple(ranked)
     known = [each for each in ranked if each.posterior is not None][: thresholds.fit.held_out]
 
-    def foretold(each: Weighed) -> Weighed:
+    def foretold(each: Explanation) -> Explanation:
         if each not in known or each.posterior is None:
             return each
         return replace(each, heldout=held_out(study, before, each.posterior, thresholds))
@@ -185,7 +189,7 @@ def _finding(
     study: Study,
     detection: Detection,
     location: Location,
-    verdict: Verdict,
+    verdict: Judgement,
     viscosity: Array,
     notes: tuple[str, ...],
     thresholds: Thresholds,
@@ -197,7 +201,7 @@ def _finding(
     shown = claimed or null
     before, after = _fit_of(null), _fit_of(shown)
     first = claimed or ranked[0]
-    told = verdict.status is not Status.SUSPICION and verdict.kind is not Kind.NO_MISMATCH
+    told = verdict.status is not VerdictStatus.SUSPICION and verdict.kind is not Kind.NO_MISMATCH
     described = first if told else None
     if claimed is not None and claimed.posterior is not None:
         location = of_explanation(study, location, repair(study, claimed, thresholds).added, thresholds)
@@ -222,7 +226,7 @@ def _finding(
     )
 
 
-def scaling_of(study: Study, weighed: Weighed, viscosity: Array, thresholds: Thresholds) -> Scaling | None:
+def scaling_of(study: Study, weighed: Explanation, viscosity: Array, thresholds: Thresholds) -> Scaling | None:
     """Exponents of the mismatch as an explanation sees it, in the channel where it is greatest in sigma.
 
     None for what shows in the traces most.
@@ -239,13 +243,13 @@ def scaling_of(study: Study, weighed: Weighed, viscosity: Array, thresholds: Thr
     )
 
 
-def _fit_of(weighed: Weighed) -> Posterior:
+def _fit_of(weighed: Explanation) -> Posterior:
     if weighed.posterior is None:
         raise ValueError(f"{weighed.hypothesis.text}: not refitted")
     return weighed.posterior
 
 
-def _not_identifiable(verdict: Verdict, after: Posterior, alike: float) -> tuple[str, ...]:
+def _not_identifiable(verdict: Judgement, after: Posterior, alike: float) -> tuple[str, ...]:
     """Members of the class that is claimed, and parameters that the readings tie to each other."""
     told = [f"{verdict.members[0].hypothesis.text} vs {each.hypothesis.text}" for each in verdict.members[1:]]
     spread = np.sqrt(np.diag(after.covariance))
@@ -255,7 +259,7 @@ def _not_identifiable(verdict: Verdict, after: Posterior, alike: float) -> tuple
     return (*told, *tied)
 
 
-def _effort(ranked: Sequence[Weighed]) -> FitEffort:
+def _effort(ranked: Sequence[Explanation]) -> FitEffort:
     """What all refits have cost together."""
     spent = [each.posterior.effort for each in ranked if each.posterior is not None]
     return FitEffort(

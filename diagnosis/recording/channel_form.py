@@ -12,7 +12,7 @@ from system.inputs.toml_table import Table
 from system.inputs.units import STANDARD_ATMOSPHERE, Dimension, QuantityError, unit_scale
 
 
-class Reference(Enum):
+class PressureReference(Enum):
     """What a pressure is counted from."""
 
     ABSOLUTE = "absolute"
@@ -65,13 +65,17 @@ class ChannelForm:
         return self.factor * numbers + self.offset
 
 
-def read_channel(table: Table, name: ChannelName, reference: Reference) -> ChannelForm | None:
+def read_channel(table: Table, name: ChannelName, reference: PressureReference) -> ChannelForm | None:
     """Return one channel's form; None with its faults told."""
     before = len(table.faults)
     column, unit = table.get("column"), table.get("unit")
     if not isinstance(column, str) or not column:
         table.fault("column", "no such key" if column is None else repr(column), "the name of a column")
-    own = table.choice("reference", Reference, reference) if name.dimension is Dimension.PRESSURE else reference
+    own = (
+        table.choice("reference", PressureReference, reference)
+        if name.dimension is Dimension.PRESSURE
+        else reference
+    )
     factor, offset = _scale(table, unit, name, own or reference)
     numbers = {key: _not_negative(table, key) for key in ("sigma", "sigma_relative", "quantum")}
     if numbers["sigma_relative"] and name.dimension is Dimension.TEMPERATURE:
@@ -107,7 +111,7 @@ def read_time(table: Table, *, needed: bool) -> TimeForm | None:
     return TimeForm(str(column), factor)
 
 
-def _scale(table: Table, unit: object, name: ChannelName, reference: Reference) -> tuple[float, float]:
+def _scale(table: Table, unit: object, name: ChannelName, reference: PressureReference) -> tuple[float, float]:
     """Factor and offset from the file's number to SI; (1, 0) with its fault told."""
     if name.dimension is None:
         if unit not in ("1", "%"):
@@ -118,7 +122,7 @@ def _scale(table: Table, unit: object, name: ChannelName, reference: Reference) 
     except QuantityError as reason:
         table.fault("unit", "no such key" if unit is None else reason.found, reason.expected, reason.nearest)
         return 1.0, 0.0
-    absolute = name.dimension is Dimension.PRESSURE and reference is Reference.ABSOLUTE
+    absolute = name.dimension is Dimension.PRESSURE and reference is PressureReference.ABSOLUTE
     return factor, offset - STANDARD_ATMOSPHERE if absolute else offset
 
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 
 from diagnosis.recording.model import DataNote, NoteKind
 from diagnosis.recording.tables.read import read_columns
-from diagnosis.recording.tables.table import Columns, TableFault, TableSource
+from diagnosis.recording.tables.table import TableColumns, TableFault, TableSource
 from reynolds.numerics.arrays import Array
 from system.inputs.faults import Fault, nearest_choice
 
@@ -26,7 +26,7 @@ class ColumnReader:
         """Note what was done with the data, which is no fault."""
         self.notes.append(DataNote(NoteKind.TOLD, None, (), text))
 
-    def columns(self, section: str, source: TableSource) -> Columns | None:
+    def columns(self, section: str, source: TableSource) -> TableColumns | None:
         """The columns of a section's table; None with the fault told."""
         try:
             columns = read_columns(source)
@@ -37,7 +37,7 @@ class ColumnReader:
             self.note(f"{source.path.name}: {words}")
         return columns
 
-    def column(self, path: str, name: str, columns: Columns) -> Array | None:
+    def column(self, path: str, name: str, columns: TableColumns) -> Array | None:
         """A column by name, for the key at `path`; None with the fault told."""
         if name in columns.values:
             return columns.values[name]

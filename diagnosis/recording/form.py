@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from diagnosis.recording.channel_form import ChannelForm, Reference, TimeForm, read_channel, read_time
+from diagnosis.recording.channel_form import ChannelForm, PressureReference, TimeForm, read_channel, read_time
 from diagnosis.recording.model import Circuit
 from diagnosis.recording.tables.table import TableSource
 from system.inputs.channels import ChannelName
@@ -77,7 +77,9 @@ def read_form(top: Table, folder: Path, data: Path | None) -> RecordingForm | No
     title, pump, oil = (_text(top, key) for key in ("title", "pump", "oil"))
     _text(top, "order")
     circuit = top.choice("circuit", Circuit, Circuit.OPEN)
-    reference = top.choice("pressure_reference", Reference, Reference.GAUGE) or Reference.GAUGE
+    reference = (
+        top.choice("pressure_reference", PressureReference, PressureReference.GAUGE) or PressureReference.GAUGE
+    )
     points = _points(top, folder, data)
     channels = _channels(top, reference)
     traces = _traces(top, folder, reference)
@@ -144,7 +146,7 @@ def _series(series: Table, folder: Path, data: Path | None) -> SeriesForm | None
     return SeriesForm(source, time, window, slope, raster)
 
 
-def _channels(top: Table, reference: Reference) -> tuple[ChannelForm, ...]:
+def _channels(top: Table, reference: PressureReference) -> tuple[ChannelForm, ...]:
     table = top.table("channel", needed="with at least one channel")
     if table is None:
         return ()
@@ -159,7 +161,7 @@ def _channels(top: Table, reference: Reference) -> tuple[ChannelForm, ...]:
     return tuple(form for form in forms if form is not None)
 
 
-def _traces(top: Table, folder: Path, reference: Reference) -> TraceForm | None:
+def _traces(top: Table, folder: Path, reference: PressureReference) -> TraceForm | None:
     table = top.table("traces")
     if table is None:
         return None

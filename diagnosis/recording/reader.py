@@ -17,7 +17,7 @@ from diagnosis.recording.form import RecordingForm, SeriesForm, SteadyForm, read
 from diagnosis.recording.model import RecordedChannel, Recording, SteadyTable
 from diagnosis.recording.replicates import repeatability, set_points
 from diagnosis.recording.series_points import series_points
-from diagnosis.recording.tables.table import Columns, TableFault
+from diagnosis.recording.tables.table import TableColumns, TableFault
 from diagnosis.recording.traces import ReadTraces, read_traces
 from reynolds.numerics.arrays import Array
 from system.inputs.channels import INPUTS, ChannelName
@@ -98,7 +98,7 @@ def _recording(form: RecordingForm, reader: ColumnReader) -> Recording | None:
     )
 
 
-def _points(section: str, form: RecordingForm, columns: Columns, reader: ColumnReader) -> _Points | None:
+def _points(section: str, form: RecordingForm, columns: TableColumns, reader: ColumnReader) -> _Points | None:
     """The steady points; None with the faults told."""
     found = [reader.column(f"channel.{c.name.value}.column", c.column, columns) for c in form.channels]
     timed = form.points.time
@@ -114,7 +114,7 @@ def _points(section: str, form: RecordingForm, columns: Columns, reader: ColumnR
     return None if seconds is None else _series_points(form.points, readings, seconds, form.channels, reader)
 
 
-def _hold_units(channels: Sequence[ChannelForm], columns: Columns, reader: ColumnReader) -> None:
+def _hold_units(channels: Sequence[ChannelForm], columns: TableColumns, reader: ColumnReader) -> None:
     """Note each channel of which the table itself says another unit than is stated."""
     for channel in channels:
         told, dimension = columns.units.get(channel.column, ""), channel.name.dimension
@@ -127,7 +127,7 @@ def _hold_units(channels: Sequence[ChannelForm], columns: Columns, reader: Colum
 
 
 def _steady_points(
-    form: SteadyForm, readings: Array, seconds: Array | None, columns: Columns, reader: ColumnReader
+    form: SteadyForm, readings: Array, seconds: Array | None, columns: TableColumns, reader: ColumnReader
 ) -> _Points | None:
     """Rows of a steady table as they stand."""
     count = len(readings)

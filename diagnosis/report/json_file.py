@@ -9,12 +9,12 @@ from pathlib import Path
 from typing import Any
 
 from diagnosis.detect.time_scan import TimeKind, TimeMark
-from diagnosis.explain.ranked import HeldOut, Weighed
+from diagnosis.explain.ranked import Explanation, HeldOut
 from diagnosis.next_point.choose import NextPoint
 from diagnosis.recording.units import difference, difference_unit, reading
 from diagnosis.report.format import last_word
 from diagnosis.report.text import paragraphs, statement
-from diagnosis.verdict.diagnosis import Claim, Diagnosis, Estimate
+from diagnosis.verdict.diagnosis import ClaimedEffect, Diagnosis, Estimate
 from system.effects.effect import Kind
 from system.inputs.channels import ChannelName
 from system.inputs.faults import Fault, InputFaults
@@ -98,7 +98,7 @@ def _time(mark: TimeMark) -> dict[str, Any]:
     return {"kind": mark.kind.value, "channel": mark.channel.value, "point": point}
 
 
-def _claim(claim: Claim) -> dict[str, Any]:
+def _claim(claim: ClaimedEffect) -> dict[str, Any]:
     return {
         "id": claim.effect.value,
         "pair": claim.pair.value if claim.pair else None,
@@ -115,7 +115,7 @@ def _estimate(estimate: Estimate) -> dict[str, Any]:
     return {"name": name, "value": estimate.value, "sigma": estimate.sigma, "unit": unit}
 
 
-def _weighed(one: Weighed, diagnosis: Diagnosis) -> dict[str, Any]:
+def _weighed(one: Explanation, diagnosis: Diagnosis) -> dict[str, Any]:
     """heldout_rmse: of the channel named first in `where`, in its unit of `fit`; bic: -2 ln evidence (Schwarz)."""
     told = diagnosis.location.channels[:1]
     after = one.heldout.after if one.heldout else {}

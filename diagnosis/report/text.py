@@ -8,7 +8,7 @@ from math import exp
 
 from diagnosis.detect.time_scan import TimeKind
 from diagnosis.explain.hypotheses import Hypothesis
-from diagnosis.explain.ranked import Weighed
+from diagnosis.explain.ranked import Explanation
 from diagnosis.explain.scaling import Scaling
 from diagnosis.next_point.choose import NextPoint
 from diagnosis.recording.units import channel_unit, difference, difference_unit, reading
@@ -24,7 +24,7 @@ from diagnosis.report.format import (
     odds_text,
 )
 from diagnosis.study.model import SUBJECTS
-from diagnosis.verdict.diagnosis import Diagnosis, Status
+from diagnosis.verdict.diagnosis import Diagnosis, VerdictStatus
 from diagnosis.verdict.locate import Location
 from system.effects.catalogue.entries import entry_of
 from system.effects.effect import Kind
@@ -41,7 +41,7 @@ def statement(diagnosis: Diagnosis) -> str:
 
 
 def _verdict(diagnosis: Diagnosis) -> str:
-    if diagnosis.status is Status.SUSPICION:
+    if diagnosis.status is VerdictStatus.SUSPICION:
         return f"{_where(diagnosis)}: {_suspicion(diagnosis)}."
     if diagnosis.kind is Kind.NO_MISMATCH:
         return f"Simulation and recording agree within noise and tolerance ({_misfit(diagnosis)})."
@@ -200,7 +200,7 @@ def _class(diagnosis: Diagnosis) -> str:
 
 def _incomplete(diagnosis: Diagnosis) -> str:
     """That a part is left, and whether the names stand beside it."""
-    if diagnosis.status is not Status.INCOMPLETE:
+    if diagnosis.status is not VerdictStatus.INCOMPLETE:
         return ""
     if _class(diagnosis):
         return "A part of the mismatch remains besides that none of them explains."
@@ -265,7 +265,7 @@ def _likeliest(diagnosis: Diagnosis) -> list[str]:
 
 def _rivals(diagnosis: Diagnosis) -> str:
     """Which rivals still stand and which are excluded, each with its odds against the first explanation."""
-    if diagnosis.status is Status.SUSPICION or not diagnosis.effects:
+    if diagnosis.status is VerdictStatus.SUSPICION or not diagnosis.effects:
         return ""
     first, *others = _explained(diagnosis, bent=False)
     told = [(explanation_words(one.hypothesis), one.probability) for one in others][: 2 * RIVALS]
@@ -280,7 +280,7 @@ def _rivals(diagnosis: Diagnosis) -> str:
     return " ".join(part for part in parts if part)
 
 
-def _explained(diagnosis: Diagnosis, *, bent: bool = True) -> list[Weighed]:
+def _explained(diagnosis: Diagnosis, *, bent: bool = True) -> list[Explanation]:
     """Hypotheses of an effect, the claimed first, then by probability; of those told by the same words the best.
 
     Unknown physics, weighed once for each component, counts by all of them; bent: bent laws are told, too.
@@ -289,7 +289,7 @@ def _explained(diagnosis: Diagnosis, *, bent: bool = True) -> list[Weighed]:
     others = sorted(diagnosis.hypotheses[1:], key=lambda one: -one.probability)
     others = [one for one in others if bent or not one.hypothesis.bent]
     unknown = sum(one.probability for one in diagnosis.hypotheses if one.hypothesis.component is not None)
-    found: dict[str, Weighed] = {}
+    found: dict[str, Explanation] = {}
     for one in (*first, *others):
         if one.hypothesis.component is not None:
             one = replace(one, probability=unknown)

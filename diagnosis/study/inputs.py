@@ -24,7 +24,7 @@ TANK, DRAIN = 0.1e5, 0.5e5  # Pa: level and suction line, drain line
 
 
 @dataclass(frozen=True)
-class Taken:
+class AssumedInput:
     """What stands for an input: its value in SI, or the channel that is read for it; one sigma of it in SI."""
 
     channel: ChannelName
@@ -71,7 +71,7 @@ def complete(recording: Recording) -> Recording:
     return replace(recording, steady=steady, traces=traces, notes=(*recording.notes, note))
 
 
-def taken_inputs(recording: Recording, pump: PumpDescription) -> tuple[Taken, ...]:
+def taken_inputs(recording: Recording, pump: PumpDescription) -> tuple[AssumedInput, ...]:
     """What is taken for every input that the recording lacks.
 
     As [operating] of the pump states it; an inlet pressure of an open circuit is that around; of case and inlet
@@ -101,21 +101,25 @@ def bench_points(recording: Recording, pump: PumpDescription) -> tuple[BenchPoin
 
 def _taken(
     recording: Recording, pump: PumpDescription, name: ChannelName, known: tuple[ChannelName, ...]
-) -> Taken:
+) -> AssumedInput:
     stated = pump.operating
     match name:
         case ChannelName.SPEED:
-            return Taken(name, stated.speed, DRIVE * stated.speed)
+            return AssumedInput(name, stated.speed, DRIVE * stated.speed)
         case ChannelName.DISPLACEMENT_RATIO:
-            return Taken(name, stated.displacement_ratio, SETTING)
+            return AssumedInput(name, stated.displacement_ratio, SETTING)
         case ChannelName.P_OUT:
-            return Taken(name, stated.pressure, RELIEF * stated.pressure)
+            return AssumedInput(name, stated.pressure, RELIEF * stated.pressure)
         case ChannelName.P_IN if recording.circuit is Circuit.OPEN:
-            return Taken(name, 0.0, TANK)
+            return AssumedInput(name, 0.0, TANK)
         case ChannelName.P_IN:
-            return Taken(name, stated.inlet_pressure, max(RELIEF * stated.inlet_pressure, TANK))
+            return AssumedInput(name, stated.inlet_pressure, max(RELIEF * stated.inlet_pressure, TANK))
         case ChannelName.P_CASE:
-            return Taken(name, stated.case_pressure, DRAIN)
+            return AssumedInput(name, stated.case_pressure, DRAIN)
         case _:
             other = ChannelName.T_IN if name is ChannelName.T_CASE else ChannelName.T_CASE
-            return Taken(name, other, WARMER) if other in known else Taken(name, stated.temperature, WARMTH)
+            return (
+                AssumedInput(name, other, WARMER)
+                if other in known
+                else AssumedInput(name, stated.temperature, WARMTH)
+            )

@@ -19,7 +19,7 @@ from system.estimation.posterior import Posterior, settled
 
 
 @dataclass(frozen=True)
-class BendChance:
+class MultiplierChance:
     """The chance of such a bend, at most, where nothing is there; `point`, from 0, is the one it rests on most."""
 
     chance: float
@@ -28,7 +28,7 @@ class BendChance:
 
 def chance_of_bend(
     study: Study, null: Posterior, unknown: Sequence[Hypothesis], thresholds: Thresholds
-) -> BendChance:
+) -> MultiplierChance:
     """The chance, at most, that unknown physics would stand so far ahead of nothing if nothing were there.
 
     An evidence over the null's has a mean of 1 under the null: K or more has a chance of 1/K at most (Markov).
@@ -37,11 +37,11 @@ def chance_of_bend(
     where that holds: the less surprising counts, as of candidates (`detect.confirmed`).
     """
     if not unknown:
-        return BendChance(1.0, 0)
+        return MultiplierChance(1.0, 0)
     fits = (study.base, settled(null)) if holds(null, thresholds) else (study.base,)
     looked = [_ahead(study, fit, unknown, thresholds) for fit in fits]
     ahead, at = min((float(own.min()), int(own.argmin())) for own in looked)
-    return BendChance(float(np.exp(-max(ahead, 0.0))), int(np.unique(study.base.whitening.rows[:, 0])[at]))
+    return MultiplierChance(float(np.exp(-max(ahead, 0.0))), int(np.unique(study.base.whitening.rows[:, 0])[at]))
 
 
 def _ahead(study: Study, fit: Posterior, unknown: Sequence[Hypothesis], thresholds: Thresholds) -> Array:

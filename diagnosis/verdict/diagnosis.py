@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from enum import Enum
 
 from diagnosis.detect.mismatch import Detection
-from diagnosis.explain.ranked import HeldOut, Weighed
+from diagnosis.explain.ranked import Explanation, HeldOut
 from diagnosis.explain.scaling import Scaling
 from diagnosis.next_point.choose import NextPoint
 from diagnosis.thresholds import Thresholds
@@ -17,7 +17,7 @@ from system.estimation.posterior import FitEffort, Posterior
 from system.inputs.units import Dimension
 
 
-class Status(Enum):
+class VerdictStatus(Enum):
     """How far a verdict goes."""
 
     NAMED = "named"
@@ -37,7 +37,7 @@ class Estimate:
 
 
 @dataclass(frozen=True)
-class Claim:
+class ClaimedEffect:
     """One effect that is claimed, at its likeliest gap.
 
     equivalent: the ids that this recording cannot tell from it; elsewhere: other gaps that it cannot tell from
@@ -61,11 +61,11 @@ class Diagnosis:
     """
 
     kind: Kind
-    status: Status
+    status: VerdictStatus
     detection: Detection
     location: Location
-    effects: tuple[Claim, ...]
-    hypotheses: tuple[Weighed, ...]
+    effects: tuple[ClaimedEffect, ...]
+    hypotheses: tuple[Explanation, ...]
     before: Posterior
     after: Posterior
     fit: HeldOut

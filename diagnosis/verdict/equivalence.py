@@ -4,13 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from diagnosis.explain.ranked import Weighed
+from diagnosis.explain.ranked import Explanation
 from system.effects.effect import Kind
 
 NOT_NAMED = (Kind.NO_MISMATCH, Kind.UNKNOWN_PHYSICS)
 
 
-def equivalents(best: Weighed, weighed: Sequence[Weighed], gap: float, place_gap: float) -> tuple[Weighed, ...]:
+def equivalents(
+    best: Explanation, weighed: Sequence[Explanation], gap: float, place_gap: float
+) -> tuple[Explanation, ...]:
     """Explanations of as many effects as the best that stand as well after a refit, the best first.
 
     As well: ln evidence within the gap (nats), of the same effects elsewhere within the gap of places; or the same
@@ -28,7 +30,7 @@ def equivalents(best: Weighed, weighed: Sequence[Weighed], gap: float, place_gap
     return (best, *alike)
 
 
-def parting(one: Weighed, other: Weighed) -> float:
+def parting(one: Explanation, other: Explanation) -> float:
     """Nats by which readings like these would part two refitted explanations: delta^2 / 2; inf if not refitted."""
     if one.posterior is None or other.posterior is None:
         return float("inf")
@@ -36,7 +38,7 @@ def parting(one: Weighed, other: Weighed) -> float:
     return 0.5 * float(apart @ apart)
 
 
-def _strain(weighed: Weighed) -> float:
+def _strain(weighed: Explanation) -> float:
     """Nats of a refit's objective without what the size of that which it sets free costs: (r^2 + xi^2) / 2."""
     posterior = weighed.posterior
     if posterior is None:
@@ -45,7 +47,7 @@ def _strain(weighed: Weighed) -> float:
     return 0.5 * (posterior.objective - float((posterior.xi[own] ** 2).sum()))
 
 
-def agrees(each: Weighed, members: Sequence[Weighed]) -> bool:
+def agrees(each: Explanation, members: Sequence[Explanation]) -> bool:
     """Whether an explanation claims at least what one of the members claims: it, or it and more."""
     return any(
         set(member.hypothesis.open_names) <= set(each.hypothesis.open_names) and each.hypothesis.effects
@@ -53,12 +55,12 @@ def agrees(each: Weighed, members: Sequence[Weighed]) -> bool:
     )
 
 
-def _elsewhere(each: Weighed, best: Weighed) -> bool:
+def _elsewhere(each: Explanation, best: Explanation) -> bool:
     """Whether an explanation claims the same effects at other places, by a fit of its own."""
     return each.posterior is not None and each.hypothesis.effects == best.hypothesis.effects
 
 
-def _comparable(each: Weighed, best: Weighed) -> bool:
+def _comparable(each: Explanation, best: Explanation) -> bool:
     own, other = each.hypothesis, best.hypothesis
     same = own.open_names == other.open_names
     return own.kind not in NOT_NAMED and len(own.effects) == len(other.effects) and not same

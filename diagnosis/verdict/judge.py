@@ -12,11 +12,11 @@ from scipy.stats import chi2, norm
 from diagnosis.detect.mismatch import Detection
 from diagnosis.explain.hypotheses import Hypothesis
 from diagnosis.explain.model_error import class_gap, place_gap, shared_out
-from diagnosis.explain.ranked import Weighed
+from diagnosis.explain.ranked import Explanation
 from diagnosis.study.model import Study
 from diagnosis.thresholds import Thresholds
-from diagnosis.verdict.bend_chance import BendChance, chance_of_bend
-from diagnosis.verdict.diagnosis import Claim, Estimate, Status
+from diagnosis.verdict.bend_chance import MultiplierChance, chance_of_bend
+from diagnosis.verdict.diagnosis import ClaimedEffect, Estimate, VerdictStatus
 from diagnosis.verdict.equivalence import agrees, equivalents
 from diagnosis.verdict.residue import left_over
 from diagnosis.verdict.row_numbers import table_rows
@@ -27,27 +27,27 @@ from system.estimation.posterior import Posterior
 
 
 @dataclass(frozen=True)
-class Verdict:
+class Judgement:
     """What is claimed: kind, status, claims (none where nothing is), its class, and why not more, in words.
 
     ranked: all explanations, the likeliest first.
     """
 
     kind: Kind
-    status: Status
-    claims: tuple[Claim, ...]
-    members: tuple[Weighed, ...]
+    status: VerdictStatus
+    claims: tuple[ClaimedEffect, ...]
+    members: tuple[Explanation, ...]
     reasons: tuple[str, ...]
-    ranked: tuple[Weighed, ...]
+    ranked: tuple[Explanation, ...]
 
 
 def judge(
     study: Study,
     detection: Detection,
-    weighed: Sequence[Weighed],
+    weighed: Sequence[Explanation],
     along: Mapping[str, Array],
     thresholds: Thresholds,
-) -> Verdict:
+) -> Judgement:
     """The verdict on explanations with their probabilities, the likeliest first, the null among them.
 
     along: coordinates (N,) with which an effect may grow, by name (`diagnosis.verdict.trend`).
@@ -61,7 +61,7 @@ def judge(
     null = next(each for each in weighed if each.hypothesis.kind is Kind.NO_MISMATCH)
     if null.probability >= limits.null_probability:
         if detection.chance >= limits.suspicion:
-            return Verdict(Kind.NO_MISMATCH, Status.NAMED, (), (), (), tuple(weighed))
+            return Judgement(Kind.NO_MISMATCH, VerdictStatus.NAMED, (), (), (), tuple(weighed))
         return _suspicion(weighed, (_half_seen(detection, null),))
     bend = _bend(study, null, weighed, thresholds)
     if min(detection.chance, bend.chance) >= limits.chance:
@@ -78,21 +78,23 @@ def judge(
     left = left_over(study, null, best, along, thresholds)
     claims = _claims(members, weighed, thresholds)
     alike = any(claim.equivalent or claim.elsewhere for claim in claims)
-    status = Status.INCOMPLETE if left else Status.CLASS if alike else Status.NAMED
-    return Verdict(best.hypothesis.kind, status, claims, members, left, weighed)
+    status = VerdictStatus.INCOMPLETE if left else VerdictStatus.CLASS if alike else VerdictStatus.NAMED
+    return Judgement(best.hypothesis.kind, status, claims, members, left, weighed)
 
 
-def _bend(study: Study, null: Weighed, weighed: Sequence[Weighed], thresholds: Thresholds) -> BendChance:
+def _bend(
+    study: Study, null: Explanation, weighed: Sequence[Explanation], thresholds: Thresholds
+) -> MultiplierChance:
     """The chance of unknown physics beside a null, seen from the prior mean alone where that has no fit."""
     unknown = [each.hypothesis for each in weighed if each.hypothesis.component is not None]
     return chance_of_bend(study, null.posterior or study.base, unknown, thresholds)
 
 
-def _weight(each: Weighed) -> float:
+def _weight(each: Explanation) -> float:
     return each.log_weight
 
 
-def _simplest(best: Weighed, weighed: Sequence[Weighed], thresholds: Thresholds) -> Weighed:
+def _simplest(best: Explanation, weighed: Sequence[Explanation], thresholds: Thresholds) -> Explanation:
     """Of the best and of what claims a part of the same within the odds of a name: that of fewest effects."""
     names = set(best.hypothesis.open_names)
     near = [
@@ -105,25 +107,27 @@ def _simplest(best: Weighed, weighed: Sequence[Weighed], thresholds: Thresholds)
     return min((best, *near), key=lambda each: (len(each.hypothesis.effects), -each.log_weight))
 
 
-def _half_seen(detection: Detection, null: Weighed) -> str:
+def _half_seen(detection: Detection, null: Explanation) -> str:
     return (
         f"a candidate as striking as the strongest has a chance of {detection.chance:.2g} where nothing is there, "
         f"and nothing a probability of {null.probability:.2g}: a mismatch needs both to be small"
     )
 
 
-def _suspicion(weighed: Sequence[Weighed], reasons: tuple[str, ...]) -> Verdict:
+def _suspicion(weighed: Sequence[Explanation], reasons: tuple[str, ...]) -> Judgement:
     """Of the likeliest kind of mismatch."""
     kinds = {each.hypothesis.kind for each in weighed} - {Kind.NO_MISMATCH}
     likeliest = max(kinds, key=lambda kind: _probability(weighed, kind))
-    return Verdict(likeliest, Status.SUSPICION, (), (), reasons, tuple(weighed))
+    return Judgement(likeliest, VerdictStatus.SUSPICION, (), (), reasons, tuple(weighed))
 
 
-def _probability(weighed: Sequence[Weighed], kind: Kind) -> float:
+def _probability(weighed: Sequence[Explanation], kind: Kind) -> float:
     return sum(each.probability for each in weighed if each.hypothesis.kind is kind)
 
 
-def _unknown(study: Study, bend: BendChance, weighed: Sequence[Weighed], thresholds: Thresholds) -> Verdict:
+def _unknown(
+    study: Study, bend: MultiplierChance, weighed: Sequence[Explanation], thresholds: Thresholds
+) -> Judgement:
     """Unknown physics is the verdict, without an effect, when its hypotheses together are sure, and striking."""
     probability = _probability(weighed, Kind.UNKNOWN_PHYSICS)
     against = []
@@ -137,11 +141,11 @@ def _unknown(study: Study, bend: BendChance, weighed: Sequence[Weighed], thresho
         )
     if against:
         return _suspicion(weighed, tuple(against))
-    return Verdict(Kind.UNKNOWN_PHYSICS, Status.NAMED, (), (), (), tuple(weighed))
+    return Judgement(Kind.UNKNOWN_PHYSICS, VerdictStatus.NAMED, (), (), (), tuple(weighed))
 
 
 def _objections(
-    best: Weighed, members: Sequence[Weighed], weighed: Sequence[Weighed], thresholds: Thresholds
+    best: Explanation, members: Sequence[Explanation], weighed: Sequence[Explanation], thresholds: Thresholds
 ) -> tuple[str, ...]:
     """Why the class may not be named. Its members weigh together: the prior of one id is shared by its gaps."""
     limits = thresholds.name
@@ -195,7 +199,9 @@ def _sigmas(posterior: Posterior, name: str) -> float:
     return float(abs(posterior.xi[at]) / np.sqrt(posterior.covariance[at, at]))
 
 
-def _claims(members: Sequence[Weighed], weighed: Sequence[Weighed], thresholds: Thresholds) -> tuple[Claim, ...]:
+def _claims(
+    members: Sequence[Explanation], weighed: Sequence[Explanation], thresholds: Thresholds
+) -> tuple[ClaimedEffect, ...]:
     """One claim for each effect of the best member: its probability counts all that claim it too."""
     best = members[0]
     own = best.hypothesis
@@ -206,7 +212,7 @@ def _claims(members: Sequence[Weighed], weighed: Sequence[Weighed], thresholds: 
         probability = sum(each.probability for each in weighed if effect in each.hypothesis.effects)
         equivalent = () if effect in shared else tuple(sorted(rivals, key=lambda one: one.value))
         claims.append(
-            Claim(
+            ClaimedEffect(
                 effect,
                 own.places[at],
                 probability,
@@ -218,7 +224,7 @@ def _claims(members: Sequence[Weighed], weighed: Sequence[Weighed], thresholds: 
     return tuple(claims)
 
 
-def _elsewhere(at: int, members: Sequence[Weighed], thresholds: Thresholds) -> tuple[tuple[Gap, float], ...]:
+def _elsewhere(at: int, members: Sequence[Explanation], thresholds: Thresholds) -> tuple[tuple[Gap, float], ...]:
     """Other gaps where one effect of the first member may sit, each with its share, where its own is not sure."""
     own = members[0].hypothesis
     same = [each for each in members if each.hypothesis.effects == own.effects]
@@ -232,7 +238,7 @@ def _elsewhere(at: int, members: Sequence[Weighed], thresholds: Thresholds) -> t
     return tuple((gap, part) for gap, part in share.items() if gap is not None and gap is not own.places[at])
 
 
-def _estimates(best: Weighed, at: int) -> tuple[Estimate, ...]:
+def _estimates(best: Explanation, at: int) -> tuple[Estimate, ...]:
     """The parameters of one effect as found; of a law by the last part of their path."""
     posterior, own = best.posterior, best.hypothesis
     if posterior is None:

@@ -17,10 +17,10 @@ from diagnosis.detect.component_evidence import (
     tied,
 )
 from diagnosis.detect.contrasts import Contrasts, contrasts
-from diagnosis.detect.regions import Region, densest_region, strongest_region
+from diagnosis.detect.regions import MapRegion, densest_region, strongest_region
 from diagnosis.detect.time_scan import TimeMark, scan_time
 from diagnosis.explain.explained import unexplained_traces
-from diagnosis.explain.ranked import Weighed
+from diagnosis.explain.ranked import Explanation
 from diagnosis.study.map_axes import axis_values
 from diagnosis.study.model import Study
 from diagnosis.thresholds import Thresholds
@@ -28,7 +28,7 @@ from reynolds.numerics.arrays import Array
 from system.effects.components import Component
 from system.inputs.channels import ChannelName
 
-_Box = Callable[[ChannelName, Contrasts, Array, Mapping[ChannelName, Array]], Region | None]
+_Box = Callable[[ChannelName, Contrasts, Array, Mapping[ChannelName, Array]], MapRegion | None]
 
 
 @dataclass(frozen=True)
@@ -40,7 +40,7 @@ class Location:
     """
 
     channels: tuple[ChannelName, ...]
-    region: Region | None
+    region: MapRegion | None
     components: tuple[tuple[Component, float], ...]
     groups: tuple[tuple[ComponentGroup, float], ...]
     tie: tuple[Component, ...]
@@ -84,7 +84,9 @@ def of_explanation(study: Study, location: Location, added: Array, thresholds: T
     return replace(location, channels=channels, region=region, tie=tie)
 
 
-def without_explanation(study: Study, location: Location, weighed: Weighed, thresholds: Thresholds) -> Location:
+def without_explanation(
+    study: Study, location: Location, weighed: Explanation, thresholds: Thresholds
+) -> Location:
     """The same with the shaft angle at which traces part from a refit that has its explanation taken out.
 
     Where it shows in the chamber: tolerance alone may well follow it (a worn groove is one cut too long).
@@ -102,7 +104,7 @@ def _channels(study: Study, pattern: Array, least_share: float) -> tuple[Channel
     return tuple(study.shown_channels[at] for at in order if energy[at] > 0 and energy[at] >= least)
 
 
-def _region(study: Study, channel: ChannelName, pattern: Array, box: _Box) -> Region | None:
+def _region(study: Study, channel: ChannelName, pattern: Array, box: _Box) -> MapRegion | None:
     """The box of a pattern (N, C) in a channel; None for what has no place in the map."""
     if channel not in study.channels:
         return None

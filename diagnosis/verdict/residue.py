@@ -13,7 +13,7 @@ from diagnosis.detect.mismatch import most_striking
 from diagnosis.detect.regions import flagged
 from diagnosis.explain.explained import repair
 from diagnosis.explain.hypotheses import Hypothesis
-from diagnosis.explain.ranked import Weighed
+from diagnosis.explain.ranked import Explanation
 from diagnosis.study.map_axes import axis_values
 from diagnosis.study.model import Study
 from diagnosis.thresholds import Thresholds
@@ -29,7 +29,7 @@ MEDIAN = float(norm.isf(0.25))  # of |r| in sigma
 
 
 def left_over(
-    study: Study, null: Weighed, best: Weighed, along: Mapping[str, Array], thresholds: Thresholds
+    study: Study, null: Explanation, best: Explanation, along: Mapping[str, Array], thresholds: Thresholds
 ) -> tuple[str, ...]:
     """What the best explanation leaves of the mismatch, in words; () where it is complete.
 
@@ -72,7 +72,7 @@ def _scatter(residual: Array, thresholds: Thresholds) -> Iterator[str]:
         yield f"what is left scatters {np.sqrt(broad):.2f} times as wide as the noise"
 
 
-def _shares(study: Study, best: Weighed, thresholds: Thresholds) -> Array:
+def _shares(study: Study, best: Explanation, thresholds: Thresholds) -> Array:
     """By shown channel, of the square of what the explanation adds, in sigma; 0 where that is not known."""
     try:
         added = repair(study, best, thresholds).added / study.base.whitening.sigma

@@ -16,7 +16,7 @@ import numpy as np
 from scipy.special import logsumexp
 
 from diagnosis.explain.explained import repair
-from diagnosis.explain.ranked import Weighed
+from diagnosis.explain.ranked import Explanation
 from diagnosis.study.map_axes import smooth_shapes
 from diagnosis.study.model import Study
 from diagnosis.thresholds import FormLimits, Thresholds
@@ -26,10 +26,12 @@ from system.estimation.evidence import multiplier_evidence
 from system.estimation.posterior import Posterior, settled
 from system.inputs.errors import NotConverged
 
-Evidence = Callable[[Weighed], float | None]
+Evidence = Callable[[Explanation], float | None]
 
 
-def without_stand_ins(study: Study, weighed: Sequence[Weighed], thresholds: Thresholds) -> tuple[Weighed, ...]:
+def without_stand_ins(
+    study: Study, weighed: Sequence[Explanation], thresholds: Thresholds
+) -> tuple[Explanation, ...]:
     """Explanations of one and more effects, those whose last effects are stand-ins cut to what they stand on.
 
     Of A + B, where A has a law and was refitted, B stands in if A bent does as well within the odds of a name, and
@@ -49,7 +51,7 @@ def without_stand_ins(study: Study, weighed: Sequence[Weighed], thresholds: Thre
     return (*cut, *_known_after_all(unknown, known, null, bent, thresholds))
 
 
-def bent_evidence(study: Study, weighed: Weighed, thresholds: Thresholds) -> float | None:
+def bent_evidence(study: Study, weighed: Explanation, thresholds: Thresholds) -> float | None:
     """ln evidence of an explanation with what its laws add to the readings times 1 + Phi b.
 
     b as of unknown physics, linear about the refit. None for what was not refitted, and for what has no law.
@@ -69,16 +71,16 @@ def bent_evidence(study: Study, weighed: Weighed, thresholds: Thresholds) -> flo
 
 def _cut(
     study: Study,
-    whole: Weighed,
-    weighed: Sequence[Weighed],
-    null: Weighed,
+    whole: Explanation,
+    weighed: Sequence[Explanation],
+    null: Explanation,
     bent: Evidence,
     thresholds: Thresholds,
-) -> Weighed:
+) -> Explanation:
     """An explanation, or the least part of it on which the rest stands."""
     odds = thresholds.name.odds
     parts = [each for each in weighed if _is_part(each, whole) and each.log_weight < whole.log_weight - odds]
-    stands: list[tuple[Weighed, float]] = []
+    stands: list[tuple[Explanation, float]] = []
     for each in parts:
         found = bent(each)
         if found is None:
@@ -94,7 +96,7 @@ def _cut(
     return _as_bent(part, found, whole.hypothesis.log_prior, beside)
 
 
-def _is_slight(study: Study, whole: Weighed, part: Weighed, null: Weighed, form: FormLimits) -> bool:
+def _is_slight(study: Study, whole: Explanation, part: Explanation, null: Explanation, form: FormLimits) -> bool:
     """Whether the rest of an explanation takes up no more of a channel's sum of squares than its part's form may.
 
     Sum r^2 falls by G_c from nothing to the part, by D_c from the part to the whole: D_c < slight G_c + slack.
@@ -107,7 +109,7 @@ def _is_slight(study: Study, whole: Weighed, part: Weighed, null: Weighed, form:
     return bool(np.all(by_part - by_whole < form.slight * np.maximum(before - by_part, 0.0) + form.slack))
 
 
-def _is_more(whole: Weighed, part: Weighed, null: Weighed, form: FormLimits) -> bool:
+def _is_more(whole: Explanation, part: Explanation, null: Explanation, form: FormLimits) -> bool:
     """Whether the rest of an explanation takes up more of the objective than the form of a part can be off by."""
     fits = [each.posterior for each in (null, part, whole)]
     before, by_part, by_whole = (nan if fit is None else fit.objective for fit in fits)
@@ -122,13 +124,17 @@ def _squares(study: Study, fit: Posterior) -> Array:
 
 
 def _known_after_all(
-    unknown: Sequence[Weighed], known: Sequence[Weighed], null: Weighed, bent: Evidence, thresholds: Thresholds
-) -> tuple[Weighed, ...]:
+    unknown: Sequence[Explanation],
+    known: Sequence[Explanation],
+    null: Explanation,
+    bent: Evidence,
+    thresholds: Thresholds,
+) -> tuple[Explanation, ...]:
     """Unknown physics, with what a law bent does as well as gathered into one explanation by that law."""
     ahead = max((each.log_weight for each in known), default=-inf)
     if max((each.log_weight for each in unknown), default=-inf) < ahead - thresholds.name.odds:
         return tuple(unknown)
-    standing: list[tuple[Weighed, float]] = []
+    standing: list[tuple[Explanation, float]] = []
     for each in known:
         gained = each.log_evidence - null.log_evidence
         single = len(each.hypothesis.effects) == 1 and gained > thresholds.name.odds
@@ -144,11 +150,13 @@ def _known_after_all(
     return (_as_bent(law, evidence, prior, ()), *(each for each in unknown if each.log_evidence > most))
 
 
-def _as_bent(part: Weighed, log_evidence: float, log_prior: float, beside: tuple[EffectId, ...]) -> Weighed:
+def _as_bent(
+    part: Explanation, log_evidence: float, log_prior: float, beside: tuple[EffectId, ...]
+) -> Explanation:
     """A law's explanation, of which is said that its form is not all; beside: what stood in for the form."""
     own = replace(part.hypothesis, bent=True, stand_ins=beside, log_prior=log_prior)
     return replace(part, hypothesis=own, log_evidence=log_evidence)
 
 
-def _is_part(each: Weighed, whole: Weighed) -> bool:
+def _is_part(each: Explanation, whole: Explanation) -> bool:
     return bool(each.hypothesis.open_names) and set(each.hypothesis.open_names) < set(whole.hypothesis.open_names)

@@ -9,7 +9,7 @@ import numpy as np
 from scipy.stats import norm
 
 from diagnosis.explain.explained import repair
-from diagnosis.explain.ranked import Weighed
+from diagnosis.explain.ranked import Explanation
 from diagnosis.explain.scaling import moves
 from diagnosis.study.map_axes import AXES
 from diagnosis.study.model import Study
@@ -22,7 +22,7 @@ from system.inputs.errors import NotConverged
 
 
 @dataclass(frozen=True)
-class Growth:
+class PowerError:
     """By which power of a coordinate more than it does an explanation would have to grow, with one sigma."""
 
     coordinate: str
@@ -46,8 +46,8 @@ def coordinates(study: Study, viscosity: Array) -> Mapping[str, Array]:
 
 
 def misgrown(
-    study: Study, weighed: Weighed, along: Mapping[str, Array], thresholds: Thresholds
-) -> tuple[Growth, ...]:
+    study: Study, weighed: Explanation, along: Mapping[str, Array], thresholds: Thresholds
+) -> tuple[PowerError, ...]:
     """The powers by which a refitted explanation's growth differs from what the readings ask; most often none.
 
     What it adds to the readings, d, becomes d x^b: to first order b d ln x, whose score (Rao 1948) is taken about
@@ -72,5 +72,5 @@ def misgrown(
         (name, found) for name, found in scores.items() if abs(found.z) > least and abs(found.size) > form.flat
     ]
     return tuple(
-        Growth(name, found.size, found.sigma) for name, found in sorted(told, key=lambda one: -abs(one[1].z))
+        PowerError(name, found.size, found.sigma) for name, found in sorted(told, key=lambda one: -abs(one[1].z))
     )

@@ -8,9 +8,9 @@ from typing import Any
 import numpy as np
 
 from diagnosis.detect.mismatch import ChannelMisfit, Detection
-from diagnosis.detect.regions import Region
+from diagnosis.detect.regions import MapRegion
 from diagnosis.explain.hypotheses import Hypothesis
-from diagnosis.explain.ranked import HeldOut, Weighed
+from diagnosis.explain.ranked import Explanation, HeldOut
 from diagnosis.explain.scaling import Scaling
 from diagnosis.next_point.choose import NextPoint
 from diagnosis.next_point.operating_box import BenchBox
@@ -24,7 +24,7 @@ from diagnosis.recording.model import (
 )
 from diagnosis.study.model import Study
 from diagnosis.thresholds import load_thresholds
-from diagnosis.verdict.diagnosis import Claim, Diagnosis, Estimate, Status
+from diagnosis.verdict.diagnosis import ClaimedEffect, Diagnosis, Estimate, VerdictStatus
 from diagnosis.verdict.locate import Location
 from reynolds.numerics.arrays import Array
 from system.description.gap import Gap
@@ -107,27 +107,27 @@ def named_diagnosis() -> Diagnosis:
     fit = HeldOut({"high p": 40.0, "low n": 3.0}, *rms, False, "five random fifths")
     opening = Estimate("elastic_opening.valve_plate.opening", 2.2e-8, 2e-9, Dimension.PRESSURE_COEFFICIENT)
     weighed = (
-        Weighed(hypothesis(E.ELASTIC_OPENING, pair=Gap.VALVE_PLATE), -20.0, False, after, 22.0, 0.93, fit),
-        Weighed(hypothesis(E.FILM_HEATING), -24.0, False, before, 20.0, 0.06, None),
-        Weighed(hypothesis(kind=Kind.NO_MISMATCH), -400.0, False, before, 0.0, 0.0, None),
+        Explanation(hypothesis(E.ELASTIC_OPENING, pair=Gap.VALVE_PLATE), -20.0, False, after, 22.0, 0.93, fit),
+        Explanation(hypothesis(E.FILM_HEATING), -24.0, False, before, 20.0, 0.06, None),
+        Explanation(hypothesis(kind=Kind.NO_MISMATCH), -400.0, False, before, 0.0, 0.0, None),
     )
     point = operating_point(load_pump("ref90"), shaft_speed=104.7, delivery_pressure=37e6)
     return Diagnosis(
         kind=Kind.MISSING_PHYSICS,
-        status=Status.NAMED,
+        status=VerdictStatus.NAMED,
         detection=Detection(
             1e-30, 9.1, {Q: ChannelMisfit(17.0, 0.97), T: ChannelMisfit(1.1, 0.03)}, 1e-20, (), ()
         ),
         location=Location(
             channels=(Q,),
-            region=Region(Q, {"p_out": 25e6}, {}, 12.0, "p_out above 250 bar"),
+            region=MapRegion(Q, {"p_out": 25e6}, {}, 12.0, "p_out above 250 bar"),
             components=((Component.PLATE_LEAKAGE, 200.0),),
             groups=(),
             tie=(Component.PLATE_LEAKAGE,),
             angle=None,
             time=None,
         ),
-        effects=(Claim(E.ELASTIC_OPENING, Gap.VALVE_PLATE, 0.93, (), (opening,)),),
+        effects=(ClaimedEffect(E.ELASTIC_OPENING, Gap.VALVE_PLATE, 0.93, (), (opening,)),),
         hypotheses=weighed,
         before=before,
         after=after,

@@ -10,7 +10,7 @@ from datetime import datetime
 
 import numpy as np
 
-from diagnosis.recording.tables.table import Columns, TableFault
+from diagnosis.recording.tables.table import TableColumns, TableFault
 from reynolds.numerics.arrays import Array
 
 GAPS = frozenset({"", "-", "--", "nan", "na", "n/a", "null", "none", "#n/a", "inf", "-inf"})
@@ -26,7 +26,7 @@ _IN_BRACKETS = re.compile(r"[\[(]([^\])]+)[\])]\s*$")
 _COMMA = re.compile(r"\s*[+-]?(\d+,?\d*|,\d+)(e[+-]?\d+)?\s*", re.IGNORECASE)
 
 
-def columns_of(rows: Iterable[Sequence[object]], decimal: str) -> Columns:
+def columns_of(rows: Iterable[Sequence[object]], decimal: str) -> TableColumns:
     """Return the columns of rows of cells: text, numbers, times or None.
 
     The head is the first row as long as most rows are that is text all through; what stands above it is left out,
@@ -65,7 +65,7 @@ def columns_of(rows: Iterable[Sequence[object]], decimal: str) -> Columns:
         if name:
             values[name], words = _column([row[place] for row in body], decimal)
             told += [f"column {name!r}: {words}"] if words else []
-    return Columns(values, tuple(told), units)
+    return TableColumns(values, tuple(told), units)
 
 
 def _summaries(body: Sequence[Sequence[object]]) -> int:

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from diagnosis.recording.tables.table import Columns, TableFault, TableSource
+from diagnosis.recording.tables.table import TableColumns, TableFault, TableSource
 from diagnosis.recording.tables.workbooks import missing
 
 TIME = "time"
@@ -28,7 +28,7 @@ APPLIED_SCALES = frozenset(
 """Scale types that npTDMS 1.x applies; of a channel with any other it returns raw counts."""
 
 
-def read_tdms(source: TableSource) -> Columns:
+def read_tdms(source: TableSource) -> TableColumns:
     """Return the channels of the stated group of a TDMS file, or of its only group, scaled.
 
     A channel's own time base is the column `time`. Channels of another length than the most are left out and told.
@@ -56,7 +56,7 @@ def read_tdms(source: TableSource) -> Columns:
     based = [c for c in channels if c.name in values and "wf_increment" in c.properties]
     if based and TIME not in values:
         values[TIME] = np.asarray(based[0].time_track(), dtype=float)
-    return Columns(values, (f"left out, since of another length: {', '.join(short)}",) if short else ())
+    return TableColumns(values, (f"left out, since of another length: {', '.join(short)}",) if short else ())
 
 
 def _scaled(channel: Any) -> None:
@@ -72,7 +72,7 @@ def _scaled(channel: Any) -> None:
             )
 
 
-def read_mdf(source: TableSource) -> Columns:
+def read_mdf(source: TableSource) -> TableColumns:
     """Return the number channels of an MDF file over the union of their times, interpolated, as physical values.
 
     The column `time` holds s from the start. Raises TableFault where asammdf is not installed or cannot read.
@@ -90,7 +90,7 @@ def read_mdf(source: TableSource) -> Columns:
     values = {str(name): frame[name].to_numpy(dtype=float) for name in frame if frame[name].dtype.kind in "fiu"}
     left_out = [str(name) for name in frame if str(name) not in values]
     values.setdefault(TIME, frame.index.to_numpy(dtype=float))
-    return Columns(values, (f"left out, since not numbers: {', '.join(left_out)}",) if left_out else ())
+    return TableColumns(values, (f"left out, since not numbers: {', '.join(left_out)}",) if left_out else ())
 
 
 def _usual(lengths: list[int]) -> int:

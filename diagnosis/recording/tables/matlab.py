@@ -7,12 +7,12 @@ from typing import Any
 
 import numpy as np
 
-from diagnosis.recording.tables.table import Columns, TableFault, TableSource
+from diagnosis.recording.tables.table import TableColumns, TableFault, TableSource
 
 _PLAIN = "s = table2struct(T, 'ToScalar', true); save('recording.mat', '-struct', 's')"
 
 
-def read_matlab(source: TableSource) -> Columns:
+def read_matlab(source: TableSource) -> TableColumns:
     """Return the columns of a MAT file: its vectors of numbers, or the fields of the struct named by `variable`.
 
     The columns of a matrix M are `M:1`, `M:2`, ... Vectors of another length than the most are left out and told.
@@ -41,7 +41,7 @@ def read_matlab(source: TableSource) -> Columns:
     rows = max(set(lengths), key=lengths.count)
     short = [name for name, column in found.items() if len(column) != rows]
     told = (f"left out, since not of {rows} rows as most are: {', '.join(short)}",) if short else ()
-    return Columns({name: column for name, column in found.items() if len(column) == rows}, told)
+    return TableColumns({name: column for name, column in found.items() if len(column) == rows}, told)
 
 
 def _from_mat5(source: TableSource) -> Mapping[str, Any]:

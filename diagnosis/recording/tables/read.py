@@ -6,12 +6,12 @@ from collections.abc import Callable, Mapping
 
 from diagnosis.recording.tables.loggers import read_mdf, read_tdms
 from diagnosis.recording.tables.matlab import read_matlab
-from diagnosis.recording.tables.table import Columns, TableFault, TableSource
+from diagnosis.recording.tables.table import TableColumns, TableFault, TableSource
 from diagnosis.recording.tables.text import read_text
 from diagnosis.recording.tables.workbooks import read_parquet, read_workbook
 from system.inputs.faults import nearest_path
 
-_READERS: Mapping[str, Callable[[TableSource], Columns]] = {
+_READERS: Mapping[str, Callable[[TableSource], TableColumns]] = {
     **dict.fromkeys((".csv", ".txt", ".tsv", ".dat"), read_text),
     ".xlsx": read_workbook,
     ".parquet": read_parquet,
@@ -22,7 +22,7 @@ _READERS: Mapping[str, Callable[[TableSource], Columns]] = {
 """Readers by file ending."""
 
 
-def read_columns(source: TableSource) -> Columns:
+def read_columns(source: TableSource) -> TableColumns:
     """Return the columns of a table, numbers as they stand in the file.
 
     Read by ending: .csv .txt .tsv .dat as text, .xlsx, .parquet, .mat, .tdms, .mf4 and .mdf. Raises TableFault

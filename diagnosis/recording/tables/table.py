@@ -33,7 +33,7 @@ class TableSource:
 
 
 @dataclass(frozen=True)
-class Columns:
+class TableColumns:
     """Columns by name, all of one length, nan where a cell holds no number; `told`: what was found, in words.
 
     units: by name of a column what stands in the row below the head, or in brackets in the head.

@@ -7,14 +7,14 @@ from collections import Counter
 from dataclasses import replace
 
 from diagnosis.recording.tables.cells import columns_of, is_number
-from diagnosis.recording.tables.table import Columns, TableFault, TableSource
+from diagnosis.recording.tables.table import TableColumns, TableFault, TableSource
 
 SEPARATORS = {";": "semicolon", "\t": "tab", ",": "comma", "|": "bar"}
 _SIGNS = {".": "point", ",": "comma"}
 LOOKED_AT = 200  # lines from which the form is found
 
 
-def read_text(source: TableSource) -> Columns:
+def read_text(source: TableSource) -> TableColumns:
     """Return the columns of a text table; lines that begin with # are left out.
 
     The separator is the one that parts most lines into the same number of cells, at least two (else the table has

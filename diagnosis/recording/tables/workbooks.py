@@ -7,12 +7,12 @@ from typing import Any
 import numpy as np
 
 from diagnosis.recording.tables.cells import columns_of
-from diagnosis.recording.tables.table import Columns, TableFault, TableSource
+from diagnosis.recording.tables.table import TableColumns, TableFault, TableSource
 
 INSTALL = "pip install '.[recordings]' in the checkout"
 
 
-def read_workbook(source: TableSource) -> Columns:
+def read_workbook(source: TableSource) -> TableColumns:
     """Return the columns of the stated sheet of an .xlsx workbook, or of its only sheet.
 
     Formulas count with the value that the last program to save them left. Raises TableFault where openpyxl is not
@@ -38,7 +38,7 @@ def read_workbook(source: TableSource) -> Columns:
     return columns_of(rows, source.decimal or ".")
 
 
-def read_parquet(source: TableSource) -> Columns:
+def read_parquet(source: TableSource) -> TableColumns:
     """Return the number columns of a Parquet file; a column of times in seconds from its first.
 
     Raises TableFault where pyarrow is not installed or the file is no Parquet file.
@@ -63,7 +63,7 @@ def read_parquet(source: TableSource) -> Columns:
             values[name] = column.cast(pyarrow.float64()).to_numpy().astype(float)
         else:
             told.append(f"column {name!r} holds no numbers ({kind}) and is left out")
-    return Columns(values, tuple(told))
+    return TableColumns(values, tuple(told))
 
 
 def missing(library: str, what: str) -> TableFault:

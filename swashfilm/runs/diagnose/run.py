@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from diagnosis.finding import Finding
+from diagnosis.finding import DiagnosisResult
 from swashfilm.console.fidelity import Fidelity
 from swashfilm.runs.diagnose.fields import write_film_fields
 from swashfilm.runs.diagnose.files import write_diagnosis_files
@@ -16,7 +16,7 @@ EXTENDED = "pump_extended.toml"
 """In the run folder, where something is claimed: the pump with it."""
 
 
-def write_finding(folder: Path, found: Finding) -> None:
+def write_finding(folder: Path, found: DiagnosisResult) -> None:
     """Write the pump, the diagnosis's files, the run folders of the pump without and with it, and report.html."""
     (folder / "resolved.toml").write_text(resolved_toml(found.pump), encoding="utf-8")
     if found.extended_pump is not None:

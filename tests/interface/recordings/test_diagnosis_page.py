@@ -22,7 +22,7 @@ from diagnosis.procedure.pump_comparison import (
 from diagnosis.report.json_file import diagnosis_record
 from diagnosis.report.tables import pull_sums
 from diagnosis.study.model import Study
-from diagnosis.verdict.diagnosis import Claim, Diagnosis
+from diagnosis.verdict.diagnosis import ClaimedEffect, Diagnosis
 from swashfilm.__main__ import main
 from swashfilm.runs.diagnose.files import read_rows, write_diagnosis_files
 from swashfilm.runs.diagnose.page import (
@@ -112,7 +112,7 @@ def test_a_page_says_what_changes_in_the_pump(study: Study, named: Diagnosis, tm
 
 def test_a_meters_fault_is_no_change_of_the_pump(study: Study, named: Diagnosis) -> None:
     """Nothing is run, and why is told; nothing is told where nothing is claimed."""
-    fault = replace(named, effects=(Claim(E.TORQUE_OFFSET, None, 0.99, (), ()),))
+    fault = replace(named, effects=(ClaimedEffect(E.TORQUE_OFFSET, None, 0.99, (), ()),))
     pump = load_pump("ref90")
     compared = compare_pumps(pump, study, fault, silent)
     assert compared == replace(NO_COMPARISON, text="A sensor's fault changes nothing in the pump.")

@@ -17,7 +17,7 @@ from diagnosis.detect.time_scan import TimeKind, TimeMark
 from diagnosis.recording.model import DataNote, NoteKind
 from diagnosis.report.json_file import diagnosis_record, read_diagnosis, write_diagnosis
 from diagnosis.report.text import next_point_text, paragraphs, statement
-from diagnosis.verdict.diagnosis import Claim, Diagnosis, Estimate, Status
+from diagnosis.verdict.diagnosis import ClaimedEffect, Diagnosis, Estimate, VerdictStatus
 from diagnosis.verdict.row_numbers import by_table_rows
 from system.description.gap import Gap
 from system.effects.components import Component
@@ -70,27 +70,27 @@ def test_the_next_point_is_told_with_what_it_promises(named: Diagnosis) -> None:
     assert (record["instead"], record["repeats"]) == ("The leak would.", None)
 
 
-@pytest.mark.parametrize("status", Status)
+@pytest.mark.parametrize("status", VerdictStatus)
 @pytest.mark.parametrize("kind", Kind)
-def test_every_kind_and_status_has_a_sentence(named: Diagnosis, kind: Kind, status: Status) -> None:
+def test_every_kind_and_status_has_a_sentence(named: Diagnosis, kind: Kind, status: VerdictStatus) -> None:
     claims = () if kind in (Kind.NO_MISMATCH, Kind.UNKNOWN_PHYSICS) else named.effects
     claims = tuple(replace(claim, equivalent=(E.FILM_HEATING,)) for claim in claims)
     text = statement(replace(named, kind=kind, status=status, effects=claims))
     assert text.endswith(".")
     assert "  " not in text
     assert "None" not in text
-    if status is Status.SUSPICION:
+    if status is VerdictStatus.SUSPICION:
         assert "nothing is claimed" in text
-    elif claims and status in (Status.CLASS, Status.INCOMPLETE):
+    elif claims and status in (VerdictStatus.CLASS, VerdictStatus.INCOMPLETE):
         assert "cannot tell elastic_opening from film_heating" in text
-        assert ("A part of the mismatch remains besides" in text) == (status is Status.INCOMPLETE)
+        assert ("A part of the mismatch remains besides" in text) == (status is VerdictStatus.INCOMPLETE)
         assert "is sure" not in text
 
 
 def test_an_incomplete_name_is_told_as_sure_where_it_is(named: Diagnosis) -> None:
-    one = replace(named, status=Status.INCOMPLETE)
+    one = replace(named, status=VerdictStatus.INCOMPLETE)
     assert "The name is sure, but a part of the mismatch remains that it does not explain." in statement(one)
-    two = replace(one, effects=(*one.effects, Claim(E.CHURNING, None, 0.99, (), ())))
+    two = replace(one, effects=(*one.effects, ClaimedEffect(E.CHURNING, None, 0.99, (), ())))
     assert "The names are sure, but a part of the mismatch remains that they do not explain." in statement(two)
 
 
@@ -100,7 +100,7 @@ def test_of_which_pair_a_coefficient_is_is_told(named: Diagnosis) -> None:
     other = replace(own, widened=("friction.front_bearing",))
     first, *_ = named.hypotheses
     weighed = (replace(first, hypothesis=own, probability=0.6), replace(first, hypothesis=other, probability=0.4))
-    claim = Claim(E.FRICTION_COEFFICIENT, None, 0.99, (), ())
+    claim = ClaimedEffect(E.FRICTION_COEFFICIENT, None, 0.99, (), ())
     found = replace(named, kind=Kind.WRONG_PARAMETER, effects=(claim,), hypotheses=weighed)
     assert "most likely of rear bearing (0.6), else of front bearing (0.4)" in statement(found)
     assert "friction coefficient (front bearing) (1:1.5)" in " ".join(paragraphs(found))
@@ -122,19 +122,19 @@ def test_unknown_physics_counts_by_all_its_components(named: Diagnosis) -> None:
         replace(second, hypothesis=replace(hypothesis(E.UNKNOWN_PHYSICS), component=one), probability=0.2)
         for one in (Component.PLATE_LEAKAGE, Component.DISPLACEMENT)
     ]
-    found = replace(named, status=Status.SUSPICION, effects=(), hypotheses=(first, *unknown))
+    found = replace(named, status=VerdictStatus.SUSPICION, effects=(), hypotheses=(first, *unknown))
     assert "unknown physics (0.4)" in statement(found)
 
 
 @pytest.mark.parametrize("effect", [effect for effect in E if effect is not E.UNKNOWN_PHYSICS])
 def test_every_effect_can_be_said(named: Diagnosis, effect: EffectId) -> None:
-    text = statement(replace(named, effects=(Claim(effect, None, 0.99, (), ()),)))
+    text = statement(replace(named, effects=(ClaimedEffect(effect, None, 0.99, (), ()),)))
     assert f"({effect.value})" in text
 
 
 def test_a_gap_that_cannot_be_told_is_told_with_its_rivals(named: Diagnosis) -> None:
     claim = replace(named.effects[0], elsewhere=((Gap.SLIPPER, 0.22),))
-    found = replace(named, status=Status.CLASS, effects=(claim,))
+    found = replace(named, status=VerdictStatus.CLASS, effects=(claim,))
     text = statement(found)
     assert "most likely at the valve plate" in text
     assert "cannot tell the valve plate (0.78) from the slippers (0.22)" in text
@@ -168,7 +168,9 @@ def test_angles_and_times_are_part_of_where(named: Diagnosis) -> None:
 
 def test_temperatures_off_are_told_as_differences(named: Diagnosis) -> None:
     """An offset of 2 K is no temperature of -271 degC."""
-    off = Claim(E.T_CASE_OFFSET, None, 0.95, (), (Estimate("T_case.zero", 2.0, 0.3, Dimension.TEMPERATURE),))
+    off = ClaimedEffect(
+        E.T_CASE_OFFSET, None, 0.95, (), (Estimate("T_case.zero", 2.0, 0.3, Dimension.TEMPERATURE),)
+    )
     assert "zero 2 +- 0.3 K" in statement(replace(named, kind=Kind.SENSOR_FAULT, effects=(off,)))
     warm = replace(
         named.fit, before={ChannelName.T_OUT: 2.0}, after={ChannelName.T_OUT: 0.5}, noise={ChannelName.T_OUT: 0.4}

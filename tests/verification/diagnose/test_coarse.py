@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from diagnosis.explain.model_error import class_gap, place_gap, shared_out
-from diagnosis.explain.ranked import Weighed, with_probabilities
+from diagnosis.explain.ranked import Explanation, with_probabilities
 from diagnosis.thresholds import load_thresholds
 from system.effects.effect import EffectId, Kind
 
@@ -16,13 +16,13 @@ LIMITS = load_thresholds()
 OPENING, CHURNING = (EffectId.ELASTIC_OPENING,), (EffectId.CHURNING,)
 
 
-def _weighed(gained: float, behind: float, second: tuple[EffectId, ...] = CHURNING) -> tuple[Weighed, ...]:
+def _weighed(gained: float, behind: float, second: tuple[EffectId, ...] = CHURNING) -> tuple[Explanation, ...]:
     """Nothing, and two explanations that gain so much over it, the second some nats behind the first."""
     kinds = (Kind.NO_MISMATCH, Kind.MISSING_PHYSICS, Kind.MISSING_PHYSICS)
     stated = zip(kinds, ((), OPENING, second), (-gained, 0.0, -behind), strict=True)
     return with_probabilities(
         [
-            Weighed(
+            Explanation(
                 SimpleNamespace(kind=kind, effects=effects, log_prior=-1.0),
                 evidence,
                 False,

@@ -13,7 +13,7 @@ from toy_maps import LIMITS, SIGMA, ToySimulator, toy_observations, toy_recordin
 from diagnosis.detect.mismatch import confirmed, detect
 from diagnosis.explain.held_out import held_out, regions, speak_against
 from diagnosis.explain.hypotheses import hypotheses, simulator_of
-from diagnosis.explain.ranked import Weighed, with_probabilities
+from diagnosis.explain.ranked import Explanation, with_probabilities
 from diagnosis.explain.refit import refit
 from diagnosis.explain.scaling import scaling
 from diagnosis.explain.screen import joint_evidence, screen
@@ -21,7 +21,7 @@ from diagnosis.procedure.stages import diagnose_study
 from diagnosis.recording.model import Recording
 from diagnosis.study.map_axes import AXES, scaled_axes
 from diagnosis.study.model import Candidate, Study, study_of
-from diagnosis.verdict.diagnosis import Diagnosis, Status
+from diagnosis.verdict.diagnosis import Diagnosis, VerdictStatus
 from diagnosis.verdict.judge import judge
 from diagnosis.verdict.residue import left_over
 from diagnosis.verdict.trend import misgrown
@@ -198,7 +198,7 @@ def _diagnosis(study: Study) -> Diagnosis:
     return diagnose_study(study, 0.025 * _axes()[3], LIMITS)
 
 
-def _told(found: Diagnosis) -> tuple[Kind, Status, tuple[EffectId, ...]]:
+def _told(found: Diagnosis) -> tuple[Kind, VerdictStatus, tuple[EffectId, ...]]:
     return found.kind, found.status, tuple(claim.effect for claim in found.effects)
 
 
@@ -222,7 +222,7 @@ def test_a_law_left_out_is_named_with_its_place_and_size(number: int) -> None:
     """Effects of 8 to 50 sigma: named, at the right gap, the size within 4 sigma of the truth."""
     found, (law, size) = _left_out(number), LAWS[number]
     assert _told(found) in [
-        (Kind.MISSING_PHYSICS, status, (law.id,)) for status in (Status.NAMED, Status.INCOMPLETE)
+        (Kind.MISSING_PHYSICS, status, (law.id,)) for status in (VerdictStatus.NAMED, VerdictStatus.INCOMPLETE)
     ]
     claim = found.effects[0]
     assert claim.pair is law.pair
@@ -237,14 +237,14 @@ def test_a_law_left_out_is_named_with_its_place_and_size(number: int) -> None:
 
 def test_few_right_names_are_called_incomplete() -> None:
     """False flags of one in twenty each, of regions and of growth: of six right names two at most (97 %)."""
-    assert sum(_left_out(number).status is Status.INCOMPLETE for number in range(len(LAWS))) <= 2
+    assert sum(_left_out(number).status is VerdictStatus.INCOMPLETE for number in range(len(LAWS))) <= 2
 
 
 def test_nothing_is_named_where_nothing_is_left_out() -> None:
     """10 nulls: no name, no suspicion but for one; probabilities sum to 1."""
     found = [_diagnosis(_study(seed)) for seed in range(10)]
     assert all(each.kind is Kind.NO_MISMATCH and not each.effects for each in found)
-    assert sum(each.status is Status.SUSPICION for each in found) <= 1
+    assert sum(each.status is VerdictStatus.SUSPICION for each in found) <= 1
     assert sum(one.probability for one in found[0].hypotheses) == pytest.approx(1.0)
     assert found[0].scaling is None
 
@@ -264,7 +264,7 @@ def test_small_effects_are_named_right_or_not_at_all() -> None:
 def test_constant_torque_is_a_class() -> None:
     """A seal's drag and the torque meter's zero are one column: told as a class, whichever leads."""
     found = _diagnosis(_study(1, laws=((SEAL, 0.4),)))
-    assert found.status is Status.CLASS
+    assert found.status is VerdictStatus.CLASS
     assert {found.effects[0].effect, *found.effects[0].equivalent} == {EffectId.SEAL_DRAG, EffectId.TORQUE_OFFSET}
     assert any("seal_drag" in text and "torque_offset" in text for text in found.not_identifiable)
 
@@ -272,14 +272,14 @@ def test_constant_torque_is_a_class() -> None:
 def test_constant_torque_far_beyond_the_meters_tolerance_is_the_same_class() -> None:
     """6 N m, where the meter's zero is stated to .1: readings do not part the two, only the prior's width does."""
     found = _diagnosis(_study(1, laws=((SEAL, 2.0),)))
-    assert found.status is Status.CLASS
+    assert found.status is VerdictStatus.CLASS
     assert {found.effects[0].effect, *found.effects[0].equivalent} == {EffectId.SEAL_DRAG, EffectId.TORQUE_OFFSET}
 
 
 def test_a_fault_of_any_size_is_a_fault() -> None:
     """A drain meter's zero at 300 of its stated sigma: 30 of the widened prior, whose tail is one decade wider."""
     found = _diagnosis(_study(1, Q_case__zero=3.0))
-    assert _told(found) == (Kind.SENSOR_FAULT, Status.NAMED, (EffectId.Q_CASE_OFFSET,))
+    assert _told(found) == (Kind.SENSOR_FAULT, VerdictStatus.NAMED, (EffectId.Q_CASE_OFFSET,))
     assert found.hypotheses[0].hypothesis.reach == 10.0
     claim = found.effects[0]
     assert abs(claim.parameters[0].value - 3.0) < 4.0 * claim.parameters[0].sigma
@@ -290,7 +290,7 @@ def test_a_fault_of_any_size_is_a_fault() -> None:
 def test_a_film_twice_as_thick_is_a_wrong_parameter() -> None:
     """The linear model puts another film first; the refit finds the right one and its thickness."""
     found = _diagnosis(_study(1, film_thickness__slipper=2.0))
-    assert _told(found) == (Kind.WRONG_PARAMETER, Status.NAMED, (EffectId.FILM_THICKNESS,))
+    assert _told(found) == (Kind.WRONG_PARAMETER, VerdictStatus.NAMED, (EffectId.FILM_THICKNESS,))
     claim = found.effects[0]
     assert claim.pair is Gap.SLIPPER
     assert claim.parameters[0].name == "film_thickness.slipper"
@@ -300,10 +300,10 @@ def test_a_film_twice_as_thick_is_a_wrong_parameter() -> None:
 def test_a_meter_that_is_off_is_no_physics() -> None:
     """A zero is named; a gain of torque and a friction that is half of torque are a class, told as one."""
     found = _diagnosis(_study(1, Q_case__zero=0.1))
-    assert _told(found) == (Kind.SENSOR_FAULT, Status.NAMED, (EffectId.Q_CASE_OFFSET,))
+    assert _told(found) == (Kind.SENSOR_FAULT, VerdictStatus.NAMED, (EffectId.Q_CASE_OFFSET,))
     found = _diagnosis(_study(1, torque__gain=0.02))
     claimed = {found.effects[0].effect, *found.effects[0].equivalent}
-    assert found.status is Status.CLASS
+    assert found.status is VerdictStatus.CLASS
     assert claimed == {EffectId.TORQUE_GAIN, EffectId.FRICTION_COEFFICIENT}
 
 
@@ -311,7 +311,7 @@ def test_a_meter_that_is_off_is_no_physics() -> None:
 def test_several_effects_are_found_together(count: int) -> None:
     laws = ((CHURNING, 0.2), (SHORT, 0.3), (OPENING[Gap.VALVE_PLATE], 0.2))[:count]
     found = _diagnosis(_study(1, laws=laws))
-    assert found.status is Status.NAMED
+    assert found.status is VerdictStatus.NAMED
     assert {claim.effect for claim in found.effects} == {law.id for law, _ in laws}
     sizes = {claim.effect: claim.parameters[0] for claim in found.effects}
     for law, size in laws:
@@ -333,7 +333,7 @@ def test_a_law_of_another_form_is_named_without_stand_ins() -> None:
     n, _, _, mu = _axes()
     zero = np.zeros(POINTS)
     found = _diagnosis(_study(1, added=np.stack([zero, zero, 8.0 * n**2 * np.sqrt(mu)], axis=1)))
-    assert _told(found) == (Kind.MISSING_PHYSICS, Status.INCOMPLETE, (EffectId.CHURNING,))
+    assert _told(found) == (Kind.MISSING_PHYSICS, VerdictStatus.INCOMPLETE, (EffectId.CHURNING,))
     assert found.hypotheses[0].hypothesis.text == "churning, bent"
 
 
@@ -346,7 +346,7 @@ def _beside(share: float) -> Diagnosis:
 def test_what_takes_up_less_than_a_laws_form_may_leave_is_told_but_not_claimed() -> None:
     """Control flow of some 8 sigma beside an opening of 94: a hundredth of its square, as a wrong form leaves."""
     found = _beside(0.1)
-    assert _told(found) == (Kind.MISSING_PHYSICS, Status.INCOMPLETE, (EffectId.ELASTIC_OPENING,))
+    assert _told(found) == (Kind.MISSING_PHYSICS, VerdictStatus.INCOMPLETE, (EffectId.ELASTIC_OPENING,))
     assert found.hypotheses[0].hypothesis.stand_ins == (EffectId.CONTROL_FLOW,)
     assert any("control_flow beside it" in note for note in found.notes)
 
@@ -363,7 +363,7 @@ def test_what_takes_up_a_tenth_and_more_is_claimed_though_a_law_bent_does_as_wel
     laws = ((OPENING[Gap.VALVE_PLATE], 0.4), (CONTROL, 0.6))
     found = _diagnosis(_study(1, laws=laws, added=np.stack([-leak, leak, np.zeros(POINTS)], axis=1)))
     assert {claim.effect for claim in found.effects} == {EffectId.ELASTIC_OPENING, EffectId.CONTROL_FLOW}
-    assert found.status is Status.INCOMPLETE
+    assert found.status is VerdictStatus.INCOMPLETE
 
 
 def test_a_law_of_a_wrong_power_tells_which() -> None:
@@ -371,7 +371,7 @@ def test_a_law_of_a_wrong_power_tells_which() -> None:
     zero = np.zeros(POINTS)
     study = _study(1, added=np.stack([zero, zero, 8.0 * _axes()[0] ** 3], axis=1))
     found = _diagnosis(study)
-    assert _told(found) == (Kind.MISSING_PHYSICS, Status.INCOMPLETE, (EffectId.CHURNING,))
+    assert _told(found) == (Kind.MISSING_PHYSICS, VerdictStatus.INCOMPLETE, (EffectId.CHURNING,))
     first = misgrown(study, found.hypotheses[0], _coordinates(), LIMITS)[0]
     assert first.coordinate == "speed"
     assert first.power == pytest.approx(1.0, abs=0.34)
@@ -396,19 +396,19 @@ def test_unknown_physics_claims_no_more_than_a_law_bent() -> None:
     n, p, _, _ = _axes()
     zero = np.zeros(POINTS)
     found = _diagnosis(_study(1, added=np.stack([zero, zero, 40.0 * n**2 * np.cbrt(p)], axis=1)))
-    assert _told(found) == (Kind.MISSING_PHYSICS, Status.INCOMPLETE, (EffectId.CHURNING,))
+    assert _told(found) == (Kind.MISSING_PHYSICS, VerdictStatus.INCOMPLETE, (EffectId.CHURNING,))
     plain = next(each for each in found.hypotheses if each.hypothesis.text == "churning")
     assert found.hypotheses[0].log_evidence - plain.log_evidence > 1000.0
     assert not any(each.hypothesis.component and each.probability > 0.01 for each in found.hypotheses)
     found = _diagnosis(_study(1, added=np.stack([zero, zero, 6.0 * n * p], axis=1)))
-    assert _told(found) == (Kind.UNKNOWN_PHYSICS, Status.NAMED, ())
+    assert _told(found) == (Kind.UNKNOWN_PHYSICS, VerdictStatus.NAMED, ())
 
 
 @pytest.mark.parametrize(
     ("shape", "status"),
-    [("smooth", Status.NAMED), ("one reading", Status.SUSPICION), ("none", Status.SUSPICION)],
+    [("smooth", VerdictStatus.NAMED), ("one reading", VerdictStatus.SUSPICION), ("none", VerdictStatus.SUSPICION)],
 )
-def test_what_no_candidate_resembles_is_a_mismatch_all_the_same(shape: str, status: Status) -> None:
+def test_what_no_candidate_resembles_is_a_mismatch_all_the_same(shape: str, status: VerdictStatus) -> None:
     """No score of a candidate is rare, but a free bend is, also without the point on which it rests most."""
     n, p, _, _ = _axes()
     zero = np.zeros(POINTS)
@@ -419,7 +419,7 @@ def test_what_no_candidate_resembles_is_a_mismatch_all_the_same(shape: str, stat
     blind = replace(detect(study, LIMITS), chance=0.5)
     null = refit(study, hypotheses(study, LIMITS)[0], LIMITS)
     free = next(each for each in hypotheses(study, LIMITS) if each.component is Component.CASE_DRAG)
-    bend = Weighed(free, null.log_evidence + 9.0, True, None, 0.0, 0.99, None)
+    bend = Explanation(free, null.log_evidence + 9.0, True, None, 0.0, 0.99, None)
     found = judge(study, blind, (bend, replace(null, probability=0.01)), _coordinates(), LIMITS)
     assert (found.kind, found.status) == (Kind.UNKNOWN_PHYSICS, status)
 
@@ -449,9 +449,9 @@ def test_unknown_physics_does_not_hang_on_one_point() -> None:
     study = _study(1, added=np.stack([zero, zero, lone], axis=1))
     null = refit(study, hypotheses(study, LIMITS)[0], LIMITS)
     free = next(each for each in hypotheses(study, LIMITS) if each.component is Component.CASE_DRAG)
-    bend = Weighed(free, null.log_evidence + 99.0, True, None, 0.0, 1.0, None)
+    bend = Explanation(free, null.log_evidence + 99.0, True, None, 0.0, 1.0, None)
     found = judge(study, detect(study, LIMITS), (bend, replace(null, probability=0.0)), _coordinates(), LIMITS)
-    assert (found.kind, found.status) == (Kind.UNKNOWN_PHYSICS, Status.SUSPICION)
+    assert (found.kind, found.status) == (Kind.UNKNOWN_PHYSICS, VerdictStatus.SUSPICION)
     assert any(text.startswith(f"without point {at + 1}, on which it rests most") for text in found.reasons)
 
 
@@ -463,7 +463,7 @@ def test_what_stands_out_of_what_is_left_is_told() -> None:
     null, best = refit(study, nothing, LIMITS), refit(study, own, LIMITS)
     sure = (replace(best, probability=1.0), replace(null, probability=0.0))
     found = judge(study, detect(study, LIMITS), sure, _coordinates(), LIMITS)
-    assert (found.kind, found.status) == (Kind.MISSING_PHYSICS, Status.INCOMPLETE)
+    assert (found.kind, found.status) == (Kind.MISSING_PHYSICS, VerdictStatus.INCOMPLETE)
     assert any(text.startswith("port_short_circuit stands out of what is left") for text in found.reasons)
 
 
@@ -508,7 +508,7 @@ def test_what_lies_within_tolerance_is_weighed_about_the_nulls_fit() -> None:
     about_mean = with_probabilities(screened, LIMITS.name.temperature)
     assert next(each for each in about_mean if not each.hypothesis.effects).probability < 0.05
     found = _diagnosis(study)
-    assert _told(found) == (Kind.NO_MISMATCH, Status.NAMED, ())
+    assert _told(found) == (Kind.NO_MISMATCH, VerdictStatus.NAMED, ())
     assert found.hypotheses[0].probability > 0.5
     assert [each.hypothesis.text for each in found.hypotheses if each.posterior is not None] == ["nothing"]
 
@@ -518,7 +518,7 @@ def test_what_stands_in_no_catalogue_is_unknown() -> None:
     n, p, _, mu = _axes()
     zero = np.zeros(POINTS)
     found = _diagnosis(_study(1, added=np.stack([zero, 0.5 * np.sqrt(p) * mu * n, zero], axis=1)))
-    assert _told(found) == (Kind.UNKNOWN_PHYSICS, Status.NAMED, ())
+    assert _told(found) == (Kind.UNKNOWN_PHYSICS, VerdictStatus.NAMED, ())
     assert found.scaling is not None
     assert found.scaling.channel is ChannelName.Q_CASE
     expected = {"speed": 1.0, "pressure": 0.5, "displacement": 0.0, "viscosity": 1.0}

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from diagnosis.explain.hypotheses import Hypothesis, together
-from diagnosis.explain.ranked import Weighed
+from diagnosis.explain.ranked import Explanation
 from diagnosis.next_point.operating_box import BenchBox
 from system.description.gap import Gap
 from system.effects.catalogue.entries import entry_of
@@ -30,10 +30,10 @@ def made(proof: SimpleNamespace) -> Iterator[SimpleNamespace]:
     del proof.campaigns.campaigns()["few"]
 
 
-def _weighed(effect: EffectId, gap: Gap | None) -> Weighed:
+def _weighed(effect: EffectId, gap: Gap | None) -> Explanation:
     law = next(one for one in entry_of(effect).extensions if one.pair is gap)
     own = Hypothesis((effect,), gap, Kind.MISSING_PHYSICS, law.parameters, (), 0.0, (law,))
-    return Weighed(own, 0.0, True, None, 0.0, 0.0, None)
+    return Explanation(own, 0.0, True, None, 0.0, 0.0, None)
 
 
 def test_the_truth_is_known_among_explanations(proof: SimpleNamespace) -> None:
