@@ -215,7 +215,7 @@ def _compared(
     return tuple(rows)
 
 
-def _fit_of(weighed: Explanation) -> Posterior:
-    if weighed.posterior is None:
-        raise ValueError(f"{weighed.hypothesis.text}: not fitted")
-    return weighed.posterior
+def _fit_of(explanation: Explanation) -> Posterior:
+    if explanation.posterior is None:
+        raise ValueError(f"{explanation.hypothesis.text}: not fitted")
+    return explanation.posterior

@@ -17,7 +17,7 @@ FILE = Path(__file__).with_name("thresholds.toml")
 
 @dataclass(frozen=True)
 class MismatchLimits:
-    """When a recording differs from its simulation: see thresholds.toml for each number's meaning."""
+    """Limits of a mismatch between recording and simulation; thresholds.toml explains each number."""
 
     chance: float
     null_probability: float
@@ -35,7 +35,7 @@ class MismatchLimits:
 
 @dataclass(frozen=True)
 class LocateLimits:
-    """What counts as a place. Windows are in degrees of shaft angle, as in the file."""
+    """Limits of a place. Windows are in degrees of shaft angle, as in the file."""
 
     channel_share: float
     region_share: float
@@ -76,7 +76,7 @@ class RefitLimits:
 
 @dataclass(frozen=True)
 class NameLimits:
-    """When an effect is named. Odds are natural logarithms (nats); widths are in spreads of an entry's prior."""
+    """Limits of a named effect. Odds are natural logarithms (nats); widths are in spreads of an entry's prior."""
 
     odds: float
     probability: float
@@ -109,7 +109,7 @@ class FormLimits:
 
 @dataclass(frozen=True)
 class HeldOutLimits:
-    """When regions that took no part in a fit veto a name: gain in nats of one, number of negative ones."""
+    """Veto of held-out regions: gain in nats of one, number of negative ones."""
 
     veto_gain: float
     negative_gain: float
@@ -161,7 +161,7 @@ class PriorMasses:
 
 @dataclass(frozen=True)
 class Seeds:
-    """Seeds of what is drawn."""
+    """Seeds of random draws."""
 
     detect: int
     locate: int

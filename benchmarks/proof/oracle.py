@@ -21,7 +21,7 @@ from .outcome import Outcome
 def is_of_truth(weighed: Explanation, expected: Outcome) -> bool:
     """Whether an explanation is the truth: its effects, each at its gap where both name one."""
     own = weighed.hypothesis
-    if own.bent or own.component is not None or len(own.effects) != len(expected.effects):
+    if own.other_form or own.component is not None or len(own.effects) != len(expected.effects):
         return False
     places = [place.value if place else None for place in own.places]
     told = sorted(zip((effect.value for effect in own.effects), places, strict=True), key=str)
@@ -72,7 +72,7 @@ def _single(found: Diagnosis, effect: str, pair: str | None) -> Explanation | No
         each
         for each in found.hypotheses
         if [one.value for one in each.hypothesis.effects] == [effect]
-        and not each.hypothesis.bent
+        and not each.hypothesis.other_form
         and (each.hypothesis.pair is None or each.hypothesis.pair.value == pair)
     ]
     return max(alone, key=lambda each: each.log_weight, default=None)

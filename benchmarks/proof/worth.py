@@ -61,7 +61,7 @@ def worth(
     there = point.shaft_speed, point.delivery_pressure, point.displacement_ratio, point.temperature
     anywhere = tuple(float(rng.uniform(*ends)) for ends in box.ends)
     wanted = box.points(tuple(np.array([value]) for value in there))
-    brought, _ = next(forecasts(study, *explained, wanted)).brought(asked.limits.readings)
+    brought, _ = next(forecasts(study, *explained, wanted)).odds(asked.limits.readings)
     before = log(true.probability / false.probability)
     return Worth(before, told(there), told(anywhere), asked.chance, brought.mean)
 

@@ -1,4 +1,4 @@
-"""What the readings of a recording tell about themselves before any simulation: faults, readings put aside."""
+"""Checks of a recording before any simulation: faults, and readings that are put aside."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import numpy as np
 
 from diagnosis.checks.outliers import outliers
 from diagnosis.checks.readings import impossible
-from diagnosis.checks.sensors import coarse, copies, noiseless, repeated_rows, stuck, stuck_inputs
+from diagnosis.checks.sensors import copies, low_resolution, noiseless, repeated_rows, stuck, stuck_inputs
 from diagnosis.checks.units import implausible, trace_sizes
 from diagnosis.recording.model import DataNote, NoteKind, Recording
 from diagnosis.thresholds import DataLimits
@@ -17,21 +17,21 @@ from system.bench.outputs import SIMULATED
 from system.inputs.channels import OUTPUTS, ChannelName
 
 VARIED = 2.0
-"""Of flow over displacement ratio from point to point: more than leakage makes, so that the speed varied."""
+"""Ratio of flow over displacement ratio between points: more than leakage makes, so that the speed varied."""
 
 
 def check_recording(recording: Recording, displacement: float | None, limits: DataLimits) -> Recording:
-    """Return the recording with what its readings tell: notes added, readings that are put aside made nan.
+    """Return the recording with notes on its readings, and nan for readings that are put aside.
 
-    displacement: of the pump in m3/rev, against which flow and torque are held; None where it is not known.
-    FAULT: nothing can be made of the recording before it is put right (units, a channel that copies another, no
-    noise at all). REMOVED: these readings are not used (outliers, a stuck sensor). TOLD: to be borne in mind.
+    displacement: of the pump in m3/rev, a reference of flow and torque; None if unknown. FAULT: the recording
+    cannot be used before it is corrected (units, a channel that copies another, no noise at all). REMOVED: these
+    readings are not used (outliers, a stuck sensor). NOTED: information.
     """
     recording = _noted(recording, [*_gaps(recording), *impossible(recording)])
     with np.errstate(divide="ignore", invalid="ignore"):
         recording = _noted(recording, [*implausible(recording, displacement), *trace_sizes(recording)])
     recording = _noted(recording, _speed(recording))
-    for find in (coarse, stuck, stuck_inputs, repeated_rows, copies, noiseless):
+    for find in (low_resolution, stuck, stuck_inputs, repeated_rows, copies, noiseless):
         recording = _noted(recording, find(recording))
     return _noted(recording, outliers(recording, limits))
 
@@ -58,7 +58,7 @@ def too_smooth(chi2: float, readings: int, least: float) -> DataNote | None:
         None,
         (),
         f"chi2 {chi2 / readings:.2g} per reading: they scatter by far less than their repeatability. Simulated or "
-        "smoothed readings tell nothing of noise; of measured ones, state the sigma that repeats show",
+        "smoothed readings have no noise of their own; of measured ones, state the sigma that repeats show",
     )
 
 
@@ -74,7 +74,7 @@ def _noted(recording: Recording, notes: Iterable[DataNote]) -> Recording:
 
 
 def _speed(recording: Recording) -> Iterable[DataNote]:
-    """A recording without its speed is of one speed; a flow that says otherwise is a fault."""
+    """A recording without its speed is of one speed; a flow that contradicts this is a fault."""
     if recording.channel(ChannelName.SPEED) is not None or recording.channel(ChannelName.Q_OUT) is None:
         return
     ratio = recording.steady.column(ChannelName.DISPLACEMENT_RATIO)
@@ -89,7 +89,7 @@ def _speed(recording: Recording) -> Iterable[DataNote]:
 
 
 def _gaps(recording: Recording) -> Iterable[DataNote]:
-    """Tell of channels with missing readings; a channel without a single one is a fault, as is no output."""
+    """Notes on channels with missing readings; a channel without any is a fault, and so is no output."""
     if not any(recording.channel(name) is not None for name in SIMULATED):
         names = ", ".join(name.value for name in SIMULATED)
         yield DataNote(
@@ -105,4 +105,4 @@ def _gaps(recording: Recording) -> Iterable[DataNote]:
         elif len(missing):
             points = tuple(int(point) for point in missing)
             text = f"{channel.name.value} is missing at {len(missing)} of {count} points"
-            yield DataNote(NoteKind.TOLD, channel.name, points, text)
+            yield DataNote(NoteKind.NOTED, channel.name, points, text)

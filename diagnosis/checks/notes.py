@@ -1,4 +1,4 @@
-"""Findings in the data in words: kind, channel and points, counted from 1."""
+"""Notes on the data as text: kind, channel and points, counted from 1."""
 
 from __future__ import annotations
 
@@ -8,11 +8,11 @@ from diagnosis.recording.model import DataNote, NoteKind
 
 
 def note_text(note: DataNote) -> str:
-    """A finding in the data with its channel and its points, counted from 1."""
+    """A note on the data with its channel and its points, counted from 1."""
     where = [note.channel.value] if note.channel else []
     if note.points:
         where.append(f"point {point_ranges(note.points)}")
-    kind = [] if note.kind is NoteKind.TOLD else [note.kind.value]
+    kind = [] if note.kind is NoteKind.NOTED else [note.kind.value]
     return ": ".join([*kind, *([" ".join(where)] if where else []), note.text])
 
 

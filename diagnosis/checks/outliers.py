@@ -1,4 +1,4 @@
-"""Readings far from what their neighbours on the map tell, each alone."""
+"""Outliers: single readings far from those of their neighbours on the map."""
 
 from __future__ import annotations
 
@@ -79,7 +79,7 @@ def _left_out(shapes: Array, values: Array) -> tuple[Array, Array]:
 
 
 def _alone(point: np.int64, score: Array, places: Array) -> bool:
-    """True where none of the nearest points stands out by a third as much: a step of the map bends them all."""
+    """True if none of the nearest points deviates by a third as much: a step of the map moves them all."""
     distance = np.sum((places - places[point]) ** 2, axis=1)
     nearest = np.argsort(distance)[1 : NEIGHBOURS + 1]
     return bool(np.all(np.abs(score[nearest]) < abs(score[point]) / 3.0))

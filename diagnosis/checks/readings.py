@@ -1,4 +1,4 @@
-"""Single readings that no bench gives: beyond what any pump or sensor reaches, or a code for no reading."""
+"""Impossible readings: beyond the range of any pump or sensor, or a code for no reading."""
 
 from __future__ import annotations
 
@@ -25,8 +25,8 @@ Marks = NDArray[np.bool_]
 def impossible(recording: Recording) -> Iterator[DataNote]:
     """Yield readings that are put aside one by one, less than half of a channel's.
 
-    Beyond what a bench reads (speed that stands still or turns back, vacuum, `LIKELY`); nines far from all other
-    readings, as loggers write for none; an output at exactly 0, from which all others are NO_SIGNAL sigma away.
+    Beyond the range of a bench (speed zero or reversed, vacuum, `LIKELY`); nines far from all other readings, as
+    loggers write for none; an output at exactly 0, from which all others are NO_SIGNAL sigma away.
     """
     for channel in recording.channels:
         if channel.name in (ChannelName.ANGLE, ChannelName.P_CHAMBER) or channel.name.dimension is None:

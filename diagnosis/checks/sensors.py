@@ -22,7 +22,7 @@ FLOWS = (ChannelName.Q_OUT, ChannelName.Q_IN, ChannelName.Q_CASE)
 TELLING = 4  # channels that do not repeat themselves together
 
 
-def coarse(recording: Recording) -> Iterator[DataNote]:
+def low_resolution(recording: Recording) -> Iterator[DataNote]:
     """Yield the fault of channels that by their repeatability are noise alone at half of the points."""
     for name in (ChannelName.SPEED, ChannelName.P_OUT, *OUTPUTS):
         channel, values = recording.channel(name), recording.steady.column(name)
@@ -74,7 +74,7 @@ def stuck_inputs(recording: Recording) -> Iterator[DataNote]:
             continue
         if np.ptp(known) == 0.0:
             text = f"{name.value} reads the same at every point: set rather than measured?"
-            yield DataNote(NoteKind.TOLD, name, (), text)
+            yield DataNote(NoteKind.NOTED, name, (), text)
             continue
         runs = [(start, stop) for start, stop in _runs(values) if stop - start >= LEAST_RUN]
         held = sum(stop - start for start, stop in runs)
@@ -98,7 +98,7 @@ def repeated_rows(recording: Recording) -> Iterator[DataNote]:
     read = np.flatnonzero(np.any(np.isfinite(values), axis=1))
     points = tuple(int(point) for point in sorted(set(read.tolist()) - set(first.tolist())))
     if points:
-        kind = NoteKind.FAULT if len(points) >= LEAST_RUN else NoteKind.TOLD
+        kind = NoteKind.FAULT if len(points) >= LEAST_RUN else NoteKind.NOTED
         text = "the same as earlier points in every channel: written twice? Leave them out"
         yield DataNote(kind, None, points, text)
 
@@ -164,7 +164,7 @@ def _runs(values: Array) -> Iterator[tuple[int, int]]:
 
 
 def _moved(part: Array, whole: Array) -> bool:
-    """True where an input changed within a part by more than `MOVED` of its largest value."""
+    """True if an input changed within a part by more than `MOVED` of its largest value."""
     if not np.isfinite(part).any():
         return False
     return bool(np.nanmax(part) - np.nanmin(part) > MOVED * np.nanmax(np.abs(whole)))

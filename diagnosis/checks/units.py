@@ -49,9 +49,9 @@ _DIRECTED = (ChannelName.SPEED, ChannelName.Q_OUT, ChannelName.Q_IN, ChannelName
 
 
 def implausible(recording: Recording, displacement: float | None) -> Iterator[DataNote]:
-    """Yield what is wrong with units, references and places of channels, by size alone.
+    """Yield faults of units, references and places of channels, by size alone.
 
-    displacement in m3/rev, or None. Flow is held against displacement x speed, torque against displacement x
+    displacement in m3/rev, or None. Flow is compared with displacement x speed, torque with displacement x
     pressure difference over 2 pi, both at the points' displacement ratios; medians over the points.
     """
     sizes = list(_sizes(recording))
@@ -67,7 +67,7 @@ def implausible(recording: Recording, displacement: float | None) -> Iterator[Da
 
 
 def _sizes(recording: Recording) -> Iterator[DataNote]:
-    """Channels whose readings are beyond what a bench reads."""
+    """Channels whose readings are beyond the range of a bench."""
     for channel in recording.channels:
         values = recording.steady.column(channel.name)
         known = values[np.isfinite(values)]
@@ -89,7 +89,7 @@ def _sizes(recording: Recording) -> Iterator[DataNote]:
 
 @dataclass(frozen=True)
 class _Span:
-    """What a median, or its ratio to what is expected, may be."""
+    """Allowed range of a median, or of its ratio to the expected value."""
 
     lowest: float
     highest: float
@@ -161,9 +161,9 @@ def _ratio_fault(
     span: _Span,
     also: Mapping[str, Array] = MappingProxyType({}),
 ) -> Iterator[DataNote]:
-    """A fault of a ratio beyond its span, with each unit, power of ten or sign of a channel that would mend it.
+    """A fault of a ratio beyond its span, with each unit, power of ten or sign of a channel that would correct it.
 
-    also: factors (N,) on the first channel by what they mean, of which those that mend it are told as well.
+    also: factors (N,) on the first channel by their meaning; those that correct the ratio are listed as well.
     """
     found = ratio(recording)
     if found is None or span.holds(found):
@@ -203,7 +203,7 @@ def _scaled(recording: Recording, name: ChannelName, factor: float | Array) -> R
 
 
 def _references(recording: Recording) -> Iterator[DataNote]:
-    """Absolute pressures read as gauge ones and the reverse, where sizes tell."""
+    """Absolute pressures read as gauge ones and the reverse, by their sizes."""
     for name in (ChannelName.P_IN, ChannelName.P_CASE):
         middle = _median(recording.steady.column(name))
         if middle is None:
@@ -215,10 +215,10 @@ def _references(recording: Recording) -> Iterator[DataNote]:
             text = (
                 f"p_in of an open circuit is {middle / 1e5:.1f} bar gauge, as no tank gives; circuit = 'closed'?"
             )
-            yield DataNote(NoteKind.TOLD, name, (), text)
+            yield DataNote(NoteKind.NOTED, name, (), text)
         elif name is ChannelName.P_IN and recording.circuit is Circuit.OPEN and abs(middle - 1e5) < 0.15e5:
             text = f"p_in of an open circuit is {middle / 1e5:.2f} bar gauge: an absolute pressure taken as gauge?"
-            yield DataNote(NoteKind.TOLD, name, (), text)
+            yield DataNote(NoteKind.NOTED, name, (), text)
 
 
 def _places(recording: Recording) -> Iterator[DataNote]:
@@ -235,7 +235,7 @@ def _places(recording: Recording) -> Iterator[DataNote]:
     share = _median(lost)
     if share is not None and share < -0.3:
         text = "Q_in is below Q_out at half of the points, while oil leaves by the case: have they changed places?"
-        yield DataNote(NoteKind.TOLD, ChannelName.Q_IN, (), text)
+        yield DataNote(NoteKind.NOTED, ChannelName.Q_IN, (), text)
 
 
 def _signs(recording: Recording) -> Iterator[DataNote]:
@@ -248,22 +248,22 @@ def _signs(recording: Recording) -> Iterator[DataNote]:
 
 
 def _case(recording: Recording) -> Iterator[DataNote]:
-    """Pressures and temperatures of the case and beside it that are seldom meant, told only."""
+    """Notes on unusual pressures and temperatures of the case and of the drain."""
     steady = recording.steady
     pressure = _median(steady.column(ChannelName.P_CASE))
     if pressure is not None and not CASE_PRESSURE[0] <= pressure <= CASE_PRESSURE[1]:
         way = "a gauge pressure taken as absolute" if pressure < 0.0 else "another unit"
         text = f"p_case is {pressure / 1e5:.3g} bar gauge at half of the points: {way}?"
-        yield DataNote(NoteKind.TOLD, ChannelName.P_CASE, (), text)
+        yield DataNote(NoteKind.NOTED, ChannelName.P_CASE, (), text)
     for name in (ChannelName.T_IN, ChannelName.T_CASE):
         middle = _median(steady.column(name))
         if middle is not None and middle > HOTTEST:
             text = f"{name.value} is {middle - 273.15:.3g} degC at half of the points; unit = 'degF'?"
-            yield DataNote(NoteKind.TOLD, name, (), text)
+            yield DataNote(NoteKind.NOTED, name, (), text)
     warmer = _median(steady.column(ChannelName.T_CASE) - steady.column(ChannelName.T_IN))
     if warmer is not None and not DRAIN_WARMER[0] <= warmer <= DRAIN_WARMER[1]:
         text = f"T_case is {warmer:+.3g} K off T_in at half of the points: a unit, or have they changed places?"
-        yield DataNote(NoteKind.TOLD, ChannelName.T_CASE, (), text)
+        yield DataNote(NoteKind.NOTED, ChannelName.T_CASE, (), text)
 
 
 def trace_sizes(recording: Recording) -> Iterator[DataNote]:
@@ -291,12 +291,12 @@ def _groups(recording: Recording, displacement: float) -> Iterator[DataNote]:
             f"{name.value} over displacement x speed is {np.median(shares[:at]):.2g} at {at} points and "
             f"{np.median(shares[at:]):.2g} at {len(shares) - at}: two pumps or settings in one recording?"
         )
-        yield DataNote(NoteKind.TOLD, name, (), text)
+        yield DataNote(NoteKind.NOTED, name, (), text)
         return
 
 
 def _balance(recording: Recording) -> Iterator[DataNote]:
-    """Case flow that is a power of ten beyond what goes in and does not come out, compression counted."""
+    """Case flow a power of ten beyond inlet less delivery flow, with compression."""
     steady = recording.steady
     flow, case = steady.column(ChannelName.Q_OUT), steady.column(ChannelName.Q_CASE)
     squeezed = flow * (steady.column(ChannelName.P_OUT) - steady.column(ChannelName.P_IN)) / BULK_MODULUS

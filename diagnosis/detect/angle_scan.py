@@ -1,4 +1,4 @@
-"""At which shaft angles a recorded chamber pressure differs from the simulated one."""
+"""Shaft angles at which a recorded chamber pressure differs from the simulated one."""
 
 from __future__ import annotations
 
@@ -74,7 +74,7 @@ def _scan(trace: TraceMisfit, limits: LocateLimits, seed: int) -> tuple[float, f
 
 
 def _noise(trace: TraceMisfit, residual: Array, limits: LocateLimits, seed: int) -> Array:
-    """Drawn noise (K, draws), whitened, nuisances taken out: sign flips of the cycles, or what the trace shows."""
+    """Drawn noise (K, draws), whitened, without nuisances: sign flips of the cycles, or noise like the trace's."""
     random = np.random.default_rng(seed)
     factor = trace.block.covariance_factor
     if factor is not None:
@@ -87,10 +87,10 @@ def _noise(trace: TraceMisfit, residual: Array, limits: LocateLimits, seed: int)
 
 
 def _memory(residual: Array, limits: LocateLimits) -> tuple[float, float]:
-    """Lag-1 correlation and scale of a trace's noise (Yule 1927), from what lies off its most striking window.
+    """Lag-1 correlation and scale of a trace's noise (Yule 1927), outside its most striking window.
 
-    The scale is at least one stated sigma, and more where the whole trace scatters by more: then only what stands
-    out of the rest of the turn counts.
+    The scale is at least one stated sigma, and more if the whole trace scatters by more: then only a window that
+    stands out of the rest of the turn counts.
     """
     sums = [
         _window_sums(residual[:, None], width)[:, 0] / np.sqrt(width) for width in _widths(len(residual), limits)
@@ -104,7 +104,7 @@ def _memory(residual: Array, limits: LocateLimits) -> tuple[float, float]:
 
 
 def _without_nuisances(trace: TraceMisfit, whitened: Array) -> Array:
-    """Whitened columns (K, m) less what parameters, each of prior N(0, 1), take up."""
+    """Whitened columns (K, m) less what parameters, each of prior N(0, 1), explain."""
     columns = trace.nuisances / trace.sigma[:, None]
     factor = cho_factor(columns.T @ columns + np.eye(columns.shape[1]))
     left: Array = whitened - columns @ cho_solve(factor, columns.T @ whitened)

@@ -1,7 +1,7 @@
-"""Which component of the pump a mismatch lies in, without a catalogue.
+"""Component of the pump in which a mismatch lies, without a catalogue.
 
 The law of one component at a time is given a free smooth multiplier 1 + Phi(n, p, eps, T) beta, and the
-evidences are compared: the mismatch is laid at that component whose own pattern, bent smoothly, explains it best.
+evidences are compared: the mismatch is assigned to the component whose own pattern explains it best.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ Ranking = tuple[tuple[Component, float], ...]
 
 
 class ComponentGroup(Enum):
-    """Components that a bench map rarely tells from each other."""
+    """Components that a bench map rarely separates."""
 
     FILM_LEAKAGE = "leakage of the films"
     CROSS_FLOW = "flow from delivery to inlet"
@@ -99,9 +99,9 @@ def likeliest_multiplier(study: Study, component: Component, thresholds: Thresho
 
 
 def missing_pattern(study: Study, component: Component, thresholds: Thresholds) -> Array:
-    """(N, C), in sigma: what a smooth multiplier of one component's law adds to the readings, at its most likely.
+    """(N, C), in sigma: addition of the likeliest smooth multiplier of one component's law to the readings.
 
-    The mismatch with the noise smoothed away, and without what the fitted parameters take up of it.
+    The mismatch without noise, and without the part that the fitted parameters explain.
     """
     whitening = study.base.whitening
     columns = multiplier_columns(study, study.base, component)

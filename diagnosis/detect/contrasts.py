@@ -1,4 +1,4 @@
-"""Patterns over the map against what a fit left over, the fitted parameters projected out.
+"""Contrasts of patterns over the map with the residual of a fit, the fitted parameters projected out.
 
 Never plain means of residuals: parameters that are fitted smear a mismatch over the whole map.
 A contrast w = g.r / sqrt(g.P g), P = 1 - A H^-1 A^T, is N(0, 1) where the model holds.
@@ -20,7 +20,7 @@ from system.estimation.posterior import Posterior
 class Misfit:
     """Residuals of single readings, (N, C): `pull` in their own sigma, and its variance where the model holds.
 
-    Both are 0 where nothing was measured. Unlike whitened residuals they do not hang on the order of channels.
+    Both are 0 where nothing was measured. Unlike whitened residuals they do not depend on the order of channels.
     """
 
     pull: Array
@@ -36,14 +36,14 @@ class Contrasts:
 
     @property
     def scatter(self) -> float:
-        """How much more the channel scatters than it should: root of chi-square per freedom, 1 at least."""
+        """Scatter of the channel over its noise: root of chi-square per degree of freedom, 1 at least."""
         level, axes = np.linalg.eigh(self.content)
         kept = level > NOTHING_LEFT * level.max(initial=1.0)
         along = (axes.T @ self.agreement)[kept] ** 2 / level[kept]
         return max(1.0, float(np.sqrt(along.mean()))) if kept.any() else 1.0
 
     def z(self, patterns: Array) -> Array:
-        """Contrasts (m,) of patterns (N, m), in sigma; 0 for a pattern that the parameters can take up."""
+        """Contrasts (m,) of patterns (N, m), in sigma; 0 for a pattern that the parameters can follow."""
         content = np.einsum("nm,nm->m", patterns, self.content @ patterns)
         left = content > NOTHING_LEFT * (patterns**2).sum(axis=0)
         return np.where(left, self.agreement @ patterns / np.sqrt(np.where(left, content, 1.0)), 0.0)

@@ -1,4 +1,4 @@
-"""Is there a mismatch beyond noise and tolerance?"""
+"""Detection of a mismatch beyond noise and tolerance."""
 
 from __future__ import annotations
 
@@ -44,11 +44,11 @@ class Detection:
 
 
 def detect(study: Study, thresholds: Thresholds) -> Detection:
-    """What in the readings the simulator, its tolerances and the noise do not account for.
+    """Mismatch of the readings beyond the simulator, its tolerances and the noise.
 
     The objective r.r + xi.xi at the peak is that of the readings' own distribution N(0, 1 + A A^T): it is
     chi-square distributed with n degrees of freedom where noise is normal, without a bootstrap. Heavy tails of
-    the noise raise it; the directed scores of the candidates are averages over many readings and stand them.
+    the noise raise it; the directed scores of the candidates, averages over many readings, are robust to them.
     """
     base = study.base
     chance, strongest = most_striking(base, study.candidates, thresholds)
@@ -65,11 +65,10 @@ def detect(study: Study, thresholds: Thresholds) -> Detection:
 
 
 def confirmed(study: Study, found: Detection, null: Posterior, thresholds: Thresholds) -> Detection:
-    """The same, its chance that about the null's own fit where that holds and the chance is the larger.
+    """The same with the chance about the null's fit, where that holds and gives the larger chance.
 
-    About the prior mean the curvature of what lies within tolerance (leakage goes with the cube of a film) looks
-    like a mismatch. A fit that does not hold (`holds`) has been dragged to where slopes of the prior mean tell
-    nothing.
+    About the prior mean the curvature within tolerances (leakage grows with the cube of a film) looks like a
+    mismatch. Far from the prior mean, at a fit that does not hold (`holds`), its slopes are of no use.
     """
     if not holds(null, thresholds):
         return found
@@ -78,7 +77,7 @@ def confirmed(study: Study, found: Detection, null: Posterior, thresholds: Thres
 
 
 def holds(null: Posterior, thresholds: Thresholds) -> bool:
-    """Whether chance makes the goodness of the null's own fit and the pulls of its parameters."""
+    """True if chance explains the goodness of the null's fit and the pulls of its parameters."""
     limits = thresholds.mismatch
     fits = chi2.sf(null.objective, null.residual.size) >= limits.chance
     return bool(fits) and float(np.abs(null.pulls).max(initial=0.0)) <= limits.pull

@@ -1,4 +1,4 @@
-"""Many candidates looked at: how striking the strongest would be if nothing were there."""
+"""Multiplicity: chance of the strongest of many candidates without a mismatch."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from system.estimation.posterior import Posterior
 
 
 def log_chances(scores: Array, candidates: Sequence[Candidate]) -> Array:
-    """(m,), ln of the chance of each candidate's own score (m,) if nothing is there.
+    """(m,), ln of the chance of each candidate's score (m,) without a mismatch.
 
     One-sided where an effect has a sign. A logarithm: the chance of strong ones is below any float.
     """
@@ -24,18 +24,18 @@ def log_chances(scores: Array, candidates: Sequence[Candidate]) -> Array:
 
 
 def holm(p_values: Array) -> float:
-    """The smallest of several p-values after Holm (1979): the chance of one as small if nothing is there."""
+    """The smallest of several p-values after Holm (1979): the chance of one as small without a mismatch."""
     return min(1.0, float(p_values.min(initial=1.0)) * max(p_values.size, 1))
 
 
 def family_chance(
     posterior: Posterior, candidates: Sequence[Candidate], log_p: Array, draws: int, seed: int
 ) -> float:
-    """The chance that any candidate would be as striking as the strongest, ln p (m,), if nothing were there.
+    """The chance that any candidate is as striking as the strongest, ln p (m,), without a mismatch.
 
-    Scores of candidates that look alike are alike: what all of them do without a mismatch is drawn from
-    N(0, V^T P V), their own distribution, and the least p of each draw counted (Westfall and Young 1993, min P).
-    Where fewer than one draw in `draws` is as striking, Holm's bound, which knows of no likeness, is the less.
+    Scores of similar candidates are correlated: they are drawn from N(0, V^T P V), their distribution without a
+    mismatch, and the least p of each draw is counted (Westfall and Young 1993, min P). Where fewer than one draw
+    in `draws` is as striking, Holm's bound, which ignores the correlation, is the smaller.
     """
     bound = holm(np.exp(log_p))
     columns = np.stack([each.column for each in candidates], axis=1) if candidates else np.zeros((0, 0))

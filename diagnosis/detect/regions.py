@@ -1,4 +1,4 @@
-"""Parts of the map: thirds of each axis that stand out, and the box in which a channel's mismatch lies."""
+"""Regions of the map: thirds of each axis that stand out, and the box of a channel's mismatch."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ Marks = NDArray[np.bool_]
 
 @dataclass(frozen=True)
 class MapRegion:
-    """A part of the map where a channel stands out: bounds in SI by input name, contrast in sigma, and words."""
+    """A part of the map where a channel stands out: bounds in SI by input name, contrast in sigma, text."""
 
     channel: ChannelName
     lower: Mapping[str, float]
@@ -132,7 +132,7 @@ def _half_lines(axis: ChannelName, values: Array, parts: int) -> list[_HalfLine]
 
 
 def _edges(values: Array, parts: int) -> list[float]:
-    """Edges that part the points into `parts` of about the same number, each in the widest gap near by."""
+    """Edges of `parts` with about the same number of points, each in the widest gap near by."""
     ordered = np.sort(values)
     gaps = np.diff(ordered)
     reach = max(len(values) // (2 * parts), 1)

@@ -1,4 +1,4 @@
-"""Whether a mismatch goes with time: a drift or an onset in the order in which the points were taken."""
+"""Mismatch over time: a drift or an onset in the order of the points."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from system.inputs.channels import ChannelName
 
 
 class TimeKind(Enum):
-    """How a mismatch goes with the order of the points."""
+    """Course of a mismatch over the order of the points."""
 
     DRIFT = "drift"
     ONSET = "onset"
@@ -26,7 +26,7 @@ class TimeKind(Enum):
 
 @dataclass(frozen=True)
 class TimeMark:
-    """A drift, or an onset at point `at` of the order, of a channel; `parameter`: what wanders with it, if any."""
+    """A drift, or an onset at point `at`, of a channel; `parameter`: that wanders with it, or None."""
 
     kind: TimeKind
     channel: ChannelName
@@ -39,8 +39,8 @@ def scan_time(study: Study, thresholds: Thresholds) -> TimeMark | None:
     """The drift or onset of least p among all channels and places, or None above the threshold.
 
     Contrasts of a straight line and of steps (Page 1954) along the rows. A smooth mismatch over the map is fitted
-    too, so that an effect of pressure is no drift because pressure rose with time, and contrasts are in units of
-    what the channel scatters then, so that what no smooth law explains is none either. p: the greatest contrast
+    too, so that an effect of pressure is no drift if pressure rose with time; contrasts are in units of the
+    remaining scatter of the channel, so that an effect of no smooth law is none either. p: the greatest contrast
     against that of drawn readings (Westfall and Young 1993), or Bonferroni's bound where it is less.
     """
     limits = thresholds.locate
@@ -65,7 +65,7 @@ def scan_time(study: Study, thresholds: Thresholds) -> TimeMark | None:
 def wandering(study: Study, thresholds: Thresholds) -> str | None:
     """The parameter that explains most by a random walk along the rows, where that is `odds` nats or more.
 
-    Steps of one size at every point, each of prior N(0, w^2): what a Kalman filter would find, all at once.
+    Steps of one size at every point, each of prior N(0, w^2): the result of a Kalman filter, in one step.
     """
     base = study.base
     steps = np.tri(len(study.observations.values)) / np.sqrt(len(study.observations.values))
@@ -91,7 +91,7 @@ def _smooth_columns(study: Study, channel: int, shapes: Array, width: float) -> 
 
 
 def _greatest_p(own: Contrasts, patterns: Array, z: Array, draws: int, seed: int) -> float:
-    """Chance of as great a contrast among all patterns of one channel where nothing goes with time."""
+    """Chance of as great a contrast among all patterns of one channel without an effect of time."""
     greatest = float(np.abs(z).max())
     level, axes = np.linalg.eigh(own.content)
     root = axes * np.sqrt(np.maximum(level, 0.0))

@@ -19,14 +19,14 @@ from system.work.progress import Report
 
 
 def combine(
-    study: Study, weighed: Sequence[Explanation], thresholds: Thresholds, executor: ProcessPool, report: Report
+    study: Study, explanations: Sequence[Explanation], thresholds: Thresholds, executor: ProcessPool, report: Report
 ) -> tuple[tuple[Explanation, ...], tuple[str, ...]]:
-    """Explanations of several effects that were worth a refit, and what could not be refitted.
+    """Refitted explanations of several effects, and the refits that failed, as text.
 
-    Effects are added to the best explanation while that gains more than the odds of a name. Besides, all pairs of
-    the best singles are looked at about the prior mean: a third effect may imitate two.
+    Effects are added to the best explanation while each gains more than the odds of a name. In addition all pairs
+    of the best singles are screened about the prior mean: a third effect may imitate two.
     """
-    known = [each for each in weighed if each.hypothesis.effects and each.hypothesis.component is None]
+    known = [each for each in explanations if each.hypothesis.effects and each.hypothesis.component is None]
     if not known:
         return (), ()
     best = max((each for each in known if each.posterior is not None), key=_weight, default=None)
@@ -46,14 +46,14 @@ def combine(
     return tuple(found), tuple(failed)
 
 
-def _weight(weighed: Explanation) -> float:
-    return weighed.log_weight
+def _weight(explanation: Explanation) -> float:
+    return explanation.log_weight
 
 
 def _additions(
     study: Study, best: Explanation, known: Sequence[Explanation], thresholds: Thresholds
 ) -> list[Explanation]:
-    """The likeliest additions to the best explanation, about its refit; those that gain nothing are left out."""
+    """The likeliest additions to the best explanation, about its refit, without those that gain nothing."""
     if best.posterior is None:
         return []
     posterior = settled(best.posterior)
@@ -95,7 +95,7 @@ def _best_member(study: Study, posterior: Posterior, both: Hypothesis, threshold
 
 
 def _apart(one: Hypothesis, other: Hypothesis) -> bool:
-    """Whether two explanations set different things free: other effects, or one law at other gaps."""
+    """True if two explanations set different parameters free: other effects, or one law at other gaps."""
     return not set(one.open_names) & set(other.open_names) and not _acting(one) & _acting(other)
 
 

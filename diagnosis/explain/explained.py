@@ -1,4 +1,4 @@
-"""What an explanation adds to the readings, and what is left: the mismatch as the explanation sees it."""
+"""Mismatch by an explanation: its addition to the readings, and the residual."""
 
 from __future__ import annotations
 
@@ -21,22 +21,22 @@ from system.estimation.posterior import Posterior, values_at
 
 @dataclass(frozen=True)
 class ExplainedMismatch:
-    """added: what the explanation adds to the predictions; left: reading less prediction with it; (N, C) in SI."""
+    """added: addition of the explanation to the predictions; left: reading less prediction; (N, C) in SI."""
 
     added: Array
     left: Array
 
     @property
     def mismatch(self) -> Array:
-        """(N, C), what the readings show of it: nan where nothing was measured."""
+        """(N, C), sum of both; nan where nothing was measured."""
         return self.added + self.left
 
 
-def repair(study: Study, weighed: Explanation, thresholds: Thresholds) -> ExplainedMismatch:
-    """The repair by a refitted explanation, or by a component's law bent freely. Raises NotConverged."""
-    if weighed.hypothesis.component is not None:
-        return _bent(study, weighed.hypothesis.component, thresholds)
-    posterior, own = weighed.posterior, weighed.hypothesis
+def explained_mismatch(study: Study, explanation: Explanation, thresholds: Thresholds) -> ExplainedMismatch:
+    """The addition of a refitted explanation, or of a component with a free multiplier. Raises NotConverged."""
+    if explanation.hypothesis.component is not None:
+        return _by_multiplier(study, explanation.hypothesis.component, thresholds)
+    posterior, own = explanation.posterior, explanation.hypothesis
     if posterior is None:
         nothing = np.zeros_like(study.base.predictions)
         return ExplainedMismatch(nothing, study.observations.values - study.base.predictions)
@@ -45,12 +45,12 @@ def repair(study: Study, weighed: Explanation, thresholds: Thresholds) -> Explai
     return ExplainedMismatch(posterior.predictions - without, study.observations.values - posterior.predictions)
 
 
-def unexplained_traces(study: Study, weighed: Explanation, thresholds: Thresholds) -> tuple[TraceMisfit, ...]:
-    """The study's traces less those of an explanation's refit that has the explanation taken out.
+def unexplained_traces(study: Study, explanation: Explanation, thresholds: Thresholds) -> tuple[TraceMisfit, ...]:
+    """The study's traces less those of an explanation's refit without the explanation itself.
 
     Raises NotConverged.
     """
-    posterior, own = weighed.posterior, weighed.hypothesis
+    posterior, own = explanation.posterior, explanation.hypothesis
     if posterior is None:
         return study.traces
     simulator = simulator_of(study, own, thresholds)
@@ -63,12 +63,12 @@ def unexplained_traces(study: Study, weighed: Explanation, thresholds: Threshold
 
 
 def _closed(posterior: Posterior, own: Hypothesis) -> Array:
-    """Values (k,) of a refit with what its hypothesis sets free at nothing."""
+    """Values (k,) of a refit with the parameters that its hypothesis sets free at 0."""
     free = np.array([each.name in own.open_names for each in posterior.parameters])
     return values_at(posterior.parameters, np.where(free, 0.0, posterior.xi))
 
 
-def _bent(study: Study, component: Component, thresholds: Thresholds) -> ExplainedMismatch:
+def _by_multiplier(study: Study, component: Component, thresholds: Thresholds) -> ExplainedMismatch:
     """The component's law times 1 + Phi beta, beta at its most likely in the linear model."""
     base = study.base
     beta = likeliest_multiplier(study, component, thresholds)

@@ -1,4 +1,4 @@
-"""How explanations foretell points that took no part in their fit: regions that veto, and random fifths."""
+"""Prediction of points that took no part in a fit: regions with a veto, and random fifths."""
 
 from __future__ import annotations
 
@@ -28,13 +28,13 @@ def held_out(study: Study, null: Posterior, own: Posterior, thresholds: Threshol
     """Gains of an explanation over the null in regions left out, and residuals of random fifths left out.
 
     The gain of a fold is the ln ratio of the two joint predictive densities of its readings, each fit repeated
-    without them by one linear step. They veto (`speak_against`) as far as they are more than the law's form makes
-    of what the explanation gains (`by_form`). RMS in SI; `noise` is what repeatability and inputs alone make.
+    without them by one linear step. For the veto (`has_veto`) gains are divided by the error of form (`by_form`).
+    RMS in SI; `noise`: of repeatability and inputs alone.
     """
     folds = regions(study, (null, own), thresholds.heldout)
     gains = {name: _density(own, points) - _density(null, points) for name, points in folds.items()}
-    coarse = by_form(own.log_evidence - null.log_evidence, thresholds)
-    vetoed = speak_against(np.array(list(gains.values())) / coarse, thresholds.heldout)
+    form_factor = by_form(own.log_evidence - null.log_evidence, thresholds)
+    vetoed = has_veto(np.array(list(gains.values())) / form_factor, thresholds.heldout)
     fifths = _fifths(len(study.axes), thresholds.seeds.locate)
     measured = study.observations.measured
 
@@ -53,7 +53,7 @@ def held_out(study: Study, null: Posterior, own: Posterior, thresholds: Threshol
 def regions(study: Study, fits: tuple[Posterior, ...], limits: HeldOutLimits) -> Mapping[str, Marks]:
     """Points (N,) of each region by name: outer thirds of the map's axes, at most half of all points.
 
-    Left out are regions without which a parameter of one of the fits would be open: they test its prior.
+    A region is excluded if a parameter of one of the fits would be open without it: it tests the prior.
     """
     speed, pressure, stroke, warmth = study.axes.T
     all_regions = {
@@ -72,8 +72,8 @@ def regions(study: Study, fits: tuple[Posterior, ...], limits: HeldOutLimits) ->
     }
 
 
-def speak_against(gains: Array, limits: HeldOutLimits) -> bool:
-    """Whether regions veto: more than one of so many would by chance, or several that the others do not outweigh.
+def has_veto(gains: Array, limits: HeldOutLimits) -> bool:
+    """True if regions veto: more than chance allows for so many, or several that the others do not outweigh.
 
     Under a true explanation exp(-gain) has a mean of at most 1 in each region, and so has its mean over all
     regions: it exceeds K with a chance of 1/K at most (Markov), however many regions there are.

@@ -1,4 +1,4 @@
-"""What may be the case: nothing, an effect of the catalogue, a sensor, a parameter, something unknown."""
+"""Hypotheses: nothing, an effect of the catalogue, a sensor's fault, a wrong parameter, unknown physics."""
 
 from __future__ import annotations
 
@@ -20,18 +20,17 @@ RUBBED = {
     "slipper_swash_plate": Gap.SLIPPER,
     "valve_plate_cylinder": Gap.VALVE_PLATE,
 }
-"""Gaps by the names of their friction pairs; the other pairs rub in none."""
+"""Gaps by the names of their friction pairs; the other pairs have no gap."""
 
 
 @dataclass(frozen=True)
 class Hypothesis:
-    """One explanation: effects (several where they act together), at a gap or None.
+    """One hypothesis: effects (several that act together), at a gap or None.
 
-    extra: parameters added to the simulator; widened: names of those whose prior is widened; log_prior: natural
-    logarithm of its prior probability; laws: what is switched on, each with the members of its grid that are open;
-    component: of unknown physics, whose law is bent freely over the map; bent: the laws' own form is not all;
-    stand_ins: what beside them would take up what their form leaves; reach: what the prior of the widened is wider
-    by than the fault factor.
+    extra: parameters added to the simulator; widened: names of parameters with a widened prior; log_prior: natural
+    logarithm of the prior probability; laws: switched on, each with the open members of its grid; component: of
+    unknown physics, whose law has a free multiplier over the map; other_form: the laws are of another form than
+    the pump's; stand_ins: effects that compensate this error of form; reach: factor on the fault factor.
     """
 
     effects: tuple[EffectId, ...]
@@ -42,7 +41,7 @@ class Hypothesis:
     log_prior: float
     laws: tuple[Extension, ...] = ()
     component: Component | None = None
-    bent: bool = False
+    other_form: bool = False
     stand_ins: tuple[EffectId, ...] = ()
     reach: float = 1.0
 
@@ -53,13 +52,13 @@ class Hypothesis:
 
     @property
     def open_names(self) -> tuple[str, ...]:
-        """Names of the parameters that it sets free beyond the null: added and widened."""
+        """Names of the parameters that are free beyond the null's: added and widened."""
         return (*(parameter.name for parameter in self.extra), *self.widened)
 
     @property
     def subjects(self) -> tuple[Extension | str, ...]:
-        """What each effect is about: its law, or the parameter that it widens ("" of the unknown). An effect may
-        act at several gaps, a law each.
+        """Subject of each effect: its law, or the parameter that it widens ("" for unknown physics). An effect may
+        act at several gaps, with a law for each.
         """
         laws, widened = list(self.laws), iter(self.widened)
         found: list[Extension | str] = []
@@ -74,7 +73,7 @@ class Hypothesis:
 
     @property
     def places(self) -> tuple[Gap | None, ...]:
-        """The gap of each effect: of its law, or of the parameter that it is about."""
+        """The gap of each effect: of its law, or of its parameter."""
         return tuple(gap_of(one) if isinstance(one, str) else one.pair for one in self.subjects)
 
     @property
@@ -82,17 +81,17 @@ class Hypothesis:
         """Its ids, each with its place: "elastic_opening (slipper) + churning", "nothing"."""
         if self.component is not None:
             return f"{self.effects[0].value} ({self.component.value})"
-        told = [
+        parts = [
             f"{effect.value} ({place.value})" if place else effect.value
             for effect, place in zip(self.effects, self.places, strict=True)
         ]
-        return (" + ".join(told) or "nothing") + (", bent" if self.bent else "")
+        return (" + ".join(parts) or "nothing") + (", of another form" if self.other_form else "")
 
 
 def hypotheses(study: Study, thresholds: Thresholds) -> tuple[Hypothesis, ...]:
-    """All single explanations that show in the readings at all, nothing first; their prior probabilities sum to 1.
+    """All single hypotheses with any influence on the readings, nothing first; prior probabilities sum to 1.
 
-    A kind's mass is shared evenly by its ids, an id's by the places where it may act.
+    The ids of a kind share its mass evenly, the places of an id share that of the id.
     """
     single = [*_of_candidates(study), *_unknown(study)]
     mass = thresholds.prior
@@ -103,7 +102,7 @@ def hypotheses(study: Study, thresholds: Thresholds) -> tuple[Hypothesis, ...]:
 
 
 def together(first: Hypothesis, second: Hypothesis, penalty: float) -> Hypothesis:
-    """Both at once: prior the product of theirs times the penalty; physics if one is, else the first's kind."""
+    """Both together: prior the product times the penalty; missing physics if one is, else the first's kind."""
     kinds = (first.kind, second.kind)
     places = {each for each in (first.pair, second.pair) if each is not None}
     return Hypothesis(
@@ -118,7 +117,7 @@ def together(first: Hypothesis, second: Hypothesis, penalty: float) -> Hypothesi
 
 
 def gap_of(parameter: str) -> Gap | None:
-    """The gap that a parameter is of: its name ends with it, or with a friction pair that rubs in it."""
+    """The gap of a parameter, by the end of its name: the gap, or a friction pair of the gap."""
     part = parameter.rpartition(".")[2]
     return RUBBED.get(part) or next((gap for gap in Gap if gap.value == part), None)
 
@@ -143,7 +142,7 @@ def simulator_of(study: Study, hypothesis: Hypothesis, thresholds: Thresholds) -
 
 
 def candidates_of(study: Study, member: Hypothesis) -> tuple[Candidate, ...]:
-    """The columns of what a hypothesis of one member sets free; not of what moves nothing."""
+    """The columns of the free parameters of a one-member hypothesis that move the readings."""
     return tuple(
         each
         for each in study.candidates

@@ -1,4 +1,4 @@
-"""How surely explanations are told apart whose laws are true to a part of what they explain only."""
+"""Error of form of the laws, a floor on the evidence gap between explanations."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from system.effects.effect import Kind
 
 
 def by_form(gained: float, thresholds: Thresholds) -> float:
-    """Nats that the form of a law makes of `gained` nats over nothing, over those that noise makes; 1 at least.
+    """Error of form of a law that gains `gained` nats over nothing, in units of the noise's gap; 1 at least.
 
     A form off by a tenth leaves the share `true_to` of its gain: up to 300 nats that is less than the gap of a
     class.
@@ -23,46 +23,46 @@ def by_form(gained: float, thresholds: Thresholds) -> float:
     return max(1.0, thresholds.form.true_to * gained / thresholds.name.class_gap)
 
 
-def class_gap(weighed: Sequence[Explanation], thresholds: Thresholds) -> float:
-    """Nats within which refitted explanations are one class: what noise makes, or the error of their forms."""
-    return thresholds.name.class_gap * by_form(_gained(weighed), thresholds)
+def class_gap(explanations: Sequence[Explanation], thresholds: Thresholds) -> float:
+    """Nats within which refitted explanations are one class: by noise, or by the error of their forms."""
+    return thresholds.name.class_gap * by_form(_gained(explanations), thresholds)
 
 
-def place_gap(weighed: Sequence[Explanation], thresholds: Thresholds) -> float:
+def place_gap(explanations: Sequence[Explanation], thresholds: Thresholds) -> float:
     """The same of one law at several places: the share `placed_by` of what is gained.
 
-    By 24 recordings of the development set with one film that opens or warms: at the true gap the law stood as
-    much as .06 of what it gained behind another gap's, and in half of them less than .02 ahead or behind.
+    By 24 recordings of the development set with one film that opens or warms: the law at the true gap was up to
+    .06 of its gain behind that at another gap, and in half of them less than .02 ahead or behind.
     """
-    return max(thresholds.name.class_gap, thresholds.form.placed_by * _gained(weighed))
+    return max(thresholds.name.class_gap, thresholds.form.placed_by * _gained(explanations))
 
 
-def _gained(weighed: Sequence[Explanation]) -> float:
-    nothing = max(each.log_evidence for each in weighed if each.hypothesis.kind is Kind.NO_MISMATCH)
-    return max(each.log_evidence for each in weighed) - nothing
+def _gained(explanations: Sequence[Explanation]) -> float:
+    nothing = max(each.log_evidence for each in explanations if each.hypothesis.kind is Kind.NO_MISMATCH)
+    return max(each.log_evidence for each in explanations) - nothing
 
 
 def shared_out(
-    weighed: Sequence[Explanation], members: Sequence[Explanation], thresholds: Thresholds
+    explanations: Sequence[Explanation], members: Sequence[Explanation], thresholds: Thresholds
 ) -> tuple[tuple[Explanation, ...], tuple[Explanation, ...]]:
-    """The explanations and the members of a class among them, the class's probability shared out by its gaps.
+    """The explanations, and the members of a class, whose probability is shared by the gaps of class and places.
 
-    P ~ exp(ln weight / temperature): a likelihood that holds only about is tempered (Miller and Dunson 2019,
-    doi:10.1080/01621459.2018.1469995). Unlike effects share by the gap of the class over that of noise, times the
-    temperature of all probabilities; places of the same effects share what these have by the gap of places.
+    P ~ exp(ln weight / temperature): an approximate likelihood is tempered (Miller and Dunson 2019,
+    doi:10.1080/01621459.2018.1469995). For different effects the temperature is the gap of the class over that of
+    noise, times that of all probabilities; for places of the same effects, the gap of places over that of noise.
     """
     total = sum(each.probability for each in members)
     weights = np.array([each.log_weight for each in members])
     own = thresholds.name
-    shares = np.exp(log_softmax(weights / (class_gap(weighed, thresholds) / own.class_gap * own.temperature)))
-    within = place_gap(weighed, thresholds) / own.class_gap
+    shares = np.exp(log_softmax(weights / (class_gap(explanations, thresholds) / own.class_gap * own.temperature)))
+    within = place_gap(explanations, thresholds) / own.class_gap
     for same in _alike(members):
         shares[same] = shares[same].sum() * np.exp(log_softmax(weights[same] / within))
-    told = {
+    shared = {
         id(each): replace(each, probability=total * float(share))
         for each, share in zip(members, shares, strict=True)
     }
-    return tuple(told.get(id(each), each) for each in weighed), tuple(told[id(each)] for each in members)
+    return tuple(shared.get(id(each), each) for each in explanations), tuple(shared[id(each)] for each in members)
 
 
 def _alike(members: Sequence[Explanation]) -> list[NDArray[np.int64]]:

@@ -1,4 +1,4 @@
-"""A hypothesis weighed: evidence, probability, and how it predicts points that took no part in the fit."""
+"""Explanation: a hypothesis with its evidence, probability, and prediction of held-out points."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from system.inputs.channels import ChannelName
 class HeldOut:
     """Held-out points: gain in nats of each fold over the null; RMS residuals before, after and of noise, SI.
 
-    `how` says in words how the points were split.
+    `how`: the split of the points, as text.
     """
 
     gains: Mapping[str, float]
@@ -45,15 +45,15 @@ class Explanation:
 
     @property
     def log_weight(self) -> float:
-        """ln evidence plus ln prior: what hypotheses are ranked by."""
+        """ln evidence plus ln prior, the order of explanations."""
         return self.log_evidence + self.hypothesis.log_prior
 
 
-def with_probabilities(weighed: Sequence[Explanation], temperature: float) -> tuple[Explanation, ...]:
+def with_probabilities(explanations: Sequence[Explanation], temperature: float) -> tuple[Explanation, ...]:
     """The same with probabilities that sum to 1, the likeliest first.
 
     P ~ exp((ln evidence + ln prior) / temperature).
     """
-    logs = log_softmax(np.array([each.log_weight for each in weighed]) / temperature)
-    told = [replace(each, probability=float(np.exp(one))) for each, one in zip(weighed, logs, strict=True)]
-    return tuple(sorted(told, key=lambda each: -each.log_weight))
+    logs = log_softmax(np.array([each.log_weight for each in explanations]) / temperature)
+    found = [replace(each, probability=float(np.exp(one))) for each, one in zip(explanations, logs, strict=True)]
+    return tuple(sorted(found, key=lambda each: -each.log_weight))

@@ -1,4 +1,4 @@
-"""Hypotheses fitted in full: the coupled simulator, all nuisances, and what a hypothesis sets free."""
+"""Refit of hypotheses: the coupled simulator, all nuisances, and the free parameters of the hypothesis."""
 
 from __future__ import annotations
 
@@ -26,19 +26,18 @@ from system.inputs.errors import NotConverged
 from system.work.processes import ProcessPool
 from system.work.progress import Report
 
-SIZES = (0.1, 0.3, 1.0, 2.0)  # spreads that a start is looked for at
-BESIDE = (0.75, 0.9)  # of the best size: tried too, and their inverses
-ROUGHLY = (0.3, 1.0)  # the same for a first look
+SIZES = (0.1, 0.3, 1.0, 2.0)  # trial sizes of a start, in spreads
+BESIDE = (0.75, 0.9)  # factors on the best size, and their inverses
+ROUGHLY = (0.3, 1.0)  # trial sizes of a first look
 LIMITS = FitLimits(change=0.1)  # of the objective: a twentieth of a nat decides nothing, and costs sixfold less
 
 
 def refit(study: Study, hypothesis: Hypothesis, thresholds: Thresholds, hopeless: float = inf) -> Explanation:
     """The hypothesis at the peak of its posterior; of a grid the best member, its evidence averaged over all.
 
-    What is out of order is so by no multiple of its tolerance: of a widened parameter that would go farther than
-    `reach` the prior is a mixture, with a tenth of its mass ten times as wide (a size as likely in each decade).
-    hopeless: an objective above which a fit is left where it stands. Raises NotConverged where no member comes to
-    a peak.
+    A fault has no typical multiple of the tolerance: if a widened parameter goes farther than `reach`, its prior
+    is a mixture, with a tenth of its mass ten times as wide (a size as likely in each decade). hopeless: an
+    objective above which a fit stops early. Raises NotConverged if no member converges.
     """
     near = _refitted(study, replace(hypothesis, reach=1.0), thresholds, hopeless)
     limits = thresholds.fit
@@ -52,18 +51,18 @@ def refit(study: Study, hypothesis: Hypothesis, thresholds: Thresholds, hopeless
     return replace(max((near, far), key=lambda each: each.log_evidence), log_evidence=float(np.logaddexp(*shares)))
 
 
-def _strained(weighed: Explanation, reach: float) -> bool:
-    """Whether a widened parameter lies where even its wide prior hardly lets it."""
-    posterior = weighed.posterior
+def _strained(explanation: Explanation, reach: float) -> bool:
+    """True if a widened parameter lies beyond `reach` of its wide prior."""
+    posterior = explanation.posterior
     return posterior is not None and any(
-        abs(posterior.xi[posterior.index(name)]) > reach for name in weighed.hypothesis.widened
+        abs(posterior.xi[posterior.index(name)]) > reach for name in explanation.hypothesis.widened
     )
 
 
 def _refitted(study: Study, hypothesis: Hypothesis, thresholds: Thresholds, hopeless: float) -> Explanation:
     """The same with one width of prior.
 
-    Members of a grid that are not refitted count as nothing, so that their average is never too high.
+    Members of a grid that are not refitted count as 0, so that their average is never too high.
     """
     limits = replace(LIMITS, hopeless=inf if _gross(study, thresholds) else hopeless)
     members = _likeliest(study, hypothesis, thresholds)
@@ -91,7 +90,7 @@ def _gross(study: Study, thresholds: Thresholds) -> bool:
 def try_refit(
     study: Study, linear: Explanation, thresholds: Thresholds, hopeless: float = inf
 ) -> tuple[Explanation, str | None]:
-    """The hypothesis refitted; where that fails as it stands in the linear model, with what failed in words."""
+    """The refitted hypothesis; if that fails, its linear form and the reason as text."""
     try:
         return replace(refit(study, linear.hypothesis, thresholds, hopeless), heldout=linear.heldout), None
     except NotConverged as reason:
@@ -106,7 +105,7 @@ def refit_all(
     report: Report,
     hopeless: float = inf,
 ) -> tuple[tuple[Explanation, ...], tuple[str, ...]]:
-    """The refits of some hypotheses in their order, by a crew, and what could not be refitted."""
+    """The refits of some hypotheses in their order, by a crew, and the failures as text."""
     if not listed:
         return (), ()
     task = partial(_numbered, study, thresholds, hopeless)
@@ -128,7 +127,7 @@ def _numbered(
 
 
 def _likeliest(study: Study, hypothesis: Hypothesis, thresholds: Thresholds) -> list[Hypothesis]:
-    """The members of a grid that are refitted, by the linear model; where it is gross, by sizes tried in full."""
+    """The members of a grid to refit, by the linear model; for a gross mismatch, by trial sizes in full."""
     members = hypothesis.members
     if len(members) <= 1:
         return list(members)
@@ -149,16 +148,16 @@ def _likeliest(study: Study, hypothesis: Hypothesis, thresholds: Thresholds) -> 
 
 @dataclass(frozen=True)
 class FirstLook:
-    """A hypothesis glanced at: the least objective that the linear model promises, and one reached in full."""
+    """First estimate of a hypothesis: least objective by the linear model, and of one full prediction."""
 
     promised: float
     reached: float
 
 
 def first_look(study: Study, hypothesis: Hypothesis, thresholds: Thresholds) -> FirstLook:
-    """What a few sizes of that which a hypothesis sets free leave, the nuisances linear: no fit.
+    """Objective for a few sizes of the free parameters of a hypothesis, with linear nuisances: no fit.
 
-    For parameters whose slope tells little of what a large change does.
+    For parameters whose slope is no measure of a large change.
     """
     simulator = simulator_of(study, hypothesis, thresholds)
     promised, xi = _start(study, simulator, hypothesis.open_names, ROUGHLY, thresholds.fit.reach)
@@ -168,7 +167,7 @@ def first_look(study: Study, hypothesis: Hypothesis, thresholds: Thresholds) -> 
 
 
 def _lent_slopes(study: Study, simulator: Simulator, names: tuple[str, ...], start: Array) -> Array:
-    """Slopes (N, C, k) to set out with: of nuisances at the prior mean, of what is free at the start."""
+    """Initial slopes (N, C, k): of nuisances at the prior mean, of free parameters at the start."""
     base = study.base
     at_base = base.whitening.unwhiten(base.slopes)
     known = {parameter.name for parameter in base.parameters} - set(names)
@@ -189,9 +188,9 @@ def _lent_slopes(study: Study, simulator: Simulator, names: tuple[str, ...], sta
 def _start(
     study: Study, simulator: Simulator, names: tuple[str, ...], sizes: tuple[float, ...], reach: float
 ) -> tuple[float, Array]:
-    """The objective and xi where a fit starts: of the sizes tried what leaves least, the nuisances linear.
+    """The objective and xi where a fit starts: the best of the trial sizes, with linear nuisances.
 
-    What a hypothesis sets free is tried one after the other, in full; its slope at nothing may tell little of it
+    The free parameters are tried one after the other with full predictions; a slope at 0 may be no measure of them
     (a threshold, a film twice as thick). The best size is tried again a little smaller and larger.
     """
     nuisances = _Nuisances(study, simulator, names, reach)
@@ -214,7 +213,7 @@ def _with(xi: Array, at: int, size: float) -> Array:
 
 
 def _better(nuisances: _Nuisances, trial: Array, least: float, start: Array) -> tuple[float, Array]:
-    """The trial's objective and xi with the nuisances settled where that is less, else those so far."""
+    """The trial's objective and xi with settled nuisances if it is less than the least so far, else these."""
     try:
         objective, settled = nuisances.settled(nuisances.bounds.within(trial))
     except NotConverged:
@@ -228,7 +227,7 @@ def _signed(sizes: tuple[float, ...], parameter: Parameter) -> list[float]:
 
 
 class _Nuisances:
-    """What the null has and a hypothesis does not set free, with its slopes at the prior mean."""
+    """Parameters of the null that a hypothesis does not set free, with their slopes at the prior mean."""
 
     def __init__(self, study: Study, simulator: Simulator, names: tuple[str, ...], reach: float) -> None:
         self.study, self.simulator, self.reach = study, simulator, reach
@@ -240,7 +239,7 @@ class _Nuisances:
         self.bounds = Bounds.of(simulator.parameters)
 
     def settled(self, xi: Array) -> tuple[float, Array]:
-        """The objective and xi once the nuisances, 0 in `xi`, follow in the linear model.
+        """The objective and xi with the nuisances, 0 in `xi`, at their optimum in the linear model.
 
         Raises NotConverged where the simulator does.
         """
@@ -254,7 +253,7 @@ class _Nuisances:
 
 
 def _size_over_sigma(posterior: Posterior, hypothesis: Hypothesis) -> float:
-    """xi over its sigma of what a hypothesis sets free, the largest."""
+    """The largest xi over its sigma among the free parameters of a hypothesis."""
     places = [posterior.index(name) for name in hypothesis.open_names]
     sizes = [float(posterior.xi[at] / np.sqrt(posterior.covariance[at, at])) for at in places]
     return max(sizes, key=abs, default=0.0)

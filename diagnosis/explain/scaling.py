@@ -1,4 +1,4 @@
-"""A mismatch described by the exponents of what it grows with."""
+"""Power law of a mismatch: exponents of speed, pressure, displacement and viscosity."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ LARGEST_STEP = 1.0  # of an exponent
 class Scaling:
     """Residual of a channel ~ powers of speed, pressure, displacement, viscosity: exponents and their sigma.
 
-    above: whether the channel reads more than is simulated.
+    above: the channel reads more than is simulated.
     """
 
     channel: ChannelName
@@ -30,7 +30,7 @@ class Scaling:
 def scaling(
     channel: ChannelName, signal: Array, sigma: Array, coordinates: Mapping[str, Array], least_range: float
 ) -> Scaling | None:
-    """Exponents n_k of signal = C prod x_k^n_k: least squares on the signal itself, which may be noise at places.
+    """Exponents n_k of signal = C prod x_k^n_k: least squares on the signal itself, part of which may be noise.
 
     signal, sigma: (N,) in SI; coordinates: (N,) each, positive where a point counts; a coordinate whose
     values vary by less than `least_range` times gets no exponent. Sigma of the exponents is scaled with the

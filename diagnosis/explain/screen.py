@@ -1,4 +1,4 @@
-"""How all hypotheses stand in a linear model, before any is refitted."""
+"""Screening of all hypotheses in a linear model, before any refit."""
 
 from __future__ import annotations
 
@@ -31,15 +31,15 @@ class JointEvidence:
 def screen(
     study: Study, posterior: Posterior, single: Sequence[Hypothesis], thresholds: Thresholds
 ) -> tuple[Explanation, ...]:
-    """All hypotheses with their linear evidence about a posterior that has none of them, in the order given.
+    """All hypotheses with their linear evidence about a posterior without them, in the given order.
 
     Those on a grid are averaged over it. The scale of the evidence is that of the posterior.
     """
-    return tuple(_weighed(study, posterior, hypothesis, thresholds) for hypothesis in single)
+    return tuple(_screened(study, posterior, hypothesis, thresholds) for hypothesis in single)
 
 
 def linear_gain(study: Study, posterior: Posterior, hypothesis: Hypothesis, thresholds: Thresholds) -> float:
-    """ln evidence that a hypothesis of the catalogue would gain over a posterior that lacks it."""
+    """Gain in ln evidence of a hypothesis of the catalogue over a posterior without it."""
     widths = thresholds.name.mixture_widths
     members = hypothesis.members
     found = [joint_evidence(posterior, candidates_of(study, member), widths).evidence for member in members]
@@ -72,12 +72,12 @@ def joint_evidence(
 
 
 def unknown_gain(study: Study, posterior: Posterior, component: Component, thresholds: Thresholds) -> float:
-    """ln evidence that a freely bent law of the component gains over a posterior."""
+    """Gain in ln evidence of a free multiplier on the component's law over a posterior."""
     columns = multiplier_columns(study, posterior, component)
     return multiplier_evidence(posterior, columns, thresholds.locate.multiplier_widths)
 
 
-def _weighed(study: Study, posterior: Posterior, hypothesis: Hypothesis, thresholds: Thresholds) -> Explanation:
+def _screened(study: Study, posterior: Posterior, hypothesis: Hypothesis, thresholds: Thresholds) -> Explanation:
     if hypothesis.component is not None:
         gain = unknown_gain(study, posterior, hypothesis.component, thresholds)
     elif hypothesis.effects:

@@ -1,4 +1,4 @@
-"""Which explanations are worth a refit."""
+"""Explanations to refit."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from system.inputs.errors import NotConverged
 
 
 def is_settled(detection: Detection, null: Explanation, thresholds: Thresholds) -> bool:
-    """Whether nothing speaks against the null's own refit: no candidate's score, no goodness of fit."""
+    """True if neither a candidate's score nor the goodness of fit contradicts the null's refit."""
     fit = null.posterior
     if fit is None:
         return False
@@ -28,8 +28,7 @@ def is_settled(detection: Detection, null: Explanation, thresholds: Thresholds) 
 def shortlist(screened: Sequence[Explanation], settled: bool, thresholds: Thresholds) -> tuple[Explanation, ...]:
     """The explanations of the catalogue to refit: those within the gap of the best in the linear model.
 
-    Where the null holds, only those that gain on it, and none while the null is not improbable: a verdict needs
-    both.
+    Where the null holds, only those that gain on it, and none unless the null is improbable: a verdict needs both.
     """
     limits = thresholds.name
     ranked = _ranked(screened)
@@ -48,8 +47,8 @@ def wrong_parameters(
 ) -> tuple[tuple[Explanation, FirstLook], ...]:
     """Wrong parameters to refit where there is a mismatch, each with its first look.
 
-    Large changes of a film move the slopes of all others, so that the linear model puts them anywhere; those that
-    leave least at a first look are refitted.
+    Large changes of a film move the slopes of all others, so that the linear model misplaces them; those with the
+    least objective at a first look are refitted.
     """
     wrong = [each for each in _ranked(screened) if each.hypothesis.kind is Kind.WRONG_PARAMETER]
     looks = [(each, _look(study, each, thresholds)) for each in wrong]
@@ -57,7 +56,7 @@ def wrong_parameters(
 
 
 def _ranked(screened: Sequence[Explanation]) -> list[Explanation]:
-    """Those of the catalogue, the likeliest in the linear model first."""
+    """Explanations of the catalogue, the likeliest in the linear model first."""
     return sorted((each for each in screened if each.hypothesis.open_names), key=lambda each: -each.log_weight)
 
 

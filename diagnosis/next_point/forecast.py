@@ -1,7 +1,7 @@
-"""What two explanations foretell of readings at new points, and what such readings would say of them.
+"""Forecasts of two explanations for readings at new points, and the odds after such readings.
 
-Each foretells a Gaussian, as wide as the noise and its own parameters make it: what parameters can take up of a
-difference tells nothing, however often it is read.
+Each forecast is a Gaussian with the covariance of the noise and of its own parameters: a difference that
+parameters can follow has no weight, however often it is read.
 """
 
 from __future__ import annotations
@@ -24,9 +24,9 @@ from system.estimation.whitening import Whitening, autocorrelation, whitener
 
 @dataclass(frozen=True)
 class Contender:
-    """One explanation as refitted: its ids, the simulator with its laws on, and its posterior.
+    """A refitted explanation: its ids, the simulator with its laws on, and its posterior.
 
-    text: in words, with places; probability: by which odds stand before new readings.
+    text: with places; probability: before new readings.
     """
 
     effects: tuple[EffectId, ...]
@@ -38,7 +38,7 @@ class Contender:
 
 @dataclass(frozen=True)
 class OddsForecast:
-    """ln odds that readings bring for the explanation that is true: their mean and one sigma, nats."""
+    """Gain in ln odds of the true explanation by readings: mean and one sigma, nats."""
 
     mean: float
     sigma: float
@@ -50,9 +50,9 @@ class OddsForecast:
 
 @dataclass(frozen=True)
 class Forecast:
-    """What two explanations foretell at one point, whitened: difference (m,), covariances (m, m) by parameters.
+    """Forecasts of two explanations at one point, whitened: difference (m,), covariances (m, m) by parameters.
 
-    memory: of the noise from one reading to the next, as of `Observations`.
+    memory: correlation of the noise from one reading to the next, as in `Observations`.
     """
 
     difference: Array
@@ -60,20 +60,20 @@ class Forecast:
     second: Array
     memory: tuple[float, ...] = ()
 
-    def brought(self, repeats: int) -> tuple[OddsForecast, OddsForecast]:
-        """What `repeats` readings bring if the first is true, and if the second is."""
+    def odds(self, repeats: int) -> tuple[OddsForecast, OddsForecast]:
+        """Gain of `repeats` readings if the first is true, and if the second is."""
         noise = np.eye(self.difference.size) / independent(repeats, self.memory)
         one, two = noise + self.first, noise + self.second
-        return brought(self.difference, one, two), brought(self.difference, two, one)
+        return odds_forecast(self.difference, one, two), odds_forecast(self.difference, two, one)
 
     def gain(self, repeats: int) -> float:
-        """Nats that `repeats` readings bring at least on average, whichever of the two is true."""
-        return min(each.mean for each in self.brought(repeats))
+        """Mean gain of `repeats` readings in nats, the lesser of both cases."""
+        return min(each.mean for each in self.odds(repeats))
 
 
 def forecasts(study: Study, first: Contender, second: Contender, points: BenchPoints) -> Iterator[Forecast]:
-    """What the two foretell at each of the points."""
-    one, other = (foretold(contender, points) for contender in (first, second))
+    """Forecasts of the two at each of the points."""
+    one, other = (predicted(contender, points) for contender in (first, second))
     there = first.simulator.elsewhere(points)
     whitening = whitener(readings(study, one), there.input_slopes(first.posterior.values))
     difference = whitening.whiten(other - one)
@@ -84,16 +84,16 @@ def forecasts(study: Study, first: Contender, second: Contender, points: BenchPo
         yield Forecast(difference[own], first_spread, second_spread, study.observations.memory)
 
 
-def foretold(contender: Contender, points: BenchPoints) -> Array:
-    """Readings (N, C) in SI at the points, as the contender's fit has them."""
+def predicted(contender: Contender, points: BenchPoints) -> Array:
+    """Readings (N, C) in SI at the points, predicted by the contender's fit."""
     return contender.simulator.elsewhere(points).predict(contender.posterior.values)
 
 
 def log_density(study: Study, contender: Contender, points: BenchPoints, values: Array) -> float:
-    """ln of the joint density of readings (N, C), SI, at new points as an explanation foretells them.
+    """ln of the joint density of readings (N, C), SI, at new points by the forecast of an explanation.
 
-    nan: not read. But for a constant that all explanations share. Readings follow one another, with the memory of
-    the recording's noise.
+    nan: not read. Up to a constant that all explanations share. Consecutive readings have the correlation of the
+    recording's noise.
     """
     there = contender.simulator.elsewhere(points)
     new = readings(study, values, study.observations.memory)
@@ -105,7 +105,7 @@ def log_density(study: Study, contender: Contender, points: BenchPoints, values:
     return whitening.log_determinant - 0.5 * (squares + float(np.linalg.slogdet(covariance)[1]))
 
 
-def brought(difference: Array, true: Array, other: Array) -> OddsForecast:
+def odds_forecast(difference: Array, true: Array, other: Array) -> OddsForecast:
     """ln odds of N(0, true) against N(difference, other) by readings of the first: mean and sigma.
 
     Mean (tr(B) - m + d^T S2^-1 d + ln det S2 - ln det S1) / 2, the divergence (Kullback and Leibler 1951), never
@@ -132,20 +132,20 @@ def independent(repeats: int, memory: tuple[float, ...]) -> float:
 
 def readings(study: Study, predictions: Array, memory: tuple[float, ...] = ()) -> Observations:
     """Readings at new points that are as predicted, with the noise of the recording's channels."""
-    seen, count = study.observations, len(study.channels)
+    known_readings, count = study.observations, len(study.channels)
     recorded = [study.recording.channel(name) for name in study.channels]
     sigma = [
         np.full(len(predictions), np.nan) if one is None else one.sigma + one.sigma_relative * np.abs(column)
         for one, column in zip(recorded, predictions.T, strict=True)
     ]
-    known = seen.measured[:, :count].any(axis=0) & np.array([one is not None for one in recorded])
+    known = known_readings.measured[:, :count].any(axis=0) & np.array([one is not None for one in recorded])
     return Observations(
-        channels=seen.channels[:count],
+        channels=known_readings.channels[:count],
         values=np.where(known, predictions, np.nan),
         sigma=np.stack(sigma, axis=1),
-        inputs=seen.inputs,
-        input_sigma=np.tile(np.median(seen.input_sigma, axis=0), (len(predictions), 1)),
-        quantum=seen.quantum[:count],
+        inputs=known_readings.inputs,
+        input_sigma=np.tile(np.median(known_readings.input_sigma, axis=0), (len(predictions), 1)),
+        quantum=known_readings.quantum[:count],
         blocks=np.arange(len(predictions)),
         memory=memory,
     )

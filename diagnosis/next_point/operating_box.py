@@ -1,4 +1,4 @@
-"""The box of operating points that the rig of a recording can be asked for, and points in it."""
+"""The box of operating points that the rig of a recording can run, and points in it."""
 
 from __future__ import annotations
 
@@ -60,9 +60,9 @@ def rows(points: BenchPoints, chosen: NDArray[np.int64]) -> BenchPoints:
 def rig_box(recording: Recording, pump: PumpDescription) -> BenchBox:
     """The ranges of a recording and a tenth beyond each end, within the pump's rating and its full displacement.
 
-    Delivery pressure is counted from the inlet's: a pump raises it. What was not measured is as a simulation of
-    the recording takes it (`diagnosis.study.readings.bench_points`); other pressures and the difference of case
-    and inlet temperature stay at their median.
+    Delivery pressure is relative to the inlet's. Inputs that were not measured are assumed as in a simulation of
+    the recording (`diagnosis.study.inputs.bench_points`); other pressures and the difference of case and inlet
+    temperature stay at their median.
     """
     points, _ = bench_points(recording, pump)
     rated, inlet = pump.pump, float(np.median(points.p_in))
@@ -82,7 +82,7 @@ def rig_box(recording: Recording, pump: PumpDescription) -> BenchBox:
 
 
 def ordinary_box(recording: Recording, pump: PumpDescription) -> BenchBox:
-    """The box of `rig_box`, widened to what an ordinary bench reaches along each axis that was measured.
+    """The box of `rig_box`, widened to the range of an ordinary bench along each measured axis.
 
     From a quarter of the rated speed and a tenth of the rated rise of pressure to both, displacement from a fifth
     to all where the pump was swivelled, the inlet at 30 to 80 degC.
@@ -106,7 +106,7 @@ def ordinary_box(recording: Recording, pump: PumpDescription) -> BenchBox:
 
 
 def _ends(values: Array, rating: float) -> tuple[float, float]:
-    """A range widened: not beyond the rating unless the recording went there itself, not below half its least."""
+    """A widened range: not beyond the rating unless the recording is, not below half its least."""
     lower, upper = float(values.min()), float(values.max())
     more = BEYOND * (upper - lower)
     return max(lower - more, 0.5 * lower), min(upper + more, max(rating, upper))

@@ -1,7 +1,7 @@
-"""The leak of one gap measured by itself: what tells two explanations apart that no point of a bench does.
+"""The leakage of one gap measured by itself: a test of two explanations that no point of a bench separates.
 
-Explanations that act at different gaps move the case drain alike: each takes from one gap what the other gives to
-it, within what is known of the films.
+Explanations that act at different gaps change the case drain alike: within the tolerances of the films one gap's
+leakage can replace another's.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ STEP = 0.1  # of slopes, in spreads of a parameter
 
 @dataclass(frozen=True)
 class GapLeakTest:
-    """Leak of one gap at a point as two explanations have it, SI, with one sigma of a reading; nats it brings."""
+    """Leakage of one gap at a point by two explanations, SI, one sigma of a reading, and its gain in nats."""
 
     gap: Gap
     point: BenchPoints
@@ -44,7 +44,7 @@ class GapLeakTest:
 
     @property
     def text(self) -> str:
-        """What to measure, where, and what is to be expected."""
+        """The measurement, its operating point, and the expected values."""
         drain, unit = ChannelName.Q_CASE, channel_unit(ChannelName.Q_CASE)
         one, other = (f"{reading(drain, leak):.3g}" for leak in self.leaks)
         at = {
@@ -60,7 +60,7 @@ class GapLeakTest:
         )
 
 
-def own_leak(
+def gap_leak_test(
     study: Study, box: BenchBox, first: Contender, second: Contender, limits: NextPointLimits
 ) -> GapLeakTest | None:
     """The gap whose leak separates the two best at the box's highest pressure; None where none settles them.

@@ -1,4 +1,4 @@
-"""Which two explanations the next point is to separate."""
+"""The next test: a point that separates the first explanation from its likeliest rival."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from diagnosis.explain.ranked import Explanation
 from diagnosis.next_point.choose import NextPoint, next_point
 from diagnosis.next_point.forecast import Contender
 from diagnosis.next_point.operating_box import ordinary_box, rig_box
-from diagnosis.procedure.gap_leak_test import own_leak
+from diagnosis.procedure.gap_leak_test import gap_leak_test
 from diagnosis.report.text import explanation_words
 from diagnosis.study.model import Study
 from diagnosis.thresholds import NextPointLimits, Thresholds
@@ -23,22 +23,22 @@ from system.inputs.errors import NotConverged
 def with_next_point(study: Study, pump: PumpDescription, found: Diagnosis, thresholds: Thresholds) -> Diagnosis:
     """The diagnosis with the point that separates its first explanation from the likeliest other.
 
-    Unchanged where no refitted rival stands. Raises NotConverged where a point cannot be simulated.
+    Unchanged if there is no refitted rival. Raises NotConverged where a point cannot be simulated.
     """
     asked = rivals(found, thresholds)
     if asked is None:
         return found
     first, second = (contender(study, each, thresholds) for each in asked)
-    return replace(found, next_point=asked_for(study, pump, first, second, thresholds.next_point))
+    return replace(found, next_point=proposed_point(study, pump, first, second, thresholds.next_point))
 
 
-def asked_for(
+def proposed_point(
     study: Study, pump: PumpDescription, first: Contender, second: Contender, limits: NextPointLimits
 ) -> NextPoint:
     """A point of the rig's box if one settles two that are open, else one of an ordinary bench's if that does.
 
-    Else the rig's best, with what would instead. Raises NotConverged where a point of the rig's box cannot be
-    simulated; where one farther out cannot, that is told.
+    Else the rig's best, with another test if one settles them. Raises NotConverged if a point of the rig's box
+    cannot be simulated; for a point farther out the failure is part of the text.
     """
     box = rig_box(study.recording, pump)
     point = next_point(study, pump, box, first, second, limits)
@@ -47,15 +47,15 @@ def asked_for(
     try:
         farther = next_point(study, pump, ordinary_box(study.recording, pump), first, second, limits)
     except (NotConverged, FilmInputError) as reason:
-        return replace(point, instead=f"Farther out nothing can be foretold: {reason}.")
+        return replace(point, instead=f"Farther out nothing can be predicted: {reason}.")
     if farther.settles:
         return replace(farther, beyond=True)
-    leak = own_leak(study, box, first, second, limits)
+    leak = gap_leak_test(study, box, first, second, limits)
     return replace(point, instead=leak.text if leak else "")
 
 
 def rivals(found: Diagnosis, thresholds: Thresholds) -> tuple[Explanation, Explanation] | None:
-    """The first explanation and the likeliest other that stands, both refitted; None where none stands."""
+    """The first explanation and its likeliest rival, both refitted; None without a rival."""
     fitted = [each for each in found.hypotheses if each.posterior is not None]
     rival = _rival(fitted, thresholds.next_point.rival)
     return None if rival is None else (fitted[0], rival)
@@ -71,11 +71,11 @@ def _rival(fitted: Sequence[Explanation], least: float) -> Explanation | None:
     return max(others, key=lambda each: each.probability, default=None)
 
 
-def contender(study: Study, weighed: Explanation, thresholds: Thresholds) -> Contender:
+def contender(study: Study, explanation: Explanation, thresholds: Thresholds) -> Contender:
     """A refitted explanation with the simulator of its fit."""
-    if weighed.posterior is None:
-        raise ValueError(f"{weighed.hypothesis.text}: not refitted")
-    simulator = simulator_of(study, weighed.hypothesis, thresholds)
-    own = weighed.hypothesis
-    text = explanation_words(own) + (", of another form" if own.bent else "")
-    return Contender(own.effects, simulator, weighed.posterior, text, weighed.probability)
+    if explanation.posterior is None:
+        raise ValueError(f"{explanation.hypothesis.text}: not refitted")
+    simulator = simulator_of(study, explanation.hypothesis, thresholds)
+    own = explanation.hypothesis
+    text = explanation_words(own) + (", of another form" if own.other_form else "")
+    return Contender(own.effects, simulator, explanation.posterior, text, explanation.probability)

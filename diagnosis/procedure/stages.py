@@ -11,7 +11,7 @@ import numpy as np
 from diagnosis.checks.notes import note_text
 from diagnosis.detect.mismatch import Detection, confirmed, detect, holds
 from diagnosis.explain.combinations import combine
-from diagnosis.explain.explained import repair
+from diagnosis.explain.explained import explained_mismatch
 from diagnosis.explain.held_out import held_out
 from diagnosis.explain.hypotheses import hypotheses
 from diagnosis.explain.ranked import Explanation, with_probabilities
@@ -37,10 +37,10 @@ from system.work.progress import Report, silent
 def diagnose_study(
     study: Study, viscosity: Array, thresholds: Thresholds, report: Report = silent, workers: int = 1
 ) -> Diagnosis:
-    """The whole finding on a study but for the next point; `viscosity` (N,) Pa s, of the oil at the case.
+    """The diagnosis of a study without the next point; `viscosity` (N,) Pa s, of the oil at the case.
 
-    Fits run in `workers` processes side by side. What could not be refitted is told in the notes, and stands as
-    the linear model has it.
+    Fits run in `workers` processes side by side. A hypothesis that could not be refitted keeps its linear form,
+    with a note.
     """
     detection, location = detect(study, thresholds), locate(study, thresholds)
     screened = screen(study, study.base, hypotheses(study, thresholds), thresholds)
@@ -50,7 +50,9 @@ def diagnose_study(
     screened = _screened_anew(study, detection, screened, null, thresholds)
     with process_pool(workers) as executor:
         fits = _fits(study, detection, screened, null, thresholds, executor, report)
-    ranked = _foretold(study, null, with_probabilities(fits.weighed, thresholds.name.temperature), thresholds)
+    ranked = _with_held_out(
+        study, null, with_probabilities(fits.explanations, thresholds.name.temperature), thresholds
+    )
     verdict = judge(study, detection, ranked, coordinates(study, viscosity), thresholds)
     notes = (*map(note_text, study.recording.notes), *verdict.reasons, *not_null, *fits.failed)
     return _finding(study, detection, location, verdict, viscosity, notes, thresholds)
@@ -58,9 +60,9 @@ def diagnose_study(
 
 @dataclass(frozen=True)
 class _Fits:
-    """All explanations weighed on one scale, and what could not be refitted, in words."""
+    """All explanations on one scale, and failed refits as text."""
 
-    weighed: tuple[Explanation, ...]
+    explanations: tuple[Explanation, ...]
     failed: tuple[str, ...]
 
 
@@ -73,7 +75,7 @@ def _fits(
     executor: ProcessPool,
     report: Report,
 ) -> _Fits:
-    """The likeliest refitted; where there is a mismatch wrong parameters too, and several effects together."""
+    """Refits of the likeliest; with a mismatch also of wrong parameters and of several effects together."""
     listed = shortlist(screened, is_settled(detection, null, thresholds), thresholds)
     combined: tuple[Explanation, ...] = ()
     if is_settled(detection, null, thresholds):
@@ -94,7 +96,7 @@ def _fits(
 
 
 def _parts(placed: Sequence[Explanation], combined: Sequence[Explanation]) -> tuple[Explanation, ...]:
-    """Of what the likeliest explanation has several effects of: those that were not refitted alone."""
+    """Single effects of the likeliest explanation of several effects that have no refit of their own."""
     best = max((*placed, *combined), key=lambda each: each.log_weight)
     names = set(best.hypothesis.open_names)
     return tuple(
@@ -106,7 +108,7 @@ def _parts(placed: Sequence[Explanation], combined: Sequence[Explanation]) -> tu
 
 
 def _null(study: Study, linear: Explanation, thresholds: Thresholds) -> tuple[Explanation, tuple[str, ...]]:
-    """The null refitted; where that fails, in the linear model about the prior mean, with what failed in words."""
+    """The refitted null; if that fails, its linear form about the prior mean, with the reason as text."""
     null, reason = try_refit(study, linear, thresholds)
     return (null, ()) if reason is None else (replace(null, posterior=study.base), (reason,))
 
@@ -118,10 +120,10 @@ def _screened_anew(
     null: Explanation,
     thresholds: Thresholds,
 ) -> tuple[Explanation, ...]:
-    """The same about the null's own fit where nothing speaks against it.
+    """The screening repeated about the null's fit, where nothing contradicts that.
 
-    About the prior mean what lies within tolerance but bends the readings (an encoder's offset on the flank of a
-    trace) looks like an effect, which a refit would cost many maps to take away.
+    About the prior mean a nonlinear influence within tolerance (an encoder's offset on the flank of a trace) looks
+    like an effect, and refits would cost many maps to reject it.
     """
     fit = _fit_of(null)
     if not is_settled(detection, null, thresholds) or not holds(fit, thresholds):
@@ -132,10 +134,10 @@ def _screened_anew(
 def _placed(
     study: Study, screened: Sequence[Explanation], null: Explanation, refitted: Sequence[Explanation]
 ) -> tuple[Explanation, ...]:
-    """All singles on one scale: the refits in the place of their linear forms, the others moved along.
+    """All singles on one scale: refits replace their linear forms, the others are shifted.
 
-    What was not refitted stays as far behind as the linear model has it, measured from the best of those that
-    were: a linear model that fits by impossible nuisances is ahead of no refit.
+    Without a refit the distance to the best refitted hypothesis is that of the linear model: a linear model that
+    fits by impossible nuisances is ahead of no refit.
     """
     fresh = {each.hypothesis.open_names: each for each in (null, *refitted)}
     linear = [each.log_evidence for each in screened if _key(each) in fresh and _key(each) is not None]
@@ -153,22 +155,22 @@ def _key(each: Explanation) -> tuple[str, ...] | None:
 
 
 def _unknown_anew(
-    study: Study, weighed: Sequence[Explanation], null: Explanation, thresholds: Thresholds
+    study: Study, explanations: Sequence[Explanation], null: Explanation, thresholds: Thresholds
 ) -> tuple[Explanation, ...]:
-    """Unknown physics seen from the prior mean and from the null's refit, whichever is better for it."""
+    """Unknown physics about the prior mean or about the null's refit, the larger evidence of the two."""
     fit = None if null.posterior is None else settled(null.posterior)
 
-    def seen(each: Explanation) -> Explanation:
+    def renewed(each: Explanation) -> Explanation:
         component = each.hypothesis.component
         if component is None or fit is None:
             return each
         anew = null.log_evidence + unknown_gain(study, fit, component, thresholds)
         return replace(each, log_evidence=max(each.log_evidence, anew))
 
-    return tuple(seen(each) for each in weighed)
+    return tuple(renewed(each) for each in explanations)
 
 
-def _foretold(
+def _with_held_out(
     study: Study, null: Explanation, ranked: Sequence[Explanation], thresholds: Thresholds
 ) -> tuple[Explanation, ...]:
     """The same with held-out points of the likeliest refits."""
@@ -177,12 +179,12 @@ def _foretold(
         return tuple(ranked)
     known = [each for each in ranked if each.posterior is not None][: thresholds.fit.held_out]
 
-    def foretold(each: Explanation) -> Explanation:
+    def with_held_out(each: Explanation) -> Explanation:
         if each not in known or each.posterior is None:
             return each
         return replace(each, heldout=held_out(study, before, each.posterior, thresholds))
 
-    return tuple(foretold(each) for each in ranked)
+    return tuple(with_held_out(each) for each in ranked)
 
 
 def _finding(
@@ -194,17 +196,19 @@ def _finding(
     notes: tuple[str, ...],
     thresholds: Thresholds,
 ) -> Diagnosis:
-    """All of it put together, the claimed explanation first."""
+    """The diagnosis from its parts, the claimed explanation first."""
     ranked = verdict.ranked
     null = next(each for each in ranked if each.hypothesis.kind is Kind.NO_MISMATCH)
     claimed = verdict.members[0] if verdict.members else None
     shown = claimed or null
     before, after = _fit_of(null), _fit_of(shown)
     first = claimed or ranked[0]
-    told = verdict.status is not VerdictStatus.SUSPICION and verdict.kind is not Kind.NO_MISMATCH
-    described = first if told else None
+    is_described = verdict.status is not VerdictStatus.SUSPICION and verdict.kind is not Kind.NO_MISMATCH
+    described = first if is_described else None
     if claimed is not None and claimed.posterior is not None:
-        location = of_explanation(study, location, repair(study, claimed, thresholds).added, thresholds)
+        location = of_explanation(
+            study, location, explained_mismatch(study, claimed, thresholds).added, thresholds
+        )
         if ChannelName.P_CHAMBER in location.channels:
             location = without_explanation(study, location, claimed, thresholds)
     return Diagnosis(
@@ -226,12 +230,12 @@ def _finding(
     )
 
 
-def scaling_of(study: Study, weighed: Explanation, viscosity: Array, thresholds: Thresholds) -> Scaling | None:
-    """Exponents of the mismatch as an explanation sees it, in the channel where it is greatest in sigma.
+def scaling_of(study: Study, explanation: Explanation, viscosity: Array, thresholds: Thresholds) -> Scaling | None:
+    """Exponents of the mismatch by an explanation, in the channel with the greatest addition in sigma.
 
-    None for what shows in the traces most.
+    None if that channel is the chamber pressure.
     """
-    found = repair(study, weighed, thresholds)
+    found = explained_mismatch(study, explanation, thresholds)
     sigma = study.base.whitening.sigma
     strength = np.where(study.observations.measured, (found.added / sigma) ** 2, 0.0).sum(axis=0)
     at = int(np.argmax(study.by_shown(strength)))
@@ -243,24 +247,24 @@ def scaling_of(study: Study, weighed: Explanation, viscosity: Array, thresholds:
     )
 
 
-def _fit_of(weighed: Explanation) -> Posterior:
-    if weighed.posterior is None:
-        raise ValueError(f"{weighed.hypothesis.text}: not refitted")
-    return weighed.posterior
+def _fit_of(explanation: Explanation) -> Posterior:
+    if explanation.posterior is None:
+        raise ValueError(f"{explanation.hypothesis.text}: not refitted")
+    return explanation.posterior
 
 
 def _not_identifiable(verdict: Judgement, after: Posterior, alike: float) -> tuple[str, ...]:
-    """Members of the class that is claimed, and parameters that the readings tie to each other."""
-    told = [f"{verdict.members[0].hypothesis.text} vs {each.hypothesis.text}" for each in verdict.members[1:]]
+    """Members of the claimed class, and parameters that the readings correlate."""
+    members = [f"{verdict.members[0].hypothesis.text} vs {each.hypothesis.text}" for each in verdict.members[1:]]
     spread = np.sqrt(np.diag(after.covariance))
     correlation = np.triu(after.covariance / np.outer(spread, spread), 1)
     names = [parameter.name for parameter in after.parameters]
     tied = [f"{names[one]} vs {names[other]}" for one, other in np.argwhere(np.abs(correlation) > alike)]
-    return (*told, *tied)
+    return (*members, *tied)
 
 
 def _effort(ranked: Sequence[Explanation]) -> FitEffort:
-    """What all refits have cost together."""
+    """Effort of all refits together."""
     spent = [each.posterior.effort for each in ranked if each.posterior is not None]
     return FitEffort(
         sum(each.predictions for each in spent),

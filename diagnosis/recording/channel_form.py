@@ -1,4 +1,4 @@
-"""What a `recording.toml` states of one channel: column, unit, noise, calibration."""
+"""One channel of a `recording.toml`: column, unit, noise, calibration."""
 
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ from system.inputs.units import STANDARD_ATMOSPHERE, Dimension, QuantityError, u
 
 
 class PressureReference(Enum):
-    """What a pressure is counted from."""
+    """Zero of a pressure."""
 
     ABSOLUTE = "absolute"
     GAUGE = "gauge"
 
 
 class AccuracyClass(Enum):
-    """Classes of measurement after ISO 4409; `channel_noise` says how far its limits are known here."""
+    """Classes of measurement after ISO 4409; `channel_noise` states how well their limits are known."""
 
     A = "A"
     B = "B"
@@ -66,7 +66,7 @@ class ChannelForm:
 
 
 def read_channel(table: Table, name: ChannelName, reference: PressureReference) -> ChannelForm | None:
-    """Return one channel's form; None with its faults told."""
+    """Return one channel's form; None with its faults added."""
     before = len(table.faults)
     column, unit = table.get("column"), table.get("unit")
     if not isinstance(column, str) or not column:
@@ -112,7 +112,7 @@ def read_time(table: Table, *, needed: bool) -> TimeForm | None:
 
 
 def _scale(table: Table, unit: object, name: ChannelName, reference: PressureReference) -> tuple[float, float]:
-    """Factor and offset from the file's number to SI; (1, 0) with its fault told."""
+    """Factor and offset from the file's number to SI; (1, 0) with its fault added."""
     if name.dimension is None:
         if unit not in ("1", "%"):
             table.fault("unit", "no such key" if unit is None else repr(unit), "'1' or '%'")
@@ -127,7 +127,7 @@ def _scale(table: Table, unit: object, name: ChannelName, reference: PressureRef
 
 
 def _not_negative(table: Table, key: str) -> float | None:
-    """A number not below zero; None where it is left out, or with its fault told."""
+    """A number not below zero; None if it is left out, or with its fault added."""
     if table.get(key) is None:
         return None
     number = table.number(key)

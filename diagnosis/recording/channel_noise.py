@@ -1,4 +1,4 @@
-"""Noise and calibration of a channel: what the recording states, else what its data or its class tell."""
+"""Noise and calibration of a channel: as the recording states, else by its data or its accuracy class."""
 
 from __future__ import annotations
 
@@ -31,8 +31,8 @@ def recorded_channel(form: ChannelForm, readings: Array, found: float | None) ->
 
     found: repeatability from the data (replicates, window scatter), or None. Calibration that is not stated is
     that of the accuracy class, else gain = max(sigma_relative, 0.1 %) and zero = sigma, or class A where sigma is
-    not stated either (scatter says nothing of calibration); a displacement ratio of sigma 0 is a setting, good to
-    0.05 % of full. `assumed` names every field so taken.
+    not stated either (scatter is no measure of calibration); a displacement ratio of sigma 0 is a setting, good to
+    0.05 % of full. `assumed` names every assumed field.
     """
     assumed = []
     sigma, relative = form.sigma, form.sigma_relative
@@ -68,10 +68,10 @@ def recorded_channel(form: ChannelForm, readings: Array, found: float | None) ->
 
 
 def reading_step(readings: Array, form: ChannelForm) -> float:
-    """Return the step of a channel's readings in SI, 0 where none is seen.
+    """Return the step of a channel's readings in SI, 0 if there is none.
 
     The largest of 1, 2, 2.5 and 5 times a power of ten, in the file's unit, of which every reading is a multiple;
-    told from at least `FEWEST_READINGS` different ones.
+    from at least `FEWEST_READINGS` different ones.
     """
     known = np.unique(readings[np.isfinite(readings)])
     if len(known) < FEWEST_READINGS:

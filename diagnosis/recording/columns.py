@@ -1,4 +1,4 @@
-"""Tables and columns that a recording names: found, or told as faults; what the tables tell is noted."""
+"""Tables and columns that a recording names, with faults for those not found and notes on the tables."""
 
 from __future__ import annotations
 
@@ -19,26 +19,26 @@ class ColumnReader:
     notes: list[DataNote] = field(default_factory=list)
 
     def fault(self, path: str, found: str, expected: str, nearest: str = "") -> None:
-        """Tell of one fault."""
+        """Add one fault."""
         self.faults.append(Fault(path, found, expected, nearest))
 
     def note(self, text: str) -> None:
-        """Note what was done with the data, which is no fault."""
-        self.notes.append(DataNote(NoteKind.TOLD, None, (), text))
+        """Add a note on the data."""
+        self.notes.append(DataNote(NoteKind.NOTED, None, (), text))
 
     def columns(self, section: str, source: TableSource) -> TableColumns | None:
-        """The columns of a section's table; None with the fault told."""
+        """The columns of a section's table; None with the fault added."""
         try:
             columns = read_columns(source)
         except TableFault as reason:
             self.fault(f"{section}.file", reason.found, reason.expected, reason.nearest)
             return None
-        for words in columns.told:
-            self.note(f"{source.path.name}: {words}")
+        for text in columns.notes:
+            self.note(f"{source.path.name}: {text}")
         return columns
 
     def column(self, path: str, name: str, columns: TableColumns) -> Array | None:
-        """A column by name, for the key at `path`; None with the fault told."""
+        """A column by name, for the key at `path`; None with the fault added."""
         if name in columns.values:
             return columns.values[name]
         expected = f"one of the columns {', '.join(columns.values)}"

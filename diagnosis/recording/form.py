@@ -1,4 +1,4 @@
-"""What a `recording.toml` states: tables, channels with their units and noise, steady windows, traces."""
+"""Content of a `recording.toml`: tables, channels with their units and noise, steady windows, traces."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ class TraceForm:
 class RecordingForm:
     """A whole `recording.toml`, checked by itself; `points` is [steady] or [series].
 
-    reference_stated: whether the file says what pressures are counted from (else gauge is taken).
+    reference_stated: the file states the zero of its pressures (else they are gauge).
     """
 
     title: str
@@ -69,9 +69,9 @@ class RecordingForm:
 
 
 def read_form(top: Table, folder: Path, data: Path | None) -> RecordingForm | None:
-    """Return what the file states; faults go to `top`, and None comes back where there are any.
+    """Return the content of the file; None with faults added to `top`.
 
-    Files are named from `folder`; `data` stands in for the file of [steady] or [series] where none is stated.
+    Files are named from `folder`; `data` is the file of [steady] or [series] if none is stated.
     """
     _format(top)
     title, pump, oil = (_text(top, key) for key in ("title", "pump", "oil"))
@@ -107,7 +107,7 @@ def _text(table: Table, key: str) -> str:
 
 
 def _source(table: Table, folder: Path, data: Path | None) -> TableSource:
-    """The table's file and what is stated of its form."""
+    """The table's file and the stated form."""
     file = _text(table, "file")
     if not file and data is None:
         table.fault("file", "no such key", "the path of the table, from the folder of the recording")

@@ -1,4 +1,4 @@
-"""What a recording is: channels with their noise, steady points, traces over shaft angle, notes on the data."""
+"""Recording: channels with their noise, steady points, traces over shaft angle, notes on the data."""
 
 from __future__ import annotations
 
@@ -13,23 +13,23 @@ from system.inputs.channels import ChannelName
 
 
 class Circuit(Enum):
-    """How the pump was fed."""
+    """Hydraulic circuit of the pump."""
 
     OPEN = "open"
     CLOSED = "closed"
 
 
 class NoteKind(Enum):
-    """What came of a finding in the data."""
+    """Kind of a note on the data."""
 
     FAULT = "fault"
     REMOVED = "removed"
-    TOLD = "told"
+    NOTED = "noted"
 
 
 @dataclass(frozen=True)
 class DataNote:
-    """One finding in the data: at which channel (None: several) and points (rows from 0), and what, in words."""
+    """One note on the data: channel (None: several), points (rows from 0), and text."""
 
     kind: NoteKind
     channel: ChannelName | None

@@ -32,8 +32,8 @@ def read_recording(path: Path) -> Recording:
     """Return a recording as understood, in SI with gauge pressures: from its folder, its `recording.toml`, or a
     table that has a `recording.toml` beside it (then the table's file need not be stated, and is that one).
 
-    Raises InputFaults with everything that is wrong with the file, its tables and their columns. What the readings
-    themselves tell is for `data_checks.check_recording`.
+    Raises InputFaults with everything that is wrong with the file, its tables and their columns. Readings are
+    checked by `checks.check.check_recording`.
     """
     if not path.exists():
         expected = f"a recording's folder, its {FILE}, or a table beside one"
@@ -73,7 +73,7 @@ class _Points:
 
 
 def _recording(form: RecordingForm, reader: ColumnReader) -> Recording | None:
-    """The recording of a form; None with the faults told."""
+    """The recording of a form; None with the faults added."""
     section = "steady" if isinstance(form.points, SteadyForm) else "series"
     columns = reader.columns(section, form.points.source)
     points = None if columns is None else _points(section, form, columns, reader)
@@ -99,7 +99,7 @@ def _recording(form: RecordingForm, reader: ColumnReader) -> Recording | None:
 
 
 def _points(section: str, form: RecordingForm, columns: TableColumns, reader: ColumnReader) -> _Points | None:
-    """The steady points; None with the faults told."""
+    """The steady points; None with the faults added."""
     found = [reader.column(f"channel.{c.name.value}.column", c.column, columns) for c in form.channels]
     timed = form.points.time
     time = None if timed is None else reader.column(f"{section}.time.column", timed.column, columns)
@@ -129,7 +129,7 @@ def _hold_units(channels: Sequence[ChannelForm], columns: TableColumns, reader: 
 def _steady_points(
     form: SteadyForm, readings: Array, seconds: Array | None, columns: TableColumns, reader: ColumnReader
 ) -> _Points | None:
-    """Rows of a steady table as they stand."""
+    """Rows of a steady table, unchanged."""
     count = len(readings)
     marks = reader.column("steady.repeats", form.repeats, columns) if form.repeats else None
     if form.repeats and marks is None:
@@ -148,13 +148,13 @@ def _series_points(
     except TableFault as reason:
         reader.fault("series", reason.found, reason.expected, reason.nearest)
         return None
-    reader.note(series.told)
+    reader.note(series.note)
     numbers = np.arange(len(series.means), dtype=np.int64)
     return _Points(series.means, numbers, series.hours, series.effective, series.errors, {})
 
 
 def _channels(forms: Sequence[ChannelForm], points: _Points, reader: ColumnReader) -> tuple[RecordedChannel, ...]:
-    """Channels with their noise; a fault for each whose repeatability is not to be had."""
+    """Channels with their noise; a fault for each without a repeatability."""
     inputs = points.readings[:, [k for k, form in enumerate(forms) if form.name in INPUTS]]
     channels = []
     for k, form in enumerate(forms):
@@ -175,7 +175,7 @@ def _channels(forms: Sequence[ChannelForm], points: _Points, reader: ColumnReade
 
 
 def _assumed(channel: RecordedChannel) -> str:
-    """What was taken for a channel, in words and in its file's unit."""
+    """Assumptions for a channel as text, in the unit of its file."""
     dimension = channel.name.dimension
     factor = 1.0 if dimension is None else unit_scale(channel.unit, dimension)[0]
     unit = "" if dimension is None else f" {channel.unit}"

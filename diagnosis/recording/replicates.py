@@ -24,8 +24,8 @@ def set_points(marks: Array) -> Numbers:
 def repeatability(readings: Array, inputs: Array, numbers: Numbers) -> float | None:
     """Return one sigma of a channel (N,) from the scatter within set points, pooled; None below `FEWEST` degrees.
 
-    A set point is met only nearly: what of the scatter follows the deviations of the inputs (N, M) within set
-    points is taken out by least squares first, as far as degrees of freedom reach.
+    Set points are met approximately: the part of the scatter that follows the deviations of the inputs (N, M)
+    within set points is removed by least squares first, as far as degrees of freedom allow.
     """
     known = np.isfinite(readings)
     deviation, groups = _within(readings[known], numbers[known])

@@ -19,23 +19,24 @@ SETTLING = 3.0  # lags of a channel left out at the beginning of a stretch
 
 @dataclass(frozen=True)
 class SeriesPoints:
-    """Means (N, C) of C channels over N steady stretches, standard error of each, samples behind it, and when.
+    """Means (N, C) of C channels over N steady stretches, standard error of each, samples behind it, and times.
 
-    hours: (N,), middle of the stretch, h from the first; told: what was done, in words.
+    hours: (N,), middle of the stretch, h from the first; note: the procedure as text.
     """
 
     means: Array
     errors: Array
     effective: Array
     hours: Array
-    told: str
+    note: str
 
 
 def series_points(form: SeriesForm, time: Array, readings: Array, channels: Sequence[ChannelForm]) -> SeriesPoints:
     """Return the steady points of a series: time (T,) in s, readings (T, C) in SI, columns as `channels`.
 
-    Steady is what `SteadyRule` says of the inputs that are measured. The first `SETTLING` of the largest lag of a
-    stretch are left out. Raises TableFault for time that does not rise and a series without a steady stretch.
+    `SteadyRule` of the measured inputs decides which stretches are steady. The first `SETTLING` times the largest
+    lag of a stretch are left out. Raises TableFault for time that does not rise and a series without a steady
+    stretch.
     """
     time, readings, raster = on_raster(time, readings, form.raster)
     rule = SteadyRule(round(form.window / raster), form.slope)
@@ -67,7 +68,7 @@ def series_points(form: SeriesForm, time: Array, readings: Array, channels: Sequ
 
 
 def on_raster(time: Array, readings: Array, raster: float) -> tuple[Array, Array, float]:
-    """Return time, readings and step in s of a series on an even raster: means of what falls into each step.
+    """Return time, readings and step in s of a series on an even raster: means over each step.
 
     raster 0: the median step of the series; steps without a sample are gaps (nan). Raises TableFault where time
     does not rise or a raster is finer than the series.

@@ -1,4 +1,4 @@
-"""Where a time series stands still: the rule of steady windows, and noise that remembers."""
+"""Steady stretches of a time series: the rule of steady windows, with correlated noise."""
 
 from __future__ import annotations
 
@@ -19,10 +19,10 @@ MOST_MEMORY = 0.9  # that a tenth of a window can tell
 
 @dataclass(frozen=True)
 class SteadyRule:
-    """Steady is a window of `samples` of which neither slope nor bow nor any tenth counts.
+    """A window of `samples` is steady if neither slope nor bow nor any tenth of it is significant.
 
-    Each may be within noise: below `limit` standard errors (a tenth, one of ten, below one more), counted with the
-    noise's own memory. Or harmless: what it changes over the window stays below one sigma of repeatability.
+    Each is insignificant within noise: below `limit` standard errors (a tenth, one of ten, below one more), with
+    the correlation of the noise. Or harmless: its change over the window is below one sigma of repeatability.
     """
 
     samples: int
@@ -32,7 +32,7 @@ class SteadyRule:
 def steady_stretches(inputs: Array, sigma: Array, rule: SteadyRule) -> tuple[slice, ...]:
     """Return the stretches of a series (T, M) that are steady in every input, longest possible, in order.
 
-    Windows of rule.samples slide by a tenth; a stretch is what overlapping steady windows cover. One that drifts
+    Windows of rule.samples slide by a tenth; a stretch is the union of overlapping steady windows. One that drifts
     as a whole is halved until its parts are steady, down to single windows. sigma: (M,), 0 where none is known.
     """
     length = rule.samples
@@ -46,10 +46,10 @@ def steady_stretches(inputs: Array, sigma: Array, rule: SteadyRule) -> tuple[sli
 
 
 def is_steady(window: Array, sigma: Array, rule: SteadyRule) -> bool:
-    """True where no column (T, M) of a window without gaps moves in a way that counts (`SteadyRule`).
+    """True where no column (T, M) of a window without gaps moves significantly (`SteadyRule`).
 
     From the means of ten parts: slope and bow are the coefficients of the Legendre polynomials P1 and P2, by least
-    squares; noise is taken from within the parts, so that no movement between them hides in it.
+    squares; the noise is that within the parts, without movement between them.
     """
     if not np.all(np.isfinite(window)):
         return False

@@ -117,7 +117,7 @@ def read_traces(form: TraceForm, reader: ColumnReader, rows: Array | None, count
 def _channels(
     form: TraceForm, reader: ColumnReader, pressure: Array, blocks: Sequence[TraceBlock]
 ) -> tuple[RecordedChannel, ...]:
-    """Channels of angle and chamber pressure; the latter's repeatability is its mean's where cycles tell it."""
+    """Channels of angle and chamber pressure; the latter's repeatability is that of its mean if cycles give it."""
     scatter = [np.sqrt(np.mean(np.sum(f**2, axis=1))) for b in blocks if (f := b.covariance_factor) is not None]
     angle = recorded_channel(replace(form.angle, sigma=form.angle.sigma or 0.0), np.zeros(1), None)
     chamber = recorded_channel(form.pressure, pressure, max(scatter, default=None))

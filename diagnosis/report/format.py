@@ -44,7 +44,7 @@ def estimate_text(estimate: Estimate) -> str:
 
 
 def last_word(name: str) -> str:
-    """What a parameter is, without where: "elastic_opening.slipper.opening" is an opening."""
+    """The quantity of a parameter without its place: "elastic_opening.slipper.opening" is an opening."""
     return name.rpartition(".")[2].replace("_", " ")
 
 
@@ -61,7 +61,7 @@ def listed(words: Iterable[str], last: str = "and") -> str:
 
 
 def odds_text(first: float, other: float) -> str:
-    """How one probability stands to another: "1:12", "below 1:1000000"."""
+    """Odds of one probability to another: "1:12", "below 1:1000000"."""
     if other * MOST_ODDS < first:
         return f"below 1:{MOST_ODDS}"
     against = first / other

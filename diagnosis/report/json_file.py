@@ -48,7 +48,7 @@ def read_diagnosis(path: Path) -> dict[str, Any]:
 
 
 def diagnosis_record(diagnosis: Diagnosis) -> dict[str, Any]:
-    """What diagnosis.json holds, as plain values."""
+    """Content of diagnosis.json, as plain values."""
     return {
         "format": FORMAT,
         "verdict": diagnosis.kind.value,
@@ -58,7 +58,7 @@ def diagnosis_record(diagnosis: Diagnosis) -> dict[str, Any]:
         "mismatch": _mismatch(diagnosis),
         "where": _where(diagnosis),
         "effects": [_claim(claim) for claim in diagnosis.effects],
-        "hypotheses": [_weighed(one, diagnosis) for one in diagnosis.hypotheses],
+        "hypotheses": [_hypothesis(one, diagnosis) for one in diagnosis.hypotheses],
         "fit": {"heldout": _held_out(diagnosis.fit), "held_out": diagnosis.fit.how},
         "scaling": _scaling(diagnosis),
         "next_test": _next_test(diagnosis.next_point) if diagnosis.next_point else None,
@@ -115,15 +115,15 @@ def _estimate(estimate: Estimate) -> dict[str, Any]:
     return {"name": name, "value": estimate.value, "sigma": estimate.sigma, "unit": unit}
 
 
-def _weighed(one: Explanation, diagnosis: Diagnosis) -> dict[str, Any]:
+def _hypothesis(one: Explanation, diagnosis: Diagnosis) -> dict[str, Any]:
     """heldout_rmse: of the channel named first in `where`, in its unit of `fit`; bic: -2 ln evidence (Schwarz)."""
-    told = diagnosis.location.channels[:1]
+    first = diagnosis.location.channels[:1]
     after = one.heldout.after if one.heldout else {}
     return {
         "effects": [effect.value for effect in one.hypothesis.effects],
         "pair": one.hypothesis.pair.value if one.hypothesis.pair else None,
         "probability": one.probability,
-        "heldout_rmse": next((_number(channel, after) for channel in told), None),
+        "heldout_rmse": next((_number(channel, after) for channel in first), None),
         "bic": -2.0 * one.log_evidence,
         "refitted": not one.linear,
         "z": one.z,

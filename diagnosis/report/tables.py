@@ -1,7 +1,7 @@
-"""The tables of a diagnosis, as rows of text by column: what was measured and simulated, parameters, hypotheses.
+"""The tables of a diagnosis, as rows of text by column: readings and simulation, parameters, hypotheses.
 
-A number's unit stands in brackets in its column's name, or in the row's column `unit` (of differences of degC: K);
-probabilities, scores, pulls and counts have none.
+The unit of a number is in brackets in the name of its column, or in the row's column `unit` (K for differences of
+degC); probabilities, scores, pulls and counts have none.
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ from collections.abc import Iterator, Mapping
 
 import numpy as np
 
-from diagnosis.explain.explained import repair
+from diagnosis.explain.explained import explained_mismatch
 from diagnosis.next_point.choose import NextPoint
 from diagnosis.recording.model import Recording
 from diagnosis.recording.units import channel_unit, difference, reading
@@ -40,17 +40,17 @@ def steady_rows(recording: Recording) -> Iterator[Row]:
 
 
 def added_by_claim(study: Study, diagnosis: Diagnosis) -> Array:
-    """(N, C) in SI, what the claimed effects add to the simulated readings, all else as fitted; 0 for no claim."""
+    """(N, C) in SI, addition of the claimed effects to the readings, all else as fitted; 0 without a claim."""
     if not diagnosis.effects:
         return np.zeros_like(study.observations.values)
-    return repair(study, diagnosis.hypotheses[0], diagnosis.thresholds).added
+    return explained_mismatch(study, diagnosis.hypotheses[0], diagnosis.thresholds).added
 
 
 def residual_rows(study: Study, diagnosis: Diagnosis) -> Iterator[Row]:
-    """Each reading: row from 1, where it was taken, measured and simulated by the null and by what is claimed.
+    """Each reading: row from 1, operating point, measured, simulated by the null and by the claimed explanation.
 
     sigma is that of a reading, the noise of the point's inputs included; pull = (measured - simulated) / sigma;
-    added: what the claimed effects have in the reading simulated after.
+    added: part of the claimed effects in the reading simulated after.
     """
     order, added = list(ChannelName), added_by_claim(study, diagnosis)
     sigma = diagnosis.before.whitening.sigma
@@ -81,7 +81,7 @@ def residual_rows(study: Study, diagnosis: Diagnosis) -> Iterator[Row]:
 
 
 def hypothesis_rows(diagnosis: Diagnosis) -> Iterator[Row]:
-    """What was weighed: odds in nats behind the best, probability, score, gain of the folds held out."""
+    """The explanations: nats behind the best, probability, score, gain of the folds held out."""
     best = max((one.log_evidence for one in diagnosis.hypotheses), default=0.0)
     for one in diagnosis.hypotheses:
         heldout = one.heldout
@@ -102,7 +102,7 @@ def hypothesis_rows(diagnosis: Diagnosis) -> Iterator[Row]:
 def parameter_rows(diagnosis: Diagnosis) -> Iterator[Row]:
     """Every parameter of the claimed fit: prior, value and pull by the null's fit and by the claimed one.
 
-    Of what is claimed to be wrong the prior is the stated one, and no pull stands after: it was set free of it.
+    A parameter claimed to be wrong has its stated prior, and no pull after: it was free.
     """
     before, after = diagnosis.before, diagnosis.after
     known = {parameter.name for parameter in before.parameters}
@@ -126,7 +126,7 @@ def parameter_rows(diagnosis: Diagnosis) -> Iterator[Row]:
 
 
 def next_point_rows(found: NextPoint | None) -> Iterator[Row]:
-    """Points of the rig's box by what three readings there would tell, in nats, the best first."""
+    """Points of the rig's box by the gain of readings there, in nats, the best first."""
     for one in () if found is None else found.ranked:
         point = one.point
         yield {
@@ -140,9 +140,10 @@ def next_point_rows(found: NextPoint | None) -> Iterator[Row]:
 
 
 def pull_sums(before: Posterior, after: Posterior) -> tuple[float, float]:
-    """Sum of the squared pulls of what both fits hold to what is stated: it falls where a name is right."""
-    names = {one.name for one in before.parameters} & {one.name for one in after.parameters}
-    names -= set(_set_free(before, after))
+    """Sums of the squared pulls of parameters that both fits hold to stated values: less if a name is right."""
+    skipped = set(_set_free(before, after))
+    known = {one.name for one in after.parameters} - skipped
+    names = [one.name for one in before.parameters if one.name in known]
 
     def total(fit: Posterior) -> float:
         return float(sum(fit.pulls[fit.index(name)] ** 2 for name in names))
@@ -151,7 +152,7 @@ def pull_sums(before: Posterior, after: Posterior) -> tuple[float, float]:
 
 
 def _set_free(before: Posterior, after: Posterior) -> Iterator[str]:
-    """Names of the parameters whose prior is another after: those that the claim widened."""
+    """Names of the parameters whose prior is another after: widened by the claim."""
     stated = {one.name: one for one in before.parameters}
     for one in after.parameters:
         if one.name in stated and one.spread != stated[one.name].spread:

@@ -1,4 +1,4 @@
-"""A diagnosis in plain words: where, what, how much, how sure, and what to record next."""
+"""A diagnosis as text: place, effect, size, certainty, and the next point to record."""
 
 from __future__ import annotations
 
@@ -30,12 +30,12 @@ from system.effects.catalogue.entries import entry_of
 from system.effects.effect import Kind
 from system.inputs.channels import ChannelName
 
-RIVALS = 3  # told by name at most
-OTHER = 0.05  # share of the probability of an effect's other places, from which they are told
+RIVALS = 3  # named at most
+OTHER = 0.05  # share of the probability of an effect's other places, from which they are listed
 
 
 def statement(diagnosis: Diagnosis) -> str:
-    """One to three sentences: where, what, how much, how sure; and at which shaft angles traces stand out."""
+    """One to three sentences: place, effect, size, certainty; and the shaft angles at which traces stand out."""
     angles = "" if diagnosis.kind is Kind.NO_MISMATCH else _angles(diagnosis.location)
     return f"{_verdict(diagnosis)}{angles}"
 
@@ -54,18 +54,18 @@ def _verdict(diagnosis: Diagnosis) -> str:
 
 
 def paragraphs(diagnosis: Diagnosis) -> tuple[str, ...]:
-    """The statement, and behind it what was held out, rivals, what cannot be told, and the next point."""
-    told = (
+    """The statement, held-out residuals, rivals, and the next point."""
+    texts = (
         statement(diagnosis),
         held_out_text(diagnosis),
         _rivals(diagnosis),
         next_point_text(diagnosis.next_point) if diagnosis.next_point else "",
     )
-    return tuple(text for text in told if text)
+    return tuple(text for text in texts if text)
 
 
 def held_out_text(diagnosis: Diagnosis) -> str:
-    """What the repaired simulation does on points that took no part in the fit, channel by channel."""
+    """Residuals of the simulation without and with the finding on held-out points, channel by channel."""
     fit = diagnosis.fit
     channels = [channel for channel in diagnosis.location.channels if channel in fit.after] or list(fit.after)
     if not diagnosis.effects or not channels:
@@ -80,7 +80,7 @@ def held_out_text(diagnosis: Diagnosis) -> str:
 
 
 def next_point_text(found: NextPoint) -> str:
-    """What to record next, with units, and what three readings there bring; or that no point settles it."""
+    """The next point to record, with units, and the odds after readings there; or that no point settles it."""
     first, second = found.between
     ahead, behind = (first, second) if found.before >= 0.0 else (second, first)
     pair = f"{ahead} from {behind} (odds now {_odds(abs(found.before))})"
@@ -113,11 +113,11 @@ def _point(found: NextPoint) -> str:
         ChannelName.T_IN: found.inlet_temperature,
         ChannelName.T_CASE: point.temperature,
     }
-    told = [
+    parts = [
         f"{channel.value} {reading(channel, value):.4g} {channel_unit(channel)}".removesuffix(" 1")
         for channel, value in values.items()
     ]
-    return ", ".join(told)
+    return ", ".join(parts)
 
 
 def _odds(nats: float) -> str:
@@ -125,7 +125,7 @@ def _odds(nats: float) -> str:
 
 
 def _where(diagnosis: Diagnosis) -> str:
-    """Channels, whether they read more or less, part of the map, time; what the difference grows with."""
+    """Channels, part of the map, time, sign of the difference, and the powers of its growth."""
     location, scaling = diagnosis.location, diagnosis.scaling
     channels = listed(map(channel_words, location.channels)) or "no single channel"
     place = ", ".join([channels[0].upper() + channels[1:], *_places(location)])
@@ -147,7 +147,7 @@ def _places(location: Location) -> Iterator[str]:
 
 
 def _angles(location: Location) -> str:
-    """A sentence of its own: what stands out in a trace need not be what is claimed."""
+    """A sentence of its own: an angle that stands out in a trace need not belong to the claim."""
     if location.angle is None:
         return ""
     start, end = (reading(ChannelName.ANGLE, angle) for angle in (location.angle.start, location.angle.end))
@@ -156,7 +156,7 @@ def _angles(location: Location) -> str:
 
 
 def _claim(at: int, diagnosis: Diagnosis) -> str:
-    """What acts, where, how much, how sure."""
+    """Effect, gap, sizes and probability of a claim."""
     claim = diagnosis.effects[at]
     sizes = listed(estimate_text(estimate) for estimate in claim.parameters)
     place = f", {'most likely ' if claim.elsewhere else ''}at {PLACES[claim.pair]}" if claim.pair else ""
@@ -167,7 +167,7 @@ def _claim(at: int, diagnosis: Diagnosis) -> str:
 
 
 def _of_which(at: int, diagnosis: Diagnosis) -> str:
-    """Of a value that several pairs have, each its own: which of those without a gap it may be as well."""
+    """Other friction pairs or bearings, without a gap, to which a claimed value may belong as well."""
     own = diagnosis.hypotheses[0].hypothesis
     if at >= len(own.subjects) or not isinstance(own.subjects[at], str):
         return ""
@@ -183,7 +183,7 @@ def _of_which(at: int, diagnosis: Diagnosis) -> str:
 
 
 def _class(diagnosis: Diagnosis) -> str:
-    """What the recording cannot tell: ids from each other, a gap from others; empty where it can."""
+    """Ids and gaps that the recording cannot separate; empty if there are none."""
     alike = [
         f"{claim.effect.value} from {listed((one.value for one in claim.equivalent), 'or')}"
         for claim in diagnosis.effects
@@ -199,7 +199,7 @@ def _class(diagnosis: Diagnosis) -> str:
 
 
 def _incomplete(diagnosis: Diagnosis) -> str:
-    """That a part is left, and whether the names stand beside it."""
+    """A sentence on the part that remains, and on the certainty of the names."""
     if diagnosis.status is not VerdictStatus.INCOMPLETE:
         return ""
     if _class(diagnosis):
@@ -232,7 +232,7 @@ def _unknown(diagnosis: Diagnosis) -> str:
 
 
 def _course(scaling: Scaling, flat: float) -> str:
-    """What the difference grows with, and along what it stays, where exponents are known well enough to say."""
+    """Powers by which the difference grows, and coordinates without effect, where exponents are known."""
     powers = [
         f"{name}^({exponent:.2g} +- {scaling.sigma[name]:.1g})"
         for name, exponent in scaling.exponents.items()
@@ -264,30 +264,30 @@ def _likeliest(diagnosis: Diagnosis) -> list[str]:
 
 
 def _rivals(diagnosis: Diagnosis) -> str:
-    """Which rivals still stand and which are excluded, each with its odds against the first explanation."""
+    """Rivals that are still possible and that are excluded, with their odds to the first explanation."""
     if diagnosis.status is VerdictStatus.SUSPICION or not diagnosis.effects:
         return ""
-    first, *others = _explained(diagnosis, bent=False)
-    told = [(explanation_words(one.hypothesis), one.probability) for one in others][: 2 * RIVALS]
+    first, *others = _explained(diagnosis, other_form=False)
+    texts = [(explanation_words(one.hypothesis), one.probability) for one in others][: 2 * RIVALS]
     odds = [
         (words, odds_text(first.probability, each), each >= diagnosis.thresholds.name.possible)
-        for words, each in told
+        for words, each in texts
     ]
-    standing = [f"{words} ({against})" for words, against, stands in odds if stands]
-    excluded = [f"{words} ({against})" for words, against, stands in odds if not stands][:RIVALS]
-    parts = [f"Still possible, odds to the first: {listed(standing)}." if standing else ""]
+    possible = [f"{words} ({against})" for words, against, is_possible in odds if is_possible]
+    excluded = [f"{words} ({against})" for words, against, is_possible in odds if not is_possible][:RIVALS]
+    parts = [f"Still possible, odds to the first: {listed(possible)}." if possible else ""]
     parts += [f"Excluded: {listed(excluded)}." if excluded else ""]
     return " ".join(part for part in parts if part)
 
 
-def _explained(diagnosis: Diagnosis, *, bent: bool = True) -> list[Explanation]:
-    """Hypotheses of an effect, the claimed first, then by probability; of those told by the same words the best.
+def _explained(diagnosis: Diagnosis, *, other_form: bool = True) -> list[Explanation]:
+    """Explanations by an effect, the claimed one first, then by probability; of the same words the best.
 
-    Unknown physics, weighed once for each component, counts by all of them; bent: bent laws are told, too.
+    Unknown physics, one explanation for each component, counts by all; other_form: include laws of another form.
     """
     first = diagnosis.hypotheses[:1]
     others = sorted(diagnosis.hypotheses[1:], key=lambda one: -one.probability)
-    others = [one for one in others if bent or not one.hypothesis.bent]
+    others = [one for one in others if other_form or not one.hypothesis.other_form]
     unknown = sum(one.probability for one in diagnosis.hypotheses if one.hypothesis.component is not None)
     found: dict[str, Explanation] = {}
     for one in (*first, *others):
@@ -308,12 +308,12 @@ def explanation_words(own: Hypothesis) -> str:
 
 
 def _which(own: Hypothesis, at: int) -> str:
-    """The parameter that an effect is about, where it has several that are not told by gaps."""
+    """The parameter of an effect that has several which gaps do not distinguish."""
     return f" ({last_word(str(own.subjects[at]))})" if _named_apart(own, at) else ""
 
 
 def _named_apart(own: Hypothesis, at: int) -> bool:
-    """Whether an effect is about one of several values that pairs have, each its own."""
+    """True if an effect concerns one of several values, one for each pair."""
     subject = own.subjects[at]
     return isinstance(subject, str) and subject not in ("", SUBJECTS.get(own.effects[at])) and not own.places[at]
 

@@ -17,7 +17,7 @@ ANGLE = f"angle [{channel_unit(ChannelName.ANGLE)}]"
 
 
 def trace_residual_rows(study: Study, diagnosis: Diagnosis) -> Iterator[Row]:
-    """Each sample of each trace: measured, simulated by the null's fit and by that of what is claimed, pulls.
+    """Each sample of each trace: measured, simulated by the null's and by the claimed fit, pulls.
 
     sigma is that of the recorded mean, an angle known to its step; point: row of the steady table, from 1.
     """
@@ -44,7 +44,7 @@ def simulated_traces(
 ) -> tuple[Array, Array]:
     """Chamber pressure (len(points), K), Pa gauge, at shaft angles (K,) rad: by the null's fit, by the claimed.
 
-    The latter is the null's where nothing is claimed, or something that no law gives.
+    The latter is the null's if nothing is claimed, or if no law gives the claim.
     """
     before = study.simulator.traces(diagnosis.before.values, points, angle)
     own = diagnosis.hypotheses[0]

@@ -43,7 +43,7 @@ def other_pump(recording: Recording, known: KnownPump | None) -> Iterator[DataNo
     """A note if the recording names another pump than the one that it is compared with."""
     if known is not None and recording.pump not in ("", known.pump.name):
         text = f"the recording is of {recording.pump}; it is held against {known.pump.name}"
-        yield DataNote(NoteKind.TOLD, None, (), text)
+        yield DataNote(NoteKind.NOTED, None, (), text)
 
 
 def refuse_too_few(study: Study) -> None:

@@ -1,4 +1,4 @@
-"""The points of a bench by the inputs that were recorded, and what stands for those that were not."""
+"""Points of a bench by the recorded inputs, and assumed values of the others."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ TANK, DRAIN = 0.1e5, 0.5e5  # Pa: level and suction line, drain line
 
 @dataclass(frozen=True)
 class AssumedInput:
-    """What stands for an input: its value in SI, or the channel that is read for it; one sigma of it in SI."""
+    """An input that is not recorded: its value in SI, or the channel read in its place; one sigma in SI."""
 
     channel: ChannelName
     value: float | ChannelName
@@ -33,7 +33,7 @@ class AssumedInput:
 
     @property
     def text(self) -> str:
-        """It in words, with one sigma."""
+        """The assumption as text, with one sigma."""
         name = self.channel
         sigma = f"+- {difference(name, self.sigma):.2g}"
         if isinstance(self.value, ChannelName):
@@ -52,7 +52,7 @@ def measured(recording: Recording, names: Iterable[ChannelName]) -> tuple[Channe
 
 
 def complete(recording: Recording) -> Recording:
-    """The recording without points at which an input that was measured elsewhere is missing; each is told."""
+    """The recording without points at which a measured input is missing; a note lists them."""
     missing = np.zeros(len(recording.steady.values), dtype=bool)
     for name in measured(recording, INPUTS):
         missing |= ~np.isfinite(recording.steady.column(name))
@@ -71,35 +71,35 @@ def complete(recording: Recording) -> Recording:
     return replace(recording, steady=steady, traces=traces, notes=(*recording.notes, note))
 
 
-def taken_inputs(recording: Recording, pump: PumpDescription) -> tuple[AssumedInput, ...]:
-    """What is taken for every input that the recording lacks.
+def assumed_inputs(recording: Recording, pump: PumpDescription) -> tuple[AssumedInput, ...]:
+    """Assumed value of every input that the recording lacks.
 
-    As [operating] of the pump states it; an inlet pressure of an open circuit is that around; of case and inlet
-    temperature the one stands for the other.
+    The pump's [operating]; in an open circuit the ambient pressure for the inlet pressure; of case and inlet
+    temperature the one for the other.
     """
     known = measured(recording, INPUTS)
-    return tuple(_taken(recording, pump, name, known) for name in INPUTS if name not in known)
+    return tuple(_assumed_input(recording, pump, name, known) for name in INPUTS if name not in known)
 
 
-def taken_parameters(recording: Recording, pump: PumpDescription) -> tuple[Parameter, ...]:
-    """CHANNEL.zero of every input that the recording lacks: by how much too high it is taken, at all points."""
-    return tuple(taken_parameter(one.channel, one.sigma) for one in taken_inputs(recording, pump))
+def assumed_parameters(recording: Recording, pump: PumpDescription) -> tuple[Parameter, ...]:
+    """CHANNEL.zero of every input that the recording lacks: excess of the assumed value, at all points."""
+    return tuple(taken_parameter(one.channel, one.sigma) for one in assumed_inputs(recording, pump))
 
 
 def bench_points(recording: Recording, pump: PumpDescription) -> tuple[BenchPoints, tuple[DataNote, ...]]:
-    """The points to simulate, by readings and `taken_inputs`, and these in words."""
+    """The points to simulate, by readings and `assumed_inputs`, and these in words."""
     count = len(recording.steady.values)
     columns: dict[str, Array] = {name.value: recording.steady.column(name) for name in measured(recording, INPUTS)}
-    taken = taken_inputs(recording, pump)
-    for one in taken:
+    assumed = assumed_inputs(recording, pump)
+    for one in assumed:
         value = one.value
-        stands = recording.steady.column(value) if isinstance(value, ChannelName) else np.full(count, value)
-        columns[one.channel.value] = stands
+        column = recording.steady.column(value) if isinstance(value, ChannelName) else np.full(count, value)
+        columns[one.channel.value] = column
     points = BenchPoints(**columns, hours=recording.steady.hours, order=np.arange(count, dtype=float))
-    return points, tuple(DataNote(NoteKind.TOLD, one.channel, (), one.text) for one in taken)
+    return points, tuple(DataNote(NoteKind.NOTED, one.channel, (), one.text) for one in assumed)
 
 
-def _taken(
+def _assumed_input(
     recording: Recording, pump: PumpDescription, name: ChannelName, known: tuple[ChannelName, ...]
 ) -> AssumedInput:
     stated = pump.operating

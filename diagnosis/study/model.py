@@ -1,4 +1,4 @@
-"""A recording and its simulator made ready: readings, linear posterior, and the columns of all candidates."""
+"""Study: a recording and its simulator, readings, linear posterior, and the columns of all candidates."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ SUBJECTS: Mapping[EffectId, str] = {
     EffectId.FRICTION_COEFFICIENT: "friction",
     EffectId.DISPLACEMENT: "displacement",
 }
-"""What an effect without a law is about: a parameter, or its name up to the dot where there are several."""
+"""Parameter of an effect without a law, or its name up to the dot if there are several."""
 
 
 class PumpSimulator(Simulator, Protocol):
@@ -74,12 +74,12 @@ class PumpSimulator(Simulator, Protocol):
 
 @dataclass(frozen=True)
 class Candidate:
-    """One way in which an entry of the catalogue may act: its whitened column (n,) for one spread of `parameter`.
+    """One action of an entry of the catalogue: its whitened column (n,) for one spread of `parameter`.
 
-    extension, of one member of its grid, is None for sensors and parameters, which are there already; grid: the
+    extension: of one member of its grid; None for sensors and parameters, which the model has already; grid: the
     member's place.
-    The size is looked for within N(0, (w width)^2) spreads for the widths w of the thresholds: width is 1 for an
-    extension, whose spread is its own size, and the fault factor for what has a stated tolerance.
+    The size has the prior N(0, (w width)^2) in spreads for the widths w of the thresholds: width is 1 for an
+    extension, whose spread is its own size, and the fault factor for a parameter with a stated tolerance.
     """
 
     entry: Entry
@@ -93,7 +93,7 @@ class Candidate:
 
 @dataclass(frozen=True)
 class PortEvent:
-    """A shaft angle in rad at which a port begins or ends to open or close, and what happens there."""
+    """A shaft angle in rad at which a port begins or ends to open or close, and the event as text."""
 
     angle: float
     text: str
@@ -101,9 +101,9 @@ class PortEvent:
 
 @dataclass(frozen=True)
 class TraceMisfit:
-    """A recorded chamber pressure less the simulated one, (K,) in Pa, with what may explain it away.
+    """A recorded chamber pressure less the simulated one, (K,) in Pa, and its nuisances.
 
-    nuisances: (K, m), change of the simulated trace by one spread of each parameter it hangs on; sigma:
+    nuisances: (K, m), change of the simulated trace by one spread of each of its parameters; sigma:
     (K,), one sigma of the recorded mean, Pa.
     """
 
@@ -133,7 +133,7 @@ class Study:
 
     @property
     def channels(self) -> tuple[ChannelName, ...]:
-        """Those read at the steady points, the first C of the observations: what follows are numbers of traces."""
+        """Channels of the steady points, the first C of the observations; numbers of traces follow them."""
         names = (ChannelName.named(channel.name) for channel in self.observations.channels)
         return tuple(name for name in names if name is not ChannelName.P_CHAMBER)
 
@@ -157,10 +157,10 @@ def study_of(
     catalogue: Iterable[Entry],
     thresholds: Thresholds,
 ) -> Study:
-    """The study of readings that are at hand with their simulator.
+    """The study of readings with their simulator.
 
-    Everything is taken at the prior mean: a null model fitted to readings it cannot explain drags its parameters
-    tens of sigma away, and slopes from there tell nothing.
+    All slopes are at the prior mean: a null model fitted to readings that it cannot explain moves its parameters
+    by tens of sigma, where slopes are of no use.
     """
     base = linear_posterior(simulator, observations)
     centre = values_at(simulator.parameters, np.zeros(base.xi.size))
@@ -183,13 +183,13 @@ def concerned(effect: EffectId, parameters: Iterable[Parameter]) -> tuple[str, .
 
 
 def _of_parameters(entry: Entry, base: Posterior, factor: float) -> Iterator[Candidate]:
-    """Columns of what the model has already, to be looked for far beyond its stated tolerance."""
+    """Columns of parameters of the model, for sizes far beyond their stated tolerance."""
     for name in concerned(entry.id, base.parameters):
         yield Candidate(entry, None, 0, name, base.slopes[:, base.index(name)], factor, Sign.EITHER)
 
 
 def _of_extensions(entry: Entry, simulator: PumpSimulator, base: Posterior) -> Iterator[Candidate]:
-    """Columns of laws that the model lacks: what one spread of each size changes.
+    """Columns of laws that the model lacks: change by one spread of each size.
 
     A difference, not a slope: laws with a threshold have no slope where they are off.
     """

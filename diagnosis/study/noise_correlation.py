@@ -1,4 +1,4 @@
-"""Noise that remembers: readings whose errors go from one point on to the next in the order they were taken."""
+"""Correlated noise: errors of readings that persist from one point to the next, in the order of recording."""
 
 from __future__ import annotations
 
@@ -11,13 +11,13 @@ from diagnosis.thresholds import MismatchLimits
 from reynolds.numerics.arrays import Array
 
 
-def noise_memory(study: Study, limits: MismatchLimits) -> tuple[float, ...]:
-    """Lag-1 correlation of what is left along the order, (rho,); () where it is not `memory` sigma above 0.
+def noise_correlation(study: Study, limits: MismatchLimits) -> tuple[float, ...]:
+    """Lag-1 correlation of the residual along the order, (rho,); () if it is not `memory` sigma above 0.
 
     Score test of an autoregressive noise (Rao 1948): with r ~ N(0, P) where noise is white and M half on every
     pair of consecutive readings of a channel, s^2 = 2 tr M P M P, z = (r.M r - tr M P)/s and rho = z/s, r in units
-    of its own scatter where that is more than it should be. A smooth mismatch over the map is taken out, and only
-    pairs that lie apart on the map count: in sweeps, where none do, memory cannot be told from mismatch.
+    of its own scatter where that exceeds the noise. A smooth mismatch over the map is taken out, and only pairs
+    apart on the map count: in sweeps, which have none, correlation cannot be separated from mismatch.
     """
     pairs = _pairs(study, limits.memory_apart)
     if len(pairs) < limits.memory_pairs:
@@ -32,10 +32,10 @@ def noise_memory(study: Study, limits: MismatchLimits) -> tuple[float, ...]:
     one, other = pairs.T
     half = np.zeros_like(left)
     half[one, other] = half[other, one] = 0.5
-    seen = half @ left
-    spread = float(np.sqrt(2.0 * np.einsum("ij,ji->", seen, seen)))
+    paired = half @ left
+    spread = float(np.sqrt(2.0 * np.einsum("ij,ji->", paired, paired)))
     scatter = max(1.0, float(residual @ residual) / float(np.trace(left)))
-    excess = float(residual @ half @ residual) / scatter - float(np.trace(seen))
+    excess = float(residual @ half @ residual) / scatter - float(np.trace(paired))
     if excess < limits.memory * spread:
         return ()
     return (min(excess / spread**2, limits.memory_most),)

@@ -7,10 +7,10 @@ from dataclasses import replace
 import numpy as np
 
 from diagnosis.recording.model import DataNote, NoteKind, Recording
-from diagnosis.study.inputs import bench_points, complete, measured, taken_parameters
+from diagnosis.study.inputs import assumed_parameters, bench_points, complete, measured
 from diagnosis.study.map_axes import scaled_axes
 from diagnosis.study.model import Study, study_of
-from diagnosis.study.noise_correlation import noise_memory
+from diagnosis.study.noise_correlation import noise_correlation
 from diagnosis.study.readings import observations
 from diagnosis.study.trace_misfits import port_events, trace_misfits, trace_parameters
 from diagnosis.study.traced_bench import traced_bench
@@ -39,9 +39,9 @@ def prepare(
 ) -> Study:
     """The study of a recording of a pump, by the lumped fidelity, with the whole catalogue as candidates.
 
-    Chamber traces are readings of it as the steady ones are, some tens of numbers each (`TracedBench`).
-    What the recording leaves out is taken and told in the notes of the study's recording. Raises FilmInputError
-    for a recording without an output that the simulation knows, NotConverged where a point cannot be simulated.
+    Chamber traces are readings like the steady ones, some tens of numbers each (`TracedBench`). Inputs that the
+    recording lacks are assumed, with notes in the study's recording. Raises FilmInputError for a recording without
+    a simulated output, NotConverged where a point cannot be simulated.
     """
     usable = complete(recording)
     channels, inputs = measured(usable, SIMULATED), measured(usable, INPUTS)
@@ -50,25 +50,25 @@ def prepare(
         raise FilmInputError("recording", "none of the simulated outputs", f"at least one of {names}")
     points, taken = bench_points(usable, pump)
     unused = tuple(
-        DataNote(NoteKind.TOLD, name, (), f"{name.value} is recorded, but the simulation does not give it")
+        DataNote(NoteKind.NOTED, name, (), f"{name.value} is recorded, but the simulation does not give it")
         for name in measured(usable, OUTPUTS)
         if name not in SIMULATED
     )
     usable = replace(usable, notes=(*usable.notes, *taken, *unused))
     parameters = (
-        *base_parameters(pump, tolerances), *_sensors(usable, channels), *taken_parameters(usable, pump),
+        *base_parameters(pump, tolerances), *_sensors(usable, channels), *assumed_parameters(usable, pump),
         *trace_parameters(usable),
     )  # fmt: skip
     bench = LumpedBench(pump, points, channels, parameters, inputs=inputs)
     found, axes = observations(usable, channels, inputs), scaled_axes(usable)
     traces = usable.channel(ChannelName.P_CHAMBER) if usable.traces else None
     study = study_of(usable, bench, found, axes, () if traces else catalogue, thresholds)
-    memory = noise_memory(study, thresholds.mismatch)
+    memory = noise_correlation(study, thresholds.mismatch)
     if memory:
-        told = (
-            f"what is left goes on from point to point: noise taken as correlated by {memory[0]:.2f} in the order"
+        text = (
+            f"residuals persist from point to point: noise is assumed correlated by {memory[0]:.2f} in the order"
         )
-        usable = replace(usable, notes=(*usable.notes, DataNote(NoteKind.TOLD, None, (), told)))
+        usable = replace(usable, notes=(*usable.notes, DataNote(NoteKind.NOTED, None, (), text)))
         found = replace(found, memory=memory)
     if traces:
         traced = traced_bench(bench, usable.traces, traces)
@@ -80,7 +80,7 @@ def prepare(
 
 
 def _sensors(recording: Recording, channels: tuple[ChannelName, ...]) -> tuple[Parameter, ...]:
-    """Calibrations of what is simulated or set; the drain meter may drift by its zero's sigma, flow meters lag."""
+    """Calibrations of outputs and inputs; the drain meter may drift by its zero's sigma, flow meters lag."""
     known = [channel for channel in recording.channels if channel.name in (*channels, *INPUTS)]
     found = list(sensor_parameters(known))
     drain = recording.channel(ChannelName.Q_CASE)

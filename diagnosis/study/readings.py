@@ -1,4 +1,4 @@
-"""The readings of a recording as what is fitted: values with their noise, and the noise of the inputs."""
+"""The readings of a recording as observations: values with their noise, and the noise of the inputs."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ def observations(
 ) -> Observations:
     """The readings of some channels with their repeatability, and the noise of the inputs.
 
-    Blocks are the cells of thirds of the map's axes: points of one block stand near each other. Raises
+    Blocks are the cells of thirds of the map's axes: points of one block are near each other. Raises
     FilmInputError for a channel that was not measured.
     """
     steady = recording.steady

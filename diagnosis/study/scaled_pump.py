@@ -18,7 +18,7 @@ from system.pump.laws.kinematics import SwashDrive, stroke
 from system.pump_file.file import builtin_pumps, load_pump, pump_of_tables, resolved_toml
 
 MODEL = "ref90"
-TELLING = ("slipper", "valve_plate", "ports")
+NEEDED = ("slipper", "valve_plate", "ports")
 """Tables without which a pump file is a scant one."""
 FEWEST, MOST = 5, 15  # pistons for which REF90's ports can be parted anew
 NARROWER = 0.999  # kidneys, so that rounded values still lie between their lands
@@ -63,9 +63,9 @@ _WIDE = {
 
 @dataclass(frozen=True)
 class KnownPump:
-    """A pump and how it is known: `stated` are the paths that its file gives, `assumptions` what was taken.
+    """A pump with the `stated` paths of its file, and the `assumptions` for the others.
 
-    scant: whether most of it was scaled; its [tolerance] is then wide where the file does not state it.
+    scant: most of it is scaled; its [tolerance] is then wide where the file does not state it.
     """
 
     pump: PumpDescription
@@ -82,20 +82,19 @@ def known_pump(pump: PumpDescription | KnownPump) -> KnownPump:
 def load_known_pump(source: str | Path) -> KnownPump:
     """Return a built-in pump or that of a file, which may be scant: state little more than displacement and oil.
 
-    A file is scant if it lacks one of the tables `TELLING`; then what it leaves out is REF90's, scaled. Raises
-    InputFaults as `load_pump`; for a scant file also where pump.displacement, pump.pistons or the oil's viscosity
-    is not stated.
+    A file is scant if it lacks one of the tables `NEEDED`; the rest is then REF90's, scaled. Raises InputFaults as
+    `load_pump`; for a scant file also if pump.displacement, pump.pistons or the oil's viscosity is not stated.
     """
     if str(source) not in builtin_pumps() and Path(source).is_file():
         text, tables = read_toml(Path(source))
-        if any(name not in tables for name in TELLING):
+        if any(name not in tables for name in NEEDED):
             return _scaled(str(source), text, tables, Path(source).parent)
     return known_pump(load_pump(source))
 
 
 @dataclass(frozen=True)
 class _Facts:
-    """What is known of the size: displacement m3/rev, pistons, full swash angle, piston diameter, pitch radius."""
+    """Size of a pump: displacement m3/rev, pistons, full swash angle, piston diameter, pitch radius."""
 
     displacement: float
     pistons: int
@@ -134,7 +133,7 @@ def _scaled(source: str, text: str, stated: Mapping[str, Any], folder: Path) -> 
 
 
 def _facts(top: Table) -> _Facts | None:
-    """The size that a scant file states; None with the faults told."""
+    """The size that a scant file states; None with its faults added."""
     table = top.table("pump", needed="with displacement and pistons")
     if table is None:
         return None
@@ -158,7 +157,7 @@ def _facts(top: Table) -> _Facts | None:
 
 
 def _displacement(table: Table, raw: object) -> float | None:
-    """A displacement per revolution, for which "60 cm3" may stand here; None with its fault told."""
+    """A displacement per revolution, also written "60 cm3"; None with its fault added."""
     try:
         value = parse_quantity(raw, Dimension.VOLUME)
     except QuantityError:
@@ -209,7 +208,7 @@ def _tables(facts: _Facts) -> dict[str, dict[str, Any]]:
 
 
 def _scales(facts: _Facts, model: PumpDescription, size: float, share: float) -> tuple[float, float]:
-    """Scales s of the pistons and r of the group with s^2 r = size; what is stated holds, else r = s z/9."""
+    """Scales s of the pistons and r of the group with s^2 r = size; by stated values, else r = s z/9."""
     piston = None if facts.diameter is None else facts.diameter / model.pump.piston_diameter
     group = None if facts.radius is None else facts.radius / model.pump.pitch_radius
     if piston is None and group is None:
@@ -236,7 +235,7 @@ def _dimension(path: str) -> Dimension:
 
 
 def _assumptions(tables: Mapping[str, Any], stated: set[str]) -> tuple[Assumption, ...]:
-    """What the file does not state, with how it was taken."""
+    """Values that the file does not state, with their reasons."""
     scaled = {*_POWERS, "pump.dead_volume", "piston.engaged_length"}
     taken = []
     for name, table in tables.items():

@@ -1,4 +1,4 @@
-"""Recorded traces fitted by themselves, by what a chamber's pressure hangs on and as far as tolerance lets it."""
+"""Recorded traces fitted alone, by the parameters of the chamber pressure and within their tolerances."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ LIMITS = FitLimits(change=0.1)  # of the objective
 
 @dataclass(frozen=True, eq=False)
 class ChamberBench:
-    """The traces of a bench alone: a simulator of their numbers (T, F) with the parameters they hang on.
+    """The traces of a bench alone: a simulator of their numbers (T, F) with their own parameters.
 
     All others stay at their prior mean.
     """
@@ -41,7 +41,7 @@ class ChamberBench:
         return self.traced.number_slopes(self._all(values), names)
 
     def input_slopes(self, values: Array) -> Array:
-        """(T, F, 0): what was set is taken as known, but for the parameter p_out.zero."""
+        """(T, F, 0): set values are exact, but for the parameter p_out.zero."""
         return np.zeros((*self.traced.recorded.shape, 0))
 
     def with_parameters(self, parameters: tuple[Parameter, ...]) -> ChamberBench:
@@ -57,9 +57,9 @@ class ChamberBench:
 def settled_traces(traced: TracedBench, reach: float) -> Array:
     """xi (k,) of the bench's parameters at which its traces fit best, none farther than `reach` from its mean.
 
-    A flank is no straight function of what moves it: tolerance that is taken out by slopes at the prior mean
-    leaves it standing. What tolerance cannot explain, `reach` keeps it from following. A simulation that fails
-    on the way leaves the mean.
+    A flank is no linear function of the parameters that move it: slopes at the prior mean do not remove the effect
+    of tolerances. `reach` keeps the fit from following what tolerances cannot explain. If a simulation fails, the
+    mean is returned.
     """
     moving = [one for one in traced.parameters if one.name in MOVING]
     chamber = ChamberBench(traced, tuple(_within(one, reach) for one in moving))

@@ -27,7 +27,7 @@ NO_ENCODER = 1e-6  # rad: one sigma of an encoder that is stated to be without o
 
 
 def trace_parameters(recording: Recording) -> tuple[Parameter, ...]:
-    """What traces hang on and steady readings hardly do: encoder, transducer, cut of the relief grooves.
+    """Parameters of traces with hardly any effect on steady readings: encoder, transducer, relief grooves.
 
     None where the recording has no traces.
     """
@@ -39,10 +39,10 @@ def trace_parameters(recording: Recording) -> tuple[Parameter, ...]:
 
 
 def trace_misfits(traced: TracedBench, channel: RecordedChannel, reach: float) -> tuple[TraceMisfit, ...]:
-    """The recorded traces less those simulated, with what may explain them away.
+    """The recorded traces less the simulated ones, and their nuisances.
 
-    Simulated is what fits them best of all that lies within `reach` spreads of the prior mean (`settled_traces`).
-    An angle is known to its step, so where pressure is steep it is not.
+    The simulation is the best fit within `reach` spreads of the prior mean (`settled_traces`). An angle is known
+    to its step only, and a steep pressure by the same step.
     """
     settled = settled_traces(traced, reach)
     blocks = [row.block for row in traced.rows]
@@ -50,7 +50,7 @@ def trace_misfits(traced: TracedBench, channel: RecordedChannel, reach: float) -
 
 
 def port_events(pump: PumpDescription) -> tuple[PortEvent, ...]:
-    """What the ports of a valve plate do over the turn, by shaft angle in [0, 2 pi)."""
+    """Events of the ports of a valve plate over the turn, by shaft angle in [0, 2 pi)."""
     found = []
     for name, port in zip(("suction", "delivery"), port_openings(pump), strict=True):
         found += [

@@ -28,12 +28,12 @@ class TraceRows:
 
 
 def trace_rows(block: TraceBlock, channel: RecordedChannel, simulated: Array) -> TraceRows:
-    """The means of a trace over windows of the turn, made white by their noise.
+    """The means of a trace over windows of the turn, whitened by their noise.
 
     Windows are of equal length along the simulated trace (K,), half of it angle and half of it pressure: wide
-    where pressure rests, narrow on its flanks; one without a sample drops out. Their noise is that of single
-    readings, or as the cycles scatter together (`shrunk_covariance`); besides, as an angle is known to its step h
-    only, h/sqrt(12) times the steepness, alike all over a window.
+    at constant pressure, narrow on flanks; one without a sample drops out. The noise is that of single readings,
+    or the common scatter of the cycles (`shrunk_covariance`), and h/sqrt(12) times the steepness, constant over a
+    window, for an angle known to its step h.
     """
     marks = windows(simulated)
     means = np.stack([marks == mark for mark in np.unique(marks)]).astype(float)

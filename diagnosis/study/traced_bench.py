@@ -145,7 +145,7 @@ class TracedBench:
         return found
 
     def _beside(self, steady: Array, numbers: Array, elsewhere: float = 0.0) -> Array:
-        """(N, C + F, ...): the numbers (T, F, ...) at their points, and what stands at all others."""
+        """(N, C + F, ...): the numbers (T, F, ...) at their points, `elsewhere` at all others."""
         beside = np.full((len(steady), *numbers.shape[1:]), elsewhere)
         beside[[row.block.point for row in self.rows]] = numbers
         return np.concatenate([steady, beside], axis=1)

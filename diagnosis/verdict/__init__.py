@@ -1,1 +1,1 @@
-"""The verdict: what may be claimed, and how surely."""
+"""Verdict: claims and their certainty."""

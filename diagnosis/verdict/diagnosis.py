@@ -1,4 +1,4 @@
-"""The verdict: what is claimed, how sure, what cannot be told apart."""
+"""Verdict on a recording: claims, certainty, and explanations that it cannot separate."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from system.inputs.units import Dimension
 
 
 class VerdictStatus(Enum):
-    """How far a verdict goes."""
+    """Certainty of a verdict."""
 
     NAMED = "named"
     CLASS = "class"
@@ -38,9 +38,9 @@ class Estimate:
 
 @dataclass(frozen=True)
 class ClaimedEffect:
-    """One effect that is claimed, at its likeliest gap.
+    """A claimed effect at its likeliest gap.
 
-    equivalent: the ids that this recording cannot tell from it; elsewhere: other gaps that it cannot tell from
+    equivalent: ids that this recording cannot separate from it; elsewhere: other gaps that it cannot separate from
     `pair`, each with its share of the probability.
     """
 

@@ -1,4 +1,4 @@
-"""Which explanations a recording cannot tell from each other."""
+"""Classes of explanations that a recording cannot separate."""
 
 from __future__ import annotations
 
@@ -11,16 +11,16 @@ NOT_NAMED = (Kind.NO_MISMATCH, Kind.UNKNOWN_PHYSICS)
 
 
 def equivalents(
-    best: Explanation, weighed: Sequence[Explanation], gap: float, place_gap: float
+    best: Explanation, explanations: Sequence[Explanation], gap: float, place_gap: float
 ) -> tuple[Explanation, ...]:
-    """Explanations of as many effects as the best that stand as well after a refit, the best first.
+    """Explanations with as many effects as the best and an equal refit, the best first.
 
-    As well: ln evidence within the gap (nats), of the same effects elsewhere within the gap of places; or the same
-    readings foretold (the difference of the refitted predictions worth less than the gap, delta^2 / 2 nats) with
-    all else as near its stated value: then only the width of the prior of what they set free parts them, however
-    far. Likeness of slopes makes no class: laws of one slope part by their curvature.
+    Equal: ln evidence within the gap (nats), within `place_gap` for the same effects at other gaps; or the same
+    predicted readings (difference of the refitted predictions below the gap, delta^2 / 2 nats) with all other
+    parameters as near to their stated values: then only the prior widths of the free parameters separate them.
+    Alike slopes make no class: laws of one slope differ by their curvature.
     """
-    rivals = [each for each in weighed if each is not best and _comparable(each, best)]
+    rivals = [each for each in explanations if each is not best and _comparable(each, best)]
     alike = [
         each
         for each in rivals
@@ -31,24 +31,24 @@ def equivalents(
 
 
 def parting(one: Explanation, other: Explanation) -> float:
-    """Nats by which readings like these would part two refitted explanations: delta^2 / 2; inf if not refitted."""
+    """Nats by which such readings separate two refitted explanations: delta^2 / 2; inf if not refitted."""
     if one.posterior is None or other.posterior is None:
         return float("inf")
     apart = one.posterior.whitening.whiten(one.posterior.predictions - other.posterior.predictions)
     return 0.5 * float(apart @ apart)
 
 
-def _strain(weighed: Explanation) -> float:
-    """Nats of a refit's objective without what the size of that which it sets free costs: (r^2 + xi^2) / 2."""
-    posterior = weighed.posterior
+def _strain(explanation: Explanation) -> float:
+    """Nats of a refit's objective, (r^2 + xi^2) / 2, without the prior cost of the parameters it sets free."""
+    posterior = explanation.posterior
     if posterior is None:
         return float("inf")
-    own = [posterior.index(name) for name in weighed.hypothesis.open_names]
+    own = [posterior.index(name) for name in explanation.hypothesis.open_names]
     return 0.5 * (posterior.objective - float((posterior.xi[own] ** 2).sum()))
 
 
 def agrees(each: Explanation, members: Sequence[Explanation]) -> bool:
-    """Whether an explanation claims at least what one of the members claims: it, or it and more."""
+    """True if an explanation claims at least the effects of one of the members."""
     return any(
         set(member.hypothesis.open_names) <= set(each.hypothesis.open_names) and each.hypothesis.effects
         for member in members
@@ -56,7 +56,7 @@ def agrees(each: Explanation, members: Sequence[Explanation]) -> bool:
 
 
 def _elsewhere(each: Explanation, best: Explanation) -> bool:
-    """Whether an explanation claims the same effects at other places, by a fit of its own."""
+    """True if an explanation claims the same effects at other places, by a fit of its own."""
     return each.posterior is not None and each.hypothesis.effects == best.hypothesis.effects
 
 

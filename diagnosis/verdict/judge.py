@@ -1,4 +1,4 @@
-"""From weighed explanations to a verdict: what is claimed, and how far."""
+"""Verdict from the explanations: claims, and their certainty."""
 
 from __future__ import annotations
 
@@ -15,10 +15,10 @@ from diagnosis.explain.model_error import class_gap, place_gap, shared_out
 from diagnosis.explain.ranked import Explanation
 from diagnosis.study.model import Study
 from diagnosis.thresholds import Thresholds
-from diagnosis.verdict.bend_chance import MultiplierChance, chance_of_bend
 from diagnosis.verdict.diagnosis import ClaimedEffect, Estimate, VerdictStatus
 from diagnosis.verdict.equivalence import agrees, equivalents
-from diagnosis.verdict.residue import left_over
+from diagnosis.verdict.multiplier_chance import MultiplierChance, multiplier_chance
+from diagnosis.verdict.residue import residue_notes
 from diagnosis.verdict.row_numbers import table_rows
 from reynolds.numerics.arrays import Array
 from system.description.gap import Gap
@@ -28,7 +28,7 @@ from system.estimation.posterior import Posterior
 
 @dataclass(frozen=True)
 class Judgement:
-    """What is claimed: kind, status, claims (none where nothing is), its class, and why not more, in words.
+    """Kind, status and claims of a verdict; members of the claimed class; reasons against more, as text.
 
     ranked: all explanations, the likeliest first.
     """
@@ -44,62 +44,66 @@ class Judgement:
 def judge(
     study: Study,
     detection: Detection,
-    weighed: Sequence[Explanation],
+    explanations: Sequence[Explanation],
     along: Mapping[str, Array],
     thresholds: Thresholds,
 ) -> Judgement:
-    """The verdict on explanations with their probabilities, the likeliest first, the null among them.
+    """The verdict on explanations with their probabilities, the likeliest first, including the null.
 
-    along: coordinates (N,) with which an effect may grow, by name (`diagnosis.verdict.trend`).
+    along: coordinates (N,) by name, with which an effect may grow (`diagnosis.verdict.trend`).
 
-    A mismatch needs both a candidate (or a free bend) as striking as chance hardly makes one and an improbable
-    null; one of the two, or a candidate that is striking enough, is a suspicion, of the likeliest kind, and claims
-    nothing. A name needs probability, odds to all that claim something else, sizes that are sure, no veto of
-    held-out regions; it is incomplete while something is left over.
+    A mismatch needs an improbable null and a candidate (or a free multiplier) as striking as chance hardly makes
+    one; one of the two alone is a suspicion of the likeliest kind, and claims nothing. A name needs probability,
+    odds to all that claim something else, sizes above zero, and no veto of held-out regions; it is incomplete if
+    a part of the mismatch remains.
     """
     limits = thresholds.mismatch
-    null = next(each for each in weighed if each.hypothesis.kind is Kind.NO_MISMATCH)
+    null = next(each for each in explanations if each.hypothesis.kind is Kind.NO_MISMATCH)
     if null.probability >= limits.null_probability:
         if detection.chance >= limits.suspicion:
-            return Judgement(Kind.NO_MISMATCH, VerdictStatus.NAMED, (), (), (), tuple(weighed))
-        return _suspicion(weighed, (_half_seen(detection, null),))
-    bend = _bend(study, null, weighed, thresholds)
-    if min(detection.chance, bend.chance) >= limits.chance:
-        return _suspicion(weighed, (_half_seen(detection, null),))
-    best = _simplest(max((each for each in weighed if each is not null), key=_weight), weighed, thresholds)
+            return Judgement(Kind.NO_MISMATCH, VerdictStatus.NAMED, (), (), (), tuple(explanations))
+        return _suspicion(explanations, (_one_of_two(detection, null),))
+    free = _free_multiplier(study, null, explanations, thresholds)
+    if min(detection.chance, free.chance) >= limits.chance:
+        return _suspicion(explanations, (_one_of_two(detection, null),))
+    best = _simplest(
+        max((each for each in explanations if each is not null), key=_weight), explanations, thresholds
+    )
     if best.hypothesis.kind is Kind.UNKNOWN_PHYSICS:
-        return _unknown(study, bend, weighed, thresholds)
-    members = equivalents(best, weighed, class_gap(weighed, thresholds), place_gap(weighed, thresholds))
-    weighed, members = shared_out(weighed, members, thresholds)
+        return _unknown(study, free, explanations, thresholds)
+    members = equivalents(
+        best, explanations, class_gap(explanations, thresholds), place_gap(explanations, thresholds)
+    )
+    explanations, members = shared_out(explanations, members, thresholds)
     best = members[0]
-    against = _objections(best, members, weighed, thresholds)
+    against = _objections(best, members, explanations, thresholds)
     if against:
-        return _suspicion(weighed, against)
-    left = left_over(study, null, best, along, thresholds)
-    claims = _claims(members, weighed, thresholds)
+        return _suspicion(explanations, against)
+    left = residue_notes(study, null, best, along, thresholds)
+    claims = _claims(members, explanations, thresholds)
     alike = any(claim.equivalent or claim.elsewhere for claim in claims)
     status = VerdictStatus.INCOMPLETE if left else VerdictStatus.CLASS if alike else VerdictStatus.NAMED
-    return Judgement(best.hypothesis.kind, status, claims, members, left, weighed)
+    return Judgement(best.hypothesis.kind, status, claims, members, left, explanations)
 
 
-def _bend(
-    study: Study, null: Explanation, weighed: Sequence[Explanation], thresholds: Thresholds
+def _free_multiplier(
+    study: Study, null: Explanation, explanations: Sequence[Explanation], thresholds: Thresholds
 ) -> MultiplierChance:
-    """The chance of unknown physics beside a null, seen from the prior mean alone where that has no fit."""
-    unknown = [each.hypothesis for each in weighed if each.hypothesis.component is not None]
-    return chance_of_bend(study, null.posterior or study.base, unknown, thresholds)
+    """The chance of unknown physics beside the null, about the prior mean alone where the null has no fit."""
+    unknown = [each.hypothesis for each in explanations if each.hypothesis.component is not None]
+    return multiplier_chance(study, null.posterior or study.base, unknown, thresholds)
 
 
 def _weight(each: Explanation) -> float:
     return each.log_weight
 
 
-def _simplest(best: Explanation, weighed: Sequence[Explanation], thresholds: Thresholds) -> Explanation:
-    """Of the best and of what claims a part of the same within the odds of a name: that of fewest effects."""
+def _simplest(best: Explanation, explanations: Sequence[Explanation], thresholds: Thresholds) -> Explanation:
+    """Of the best and of explanations by a part of its effects within the odds of a name: the fewest effects."""
     names = set(best.hypothesis.open_names)
     near = [
         each
-        for each in weighed
+        for each in explanations
         if each.hypothesis.open_names
         and set(each.hypothesis.open_names) <= names
         and best.log_weight - each.log_weight < thresholds.name.odds
@@ -107,50 +111,50 @@ def _simplest(best: Explanation, weighed: Sequence[Explanation], thresholds: Thr
     return min((best, *near), key=lambda each: (len(each.hypothesis.effects), -each.log_weight))
 
 
-def _half_seen(detection: Detection, null: Explanation) -> str:
+def _one_of_two(detection: Detection, null: Explanation) -> str:
     return (
         f"a candidate as striking as the strongest has a chance of {detection.chance:.2g} where nothing is there, "
         f"and nothing a probability of {null.probability:.2g}: a mismatch needs both to be small"
     )
 
 
-def _suspicion(weighed: Sequence[Explanation], reasons: tuple[str, ...]) -> Judgement:
-    """Of the likeliest kind of mismatch."""
-    kinds = {each.hypothesis.kind for each in weighed} - {Kind.NO_MISMATCH}
-    likeliest = max(kinds, key=lambda kind: _probability(weighed, kind))
-    return Judgement(likeliest, VerdictStatus.SUSPICION, (), (), reasons, tuple(weighed))
+def _suspicion(explanations: Sequence[Explanation], reasons: tuple[str, ...]) -> Judgement:
+    """A suspicion of the likeliest kind of mismatch."""
+    kinds = {each.hypothesis.kind for each in explanations} - {Kind.NO_MISMATCH}
+    likeliest = max(kinds, key=lambda kind: _probability(explanations, kind))
+    return Judgement(likeliest, VerdictStatus.SUSPICION, (), (), reasons, tuple(explanations))
 
 
-def _probability(weighed: Sequence[Explanation], kind: Kind) -> float:
-    return sum(each.probability for each in weighed if each.hypothesis.kind is kind)
+def _probability(explanations: Sequence[Explanation], kind: Kind) -> float:
+    return sum(each.probability for each in explanations if each.hypothesis.kind is kind)
 
 
 def _unknown(
-    study: Study, bend: MultiplierChance, weighed: Sequence[Explanation], thresholds: Thresholds
+    study: Study, free: MultiplierChance, explanations: Sequence[Explanation], thresholds: Thresholds
 ) -> Judgement:
-    """Unknown physics is the verdict, without an effect, when its hypotheses together are sure, and striking."""
-    probability = _probability(weighed, Kind.UNKNOWN_PHYSICS)
+    """Unknown physics, without an effect, if its hypotheses together are probable and striking."""
+    probability = _probability(explanations, Kind.UNKNOWN_PHYSICS)
     against = []
     if probability < thresholds.name.probability:
         against.append(f"unknown physics at a probability of {probability:.2f} only")
-    if bend.chance >= thresholds.mismatch.chance:
-        row = table_rows(study.recording)[bend.point]
+    if free.chance >= thresholds.mismatch.chance:
+        row = table_rows(study.recording)[free.point]
         against.append(
             f"without point {row}, on which it rests most, unknown physics as far ahead of nothing has a chance "
-            f"of {bend.chance:.2g} where nothing is there: read that point again"
+            f"of {free.chance:.2g} where nothing is there: read that point again"
         )
     if against:
-        return _suspicion(weighed, tuple(against))
-    return Judgement(Kind.UNKNOWN_PHYSICS, VerdictStatus.NAMED, (), (), (), tuple(weighed))
+        return _suspicion(explanations, tuple(against))
+    return Judgement(Kind.UNKNOWN_PHYSICS, VerdictStatus.NAMED, (), (), (), tuple(explanations))
 
 
 def _objections(
-    best: Explanation, members: Sequence[Explanation], weighed: Sequence[Explanation], thresholds: Thresholds
+    best: Explanation, members: Sequence[Explanation], explanations: Sequence[Explanation], thresholds: Thresholds
 ) -> tuple[str, ...]:
-    """Why the class may not be named. Its members weigh together: the prior of one id is shared by its gaps."""
+    """Reasons against naming the class. Its members count together: the gaps of one id share its prior."""
     limits = thresholds.name
-    probability = sum(each.probability for each in weighed if agrees(each, members))
-    others = [each for each in weighed if each not in members and not agrees(each, members)]
+    probability = sum(each.probability for each in explanations if agrees(each, members))
+    others = [each for each in explanations if each not in members and not agrees(each, members)]
     rival = max(others, key=_weight)
     ahead = float(logsumexp([each.log_weight for each in members])) - rival.log_weight
     found = []
@@ -200,16 +204,16 @@ def _sigmas(posterior: Posterior, name: str) -> float:
 
 
 def _claims(
-    members: Sequence[Explanation], weighed: Sequence[Explanation], thresholds: Thresholds
+    members: Sequence[Explanation], explanations: Sequence[Explanation], thresholds: Thresholds
 ) -> tuple[ClaimedEffect, ...]:
-    """One claim for each effect of the best member: its probability counts all that claim it too."""
+    """One claim for each effect of the best member; its probability is the sum over all that claim it."""
     best = members[0]
     own = best.hypothesis
     rivals = {effect for each in members for effect in each.hypothesis.effects} - set(own.effects)
     shared = set.intersection(*(set(each.hypothesis.effects) for each in members))
     claims = []
     for at, effect in enumerate(own.effects):
-        probability = sum(each.probability for each in weighed if effect in each.hypothesis.effects)
+        probability = sum(each.probability for each in explanations if effect in each.hypothesis.effects)
         equivalent = () if effect in shared else tuple(sorted(rivals, key=lambda one: one.value))
         claims.append(
             ClaimedEffect(
@@ -225,7 +229,7 @@ def _claims(
 
 
 def _elsewhere(at: int, members: Sequence[Explanation], thresholds: Thresholds) -> tuple[tuple[Gap, float], ...]:
-    """Other gaps where one effect of the first member may sit, each with its share, where its own is not sure."""
+    """Other gaps for one effect of the first member, each with its share; none if its own gap is sure."""
     own = members[0].hypothesis
     same = [each for each in members if each.hypothesis.effects == own.effects]
     total = sum(each.probability for each in same)
@@ -239,7 +243,7 @@ def _elsewhere(at: int, members: Sequence[Explanation], thresholds: Thresholds) 
 
 
 def _estimates(best: Explanation, at: int) -> tuple[Estimate, ...]:
-    """The parameters of one effect as found; of a law by the last part of their path."""
+    """The fitted parameters of one effect; those of a law by the last part of their path."""
     posterior, own = best.posterior, best.hypothesis
     if posterior is None:
         return ()
@@ -251,6 +255,6 @@ def _estimates(best: Explanation, at: int) -> tuple[Estimate, ...]:
 
 def _estimate(posterior: Posterior, name: str, short: bool) -> Estimate:
     at = posterior.index(name)
-    told = name.rpartition(".")[2] if short else name
+    shown = name.rpartition(".")[2] if short else name
     dimension = posterior.parameters[at].dimension
-    return Estimate(told, float(posterior.values[at]), posterior.sigma(name), dimension)
+    return Estimate(shown, float(posterior.values[at]), posterior.sigma(name), dimension)

@@ -1,4 +1,4 @@
-"""Where a mismatch sits: channel and region, component, shaft angle, time. Needs no catalogue."""
+"""Place of a mismatch: channel and region, component, shaft angle, time. Needs no catalogue."""
 
 from __future__ import annotations
 
@@ -33,10 +33,10 @@ _Box = Callable[[ChannelName, Contrasts, Array, Mapping[ChannelName, Array]], Ma
 
 @dataclass(frozen=True)
 class Location:
-    """Channels in which it shows, most first, and the region of the first (None: everywhere).
+    """Channels of the mismatch, largest share first, and the region of the first (None: everywhere).
 
-    components, groups: ln evidence of each, best first; tie: components that cannot be told from the best. Where
-    no component is ahead of nothing there are no channels, no region and no tie.
+    components, groups: ln evidence of each, best first; tie: components that cannot be separated from the best. If
+    no component is ahead of nothing, there are no channels, no region and no tie.
     """
 
     channels: tuple[ChannelName, ...]
@@ -49,7 +49,7 @@ class Location:
 
 
 def locate(study: Study, thresholds: Thresholds) -> Location:
-    """Where the readings part from the simulation. Means something only where `detect` finds that they do."""
+    """Place of the difference between readings and simulation. Of use only where `detect` finds a mismatch."""
     limits = thresholds.locate
     ranking = component_evidences(study, thresholds)
     tie = tied(ranking, thresholds.name.odds)
@@ -70,9 +70,9 @@ def locate(study: Study, thresholds: Thresholds) -> Location:
 def of_explanation(study: Study, location: Location, added: Array, thresholds: Thresholds) -> Location:
     """The same with channels and strongest region of what an explanation adds to the readings, (N, C) in SI.
 
-    A law's free multiplier knows its level only up to what films and zeros take up: whether too much leaks at low
-    pressure or too little at high, only the explanation tells. Components are told by steady readings: none are
-    where it adds to traces alone.
+    The level of a law's free multiplier is known only up to the fitted films and zeros: only an explanation
+    decides between too much leakage at low pressure and too little at high. Components follow from steady
+    readings: an explanation that adds to traces alone has none.
     """
     whitening = study.base.whitening
     sigma = np.where(whitening.measured, whitening.sigma, np.inf)
@@ -85,19 +85,20 @@ def of_explanation(study: Study, location: Location, added: Array, thresholds: T
 
 
 def without_explanation(
-    study: Study, location: Location, weighed: Explanation, thresholds: Thresholds
+    study: Study, location: Location, explanation: Explanation, thresholds: Thresholds
 ) -> Location:
-    """The same with the shaft angle at which traces part from a refit that has its explanation taken out.
+    """The same with the shaft angle at which traces differ from a refit without its explanation.
 
-    Where it shows in the chamber: tolerance alone may well follow it (a worn groove is one cut too long).
+    For an explanation that acts on the chamber: tolerances alone may follow it (a worn groove is one cut too
+    long).
     """
-    traces = unexplained_traces(study, weighed, thresholds)
+    traces = unexplained_traces(study, explanation, thresholds)
     angle = scan_angles(traces, study.events, thresholds.locate, thresholds.seeds.locate)
     return replace(location, angle=angle)
 
 
 def _channels(study: Study, pattern: Array, least_share: float) -> tuple[ChannelName, ...]:
-    """Those in which the best component's missing part shows: raw excess would count every channel's noise."""
+    """Channels of the missing part of the best component; a raw excess would count the noise of every channel."""
     energy = study.by_shown((pattern**2).sum(axis=0))
     order = np.argsort(-energy)
     least = least_share * energy.sum()
@@ -105,7 +106,7 @@ def _channels(study: Study, pattern: Array, least_share: float) -> tuple[Channel
 
 
 def _region(study: Study, channel: ChannelName, pattern: Array, box: _Box) -> MapRegion | None:
-    """The box of a pattern (N, C) in a channel; None for what has no place in the map."""
+    """The box of a pattern (N, C) in a channel; None for a channel without steady readings."""
     if channel not in study.channels:
         return None
     at = study.channels.index(channel)

@@ -1,4 +1,4 @@
-"""What the best explanation leaves: enough of the mismatch to say that the name is not all."""
+"""Residue of the best explanation: parts of the mismatch that it does not explain."""
 
 from __future__ import annotations
 
@@ -11,13 +11,13 @@ from diagnosis.detect.component_evidence import MEMBERS, ComponentGroup, multipl
 from diagnosis.detect.contrasts import contrasts
 from diagnosis.detect.mismatch import most_striking
 from diagnosis.detect.regions import flagged
-from diagnosis.explain.explained import repair
+from diagnosis.explain.explained import explained_mismatch
 from diagnosis.explain.hypotheses import Hypothesis
 from diagnosis.explain.ranked import Explanation
 from diagnosis.study.map_axes import axis_values
 from diagnosis.study.model import Study
 from diagnosis.thresholds import Thresholds
-from diagnosis.verdict.trend import misgrown
+from diagnosis.verdict.trend import power_errors
 from reynolds.numerics.arrays import Array
 from system.estimation.evidence import multiplier_evidence
 from system.estimation.parameters import Role
@@ -28,10 +28,10 @@ BROADER = 5.44  # n times the variance of a squared scale from the median (Rouss
 MEDIAN = float(norm.isf(0.25))  # of |r| in sigma
 
 
-def left_over(
+def residue_notes(
     study: Study, null: Explanation, best: Explanation, along: Mapping[str, Array], thresholds: Thresholds
 ) -> tuple[str, ...]:
-    """What the best explanation leaves of the mismatch, in words; () where it is complete.
+    """Parts of the mismatch that the best explanation leaves, as text; () if it is complete.
 
     A part of the map or a candidate that stands out of the residual counts where chance hardly makes it and its
     square exceeds the share `material` of what is explained in its channel: a law of another form than the pump's
@@ -41,13 +41,13 @@ def left_over(
     after, before = best.posterior, null.posterior
     if after is None or before is None:
         return ()
-    found = list(_bent(best.hypothesis))
+    found = list(_form_note(best.hypothesis))
     found += _scatter(after.residual, thresholds)
     gained = max(before.objective - after.objective, 0.0)
     least = np.sqrt(thresholds.form.material * gained * _shares(study, best, thresholds))
     found += _regions(study, after, least, thresholds)
     found += _striking(study, after, best.hypothesis, least, thresholds)
-    found += [growth.text for growth in misgrown(study, best, along, thresholds)[:1]]
+    found += [growth.text for growth in power_errors(study, best, along, thresholds)[:1]]
     if _pulls(after, best.hypothesis) - _pulls(before, best.hypothesis) > 2.0 * thresholds.name.odds:
         found.append("parameters move farther from their stated values than without it")
     if _allowed_gain(study, before, after, thresholds) < thresholds.name.odds:
@@ -55,27 +55,29 @@ def left_over(
     return tuple(found)
 
 
-def _bent(hypothesis: Hypothesis) -> Iterator[str]:
-    if not hypothesis.bent:
+def _form_note(hypothesis: Hypothesis) -> Iterator[str]:
+    if not hypothesis.other_form:
         return
     beside = " and ".join(each.value for each in hypothesis.stand_ins)
-    stands = (
-        f"; {beside} beside it would do so too, but takes up no more than its form may leave" if beside else ""
+    second = (
+        f"; {beside} beside it would do so too, but explains no more than an error of its form may leave"
+        if beside
+        else ""
     )
-    yield f"its law explains more if it is bent over the map{stands}"
+    yield f"its law explains more if it varies freely over the map{second}"
 
 
 def _scatter(residual: Array, thresholds: Thresholds) -> Iterator[str]:
-    """The breadth of what is left, from its median: tails and steps of the noise are no mismatch."""
+    """A note if the median residual exceeds the noise: tails and steps of the noise are no mismatch."""
     broad = float(np.median(np.abs(residual)) / MEDIAN) ** 2
     if norm.sf((broad - 1.0) / np.sqrt(BROADER / residual.size)) < thresholds.mismatch.chance:
-        yield f"what is left scatters {np.sqrt(broad):.2f} times as wide as the noise"
+        yield f"the residual scatters {np.sqrt(broad):.2f} times as wide as the noise"
 
 
 def _shares(study: Study, best: Explanation, thresholds: Thresholds) -> Array:
-    """By shown channel, of the square of what the explanation adds, in sigma; 0 where that is not known."""
+    """Share of each shown channel in the square of the explanation's addition, in sigma; 0 where it is unknown."""
     try:
-        added = repair(study, best, thresholds).added / study.base.whitening.sigma
+        added = explained_mismatch(study, best, thresholds).added / study.base.whitening.sigma
     except NotConverged:
         return np.zeros(len(study.shown_channels))
     squares = np.where(study.observations.measured, added**2, 0.0).sum(axis=0)
@@ -84,7 +86,7 @@ def _shares(study: Study, best: Explanation, thresholds: Thresholds) -> Array:
 
 
 def _regions(study: Study, after: Posterior, least: Array, thresholds: Thresholds) -> Iterator[str]:
-    """The first two parts of the map that stand out of what is left."""
+    """The first two parts of the map that stand out of the residual."""
     by_channel = {name: contrasts(after, at) for at, name in enumerate(study.channels)}
     flags = flagged(by_channel, axis_values(study.recording), thresholds)
     for flag in flags[:2]:
@@ -95,7 +97,7 @@ def _regions(study: Study, after: Posterior, least: Array, thresholds: Threshold
 def _striking(
     study: Study, after: Posterior, hypothesis: Hypothesis, least: Array, thresholds: Thresholds
 ) -> Iterator[str]:
-    """The candidate that stands out of what is left."""
+    """The candidate that stands out of the residual."""
     others = [each for each in study.candidates if each.entry.id not in hypothesis.effects]
     chance, strongest = most_striking(settled(after), others, thresholds)
     if chance >= thresholds.mismatch.chance:
@@ -105,11 +107,11 @@ def _striking(
     np.add.at(squares, after.whitening.rows[:, 1], candidate.column**2)
     channel = study.by_shown(squares).argmax()
     if abs(found.z) > least[channel]:
-        yield f"{candidate.entry.id.value} stands out of what is left by {abs(found.z):.1f} sigma"
+        yield f"{candidate.entry.id.value} stands out of the residual by {abs(found.z):.1f} sigma"
 
 
 def _pulls(posterior: Posterior, hypothesis: Hypothesis) -> float:
-    """Sum of xi^2 over what the null has too and the hypothesis does not set free."""
+    """Sum of xi^2 over the parameters of the null that the hypothesis does not set free."""
     kept = np.array(
         [each.role is not Role.EXTENSION and each.name not in hypothesis.widened for each in posterior.parameters]
     )
@@ -117,14 +119,14 @@ def _pulls(posterior: Posterior, hypothesis: Hypothesis) -> float:
 
 
 def _allowed_gain(study: Study, before: Posterior, after: Posterior, thresholds: Thresholds) -> float:
-    """ln evidence over the null if every leakage and friction law may be bent over the map by the allowance."""
+    """ln evidence over the null if each leakage and friction law may vary over the map by the allowance."""
     laws = (*MEMBERS[ComponentGroup.FILM_LEAKAGE], *MEMBERS[ComponentGroup.FRICTION])
-    bent = [component for component in laws if component in study.components]
+    free = [component for component in laws if component in study.components]
 
     def evidence(posterior: Posterior) -> float:
-        if not bent:
+        if not free:
             return posterior.log_evidence
-        columns = np.hstack([multiplier_columns(study, posterior, component) for component in bent])
+        columns = np.hstack([multiplier_columns(study, posterior, component) for component in free])
         return posterior.log_evidence + multiplier_evidence(
             settled(posterior), columns, (thresholds.name.allowance,)
         )

@@ -1,4 +1,4 @@
-"""Rows of a recording's own table: readers find a point there, though some rows may have taken no part."""
+"""Row numbers of a recording's own table, in which some rows may take no part in the diagnosis."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from diagnosis.verdict.diagnosis import Diagnosis
 def table_rows(recording: Recording) -> NDArray[np.int64]:
     """The row, from 1, of each of the N points in the table (or windows of the series) that was read.
 
-    Skipped are the rows that lacked an input, as the recording's notes have them: `inputs.complete`.
+    Rows without an input are skipped, by the recording's notes: `inputs.complete`.
     """
     gone = {
         point
@@ -27,7 +27,7 @@ def table_rows(recording: Recording) -> NDArray[np.int64]:
 
 
 def by_table_rows(found: Diagnosis, recording: Recording) -> Diagnosis:
-    """The diagnosis with the place of a drift or an onset by the table's rows (from 0, as it counts)."""
+    """The diagnosis with the place of a drift or an onset by the table's rows (from 0)."""
     time = found.location.time
     if time is None:
         return found

@@ -1,8 +1,8 @@
-"""Second effects that only stand in for the form of the first.
+"""Second effects that merely compensate the error of form of the first.
 
-A law that is right in kind but not in form leaves a residual, and some second effect always takes up a part of it.
-That effect is believed only if it does better than the first one's own pattern, bent smoothly over the map, and if
-it takes up more than the form of a law is trusted with.
+A law that is right in kind but not in form leaves a residual, and some second effect always explains a part of it.
+That effect counts only if it explains more than the first one's own pattern with a smooth multiplier over the map,
+and more than an error of form may leave.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from math import inf, nan
 import numpy as np
 from scipy.special import logsumexp
 
-from diagnosis.explain.explained import repair
+from diagnosis.explain.explained import explained_mismatch
 from diagnosis.explain.ranked import Explanation
 from diagnosis.study.map_axes import smooth_shapes
 from diagnosis.study.model import Study
@@ -30,41 +30,41 @@ Evidence = Callable[[Explanation], float | None]
 
 
 def without_stand_ins(
-    study: Study, weighed: Sequence[Explanation], thresholds: Thresholds
+    study: Study, explanations: Sequence[Explanation], thresholds: Thresholds
 ) -> tuple[Explanation, ...]:
-    """Explanations of one and more effects, those whose last effects are stand-ins cut to what they stand on.
+    """Explanations of one and more effects, without effects that are stand-ins.
 
-    Of A + B, where A has a law and was refitted, B stands in if A bent does as well within the odds of a name, and
-    B takes up no more than the share `second` of what A does.
-    What is left is A with the evidence that the two have, or A bent, whichever is less: it claims A, and that its
-    form is not all. B stands in too if in each channel it takes up less than `slight` of what A does there: then A
-    has the evidence of the two. So it is with unknown physics, a component bent freely: it stands in where one
-    law, bent, does as well, and its own form explains `own` times what the bending adds.
+    In A + B, where A has a law and a refit, B is a stand-in if A with a free multiplier has the same evidence
+    within the odds of a name, and B explains no more than the share `second` of what A explains. Then A remains,
+    of another form, with the lesser evidence of A + B and of A with the multiplier. B is a stand-in too if in each
+    channel it explains less than `slight` of what A explains there: then A has the evidence of both. Unknown
+    physics, a component with a free multiplier, is a stand-in if one law with a multiplier has the same evidence
+    and the law itself gains `own` times as much as its multiplier adds.
     """
-    bent: Evidence = cache(lambda each: bent_evidence(study, each, thresholds))
-    null = next((each for each in weighed if each.hypothesis.kind is Kind.NO_MISMATCH), None)
-    known = [each for each in weighed if each.hypothesis.component is None]
-    unknown = [each for each in weighed if each.hypothesis.component is not None]
+    multiplied: Evidence = cache(lambda each: multiplied_evidence(study, each, thresholds))
+    null = next((each for each in explanations if each.hypothesis.kind is Kind.NO_MISMATCH), None)
+    known = [each for each in explanations if each.hypothesis.component is None]
+    unknown = [each for each in explanations if each.hypothesis.component is not None]
     if null is None:
-        return tuple(weighed)
-    cut = [_cut(study, each, known, null, bent, thresholds) for each in known]
-    return (*cut, *_known_after_all(unknown, known, null, bent, thresholds))
+        return tuple(explanations)
+    cut = [_cut(study, each, known, null, multiplied, thresholds) for each in known]
+    return (*cut, *_known_after_all(unknown, known, null, multiplied, thresholds))
 
 
-def bent_evidence(study: Study, weighed: Explanation, thresholds: Thresholds) -> float | None:
-    """ln evidence of an explanation with what its laws add to the readings times 1 + Phi b.
+def multiplied_evidence(study: Study, explanation: Explanation, thresholds: Thresholds) -> float | None:
+    """ln evidence of an explanation whose addition to the readings is multiplied by 1 + Phi b.
 
-    b as of unknown physics, linear about the refit. None for what was not refitted, and for what has no law.
+    b as for unknown physics, linear about the refit. None without a refit, and without a law.
     """
-    posterior = weighed.posterior
-    if posterior is None or not weighed.hypothesis.laws:
+    posterior = explanation.posterior
+    if posterior is None or not explanation.hypothesis.laws:
         return None
     try:
-        added = repair(study, weighed, thresholds).added
+        added = explained_mismatch(study, explanation, thresholds).added
     except NotConverged:
         return None
     columns = posterior.whitening.whiten(added[:, :, None] * smooth_shapes(study.axes)[:, None, :])
-    return weighed.log_evidence + multiplier_evidence(
+    return explanation.log_evidence + multiplier_evidence(
         settled(posterior), columns, thresholds.locate.multiplier_widths
     )
 
@@ -72,35 +72,35 @@ def bent_evidence(study: Study, weighed: Explanation, thresholds: Thresholds) ->
 def _cut(
     study: Study,
     whole: Explanation,
-    weighed: Sequence[Explanation],
+    explanations: Sequence[Explanation],
     null: Explanation,
-    bent: Evidence,
+    multiplied: Evidence,
     thresholds: Thresholds,
 ) -> Explanation:
-    """An explanation, or the least part of it on which the rest stands."""
+    """An explanation, or its smallest part if the rest are stand-ins."""
     odds = thresholds.name.odds
-    parts = [each for each in weighed if _is_part(each, whole) and each.log_weight < whole.log_weight - odds]
-    stands: list[tuple[Explanation, float]] = []
+    parts = [each for each in explanations if _is_part(each, whole) and each.log_weight < whole.log_weight - odds]
+    remaining: list[tuple[Explanation, float]] = []
     for each in parts:
-        found = bent(each)
+        found = multiplied(each)
         if found is None:
             continue
         if _is_slight(study, whole, each, null, thresholds.form):
-            stands.append((each, whole.log_evidence))
+            remaining.append((each, whole.log_evidence))
         elif found >= whole.log_evidence - odds and not _is_more(whole, each, null, thresholds.form):
-            stands.append((each, min(found, whole.log_evidence)))
-    if not stands:
+            remaining.append((each, min(found, whole.log_evidence)))
+    if not remaining:
         return whole
-    part, found = min(stands, key=lambda one: (len(one[0].hypothesis.effects), -one[1]))
+    part, found = min(remaining, key=lambda one: (len(one[0].hypothesis.effects), -one[1]))
     beside = tuple(each for each in whole.hypothesis.effects if each not in part.hypothesis.effects)
-    return _as_bent(part, found, whole.hypothesis.log_prior, beside)
+    return _of_other_form(part, found, whole.hypothesis.log_prior, beside)
 
 
 def _is_slight(study: Study, whole: Explanation, part: Explanation, null: Explanation, form: FormLimits) -> bool:
-    """Whether the rest of an explanation takes up no more of a channel's sum of squares than its part's form may.
+    """True if the rest of an explanation explains no more of any channel than the form of its part may leave.
 
     Sum r^2 falls by G_c from nothing to the part, by D_c from the part to the whole: D_c < slight G_c + slack.
-    So it is with the objectives, into which goes what parameters were moved for it.
+    The same holds for the objectives, which include the moved parameters.
     """
     fits = [each.posterior for each in (null, part, whole)]
     if any(fit is None for fit in fits):
@@ -110,7 +110,7 @@ def _is_slight(study: Study, whole: Explanation, part: Explanation, null: Explan
 
 
 def _is_more(whole: Explanation, part: Explanation, null: Explanation, form: FormLimits) -> bool:
-    """Whether the rest of an explanation takes up more of the objective than the form of a part can be off by."""
+    """True if the rest of an explanation explains more of the objective than an error of form of its part can."""
     fits = [each.posterior for each in (null, part, whole)]
     before, by_part, by_whole = (nan if fit is None else fit.objective for fit in fits)
     return by_part - by_whole > form.second * (before - by_part)
@@ -127,34 +127,34 @@ def _known_after_all(
     unknown: Sequence[Explanation],
     known: Sequence[Explanation],
     null: Explanation,
-    bent: Evidence,
+    multiplied: Evidence,
     thresholds: Thresholds,
 ) -> tuple[Explanation, ...]:
-    """Unknown physics, with what a law bent does as well as gathered into one explanation by that law."""
+    """Unknown physics; components that a law with a multiplier equals are gathered into one explanation by it."""
     ahead = max((each.log_weight for each in known), default=-inf)
     if max((each.log_weight for each in unknown), default=-inf) < ahead - thresholds.name.odds:
         return tuple(unknown)
-    standing: list[tuple[Explanation, float]] = []
+    equal: list[tuple[Explanation, float]] = []
     for each in known:
         gained = each.log_evidence - null.log_evidence
         single = len(each.hypothesis.effects) == 1 and gained > thresholds.name.odds
-        found = bent(each) if single else None
+        found = multiplied(each) if single else None
         if found is not None and thresholds.form.own * (found - each.log_evidence) < gained:
-            standing.append((each, found))
-    law, most = max(standing, key=lambda one: one[1] + one[0].hypothesis.log_prior, default=(null, -inf))
+            equal.append((each, found))
+    law, most = max(equal, key=lambda one: one[1] + one[0].hypothesis.log_prior, default=(null, -inf))
     taken = [each for each in unknown if each.log_evidence <= most]
     if not taken:
         return tuple(unknown)
     prior = float(logsumexp([each.hypothesis.log_prior for each in taken]))
     evidence = float(logsumexp([each.log_weight for each in taken])) - prior
-    return (_as_bent(law, evidence, prior, ()), *(each for each in unknown if each.log_evidence > most))
+    return (_of_other_form(law, evidence, prior, ()), *(each for each in unknown if each.log_evidence > most))
 
 
-def _as_bent(
+def _of_other_form(
     part: Explanation, log_evidence: float, log_prior: float, beside: tuple[EffectId, ...]
 ) -> Explanation:
-    """A law's explanation, of which is said that its form is not all; beside: what stood in for the form."""
-    own = replace(part.hypothesis, bent=True, stand_ins=beside, log_prior=log_prior)
+    """An explanation by a law of another form; beside: its stand-ins."""
+    own = replace(part.hypothesis, other_form=True, stand_ins=beside, log_prior=log_prior)
     return replace(part, hypothesis=own, log_evidence=log_evidence)
 
 

@@ -1,4 +1,4 @@
-"""Whether an explanation grows with speed, pressure, displacement and viscosity as the readings ask."""
+"""Trend of an explanation over speed, pressure, displacement and viscosity, against that of the readings."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.stats import norm
 
-from diagnosis.explain.explained import repair
+from diagnosis.explain.explained import explained_mismatch
 from diagnosis.explain.ranked import Explanation
 from diagnosis.explain.scaling import moves
 from diagnosis.study.map_axes import AXES
@@ -23,7 +23,7 @@ from system.inputs.errors import NotConverged
 
 @dataclass(frozen=True)
 class PowerError:
-    """By which power of a coordinate more than it does an explanation would have to grow, with one sigma."""
+    """Missing power of a coordinate in the growth of an explanation, with one sigma."""
 
     coordinate: str
     power: float
@@ -45,32 +45,33 @@ def coordinates(study: Study, viscosity: Array) -> Mapping[str, Array]:
     return {name: x for name, x in found.items() if np.all(np.isfinite(x))}
 
 
-def misgrown(
-    study: Study, weighed: Explanation, along: Mapping[str, Array], thresholds: Thresholds
+def power_errors(
+    study: Study, explanation: Explanation, along: Mapping[str, Array], thresholds: Thresholds
 ) -> tuple[PowerError, ...]:
-    """The powers by which a refitted explanation's growth differs from what the readings ask; most often none.
+    """Powers by which the growth of a refitted explanation differs from that of the readings; usually none.
 
-    What it adds to the readings, d, becomes d x^b: to first order b d ln x, whose score (Rao 1948) is taken about
-    the refit, one coordinate x at a time. Of explanations of the right form at most one in twenty is told (rate of
-    false flags; Holm 1979), and no power below `flat`. The pattern is of one direction, and so sees what a free
-    bend, paid for in all directions, does not. Empty where nothing was refitted.
+    Its addition to the readings, d, becomes d x^b: to first order b d ln x, whose score (Rao 1948) is taken about
+    the refit, one coordinate x at a time. At most one in twenty explanations of the right form is reported (rate
+    of false flags; Holm 1979), and no power below `flat`. One direction at a time finds errors that a free
+    multiplier, with its prior cost in all directions, does not. Empty without a refit.
     """
-    posterior, form = weighed.posterior, thresholds.form
+    posterior, form = explanation.posterior, thresholds.form
     logs = {
         name: np.log(x / np.median(x)) for name, x in along.items() if x.min() > 0 and moves(x, form.least_range)
     }
     if posterior is None or not logs:
         return ()
     try:
-        added = repair(study, weighed, thresholds).added
+        added = explained_mismatch(study, explanation, thresholds).added
     except NotConverged:
         return ()
     fit = settled(posterior)
     scores = {name: score(fit, fit.whitening.whiten(added * x[:, None])) for name, x in logs.items()}
     least = float(norm.isf(0.5 * thresholds.mismatch.flag_rate / len(logs)))
-    told = [
+    flagged = [
         (name, found) for name, found in scores.items() if abs(found.z) > least and abs(found.size) > form.flat
     ]
     return tuple(
-        PowerError(name, found.size, found.sigma) for name, found in sorted(told, key=lambda one: -abs(one[1].z))
+        PowerError(name, found.size, found.sigma)
+        for name, found in sorted(flagged, key=lambda one: -abs(one[1].z))
     )

@@ -29,11 +29,10 @@ _COMMA = re.compile(r"\s*[+-]?(\d+,?\d*|,\d+)(e[+-]?\d+)?\s*", re.IGNORECASE)
 def columns_of(rows: Iterable[Sequence[object]], decimal: str) -> TableColumns:
     """Return the columns of rows of cells: text, numbers, times or None.
 
-    The head is the first row as long as most rows are that is text all through; what stands above it is left out,
-    and so are a row below it without any number (units, as loggers write them) and rows at the end that begin with
-    the name of a summary (`SUMMARIES`), where no row above does. A cell that is no number is nan; a
-    column of times (ISO 8601) becomes seconds from its first. Raises TableFault for no head or a name that stands
-    in it twice.
+    The head is the first row of the most frequent length that is text throughout. Rows above it are left out, and
+    a row below it without any number (units, as loggers write them), and rows at the end that begin with the name
+    of a summary (`SUMMARIES`), where no row above does. A cell that is no number is nan; a column of times (ISO
+    8601) becomes seconds from its first. Raises TableFault for no head or a name that occurs in it twice.
     """
     table = [[_bare(cell) for cell in row] for row in rows]
     table = [row for row in table if any(cell != "" for cell in row)]
@@ -69,7 +68,7 @@ def columns_of(rows: Iterable[Sequence[object]], decimal: str) -> TableColumns:
 
 
 def _summaries(body: Sequence[Sequence[object]]) -> int:
-    """How many rows at the end are no readings but sums or means of those above."""
+    """Number of rows at the end that are sums or means of those above."""
     named = [str(next(filter(None, row), "")).lower().rstrip(":.") in SUMMARIES for row in body]
     count = next((k for k, one in enumerate(reversed(named)) if not one), len(named))
     return count if not any(named[: len(named) - count]) and count < len(named) else 0
@@ -103,7 +102,7 @@ def _number(cell: object, decimal: str) -> float | None:
 
 
 def _column(cells: Sequence[object], decimal: str) -> tuple[Array, str]:
-    """A column's numbers, and what is to be told of it."""
+    """A column's numbers, and notes on it."""
     numbers = [_number(cell, decimal) for cell in cells]
     if cells and not any(number is not None for number in numbers):
         times = [_time(cell) for cell in cells]

@@ -31,9 +31,9 @@ APPLIED_SCALES = frozenset(
 def read_tdms(source: TableSource) -> TableColumns:
     """Return the channels of the stated group of a TDMS file, or of its only group, scaled.
 
-    A channel's own time base is the column `time`. Channels of another length than the most are left out and told.
+    A channel's own time base is the column `time`. Channels of another length than most are left out, with a note.
     Raises TableFault where npTDMS is not installed, for a group that is not there, and for a channel with a scale
-    that npTDMS does not apply (it would hand out raw counts: npTDMS issue 91).
+    that npTDMS does not apply (it returns raw counts: npTDMS issue 91).
     """
     try:
         from nptdms import TdmsFile

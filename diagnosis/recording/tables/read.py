@@ -1,4 +1,4 @@
-"""A file of numbers as named columns, whatever program wrote it: what a table is, and which reader takes it."""
+"""Table files as named columns: the reader of each file format."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ _READERS: Mapping[str, Callable[[TableSource], TableColumns]] = {
 
 
 def read_columns(source: TableSource) -> TableColumns:
-    """Return the columns of a table, numbers as they stand in the file.
+    """Return the columns of a table, numbers as in the file.
 
     Read by ending: .csv .txt .tsv .dat as text, .xlsx, .parquet, .mat, .tdms, .mf4 and .mdf. Raises TableFault
     for a file that is absent, of another kind, damaged, without rows, or whose library is not installed.

@@ -10,7 +10,7 @@ from reynolds.numerics.arrays import Array
 
 
 class TableFault(Exception):
-    """A file that cannot be read as a table: what was found, what was expected, what to do."""
+    """A file that cannot be read as a table: found, expected, and the nearest choice."""
 
     def __init__(self, found: str, expected: str, nearest: str = "") -> None:
         super().__init__(f"found {found}, expected {expected}")
@@ -19,7 +19,7 @@ class TableFault(Exception):
 
 @dataclass(frozen=True)
 class TableSource:
-    """Where a table stands: its file, and what a recording states of the file's form (empty: to be found).
+    """Source of a table: its file, and the file's form as a recording states it (empty: to be found).
 
     sheet: of a workbook; decimal, separator: of text; group: of TDMS; variable: of a MAT file, struct or matrix.
     """
@@ -34,13 +34,13 @@ class TableSource:
 
 @dataclass(frozen=True)
 class TableColumns:
-    """Columns by name, all of one length, nan where a cell holds no number; `told`: what was found, in words.
+    """Columns by name, all of one length, nan where a cell holds no number; notes: on the form found, as text.
 
-    units: by name of a column what stands in the row below the head, or in brackets in the head.
+    units: by name of a column, from the row below the head, or in brackets in the head.
     """
 
     values: Mapping[str, Array]
-    told: tuple[str, ...] = field(default=())
+    notes: tuple[str, ...] = field(default=())
     units: Mapping[str, str] = field(default_factory=dict)
 
     @property

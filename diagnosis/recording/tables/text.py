@@ -1,4 +1,4 @@
-"""Tables in text files: separator and decimal sign are found from the text and told, unless they are stated."""
+"""Tables in text files: separator and decimal sign are found from the text, with a note, unless stated."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ def read_text(source: TableSource) -> TableColumns:
     """Return the columns of a text table; lines that begin with # are left out.
 
     The separator is the one that parts most lines into the same number of cells, at least two (else the table has
-    one column); the decimal sign the one with which more cells are numbers, a comma only where it does not part.
+    one column); the decimal sign the one with which more cells are numbers, a comma only if it is no separator.
     Raises TableFault for text that cannot be decoded or a sign that is neither point nor comma.
     """
     text, encoding = _decoded(source)
@@ -40,11 +40,11 @@ def read_text(source: TableSource) -> TableColumns:
     if encoding != "utf-8-sig":
         found.append(f"read as {encoding}, since it is no UTF-8")
     plain = found == ["cells parted by comma", "decimal point"]
-    return columns if plain or not found else replace(columns, told=(", ".join(found), *columns.told))
+    return columns if plain or not found else replace(columns, notes=(", ".join(found), *columns.notes))
 
 
 def _decoded(source: TableSource) -> tuple[str, str]:
-    """The text of a file, and in which encoding it was read."""
+    """The text of a file, and its encoding."""
     raw = source.path.read_bytes()
     if b"\0" in raw[:4096]:
         raise TableFault(f"'{source.path.name}', which is no text", "a text table in UTF-8")

@@ -15,7 +15,7 @@ INSTALL = "pip install '.[recordings]' in the checkout"
 def read_workbook(source: TableSource) -> TableColumns:
     """Return the columns of the stated sheet of an .xlsx workbook, or of its only sheet.
 
-    Formulas count with the value that the last program to save them left. Raises TableFault where openpyxl is not
+    Formulas have the value that the last program saved. Raises TableFault where openpyxl is not
     installed, for a sheet that is not there, and for several sheets none of which is stated.
     """
     try:

@@ -19,7 +19,7 @@ ALL, NONE = "all", "none"
 
 
 def add_calibrate_options(command: argparse.ArgumentParser) -> None:
-    """The words that `swashfilm calibrate` takes."""
+    """Add the arguments of `swashfilm calibrate`."""
     command.add_argument("pump", metavar="PUMP", help="built-in name (ref90) or pump file, which may know little")
     command.add_argument(
         "recording", type=Path, metavar="RECORDING", help="folder of a recording.toml, or a table beside one"

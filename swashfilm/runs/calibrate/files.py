@@ -42,7 +42,7 @@ def write_calibration_files(folder: Path, found: Calibration, title: str) -> Non
 
 
 def summary(found: Calibration, title: str) -> dict[str, Any]:
-    """What the page needs beside the tables."""
+    """Content of summary.json."""
     fit = found.best
     return {
         "format": 1,
@@ -64,7 +64,7 @@ def summary(found: Calibration, title: str) -> dict[str, Any]:
 
 
 def parameter_rows(fit: Posterior) -> Iterator[Row]:
-    """Every parameter: its prior one sigma either way, bounds, what the fit makes of it, sigma over prior's."""
+    """Every parameter: its prior one sigma either way, bounds, fitted value, sigma over prior's."""
     for at, parameter in enumerate(fit.parameters):
         sigma = float(np.sqrt(fit.covariance[at, at]))
         held = fit.xi[at] <= parameter.lowest or fit.xi[at] >= parameter.highest
@@ -141,7 +141,7 @@ def heldout_rows(found: Calibration) -> Iterator[Row]:
 
 
 def residual_rows(found: Calibration) -> Iterator[Row]:
-    """Each reading: row of the recording's table from 1, where it was taken, measured and fitted."""
+    """Each reading: row of the recording's table from 1, operating point, measured and fitted."""
     points, fit, readings = found.points, found.best, found.study.observations
     numbers = table_rows(found.study.recording)
     sigma = fit.whitening.sigma

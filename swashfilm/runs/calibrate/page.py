@@ -47,7 +47,7 @@ def write_calibrate_page(folder: Path) -> Path:
 
 
 def headline(folder: Path) -> tuple[str, ...]:
-    """What was found, in sentences."""
+    """The result in sentences."""
     own = _summary(folder)
     told = [
         f"{own['parameters']} parameters fitted to {own['readings']} readings at {own['points']} points: "

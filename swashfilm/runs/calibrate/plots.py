@@ -19,7 +19,7 @@ OWN, OTHERS, NOISE = "#b55a00", "#3c7a8c", "#9aa4ab"
 def coefficients_over_displacement(rows: Sequence[Row]) -> bytes:
     """Eq. (21)'s coefficients over displacement with one sigma, the whole map's and the prior as bands.
 
-    A panel for each pair; what the readings do not touch has the prior's width.
+    A panel for each pair; a coefficient without influence on the readings has the prior's width.
     """
     names = list(dict.fromkeys(row["coefficient"] for row in rows))
     columns = 4

@@ -20,7 +20,7 @@ USUAL_WORKERS = 4  # at most, where not stated: more wait for each other
 
 
 def add_diagnose_options(command: argparse.ArgumentParser) -> None:
-    """The words that `swashfilm diagnose` takes."""
+    """Add the arguments of `swashfilm diagnose`."""
     command.add_argument("pump", metavar="PUMP", help="built-in name (ref90) or pump file, which may know little")
     command.add_argument(
         "recording",
@@ -90,7 +90,7 @@ def run_diagnose_command(options: argparse.Namespace) -> int:
 
 
 def is_recording(path: Path, tables: Sequence[str]) -> bool:
-    """Whether `check` is given a recording: a folder, a table of readings, or a TOML file with [channel]."""
+    """True if the path of `check` is a recording: a folder, a table of readings, or a TOML file with [channel]."""
     return path.is_dir() or "channel" in tables or (path.suffix.lower() != ".toml" and path.is_file())
 
 
@@ -123,8 +123,8 @@ def _channel_rows(recording: Recording) -> Sequence[tuple[str, ...]]:
             ends = (f"{reading(channel.name, float(end)):.4g}" for end in (known.min(), known.max()))
             sigma = difference(channel.name, float(reading_sigma(channel, np.median(known, keepdims=True))[0]))
             span = f"{' to '.join(ends)} {channel_unit(channel.name)}".removesuffix(" 1")
-            told = f"{sigma:.2g} {difference_unit(channel.name)}".removesuffix(" 1")
-            rows.append((channel.name.value, str(known.size), span, told))
+            noise = f"{sigma:.2g} {difference_unit(channel.name)}".removesuffix(" 1")
+            rows.append((channel.name.value, str(known.size), span, noise))
     return rows
 
 
@@ -141,7 +141,7 @@ def _workers(options: argparse.Namespace, faults: list[Fault]) -> int:
 
 
 def _apply(options: argparse.Namespace, faults: list[Fault]) -> Path | None:
-    """Where the found pump goes: a file that is not there yet, in a folder that is."""
+    """File of the fitted pump: new, in an existing folder."""
     path: Path | None = options.apply
     if path is not None and path.exists():
         faults.append(Fault("--apply", f"{path}, which is there already", "a new file: nothing is overwritten"))

@@ -1,4 +1,4 @@
-"""The run folder of a diagnosis: what was found as files that programs and the page read."""
+"""Files of a diagnosis in its run folder, for programs and for the page."""
 
 from __future__ import annotations
 
@@ -75,14 +75,14 @@ def film_rows(comparison: FilmComparison) -> Iterator[Mapping[str, str]]:
 
 
 def with_stated(study: Study, rows: Iterable[Mapping[str, str]]) -> Iterator[Mapping[str, str]]:
-    """The rows of the traces, in their order, with what the pump as described gives: nothing fitted."""
+    """The rows of the traces, in their order, with the pressure of the pump as described, not fitted."""
     stated = np.concatenate([trace.block.mean - trace.residual for trace in study.traces])
     for row, pressure in zip(rows, stated, strict=True):
         yield {**row, "stated [bar]": f"{reading(ChannelName.P_CHAMBER, float(pressure)):.6g}"}
 
 
 def diagnosis_summary(study: Study, diagnosis: Diagnosis, assumptions: Sequence[str]) -> dict[str, Any]:
-    """What the page needs beside diagnosis.json: the recording, its data notes, what was taken, what decides."""
+    """Content of summary.json: the recording, its data notes, assumptions, hash of the thresholds."""
     before, after = pull_sums(diagnosis.before, diagnosis.after)
     recording = study.recording
     return {

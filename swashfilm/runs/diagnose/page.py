@@ -72,13 +72,13 @@ def write_diagnose_page(folder: Path) -> Path:
 
 
 def read_summary(folder: Path) -> dict[str, Any]:
-    """What stands in summary.json of a run folder."""
+    """Content of summary.json of a run folder."""
     found: dict[str, Any] = json.loads((folder / "summary.json").read_text("utf-8"))
     return found
 
 
 def channel_rows(found: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:
-    """(channel, chi2 per reading, share, held-out rms before, after, noise): what each channel says."""
+    """(channel, chi2 per reading, share, held-out rms before, after, noise) of each channel."""
     for name, misfit in found["mismatch"]["channels"].items():
         fit = found["fit"]["heldout"].get(name, {})
         shown = (f"{fit[key]:.3g} {fit['unit']}" if fit.get(key) is not None else "" for key in _HELD_OUT)
@@ -90,7 +90,7 @@ CHANNEL_HEAD = ("channel", "chi2 per reading", "share", "held out, before", "aft
 
 
 def place_rows(found: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
-    """(what, value): where the mismatch sits; where nothing is claimed to be off, what stands out all the same."""
+    """(property, value) of the place of the mismatch, or of parts that stand out without a claim."""
     where, steady = found["where"], set(found["where"]["channels"]) - {"p_chamber"}
     if where["channels"]:
         yield "channels", ", ".join(where["channels"])
@@ -107,7 +107,7 @@ def place_rows(found: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
 
 
 def claim_rows(found: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:
-    """(effect, pair, probability, ids and gaps with their shares that it cannot be told from, parameters)."""
+    """(effect, pair, probability, ids and gaps that cannot be separated from it with their shares, parameters)."""
     for claim in found["effects"]:
         sizes = (
             f"{one['name'].replace('_', ' ')} {_told(one['unit'], one['value'], one['sigma'])}"
@@ -128,7 +128,7 @@ def _other_gaps(claim: Mapping[str, Any]) -> Iterator[str]:
 
 
 def parameter_rows(rows: Sequence[Mapping[str, str]]) -> Iterator[tuple[str, ...]]:
-    """(parameter, stated, before, after, pulls), what was set free and then the most pulled first."""
+    """(parameter, stated, before, after, pulls): free parameters first, then by pull."""
     ranked = sorted(rows, key=lambda row: -abs(float(row["pull_after"] or "inf")))
     for row in ranked:
         unit, pull = row["unit"], f"{float(row['pull_after']):.2f}" if row["pull_after"] else "set free"
@@ -152,7 +152,7 @@ def change_rows(rows: Sequence[Mapping[str, str]]) -> Iterator[tuple[str, ...]]:
 
 
 def film_rows(rows: Sequence[Mapping[str, str]]) -> Iterator[tuple[str, ...]]:
-    """(quantity, by closed laws, by films): without -> with the finding, and by what factor."""
+    """(quantity, by closed laws, by films): without -> with the finding, and the factor."""
     for row in rows:
         told = []
         for kind in ("lumped", "films"):
@@ -168,12 +168,12 @@ def shaft_power(rows: Sequence[Mapping[str, str]]) -> dict[str, float]:
 
 
 def remarks(found: Mapping[str, Any], summary: Mapping[str, Any]) -> list[str]:
-    """What else a reader of the verdict must know: the notes that are not about the data."""
+    """Notes of the verdict that are not on the data."""
     return [note for note in found["notes"] if not any(told.endswith(note) for told in summary["data_notes"])]
 
 
 def next_point_words(found: Mapping[str, Any]) -> str:
-    """What to record next, or why nothing is asked for; empty where nothing is claimed."""
+    """The next point to record, or the reason for none; empty without a claim."""
     if found["next_test"]:
         return str(found["details"][-1])
     if not found["effects"]:
@@ -227,7 +227,7 @@ def _pictures(found: Mapping[str, Any], tables: Mapping[str, Sequence[Mapping[st
 
 
 def _settings(residuals: Sequence[Mapping[str, str]]) -> dict[str, str]:
-    """Each point with what was set there: "point 7: 1000 rpm, 374 bar, displacement ratio 0.28"."""
+    """Each point with its settings: "point 7: 1000 rpm, 374 bar, displacement ratio 0.28"."""
     told = {}
     for row in residuals:
         known = [(row[f"{name} [{unit}]"], words) for name, unit, words in _SET if row[f"{name} [{unit}]"]]
@@ -243,9 +243,9 @@ _SET = (
 
 
 def strongest_courses(residuals: Sequence[Mapping[str, str]]) -> list[tuple[str, str]]:
-    """Channels in which what is claimed adds most in sigma, each with the axis that its size goes with most.
+    """Channels with the largest additions of the claim in sigma, each with the axis of largest correlation.
 
-    Of axes that all of a channel's points have; empty for what sits in the chamber's traces alone.
+    Of axes that all of a channel's points have; empty for a claim in the chamber's traces alone.
     """
     strength, courses = {}, {}
     for channel in dict.fromkeys(row["channel"] for row in residuals):
@@ -262,7 +262,7 @@ def strongest_courses(residuals: Sequence[Mapping[str, str]]) -> list[tuple[str,
 
 
 def _alike(rows: Sequence[Mapping[str, str]], axis: str, added: Array) -> float:
-    """Size of the correlation of what is added with an axis; 0 where either does not vary."""
+    """Absolute correlation of the addition with an axis; 0 if either does not vary."""
     place = np.array([float(row[axis]) for row in rows])
     if np.ptp(place) == 0.0 or np.ptp(added) == 0.0:
         return 0.0

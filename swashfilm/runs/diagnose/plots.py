@@ -26,7 +26,7 @@ RATIO_STEP = 0.1
 def residual_maps(rows: Sequence[Row]) -> bytes:
     """Pulls over speed and pressure by channel and displacement, before beside after on one scale.
 
-    Of more than two displacements before stands over after, so that a reader sees each.
+    For more than two displacements, before is above after, so that each panel stays legible.
     """
     channels = list(dict.fromkeys(row["channel"] for row in rows))
     levels = _levels(_column(rows, "displacement_ratio [1]"))
@@ -107,7 +107,7 @@ def pull_changes(rows: Sequence[Row]) -> bytes:
 
 
 def effect_courses(rows: Sequence[Row], courses: Sequence[tuple[str, str]]) -> bytes:
-    """What is claimed adds to channels, each over an axis, beside what the simulation without it leaves."""
+    """Additions of the claim to channels, each over an axis, beside the residual without it."""
     figure = figure_of(WIDTH, 4.0)
     for axes, (channel, axis) in zip(figure.subplots(1, len(courses), squeeze=False)[0], courses, strict=True):
         own = [row for row in rows if row["channel"] == channel and row[axis]]
@@ -128,7 +128,7 @@ def effect_courses(rows: Sequence[Row], courses: Sequence[tuple[str, str]]) -> b
 
 
 def loss_bars(rows: Sequence[Row], whole: Mapping[str, float]) -> bytes:
-    """Where the shaft power goes, without and with the finding, in % of each one's shaft power; `whole` in W."""
+    """Parts of the shaft power, without and with the finding, in % of each one's shaft power; `whole` in W."""
     runs = tuple(whole)
     shares = {row["quantity"]: [100.0 * float(row[run]) / whole[run] for run in runs] for row in rows}
     shown = {name: both for name, both in shares.items() if max(map(abs, both)) >= SEEN}
@@ -150,7 +150,7 @@ def _legend_above(axes: Axes) -> None:
 
 
 def _map(axes: Axes, rows: Sequence[Row], key: str, most: float) -> Any:
-    """One map of pulls; points at one place (of other temperatures) stand side by side."""
+    """One map of pulls; points at one place (of other temperatures) are side by side."""
     speed, pressure = _place(axes, rows, "speed [rpm]", 0.02), _place(axes, rows, "p_out [bar]", 0.1)
     warm = _column(rows, "T_case [degC]")
     spread = np.ptp(warm[np.isfinite(warm)]) if np.any(np.isfinite(warm)) else 0.0
@@ -165,7 +165,7 @@ def _map(axes: Axes, rows: Sequence[Row], key: str, most: float) -> Any:
 
 
 def _place(axes: Axes, rows: Sequence[Row], key: str, height: float) -> Array:
-    """Where points stand along an axis; all at one place of what was not recorded, which is written there."""
+    """Places of points along an axis; all at one labelled place for an axis that was not recorded."""
     place = _column(rows, key)
     if place.size and not np.any(np.isfinite(place)):
         text = f"{key.partition(' ')[0]} not recorded"
@@ -195,7 +195,7 @@ def _when(key: str) -> str:
 
 
 def _title(level: tuple[float, float]) -> str:
-    """What is written behind the time: of which displacements the points are, nothing of all."""
+    """Text behind the time: displacements of the points, none if all."""
     if not np.all(np.isfinite(level)):
         return ""
     lower, upper = level

@@ -21,9 +21,9 @@ QUARTERS = np.arange(0, 361, 90)
 
 
 def trace_residuals(rows: Sequence[Row], window: Sequence[float] | None, settings: Mapping[str, str]) -> bytes:
-    """The traces that part most before: recorded pressure, and what simulated ones lack of it, on one scale.
+    """The traces that differ most before: recorded pressure, and recorded less simulated, on one scale.
 
-    window: shaft angles in deg between which they stand out; settings: by point, what is written over it.
+    window: shaft angles in deg between which they stand out; settings: by point, the text above it.
     """
     points = worst_points(rows)
     rows = [row for row in rows if row["point"] in points]
@@ -60,7 +60,7 @@ def _residual(rows: Sequence[Row], key: str) -> Array:
 
 
 def _spans(window: Sequence[float] | None) -> list[tuple[float, float]]:
-    """The window between 0 and 360 deg, parted where it goes over the inner dead centre."""
+    """The window between 0 and 360 deg, split at the inner dead centre."""
     if not window:
         return []
     start, end = window

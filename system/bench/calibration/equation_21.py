@@ -45,12 +45,14 @@ BEYOND = 2.0  # times the range's ends: no coefficient is looked for farther awa
 
 
 def paper_priors(pump: PumpDescription) -> tuple[tuple[Parameter, ...], tuple[str, ...]]:
-    """friction.PAIR of a pump about its own coefficients, as widely as the paper's ranges are, and what was left.
+    """friction.PAIR of a pump about its coefficients, as wide as the paper's ranges, and notes.
 
     On a logarithmic scale: one sigma is half the range, the bounds are BEYOND its ends. A coefficient of 0 has no
-    parameter; one outside the bounds is of another kind of pair than the paper's and keeps its [tolerance]: told.
+    parameter; one outside the bounds is of another kind of pair than the paper's and keeps its [tolerance], with a
+    note.
     """
-    found, told = [], []
+    found: list[Parameter] = []
+    notes: list[str] = []
     for pair, (low, high) in RANGES.items():
         centre, lower, upper = getattr(pump.friction, pair.value), low / BEYOND, high * BEYOND
         name, spread = f"friction.{pair.value}", 0.5 * float(np.log(high / low))
@@ -58,15 +60,15 @@ def paper_priors(pump: PumpDescription) -> tuple[tuple[Parameter, ...], tuple[st
             source = f"the paper's {low:g} to {high:g}"
             found.append(Parameter(name, Role.BASE, Scale.LOG, centre, spread, lower, upper, None, source))
         elif centre > 0.0:
-            told.append(f"{name}: {centre:g} is far from the paper's {low:g} to {high:g}; its [tolerance] stays")
-    return tuple(found), tuple(told)
+            notes.append(f"{name}: {centre:g} is far from the paper's {low:g} to {high:g}; its [tolerance] stays")
+    return tuple(found), tuple(notes)
 
 
 @dataclass(frozen=True)
 class EqTwentyOne:
     """Hydromechanical loss of N points: rest + sum of coefficient x column; a `Simulator` of one channel.
 
-    rest: (N,) W, what Eq. (2) counts beside Coulomb friction (shear, throttling, compression charged or not);
+    rest: (N,) W, parts of Eq. (2) beside Coulomb friction (shear, throttling, compression charged or not);
     columns: (N, k) W, each pair's Coulomb loss at a coefficient of 1; shear: (N,) W of the films, a part of the
     rest. Coefficients do not move the chambers' pressure, so this is exact.
     """
@@ -91,7 +93,7 @@ class EqTwentyOne:
         return self.columns[:, None, places]
 
     def input_slopes(self, values: Array) -> Array:
-        """(N, 1, 0): what inputs bring is in the noise of `measured_losses`."""
+        """(N, 1, 0): the inputs are part of the noise of `measured_losses`."""
         return np.zeros((len(self.rest), 1, 0))
 
     def with_parameters(self, parameters: tuple[Parameter, ...]) -> EqTwentyOne:
@@ -124,9 +126,9 @@ def eq_twenty_one(bench: LumpedBench, values: Array, parameters: tuple[Parameter
 
 
 def measured_losses(points: BenchPoints, observations: Observations) -> Observations:
-    """Eq. (2) of the readings, (N, 1) W, with the sigma that readings and inputs bring together.
+    """Eq. (2) of the readings, (N, 1) W, with the joint sigma of readings and inputs.
 
-    What an input's noise does to the simulated loss is left out: a small part of what it does to the power.
+    The effect of an input's noise on the simulated loss is neglected: a small part of that on the power.
     Raises FilmInputError where a flow or the torque was not measured.
     """
     names = [channel.name for channel in observations.channels]
@@ -160,10 +162,10 @@ def measured_losses(points: BenchPoints, observations: Observations) -> Observat
 class EqFit:
     """Eq. (21) of some points: at one speed (rad/s) and displacement ratio, or (None) of the whole map.
 
-    posterior: bounded, with priors. rank: how many combinations of coefficients these points could tell apart at a
-    noise of RANK_NOISE; known: how many the readings do know better than the priors. printed, condition: what
-    plain least squares of the same points gives (k,), and the condition of its matrix, columns scaled to equal
-    length (inf: fewer points than coefficients).
+    posterior: bounded, with priors. rank: number of combinations of coefficients that these points can separate at
+    a noise of RANK_NOISE; known: number that the readings determine better than the priors. printed, condition:
+    plain least squares of the same points (k,), and the condition of its matrix, columns scaled to equal length
+    (inf: fewer points than coefficients).
     """
 
     speed: float | None

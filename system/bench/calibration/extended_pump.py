@@ -59,8 +59,8 @@ def extended_pump(
 def calibrated_pump(pump: PumpDescription, fit: Posterior, laws: Sequence[Extension] = ()) -> PumpDescription:
     """The pump with a fit's values, and with `laws` switched on; [tolerance] holds the fit's own sigmas.
 
-    A key of [tolerance] that stands for several parameters takes the widest of them. What the fit did not have
-    keeps its tolerance. Raises pydantic's ValidationError for values outside an effect's bounds.
+    A key of [tolerance] that stands for several parameters takes the widest of them. Others keep
+    their tolerance. Raises pydantic's ValidationError for values outside an effect's bounds.
     """
     own = extended_pump(pump, values_by_name(fit.parameters, fit.values), laws)
     sigma = np.sqrt(np.diag(fit.covariance))

@@ -1,4 +1,4 @@
-"""Calibration: how well a fitted pump and the loss models of the literature foretell levels left out."""
+"""Calibration: prediction of held-out levels by a fitted pump and by the loss models of the literature."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ PHYSICS = "physics"
 
 
 class Split(Enum):
-    """What is left out together: nothing, or one after the other the levels of an axis."""
+    """Points held out together: none, or one after the other the levels of an axis."""
 
     NONE = "none"
     SPEED = "speed"
@@ -37,10 +37,10 @@ class Split(Enum):
 
 @dataclass(frozen=True)
 class HeldOutRow:
-    """RMS of what a model gets wrong in a channel, SI, and the rms of the noise there.
+    """RMS error of a model in a channel, SI, and the rms of the noise there.
 
-    split NONE: of the points it was fitted to; else of levels left out one by one. coefficients: how many the
-    model has for the channel, 0 for physics, whose parameters are common to all.
+    split NONE: of the fitted points; else of levels left out one by one. coefficients: number in the model for the
+    channel, 0 for physics, whose parameters are common to all.
     """
 
     model: str

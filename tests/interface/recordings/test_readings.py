@@ -14,7 +14,7 @@ from diagnosis.recording.model import (
     TraceBlock,
 )
 from diagnosis.report.tables import steady_rows
-from diagnosis.study.inputs import bench_points, complete, measured, taken_parameters
+from diagnosis.study.inputs import assumed_parameters, bench_points, complete, measured
 from diagnosis.study.readings import observations
 from diagnosis.verdict.row_numbers import table_rows
 from reynolds.errors import FilmInputError
@@ -82,10 +82,10 @@ def test_what_is_not_measured_is_taken_and_told(pump: PumpDescription) -> None:
 
 def test_what_is_taken_may_be_off(pump: PumpDescription) -> None:
     """By one amount at all points: p_in 10 % of the charge pressure, of an open circuit 0.1 bar."""
-    found = {one.name: one for one in taken_parameters(complete(_recording()), pump)}
+    found = {one.name: one for one in assumed_parameters(complete(_recording()), pump)}
     assert list(found) == ["displacement_ratio.zero", "p_in.zero", "p_case.zero", "T_case.zero"]
     assert found["p_in.zero"].spread == pytest.approx(0.1 * pump.operating.inlet_pressure)
-    opened = {one.name: one for one in taken_parameters(complete(_recording(Circuit.OPEN)), pump)}
+    opened = {one.name: one for one in assumed_parameters(complete(_recording(Circuit.OPEN)), pump)}
     assert opened["p_in.zero"].spread == pytest.approx(1e4)
     points, _ = bench_points(complete(_recording()), pump)
     assert actual(points, {"p_in.zero": 2e5}).p_in == pytest.approx(points.p_in - 2e5)

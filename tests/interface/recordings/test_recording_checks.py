@@ -122,7 +122,7 @@ def test_a_repeatability_beyond_the_readings_is_a_fault(name, sigma, share):
 
 def test_an_open_circuit_that_is_charged_is_told():
     notes = _told(replace(_sound(), circuit=Circuit.OPEN))
-    assert [(kind, channel) for kind, channel, _ in notes] == [(NoteKind.TOLD, ChannelName.P_IN)]
+    assert [(kind, channel) for kind, channel, _ in notes] == [(NoteKind.NOTED, ChannelName.P_IN)]
     assert "circuit = 'closed'" in notes[0][2]
 
 
@@ -187,7 +187,7 @@ def test_a_stuck_input_is_put_aside_and_a_set_one_told():
     removed = [note for note in notes if note.kind is NoteKind.REMOVED]
     assert [(n.channel, n.points) for n in removed] == [(ChannelName.T_CASE, tuple(range(20, 27)))]
     told = _told(_with("p_in", lambda x: 0.0 * x + 2.4e6))
-    assert [(kind, channel) for kind, channel, _ in told] == [(NoteKind.TOLD, ChannelName.P_IN)]
+    assert [(kind, channel) for kind, channel, _ in told] == [(NoteKind.NOTED, ChannelName.P_IN)]
 
 
 def test_rows_written_twice_are_a_fault():
@@ -218,7 +218,7 @@ def test_two_pumps_in_one_recording_are_told():
 )
 def test_a_case_that_is_seldom_meant_is_told(name, change, told):
     kinds = {kind for kind, _, text in _told(_with(name, lambda x: x + change)) if told in text}
-    assert kinds == {NoteKind.TOLD}
+    assert kinds == {NoteKind.NOTED}
 
 
 def test_copies_and_readings_without_noise_are_faults():
@@ -249,7 +249,7 @@ def test_gaps_and_too_few_readings_are_told():
         return column
 
     (kind, channel, text), *_ = _told(_with("Q_case", gap))
-    assert (kind, channel) == (NoteKind.TOLD, ChannelName.Q_CASE)
+    assert (kind, channel) == (NoteKind.NOTED, ChannelName.Q_CASE)
     assert "2 of 96" in text
     count = 4 * 96
     assert too_few(_sound(), count - 1) is None

@@ -90,7 +90,7 @@ def test_a_unit_that_the_table_contradicts_is_told(tmp_path, row, told):
 def test_what_is_taken_is_told(tmp_path):
     recording = read_recording(_written(tmp_path, form="format = 1\n" + STEADY + CHANNELS))
     told = " ".join(note.text for note in recording.notes)
-    assert all(note.kind is NoteKind.TOLD for note in recording.notes)
+    assert all(note.kind is NoteKind.NOTED for note in recording.notes)
     assert "pressure_reference is not stated" in told
     assert "Q_out: not stated, taken: gain good to 0.10%; zero good to 0.08 L/min" in told
     assert recording.channel(ChannelName.Q_OUT).assumed == ("gain", "zero")

@@ -45,7 +45,7 @@ def test_loggers_put_lines_above_and_units_below_the_head(tmp_path):
     columns = _read(path)
     assert np.array_equal(columns.values["speed"], [1500.0, 1501.0, 1502.0])
     assert np.array_equal(columns.values["p"], [np.nan, 3.0, 4.0], equal_nan=True)
-    told = " ".join(columns.told)
+    told = " ".join(columns.notes)
     assert "2 rows above the head" in told
     assert "rpm" in told
     assert "over" in told
@@ -56,7 +56,7 @@ def test_sums_and_means_below_the_readings_are_none(tmp_path):
     path.write_text("point;speed\nP1;1500\nP2;1501\n\nMean:;1500.5\nStd Dev;0.7\n", "utf-8")
     columns = _read(path)
     assert np.array_equal(columns.values["speed"], [1500.0, 1501.0])
-    assert any("2 rows below the readings left out: Mean:, Std Dev" in told for told in columns.told)
+    assert any("2 rows below the readings left out: Mean:, Std Dev" in told for told in columns.notes)
     path.write_text("stroke;speed\nmin;1500\nmax;1501\n", "utf-8")
     assert _read(path).rows == 2
 
@@ -188,7 +188,7 @@ def test_parquet(tmp_path):
     columns = _read(tmp_path / "a.parquet")
     _same(columns)
     assert np.array_equal(columns.values["when"], np.arange(5.0))
-    assert "'name' holds no numbers" in " ".join(columns.told)
+    assert "'name' holds no numbers" in " ".join(columns.notes)
 
 
 def _tdms(path, properties):

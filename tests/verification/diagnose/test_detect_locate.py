@@ -20,7 +20,7 @@ from diagnosis.detect.time_scan import TimeKind
 from diagnosis.recording.model import Recording
 from diagnosis.study.map_axes import axis_values, inside, scaled_axes
 from diagnosis.study.model import Study, concerned, study_of
-from diagnosis.study.noise_correlation import noise_memory
+from diagnosis.study.noise_correlation import noise_correlation
 from diagnosis.verdict.locate import Location, locate, of_explanation
 from reynolds.numerics.arrays import Array
 from system.effects.components import Component
@@ -178,9 +178,9 @@ def test_noise_that_remembers_is_told_from_white_noise() -> None:
             noise[at] = 0.5 * noise[at - 1] + np.sqrt(0.75) * noise[at]
         return 3.0 * SIGMA * noise
 
-    white = [noise_memory(_study(seed=seed), LIMITS.mismatch) for seed in range(40)]
+    white = [noise_correlation(_study(seed=seed), LIMITS.mismatch) for seed in range(40)]
     assert sum(bool(found) for found in white) <= 2  # one in 740 each
-    found = [noise_memory(_study(remembering(seed), seed), LIMITS.mismatch) for seed in range(10)]
+    found = [noise_correlation(_study(remembering(seed), seed), LIMITS.mismatch) for seed in range(10)]
     sizes = [one[0] for one in found if one]
     assert len(sizes) >= 9
     assert abs(np.mean(sizes) - 0.45) < 0.1  # 190 pairs: .07 each
@@ -188,7 +188,7 @@ def test_noise_that_remembers_is_told_from_white_noise() -> None:
 
 def test_an_effect_is_no_memory() -> None:
     """An effect of thirty sigma, and points in an order of no system: nothing goes on from one to the next."""
-    assert noise_memory(_study(_sized(EffectId.ELASTIC_OPENING, 30.0), seed=3), LIMITS.mismatch) == ()
+    assert noise_correlation(_study(_sized(EffectId.ELASTIC_OPENING, 30.0), seed=3), LIMITS.mismatch) == ()
 
 
 def test_pulls_have_the_variance_that_is_promised() -> None:

@@ -11,7 +11,7 @@ import pytest
 from toy_maps import LIMITS, SIGMA, ToySimulator, toy_observations, toy_recording
 
 from diagnosis.detect.mismatch import confirmed, detect
-from diagnosis.explain.held_out import held_out, regions, speak_against
+from diagnosis.explain.held_out import has_veto, held_out, regions
 from diagnosis.explain.hypotheses import hypotheses, simulator_of
 from diagnosis.explain.ranked import Explanation, with_probabilities
 from diagnosis.explain.refit import refit
@@ -23,8 +23,8 @@ from diagnosis.study.map_axes import AXES, scaled_axes
 from diagnosis.study.model import Candidate, Study, study_of
 from diagnosis.verdict.diagnosis import Diagnosis, VerdictStatus
 from diagnosis.verdict.judge import judge
-from diagnosis.verdict.residue import left_over
-from diagnosis.verdict.trend import misgrown
+from diagnosis.verdict.residue import residue_notes
+from diagnosis.verdict.trend import power_errors
 from reynolds.numerics.arrays import Array
 from system.description.gap import Gap
 from system.effects.components import Component
@@ -322,7 +322,9 @@ def test_what_the_likeliest_pair_is_made_of_is_refitted_alone() -> None:
     """A drain meter's zero of 300 sigma beside churning: neither alone is on the list of those to refit."""
     limits = replace(LIMITS, name=replace(LIMITS.name, shortlist=1))
     found = diagnose_study(_study(1, laws=((CHURNING, 0.2),), Q_case__zero=0.3), 0.025 * _axes()[3], limits)
-    alone = [each for each in found.hypotheses if len(each.hypothesis.effects) == 1 and not each.hypothesis.bent]
+    alone = [
+        each for each in found.hypotheses if len(each.hypothesis.effects) == 1 and not each.hypothesis.other_form
+    ]
     fitted = {each.hypothesis.effects[0] for each in alone if each.posterior is not None}
     assert {claim.effect for claim in found.effects} == {EffectId.CHURNING, EffectId.Q_CASE_OFFSET}
     assert {EffectId.CHURNING, EffectId.Q_CASE_OFFSET} <= fitted
@@ -334,7 +336,7 @@ def test_a_law_of_another_form_is_named_without_stand_ins() -> None:
     zero = np.zeros(POINTS)
     found = _diagnosis(_study(1, added=np.stack([zero, zero, 8.0 * n**2 * np.sqrt(mu)], axis=1)))
     assert _told(found) == (Kind.MISSING_PHYSICS, VerdictStatus.INCOMPLETE, (EffectId.CHURNING,))
-    assert found.hypotheses[0].hypothesis.text == "churning, bent"
+    assert found.hypotheses[0].hypothesis.text == "churning, of another form"
 
 
 @cache
@@ -372,7 +374,7 @@ def test_a_law_of_a_wrong_power_tells_which() -> None:
     study = _study(1, added=np.stack([zero, zero, 8.0 * _axes()[0] ** 3], axis=1))
     found = _diagnosis(study)
     assert _told(found) == (Kind.MISSING_PHYSICS, VerdictStatus.INCOMPLETE, (EffectId.CHURNING,))
-    first = misgrown(study, found.hypotheses[0], _coordinates(), LIMITS)[0]
+    first = power_errors(study, found.hypotheses[0], _coordinates(), LIMITS)[0]
     assert first.coordinate == "speed"
     assert first.power == pytest.approx(1.0, abs=0.34)
     assert first.text in found.notes
@@ -384,7 +386,7 @@ def test_a_law_of_the_right_power_is_seldom_told_otherwise() -> None:
     for seed in range(12):
         study = _study(seed, laws=((CHURNING, 0.2),))
         own = next(each for each in hypotheses(study, LIMITS) if each.effects == (EffectId.CHURNING,))
-        told += bool(misgrown(study, refit(study, own, LIMITS), _coordinates(), LIMITS))
+        told += bool(power_errors(study, refit(study, own, LIMITS), _coordinates(), LIMITS))
     assert told <= 3
 
 
@@ -464,14 +466,14 @@ def test_what_stands_out_of_what_is_left_is_told() -> None:
     sure = (replace(best, probability=1.0), replace(null, probability=0.0))
     found = judge(study, detect(study, LIMITS), sure, _coordinates(), LIMITS)
     assert (found.kind, found.status) == (Kind.MISSING_PHYSICS, VerdictStatus.INCOMPLETE)
-    assert any(text.startswith("port_short_circuit stands out of what is left") for text in found.reasons)
+    assert any(text.startswith("port_short_circuit stands out of the residual") for text in found.reasons)
 
 
 def _left_by_churning(study: Study) -> tuple[str, ...]:
     """What churning leaves of a recording, in words."""
     own = next(each for each in hypotheses(study, LIMITS) if each.effects == (EffectId.CHURNING,))
     null, best = (refit(study, each, LIMITS) for each in (hypotheses(study, LIMITS)[0], own))
-    return left_over(study, null, best, _coordinates(), LIMITS)
+    return residue_notes(study, null, best, _coordinates(), LIMITS)
 
 
 def test_tails_of_the_noise_leave_nothing_and_breadth_does() -> None:
@@ -586,7 +588,7 @@ def test_regions_held_out_veto_what_foretells_worse() -> None:
 )
 def test_regions_veto_as_many_as_they_are(gains: list[float], vetoed: bool) -> None:
     """e^-gain averaged over the regions, against e^2; two negative ones where the others do not outweigh them."""
-    assert speak_against(np.array(gains), LIMITS.heldout) is vetoed
+    assert has_veto(np.array(gains), LIMITS.heldout) is vetoed
 
 
 def test_a_region_that_alone_tells_a_parameter_is_no_test() -> None:

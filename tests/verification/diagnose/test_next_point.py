@@ -12,7 +12,7 @@ from scipy.special import softmax
 from scipy.stats import norm
 
 from diagnosis.next_point.choose import NextPoint, next_point
-from diagnosis.next_point.forecast import Contender, brought, forecasts, independent, log_density
+from diagnosis.next_point.forecast import Contender, forecasts, independent, log_density, odds_forecast
 from diagnosis.next_point.operating_box import BenchBox, rig_box
 from diagnosis.recording.model import Circuit, RecordedChannel, Recording, SteadyTable
 from diagnosis.study.model import Study
@@ -189,11 +189,11 @@ def test_ln_odds_have_the_mean_and_scatter_that_is_foretold() -> None:
         return np.asarray(-0.5 * (white**2).sum(axis=0) - 0.5 * np.linalg.slogdet(covariance)[1])
 
     odds = log_density(draws, one) - log_density(draws - apart[:, None], other)
-    told = brought(apart, one, other)
+    told = odds_forecast(apart, one, other)
     assert told.mean == pytest.approx(odds.mean(), abs=4 * odds.std() / np.sqrt(odds.size))
     fourth = float(((odds - odds.mean()) ** 4).mean())
     assert told.sigma**2 == pytest.approx(odds.var(), abs=4 * np.sqrt(fourth / odds.size))
-    assert brought(np.zeros(3), one, one).mean == pytest.approx(0.0, abs=1e-12)
+    assert odds_forecast(np.zeros(3), one, one).mean == pytest.approx(0.0, abs=1e-12)
 
 
 def test_readings_with_memory_are_worth_fewer() -> None:
@@ -211,7 +211,7 @@ def test_what_the_point_promises_comes_about() -> None:
         found = next_point(study, load_pump("ref90"), _box(study), first, second, LIMITS)
         place = _repeated(_asked(found), LIMITS.readings)
         rng = np.random.default_rng(1000 + seed)
-        one = next(forecasts(study, first, second, _asked(found))).brought(LIMITS.readings)[0]
+        one = next(forecasts(study, first, second, _asked(found))).odds(LIMITS.readings)[0]
         flow = (
             place.p_out / PRESSURE * LPM + 0.03 * LPM * _square(place) + SIGMA * rng.normal(size=LIMITS.readings)
         )

@@ -12,7 +12,7 @@ import pytest
 import diagnosis.procedure.next_test as ask
 from diagnosis.next_point.forecast import Contender
 from diagnosis.next_point.operating_box import BenchBox, ordinary_box, rig_box
-from diagnosis.procedure.gap_leak_test import LEAKS, own_leak
+from diagnosis.procedure.gap_leak_test import LEAKS, gap_leak_test
 from diagnosis.recording.model import Circuit, RecordedChannel, Recording, SteadyTable
 from diagnosis.thresholds import load_thresholds
 from reynolds.numerics.arrays import Array
@@ -71,7 +71,7 @@ def _study(channels: tuple[ChannelName, ...]) -> Any:
 def test_the_gap_whose_leak_parts_two_is_told_with_numbers() -> None:
     """Slipper .5 against .2 L/min in one sum: its leak is asked for at the highest pressure, with both values."""
     known = [_contender(shares, 0.05) for shares in ((0.2, 0.5, 0.2), (0.45, 0.2, 0.25))]
-    found = own_leak(_study((ChannelName.Q_CASE,)), BOX, *known, LIMITS)
+    found = gap_leak_test(_study((ChannelName.Q_CASE,)), BOX, *known, LIMITS)
     assert found is not None
     assert found.gap is Gap.SLIPPER
     assert found.leaks == pytest.approx((0.5 * LPM, 0.2 * LPM))
@@ -89,8 +89,8 @@ def test_the_gap_whose_leak_parts_two_is_told_with_numbers() -> None:
 def test_a_leak_that_is_known_too_badly_is_not_asked_for() -> None:
     """Films known to half of their leak: no reading of one leak settles anything; nor where no meter is."""
     known = [_contender(shares, 0.5) for shares in ((0.2, 0.3, 0.2), (0.3, 0.2, 0.2))]
-    assert own_leak(_study((ChannelName.Q_CASE,)), BOX, *known, LIMITS) is None
-    assert own_leak(_study((ChannelName.TORQUE,)), BOX, *known, LIMITS) is None
+    assert gap_leak_test(_study((ChannelName.Q_CASE,)), BOX, *known, LIMITS) is None
+    assert gap_leak_test(_study((ChannelName.TORQUE,)), BOX, *known, LIMITS) is None
 
 
 def _recording(ratio: Array) -> Recording:
@@ -150,11 +150,11 @@ def test_a_farther_point_is_asked_for_where_none_near_settles(
     monkeypatch.setattr(ask, "rig_box", lambda *_: "rig")
     monkeypatch.setattr(ask, "ordinary_box", lambda *_: "ordinary")
     monkeypatch.setattr(ask, "next_point", lambda study, pump, box, *_: near if box == "rig" else far)
-    monkeypatch.setattr(ask, "own_leak", lambda *_: SimpleNamespace(text="its leak"))
+    monkeypatch.setattr(ask, "gap_leak_test", lambda *_: SimpleNamespace(text="its leak"))
     study: Any = SimpleNamespace(recording=None)
     pump: Any = None
     contender: Any = None
-    assert ask.asked_for(study, pump, contender, contender, LIMITS) == expected
+    assert ask.proposed_point(study, pump, contender, contender, LIMITS) == expected
 
 
 def test_a_farther_point_that_cannot_be_simulated_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -170,5 +170,5 @@ def test_a_farther_point_that_cannot_be_simulated_is_told(monkeypatch: pytest.Mo
     monkeypatch.setattr(ask, "next_point", best)
     study: Any = SimpleNamespace(recording=None)
     contender: Any = None
-    found = ask.asked_for(study, contender, contender, contender, LIMITS)
+    found = ask.proposed_point(study, contender, contender, contender, LIMITS)
     assert "chambers of point 3 do not repeat" in found.instead

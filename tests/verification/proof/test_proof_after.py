@@ -51,7 +51,7 @@ def test_the_truth_is_known_among_explanations(proof: SimpleNamespace) -> None:
     assert known(opening, alone)
     assert not known(opening, truth)
     assert not known(opening, replace(alone, pairs=("piston",)))
-    assert not known(replace(opening, hypothesis=replace(opening.hypothesis, bent=True)), alone)
+    assert not known(replace(opening, hypothesis=replace(opening.hypothesis, other_form=True)), alone)
 
 
 def test_a_turn_is_told_across_the_dead_centre(proof: SimpleNamespace) -> None:

@@ -1,4 +1,4 @@
-"""How surprising a freely bent component is, where no candidate resembles the mismatch."""
+"""Chance of a component's free multiplier, where no candidate resembles the mismatch."""
 
 from __future__ import annotations
 
@@ -20,21 +20,21 @@ from system.estimation.posterior import Posterior, settled
 
 @dataclass(frozen=True)
 class MultiplierChance:
-    """The chance of such a bend, at most, where nothing is there; `point`, from 0, is the one it rests on most."""
+    """Upper bound of the chance of such a multiplier without a mismatch; `point`, from 0, contributes most."""
 
     chance: float
     point: int
 
 
-def chance_of_bend(
+def multiplier_chance(
     study: Study, null: Posterior, unknown: Sequence[Hypothesis], thresholds: Thresholds
 ) -> MultiplierChance:
-    """The chance, at most, that unknown physics would stand so far ahead of nothing if nothing were there.
+    """Upper bound of the chance that unknown physics is so far ahead of the null without a mismatch.
 
-    An evidence over the null's has a mean of 1 under the null: K or more has a chance of 1/K at most (Markov).
-    K is what is left of it without the point that it rests on most: fifteen free columns make a bend of one
-    reading that is far off, and noise with tails has such. About the prior mean, and about the null's own fit
-    where that holds: the less surprising counts, as of candidates (`detect.confirmed`).
+    A ratio of evidence to the null's has a mean of 1 under the null: K or more has a chance of 1/K at most
+    (Markov). K is the ratio without the point that contributes most: fifteen free columns can follow one reading
+    that is far off, and noise with tails has such. About the prior mean, and about the null's fit where that
+    holds: the larger chance counts, as for candidates (`detect.confirmed`).
     """
     if not unknown:
         return MultiplierChance(1.0, 0)
@@ -45,7 +45,7 @@ def chance_of_bend(
 
 
 def _ahead(study: Study, fit: Posterior, unknown: Sequence[Hypothesis], thresholds: Thresholds) -> Array:
-    """ln evidence of unknown physics over nothing without the readings of each point that has some."""
+    """ln evidence of unknown physics over nothing, each point left out in turn."""
     points = fit.whitening.rows[:, 0]
     prior = np.array([each.log_prior for each in unknown])
     gains = [
