@@ -9,8 +9,11 @@ first time some more, for the bodies of the parts.
 from __future__ import annotations
 
 import sys
+from dataclasses import replace
 from pathlib import Path
 from time import perf_counter
+
+from system.inputs.section_reader import section_of
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
@@ -53,7 +56,7 @@ def main() -> None:
     plain = numbers(lumped_point(pump, at)), numbers(films_point(pump, at, **COARSE).pump_point)
     print("| effect | gap | leakage, law | films | shear, law | films | films took s |\n" + "|---" * 7 + "|")
     for name, stated in CASES.items():
-        extended = pump.model_copy(update={"physics": PhysicsSection.model_validate(stated)})
+        extended = replace(pump, physics=section_of(PhysicsSection, stated))
         law = numbers(lumped_point(extended, at))
         began = perf_counter()
         films = numbers(films_point(extended, at, **COARSE).pump_point)

@@ -166,7 +166,7 @@ def _at(pump: PumpDescription, point: OperatingPoint) -> PumpDescription:
         "displacement_ratio": point.displacement_ratio, "inlet_pressure": point.inlet_pressure,
         "case_pressure": point.case_pressure,
     }  # fmt: skip
-    return moved_to(pump, pump.operating.model_copy(update=stated))
+    return moved_to(pump, replace(pump.operating, **stated))
 
 
 def _setting(point: OperatingPoint) -> str:

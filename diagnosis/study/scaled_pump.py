@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import tomllib
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import Any
 
@@ -147,7 +147,7 @@ def _facts(top: Table) -> _Facts | None:
         "swash_angle_max": Dimension.ANGLE, "piston_diameter": Dimension.LENGTH, "pitch_radius": Dimension.LENGTH,
     }  # fmt: skip
     sizes = {key: table.positive(key, kind) if key in table.values else None for key, kind in kinds.items()}
-    known = type(load_pump(MODEL).pump).model_fields
+    known = [own.name for own in fields(load_pump(MODEL).pump)]
     for key in table.values:
         if key not in known:
             table.fault(key, "no key of this table", f"one of {', '.join(known)}", nearest_choice(key, known))

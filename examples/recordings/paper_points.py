@@ -10,7 +10,7 @@ that recording.toml states for its channel. The bench's circuit is closed, press
 from __future__ import annotations
 
 import argparse
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -90,7 +90,7 @@ def main() -> None:
 def _reading(speed: float, pressure: float, ratio: float) -> list[float]:
     """What every channel shows at a point without noise, in its unit."""
     pump = load_pump("ref90")
-    pump = pump.model_copy(update={"friction": pump.friction.model_copy(update=PLANTED)})
+    pump = replace(pump, friction=replace(pump.friction, **PLANTED))
     at = operating_point(pump, shaft_speed=speed, delivery_pressure=pressure, displacement_ratio=ratio)
     shown = _shown(at, lumped_point(pump, at).bench)
     return [(shown[one.channel] - one.zero) / one.factor for one in METERS]

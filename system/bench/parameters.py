@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
+from dataclasses import fields, replace
 from math import inf
+from typing import Any
 
 import numpy as np
-from pydantic import BaseModel
 
 from system.description.gap import Gap
 from system.description.pump import FrictionSection, OilSection, PumpDescription
@@ -30,10 +30,11 @@ GROOVE_NAMES = (GROOVE_ADVANCE, GROOVE_AREA) = ("groove_advance", "groove_area")
 GROOVE_SPREAD = (np.radians(0.5), 0.1)
 """One sigma of how relief grooves are cut: of their beginning (rad), of their throats' area (relative)."""
 
+FRICTION_PAIRS = tuple(own.name for own in fields(FrictionSection))
 BASE_NAMES = frozenset(
     {
         *(f"film_thickness.{gap.value}" for gap in Gap),
-        *(f"friction.{pair}" for pair in FrictionSection.model_fields),
+        *(f"friction.{pair}" for pair in FRICTION_PAIRS),
         "eccentricity_ratio", "bulk_modulus", "viscosity", "viscosity_slope", "displacement", "dead_volume",
         "flow_coefficient", "stand_out_share", *GROOVE_NAMES,
     }
@@ -80,12 +81,12 @@ def pump_with(pump: PumpDescription, values: Mapping[str, float]) -> PumpDescrip
     displacement moves the swash plate's stop; viscosity and viscosity_slope make the oil's two viscosities nu
     factor exp(slope (T - 50 degC)) at 40 and 100 degC, between which Walther's law runs.
     """
-    changed: dict[str, BaseModel] = {}
+    changed: dict[str, Any] = {}
     for gap, (section, key) in _THICKNESS.items():
         _set(changed, pump, section, key, values.get(f"film_thickness.{gap.value}"))
     _set(changed, pump, "piston", "eccentricity_ratio", values.get("eccentricity_ratio"))
     _set(changed, pump, "piston", "stand_out_share", values.get("stand_out_share"))
-    for pair in FrictionSection.model_fields:
+    for pair in FRICTION_PAIRS:
         _set(changed, pump, "friction", pair, values.get(f"friction.{pair}"))
     _set(changed, pump, "pump", "dead_volume", values.get("dead_volume"))
     factor = values.get("displacement", 1.0)
@@ -97,15 +98,12 @@ def pump_with(pump: PumpDescription, values: Mapping[str, float]) -> PumpDescrip
     thicker, slope = values.get("viscosity", 1.0), values.get("viscosity_slope", 0.0)
     for key, kelvin in (("kinematic_viscosity_40C", 313.15), ("kinematic_viscosity_100C", 373.15)):
         _set(changed, pump, "oil", key, getattr(pump.oil, key) * thicker * np.exp(slope * (kelvin - SLOPE_ABOUT)))
-    return pump.model_copy(update=changed)
+    return replace(pump, **changed)
 
 
-def _set(
-    changed: dict[str, BaseModel], pump: PumpDescription, section: str, key: str, value: float | None
-) -> None:
+def _set(changed: dict[str, Any], pump: PumpDescription, section: str, key: str, value: float | None) -> None:
     if value is not None:
-        table: BaseModel = changed.get(section, getattr(pump, section))
-        changed[section] = table.model_copy(update={key: float(value)})
+        changed[section] = replace(changed.get(section, getattr(pump, section)), **{key: float(value)})
 
 
 def _swash_angle(pump: PumpDescription, factor: float) -> float:
@@ -141,7 +139,7 @@ def _fluid(pump: PumpDescription, tolerances: Tolerances) -> tuple[Parameter, ..
 
 def _frictions(pump: PumpDescription, tolerances: Tolerances) -> tuple[Parameter, ...]:
     found = []
-    for pair in FrictionSection.model_fields:
+    for pair in FRICTION_PAIRS:
         spread = tolerances.bearing_friction if pair in BEARINGS else tolerances.friction
         spread = tolerances.guide_friction if pair == GUIDE else spread
         if (centre := getattr(pump.friction, pair)) > 0.0:

@@ -6,18 +6,18 @@ by the same names and within the same bounds.
 
 from __future__ import annotations
 
-from typing import Annotated, Self
+from dataclasses import dataclass, fields
+from typing import Annotated
 
-from pydantic import Field, model_validator
-
-from system.inputs.fields import Fraction, NotNegative, Section
+from system.inputs.fields import Fraction, Limits, NotNegative
 from system.inputs.units import Dimension
 
-_WallResistance = Annotated[float, Dimension.THERMAL_RESISTANCE, Field(ge=0.0, le=2e-3)]
-_Boundary = Annotated[float, Field(ge=0.0, le=0.12)]
+_WallResistance = Annotated[float, Dimension.THERMAL_RESISTANCE, Limits(least=0.0, most=2e-3)]
+_Boundary = Annotated[float, Limits(least=0.0, most=0.12)]
 
 
-class FilmHeatingSection(Section):
+@dataclass(frozen=True, kw_only=True)
+class FilmHeatingSection:
     """[physics.film_heating]: films warmer than the case; resistances of their walls by gap."""
 
     piston: _WallResistance = 0.0
@@ -25,62 +25,68 @@ class FilmHeatingSection(Section):
     valve_plate: _WallResistance = 0.0
     carried_share: Fraction = 0.0
     throttled_share: Fraction = 1.0
-    carry_over: Annotated[float, Field(ge=0.0, le=0.95)] = 0.0
+    carry_over: Annotated[float, Limits(least=0.0, most=0.95)] = 0.0
 
 
-class ViscosityPressureSection(Section):
+@dataclass(frozen=True, kw_only=True)
+class ViscosityPressureSection:
     """[physics.viscosity_pressure]: Barus' coefficient of the oil in the gaps."""
 
-    coefficient: Annotated[float, Dimension.PRESSURE_COEFFICIENT, Field(ge=0.0, le=4e-8)]
+    coefficient: Annotated[float, Dimension.PRESSURE_COEFFICIENT, Limits(least=0.0, most=4e-8)]
 
 
-class EntrainedAirSection(Section):
+@dataclass(frozen=True, kw_only=True)
+class EntrainedAirSection:
     """[physics.entrained_air]: bubbles in the oil that is drawn in."""
 
-    void: Annotated[float, Field(ge=0.0, le=0.05)]  # share of the volume at one atmosphere
+    void: Annotated[float, Limits(least=0.0, most=0.05)]  # share of the volume at one atmosphere
 
 
-class IncompleteFillingSection(Section):
+@dataclass(frozen=True, kw_only=True)
+class IncompleteFillingSection:
     """[physics.incomplete_filling]: an inlet line by which chambers no longer fill above a speed."""
 
-    inlet_loss: Annotated[float, Field(ge=0.0, le=10.0)]  # 1: as much again as the kidneys
+    inlet_loss: Annotated[float, Limits(least=0.0, most=10.0)]  # 1: as much again as the kidneys
 
 
-class ShearThinningSection(Section):
+@dataclass(frozen=True, kw_only=True)
+class ShearThinningSection:
     """[physics.shear_thinning]: oil that thins where it is sheared fast."""
 
-    drop: Annotated[float, Field(ge=0.0, le=0.4)]
-    rate: Annotated[float, Dimension.SHEAR_RATE, Field(gt=0.0)]
+    drop: Annotated[float, Limits(least=0.0, most=0.4)]
+    rate: Annotated[float, Dimension.SHEAR_RATE, Limits(above=0.0)]
 
 
-class MixedFrictionSection(Section):
+@dataclass(frozen=True, kw_only=True)
+class MixedFrictionSection:
     """[physics.mixed_friction]: boundary layers that bear load at small Hersey numbers; coefficients by pair."""
 
     piston: _Boundary = 0.0
     slipper: _Boundary = 0.0
     valve_plate: _Boundary = 0.0
-    hersey_scale: Annotated[float, Field(gt=0.0)]
-    exponent: Annotated[float, Field(ge=0.3, le=2.5)] = 1.0
+    hersey_scale: Annotated[float, Limits(above=0.0)]
+    exponent: Annotated[float, Limits(least=0.3, most=2.5)] = 1.0
 
 
-class OpeningSection(Section):
+@dataclass(frozen=True, kw_only=True)
+class OpeningSection:
     """[physics.elastic_opening.GAP]: how far a film opens under pressure, by one of two keys.
 
     opening: share of its thickness per pressure, in a closed form; compliance: of its walls over that of drawing
     and material, films solved between them.
     """
 
-    opening: Annotated[float, Dimension.PRESSURE_COEFFICIENT, Field(ge=0.0, le=1e-7)] | None = None
-    compliance: Annotated[float, Field(ge=0.0, le=1.5)] | None = None
+    opening: Annotated[float, Dimension.PRESSURE_COEFFICIENT, Limits(least=0.0, most=1e-7)] | None = None
+    compliance: Annotated[float, Limits(least=0.0, most=1.5)] | None = None
 
-    @model_validator(mode="after")
-    def _one_of_both(self) -> Self:
+    def __post_init__(self) -> None:
+        """Raise ValueError for none of the two keys, or both."""
         if (self.opening is None) == (self.compliance is None):
             raise ValueError("one of the two, opening or compliance")
-        return self
 
 
-class ElasticOpeningSection(Section):
+@dataclass(frozen=True, kw_only=True)
+class ElasticOpeningSection:
     """[physics.elastic_opening]: gaps whose walls give way."""
 
     piston: OpeningSection | None = None
@@ -88,13 +94,15 @@ class ElasticOpeningSection(Section):
     valve_plate: OpeningSection | None = None
 
 
-class ClearanceSection(Section):
+@dataclass(frozen=True, kw_only=True)
+class ClearanceSection:
     """[physics.thermal_clearance.GAP]: by how much of its thickness a film grows with temperature."""
 
-    rate: Annotated[float, Dimension.TEMPERATURE_COEFFICIENT, Field(ge=-0.02, le=0.02)]
+    rate: Annotated[float, Dimension.TEMPERATURE_COEFFICIENT, Limits(least=-0.02, most=0.02)]
 
 
-class ThermalClearanceSection(Section):
+@dataclass(frozen=True, kw_only=True)
+class ThermalClearanceSection:
     """[physics.thermal_clearance]: gaps whose walls expand unlike."""
 
     piston: ClearanceSection | None = None
@@ -102,97 +110,112 @@ class ThermalClearanceSection(Section):
     valve_plate: ClearanceSection | None = None
 
 
-class SqueezePumpingSection(Section):
+@dataclass(frozen=True, kw_only=True)
+class SqueezePumpingSection:
     """[physics.squeeze_pumping]: slippers that pump into the case."""
 
-    stroke: Annotated[float, Dimension.LENGTH, Field(ge=0.0, le=30e-6)]
+    stroke: Annotated[float, Dimension.LENGTH, Limits(least=0.0, most=30e-6)]
 
 
-class SlipperLiftSection(Section):
+@dataclass(frozen=True, kw_only=True)
+class SlipperLiftSection:
     """[physics.slipper_lift]: slippers that tip off the swash plate."""
 
-    ride_height: Annotated[float, Dimension.LENGTH, Field(ge=0.0, le=100e-6)]
+    ride_height: Annotated[float, Dimension.LENGTH, Limits(least=0.0, most=100e-6)]
     retainer_force: Annotated[float, Dimension.FORCE, NotNegative]  # on each
 
 
-class BlockTippingSection(Section):
+@dataclass(frozen=True, kw_only=True)
+class BlockTippingSection:
     """[physics.block_tipping]: a block that tips on the valve plate."""
 
-    wedge: Annotated[float, Dimension.LENGTH, Field(ge=0.0, le=20e-6)]
+    wedge: Annotated[float, Dimension.LENGTH, Limits(least=0.0, most=20e-6)]
 
 
-class ChurningSection(Section):
+@dataclass(frozen=True, kw_only=True)
+class ChurningSection:
     """[physics.churning]: drag of the oil in the case."""
 
-    factor: Annotated[float, Field(ge=0.0, le=3.0)]
+    factor: Annotated[float, Limits(least=0.0, most=3.0)]
 
 
-class SealDragSection(Section):
+@dataclass(frozen=True, kw_only=True)
+class SealDragSection:
     """[physics.seal_drag]: drag of the shaft's seal."""
 
-    torque: Annotated[float, Dimension.TORQUE, Field(ge=0.0, le=5.0)]
+    torque: Annotated[float, Dimension.TORQUE, Limits(least=0.0, most=5.0)]
     per_case_pressure: Annotated[float, Dimension.PRESSURE_COEFFICIENT, NotNegative] = 0.0
 
 
-class ChargePumpDragSection(Section):
+@dataclass(frozen=True, kw_only=True)
+class ChargePumpDragSection:
     """[physics.charge_pump_drag]: a charge pump on the same shaft."""
 
-    volume: Annotated[float, Dimension.DISPLACEMENT, Field(ge=0.0, le=40e-6)]
+    volume: Annotated[float, Dimension.DISPLACEMENT, Limits(least=0.0, most=40e-6)]
 
 
-class PortShortCircuitSection(Section):
+@dataclass(frozen=True, kw_only=True)
+class PortShortCircuitSection:
     """[physics.port_short_circuit]: an orifice from delivery to inlet."""
 
-    area: Annotated[float, Dimension.AREA, Field(ge=0.0, le=3e-6)]
+    area: Annotated[float, Dimension.AREA, Limits(least=0.0, most=3e-6)]
 
 
-class LaminarCrossLeakSection(Section):
+@dataclass(frozen=True, kw_only=True)
+class LaminarCrossLeakSection:
     """[physics.laminar_cross_leak]: a gap from delivery to inlet."""
 
-    conductance: Annotated[float, Dimension.VOLUME, Field(ge=0.0, le=1.2e-12)]  # times viscosity
+    conductance: Annotated[float, Dimension.VOLUME, Limits(least=0.0, most=1.2e-12)]  # times viscosity
 
 
-class ControlFlowSection(Section):
+@dataclass(frozen=True, kw_only=True)
+class ControlFlowSection:
     """[physics.control_flow]: what the control draws into the case."""
 
-    area: Annotated[float, Dimension.AREA, Field(ge=0.0, le=2e-6)]
+    area: Annotated[float, Dimension.AREA, Limits(least=0.0, most=2e-6)]
     laminar: Fraction
 
 
-class NotchErosionSection(Section):
+@dataclass(frozen=True, kw_only=True)
+class NotchErosionSection:
     """[physics.notch_erosion]: worn relief grooves ahead of both ports' kidneys."""
 
-    advance: Annotated[float, Dimension.ANGLE, Field(ge=0.0, le=0.15)] = 0.0
-    widening: Annotated[float, Field(ge=0.0, le=3.0)] = 0.0
+    advance: Annotated[float, Dimension.ANGLE, Limits(least=0.0, most=0.15)] = 0.0
+    widening: Annotated[float, Limits(least=0.0, most=3.0)] = 0.0
 
 
-class PortThrottlingSection(Section):
+@dataclass(frozen=True, kw_only=True)
+class PortThrottlingSection:
     """[physics.port_throttling]: passages behind the ports."""
 
-    factor: Annotated[float, Field(ge=0.0, le=5.0)]
+    factor: Annotated[float, Limits(least=0.0, most=5.0)]
 
 
-class CompressionLossSection(Section):
+@dataclass(frozen=True, kw_only=True)
+class CompressionLossSection:
     """[physics.compression_loss]: energy of compressed oil that is lost."""
 
     share: Fraction
 
 
-class SwashDroopSection(Section):
+@dataclass(frozen=True, kw_only=True)
+class SwashDroopSection:
     """[physics.swash_droop]: a swash plate that gives way."""
 
-    rate: Annotated[float, Dimension.ANGLE_COMPLIANCE, Field(ge=0.0, le=3e-10)] = 0.0
-    play: Annotated[float, Dimension.ANGLE, Field(ge=0.0, le=3e-3)] = 0.0
+    rate: Annotated[float, Dimension.ANGLE_COMPLIANCE, Limits(least=0.0, most=3e-10)] = 0.0
+    play: Annotated[float, Dimension.ANGLE, Limits(least=0.0, most=3e-3)] = 0.0
 
 
-class LineResonanceSection(Section):
+@dataclass(frozen=True, kw_only=True)
+class LineResonanceSection:
     """[physics.line_resonance]: a delivery meter that reads wrong about one speed."""
 
-    height: Annotated[float, Field(ge=-0.03, le=0.03)]
-    speed: Annotated[float, Dimension.ANGULAR_SPEED, Field(gt=0.0)]
+    height: Annotated[float, Limits(least=-0.03, most=0.03)]
+    speed: Annotated[float, Dimension.ANGULAR_SPEED, Limits(above=0.0)]
 
 
-class PhysicsSection(Section):
+@dataclass(frozen=True, kw_only=True)
+class PhysicsSection:
     """[physics]: the effects by their ids."""
 
     film_heating: FilmHeatingSection | None = None
@@ -221,4 +244,4 @@ class PhysicsSection(Section):
     @property
     def on(self) -> bool:
         """Whether any effect is switched on."""
-        return any(getattr(self, name) is not None for name in type(self).model_fields)
+        return any(getattr(self, own.name) is not None for own in fields(self))

@@ -5,11 +5,12 @@ they mean.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 from enum import Enum
 from itertools import pairwise
 
 from system.inputs.faults import Fault
-from system.inputs.fields import Area, ImpedanceRows, Pressure, Section, Volume
+from system.inputs.fields import Area, ImpedanceRows, Pressure, Volume, fields_of
 from system.inputs.units import Dimension, format_quantity
 
 
@@ -21,7 +22,8 @@ class LineKind(Enum):
     IMPEDANCE = "impedance"
 
 
-class LineSection(Section):
+@dataclass(frozen=True, kw_only=True)
+class LineSection:
     """[delivery_line], [suction_line]: from the port on."""
 
     kind: LineKind | None = None
@@ -43,7 +45,7 @@ _KEYS = {
 def line_faults(path: str, stated: LineSection) -> Iterator[Fault]:
     """Yield keys that a line's kind lacks or does not read, and rows that are no impedance."""
     kind = stated.kind
-    for key in type(stated).model_fields:
+    for key in fields_of(LineSection):
         if key != "kind" and key not in _KEYS[kind] and getattr(stated, key) is not None:
             fits = " or ".join(f"'{one.value}'" for one, keys in _KEYS.items() if one is not None and key in keys)
             found = "without a kind" if kind is None else f"beside kind = '{kind.value}'"

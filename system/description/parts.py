@@ -5,12 +5,10 @@ Every key may be left out; `system.films.parts` says what is then taken, and why
 
 from __future__ import annotations
 
-import hashlib
 import math
+from dataclasses import dataclass
 from enum import Enum
 from typing import Annotated
-
-from pydantic import Field, computed_field
 
 from system.inputs.fields import (
     Angle,
@@ -27,36 +25,39 @@ from system.inputs.fields import (
     FaceNames,
     Inertia,
     Length,
+    Limits,
     MeshFile,
     Profile,
-    Section,
     Stiffness,
     Torque,
 )
 from system.inputs.units import Dimension
 
 
-class ReliefSection(Section):
+@dataclass(frozen=True, kw_only=True)
+class ReliefSection:
     """An edge taken back: by `depth` at the edge, falling to nothing at `width` from it as a parabola."""
 
     width: Length
     depth: Length
 
 
-class WavinessSection(Section):
+@dataclass(frozen=True, kw_only=True)
+class WavinessSection:
     """[valve_plate.waviness]: the plate's face rises and falls by `amplitude` around the shaft."""
 
-    waves: Annotated[int, Field(ge=1, le=99)]
+    waves: Annotated[int, Limits(least=1, most=99)]
     amplitude: Length
 
 
-class PadSection(Section):
+@dataclass(frozen=True, kw_only=True)
+class PadSection:
     """[[valve_plate.pads]]: a run of outer bearing pads, evenly spaced, the first about the inner dead centre."""
 
     inner: Length
     outer: Length
-    arc: Annotated[float, Dimension.ANGLE, Field(gt=0.0, le=2.0 * math.pi * (1.0 + 1e-12))]
-    number: Annotated[int, Field(ge=1, le=99)]
+    arc: Annotated[float, Dimension.ANGLE, Limits(above=0.0, most=2.0 * math.pi * (1.0 + 1e-12))]
+    number: Annotated[int, Limits(least=1, most=99)]
 
 
 class MeshUnit(Enum):
@@ -74,7 +75,8 @@ class MeshUnit(Enum):
         return {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "um": 1e-6, "in": 25.4e-3}[self.value]
 
 
-class BodySection(Section):
+@dataclass(frozen=True, kw_only=True)
+class BodySection:
     """[PART.body]: a mesh of one's own in place of the body that is made from the part's sizes.
 
     A name left out is the face of the mesh that has the key's own name, if it has one.
@@ -88,14 +90,9 @@ class BodySection(Section):
     chamber: FaceName | None = None  # where the chamber presses on piston or bore beside the film
     pocket: FaceName | None = None  # where a slipper's pocket presses on slipper or swash plate
 
-    @computed_field  # type: ignore[prop-decorator]
-    @property
-    def content(self) -> str:
-        """A name for what the file holds, part of the table's repr: a mesh that has changed is another."""
-        return hashlib.sha256(self.mesh.read_bytes()).hexdigest() if self.mesh.is_file() else "absent"
 
-
-class BoreSection(Section):
+@dataclass(frozen=True, kw_only=True)
+class BoreSection:
     """[bore]: the bore's own shape."""
 
     profile: Profile | None = None  # from the case edge inwards
@@ -104,7 +101,8 @@ class BoreSection(Section):
     body: BodySection | None = None
 
 
-class SwashPlateSection(Section):
+@dataclass(frozen=True, kw_only=True)
+class SwashPlateSection:
     """[swash_plate]: what the slippers slide on, and what tilts."""
 
     thickness: Length | None = None
@@ -124,14 +122,17 @@ class GrooveShape(Enum):
     AREA = "area"
 
 
-class GrooveSection(Section):
+@dataclass(frozen=True, kw_only=True)
+class GrooveSection:
     """[[ports.grooves]]: a relief groove between two angles, ahead of the port's kidney or behind it."""
 
     start: Angle
     end: Angle
     shape: GrooveShape
     depth: Length | None = None  # at the kidney
-    angle: Annotated[float, Dimension.ANGLE, Field(gt=0.0, lt=math.pi)] | None = None  # between the flanks of a V
+    angle: Annotated[float, Dimension.ANGLE, Limits(above=0.0, below=math.pi)] | None = (
+        None  # between the flanks of a V
+    )
     width: Length | None = None  # of the round tool
     area: Area | None = None  # of the throat at the kidney
 
@@ -150,7 +151,8 @@ class RetainerKind(Enum):
     CLEARANCE = "clearance"
 
 
-class RetainerSection(Section):
+@dataclass(frozen=True, kw_only=True)
+class RetainerSection:
     """[retainer]: what holds the slippers down."""
 
     kind: RetainerKind | None = None
@@ -158,17 +160,19 @@ class RetainerSection(Section):
     stiffness: Stiffness | None = None  # beyond it, a slipper
 
 
-class MaterialSection(Section):
+@dataclass(frozen=True, kw_only=True)
+class MaterialSection:
     """[materials.PART]: what a part is made of."""
 
     youngs_modulus: Elasticity
-    poissons_ratio: Annotated[float, Field(gt=-1.0, lt=0.5)]
+    poissons_ratio: Annotated[float, Limits(above=-1.0, below=0.5)]
     density: Density | None = None
     thermal_conductivity: Conductivity | None = None
     thermal_expansion: Expansion | None = None
 
 
-class MaterialsSection(Section):
+@dataclass(frozen=True, kw_only=True)
+class MaterialsSection:
     """[materials]: the six parts that meet in the three gaps."""
 
     piston: MaterialSection | None = None
@@ -179,7 +183,8 @@ class MaterialsSection(Section):
     valve_plate: MaterialSection | None = None
 
 
-class SurfaceSection(Section):
+@dataclass(frozen=True, kw_only=True)
+class SurfaceSection:
     """[surfaces.PAIR]: both faces of a gap together, as `reynolds.laws.roughness` and `reynolds.laws.contact` take
     them.
     """
@@ -190,7 +195,8 @@ class SurfaceSection(Section):
     friction_coefficient: Coefficient | None = None  # of the boundary layer
 
 
-class SurfacesSection(Section):
+@dataclass(frozen=True, kw_only=True)
+class SurfacesSection:
     """[surfaces]: the three gaps by the names of their friction pairs."""
 
     piston_cylinder: SurfaceSection | None = None

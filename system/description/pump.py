@@ -8,10 +8,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from pathlib import Path
-from typing import Annotated
-
-from pydantic import Field, computed_field
+from dataclasses import dataclass, field, replace
+from typing import Annotated, Any
 
 from gaps.shapes.bearing_pads import BearingPads
 from gaps.shapes.slipper_lands import SlipperLands, lands_between
@@ -22,8 +20,6 @@ from system.description.lines import LineSection
 from system.description.parts import (
     BodySection,
     BoreSection,
-    GrooveSection,
-    GrooveShape,
     MaterialsSection,
     PadSection,
     ReliefSection,
@@ -33,6 +29,7 @@ from system.description.parts import (
     SwashPlateSection,
     WavinessSection,
 )
+from system.description.ports import PortsSection
 from system.description.tolerance import ToleranceSection
 from system.inputs.fields import (
     AcuteAngle,
@@ -41,17 +38,19 @@ from system.inputs.fields import (
     AnyLength,
     Area,
     Coefficient,
-    CoefficientFile,
     Conductivity,
     Density,
     Displacement,
     Expansion,
+    FlowFile,
     Force,
     Fraction,
+    GrooveFile,
     Grooves,
     KinematicViscosity,
     Leakage,
     Length,
+    Limits,
     Mass,
     Modulus,
     NotNegative,
@@ -59,30 +58,28 @@ from system.inputs.fields import (
     Pressure,
     PressureCoefficient,
     Profile,
-    Section,
     SlipperGrooves,
     SpecificHeat,
+    StepFile,
     Stiffness,
     Temperature,
     Volume,
-    Webs,
-    files_content,
-    table_of,
-    tables_of,
+    fields_of,
 )
 from system.inputs.units import Dimension
 
 FORMAT = 1
 
 
-class PumpSection(Section):
+@dataclass(frozen=True, kw_only=True)
+class PumpSection:
     """[pump]: the rotating group as a whole."""
 
-    pistons: int = Field(ge=3, le=99)
+    pistons: Annotated[int, Limits(least=3, most=99)]
     displacement: Displacement | None = None  # checked against the geometry, Eq. (6)
     swash_angle_max: AcuteAngle
-    cross_angle: Annotated[float, Dimension.ANGLE, Field(gt=-math.pi / 4, lt=math.pi / 4)] | None = None
-    bore_cone_angle: Annotated[float, Dimension.ANGLE, Field(ge=0.0, lt=math.pi / 2)]
+    cross_angle: Annotated[float, Dimension.ANGLE, Limits(above=-math.pi / 4, below=math.pi / 4)] | None = None
+    bore_cone_angle: Annotated[float, Dimension.ANGLE, Limits(least=0.0, below=math.pi / 2)]
     piston_diameter: Length
     pitch_radius: Length  # of the ball centres at zero swash angle
     dead_volume: Volume  # of one chamber at inner dead centre and full swash angle
@@ -90,16 +87,17 @@ class PumpSection(Section):
     rated_pressure: Annotated[float, Dimension.PRESSURE, Positive]
 
 
-class PistonSection(Section):
+@dataclass(frozen=True, kw_only=True)
+class PistonSection:
     """[piston]: one piston in its bore; lengths at inner dead centre and full swash angle."""
 
     radial_clearance: Length
     engaged_length: Length
     overhang: Annotated[float, Dimension.LENGTH, NotNegative]  # ball centre to bore edge
-    eccentricity_ratio: Annotated[float, Field(ge=0.0, lt=1.0)]  # given; used where no balance is
+    eccentricity_ratio: Annotated[float, Limits(least=0.0, below=1.0)]  # given; used where no balance is
     mass: Mass
     spin_ratio: float | None = None  # spin relative to the block / shaft speed
-    stand_out_share: Annotated[float, Field(ge=0.0, le=1.2)] | None = None  # of (H_max - H)/2 at part stroke
+    stand_out_share: Annotated[float, Limits(least=0.0, most=1.2)] | None = None  # of (H_max - H)/2 at part stroke
     guide_length: Length | None = None  # of the land in the bore, from the case edge inwards
     centre_of_mass: Length | None = None  # from the ball centre into the bore
     profile: Profile | None = None  # from the chamber's end
@@ -110,7 +108,8 @@ class PistonSection(Section):
     body: BodySection | None = None
 
 
-class SlipperSection(Section):
+@dataclass(frozen=True, kw_only=True)
+class SlipperSection:
     """[slipper]: one slipper; film thickness and tilts are the given ones, used where no balance is."""
 
     land_inner_radius: Length
@@ -125,10 +124,10 @@ class SlipperSection(Section):
     tilt_radial: Angle
     tilt_tangential: Angle
     ball_height: Length | None = None  # of the ball centre above the sliding face
-    orifice_flow_coefficient: Annotated[float, Field(gt=0.0, le=1.0)] | None = None  # of entry and exit
-    orifice_file: CoefficientFile | None = None  # flow coefficients of the whole bore
-    pocket_file: CoefficientFile | None = None  # losses of steps, at the edges of pocket, lands and rim
-    groove_file: CoefficientFile | None = None  # losses of grooves, of those in the land
+    orifice_flow_coefficient: Annotated[float, Limits(above=0.0, most=1.0)] | None = None  # of entry and exit
+    orifice_file: FlowFile | None = None  # flow coefficients of the whole bore
+    pocket_file: StepFile | None = None  # losses of steps, at the edges of pocket, lands and rim
+    groove_file: GrooveFile | None = None  # losses of grooves, of those in the land
     profile: Profile | None = None  # over the radius
     crown: AnyLength | None = None  # of the face over its outer radius; negative: dished
     rim_relief: ReliefSection | None = None  # at the outer radius
@@ -138,12 +137,6 @@ class SlipperSection(Section):
     socket_radius: Length | None = None  # up to which the ball holds the flange
     body: BodySection | None = None
 
-    @computed_field  # type: ignore[prop-decorator]
-    @property
-    def coefficient_content(self) -> str:
-        """A name for what its files of coefficients hold, part of the table's repr."""
-        return files_content((self.orifice_file, self.pocket_file, self.groove_file))
-
     @property
     def lands(self) -> SlipperLands:
         """The sealing lands that the grooves leave; raises FilmInputError for grooves that do not lie apart."""
@@ -151,7 +144,8 @@ class SlipperSection(Section):
         return lands_between(self.land_inner_radius, self.land_outer_radius, grooves, vented)
 
 
-class ValvePlateSection(Section):
+@dataclass(frozen=True, kw_only=True)
+class ValvePlateSection:
     """[valve_plate]: sealing lands 1 .. 2 and 3 .. 4 (inner and outer), the block's kidneys between them."""
 
     land_radius_1: Length
@@ -165,19 +159,13 @@ class ValvePlateSection(Section):
     tilt_x: Angle
     tilt_y: Angle
     residual_clamping: Coefficient  # fraction of the pressure force
-    kidney_file: CoefficientFile | None = None  # losses of steps, at the edges of the lands
+    kidney_file: StepFile | None = None  # losses of steps, at the edges of the lands
     thickness: Length | None = None
     waviness: WavinessSection | None = None
     profile: Profile | None = None  # over the radius
     pads: tuple[PadSection, ...] = ()  # beyond the outer land
     sphere_radius: Length | None = None  # of a face that bulges into a hollow block; radii are then off the axis
     body: BodySection | None = None
-
-    @computed_field  # type: ignore[prop-decorator]
-    @property
-    def coefficient_content(self) -> str:
-        """A name for what its file of coefficients holds, part of the table's repr."""
-        return files_content((self.kidney_file,))
 
     @property
     def sphere(self) -> Sphere:
@@ -195,88 +183,8 @@ class ValvePlateSection(Section):
         return max([self.land_radius_4, *(pad.outer for pad in self.pads)])
 
 
-class DeliverySection(Section):
-    """[ports.delivery]: what the delivery port has in place of [ports], angles from its own dead centre."""
-
-    groove_start: Angle | None = None
-    groove_end: Angle | None = None
-    groove_area: Area | None = None
-    kidney_full_start: Angle | None = None
-    kidney_full_end: Angle | None = None
-    kidney_end: Angle | None = None
-    kidney_area: Area | None = None
-    coefficient_file: CoefficientFile | None = None
-    grooves: tuple[GrooveSection, ...] = ()
-    webs: Webs | None = None
-
-
-_ONE_GROOVE = ("groove_start", "groove_area")
-
-
-class PortsSection(Section):
-    """[ports]: opening of either port over the angle from its own dead centre."""
-
-    groove_start: Angle | None = None  # with groove_area: one groove of that area
-    groove_end: Angle  # the kidney begins to open
-    groove_area: Area | None = None
-    kidney_full_start: Angle
-    kidney_full_end: Angle
-    kidney_end: Angle
-    kidney_area: Area
-    flow_coefficient: Annotated[float, Field(gt=0.0, le=1.0)]
-    critical_reynolds: Annotated[float, Positive]  # laminar-turbulent transition of the orifice law
-    coefficient_file: CoefficientFile | None = None  # over opening and Reynolds number; the two above scale it
-    grooves: tuple[GrooveSection, ...] = ()  # in place of groove_start and groove_area
-
-    webs: Webs | None = None  # that part the port into several kidneys
-    delivery: DeliverySection | None = None  # what differs there
-
-    @property
-    def sides(self) -> tuple[PortsSection, PortsSection]:
-        """The ports of suction and delivery side, each as if both were it.
-
-        Grooves of the one way of stating them take the place of those of the other.
-        """
-        if self.delivery is None:
-            return self, self
-        stated = {key: getattr(self.delivery, key) for key in DeliverySection.model_fields}
-        own = {key: value for key, value in stated.items() if value not in (None, ())}
-        if "grooves" in own:
-            own = dict.fromkeys(_ONE_GROOVE) | own
-        elif own.keys() & set(_ONE_GROOVE):
-            own |= {"grooves": ()}
-        bare = self.model_copy(update={"delivery": None})
-        return bare, bare.model_copy(update=own)
-
-    @property
-    def coefficient_files(self) -> tuple[Path, ...]:
-        """Those of [ports] and of the delivery port, each once."""
-        stated = (self.coefficient_file, self.delivery.coefficient_file if self.delivery else None)
-        return tuple(dict.fromkeys(path for path in stated if path is not None))
-
-    @computed_field  # type: ignore[prop-decorator]
-    @property
-    def coefficient_content(self) -> str:
-        """A name for what these files hold, part of the table's repr: a file that has changed is another."""
-        return files_content(self.coefficient_files)
-
-    @property
-    def web_spans(self) -> tuple[tuple[float, float], ...]:
-        """From and to (rad, from the port's own dead centre) of each web."""
-        return tuple((middle - 0.5 * width, middle + 0.5 * width) for middle, width in self.webs or ())
-
-    @property
-    def relief_grooves(self) -> tuple[GrooveSection, ...]:
-        """All grooves, [ports] groove_start and groove_area being one of a known area."""
-        if self.groove_start is None or self.groove_area is None:
-            return self.grooves
-        own = GrooveSection(
-            start=self.groove_start, end=self.groove_end, shape=GrooveShape.AREA, area=self.groove_area
-        )
-        return (own, *self.grooves)
-
-
-class BallGuideSection(Section):
+@dataclass(frozen=True, kw_only=True)
+class BallGuideSection:
     """[ball_guide]: the ball guide under its spring, F = stiffness (compression + displacement), Eq. (13)."""
 
     radius: Length
@@ -286,7 +194,8 @@ class BallGuideSection(Section):
     spring_compression: Annotated[float, Dimension.LENGTH, NotNegative]  # relative displacement
 
 
-class BlockSection(Section):
+@dataclass(frozen=True, kw_only=True)
+class BlockSection:
     """[block]: the cylinder block."""
 
     mass: Mass
@@ -295,7 +204,8 @@ class BlockSection(Section):
     body: BodySection | None = None
 
 
-class BearingsSection(Section):
+@dataclass(frozen=True, kw_only=True)
+class BearingsSection:
     """[bearings]: mean diameters, and the share of the side force that each bearing takes."""
 
     front_diameter: Length
@@ -306,7 +216,8 @@ class BearingsSection(Section):
     rear_position: AnyLength | None = None
 
 
-class ActuatorSection(Section):
+@dataclass(frozen=True, kw_only=True)
+class ActuatorSection:
     """[actuator]: the piston that tilts the swash plate, and the spring against it."""
 
     strokes: Stroking | None = None
@@ -319,7 +230,8 @@ class ActuatorSection(Section):
     spring_preload: Force | None = None  # at the actuator's innermost place
 
 
-class FrictionSection(Section):
+@dataclass(frozen=True, kw_only=True)
+class FrictionSection:
     """[friction]: Coulomb coefficient of each of the seven friction pairs."""
 
     piston_cylinder: Coefficient
@@ -331,7 +243,8 @@ class FrictionSection(Section):
     rear_bearing: Coefficient
 
 
-class OilSection(Section):
+@dataclass(frozen=True, kw_only=True)
+class OilSection:
     """[oil]: a pump file may say `grade` in place of the two viscosities."""
 
     kinematic_viscosity_40C: KinematicViscosity
@@ -349,12 +262,13 @@ class OilSection(Section):
         return Oil(**{name: getattr(self, name) for name in Oil.__dataclass_fields__})
 
 
-class OperatingSection(Section):
+@dataclass(frozen=True, kw_only=True)
+class OperatingSection:
     """[operating]: where the pump runs when nothing else is asked for."""
 
     speed: AngularSpeed
     pressure: Pressure
-    displacement_ratio: Annotated[float, Field(gt=0.0, le=1.0)]
+    displacement_ratio: Annotated[float, Limits(above=0.0, most=1.0)]
     temperature: Temperature
     inlet_pressure: Pressure
     case_pressure: Pressure
@@ -364,11 +278,12 @@ SINGLE_PARTS = ("piston", "slipper")
 """Tables of which single parts may differ: [piston.3] puts its values in place of [piston]'s for chamber 3."""
 
 
-class PumpDescription(Section):
+@dataclass(frozen=True, kw_only=True)
+class PumpDescription:
     """A pump, complete: every table of the pump file."""
 
-    name: str = Field(min_length=1)
-    format: int = Field(ge=FORMAT, le=FORMAT)
+    name: str
+    format: Annotated[int, Limits(least=FORMAT, most=FORMAT)]
     pump: PumpSection
     piston: PistonSection
     slipper: SlipperSection
@@ -380,16 +295,16 @@ class PumpDescription(Section):
     friction: FrictionSection
     oil: OilSection
     operating: OperatingSection
-    bore: BoreSection = BoreSection()
-    swash_plate: SwashPlateSection = SwashPlateSection()
-    actuator: ActuatorSection = ActuatorSection()
-    retainer: RetainerSection = RetainerSection()
-    materials: MaterialsSection = MaterialsSection()
-    surfaces: SurfacesSection = SurfacesSection()
-    delivery_line: LineSection = LineSection()
-    suction_line: LineSection = LineSection()
-    physics: PhysicsSection = PhysicsSection()
-    tolerance: ToleranceSection = ToleranceSection()
+    bore: BoreSection = field(default_factory=BoreSection)
+    swash_plate: SwashPlateSection = field(default_factory=SwashPlateSection)
+    actuator: ActuatorSection = field(default_factory=ActuatorSection)
+    retainer: RetainerSection = field(default_factory=RetainerSection)
+    materials: MaterialsSection = field(default_factory=MaterialsSection)
+    surfaces: SurfacesSection = field(default_factory=SurfacesSection)
+    delivery_line: LineSection = field(default_factory=LineSection)
+    suction_line: LineSection = field(default_factory=LineSection)
+    physics: PhysicsSection = field(default_factory=PhysicsSection)
+    tolerance: ToleranceSection = field(default_factory=ToleranceSection)
     single_pistons: tuple[tuple[int, PistonSection], ...] = ()  # by chamber, complete
     single_slippers: tuple[tuple[int, SlipperSection], ...] = ()
 
@@ -407,29 +322,33 @@ class PumpDescription(Section):
     def file_contents(self) -> tuple[str, ...]:
         """Names for what the files hold that the pump's own names by their paths: meshes and coefficients."""
         slippers = (self.slipper, *(part for _, part in self.single_slippers))
-        losses = (*(part.coefficient_content for part in slippers), self.valve_plate.coefficient_content)
-        return (*(body.content for body in self.bodies), *losses, self.ports.coefficient_content)
+        tables = [
+            *((part.orifice_file, part.pocket_file, part.groove_file) for part in slippers),
+            (self.valve_plate.kidney_file,),
+            self.ports.coefficient_tables,
+        ]
+        losses = (" ".join(table.content for table in part if table is not None) for part in tables)
+        return (*(body.mesh.content for body in self.bodies), *losses)
 
     def of_chamber(self, chamber: int) -> PumpDescription:
         """The pump with the piston and slipper of a chamber (1 .. z) in place of all, and no single parts."""
-        return self.model_copy(
-            update={
-                "piston": dict(self.single_pistons).get(chamber, self.piston),
-                "slipper": dict(self.single_slippers).get(chamber, self.slipper),
-                "single_pistons": (),
-                "single_slippers": (),
-            }
+        return replace(
+            self,
+            piston=dict(self.single_pistons).get(chamber, self.piston),
+            slipper=dict(self.single_slippers).get(chamber, self.slipper),
+            single_pistons=(),
+            single_slippers=(),
         )
 
 
-def section_models() -> Iterator[tuple[str, type[Section]]]:
-    """Yield name and model of every table in the order of the file; of one inside another as `outer.inner`."""
+def section_models() -> Iterator[tuple[str, type[Any]]]:
+    """Yield name and class of every table in the order of the file; of one inside another as `outer.inner`."""
     yield from _tables_in(PumpDescription, "")
 
 
-def _tables_in(model: type[Section], above: str) -> Iterator[tuple[str, type[Section]]]:
-    for name, field in model.model_fields.items():
-        inner = table_of(field) or tables_of(field)
+def _tables_in(model: type[Any], above: str) -> Iterator[tuple[str, type[Any]]]:
+    for name, own in fields_of(model).items():
+        inner = own.table or own.tables
         if inner is not None:
             yield above + name, inner
             yield from _tables_in(inner, f"{above}{name}.")

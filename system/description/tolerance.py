@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Annotated
 
-from system.inputs.fields import Positive, Section, Spread
+from system.inputs.fields import Positive, Spread
 from system.inputs.units import Dimension
 
 
-class ToleranceSection(Section):
+@dataclass(frozen=True, kw_only=True)
+class ToleranceSection:
     """[tolerance]: one sigma of what is uncertain, relative but where said; `system.description.tolerances` takes
     the rest.
     """

@@ -68,9 +68,9 @@ class OpeningCase:
 
     def key(self, x: Array) -> str:
         """Name of the content of a pressure (1,)."""
-        point = self.pump.operating.model_copy(update=dict.fromkeys(VARIED, 0.0))
-        bare = self.pump.model_copy(update={"name": "", "physics": PhysicsSection(), "operating": point})
-        meshes = [body.content for body in self.pump.bodies]
+        point = replace(self.pump.operating, **dict.fromkeys(VARIED, 0.0))
+        bare = replace(self.pump, name="", physics=PhysicsSection(), operating=point)
+        meshes = [body.mesh.content for body in self.pump.bodies]
         return content_key(
             "opening of a film", TABLE_FORMAT, resolved_toml(bare), meshes, self.gap.value, FINER, x
         )

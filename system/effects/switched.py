@@ -22,7 +22,7 @@ def switched_on(pump: PumpDescription) -> Iterator[tuple[Extension, Values]]:
         if section is not None and extension.pair is not None:
             section = getattr(section, extension.pair.value)
         if section is not None:
-            yield extension, {key: float(value) for key, value in dict(section).items() if value is not None}
+            yield extension, {key: float(value) for key, value in vars(section).items() if value is not None}
 
 
 def stated_laws(pump: PumpDescription) -> tuple[tuple[Law, Values], ...]:

@@ -296,7 +296,7 @@ def _material(pump: PumpDescription, name: str, taken: Taken) -> Material:
         modulus = format_quantity(usual.youngs_modulus, Dimension.ELASTICITY, digits=4)
         taken.note(f"materials.{name}", f"{called}, {modulus}", "usual for this part")
         return usual
-    given = {key: value for key, value in dict(stated).items() if value is not None}
+    given = {key: value for key, value in vars(stated).items() if value is not None}
     for key in ("density", "thermal_conductivity", "thermal_expansion"):
         if key not in given:
             shown = format_quantity(getattr(usual, key), _THERMAL[key], digits=4)

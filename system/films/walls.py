@@ -119,7 +119,7 @@ def own_mesh(part: str, body: BodySection | None, taken: Taken) -> OwnMesh | Non
 
 def by_names(body: BodySection) -> OwnMesh:
     """The mesh of a table with the faces that it names or that go by the keys' own names."""
-    bare = OwnMesh(body.mesh, body.unit.metres)
+    bare = OwnMesh(body.mesh.path, body.unit.metres)
     faces = bare.mesh().face_names
 
     def usual(name: str) -> tuple[str, ...]:

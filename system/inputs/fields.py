@@ -1,22 +1,45 @@
-"""What a value of a pump file can be: a quantity, a choice, rows of quantities, a text, or a table of such.
+"""Fields of sections: what a value of a file can be. A section is a frozen dataclass, one field a key.
 
-Each is a type of a model's field: the quantity's dimension, or its columns', stands in the annotation.
+A quantity, a choice, rows of quantities, a text, a file that is read, or a section of its own. The annotation of
+a field says which: Annotated[float, Dimension.LENGTH, Limits(above=0.0)].
 """
 
 from __future__ import annotations
 
-import hashlib
+import inspect
 import math
-from collections.abc import Iterable
-from dataclasses import dataclass
+import re
+from collections.abc import Callable, Mapping
+from dataclasses import MISSING, Field, dataclass, fields, is_dataclass
 from enum import Enum
 from pathlib import Path
-from typing import Annotated, get_origin
+from types import NoneType, UnionType
+from typing import Annotated, Any, ClassVar, Protocol, TypeVar, Union, get_args, get_origin, get_type_hints
 
-from pydantic import BaseModel, ConfigDict, Field
-from pydantic.fields import FieldInfo
-
+from system.inputs.coefficients.file_table import HashedFile, hashed_file
+from system.inputs.coefficients.flow_files import FlowCoefficients, read_flow_coefficients
+from system.inputs.coefficients.loss_files import LossFactors, read_groove_losses, read_step_losses
 from system.inputs.units import Dimension
+
+
+class Section(Protocol):
+    """A table of a file: any dataclass."""
+
+    __dataclass_fields__: ClassVar[dict[str, Field[Any]]]
+
+
+AnySection = TypeVar("AnySection", bound=Section)
+
+
+@dataclass(frozen=True)
+class Limits:
+    """Marks a field whose number is bounded, in SI; fewest: rows of a list."""
+
+    above: float | None = None
+    least: float | None = None
+    below: float | None = None
+    most: float | None = None
+    fewest: int = 0
 
 
 @dataclass(frozen=True)
@@ -39,8 +62,15 @@ class Text(Enum):
     NAMES = "a list of names, such as ['bottom', 'rim']"
 
 
-Positive = Field(gt=0.0)
-NotNegative = Field(ge=0.0)
+@dataclass(frozen=True)
+class FromFile:
+    """Marks a field whose entry names a file: its reader, which raises InputFaults. The value knows its `path`."""
+
+    read: Callable[[Path], Any]
+
+
+Positive = Limits(above=0.0)
+NotNegative = Limits(least=0.0)
 
 Length = Annotated[float, Dimension.LENGTH, Positive]
 AnyLength = Annotated[float, Dimension.LENGTH]
@@ -48,7 +78,7 @@ Area = Annotated[float, Dimension.AREA, Positive]
 Volume = Annotated[float, Dimension.VOLUME, Positive]
 Displacement = Annotated[float, Dimension.DISPLACEMENT, Positive]
 Angle = Annotated[float, Dimension.ANGLE]
-AcuteAngle = Annotated[float, Dimension.ANGLE, Field(gt=0.0, lt=math.pi / 2)]
+AcuteAngle = Annotated[float, Dimension.ANGLE, Limits(above=0.0, below=math.pi / 2)]
 Pressure = Annotated[float, Dimension.PRESSURE]
 Modulus = Annotated[float, Dimension.MODULUS, Positive]
 Elasticity = Annotated[float, Dimension.ELASTICITY, Positive]
@@ -68,9 +98,9 @@ Conductivity = Annotated[float, Dimension.CONDUCTIVITY, Positive]
 Expansion = Annotated[float, Dimension.TEMPERATURE_COEFFICIENT, NotNegative]
 PressureCoefficient = Annotated[float, Dimension.PRESSURE_COEFFICIENT, NotNegative]
 ArealDensity = Annotated[float, Dimension.AREAL_DENSITY, Positive]
-Fraction = Annotated[float, Field(ge=0.0, le=1.0)]
+Fraction = Annotated[float, Limits(least=0.0, most=1.0)]
 Coefficient = Annotated[float, NotNegative]
-Spread = Annotated[float, Field(gt=0.0, le=2.0)]  # one sigma, a pure number
+Spread = Annotated[float, Limits(above=0.0, most=2.0)]  # one sigma, a pure number
 
 Profile = Annotated[
     tuple[tuple[float, ...], ...],
@@ -80,7 +110,7 @@ Profile = Annotated[
         ("place", "angle", "material taken off"),
         ("3 mm", "90 deg", "2 um"),
     ),
-    Field(min_length=2),
+    Limits(fewest=2),
 ]
 ImpedanceRows = Annotated[
     tuple[tuple[float, float, float], ...],
@@ -89,87 +119,161 @@ ImpedanceRows = Annotated[
         ("frequency", "real", "imaginary"),
         ("315 Hz", "1e9 Pa s/m3", "-2e9 Pa s/m3"),
     ),
-    Field(min_length=2),
+    Limits(fewest=2),
 ]
 Grooves = Annotated[
     tuple[tuple[float, float, float], ...],
     Points((Dimension.LENGTH,) * 3, ("middle", "width", "depth"), ("10 mm", "0.5 mm", "0.3 mm")),
-    Field(min_length=1),
+    Limits(fewest=1),
 ]
 SlipperGrooves = Annotated[
     tuple[tuple[float, float], ...],
     Points((Dimension.LENGTH,) * 2, ("inner radius", "outer radius"), ("10 mm", "11 mm")),
-    Field(min_length=1),
+    Limits(fewest=1),
 ]
 Webs = Annotated[
     tuple[tuple[float, float], ...],
     Points((Dimension.ANGLE,) * 2, ("middle", "width"), ("90 deg", "4 deg")),
-    Field(min_length=1),
+    Limits(fewest=1),
 ]
-MeshFile = Annotated[Path, Text.FILE]
-CoefficientFile = Annotated[Path, Text.FILE]
-FaceName = Annotated[str, Text.NAME, Field(min_length=1)]
-FaceNames = Annotated[tuple[str, ...], Text.NAMES, Field(min_length=1)]
+MeshFile = Annotated[HashedFile, FromFile(hashed_file)]
+FlowFile = Annotated[FlowCoefficients, FromFile(read_flow_coefficients)]
+StepFile = Annotated[LossFactors, FromFile(read_step_losses)]
+GrooveFile = Annotated[LossFactors, FromFile(read_groove_losses)]
+FaceName = Annotated[str, Text.NAME]
+FaceNames = Annotated[tuple[str, ...], Text.NAMES]
+
+_Mark = TypeVar("_Mark")
 
 
-def files_content(paths: Iterable[Path | None]) -> str:
-    """A name for what files hold, none of them: an empty one; a file that has changed is another."""
-    found = [path.read_bytes() if path.is_file() else b"absent" for path in paths if path is not None]
-    return hashlib.sha256(b"\0".join(found)).hexdigest() if found else ""
+@dataclass(frozen=True)
+class FieldType:
+    """One field of a section: its plain types, its marks, and whether a file must have the key.
+
+    listed: a list of sections; meaning: the comment behind the field.
+    """
+
+    types: tuple[type, ...]
+    marks: tuple[object, ...]
+    listed: bool
+    required: bool
+    meaning: str
+
+    @property
+    def dimension(self) -> Dimension | None:
+        """What the field measures, None for what is no single quantity."""
+        return self._mark(Dimension)
+
+    @property
+    def layouts(self) -> tuple[Points, ...]:
+        """Layouts of the rows of a list of rows; none for another field."""
+        return tuple(mark for mark in self.marks if isinstance(mark, Points))
+
+    @property
+    def limits(self) -> Limits:
+        """Bounds of the number."""
+        return self._mark(Limits) or Limits()
+
+    @property
+    def text(self) -> Text | None:
+        """Kind of a text, None for another field."""
+        return Text.FILE if self.file else self._mark(Text)
+
+    @property
+    def file(self) -> FromFile | None:
+        """Reader of a file that the entry names, None for another field."""
+        return self._mark(FromFile)
+
+    @property
+    def choice(self) -> type[Enum] | None:
+        """Choices of a field that is one of them, None for another."""
+        return next((part for part in self.types if issubclass(part, Enum)), None)
+
+    @property
+    def table(self) -> type[Any] | None:
+        """Section of a field that is a table, None for another."""
+        return None if self.listed else self._section
+
+    @property
+    def tables(self) -> type[Any] | None:
+        """Section of a field that is a list of tables, None for another."""
+        return self._section if self.listed else None
+
+    @property
+    def whole(self) -> bool:
+        """True for a whole number."""
+        return int in self.types
+
+    @property
+    def _section(self) -> type[Any] | None:
+        return None if self.file else next((part for part in self.types if is_dataclass(part)), None)
+
+    def _mark(self, kind: type[_Mark]) -> _Mark | None:
+        return next((mark for mark in self.marks if isinstance(mark, kind)), None)
 
 
-class Section(BaseModel):
-    """A table of the pump file; frozen, and no key beside the named ones."""
-
-    model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
-
-
-def dimension_of(field: FieldInfo) -> Dimension | None:
-    """Return what a field of a table measures, or None for what is no single quantity."""
-    return next((mark for mark in _marks(field) if isinstance(mark, Dimension)), None)
+def fields_of(model: type[Any]) -> Mapping[str, FieldType]:
+    """Fields of a section by key, in the order of their declaration."""
+    if model not in _KNOWN:
+        _KNOWN[model] = _fields_of(model)
+    return _KNOWN[model]
 
 
-def layouts_of(field: FieldInfo) -> tuple[Points, ...]:
-    """Return the layouts of the rows of a field that is a list of rows; none for another."""
-    return tuple(mark for mark in _marks(field) if isinstance(mark, Points))
+_KNOWN: dict[type[Any], Mapping[str, FieldType]] = {}
 
 
-def text_of(field: FieldInfo) -> Text | None:
-    """Return which text a field is, or None for another."""
-    return next((mark for mark in _marks(field) if isinstance(mark, Text)), None)
+def _fields_of(model: type[Any]) -> Mapping[str, FieldType]:
+    hints, comments = get_type_hints(model, include_extras=True), _comments(model)
+    return {
+        own.name: FieldType(
+            types=tuple(_types(hints[own.name])),
+            marks=tuple(_marks(hints[own.name])),
+            listed=get_origin(hints[own.name]) is tuple,
+            required=own.default is MISSING and own.default_factory is MISSING,
+            meaning=comments.get(own.name, ""),
+        )
+        for own in fields(model)
+    }
 
 
-def choice_of(field: FieldInfo) -> type[Enum] | None:
-    """Return the choices of a field that is one of them, or None for another."""
-    return next((part for part in _types(field) if issubclass(part, Enum)), None)
+def with_values(section: AnySection, **values: object) -> AnySection:
+    """Copy of a section with other values, also of one that lacks some of its keys."""
+    return partial_section(type(section), {**vars(section), **values})
 
 
-def table_of(field: FieldInfo) -> type[Section] | None:
-    """Return the model of a field that is a table of its own, or None for another."""
-    return None if get_origin(field.annotation) is tuple else _section_in(field)
+def partial_section(model: type[AnySection], values: Mapping[str, object]) -> AnySection:
+    """Section with these values and its defaults; a required key that is missing is an attribute that it lacks."""
+    section = object.__new__(model)
+    vars(section).update(values)
+    return section
 
 
-def tables_of(field: FieldInfo) -> type[Section] | None:
-    """Return the model of a field that is a list of tables, or None for another."""
-    return _section_in(field) if get_origin(field.annotation) is tuple else None
+def _types(annotation: Any) -> list[type]:
+    """Return the plain types of an annotation, inside Annotated, unions and lists."""
+    if get_origin(annotation) is Annotated:
+        return _types(get_args(annotation)[0])
+    if get_origin(annotation) in (Union, UnionType):
+        return [one for part in get_args(annotation) if part is not NoneType for one in _types(part)]
+    if get_origin(annotation) is tuple:
+        return _types(get_args(annotation)[0])
+    return [annotation] if isinstance(annotation, type) else []
 
 
-def _section_in(field: FieldInfo) -> type[Section] | None:
-    return next((part for part in _types(field) if issubclass(part, Section)), None)
+def _marks(annotation: Any) -> list[object]:
+    """Return the marks of an annotation, also of one that may be None."""
+    if get_origin(annotation) is Annotated:
+        return list(annotation.__metadata__)
+    if get_origin(annotation) in (Union, UnionType):
+        return [mark for part in get_args(annotation) for mark in _marks(part)]
+    return []
 
 
-def whole(field: FieldInfo) -> bool:
-    """True for a field that is a whole number."""
-    return int in _types(field)
+_COMMENTED = re.compile(r"^    (\w+): .*?  # (.+)$", re.MULTILINE)
 
 
-def _types(field: FieldInfo) -> list[type]:
-    """Return the plain types of a field, also of one that may be left out."""
-    inner = getattr(field.annotation, "__args__", ())
-    return [part for part in (field.annotation, *inner) if isinstance(part, type)]
-
-
-def _marks(field: FieldInfo) -> list[object]:
-    """Return the annotations of a field, also of one that may be left out."""
-    inner = getattr(field.annotation, "__args__", ())
-    return [*field.metadata, *(mark for part in inner for mark in getattr(part, "__metadata__", ()))]
+def _comments(model: type[Any]) -> dict[str, str]:
+    """Return the comments behind the fields of a class, as its source has them; none where there is no source."""
+    try:
+        return dict(_COMMENTED.findall(inspect.getsource(model)))
+    except OSError:
+        return {}

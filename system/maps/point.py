@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import astuple, dataclass
+from dataclasses import astuple, dataclass, replace
 from enum import Enum
 from functools import cached_property
 from importlib.metadata import version
@@ -78,7 +78,7 @@ class LumpedSolver:
         """Without materials and surfaces, where no effect of [physics] asks for them."""
         if pump.physics.on:
             return pump
-        return pump.model_copy(update={"materials": MaterialsSection(), "surfaces": SurfacesSection()})
+        return replace(pump, materials=MaterialsSection(), surfaces=SurfacesSection())
 
     def solve(self, pump: PumpDescription, point: OperatingPoint) -> SolvedPoint:
         """The point, films as given."""
@@ -286,6 +286,6 @@ class MapWork:
         unread = ["speed", "pressure", "inlet_pressure", "case_pressure"]
         if self.pump.physics.thermal_clearance is None:
             unread.append("temperature")
-        stated = self.pump.operating.model_copy(update=dict.fromkeys(unread, 0.0) | {"displacement_ratio": 1.0})
-        bare = {"name": "", "operating": stated, "tolerance": ToleranceSection()}
-        return resolved_toml(self.solver.reads(self.pump).model_copy(update=bare))
+        stated = replace(self.pump.operating, **(dict.fromkeys(unread, 0.0) | {"displacement_ratio": 1.0}))
+        read = self.solver.reads(self.pump)
+        return resolved_toml(replace(read, name="", operating=stated, tolerance=ToleranceSection()))

@@ -92,7 +92,7 @@ def effects_in_films(pump: PumpDescription) -> tuple[tuple[EffectId, ...], tuple
 def closed_laws(pump: PumpDescription) -> PumpDescription:
     """The pump with only those effects that no film solves."""
     off = dict.fromkeys(one.value for one in SOLVED)
-    return pump.model_copy(update={"physics": pump.physics.model_copy(update=off)})
+    return replace(pump, physics=replace(pump.physics, **off))
 
 
 def film_effects(rotor: Rotor, parts: FloatingParts, pump: PumpDescription, physics: GapPhysics) -> FilmEffects:

@@ -176,7 +176,7 @@ class _Coupling:
 def _work(pump: PumpDescription, point: OperatingPoint, physics: GapPhysics) -> _Coupling:
     warm = at_temperature(pump, point.temperature)
     own, stands = closed_laws(warm), unpressed(warm, point.case_pressure)
-    plain = lumped_point(own.model_copy(update={"physics": PhysicsSection()}), point)
+    plain = lumped_point(replace(own, physics=PhysicsSection()), point)
     effects = (point_effects(own, plain.point, plain.cycle),) if own.physics.on else ()
     asked, at = with_stroke(point, effects), rotor(stands, with_stroke(plain.point, effects))
     films = film_effects(at, floating_parts(stands), warm, physics)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import Any
 
 from reynolds.errors import FilmInputError
@@ -31,8 +32,8 @@ def at_temperature(pump: PumpDescription, temperature: float) -> PumpDescription
     if pump.physics.thermal_clearance is None:
         return pump
     times = expansion(pump, temperature)
-    bare = pump.physics.model_copy(update={"thermal_clearance": None})
-    return _thicker(pump, times).model_copy(update={"physics": bare})
+    bare = replace(pump.physics, thermal_clearance=None)
+    return replace(_thicker(pump, times), physics=bare)
 
 
 def expansion(pump: PumpDescription, temperature: float) -> dict[Gap, float]:
@@ -54,7 +55,7 @@ def expansion(pump: PumpDescription, temperature: float) -> dict[Gap, float]:
 
 def moved_to(pump: PumpDescription, operating: OperatingSection) -> PumpDescription:
     """The pump with another operating point as its own, films as thick as they are there (`at_temperature`)."""
-    return at_temperature(pump, operating.temperature).model_copy(update={"operating": operating})
+    return replace(at_temperature(pump, operating.temperature), operating=operating)
 
 
 def unpressed(pump: PumpDescription, case_pressure: float) -> PumpDescription:
@@ -72,15 +73,14 @@ def _thicker(pump: PumpDescription, times: Mapping[Gap, float]) -> PumpDescripti
     """The pump with films so many times as thick, those of single parts too."""
 
     def scaled(part: Any, key: str, gap: Gap) -> Any:
-        return part.model_copy(update={key: getattr(part, key) * times[gap]})
+        return replace(part, **{key: getattr(part, key) * times[gap]})
 
     piston, slipper = "radial_clearance", "film_thickness"
-    return pump.model_copy(
-        update={
-            "piston": scaled(pump.piston, piston, Gap.PISTON),
-            "slipper": scaled(pump.slipper, slipper, Gap.SLIPPER),
-            "valve_plate": scaled(pump.valve_plate, slipper, Gap.VALVE_PLATE),
-            "single_pistons": tuple((k, scaled(one, piston, Gap.PISTON)) for k, one in pump.single_pistons),
-            "single_slippers": tuple((k, scaled(one, slipper, Gap.SLIPPER)) for k, one in pump.single_slippers),
-        }
+    return replace(
+        pump,
+        piston=scaled(pump.piston, piston, Gap.PISTON),
+        slipper=scaled(pump.slipper, slipper, Gap.SLIPPER),
+        valve_plate=scaled(pump.valve_plate, slipper, Gap.VALVE_PLATE),
+        single_pistons=tuple((k, scaled(one, piston, Gap.PISTON)) for k, one in pump.single_pistons),
+        single_slippers=tuple((k, scaled(one, slipper, Gap.SLIPPER)) for k, one in pump.single_slippers),
     )

@@ -9,7 +9,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import lru_cache
 from itertools import pairwise
-from pathlib import Path
 
 import numpy as np
 
@@ -23,11 +22,11 @@ from system.inputs.coefficients.edge_losses import (
     LossCourse,
     secant_conductance,
 )
-from system.inputs.coefficients.flow_files import FlowCoefficients, seen
-from system.inputs.coefficients.loss_files import LossFactors, groove_losses, step_losses
+from system.inputs.coefficients.flow_files import FlowCoefficients
+from system.inputs.coefficients.loss_files import LossFactors
 from system.inputs.units import TURN
 from system.pump.chamber.problem import LeakTable
-from system.pump.ports.flow_coefficients import coefficients_of, log_reynolds_over
+from system.pump.ports.flow_coefficients import log_reynolds_over
 
 NODES = 200
 """Of a bore's table, over the range of its file."""
@@ -49,11 +48,11 @@ class LandLosses:
 
 
 def land_losses(pump: PumpDescription) -> LandLosses:
-    """What the files of a pump say of its lands. Raises InputFaults for files that are none."""
+    """Losses of a pump's lands by the tables of its files."""
     plate, pitch = pump.valve_plate, TURN / pump.pump.pistons
     inner = outer = LandPath(pitch, plate.film_thickness)
     if plate.kidney_file is not None:
-        steps = step_losses(plate.kidney_file)
+        steps = plate.kidney_file
         r1, r2, r3, r4 = _plate_radii(pump)
         inner = LandPath(pitch, plate.film_thickness, _edges_of((r2, r1), steps), ((r2, r1),))
         outer = LandPath(pitch, plate.film_thickness, _edges_of((r3, r4), steps), ((r3, r4),))
@@ -124,14 +123,10 @@ def bore_table(slipper: SlipperSection) -> OrificeTable | None:
     """The slipper's bore by its file at its own opening; None where none is stated."""
     if slipper.orifice_file is None:
         return None
-    return _kept_bore(*seen(slipper.orifice_file), 0.25 * np.pi * slipper.orifice_diameter**2)
+    return orifice_table(slipper.orifice_file, 0.25 * np.pi * slipper.orifice_diameter**2)
 
 
 @lru_cache(maxsize=32)
-def _kept_bore(path: Path, _changed: int, _size: int, opening: float) -> OrificeTable:
-    return orifice_table(coefficients_of(path), opening)
-
-
 def orifice_table(coefficients: FlowCoefficients, opening: float) -> OrificeTable:
     """The flow of a bore of given opening (m2): a monotone cubic along the rows, linear in ln of the opening."""
     numbers = np.log(coefficients.flow_number)
@@ -150,12 +145,12 @@ def slipper_path(slipper: SlipperSection) -> LandPath:
     if slipper.pocket_file is None and slipper.groove_file is None:
         return LandPath(TURN, slipper.film_thickness)
     lands = slipper.lands.sealing
-    steps = None if slipper.pocket_file is None else step_losses(slipper.pocket_file)
+    steps = slipper.pocket_file
     edges: list[Edge] = []
     for land in lands:
         edges += [] if steps is None else _edges_of(land, steps)
     if slipper.groove_file is not None:
-        losses, film = groove_losses(slipper.groove_file), slipper.film_thickness
+        losses, film = slipper.groove_file, slipper.film_thickness
         grooves = [(one[1], two[0]) for one, two in pairwise(lands)]
         own = [_groove(losses, groove, film) for groove in grooves]
         edges = [*edges[:1], *own, *edges[-1:]]

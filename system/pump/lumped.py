@@ -8,7 +8,8 @@ from typing import Generic, Protocol
 import numpy as np
 
 from reynolds.numerics.arrays import Array
-from system.description.pump import PortsSection, PumpDescription
+from system.description.ports import PortsSection
+from system.description.pump import PumpDescription
 from system.inputs.units import TURN
 from system.pump.chamber.problem import Chamber, ChamberProblem, LeakTable
 from system.pump.land_losses import land_losses

@@ -3,23 +3,32 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import asdict, dataclass, field
+from collections.abc import Mapping
+from dataclasses import asdict
 from importlib.resources import files
 from importlib.resources.abc import Traversable
 from pathlib import Path
 from typing import Any
 
-from pydantic import ValidationError
-
 from reynolds.laws.oil import ISO_GRADES
-from system.description.pump import FORMAT, SINGLE_PARTS, PortsSection, PumpDescription
-from system.description.values import HERE, bound, read_value, wanted, written_value
+from system.description.ports import PortsSection
+from system.description.pump import FORMAT, SINGLE_PARTS, PumpDescription
+from system.inputs.coefficients.flow_files import FlowCoefficients
 from system.inputs.faults import Fault, InputFaults, key_lines, nearest_choice, nearest_path
-from system.inputs.fields import Section, dimension_of, table_of, tables_of
+from system.inputs.fields import fields_of
+from system.inputs.section_reader import (
+    ABSOLUTE,
+    Reading,
+    Special,
+    is_number,
+    left_out_section,
+    read_entry,
+    read_section,
+)
+from system.inputs.section_writer import section_rows
 from system.inputs.toml_table import toml_tables
-from system.inputs.units import Dimension, QuantityError, to_gauge
-from system.pump.ports.flow_coefficients import coefficients_of, file_law
+from system.inputs.values import HERE
+from system.pump.ports.flow_coefficients import file_law
 from system.pump_file.bodies import BODY_CHECKS
 from system.pump_file.check import CheckReport, run_checks
 from system.pump_file.films import FILM_CHECKS
@@ -30,7 +39,6 @@ from system.pump_file.parts import PARTS_CHECKS, single_parts_checked
 from system.pump_file.ports import PORT_CHECKS
 from system.pump_file.values import VALUE_CHECKS
 
-ABSOLUTE = "_abs"  # a pressure key that ends so is absolute
 _CHECKS = (
     *GEOMETRY_CHECKS,
     *PORT_CHECKS,
@@ -43,7 +51,7 @@ _CHECKS = (
 )
 _VISCOSITIES = ("kinematic_viscosity_40C", "kinematic_viscosity_100C")
 _OF_LAW = ("flow_coefficient", "critical_reynolds")
-_TABLES = {name: model for name, info in PumpDescription.model_fields.items() if (model := table_of(info))}
+_TABLES = {name: model for name, own in fields_of(PumpDescription).items() if (model := own.table)}
 
 
 def _built_in() -> Traversable:
@@ -97,28 +105,11 @@ def resolved_toml(pump: PumpDescription) -> str:
     """Return a pump file that loads to this very description: every value, with its unit, to the last bit."""
     rows = [f"name = {json.dumps(pump.name, ensure_ascii=False)}", f"format = {pump.format}"]
     for name in _TABLES:
-        rows += _table_rows(name, getattr(pump, name))
+        rows += section_rows(name, getattr(pump, name))
     for name in SINGLE_PARTS:
         for chamber, part in getattr(pump, f"single_{name}s"):
-            rows += _table_rows(f"{name}.{chamber}", part, getattr(pump, name))
+            rows += section_rows(f"{name}.{chamber}", part, getattr(pump, name))
     return "\n".join(rows) + "\n"
-
-
-def _table_rows(name: str, section: Section, base: Section | None = None) -> Iterator[str]:
-    """Yield a table's lines and those of the tables in it; with `base`, only what differs from that one."""
-    stated = {
-        key: (info, value)
-        for key, info in type(section).model_fields.items()
-        if (value := getattr(section, key)) not in (None, ()) and value != getattr(base, key, None)
-    }
-    own = {key: row for key, row in stated.items() if table_of(row[0]) is None}
-    if own:
-        yield from ("", f"[{name}]")
-    for key, (info, value) in own.items():
-        yield f"{key} = {written_value(info, value)}"
-    for key, (_, value) in stated.items():
-        if key not in own:
-            yield from _table_rows(f"{name}.{key}", value)
 
 
 def _read(source: str | Path) -> tuple[str, str]:
@@ -158,51 +149,30 @@ def _parse(label: str, text: str) -> dict[str, Any]:
     return tables
 
 
-@dataclass
-class _Reading:
-    """What has been made of a file so far: its faults, the paths these tell of, and the paths to be trusted.
-
-    `folder`: from where the paths of files in it are counted.
-    """
-
-    folder: Path
-    faults: list[Fault] = field(default_factory=list)
-    told: set[str] = field(default_factory=set)
-    trusted: set[str] = field(default_factory=set)
-
-    def fault(self, path: str, found: str, expected: str, nearest: str = "") -> None:
-        self.faults.append(Fault(path, found, expected, nearest))
-        self.told.add(path)
-
-    def unknown(self, section: str, key: str, known: Sequence[str]) -> None:
-        """Tell of an unknown key; it stands for the known one it is spelt like, so that one slip is one fault."""
-        near = nearest_choice(key, known)
-        self.fault(f"{section}{key}", "unknown key", f"one of {', '.join(known)}", near)
-        self.told.add(f"{section}{near}")
-
-
 def _describe(
     label: str, tables: Mapping[str, Any], lines: Mapping[str, int | None], folder: Path
 ) -> PumpDescription:
     """Return the description of the tables, or raise all their faults, those of the checks included."""
-    reading = _Reading(folder)
+    reading = Reading(folder, _SPECIAL, SINGLE_PARTS)
     name = tables.get("name")
     known = ["name", "format", *_TABLES]
     for key in tables:
         if key not in known:
             reading.unknown("", key, known)
-    if "name" not in reading.told and not (isinstance(name, str) and name.isprintable() and name):
+    if "name" not in reading.faulty and not (isinstance(name, str) and name.isprintable() and name):
         reading.fault("name", "no such key" if name is None else repr(name), "the pump's name, one line of text")
     sections: dict[str, Any] = {
-        key: _section(key, model, tables[key], reading) if key in tables else _left_out(key, model, reading)
+        key: read_section(key, model, tables[key], reading)
+        if key in tables
+        else left_out_section(key, model, reading, required=fields_of(PumpDescription)[key].required)
         for key, model in _TABLES.items()
     }
     singles: dict[str, Any] = {
         f"single_{key}s": _singles(key, sections[key], tables.get(key), reading) for key in SINGLE_PARTS
     }
-    pump = PumpDescription.model_construct(name=name, format=FORMAT, **sections, **singles)
+    pump = PumpDescription(name=str(name), format=FORMAT, **sections, **singles)
     report = run_checks(_CHECKS, pump, reading.trusted)
-    reading.faults += [fault for fault in report.faults if fault.path not in reading.told]
+    reading.faults += [fault for fault in report.faults if fault.path not in reading.faulty]
     if not reading.faults:
         reading.faults += single_parts_checked(_CHECKS, pump, report).faults
     if reading.faults:
@@ -210,127 +180,28 @@ def _describe(
     return pump
 
 
-def _left_out(name: str, model: type[Section], reading: _Reading) -> Section:
-    """Return a table that the file does not have: the empty one, with a fault where the pump needs it."""
-    if PumpDescription.model_fields[name].is_required() and name not in reading.told:
-        reading.fault(name, "no such table", f"a table [{name}] with {', '.join(_keys(name, model))}")
-    return model.model_construct()
-
-
-def _singles(name: str, base: Section, table: object, reading: _Reading) -> tuple[tuple[int, Section], ...]:
+def _singles(name: str, base: Any, table: object, reading: Reading) -> tuple[tuple[int, Any], ...]:
     """Return the single parts of a table by chamber, each complete: [piston.3] over [piston]."""
-    numbered = {key: part for key, part in table.items() if _is_chamber(key)} if isinstance(table, dict) else {}
+    numbered = {key: part for key, part in table.items() if is_number(key)} if isinstance(table, dict) else {}
     return tuple(
-        (int(key), _section(f"{name}.{key}", type(base), part, reading, base)) for key, part in numbered.items()
+        (int(key), read_section(f"{name}.{key}", type(base), part, reading, base))
+        for key, part in numbered.items()
     )
 
 
-def _is_chamber(key: str) -> bool:
-    """True for the name of a single part's table: a chamber's number, written one way only."""
-    return key.isdecimal() and key == str(int(key))
-
-
-def _section(
-    name: str, model: type[Section], table: object, reading: _Reading, base: Section | None = None
-) -> Section:
-    """Return one table as its model; with faults, one that holds the good values only.
-
-    What the table leaves out is that of `base`, whose own faults are told elsewhere.
-    """
-    if not isinstance(table, dict):
-        reading.fault(name, repr(table), f"a table [{name}] with {', '.join(_keys(name, model))}")
-        return model.model_construct()
-    stated: dict[str, Any] = _values(name, model, table, reading)
-    values = {**dict(base or {}), **stated}
-    try:
-        section = model.model_validate(values)
-    except ValidationError as invalid:
-        for error in invalid.errors():
-            if not error["loc"]:  # of the table as a whole
-                reading.fault(name, ", ".join(stated) or "an empty table", str(error["ctx"]["error"]))
-                continue
-            key = str(error["loc"][0])
-            info, path = model.model_fields[key], f"{name}.{key}"
-            if error["type"] != "missing":
-                raw = table.get(key, table.get(key + ABSOLUTE))
-                if key in stated:
-                    reading.fault(path, str(raw), bound(info, error.get("ctx", {})))
-            elif path not in reading.told and base is None:
-                reading.fault(path, "no such key", wanted(info))
-        section = model.model_construct(**{k: v for k, v in values.items() if f"{name}.{k}" not in reading.told})
-    reading.trusted |= {f"{name}.{key}" for key in section.model_fields_set} - reading.told
-    return section
-
-
-def _values(name: str, model: type[Section], table: Mapping[str, object], reading: _Reading) -> dict[str, object]:
-    """Return the SI values of a table, and tell of every entry that gives none."""
-    values: dict[str, object] = {}
-    for written, raw in table.items():
-        path, key = f"{name}.{written}", written.removesuffix(ABSOLUTE)
-        info = model.model_fields.get(key)
-        absolute = key != written
-        if (name, written) == ("oil", "grade"):
-            values |= _grade_viscosities(raw, table, reading)
-        elif (name, written) == ("ports", "coefficient_file"):
-            values |= _file_law(raw, table, reading)
-        elif name in SINGLE_PARTS and _is_chamber(written):
-            continue  # a single part: `_singles`
-        elif info is None or (absolute and dimension_of(info) is not Dimension.PRESSURE):
-            reading.unknown(f"{name}.", written, _keys(name, model))
-        elif absolute and key in table:
-            reading.fault(path, f"both {key} and {written}", "one of the two, gauge or absolute")
-        elif inner := tables_of(info):
-            values[key] = _inner_tables(path, inner, raw, reading)
-        elif inner := table_of(info):
-            values[key] = _section(path, inner, raw, reading)
-            if any(fault.path.startswith(f"{path}.") for fault in reading.faults):
-                reading.told.add(path)
-        else:
-            try:
-                value = read_value(info, raw, reading.folder)
-            except QuantityError as reason:
-                reading.fault(path, reason.found, reason.expected, reason.nearest)
-                reading.told.add(f"{name}.{key}")
-            else:
-                values[key] = to_gauge(value) if absolute and isinstance(value, float) else value
-    return values
-
-
-def _file_law(raw: object, table: Mapping[str, object], reading: _Reading) -> dict[str, object]:
+def _file_law(raw: object, table: Mapping[str, object], reading: Reading) -> dict[str, object]:
     """Return [ports] coefficient_file and, where the table does not state them, the law nearest to the file."""
-    path = "ports.coefficient_file"
-    try:
-        file = read_value(PortsSection.model_fields["coefficient_file"], raw, reading.folder)
-        law = file_law(coefficients_of(Path(str(file))))
-    except (QuantityError, InputFaults) as reason:
-        faults = reason.faults if isinstance(reason, InputFaults) else [reason]
-        for fault in faults:
-            where = f"{fault.path}: " if isinstance(fault, Fault) else ""
-            reading.fault(path, where + fault.found, fault.expected, fault.nearest)
-        reading.told |= {f"ports.{key}" for key in _OF_LAW}
+    field = fields_of(PortsSection)["coefficient_file"]
+    found = read_entry("ports.coefficient_file", field, raw, reading)
+    if not isinstance(found, FlowCoefficients):
+        reading.faulty |= {f"ports.{key}" for key in _OF_LAW}
         return {}
-    return {"coefficient_file": file} | {key: getattr(law, key) for key in _OF_LAW if key not in table}
+    law = file_law(found)
+    return {"coefficient_file": found} | {key: getattr(law, key) for key in _OF_LAW if key not in table}
 
 
-def _inner_tables(path: str, model: type[Section], raw: object, reading: _Reading) -> tuple[Section, ...]:
-    """Return the tables of a list of such; none where one has a fault."""
-    if not isinstance(raw, list):
-        reading.fault(path, repr(raw), f"a list of tables with {', '.join(_keys(path, model))}")
-        return ()
-    found = tuple(_section(f"{path}.{n}", model, table, reading) for n, table in enumerate(raw, start=1))
-    if any(fault.path.startswith(f"{path}.") for fault in reading.faults):
-        reading.told.add(path)
-        return ()
-    return found
-
-
-def _keys(name: str, model: type[Section]) -> list[str]:
-    """Return the keys that a table may have."""
-    return [*model.model_fields, *(["grade"] if name == "oil" else [])]
-
-
-def _grade_viscosities(grade: object, table: Mapping[str, object], reading: _Reading) -> dict[str, float]:
-    """Return the two viscosities of an ISO grade in m2/s, or none with the fault told."""
+def _grade_viscosities(grade: object, table: Mapping[str, object], reading: Reading) -> dict[str, float]:
+    """Return the two viscosities of an ISO grade in m2/s, or none with the fault noted."""
     if stated := [key for key in _VISCOSITIES if key in table]:
         reading.fault("oil.grade", f"grade beside {' and '.join(stated)}", "the grade or the two viscosities")
     elif not isinstance(grade, str) or grade not in ISO_GRADES:
@@ -338,5 +209,9 @@ def _grade_viscosities(grade: object, table: Mapping[str, object], reading: _Rea
         reading.fault("oil.grade", repr(grade), expected, nearest_choice(str(grade), ISO_GRADES))
     else:
         return asdict(ISO_GRADES[grade])
-    reading.told |= {f"oil.{key}" for key in _VISCOSITIES}
+    reading.faulty |= {f"oil.{key}" for key in _VISCOSITIES}
     return {}
+
+
+_SPECIAL: Mapping[str, Special] = {"oil.grade": _grade_viscosities, "ports.coefficient_file": _file_law}
+"""Keys that stand for others too."""

@@ -1,18 +1,15 @@
-"""Checks of the files by which lands and bores lose: are they such files, and do they hold for this pump?"""
+"""Checks of the files by which lands and bores lose: do they hold for this pump?"""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Sequence
-from dataclasses import replace
+from collections.abc import Iterator, Sequence
 from itertools import pairwise
-from pathlib import Path
 
 from system.description.pump import PumpDescription, SlipperSection
-from system.inputs.coefficients.loss_files import LossFactors, groove_losses, step_losses
-from system.inputs.faults import Fault, InputFaults
+from system.inputs.coefficients.loss_files import LossFactors
+from system.inputs.faults import Fault
 from system.inputs.units import Dimension, format_quantity
-from system.pump.ports.flow_coefficients import coefficients_of
 from system.pump_file.check import CheckWarning, Finding, needs
 
 DEEP = 10.0
@@ -27,45 +24,39 @@ _LANDS = ("slipper.land_inner_radius", "slipper.land_outer_radius")
 
 @needs("slipper.pocket_file")
 def pocket_losses_are_of_steps(pump: PumpDescription) -> Iterator[Finding]:
-    """The file of the slipper's edges is such a file, of deep steps."""
-    yield from _read("slipper.pocket_file", pump.slipper.pocket_file, step_losses, _shallow)
+    """The file of the slipper's edges has deep steps."""
+    if pump.slipper.pocket_file is not None:
+        yield from _shallow("slipper.pocket_file", pump.slipper.pocket_file)
 
 
 @needs("valve_plate.kidney_file")
 def kidney_losses_are_of_steps(pump: PumpDescription) -> Iterator[Finding]:
-    """The file of the valve plate's edges is such a file, of deep steps."""
-    yield from _read("valve_plate.kidney_file", pump.valve_plate.kidney_file, step_losses, _shallow)
+    """The file of the valve plate's edges has deep steps."""
+    if pump.valve_plate.kidney_file is not None:
+        yield from _shallow("valve_plate.kidney_file", pump.valve_plate.kidney_file)
 
 
 @needs("slipper.groove_file", "slipper.film_thickness", *_LANDS)
 def groove_losses_are_of_grooves(pump: PumpDescription) -> Iterator[Finding]:
-    """The file of the slipper's grooves is such a file, of deep grooves as wide as these; and there are some."""
+    """The file of the slipper's grooves has deep grooves as wide as these; and there are some."""
     part = pump.slipper
     if part.groove_file is None:
         return
     widths = groove_widths(part)
     if not widths:
         yield Fault("slipper.groove_file", "a slipper without closed grooves", NO_GROOVES)
-    ratios = [width / part.film_thickness for width in widths]
-    yield from _read(
-        "slipper.groove_file", part.groove_file, groove_losses, lambda key, found: _unlike(key, found, ratios)
-    )
+    yield from _unlike("slipper.groove_file", part.groove_file, [width / part.film_thickness for width in widths])
 
 
 @needs("slipper.orifice_file", "slipper.orifice_diameter")
 def bore_coefficients_are_a_table(pump: PumpDescription) -> Iterator[Finding]:
-    """The file of the slipper's bore is one of flow coefficients, at its opening, in place of a coefficient."""
+    """The file of the slipper's bore holds at its opening, and takes the place of a coefficient."""
     part, key = pump.slipper, "slipper.orifice_file"
     if part.orifice_file is None:
         return
     if part.orifice_flow_coefficient is not None:
         yield Fault(key, "orifice_flow_coefficient beside it", "one of the two")
-    try:
-        openings = coefficients_of(part.orifice_file).opening
-    except InputFaults as reason:
-        yield from (replace(fault, path=key, found=f"{fault.path}: {fault.found}") for fault in reason.faults)
-        return
-    own = 0.25 * math.pi * part.orifice_diameter**2
+    openings, own = part.orifice_file.opening, 0.25 * math.pi * part.orifice_diameter**2
     if len(openings) > 1 and not 0.999 * openings[0] <= own <= 1.001 * openings[-1]:
         ends = " to ".join(_area(size) for size in openings[[0, -1]])
         yield CheckWarning(key, f"a bore of {_area(own)}", ends, "its edge is taken; give rows for this opening")
@@ -74,23 +65,6 @@ def bore_coefficients_are_a_table(pump: PumpDescription) -> Iterator[Finding]:
 def groove_widths(slipper: SlipperSection) -> tuple[float, ...]:
     """Widths in m of the closed grooves between the sealing lands."""
     return tuple(two[0] - one[1] for one, two in pairwise(slipper.lands.sealing))
-
-
-def _read(
-    key: str,
-    path: Path | None,
-    read: Callable[[Path], LossFactors],
-    doubts: Callable[[str, LossFactors], Iterator[Finding]],
-) -> Iterator[Finding]:
-    """The faults of a file at its key, or what is doubtful about it."""
-    if path is None:
-        return
-    try:
-        found = read(path)
-    except InputFaults as reason:
-        yield from (replace(fault, path=key, found=f"{fault.path}: {fault.found}") for fault in reason.faults)
-    else:
-        yield from doubts(key, found)
 
 
 def _shallow(key: str, found: LossFactors) -> Iterator[Finding]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from dataclasses import replace
 
 from reynolds.errors import FilmInputError
 from reynolds.laws.oil import walther
@@ -241,7 +242,7 @@ OPERATING_CHECKS = (
 
 def check_operating_point(pump: PumpDescription, point: OperatingPoint) -> CheckReport:
     """Return what is wrong with and doubtful about running the pump at a point, all at once."""
-    stated = OperatingSection.model_construct(
+    stated = OperatingSection(
         speed=point.shaft_speed,
         pressure=point.delivery_pressure,
         displacement_ratio=point.displacement_ratio,
@@ -249,4 +250,4 @@ def check_operating_point(pump: PumpDescription, point: OperatingPoint) -> Check
         inlet_pressure=point.inlet_pressure,
         case_pressure=point.case_pressure,
     )
-    return run_checks(OPERATING_CHECKS, pump.model_copy(update={"operating": stated}))
+    return run_checks(OPERATING_CHECKS, replace(pump, operating=stated))

@@ -9,11 +9,13 @@ from functools import wraps
 from itertools import pairwise
 from operator import itemgetter
 
-from system.description.pump import PortsSection, PumpDescription
-from system.inputs.faults import Fault, InputFaults
+from system.description.ports import PortsSection
+from system.description.pump import PumpDescription
+from system.inputs.faults import Fault
+from system.inputs.fields import with_values
 from system.inputs.units import Dimension, format_quantity
 from system.pump.ports.described import groove_faults, throats
-from system.pump.ports.flow_coefficients import coefficients_of
+from system.pump.ports.flow_coefficients import MOST_OPENINGS
 from system.pump.ports.webs import MOST_WEBS
 from system.pump_file.check import CheckWarning, Finding, angle, needs
 
@@ -27,7 +29,7 @@ def of_sides(findings: Callable[[PumpDescription], Iterator[Finding]]) -> Callab
 
     @wraps(findings)
     def of_both(pump: PumpDescription) -> Iterator[Finding]:
-        suction, delivery = (pump.model_copy(update={"ports": side}) for side in pump.ports.sides)
+        suction, delivery = (with_values(pump, ports=side) for side in pump.ports.sides)
         found = list(findings(suction))
         yield from found
         if pump.ports.delivery is not None:
@@ -163,22 +165,26 @@ def webs_part_the_port(pump: PumpDescription) -> Iterator[Finding]:
 
 
 @needs("ports.delivery.coefficient_file")
-def delivery_coefficients_are_a_table(pump: PumpDescription) -> Iterator[Finding]:
-    """A file of the delivery port's own is such a file, and stands beside one of [ports]."""
-    own = pump.ports.delivery.coefficient_file if pump.ports.delivery else None
-    if own is None:
-        return
-    key = "ports.delivery.coefficient_file"
-    if pump.ports.coefficient_file is None:
+def delivery_coefficients_are_beside_those_of_ports(pump: PumpDescription) -> Iterator[Finding]:
+    """A file of the delivery port's own needs one of [ports]."""
+    delivery = pump.ports.delivery
+    if delivery is not None and delivery.coefficient_file is not None and pump.ports.coefficient_file is None:
+        key = "ports.delivery.coefficient_file"
         yield Fault(key, "without ports.coefficient_file", "one of [ports] too, or of [ports] alone")
-    try:
-        coefficients_of(own)
-    except InputFaults as reason:
-        yield from (replace(fault, path=key, found=f"{fault.path}: {fault.found}") for fault in reason.faults)
+
+
+@needs("ports.coefficient_file")
+@of_sides
+def coefficients_are_of_few_openings(pump: PumpDescription) -> Iterator[Finding]:
+    """A file of a port has no more openings than the chamber's table of it."""
+    table = pump.ports.coefficient_file
+    if table is not None and table.opening.size > MOST_OPENINGS:
+        yield Fault("ports.coefficient_file", f"{table.opening.size} openings", f"at most {MOST_OPENINGS}")
 
 
 PORT_CHECKS = (
-    delivery_coefficients_are_a_table,
+    coefficients_are_of_few_openings,
+    delivery_coefficients_are_beside_those_of_ports,
     ports_open_in_order,
     ports_shut_before_the_other_opens,
     ports_belong_to_the_kidney,

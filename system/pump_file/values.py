@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from dataclasses import fields
 
 from system.description.pump import FrictionSection, PumpDescription
 from system.inputs.faults import Fault
@@ -11,6 +12,7 @@ from system.inputs.units import Dimension, format_quantity
 from system.pump.lumped import piston_area
 from system.pump_file.check import CheckWarning, Finding, needs
 
+_PAIRS = tuple(own.name for own in fields(FrictionSection))
 STEEL_DENSITY = 7850.0  # kg/m3
 HEAVY = 1.5  # times the solid cylinder: to spare for a ball and heavier alloys
 DRY_FRICTION = 1.0  # of steel on steel without any oil; boundary layers have 0.08 .. 0.15
@@ -40,10 +42,10 @@ def _heavy(path: str, mass: float, solid: float) -> Iterator[Finding]:
         )
 
 
-@needs(*(f"friction.{key}" for key in FrictionSection.model_fields))
+@needs(*(f"friction.{key}" for key in _PAIRS))
 def friction_is_below_that_of_dry_steel(pump: PumpDescription) -> Iterator[Finding]:
     """No Coulomb coefficient exceeds one."""
-    for key in FrictionSection.model_fields:
+    for key in _PAIRS:
         value = getattr(pump.friction, key)
         if value > DRY_FRICTION:
             yield CheckWarning(

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 from typing import Any
@@ -172,16 +172,15 @@ def _table_case(plan: MapPlan) -> TableCase:
 def at_levels(plan: MapPlan) -> PumpDescription:
     """The pump with the plan's first level of every input as its own operating point."""
     first = plan.points[0]
-    own = plan.pump.operating.model_copy(
-        update={
-            "speed": first.shaft_speed,
-            "pressure": first.delivery_pressure,
-            "displacement_ratio": first.displacement_ratio,
-            "temperature": first.temperature,
-            "inlet_pressure": first.inlet_pressure,
-        }
+    own = replace(
+        plan.pump.operating,
+        speed=first.shaft_speed,
+        pressure=first.delivery_pressure,
+        displacement_ratio=first.displacement_ratio,
+        temperature=first.temperature,
+        inlet_pressure=first.inlet_pressure,
     )
-    return plan.pump.model_copy(update={"operating": own})
+    return replace(plan.pump, operating=own)
 
 
 def _kept_table(asked: MapAsked) -> ResponseTable:

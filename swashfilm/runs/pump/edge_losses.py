@@ -11,11 +11,11 @@ import numpy as np
 from reynolds.numerics.arrays import Array
 from system.description.pump import PumpDescription, SlipperSection
 from system.inputs.coefficients.edge_losses import LandPath
-from system.inputs.coefficients.loss_files import LossFactors, groove_losses, step_losses
+from system.inputs.coefficients.file_table import FileTable
+from system.inputs.coefficients.loss_files import LossFactors
 from system.inputs.units import Dimension, format_quantity
 from system.pump.assembly import PumpPoint
 from system.pump.land_losses import deepest, land_losses
-from system.pump.ports.flow_coefficients import coefficients_of
 
 LARGEST_SHARE_BEYOND = 0.01
 """Of the turn, from which it is told that losses are those of a file's last row."""
@@ -27,39 +27,42 @@ def loss_records(pump: PumpDescription) -> list[dict[str, Any]]:
     found: list[dict[str, Any]] = []
     seen: set[tuple[str, Path]] = set()
     for table, part in stated:
-        for key, path, words in _of_slipper(part):
-            if (key, path) not in seen:
-                seen.add((key, path))
-                found.append({"key": f"{table}.{key}", "file": str(path), **words})
+        for key, own, words in _of_slipper(part):
+            if (key, own.path) not in seen:
+                seen.add((key, own.path))
+                found.append(
+                    {"key": f"{table}.{key}", "file": str(own.path), "source": own.source, "range": words}
+                )
     plate = pump.valve_plate.kidney_file
     if plate is not None:
-        found.append({"key": "valve_plate.kidney_file", "file": str(plate), **_steps(step_losses(plate))})
+        told = {"file": str(plate.path), "source": plate.source, "range": _steps(plate)}
+        found.append({"key": "valve_plate.kidney_file", **told})
     return found
 
 
-def _of_slipper(part: SlipperSection) -> Iterator[tuple[str, Path, dict[str, str]]]:
-    """Keys of a slipper's files, their paths, source and range."""
+def _of_slipper(part: SlipperSection) -> Iterator[tuple[str, FileTable, str]]:
+    """Keys of a slipper's files, their tables and ranges."""
     if part.orifice_file is not None:
-        table = coefficients_of(part.orifice_file)
+        table = part.orifice_file
         own = format_quantity(0.25 * np.pi * part.orifice_diameter**2, Dimension.AREA, digits=4)
         words = f"opening {own} of {table.opening.size} in it, Re {_ends(table.reynolds)}"
-        yield "orifice_file", part.orifice_file, {"source": table.source, "range": words}
+        yield "orifice_file", table, words
     if part.pocket_file is not None:
-        yield "pocket_file", part.pocket_file, _steps(step_losses(part.pocket_file))
+        yield "pocket_file", part.pocket_file, _steps(part.pocket_file)
     if part.groove_file is not None:
-        losses = groove_losses(part.groove_file)
+        losses = part.groove_file
         ratio, width = losses.sizes.T
         ends = _ends(width[ratio == ratio.max()])
         words = f"film_ratio {ratio.max():g} taken, width_ratio {ends}, Re {_ends(losses.reynolds)}"
-        yield "groove_file", part.groove_file, {"source": losses.source, "range": words}
+        yield "groove_file", losses, words
 
 
-def _steps(losses: LossFactors) -> dict[str, str]:
-    """Source and range of a file of steps."""
+def _steps(losses: LossFactors) -> str:
+    """Range of a file of steps, in words."""
     into, out = deepest(losses)
     lengths = f"extra length {losses.extra_length[into]:.3g} and {losses.extra_length[out]:.3g}"
     ratios = f"film_ratio {losses.sizes[into, 0]:g} and {losses.sizes[out, 0]:g} taken"
-    return {"source": losses.source, "range": f"{ratios}, {lengths}, Re {_ends(losses.reynolds)}"}
+    return f"{ratios}, {lengths}, Re {_ends(losses.reynolds)}"
 
 
 def _ends(values: Array) -> str:
@@ -75,19 +78,19 @@ def loss_warnings(pump: PumpDescription, point: PumpPoint) -> list[str]:
     _, slipper, plate = _flows(point)
     kinematic = point.point.viscosity / pump.oil.density
     stated = [
-        ("slipper.pocket_file", pump.slipper.pocket_file, step_losses, losses.slipper, slipper),
-        ("slipper.groove_file", pump.slipper.groove_file, groove_losses, losses.slipper, slipper),
+        ("slipper.pocket_file", pump.slipper.pocket_file, losses.slipper, slipper),
+        ("slipper.groove_file", pump.slipper.groove_file, losses.slipper, slipper),
         # Half of a kidney's flow a land, near enough to say whether a range is left.
-        ("valve_plate.kidney_file", pump.valve_plate.kidney_file, step_losses, losses.inner, 0.5 * plate),
+        ("valve_plate.kidney_file", pump.valve_plate.kidney_file, losses.inner, 0.5 * plate),
     ]
     found = []
-    for key, path, read, lands, flow in stated:
-        if path is not None:
+    for key, own, lands, flow in stated:
+        if own is not None:
             number = _reynolds(lands, flow, kinematic)
-            found += _beyond(key, path, number, float(read(path).reynolds[-1]))
-    if (path := pump.slipper.orifice_file) is not None:
+            found += _beyond(key, own.path, number, float(own.reynolds[-1]))
+    if (bore := pump.slipper.orifice_file) is not None:
         number = 4.0 * np.abs(slipper) / (np.pi * pump.slipper.orifice_diameter * kinematic)
-        found += _beyond("slipper.orifice_file", path, number, float(coefficients_of(path).reynolds.max()))
+        found += _beyond("slipper.orifice_file", bore.path, number, float(bore.reynolds.max()))
     return found
 
 
@@ -98,7 +101,7 @@ def losses_left_out(pump: PumpDescription) -> list[str]:
         "slipper.groove_file": pump.slipper.groove_file,
         "valve_plate.kidney_file": pump.valve_plate.kidney_file,
     }
-    keys = [key for key, path in stated.items() if path is not None]
+    keys = [key for key, table in stated.items() if table is not None]
     if not keys:
         return []
     told = ", ".join(keys)

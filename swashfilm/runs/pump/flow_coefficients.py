@@ -11,7 +11,6 @@ from system.description.pump import PumpDescription
 from system.inputs.coefficients.flow_files import FlowCoefficients
 from system.inputs.units import Dimension, format_quantity
 from system.pump.assembly import PumpPoint
-from system.pump.ports.flow_coefficients import coefficients_of
 
 LARGEST_SHARE_BEYOND = 0.01
 """Of the time in which a port is open, from which it is told that its coefficients are those of an edge."""
@@ -22,10 +21,10 @@ def coefficient_records(pump: PumpDescription) -> list[dict[str, Any]]:
     ports, own = pump.ports, pump.ports.delivery.coefficient_file if pump.ports.delivery else None
     stated = {"ports.coefficient_file": ports.coefficient_file, "ports.delivery.coefficient_file": own}
     found = []
-    for key, path in stated.items():
-        if path is not None:
-            table = coefficients_of(path)
-            found.append({"key": key, "file": str(path), "source": table.source, "range": _range(table)})
+    for key, table in stated.items():
+        if table is not None:
+            told = {"file": str(table.path), "source": table.source, "range": _range(table)}
+            found.append({"key": key, **told})
     return found
 
 
@@ -40,14 +39,14 @@ def coefficient_warnings(pump: PumpDescription, point: PumpPoint) -> list[str]:
         strict=True,
     )
     for name, side, area, behind in sides:
-        if side.coefficient_file is None:
+        table = side.coefficient_file
+        if table is None:
             continue
-        table = coefficients_of(side.coefficient_file)
         share = share_beyond(table, area, point.cycle.pressure - behind, pump.oil.density, point.point.viscosity)
         if share > LARGEST_SHARE_BEYOND:
             found.append(
                 f"coefficients_beyond_file: {name} port: {share:.0%} of the time in which it is open lies beyond "
-                f"{side.coefficient_file.name} ({_range(table)}), where its edge is taken (limit "
+                f"{table.path.name} ({_range(table)}), where its edge is taken (limit "
                 f"{LARGEST_SHARE_BEYOND:.0%}); give rows for it"
             )
     return found

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import fields, replace
 from typing import Any
 
 import numpy as np
@@ -14,6 +15,7 @@ from system.description.pump import PumpDescription
 from system.effects.extension import Extension
 from system.estimation.parameters import Parameter
 from system.estimation.posterior import Posterior
+from system.inputs.section_reader import section_of
 
 _OF_FRICTION: Mapping[str, str] = {
     f"friction.{GUIDE}": "guide_friction",
@@ -34,11 +36,13 @@ def extended_pump(
 
     extensions: each with a grid of one; an effect that the pump has switched on already is stated anew, Barus'
     coefficient in [oil] too. Names of sensors do not matter. `system.pump_file.file.resolved_toml` writes it as a
-    file that runs to the readings of a `LumpedBench` at these values. Raises pydantic's ValidationError for values
-    outside the effects' bounds.
+    file that runs to the readings of a `LumpedBench` at these values. Raises ValueError for values outside the
+    effects' limits.
     """
     own = pump_with(pump, values)
-    stated: dict[str, Any] = pump.physics.model_dump(exclude_none=True)
+    stated: dict[str, Any] = {
+        key: _stated(section) for key in vars(pump.physics) if (section := getattr(pump.physics, key)) is not None
+    }
     for extension in extensions:
         table = extension.stated(values)
         if extension.pair is None:
@@ -48,25 +52,31 @@ def extended_pump(
     displacement = pump.pump.displacement
     if displacement is not None:
         displacement *= values.get("displacement", 1.0)
-    physics = PhysicsSection.model_validate(stated)
-    part = own.pump.model_copy(update={"displacement": displacement})
+    physics = section_of(PhysicsSection, stated)
+    part = replace(own.pump, displacement=displacement)
     oil = own.oil
     if physics.viscosity_pressure is not None and oil.pressure_viscosity is not None:
-        oil = oil.model_copy(update={"pressure_viscosity": physics.viscosity_pressure.coefficient})
-    return own.model_copy(update={"pump": part, "oil": oil, "physics": physics})
+        oil = replace(oil, pressure_viscosity=physics.viscosity_pressure.coefficient)
+    return replace(own, pump=part, oil=oil, physics=physics)
 
 
 def calibrated_pump(pump: PumpDescription, fit: Posterior, laws: Sequence[Extension] = ()) -> PumpDescription:
     """The pump with a fit's values, and with `laws` switched on; [tolerance] holds the fit's own sigmas.
 
     A key of [tolerance] that stands for several parameters takes the widest of them. Others keep
-    their tolerance. Raises pydantic's ValidationError for values outside an effect's bounds.
+    their tolerance. Raises ValueError for values outside an effect's limits.
     """
     own = extended_pump(pump, values_by_name(fit.parameters, fit.values), laws)
     sigma = np.sqrt(np.diag(fit.covariance))
+    stated = {one.name for one in fields(own.tolerance)}
     known: dict[str, float] = {}
     for parameter, width in zip(fit.parameters, sigma, strict=True):
         key = _OF_FRICTION.get(parameter.name, parameter.name.partition(".")[0])
-        if key in type(own.tolerance).model_fields:
+        if key in stated:
             known[key] = max(known.get(key, 0.0), float(parameter.spread * width))
-    return own.model_copy(update={"tolerance": own.tolerance.model_copy(update=known)})
+    return replace(own, tolerance=replace(own.tolerance, **known))
+
+
+def _stated(section: object) -> dict[str, Any]:
+    """Return the values of a section that are stated, by key."""
+    return {key: value for key, value in vars(section).items() if value is not None}

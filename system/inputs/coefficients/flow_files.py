@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from reynolds.numerics.arrays import Array
+from system.inputs.coefficients.file_table import FileTable
 from system.inputs.csv_table import CsvTable, read_table
 from system.inputs.faults import Fault, InputFaults
 from system.inputs.units import Dimension
@@ -22,16 +23,13 @@ PORT_HEADS = {"opening": Dimension.AREA, "reynolds": None, "flow_coefficient": N
 SOURCE = "source"
 
 
-@dataclass(frozen=True)
-class FlowCoefficients:
+@dataclass(frozen=True, eq=False, repr=False)
+class FlowCoefficients(FileTable):
     """Flow coefficients Cd (K, N) of a port, u = Cd sqrt(2 dp/rho), at openings A (K,) in m2, ascending.
 
-    Reynolds numbers (K, N) are u d_h/nu with d_h = sqrt(4 A/pi), ascending along N. `path` and `source` tell
-    where they come from.
+    Reynolds numbers (K, N) are u d_h/nu with d_h = sqrt(4 A/pi), ascending along N.
     """
 
-    path: Path
-    source: str
     opening: Array
     reynolds: Array
     flow_coefficient: Array
@@ -67,12 +65,6 @@ def read_flow_coefficients(path: Path) -> FlowCoefficients:
     return FlowCoefficients(
         path, table.comment(SOURCE), sizes, reynolds[order].reshape(shape), coefficient[order].reshape(shape)
     )
-
-
-def seen(path: Path) -> tuple[Path, int, int]:
-    """A file's path, time of its last change and size: what it is read once for."""
-    state = path.stat()
-    return path, state.st_mtime_ns, state.st_size
 
 
 def source_faults(table: CsvTable) -> list[Fault]:

@@ -7,13 +7,13 @@ u h/nu of the (thinner) film. It holds in the range of its rows.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import lru_cache
 from pathlib import Path
 
 import numpy as np
 
 from reynolds.numerics.arrays import Array
-from system.inputs.coefficients.flow_files import SOURCE, range_faults, seen, source_faults
+from system.inputs.coefficients.file_table import FileTable
+from system.inputs.coefficients.flow_files import SOURCE, range_faults, source_faults
 from system.inputs.csv_table import CsvTable, read_table
 from system.inputs.faults import Fault, InputFaults
 
@@ -23,16 +23,14 @@ GROOVE_HEADS = {
 }  # fmt: skip
 
 
-@dataclass(frozen=True)
-class LossFactors:
+@dataclass(frozen=True, eq=False, repr=False)
+class LossFactors(FileTable):
     """At S passages, by rising `sizes`, and Reynolds numbers (N,), ascending.
 
     extra_length (S,) in thicknesses of the thinner film, loss_factor (S, N) of its rho u^2/2. sizes: film behind /
     film before (S, 1) of steps; film in the groove / film and width / film (S, 2) of grooves.
     """
 
-    path: Path
-    source: str
     sizes: Array
     reynolds: Array
     extra_length: Array
@@ -60,26 +58,6 @@ def read_groove_losses(path: Path) -> LossFactors:
     faults = range_faults(table, "film_ratio", table.columns["film_ratio"] > 1.0, "above 1")
     faults += range_faults(table, "width_ratio", table.columns["width_ratio"] > 0.0, "above zero")
     return _gridded(table, ["film_ratio", "width_ratio"], faults)
-
-
-def step_losses(path: Path) -> LossFactors:
-    """`read_step_losses`, read once while the file stays as it is."""
-    return _kept_steps(*seen(path))
-
-
-def groove_losses(path: Path) -> LossFactors:
-    """`read_groove_losses`, read once while the file stays as it is."""
-    return _kept_grooves(*seen(path))
-
-
-@lru_cache(maxsize=32)
-def _kept_steps(path: Path, _changed: int, _size: int) -> LossFactors:
-    return read_step_losses(path)
-
-
-@lru_cache(maxsize=32)
-def _kept_grooves(path: Path, _changed: int, _size: int) -> LossFactors:
-    return read_groove_losses(path)
 
 
 def _gridded(table: CsvTable, names: list[str], faults: list[Fault]) -> LossFactors:

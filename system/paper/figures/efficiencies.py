@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from math import radians
 
 import numpy as np
@@ -160,7 +161,7 @@ def _best_reason(points: PaperPoints, best: float, reading: Reading) -> str:
 def without_trapped_oil(pump: PumpDescription) -> PumpDescription:
     """The pump with kidneys that shut at LATE_END, where they shut before."""
     late = max(pump.ports.kidney_end, LATE_END)
-    return pump.model_copy(update={"ports": pump.ports.model_copy(update={"kidney_end": late})})
+    return replace(pump, ports=replace(pump.ports, kidney_end=late))
 
 
 def _judged_cases(points: PaperPoints, reading: Reading) -> Iterator[Judged]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from enum import Enum
 from typing import Protocol, assert_never
 
@@ -117,4 +117,4 @@ def solver_of(source: Source, options: FloatingOptions) -> PointSolver:
 
 def with_held_ports(pump: PumpDescription) -> PumpDescription:
     """The pump without its lines: points of a table are solved at held port pressures."""
-    return pump.model_copy(update={"delivery_line": LineSection(), "suction_line": LineSection()})
+    return replace(pump, delivery_line=LineSection(), suction_line=LineSection())

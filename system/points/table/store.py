@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -36,10 +36,8 @@ KEY_LENGTH = 24
 
 def pump_key(pump: PumpDescription) -> str:
     """Hash of all inputs of a pump's gaps besides the axes: without its name and its lines."""
-    stated = pump.operating.model_copy(
-        update={"speed": 0.0, "pressure": 0.0, "displacement_ratio": 1.0, "temperature": 0.0}
-    )
-    bare = with_held_ports(pump).model_copy(update={"name": "", "operating": stated})
+    stated = replace(pump.operating, speed=0.0, pressure=0.0, displacement_ratio=1.0, temperature=0.0)
+    bare = replace(with_held_ports(pump), name="", operating=stated)
     made_of = TABLE_FORMAT, resolved_toml(bare), pump.file_contents
     return content_key("pump of a response table", *made_of)[:KEY_LENGTH]
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from system.description.lines import LineKind, LineSection
 from system.description.parts import GrooveSection, GrooveShape
-from system.description.pump import PortsSection
+from system.description.ports import PortsSection
 from system.inputs.faults import Fault
 from system.inputs.units import Dimension, format_quantity
 from system.pump.ports.areas import MOST_GROOVES

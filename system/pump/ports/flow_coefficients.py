@@ -10,13 +10,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import lru_cache
-from pathlib import Path
 
 import numba
 import numpy as np
 
 from reynolds.numerics.arrays import Array
-from system.inputs.coefficients.flow_files import FlowCoefficients, read_flow_coefficients, seen
+from system.inputs.coefficients.flow_files import FlowCoefficients
 
 MOST_OPENINGS = 12
 NODES = 40
@@ -104,28 +103,10 @@ def log_reynolds_over(log_number: Array, log_reynolds: Array, grid: Array) -> tu
     return np.asarray(course(grid)), np.asarray(course(grid, 1))
 
 
-def port_table(base: Path, own: Path, critical_reynolds: float) -> FlowTable:
-    """The table of a port's own file over the law of the pump's, `base`, with the pump's critical Reynolds number.
-
-    Files are read once as long as they stay as they are. Raises InputFaults as `read_flow_coefficients`.
-    """
-    law = PlainLaw(file_law(coefficients_of(base)).flow_coefficient, critical_reynolds)
-    return _kept_table(*seen(own), law)
-
-
-def coefficients_of(path: Path) -> FlowCoefficients:
-    """What a file holds, read once while it stays as it is; raises InputFaults as `read_flow_coefficients`."""
-    return _kept_file(*seen(path))
-
-
 @lru_cache(maxsize=32)
-def _kept_file(path: Path, _changed: int, _size: int) -> FlowCoefficients:
-    return read_flow_coefficients(path)
-
-
-@lru_cache(maxsize=32)
-def _kept_table(path: Path, _changed: int, _size: int, law: PlainLaw) -> FlowTable:
-    return flow_table(coefficients_of(path), law)
+def port_table(base: FlowCoefficients, own: FlowCoefficients, critical_reynolds: float) -> FlowTable:
+    """Table of a port's own file over the law of the pump's, `base`, at the pump's critical Reynolds number."""
+    return flow_table(own, PlainLaw(file_law(base).flow_coefficient, critical_reynolds))
 
 
 @numba.njit("UniTuple(f8,2)(f8,f8,f8[:])", cache=True)

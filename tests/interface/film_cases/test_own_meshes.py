@@ -41,7 +41,7 @@ def test_a_file_beside_the_pump_file(tmp_path):
     text = resolved_toml(load_pump("ref90_floating")) + '\n[slipper.body]\nmesh = "slipper.vtu"\nunit = "mm"\n'
     (tmp_path / "pump.toml").write_text(text, "utf-8")
     (tmp_path / "slipper.vtu").write_bytes(EXAMPLE.read_bytes())
-    assert load_pump(tmp_path / "pump.toml").slipper.body.mesh == tmp_path / "slipper.vtu"
+    assert load_pump(tmp_path / "pump.toml").slipper.body.mesh.path == tmp_path / "slipper.vtu"
 
 
 @pytest.mark.parametrize(

@@ -51,7 +51,7 @@ def child(program: str, *words: str) -> subprocess.CompletedProcess:
 
 
 def test_help_names_every_command_and_imports_nothing_heavy():
-    heavy = {"numpy", "scipy", "numba", "skfem", "pint", "pydantic", "matplotlib", "pyvista", "xarray", "rich"}
+    heavy = {"numpy", "scipy", "numba", "skfem", "pint", "matplotlib", "pyvista", "xarray", "rich"}
     ended = child(
         "import swashfilm.__main__ as m\n"
         "try: m.main()\n"

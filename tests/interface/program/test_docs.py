@@ -25,7 +25,8 @@ from swashfilm.runs.pump.summary import pump_summary
 from swashfilm.runs.table.gap_case import load_gap_table
 from system.description.gap import Gap
 from system.description.pump import section_models
-from system.description.values import units_shown
+from system.inputs.fields import fields_of
+from system.inputs.values import units_shown
 from system.points.films import FilmsPoint, films_point
 from system.pump.assembly import PointWarning
 from system.pump.laws.friction_pairs import Pair
@@ -155,7 +156,7 @@ def test_pump_file_tables_are_the_description(section, model):
     rows = [[cell.strip() for cell in line.split("|")[1:4]] for line in _part(f"### [{heading}]").splitlines()
             if line.startswith("| `")]  # fmt: skip
     documented = {key.strip("`"): unit for key, unit, _ in rows}
-    described = {key: units_shown(field) for key, field in model.model_fields.items()}
+    described = {key: units_shown(field) for key, field in fields_of(model).items()}
     assert documented == described
     assert all(meaning for *_, meaning in rows)
 

@@ -1,5 +1,6 @@
 """What a pump file says of parts that float: points, choices, tables in tables, single parts, what is taken."""
 
+from dataclasses import replace
 from importlib.resources import files
 
 import numpy as np
@@ -8,12 +9,12 @@ import pytest
 from system.description.lines import LineKind
 from system.description.parts import RetainerKind
 from system.description.pump import section_models
-from system.description.values import units_shown
 from system.films.parts import BRASS, STEEL, ball_plane_height, floating_parts
 from system.films.places import guide_frame
 from system.films.rotor import rotor, travel
 from system.inputs.faults import InputFaults
-from system.inputs.fields import choice_of, dimension_of, layouts_of, table_of, tables_of, text_of
+from system.inputs.fields import fields_of
+from system.inputs.values import units_shown
 from system.pump.operating import operating_point
 from system.pump_file.check import CheckReport
 from system.pump_file.file import builtin_pumps, check_pump, load_pump, resolved_toml
@@ -128,7 +129,7 @@ def test_every_key_of_the_floating_parts_is_read_and_written_back(tmp_path):
         section = pump
         for step in name.split("."):
             section = getattr(section, step)
-        absent = {key for key in model.model_fields if getattr(section, key) is None}
+        absent = {key for key in fields_of(model) if getattr(section, key) is None}
         left_out = {key for key in absent - {"body", "delivery"} if not key.endswith("_file")}
         assert left_out == NOT_OF_ITS_KIND.get(name, set()), name
     file = tmp_path / "pump.toml"
@@ -155,9 +156,9 @@ def test_a_file_without_them_has_none_of_them():
 
 def test_units_shown_of_columns():
     models = dict(section_models())
-    assert units_shown(models["piston"].model_fields["profile"]) == "mm, um"
-    assert units_shown(models["piston"].model_fields["mass"]) == "g"
-    assert units_shown(models["retainer"].model_fields["kind"]) == "-"
+    assert units_shown(fields_of(models["piston"])["profile"]) == "mm, um"
+    assert units_shown(fields_of(models["piston"])["mass"]) == "g"
+    assert units_shown(fields_of(models["retainer"])["kind"]) == "-"
 
 
 def test_ref90_floating_differs_where_it_says():
@@ -311,7 +312,7 @@ def test_a_single_part_has_the_rest_from_the_table(tmp_path):
     pump = load_pump("ref90", {"piston.3.radial_clearance": "20 um", "slipper.9.crown": "2 um"})
     assert [chamber for chamber, _ in pump.single_pistons] == [3]
     third, fourth, ninth = (pump.of_chamber(chamber) for chamber in (3, 4, 9))
-    assert third.piston == pump.piston.model_copy(update={"radial_clearance": 20e-6})
+    assert third.piston == replace(pump.piston, radial_clearance=20e-6)
     assert fourth == load_pump("ref90")
     assert ninth.slipper.crown == 2e-6
     file = tmp_path / "pump.toml"
@@ -426,9 +427,12 @@ def test_wide_lands_lift_the_block_off():
     assert "block lifts off" in told["valve_plate.land_radius_4"]
 
 
+KINDS = ("dimension", "layouts", "choice", "table", "tables", "text")
+
+
 def test_every_kind_of_field_is_one_kind():
     """A key is a quantity, rows, a choice, a table or a number, and no two of these."""
     for name, model in section_models():
-        for key, field in model.model_fields.items():
-            kinds = [kind(field) for kind in (dimension_of, layouts_of, choice_of, table_of, tables_of, text_of)]
+        for key, field in fields_of(model).items():
+            kinds = [getattr(field, kind) for kind in KINDS]
             assert sum(kind not in (None, ()) for kind in kinds) <= 1, f"{name}.{key}"

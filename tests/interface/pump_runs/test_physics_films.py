@@ -1,6 +1,7 @@
 """[physics] in runs of the films fidelity: what a folder tells, a finding's films, and what refuses such pumps."""
 
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -17,6 +18,7 @@ from swashfilm.runs.pump.oil_fields import oil_state
 from system.description.effects import PhysicsSection
 from system.effects.effect import EffectId
 from system.films.cycle import SMOOTH
+from system.inputs.section_reader import section_of
 from system.maps.point import LumpedSolver, MapWork
 from system.points.film_effects import SOLVED
 from system.points.films import films_point
@@ -33,7 +35,7 @@ NAMES = ("without", "with")
 
 
 def extended(tables, pump=REF90):
-    return pump.model_copy(update={"physics": PhysicsSection.model_validate(tables)})
+    return replace(pump, physics=section_of(PhysicsSection, tables))
 
 
 def silent(done, total, what):
@@ -172,7 +174,7 @@ def test_films_that_cannot_be_solved_tell_why():
     single = load_pump("ref90", {"piston.3.radial_clearance": "25 um"})
     told = compare_films({"without": single}, {}, {EffectId.FILM_HEATING}, silent)
     assert told.text.startswith("Chambers differ")
-    touching = REF90.model_copy(update={"slipper": REF90.slipper.model_copy(update={"tilt_radial": 2e-3})})
+    touching = replace(REF90, slipper=replace(REF90.slipper, tilt_radial=2e-3))
     told = compare_films({"without": touching}, {}, {EffectId.FILM_HEATING}, silent)
     assert told.text.startswith("The films could not be solved: ")
     assert told.points == {}
@@ -210,7 +212,7 @@ def test_a_maps_points_are_kept_by_the_temperature_that_clearances_change_from()
     stated = {"thermal_clearance": {"slipper": {"rate": 0.01}}}
     for tables, same in ((stated, False), (FOUND, True)):
         one = extended(tables)
-        other = one.model_copy(update={"operating": one.operating.model_copy(update={"temperature": 343.15})})
+        other = replace(one, operating=replace(one.operating, temperature=343.15))
         keys = {MapWork(pump, LumpedSolver()).key(operating_point(REF90)) for pump in (one, other)}
         assert (len(keys) == 1) == same
 

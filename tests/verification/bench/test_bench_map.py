@@ -205,9 +205,9 @@ def test_what_no_map_can_be_made_of_is_told():
         _bench(points=replace(MAP, T_case=MAP.T_case + 200.0))
     with pytest.raises(NotConverged, match="no pump has these values"):
         _bench().predict(_means(_bench(), viscosity=0.1))
-    shut = REF90.ports.model_copy(update={"kidney_area": 1e-14, "groove_area": 1e-15})
+    shut = replace(REF90.ports, kidney_area=1e-14, groove_area=1e-15)
     with pytest.raises(NotConverged, match="at 5 MPa and 1000 r/min"):
-        _bench(REF90.model_copy(update={"ports": shut})).predict(_means(_bench()))
+        _bench(replace(REF90, ports=shut)).predict(_means(_bench()))
 
 
 @pytest.mark.slow

@@ -112,9 +112,9 @@ def test_a_table_that_comes_back_from_another_process_is_the_same_law():
 @pytest.mark.slow
 def test_solved_films_open_by_compliance_times_pressure_over_film():
     """Of a slipper that hardly slides: under half the pressure a film of half the thickness opens as far."""
-    crawling = REF90.model_copy(update={"pump": REF90.pump.model_copy(update={"rated_speed": 5.0})})
+    crawling = replace(REF90, pump=replace(REF90.pump, rated_speed=5.0))
     part = crawling.slipper
-    thinner = crawling.model_copy(update={"slipper": part.model_copy(update={"film_thickness": 5e-6})})
+    thinner = replace(crawling, slipper=replace(part, film_thickness=5e-6))
     whole = OpeningCase(crawling, Gap.SLIPPER).solve(np.array([20e6]))
     half = OpeningCase(thinner, Gap.SLIPPER).solve(np.array([10e6]))
     assert whole[0] > 1.5

@@ -173,8 +173,8 @@ def test_bounds_that_bite_do_not_stop_the_fit_where_it_starts() -> None:
 
 
 def test_a_coefficient_far_from_the_papers_keeps_its_tolerance() -> None:
-    friction = PUMP.friction.model_copy(update={"piston_cylinder": 0.2, "rear_bearing": 0.0})
-    priors, told = paper_priors(PUMP.model_copy(update={"friction": friction}))
+    friction = replace(PUMP.friction, piston_cylinder=0.2, rear_bearing=0.0)
+    priors, told = paper_priors(replace(PUMP, friction=friction))
     names = [one.name for one in priors]
     assert "friction.piston_cylinder" not in names
     assert "friction.rear_bearing" not in names

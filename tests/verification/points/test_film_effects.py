@@ -21,6 +21,7 @@ from system.films.cycle import PLAIN, SMOOTH, GapPhysics, gap_cycle
 from system.films.parts import floating_parts
 from system.films.rotor import rotor
 from system.inputs.errors import NotConverged
+from system.inputs.section_reader import section_of
 from system.points.film_effects import SOLVED, effects_in_films, even_rise, film_effects, resisting
 from system.points.films import films_point, leak_table
 from system.points.lumped import lumped_point
@@ -37,7 +38,7 @@ CLOSED = 2e-3
 
 
 def extended(tables, pump=REF90):
-    return pump.model_copy(update={"physics": PhysicsSection.model_validate(tables)})
+    return replace(pump, physics=section_of(PhysicsSection, tables))
 
 
 def coarse(pump, **options):
@@ -287,7 +288,7 @@ def test_a_clearance_that_warmth_changes_is_a_film_thickness():
 def test_a_pump_moved_to_another_temperature_keeps_its_films_there():
     pump = extended(RATES)
     warm = pump.operating.temperature + WARMER
-    moved = moved_to(pump, pump.operating.model_copy(update={"temperature": warm}))
+    moved = moved_to(pump, replace(pump.operating, temperature=warm))
     assert moved.operating.temperature == warm
     assert moved.piston.radial_clearance == pytest.approx((1.0 + 8e-3 * WARMER) * REF90.piston.radial_clearance)
     one, other = (lumped_point(each, operating_point(moved)).bench.drain_flow for each in (pump, moved))

@@ -7,6 +7,7 @@ closed forms of the lumped fidelity must come back, or a change under refinement
 
 from __future__ import annotations
 
+from dataclasses import replace
 from itertools import chain
 from pathlib import Path
 
@@ -50,7 +51,7 @@ def pocket_pressure(film: GapFilm) -> float:
 def with_pistons(count: int) -> PumpDescription:
     """REF90's parts with another number of pistons."""
     pump = load_pump("ref90")
-    return pump.model_copy(update={"pump": pump.pump.model_copy(update={"pistons": count, "displacement": None})})
+    return replace(pump, pump=replace(pump.pump, pistons=count, displacement=None))
 
 
 def assert_closed(point: FilmsPoint) -> None:
@@ -193,8 +194,8 @@ def test_parts_stand_where_the_description_puts_them(rated):
 
 def test_stated_tilts_open_the_films_to_their_sides():
     """Radial outwards, tangential forwards; the plate's two along x and y."""
-    part = load_pump("ref90").slipper.model_copy(update={"tilt_radial": 1e-4, "tilt_tangential": 2e-4})
-    pump = load_pump("ref90").model_copy(update={"slipper": part})
+    part = replace(load_pump("ref90").slipper, tilt_radial=1e-4, tilt_tangential=2e-4)
+    pump = replace(load_pump("ref90"), slipper=part)
     group, radius = rotor(pump, operating_point(pump)), part.lands.outer_radius
     for angle in (0.3, 2.0, 4.0):
         rises = given_slipper(group, angle)[1:] / radius
@@ -210,8 +211,8 @@ def test_stated_tilts_open_the_films_to_their_sides():
 def test_slow_parallel_pump_leaks_as_the_equations_say(validation):
     """Pistons concentric, 50 r/min: what is left are equations (15) to (17) over the chamber's own pressure."""
     pump = load_pump("ref90")
-    piston = pump.piston.model_copy(update={"eccentricity_ratio": 0.0})
-    pump = pump.model_copy(update={"piston": piston})
+    piston = replace(pump.piston, eccentricity_ratio=0.0)
+    pump = replace(pump, piston=piston)
     slow = operating_point(pump, shaft_speed=50.0 * RPM)
     films = films_point(pump, slow, positions_per_pitch=2)
     lumped = lumped_point(pump, slow)

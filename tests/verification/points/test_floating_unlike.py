@@ -5,6 +5,8 @@ Coarse films, one round of gaps and chambers.
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -27,8 +29,8 @@ pytestmark = pytest.mark.long
 
 def with_clearance(clearance: float) -> PumpDescription:
     """The pump with another radial clearance (m) of the third piston."""
-    third = PUMP.piston.model_copy(update={"radial_clearance": clearance})
-    return PUMP.model_copy(update={"single_pistons": ((WORN + 1, third),)})
+    third = replace(PUMP.piston, radial_clearance=clearance)
+    return replace(PUMP, single_pistons=((WORN + 1, third),))
 
 
 @pytest.fixture(scope="module")

@@ -155,8 +155,8 @@ def test_drive_torque_is_that_of_the_energy_balance(build):
 def test_chambers_that_differ_close_and_give_the_mean_torque():
     """Masses and pressures of each, friction the mean of all: the torque agrees in the mean over the turn."""
     pump = load_pump("ref90")
-    heavy = pump.piston.model_copy(update={"mass": 0.3, "radial_clearance": 30e-6})
-    pump = pump.model_copy(update={"single_pistons": ((4, heavy),)})
+    heavy = replace(pump.piston, mass=0.3, radial_clearance=30e-6)
+    pump = replace(pump, single_pistons=((4, heavy),))
     point = lumped_point(pump, operating_point(pump))
     joints = joint_forces(pump, point)
     closed = closure(joints)

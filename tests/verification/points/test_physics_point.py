@@ -19,6 +19,7 @@ from system.effects.catalogue.entries import EXTENSIONS
 from system.effects.effect import EffectId
 from system.effects.extension import Extension
 from system.effects.switched import switched_on
+from system.inputs.section_reader import section_of
 from system.points.floating import floating_point
 from system.points.lumped import lumped_point
 from system.pump.lumped import SAMPLES_PER_PITCH
@@ -47,7 +48,7 @@ def with_effect(extension: Extension, xi: float = 1.0) -> PumpDescription:
     values = {one.name.rpartition(".")[2]: one.value(xi) for one in extension.parameters}
     table: dict = {**extension.members[-1].grid[0], **values}
     table = {extension.pair.value: table} if extension.pair else table
-    return REF90.model_copy(update={"physics": PhysicsSection.model_validate({extension.id.value: table})})
+    return replace(REF90, physics=section_of(PhysicsSection, {extension.id.value: table}))
 
 
 @pytest.fixture(scope="module")
@@ -184,7 +185,7 @@ def test_a_pump_has_one_coefficient_of_barus():
     found = extended_pump(load_pump("ref90", stated), {"viscosity_pressure.coefficient": 1.5e-8}, [thick])
     assert found.oil.pressure_viscosity == 1.5e-8
     assert not check_pump(found).faults
-    (fault,) = check_pump(found.model_copy(update={"oil": load_pump("ref90", stated).oil})).faults
+    (fault,) = check_pump(replace(found, oil=load_pump("ref90", stated).oil)).faults
     assert fault.path == "physics.viscosity_pressure.coefficient"
     assert "20 1/GPa" in fault.expected
 
@@ -199,8 +200,8 @@ def test_a_pump_has_one_coefficient_of_barus():
 def test_effects_beside_lines_and_single_parts(stated):
     """The power balance closes where a line sets the pressure and where chambers differ."""
     effects = {"elastic_opening": {"slipper": {"opening": 2e-8}}, "control_flow": {"area": 1e-7, "laminar": 0}}
-    pump = load_pump("ref90", stated).model_copy(update={"physics": PhysicsSection.model_validate(effects)})
-    plain = pump.model_copy(update={"physics": PhysicsSection()})
+    pump = replace(load_pump("ref90", stated), physics=section_of(PhysicsSection, effects))
+    plain = replace(pump, physics=PhysicsSection())
     found, before = (lumped_point(one, operating_point(one)) for one in (pump, plain))
     assert found.checks.energy_balance_error < CLOSED
     assert found.bench.drain_flow > before.bench.drain_flow

@@ -121,7 +121,7 @@ def test_against_the_balance_of_the_joint(k):
 
 def run(name: str, line: LineSection | None = None, **point: float) -> PumpPoint:
     pump = load_pump(name)
-    pump = pump.model_copy(update={"delivery_line": line or LineSection()})
+    pump = replace(pump, delivery_line=line or LineSection())
     return lumped_point(pump, operating_point(pump, **point))
 
 

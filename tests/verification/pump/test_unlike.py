@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -21,8 +23,8 @@ THROTTLED = {"delivery_line.kind": "orifice", "delivery_line.volume": "0.5 L"}
 def with_clearances(clearances: dict[int, float], stated: dict[str, str] | None = None) -> PumpDescription:
     """REF90 with radial clearances (m) of single pistons."""
     pump = load_pump("ref90", stated or {})
-    singles = {k: pump.piston.model_copy(update={"radial_clearance": c}) for k, c in clearances.items()}
-    return pump.model_copy(update={"single_pistons": tuple(singles.items())})
+    singles = {k: replace(pump.piston, radial_clearance=c) for k, c in clearances.items()}
+    return replace(pump, single_pistons=tuple(singles.items()))
 
 
 def point(pump: PumpDescription):

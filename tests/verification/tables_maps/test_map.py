@@ -1,15 +1,15 @@
 """Operating maps: what names a point, what is made of its numbers, and what is told between the levels."""
 
-from dataclasses import replace
+from dataclasses import is_dataclass, replace
 from functools import cache
 from itertools import product
 
 import numpy as np
 import pytest
-from pydantic import BaseModel
 
 from reynolds.errors import FilmInputError
 from system.inputs.faults import InputFaults
+from system.inputs.fields import fields_of
 from system.maps.compare import compare
 from system.maps.data import LOSSES, best_points, map_data
 from system.maps.duty import Cycle, duty
@@ -71,9 +71,9 @@ def test_faults_of_points_are_told_once_before_any_is_solved():
 
 
 def numbers_of(model, path=()):
-    for name in type(model).model_fields:
+    for name in fields_of(type(model)):
         value = getattr(model, name)
-        if isinstance(value, BaseModel):
+        if is_dataclass(value):
             yield from numbers_of(value, (*path, name))
         elif isinstance(value, float):
             yield (*path, name), value
@@ -81,7 +81,7 @@ def numbers_of(model, path=()):
 
 def with_number(model, path, value):
     inner = value if len(path) == 1 else with_number(getattr(model, path[0]), path[1:], value)
-    return model.model_copy(update={path[0]: inner})
+    return replace(model, **{path[0]: inner})
 
 
 def test_what_changes_a_point_changes_its_name():
@@ -108,7 +108,7 @@ def test_what_changes_a_point_changes_its_name():
             changed += 1
             assert other_key != key, ".".join(path)
     assert changed > 40
-    same = pump.model_copy(update={"name": "other"})
+    same = replace(pump, name="other")
     assert MapWork(same, solver).key(point) == key
     assert MapWork(pump, solver).key(replace(point, shaft_speed=point.shaft_speed * 1.01)) != key
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from math import inf
 from pathlib import Path
 
@@ -107,9 +108,9 @@ def test_a_turn_keeps_the_length():
 
 def test_shares_move_with_the_pump(tmp_path):
     """A fifth more Coulomb friction at the pistons lifts their least share into the paper's range."""
-    friction = REF90.friction.model_copy(update={"piston_cylinder": 1.2 * REF90.friction.piston_cylinder})
+    friction = replace(REF90.friction, piston_cylinder=1.2 * REF90.friction.piston_cylinder)
     verdicts = []
-    for pump in (REF90, REF90.model_copy(update={"friction": friction})):
+    for pump in (REF90, replace(REF90, friction=friction)):
         result = fig17(_points(tmp_path, pump, Figure.FIG17))
         found = {(one.claim.id, one.reading): one for one in result.judged}
         verdicts.append(found["fig17.piston_cylinder", Reading.WITH_SHEAR].verdict)

@@ -9,7 +9,7 @@ from __future__ import annotations
 import json
 import math
 import pickle
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 
 import numpy as np
 import pytest
@@ -62,12 +62,10 @@ class Thinning:
         hersey = point.viscosity / 0.03 * point.shaft_speed / 220.0 * 35e6 / point.delivery_pressure
         thin = hersey**self.exponent
         films = {
-            "slipper": pump.slipper.model_copy(update={"film_thickness": thin * pump.slipper.film_thickness}),
-            "valve_plate": pump.valve_plate.model_copy(
-                update={"film_thickness": thin * pump.valve_plate.film_thickness}
-            ),
+            "slipper": replace(pump.slipper, film_thickness=thin * pump.slipper.film_thickness),
+            "valve_plate": replace(pump.valve_plate, film_thickness=thin * pump.valve_plate.film_thickness),
         }
-        found = lumped_point(pump.model_copy(update=films), point)
+        found = lumped_point(replace(pump, **films), point)
         clearance = pump.piston.radial_clearance
         mean = Gaps(clearance, films["slipper"].film_thickness, films["valve_plate"].film_thickness)
         return SolvedPoint(found, mean, Gaps(*(0.5 * value for value in asdict(mean).values())))

@@ -1,111 +1,106 @@
-"""One value of a pump file: from TOML to what the description holds, and back; what it should be, in words."""
+"""One value of a file: from TOML to what a section's field holds, and back; what it should be, in words."""
 
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping, Sequence
+import math
+from collections.abc import Sequence
 from enum import Enum
 from pathlib import Path
 from typing import Any
 
-from pydantic.fields import FieldInfo
-
 from system.inputs.faults import nearest_choice, nearest_path
-from system.inputs.fields import (
-    Points,
-    Section,
-    Text,
-    choice_of,
-    dimension_of,
-    layouts_of,
-    tables_of,
-    text_of,
-    whole,
-)
+from system.inputs.fields import FieldType, Points, Section, Text, fields_of
 from system.inputs.point_files import read_rows, wanted_file
 from system.inputs.units import Dimension, QuantityError, format_quantity, parse_quantity, with_point
 
 HERE = Path()
 """Where files are looked for that a built-in pump's own values name: the working directory."""
-_BOUNDS = {"gt": "more than", "ge": "at least", "lt": "less than", "le": "at most"}
 
 
-def read_value(info: FieldInfo, raw: object, folder: Path = HERE) -> object:
-    """Return what an entry of a table means, in SI: a number, a choice, rows of numbers, a path or names.
+def read_value(field: FieldType, raw: object, folder: Path = HERE) -> object:
+    """Return what an entry of a table means, in SI: a number, a choice, rows of numbers, text, a file's table.
 
     Rows may stand in a CSV file, named like any file by its path from the folder. Raises QuantityError (found,
-    expected, nearest) for what the field does not hold.
+    expected, nearest) for what the field does not hold, InputFaults for a file that is none of its kind.
     """
-    dimension, layouts, choice = dimension_of(info), layouts_of(info), choice_of(info)
-    if dimension is not None:
-        return parse_quantity(raw, dimension)
-    if layouts:
-        return read_rows(folder / raw, layouts) if isinstance(raw, str) else listed_rows(raw, layouts)
-    if choice is not None:
-        return _choice(raw, choice)
-    if (text := text_of(info)) is not None:
-        return _text(raw, text, folder)
+    if field.dimension is not None:
+        return parse_quantity(raw, field.dimension)
+    if field.layouts:
+        return read_rows(folder / raw, field.layouts) if isinstance(raw, str) else listed_rows(raw, field.layouts)
+    if field.choice is not None:
+        return _choice(raw, field.choice)
+    if field.text is not None:
+        text = _text(raw, field.text, folder)
+        return field.file.read(text) if field.file is not None and isinstance(text, Path) else text
     if isinstance(raw, bool) or not isinstance(raw, (int, float)):
-        raise QuantityError(repr(raw), wanted(info), with_point(raw) if isinstance(raw, str) else "")
-    return raw
+        raise QuantityError(repr(raw), wanted(field), with_point(raw) if isinstance(raw, str) else "")
+    if not math.isfinite(raw) or (field.whole and raw != int(raw)):
+        raise QuantityError(str(raw), wanted(field))
+    return int(raw) if field.whole else float(raw)
 
 
-def written_value(info: FieldInfo, value: object) -> str:
+def written_value(field: FieldType, value: Any) -> str:
     """Return a value as TOML, so that `read_value` gives it back to the last bit."""
-    dimension, layouts = dimension_of(info), layouts_of(info)
-    if layouts and isinstance(value, tuple):
-        columns = _layout(layouts, value).columns
+    if field.layouts and isinstance(value, tuple):
+        columns = _layout(field.layouts, value).columns
         rows = (", ".join(map(_written_quantity, row, columns)) for row in value)
         return "[" + ", ".join(f"[{row}]" for row in rows) + "]"
-    if tables_of(info) is not None and isinstance(value, tuple):
+    if field.tables is not None and isinstance(value, tuple):
         return "[" + ", ".join(map(_written_table, value)) + "]"
     if isinstance(value, Enum):
         return json.dumps(value.value)
-    if text_of(info) is not None:
-        return json.dumps(value if isinstance(value, tuple) else str(value), ensure_ascii=False)
-    if dimension is not None and isinstance(value, float):
-        return _written_quantity(value, dimension)
+    if field.text is not None:
+        shown = value if isinstance(value, tuple) else str(value.path if field.file is not None else value)
+        return json.dumps(shown, ensure_ascii=False)
+    if field.dimension is not None and isinstance(value, float):
+        return _written_quantity(value, field.dimension)
     return repr(value)
 
 
-def wanted(info: FieldInfo) -> str:
+def wanted(field: FieldType) -> str:
     """Return what a key holds, in words."""
-    dimension, layouts, choice = dimension_of(info), layouts_of(info), choice_of(info)
-    if dimension is not None:
-        return f"{dimension.noun} with its unit, such as '{dimension.example}'"
-    if layouts:
-        return f"{_wanted_rows(layouts)}; or {wanted_file(layouts)}"
-    if choice is not None:
-        return f"one of {_names(choice)}"
-    if (text := text_of(info)) is not None:
-        return text.value
-    return "a whole number" if whole(info) else "a bare number (the value has no unit)"
+    if field.dimension is not None:
+        return f"{field.dimension.noun} with its unit, such as '{field.dimension.example}'"
+    if field.layouts:
+        return f"{_wanted_rows(field.layouts)}; or {wanted_file(field.layouts)}"
+    if field.choice is not None:
+        return f"one of {_names(field.choice)}"
+    if field.text is not None:
+        return field.text.value
+    return "a whole number" if field.whole else "a bare number (the value has no unit)"
 
 
-def bound(info: FieldInfo, limits: Mapping[str, Any]) -> str:
-    """Return the bound that a value broke, in words and with its unit; what is wanted where it broke none."""
-    dimension = dimension_of(info)
-    for short, words in _BOUNDS.items():
-        if short in limits:
-            limit = float(limits[short])
-            shown = f"{limit:g}" if dimension is None else format_quantity(limit, dimension, digits=4)
+def broken_limit(field: FieldType, value: object) -> str:
+    """Return the limit that a value breaks, in words and with its unit; empty where it breaks none."""
+    limits = field.limits
+    if isinstance(value, (tuple, str)):
+        return f"at least {limits.fewest} rows, {wanted(field)}" if len(value) < limits.fewest else ""
+    if not isinstance(value, (int, float)):
+        return ""
+    for words, limit, kept in (
+        ("more than", limits.above, float.__gt__),
+        ("at least", limits.least, float.__ge__),
+        ("less than", limits.below, float.__lt__),
+        ("at most", limits.most, float.__le__),
+    ):
+        if limit is not None and not kept(float(value), float(limit)):
+            shown = f"{limit:g}" if field.dimension is None else format_quantity(limit, field.dimension, digits=4)
             return f"{words} {shown}"
-    if "min_length" in limits:
-        return f"at least {limits['min_length']} rows, {wanted(info)}"
-    return wanted(info)
+    return ""
 
 
-def units_shown(info: FieldInfo) -> str:
+def units_shown(field: FieldType) -> str:
     """Return the example units of a key's columns, such as "mm" or "mm, um"; "-" for what has none."""
-    layouts, dimension = layouts_of(info), dimension_of(info)
-    examples = layouts[0].example if layouts else (dimension.example,) if dimension else ()
+    dimension = field.dimension
+    examples = field.layouts[0].example if field.layouts else (dimension.example,) if dimension else ()
     return ", ".join(example.split(" ", 1)[1] for example in examples) or "-"
 
 
 def _written_table(table: Section) -> str:
-    stated = {key: value for key, value in dict(table).items() if value is not None}
-    fields = type(table).model_fields
-    return "{ " + ", ".join(f"{key} = {written_value(fields[key], value)}" for key, value in stated.items()) + " }"
+    types = fields_of(type(table))
+    stated = {key: value for key in types if (value := getattr(table, key)) is not None}
+    return "{ " + ", ".join(f"{key} = {written_value(types[key], value)}" for key, value in stated.items()) + " }"
 
 
 def listed_rows(raw: object, layouts: tuple[Points, ...]) -> tuple[tuple[float, ...], ...]:

@@ -1,0 +1,48 @@
+"""What is read of a file beside the pump file: tables compare and hash by their numbers, and know their file."""
+
+from __future__ import annotations
+
+import hashlib
+from dataclasses import dataclass, fields
+from functools import cached_property
+from pathlib import Path
+
+from reynolds.numerics.cache import content_key
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class FileTable:
+    """A table of a file: the file's path, and where its numbers come from."""
+
+    path: Path
+    source: str
+
+    @cached_property
+    def content(self) -> str:
+        """Name of all that the table holds, the path left out."""
+        return content_key(*(getattr(self, own.name) for own in fields(self) if own.name != "path"))
+
+    def __eq__(self, other: object) -> bool:
+        """True for a table of the same file with the same numbers."""
+        if not isinstance(other, FileTable):
+            return NotImplemented
+        return (type(self), self.path, self.content) == (type(other), other.path, other.content)
+
+    def __hash__(self) -> int:
+        return hash((self.path, self.content))
+
+    def __repr__(self) -> str:
+        return f"{type(self).__name__}({str(self.path)!r}, {self.content!r})"
+
+
+@dataclass(frozen=True)
+class HashedFile:
+    """A file by its path and a hash of what it holds."""
+
+    path: Path
+    content: str
+
+
+def hashed_file(path: Path) -> HashedFile:
+    """The file as it is now."""
+    return HashedFile(path, hashlib.sha256(path.read_bytes()).hexdigest())
