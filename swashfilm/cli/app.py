@@ -9,7 +9,7 @@ import argparse
 from collections.abc import Sequence
 from typing import Any, NoReturn
 
-from swashfilm.cli import check, doctor, report
+from swashfilm.cli import check, doctor, report, schema
 from swashfilm.console.command import Command
 from swashfilm.console.inputs import COMMAND_LINE
 from swashfilm.console.terminal import show
@@ -45,6 +45,7 @@ COMMANDS: dict[str, Command] = {
         report,
         check,
         doctor,
+        schema,
     )
 }
 

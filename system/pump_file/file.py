@@ -49,8 +49,8 @@ _CHECKS = (
     *BODY_CHECKS,
     *VALUE_CHECKS,
 )
-_VISCOSITIES = ("kinematic_viscosity_40C", "kinematic_viscosity_100C")
-_OF_LAW = ("flow_coefficient", "critical_reynolds")
+GRADE_KEYS = ("kinematic_viscosity_40C", "kinematic_viscosity_100C")
+LAW_KEYS = ("flow_coefficient", "critical_reynolds")
 _TABLES = {name: model for name, own in fields_of(PumpDescription).items() if (model := own.table)}
 
 
@@ -194,22 +194,22 @@ def _file_law(raw: object, table: Mapping[str, object], reading: Reading) -> dic
     field = fields_of(PortsSection)["coefficient_file"]
     found = read_entry("ports.coefficient_file", field, raw, reading)
     if not isinstance(found, FlowCoefficients):
-        reading.faulty |= {f"ports.{key}" for key in _OF_LAW}
+        reading.faulty |= {f"ports.{key}" for key in LAW_KEYS}
         return {}
     law = file_law(found)
-    return {"coefficient_file": found} | {key: getattr(law, key) for key in _OF_LAW if key not in table}
+    return {"coefficient_file": found} | {key: getattr(law, key) for key in LAW_KEYS if key not in table}
 
 
 def _grade_viscosities(grade: object, table: Mapping[str, object], reading: Reading) -> dict[str, float]:
     """Return the two viscosities of an ISO grade in m2/s, or none with the fault noted."""
-    if stated := [key for key in _VISCOSITIES if key in table]:
+    if stated := [key for key in GRADE_KEYS if key in table]:
         reading.fault("oil.grade", f"grade beside {' and '.join(stated)}", "the grade or the two viscosities")
     elif not isinstance(grade, str) or grade not in ISO_GRADES:
-        expected = f"one of {', '.join(ISO_GRADES)}, or {' and '.join(_VISCOSITIES)} in its place"
+        expected = f"one of {', '.join(ISO_GRADES)}, or {' and '.join(GRADE_KEYS)} in its place"
         reading.fault("oil.grade", repr(grade), expected, nearest_choice(str(grade), ISO_GRADES))
     else:
         return asdict(ISO_GRADES[grade])
-    reading.faulty |= {f"oil.{key}" for key in _VISCOSITIES}
+    reading.faulty |= {f"oil.{key}" for key in GRADE_KEYS}
     return {}
 
 

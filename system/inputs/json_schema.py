@@ -1,0 +1,105 @@
+"""JSON Schemas (draft 2020-12) of files, from the sections that read them: by these an editor checks keys."""
+
+from __future__ import annotations
+
+import inspect
+from typing import Any
+
+from system.inputs.fields import FieldType, Points, Text, fields_of
+from system.inputs.section_reader import ABSOLUTE
+from system.inputs.units import Dimension
+
+DRAFT = "https://json-schema.org/draft/2020-12/schema"
+QUANTITY = r"^\s*[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d{1,3})?\s*[^\s\d.,].*$"
+"""A number and a unit; which units measure a key is for the program."""
+Schema = dict[str, Any]
+
+
+def file_schema(title: str, schema: Schema) -> Schema:
+    """Return the schema of a file with its title and draft."""
+    return {"$schema": DRAFT, "title": title, **schema}
+
+
+def section_schema(model: type[Any], *, complete: bool = True) -> Schema:
+    """Return the schema of a table; with `complete` its required keys are required.
+
+    A pressure may be stated as KEY or as KEY_abs.
+    """
+    properties: Schema = {}
+    required: list[str] = []
+    either: list[Schema] = []
+    for key, own in fields_of(model).items():
+        properties[key] = field_schema(own)
+        if own.dimension is Dimension.PRESSURE:
+            properties[key + ABSOLUTE] = properties[key]
+            names = [key, key + ABSOLUTE]
+            exactly = {"oneOf": [{"required": [name]} for name in names]}
+            either.append(exactly if own.required and complete else {"not": {"required": names}})
+        elif own.required and complete:
+            required.append(key)
+    found: Schema = {
+        "type": "object",
+        "description": described(model),
+        "properties": properties,
+        "additionalProperties": False,
+    }
+    return found | ({"required": required} if required else {}) | ({"allOf": either} if either else {})
+
+
+def described(model: type[Any]) -> str:
+    """Return the docstring of a section in one line, without the table's name ahead of it."""
+    text = " ".join((inspect.getdoc(model) or "").split())
+    return text.partition("]: ")[2] or text
+
+
+def field_schema(own: FieldType) -> Schema:
+    """Return the schema of one key."""
+    if own.tables is not None:
+        return {"type": "array", "items": section_schema(own.tables)}
+    if own.table is not None:
+        return section_schema(own.table)
+    return _value_schema(own) | ({"description": words} if (words := _words(own)) else {})
+
+
+def quantity_schema(dimension: Dimension) -> Schema:
+    """Return the schema of a quantity with its unit."""
+    return {"type": "string", "pattern": QUANTITY, "examples": [dimension.example]}
+
+
+def _value_schema(own: FieldType) -> Schema:
+    if own.dimension is not None:
+        return quantity_schema(own.dimension)
+    if own.layouts:
+        rows = [_rows_schema(layout, own.limits.fewest) for layout in own.layouts]
+        return {"anyOf": [{"type": "string"}, *rows]}
+    if own.choice is not None:
+        return {"enum": [member.value for member in own.choice]}
+    if own.text is Text.NAMES:
+        return {"type": "array", "items": {"type": "string", "minLength": 1}, "minItems": 1}
+    if own.text is not None:
+        return {"type": "string", "minLength": 1}
+    limits = own.limits
+    bounds = {
+        "exclusiveMinimum": limits.above,
+        "minimum": limits.least,
+        "exclusiveMaximum": limits.below,
+        "maximum": limits.most,
+    }
+    kind = "integer" if own.whole else "number"
+    return {"type": kind, **{key: bound for key, bound in bounds.items() if bound is not None}}
+
+
+def _rows_schema(layout: Points, fewest: int) -> Schema:
+    row = {
+        "type": "array",
+        "prefixItems": [quantity_schema(column) for column in layout.columns],
+        "minItems": len(layout.columns),
+        "items": False,
+    }
+    return {"type": "array", "items": row, "minItems": fewest, "examples": [[list(layout.example)]]}
+
+
+def _words(own: FieldType) -> str:
+    """Return what a key holds: the comment behind its field, and the noun of its quantity."""
+    noun = own.dimension.noun if own.dimension is not None else ""
+    return "; ".join(part for part in (noun, own.meaning) if part)

@@ -1,0 +1,80 @@
+"""JSON Schemas of the files: every example holds to its own, and a wrong key does not."""
+
+from __future__ import annotations
+
+import copy
+import json
+import tomllib
+from pathlib import Path
+
+import pytest
+from jsonschema import Draft202012Validator
+
+from swashfilm.cli.app import run_command
+from swashfilm.cli.schema import SCHEMAS, schema_of
+from system.inputs.fields import fields_of
+from system.pump_file.file import load_pump, resolved_toml
+
+ROOT = Path(__file__).parents[3]
+FILES = {
+    "pump": [*ROOT.glob("system/description/pumps/*.toml"), *ROOT.glob("examples/pumps/*.toml")],
+}
+VALIDATORS = {kind: Draft202012Validator(schema_of(kind)) for kind in SCHEMAS}
+EVERY = [(kind, path) for kind, paths in FILES.items() for path in sorted(paths)]
+
+
+def faults(kind, tables):
+    return [
+        f"{'.'.join(map(str, one.absolute_path))}: {one.message}" for one in VALIDATORS[kind].iter_errors(tables)
+    ]
+
+
+@pytest.mark.parametrize("kind", SCHEMAS)
+def test_the_command_prints_a_schema(kind, capsys):
+    assert run_command(["schema", kind]) == 0
+    schema = json.loads(capsys.readouterr().out)
+    Draft202012Validator.check_schema(schema)
+    assert schema["$schema"].endswith("2020-12/schema")
+
+
+@pytest.mark.parametrize(
+    ("kind", "path"), EVERY, ids=[f"{kind}-{path.parent.name}-{path.stem}" for kind, path in EVERY]
+)
+def test_every_example_holds_to_its_schema(kind, path):
+    assert faults(kind, tomllib.loads(path.read_text("utf-8"))) == []
+
+
+@pytest.mark.parametrize("kind", SCHEMAS)
+def test_a_wrong_key_does_not(kind):
+    tables = tomllib.loads(FILES[kind][0].read_text("utf-8"))
+    for name, table in tables.items():
+        if isinstance(table, dict):
+            wrong = copy.deepcopy(tables)
+            wrong[name]["no_such_key"] = 1
+            assert faults(kind, wrong), name
+    assert faults(kind, tables | {"no_such_table": {}})
+
+
+def test_a_pump_file_is_held_to_quantities_choices_and_required_keys():
+    tables = tomllib.loads(resolved_toml(load_pump("ref90")))
+    assert faults("pump", tables) == []
+
+    def with_value(table, key, value):
+        wrong = copy.deepcopy(tables)
+        wrong.setdefault(table, {})[key] = value
+        return faults("pump", wrong)
+
+    assert with_value("pump", "piston_diameter", 22)
+    assert with_value("pump", "piston_diameter", "22")
+    assert with_value("pump", "pistons", 2)
+    assert with_value("retainer", "kind", "glue")
+    assert with_value("oil", "grade", "ISO VG 46")  # beside the two viscosities
+    assert not with_value("piston", "3", {"radial_clearance": "20 um"})
+    del tables["piston"]["mass"]
+    assert faults("pump", tables) == ["piston: 'mass' is a required property"]
+
+
+def test_comments_of_fields_are_descriptions():
+    from system.description.pump import PumpSection
+
+    assert fields_of(PumpSection)["pitch_radius"].meaning == "of the ball centres at zero swash angle"
