@@ -7,8 +7,7 @@ film, faces held or sliding, and faces that pressures beside the film press on, 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
-from functools import lru_cache
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import numpy as np
@@ -17,7 +16,6 @@ from numpy.typing import NDArray
 from reynolds.bodies.chart import Chart
 from reynolds.bodies.elasticity import Elastic
 from reynolds.bodies.mesh import BodyMesh
-from reynolds.bodies.mesh_file import body_from_file
 from reynolds.bodies.supports import Supports
 from reynolds.bodies.wall import Body
 from reynolds.errors import FilmInputError
@@ -27,14 +25,15 @@ FILM, HELD, SLIDING, CHAMBER, POCKET = "film", "held", "sliding", "chamber", "po
 
 @dataclass(frozen=True)
 class OwnMesh:
-    """A mesh file, what a coordinate of one means in it (m), and names of its faces by what they are for.
+    """A mesh of a file (m), and names of its faces by what they are for; `content`: a hash of what the file held.
 
     film: under the film; held: held fast; sliding: held across itself; pressed: (name of a pressure, face), such
     as ("pocket", "floor").
     """
 
     path: Path
-    unit: float
+    body: BodyMesh = field(compare=False, repr=False)
+    content: str = ""
     film: str = FILM
     held: tuple[str, ...] = ()
     sliding: tuple[str, ...] = ()
@@ -45,24 +44,14 @@ class OwnMesh:
         """All faces that it names."""
         return self.film, *self.held, *self.sliding, *(face for _, face in self.pressed)
 
-    def mesh(self) -> BodyMesh:
-        """The mesh in metres, by the file's own names; raises FilmInputError as `body_from_file`."""
-        return _read(self.path, self.unit, self.path.stat().st_mtime_ns if self.path.is_file() else 0)
-
-
-@lru_cache(maxsize=16)
-def _read(path: Path, unit: float, changed: int) -> BodyMesh:
-    """The mesh of a file as it was when last changed (ns)."""
-    return body_from_file(path, unit)
-
 
 def own_body(own: OwnMesh, elastic: Elastic, chart: Chart) -> Body:
     """The part of a user's mesh, its face under the film where the chart has it.
 
     Its faces `film` and those of pressures go by these names. With nothing held it is a free body (inertia
-    relief). Raises FilmInputError as `body_from_file`, and for a face that the mesh has not.
+    relief). Raises FilmInputError for a face that the mesh has not.
     """
-    mesh = own.mesh()
+    mesh = own.body
     if lost := [name for name in own.named if name not in mesh.face_names]:
         raise FilmInputError(f"mesh {own.path}", f"no face {', '.join(lost)}", f"of {', '.join(mesh.face_names)}")
     faces = mesh.mesh.boundaries

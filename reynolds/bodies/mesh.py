@@ -36,6 +36,11 @@ class BodyMesh:
         return tuple(sorted(self.mesh.boundaries or {}))
 
 
+def scaled(body: BodyMesh, unit: float) -> BodyMesh:
+    """Return the body with its places times `unit`: a mesh in units of so many metres, in metres."""
+    return replace(body, mesh=replace(body.mesh, doflocs=unit * body.mesh.doflocs))
+
+
 def block(
     size: tuple[float, float, float],
     cells: tuple[int, int, int],

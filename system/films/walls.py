@@ -10,6 +10,7 @@ from gaps.walls.pair import BoreWalls, PlateWalls
 from gaps.walls.parts import BushingPart, PistonPart, PlatePart, SlipperPart
 from gaps.walls.user_mesh import CHAMBER, FILM, HELD, POCKET, SLIDING, OwnMesh
 from reynolds.bodies.elasticity import Elastic
+from reynolds.bodies.mesh import scaled
 from system.description.assumptions import Taken
 from system.description.parts import BodySection
 from system.description.pump import PumpDescription
@@ -107,7 +108,7 @@ def block_walls(pump: PumpDescription, elastic: Materials, taken: Taken) -> Plat
 def own_mesh(part: str, body: BodySection | None, taken: Taken) -> OwnMesh | None:
     """The user's mesh of a part; a name that its table leaves out is the mesh's face of that name, if it has one.
 
-    None where no mesh is stated. Raises FilmInputError for a file that holds no body.
+    None where no mesh is stated.
     """
     if body is None:
         return None
@@ -119,8 +120,9 @@ def own_mesh(part: str, body: BodySection | None, taken: Taken) -> OwnMesh | Non
 
 def by_names(body: BodySection) -> OwnMesh:
     """The mesh of a table with the faces that it names or that go by the keys' own names."""
-    bare = OwnMesh(body.mesh.path, body.unit.metres)
-    faces = bare.mesh().face_names
+    read = body.mesh
+    bare = OwnMesh(read.path, scaled(read.body, body.unit.metres), f"{read.content} {body.unit.value}")
+    faces = bare.body.face_names
 
     def usual(name: str) -> tuple[str, ...]:
         return (name,) if name in faces else ()

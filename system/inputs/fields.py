@@ -16,7 +16,7 @@ from pathlib import Path
 from types import NoneType, UnionType
 from typing import Annotated, Any, ClassVar, Protocol, TypeVar, Union, get_args, get_origin, get_type_hints
 
-from system.inputs.coefficients.file_table import HashedFile, hashed_file
+from system.inputs.body_file import BodyFile, read_body_file
 from system.inputs.coefficients.flow_files import FlowCoefficients, read_flow_coefficients
 from system.inputs.coefficients.loss_files import LossFactors, read_groove_losses, read_step_losses
 from system.inputs.units import Dimension
@@ -136,7 +136,7 @@ Webs = Annotated[
     Points((Dimension.ANGLE,) * 2, ("middle", "width"), ("90 deg", "4 deg")),
     Limits(fewest=1),
 ]
-MeshFile = Annotated[HashedFile, FromFile(hashed_file)]
+MeshFile = Annotated[BodyFile, FromFile(read_body_file)]
 FlowFile = Annotated[FlowCoefficients, FromFile(read_flow_coefficients)]
 StepFile = Annotated[LossFactors, FromFile(read_step_losses)]
 GrooveFile = Annotated[LossFactors, FromFile(read_groove_losses)]

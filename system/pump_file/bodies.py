@@ -139,15 +139,11 @@ BODY_CHECKS = (
 
 def _fits(path: str, body: BodySection, place: _Place, wanted: tuple[str, ...]) -> Iterator[Finding]:
     """All that is wrong with a mesh at its place; `wanted`: faces without which a load or a hold is missing."""
-    try:
-        own = by_names(body)
-        names = own.mesh().face_names
-    except FilmInputError as reason:
-        yield Fault(f"{path}.mesh", reason.found, reason.expected)
-        return
+    own = by_names(body)
+    names = own.body.face_names
     yield from _names(path, body, own, names)
     try:
-        space = body_space(own.mesh())
+        space = body_space(own.body)
     except FilmInputError as reason:
         yield Fault(f"{path}.mesh", reason.found, reason.expected)
         return

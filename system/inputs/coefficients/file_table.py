@@ -1,8 +1,7 @@
-"""What is read of a file beside the pump file: tables compare and hash by their numbers, and know their file."""
+"""Tables of numbers that are read from a file: they compare and hash by their numbers, and know their file."""
 
 from __future__ import annotations
 
-import hashlib
 from dataclasses import dataclass, fields
 from functools import cached_property
 from pathlib import Path
@@ -33,16 +32,3 @@ class FileTable:
 
     def __repr__(self) -> str:
         return f"{type(self).__name__}({str(self.path)!r}, {self.content!r})"
-
-
-@dataclass(frozen=True)
-class HashedFile:
-    """A file by its path and a hash of what it holds."""
-
-    path: Path
-    content: str
-
-
-def hashed_file(path: Path) -> HashedFile:
-    """The file as it is now."""
-    return HashedFile(path, hashlib.sha256(path.read_bytes()).hexdigest())

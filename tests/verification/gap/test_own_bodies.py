@@ -83,6 +83,11 @@ def unrolled(around: int, along: int = 2) -> FilmSpace:
     return film_space(rectangle(size, (around, along), cell=Cell.QUADRILATERAL, periodic_x=True))
 
 
+def read(path: Path, unit: float, **names) -> OwnMesh:
+    """A mesh file with a coordinate of one being `unit` metres."""
+    return OwnMesh(path, body_from_file(path, unit), **names)
+
+
 def tetrahedra(body: BodyMesh, at: dict[str, tuple[float, float]]) -> tuple[skfem.Mesh, Faces]:
     """A round body cut into tetrahedra, its faces all of whose corners have a radius (from, to) m."""
     mesh = skfem.MeshHex.from_mesh(body.mesh).to_meshtet()
@@ -103,7 +108,7 @@ def test_lame_on_a_mesh_of_tetrahedra(tmp_path, validation, refine):
     def solve(n: int) -> float:
         near = {"bore": (0.99 * a, 1.01 * a), "web": (0.99 * b, 1.01 * b)}
         mesh, faces = tetrahedra(ring((a, b), GUIDE, (n, 8 * n, 1)), near)
-        own = OwnMesh(written(tmp_path / f"{n}.msh", mesh, faces), 1e-3, film="bore", sliding=("web",))
+        own = read(written(tmp_path / f"{n}.msh", mesh, faces), 1e-3, film="bore", sliding=("web",))
         film = unrolled(12 * n)
         body = bushing_body(BushingPart(2.0 * a, b - a, GUIDE, BRONZE, own))
         return 1e6 * float((part_wall(body, film, folder=tmp_path).matrix @ np.full(film.size, 30e6)).mean())
@@ -150,7 +155,7 @@ def test_part_written_and_read_back_is_the_same_part(kind, suffix, tmp_path):
     built = build(part, (3, 24, 1))
     faces = {name: built.mesh.mesh.boundaries[name] for name in names}
     place = written(tmp_path / f"part{suffix}", built.mesh.mesh, faces, mirrored=mirrored)
-    own = OwnMesh(place, 1e-3, **MEANT[kind])
+    own = read(place, 1e-3, **MEANT[kind])
     film = unrolled(24, 4)
     if kind in ("slipper", "swash plate"):
         film = film_space(slipper_mesh(LANDS, (3, 24)), pockets=["pocket"])
@@ -173,7 +178,7 @@ def thin_quarter(place: Path, *, over: bool = False) -> OwnMesh:
         "held": np.flatnonzero(outside & (np.abs(facet[2] + 10e-3) < 1e-9).all(axis=0)),
     }
     file = written(place / "plate.msh", left, faces, mirrored=(1, 1, -1 if over else 1))
-    return OwnMesh(file, 1e-3, held=("held",))
+    return read(file, 1e-3, held=("held",))
 
 
 @pytest.mark.parametrize("over", [False, True])
@@ -197,7 +202,7 @@ def oblong(place: Path, angle: float) -> OwnMesh:
     built = ring((BORE, OUTSIDE), GUIDE, (1, 12, 2)).mesh.boundaries
     faces = {"film": built["inner"], "held": built["outer"], "chamber": built["bottom"]}
     pressed = (("chamber", "chamber"),)
-    return OwnMesh(written(place / f"{angle:.3f}.vtu", turned, faces), 1e-3, held=("held",), pressed=pressed)
+    return read(written(place / f"{angle:.3f}.vtu", turned, faces), 1e-3, held=("held",), pressed=pressed)
 
 
 @pytest.mark.parametrize(("columns", "tolerance"), [(2.0, 1e-9), (1.5, 0.03)])
@@ -300,12 +305,11 @@ def test_meshes_that_are_no_body(change, wanted, tmp_path):
 
 
 def test_faces_that_a_mesh_has_not(tmp_path):
-    own = OwnMesh(block(tmp_path, ""), 1.0, film="top", held=("bottom",))
+    own = read(block(tmp_path, ""), 1.0, film="top", held=("bottom",))
     with pytest.raises(FilmInputError, match=r"no face top, bottom.*of film"):
         plate_body(PlatePart(0.0, 1.0, 1.0, STEEL, own=own))
-    nowhere = OwnMesh(tmp_path / "nowhere.msh", 1.0)
     with pytest.raises(FilmInputError, match=r"no file .*nowhere\.msh"):
-        plate_body(PlatePart(0.0, 1.0, 1.0, STEEL, own=nowhere))
+        body_from_file(tmp_path / "nowhere.msh")
 
 
 def radius_of(places: Array) -> Array:
