@@ -20,8 +20,8 @@ def file_schema(title: str, schema: Schema) -> Schema:
     return {"$schema": DRAFT, "title": title, **schema}
 
 
-def section_schema(model: type[Any], *, complete: bool = True) -> Schema:
-    """Return the schema of a table; with `complete` its required keys are required.
+def section_schema(model: type[Any], *, complete: bool = True, inner_complete: bool = True) -> Schema:
+    """Return the schema of a table; with `complete` its required keys are required, so of the tables in it.
 
     A pressure may be stated as KEY or as KEY_abs.
     """
@@ -29,7 +29,7 @@ def section_schema(model: type[Any], *, complete: bool = True) -> Schema:
     required: list[str] = []
     either: list[Schema] = []
     for key, own in fields_of(model).items():
-        properties[key] = field_schema(own)
+        properties[key] = field_schema(own, complete=inner_complete)
         if own.dimension is Dimension.PRESSURE:
             properties[key + ABSOLUTE] = properties[key]
             names = [key, key + ABSOLUTE]
@@ -52,12 +52,12 @@ def described(model: type[Any]) -> str:
     return text.partition("]: ")[2] or text
 
 
-def field_schema(own: FieldType) -> Schema:
-    """Return the schema of one key."""
+def field_schema(own: FieldType, *, complete: bool = True) -> Schema:
+    """Return the schema of one key; with `complete` the required keys of a table are required."""
     if own.tables is not None:
         return {"type": "array", "items": section_schema(own.tables)}
     if own.table is not None:
-        return section_schema(own.table)
+        return section_schema(own.table, complete=complete, inner_complete=complete)
     return _value_schema(own) | ({"description": words} if (words := _words(own)) else {})
 
 

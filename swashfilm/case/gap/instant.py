@@ -18,11 +18,12 @@ from swashfilm.case.gap.position import (
     read_position,
     touching,
 )
-from swashfilm.case.gap.pump import CasePump, operating_rows, own_rows, read_case_pump
+from swashfilm.case.gap.pump import CasePump, own_rows, read_case_pump
 from system.description.gap import Gap
 from system.films.parts import FloatingParts, floating_parts
 from system.films.problems import RIGID
 from system.films.rotor import Rotor, rotor
+from system.inputs.section_writer import section_rows
 from system.inputs.toml_table import Table, quoted
 from system.inputs.units import Dimension, format_quantity
 from system.pump.chamber.layout import CAVITY_PRESSURE
@@ -142,8 +143,9 @@ def _resolved(case: GapCase, pump: CasePump) -> str:
     stated = pressures[0] if len(pressures) == 1 else f"[{', '.join(pressures)}]"
     rows = [
         f"format = {FORMAT}", "", "[film]", f'gap = "{case.gap.value}"', f"pump = {quoted(pump.source)}",
-        f'shaft_angle = "{angle}"', f"chamber_pressure = {stated}", *own_rows(pump.stated), "",
-        *operating_rows(case.rotor.point), "", "[physics]", *physics_rows(case.physics), "", *_stated_rows(case),
+        f'shaft_angle = "{angle}"', f"chamber_pressure = {stated}", *own_rows(pump.stated),
+        *section_rows("operating", pump.rotor.pump.operating), "",
+        "[physics]", *physics_rows(case.physics), "", *_stated_rows(case),
     ]  # fmt: skip
     return "\n".join(rows) + "\n"
 

@@ -9,12 +9,14 @@ from itertools import chain
 from pathlib import Path
 from typing import Any
 
+from system.description.pump import PumpDescription
 from system.films.rotor import Rotor, rotor
 from system.inputs.faults import Fault, InputFaults
-from system.inputs.toml_table import Table, quoted
-from system.inputs.units import Dimension, format_quantity
+from system.inputs.fields import fields_of
+from system.inputs.json_schema import Schema, section_schema
+from system.inputs.toml_table import Table
 from system.points.film_effects import effects_in_films
-from system.pump.operating import OperatingPoint, operating_point
+from system.pump.operating import operating_point
 from system.pump_file.file import builtin_pumps, load_pump
 
 OPERATING = "operating"
@@ -68,18 +70,15 @@ def own_rows(stated: Mapping[str, Any]) -> list[str]:
     return ["", "[pump]", *(f"{path} = {json.dumps(value)}" for path, value in stated.items())]
 
 
-def operating_rows(point: OperatingPoint) -> list[str]:
-    """The table [operating] of a resolved case."""
-    rows = ["[operating]"]
-    for key, value, dimension in (
-        ("speed", point.shaft_speed, Dimension.ANGULAR_SPEED),
-        ("pressure", point.delivery_pressure, Dimension.PRESSURE),
-        ("inlet_pressure", point.inlet_pressure, Dimension.PRESSURE),
-        ("case_pressure", point.case_pressure, Dimension.PRESSURE),
-        ("temperature", point.temperature, Dimension.TEMPERATURE),
-    ):
-        rows.append(f"{key} = {quoted(format_quantity(value, dimension))}")
-    return [*rows, f"displacement_ratio = {point.displacement_ratio!r}"]
+def pump_tables_schema() -> Schema:
+    """JSON Schemas of the tables [pump] and [operating] of a case, by name: any key of a pump file."""
+    tables = {
+        name: section_schema(own.table, complete=False, inner_complete=False)
+        for name, own in fields_of(PumpDescription).items()
+        if own.table is not None
+    }
+    operating = tables.pop(OPERATING)
+    return {"pump": {"type": "object", "properties": tables, "additionalProperties": False}, OPERATING: operating}
 
 
 def _flat(tables: Mapping[str, Any], above: str = "") -> Iterator[tuple[str, Any]]:

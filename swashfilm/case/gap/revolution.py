@@ -10,9 +10,10 @@ from gaps.revolution.schedule import Accuracy
 from swashfilm.case.gap.chamber_pressure import ChamberPressure, read_chamber_pressure
 from swashfilm.case.gap.instant import FORMAT
 from swashfilm.case.gap.physics import physics_rows, read_physics
-from swashfilm.case.gap.pump import CasePump, operating_rows, own_rows, read_case_pump
+from swashfilm.case.gap.pump import CasePump, own_rows, read_case_pump
 from system.description.gap import Gap
 from system.films.rotor import Rotor
+from system.inputs.section_writer import section_rows
 from system.inputs.toml_table import Table, quoted
 from system.points.floating_gaps import MARCHED, USUAL, FloatingOptions, usual_finer
 
@@ -130,8 +131,8 @@ def _resolved(case: RevolutionCase, pump: CasePump) -> str:
     options = case.options
     rows = [
         f"format = {FORMAT}", "", "[film]", f'gap = "{case.gap.value}"', f"pump = {quoted(pump.source)}",
-        "revolution = true", f"chamber_pressure = {case.chamber_pressure.text}", *own_rows(pump.stated), "",
-        *operating_rows(case.rotor.point), "", "[revolution]", f"steps = {options.steps}",
+        "revolution = true", f"chamber_pressure = {case.chamber_pressure.text}", *own_rows(pump.stated),
+        *section_rows("operating", pump.rotor.pump.operating), "", "[revolution]", f"steps = {options.steps}",
         f"tolerance = {options.accuracy.step!r}  # of the least film, a step's error",
         f"finer = {options.finer!r}  # times the usual cells each way",
         f"films = {options.steps // options.keep}", *physics_rows(options.physics),

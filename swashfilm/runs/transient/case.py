@@ -2,16 +2,21 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
+from typing import Annotated
 
 import numpy as np
 
-from swashfilm.case.gap.pump import CasePump, operating_rows, own_rows, read_case_pump
+from swashfilm.case.gap.pump import CasePump, own_rows, pump_tables_schema, read_case_pump
 from system.inputs.faults import InputFaults
-from system.inputs.toml_table import Table, fault_lines, quoted, read_toml
-from system.inputs.units import Dimension, QuantityError, format_quantity, parse_quantity
+from system.inputs.fields import Points, Positive, Text
+from system.inputs.json_schema import Schema, file_schema, quantity_schema, section_schema
+from system.inputs.section_reader import Reading, read_section
+from system.inputs.section_writer import section_rows
+from system.inputs.toml_table import Table, fault_lines, read_toml
+from system.inputs.units import TURN, Dimension, QuantityError, format_quantity, parse_quantity
 from system.multibody.kinematics import swash_angle
 from system.multibody.transient.solver import ControlPressure, TransientCase, Transition
 from system.pump.chamber_kinds import kinds
@@ -21,6 +26,21 @@ from system.pump.lumped import full_drive
 FORMAT = 1
 MOST_TURNS = 1000.0
 EXAMPLE = '"2.5 MPa", or rows such as [["0 s", "2.5 MPa"], ["50 ms", "0.6 MPa"]]'
+PressureRows = Annotated[
+    tuple[tuple[float, float], ...],
+    Points((Dimension.TIME, Dimension.PRESSURE), ("time", "pressure"), ("50 ms", "0.6 MPa")),
+]
+
+
+@dataclass(frozen=True, kw_only=True)
+class TransientSection:
+    """[transient]: displacement of a pump in time."""
+
+    pump: Annotated[str, Text.NAME]  # a built-in pump, or a pump file beside the case
+    end: Annotated[float, Dimension.TIME, Positive]
+    control_pressure: PressureRows  # one value, or rows from 0 s on
+    course: Transition = Transition.STEP  # between the rows
+    step: Annotated[float, Dimension.ANGLE, Positive] | None = None  # of the shaft
 
 
 @dataclass(frozen=True)
@@ -41,53 +61,67 @@ def load_transient(path: Path) -> StatedTransient:
         top.fault("format", repr(tables.get("format")), f"format = {FORMAT}")
     table = top.table("transient", needed="with pump, end and control_pressure")
     pump = read_case_pump(top, table, path.parent) if table else None
-    asked = _asked(table, pump) if table else None
+    section = _section(table) if table else None
     top.close()
-    if top.faults or asked is None or pump is None:
+    if table and section and pump:
+        _hold_pump(table, pump, section)
+    if top.faults or section is None or pump is None:
         raise InputFaults(str(path), top.faults, fault_lines(text, top.faults))
-    return StatedTransient(path.stem, text, _resolved(asked, pump), asked)
+    return StatedTransient(path.stem, text, _resolved(section, pump), _asked(section, pump))
 
 
-def _asked(table: Table, pump: CasePump | None) -> TransientCase | None:
-    end = table.positive("end", Dimension.TIME)
-    step = None if table.get("step") is None else table.positive("step", Dimension.ANGLE)
-    course = table.choice("course", Transition, Transition.STEP)
-    schedule = None if course is None else _schedule(table, course)
-    table.close()
-    if pump is None:
-        return None
-    _hold_pump(table, pump, end, schedule)
-    if end is None or schedule is None:
-        return None
-    return TransientCase(pump.rotor.pump, pump.rotor.point, schedule, end, step)
+def transient_schema() -> Schema:
+    """Return the JSON Schema of a transient case."""
+    table = section_schema(TransientSection)
+    rows = table["properties"]["control_pressure"]
+    table["properties"]["control_pressure"] = {"anyOf": [quantity_schema(Dimension.PRESSURE), rows]}
+    properties = {"format": {"const": FORMAT}, "transient": table, **pump_tables_schema()}
+    return file_schema(
+        "Swashfilm transient",
+        {
+            "type": "object",
+            "properties": properties,
+            "required": ["format", "transient"],
+            "additionalProperties": False,
+        },
+    )
 
 
-def _schedule(table: Table, course: Transition) -> ControlPressure | None:
-    """The control pressure; None with its faults told."""
-    raw = table.get("control_pressure")
+def _section(table: Table) -> TransientSection:
+    """The table as its section; with faults, one that has the good values only."""
+    special = {"transient.control_pressure": _control_pressure, "transient.pump": lambda raw, *_: {"pump": raw}}
+    reading = Reading(special=special, faults=table.faults, faulty={"transient.pump"})
+    return read_section("transient", TransientSection, table.values, reading)
+
+
+def _control_pressure(raw: object, _: Mapping[str, object], reading: Reading) -> Mapping[str, object]:
+    """The rows of the control pressure; none with the faults noted."""
+    key = "transient.control_pressure"
     rows = [["0 s", raw]] if isinstance(raw, str) else raw
     if not isinstance(rows, list) or not rows or not all(isinstance(row, list) and len(row) == 2 for row in rows):
-        table.fault("control_pressure", "no such key" if raw is None else repr(raw), EXAMPLE)
-        return None
+        reading.fault(key, repr(raw), EXAMPLE)
+        return {}
     read = []
     for number, row in enumerate(rows):
         try:
-            read.append([parse_quantity(row[0], Dimension.TIME), parse_quantity(row[1], Dimension.PRESSURE)])
+            read.append((parse_quantity(row[0], Dimension.TIME), parse_quantity(row[1], Dimension.PRESSURE)))
         except QuantityError as reason:
-            table.fault(f"control_pressure[{number}]", reason.found, reason.expected, reason.nearest)
-    if len(read) < len(rows):
-        return None
-    times, values = np.array(read).T
-    if times[0] != 0.0 or np.any(np.diff(times) <= 0.0):
-        table.fault(
-            "control_pressure", f"times {', '.join(str(row[0]) for row in rows)}", "times that rise from 0 s"
-        )
-        return None
-    return ControlPressure(times, values, course)
+            reading.fault(f"{key}[{number}]", reason.found, reason.expected, reason.nearest)
+            reading.faulty.add(key)
+    times = [time for time, _ in read]
+    if len(read) == len(rows) and (times[0] != 0.0 or np.any(np.diff(times) <= 0.0)):
+        reading.fault(key, f"times {', '.join(str(row[0]) for row in rows)}", "times that rise from 0 s")
+    return {"control_pressure": tuple(read)}
 
 
-def _hold_pump(table: Table, pump: CasePump, end: float | None, schedule: ControlPressure | None) -> None:
-    """Tell what of pump and point no transient can have."""
+def _asked(section: TransientSection, pump: CasePump) -> TransientCase:
+    times, values = np.array(section.control_pressure).T
+    schedule = ControlPressure(times, values, section.course)
+    return TransientCase(pump.rotor.pump, pump.rotor.point, schedule, section.end, section.step)
+
+
+def _hold_pump(table: Table, pump: CasePump, section: TransientSection) -> None:
+    """Note what of pump and point no transient can have."""
     whole, point = pump.rotor.pump, pump.rotor.point
     if not kinds(whole).alike:
         table.fault("pump", "chambers that differ", "chambers that are alike")
@@ -97,26 +131,16 @@ def _hold_pump(table: Table, pump: CasePump, end: float | None, schedule: Contro
         found = f"{format_quantity(start, Dimension.ANGLE, digits=4)} at the start"
         limit = f"at least [swash_plate] angle_min, {format_quantity(stop, Dimension.ANGLE, digits=4)}"
         table.fault("pump (operating.displacement_ratio)", found, limit)
-    if end is not None and end * point.shaft_speed > MOST_TURNS * 2.0 * np.pi:
+    if getattr(section, "end", 0.0) * point.shaft_speed > MOST_TURNS * TURN:
         table.fault("end", str(table.values["end"]), f"at most {MOST_TURNS:g} turns of the shaft")
-    if schedule is not None and whole.actuator.area is None and schedule.values.max() <= point.case_pressure:
-        found = f"at most {format_quantity(float(schedule.values.max()), Dimension.PRESSURE, digits=4)}"
+    largest = max((value for _, value in getattr(section, "control_pressure", ())), default=np.inf)
+    if whole.actuator.area is None and largest <= point.case_pressure:
+        found = f"at most {format_quantity(largest, Dimension.PRESSURE, digits=4)}"
         table.fault("control_pressure", found, "more than the case's pressure, or [pump.actuator] area")
 
 
-def _resolved(asked: TransientCase, pump: CasePump) -> str:
+def _resolved(section: TransientSection, pump: CasePump) -> str:
     """A case file that gives this very case."""
-    schedule = asked.control_pressure
-    rows = ", ".join(
-        f"[{quoted(format_quantity(float(time), Dimension.TIME))}, "
-        f"{quoted(format_quantity(float(value), Dimension.PRESSURE))}]"
-        for time, value in zip(schedule.times, schedule.values, strict=True)
-    )
-    stated: list[Any] = [
-        f"format = {FORMAT}", "", "[transient]", f"pump = {quoted(pump.source)}",
-        f"end = {quoted(format_quantity(asked.end, Dimension.TIME))}", f"control_pressure = [{rows}]",
-        f"course = {quoted(schedule.course.value)}",
-    ]  # fmt: skip
-    if asked.step is not None:
-        stated.append(f"step = {quoted(format_quantity(asked.step, Dimension.ANGLE))}")
-    return "\n".join([*stated, *own_rows(pump.stated), "", *operating_rows(pump.rotor.point)]) + "\n"
+    rows = section_rows("transient", replace(section, pump=pump.source))
+    operating = section_rows("operating", pump.rotor.pump.operating)
+    return "\n".join([f"format = {FORMAT}", *rows, *own_rows(pump.stated), *operating]) + "\n"

@@ -10,8 +10,9 @@ import pandas
 import pytest
 
 from swashfilm.cli.app import run_command
-from swashfilm.runs.transient.case import load_transient
+from swashfilm.runs.transient.case import TransientSection, load_transient
 from system.inputs.faults import InputFaults
+from system.inputs.fields import fields_of
 
 ROOT = Path(__file__).parents[3]
 EXAMPLE = ROOT / "examples" / "transients" / "destroke.toml"
@@ -127,6 +128,4 @@ def test_documented_keys_are_those_of_the_case():
     text = (ROOT / "docs" / "files.md").read_text("utf-8")
     part = text.split("### [transient]", 1)[1].split("\n## ", 1)[0]
     documented = set(re.findall(r"^\| `(\w+)` \|", part, re.MULTILINE))
-    source = (ROOT / "swashfilm" / "runs" / "transient" / "case.py").read_text("utf-8")
-    read = set(re.findall(r'table\.(?:get|positive|choice)\("(\w+)"', source))
-    assert documented == read | {"pump"}
+    assert documented == set(fields_of(TransientSection))
