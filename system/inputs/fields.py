@@ -54,6 +54,12 @@ class Points:
     example: tuple[str, ...]
 
 
+class Several(Enum):
+    """Marks a field that is one value or a list of such, each within the limits; a tuple in SI."""
+
+    OF_THEM = "or a list of them"
+
+
 class Text(Enum):
     """Marks a field that is text: the path of a file, one name, or a list of names; its value says so in words."""
 
@@ -168,6 +174,11 @@ class FieldType:
     def layouts(self) -> tuple[Points, ...]:
         """Layouts of the rows of a list of rows; none for another field."""
         return tuple(mark for mark in self.marks if isinstance(mark, Points))
+
+    @property
+    def several(self) -> bool:
+        """True for one value or a list of them."""
+        return self._mark(Several) is not None
 
     @property
     def limits(self) -> Limits:

@@ -58,7 +58,10 @@ def field_schema(own: FieldType, *, complete: bool = True) -> Schema:
         return {"type": "array", "items": section_schema(own.tables)}
     if own.table is not None:
         return section_schema(own.table, complete=complete, inner_complete=complete)
-    return _value_schema(own) | ({"description": words} if (words := _words(own)) else {})
+    value = _value_schema(own)
+    if own.several:
+        value = {"anyOf": [value, {"type": "array", "items": value, "minItems": 1}]}
+    return value | ({"description": words} if (words := _words(own)) else {})
 
 
 def quantity_schema(dimension: Dimension) -> Schema:

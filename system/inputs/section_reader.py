@@ -142,6 +142,8 @@ def _values(path: str, model: type[Any], table: Mapping[str, object], reading: R
 
 def read_entry(path: str, own: FieldType, raw: object, reading: Reading) -> object:
     """Return the value of an entry, or None with its faults noted."""
+    if own.several:
+        return _several(path, own, raw, reading)
     try:
         return read_value(own, raw, reading.folder)
     except QuantityError as reason:
@@ -150,6 +152,25 @@ def read_entry(path: str, own: FieldType, raw: object, reading: Reading) -> obje
         for fault in reason.faults:
             reading.fault(path, f"{fault.path}: {fault.found}", fault.expected, fault.nearest)
     return None
+
+
+def _several(path: str, own: FieldType, raw: object, reading: Reading) -> tuple[object, ...] | None:
+    """Return one value or a list of them as a tuple; None with a fault for each that is none."""
+    found: list[object] = []
+    entries = raw if isinstance(raw, list) else [raw]
+    for one in entries:
+        try:
+            value = read_value(own, one, reading.folder)
+        except QuantityError as reason:
+            reading.fault(path, reason.found, reason.expected, reason.nearest)
+            continue
+        if limit := broken_limit(own, value):
+            reading.fault(path, repr(one), limit)
+        else:
+            found.append(value)
+    if not entries:
+        reading.fault(path, "an empty list", wanted(own))
+    return tuple(found) if found and len(found) == len(entries) else None
 
 
 def _inner_tables(path: str, model: type[Any], raw: object, reading: Reading) -> tuple[Any, ...]:

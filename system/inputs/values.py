@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from system.inputs.faults import nearest_choice, nearest_path
-from system.inputs.fields import FieldType, Points, Section, Text, fields_of
+from system.inputs.fields import FieldType, Points, Section, Several, Text, fields_of
 from system.inputs.point_files import read_rows, wanted_file
 from system.inputs.units import Dimension, QuantityError, format_quantity, parse_quantity, with_point
 
@@ -42,6 +42,8 @@ def read_value(field: FieldType, raw: object, folder: Path = HERE) -> object:
 
 def written_value(field: FieldType, value: Any) -> str:
     """Return a value as TOML, so that `read_value` gives it back to the last bit."""
+    if field.several and isinstance(value, tuple):
+        return "[" + ", ".join(written_value(field, one) for one in value) + "]"
     if field.layouts and isinstance(value, tuple):
         columns = _layout(field.layouts, value).columns
         rows = (", ".join(map(_written_quantity, row, columns)) for row in value)
@@ -60,6 +62,12 @@ def written_value(field: FieldType, value: Any) -> str:
 
 def wanted(field: FieldType) -> str:
     """Return what a key holds, in words."""
+    if field.several:
+        return f"{_wanted_one(field)}, {Several.OF_THEM.value}"
+    return _wanted_one(field)
+
+
+def _wanted_one(field: FieldType) -> str:
     if field.dimension is not None:
         return f"{field.dimension.noun} with its unit, such as '{field.dimension.example}'"
     if field.layouts:
@@ -74,6 +82,8 @@ def wanted(field: FieldType) -> str:
 def broken_limit(field: FieldType, value: object) -> str:
     """Return the limit that a value breaks, in words and with its unit; empty where it breaks none."""
     limits = field.limits
+    if isinstance(value, tuple) and field.several:
+        return next((words for one in value if (words := broken_limit(field, one))), "")
     if isinstance(value, (tuple, str)):
         return f"at least {limits.fewest} rows, {wanted(field)}" if len(value) < limits.fewest else ""
     if not isinstance(value, (int, float)):

@@ -18,6 +18,7 @@ from system.pump_file.file import load_pump, resolved_toml
 ROOT = Path(__file__).parents[3]
 FILES = {
     "pump": [*ROOT.glob("system/description/pumps/*.toml"), *ROOT.glob("examples/pumps/*.toml")],
+    "reference": [*ROOT.glob("examples/references/*.toml")],
     "transient": [*ROOT.glob("examples/transients/*.toml")],
 }
 VALIDATORS = {kind: Draft202012Validator(schema_of(kind)) for kind in SCHEMAS}
