@@ -13,7 +13,7 @@ from dataclasses import replace
 from pathlib import Path
 from time import perf_counter
 
-from system.inputs.section_reader import section_of
+from system.inputs.sections.reader import section_of
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 

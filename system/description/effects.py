@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass, fields
 from typing import Annotated
 
-from system.inputs.fields import Fraction, Limits, NotNegative
+from system.inputs.sections.fields import Fraction, Limits, NotNegative
 from system.inputs.units import Dimension
 
 _WallResistance = Annotated[float, Dimension.THERMAL_RESISTANCE, Limits(least=0.0, most=2e-3)]

@@ -10,7 +10,7 @@ from enum import Enum
 from itertools import pairwise
 
 from system.inputs.faults import Fault
-from system.inputs.fields import Area, ImpedanceRows, Pressure, Volume, fields_of
+from system.inputs.sections.fields import Area, ImpedanceRows, Pressure, Volume, fields_of
 from system.inputs.units import Dimension, format_quantity
 
 

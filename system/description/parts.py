@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from enum import Enum
 from typing import Annotated
 
-from system.inputs.fields import (
+from system.inputs.sections.fields import (
     Angle,
     AnyLength,
     Area,

@@ -7,9 +7,8 @@ Lengths in m, angles in rad, speeds in rad/s, pressures in Pa gauge (atmosphere 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
-from typing import Annotated, Any
+from typing import Annotated
 
 from gaps.shapes.bearing_pads import BearingPads
 from gaps.shapes.slipper_lands import SlipperLands, lands_between
@@ -31,7 +30,7 @@ from system.description.parts import (
 )
 from system.description.ports import PortsSection
 from system.description.tolerance import ToleranceSection
-from system.inputs.fields import (
+from system.inputs.sections.fields import (
     AcuteAngle,
     Angle,
     AngularSpeed,
@@ -64,7 +63,6 @@ from system.inputs.fields import (
     Stiffness,
     Temperature,
     Volume,
-    fields_of,
 )
 from system.inputs.units import Dimension
 
@@ -339,16 +337,3 @@ class PumpDescription:
             single_pistons=(),
             single_slippers=(),
         )
-
-
-def section_models() -> Iterator[tuple[str, type[Any]]]:
-    """Yield name and class of every table in the order of the file; of one inside another as `outer.inner`."""
-    yield from _tables_in(PumpDescription, "")
-
-
-def _tables_in(model: type[Any], above: str) -> Iterator[tuple[str, type[Any]]]:
-    for name, own in fields_of(model).items():
-        inner = own.table or own.tables
-        if inner is not None:
-            yield above + name, inner
-            yield from _tables_in(inner, f"{above}{name}.")

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Annotated
 
-from system.inputs.fields import Positive, Spread
+from system.inputs.sections.fields import Positive, Spread
 from system.inputs.units import Dimension
 
 

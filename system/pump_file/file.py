@@ -15,8 +15,8 @@ from system.description.ports import PortsSection
 from system.description.pump import FORMAT, SINGLE_PARTS, PumpDescription
 from system.inputs.coefficients.flow_files import FlowCoefficients
 from system.inputs.faults import Fault, InputFaults, key_lines, nearest_choice, nearest_path
-from system.inputs.fields import fields_of
-from system.inputs.section_reader import (
+from system.inputs.sections.fields import fields_of
+from system.inputs.sections.reader import (
     ABSOLUTE,
     Reading,
     Special,
@@ -25,9 +25,9 @@ from system.inputs.section_reader import (
     read_entry,
     read_section,
 )
-from system.inputs.section_writer import section_rows
+from system.inputs.sections.values import HERE
+from system.inputs.sections.writer import section_rows
 from system.inputs.toml_table import toml_tables
-from system.inputs.values import HERE
 from system.pump.ports.flow_coefficients import file_law
 from system.pump_file.bodies import BODY_CHECKS
 from system.pump_file.check import CheckReport, run_checks

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import Any
 
 from reynolds.laws.oil import ISO_GRADES
 from system.description.pump import FORMAT, SINGLE_PARTS, PumpDescription
-from system.inputs.fields import fields_of
-from system.inputs.json_schema import Schema, file_schema, section_schema
+from system.inputs.sections.fields import fields_of
+from system.inputs.sections.json_schema import Schema, file_schema, section_schema
 from system.pump_file.file import GRADE_KEYS, LAW_KEYS
 
 
@@ -47,3 +48,16 @@ def _either(table: Schema, key: str, others: tuple[str, ...]) -> None:
         {"required": [key], **none_of_others},
         {"required": list(others), "not": {"required": [key]}},
     ]
+
+
+def section_models() -> Iterator[tuple[str, type[Any]]]:
+    """Yield name and class of every table in the order of the file; of one inside another as `outer.inner`."""
+    yield from _tables_in(PumpDescription, "")
+
+
+def _tables_in(model: type[Any], above: str) -> Iterator[tuple[str, type[Any]]]:
+    for name, own in fields_of(model).items():
+        inner = own.table or own.tables
+        if inner is not None:
+            yield above + name, inner
+            yield from _tables_in(inner, f"{above}{name}.")

@@ -12,11 +12,11 @@ from gaps.films.over_turn import TURN, Course
 from reynolds.numerics.arrays import Array
 from system.films.rotor import Rotor
 from system.inputs.faults import nearest_choice
-from system.inputs.fields import Points
-from system.inputs.point_files import read_rows
+from system.inputs.sections.fields import Points
+from system.inputs.sections.point_files import read_rows
+from system.inputs.sections.values import listed_rows
 from system.inputs.toml_table import Table, quoted
 from system.inputs.units import Dimension, QuantityError, format_quantity, parse_quantity
-from system.inputs.values import listed_rows
 from system.points.lumped import lumped_point
 from system.pump.chamber.layout import CAVITY_PRESSURE
 from system.pump.lumped import piston_motion

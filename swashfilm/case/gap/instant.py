@@ -23,7 +23,7 @@ from system.description.gap import Gap
 from system.films.parts import FloatingParts, floating_parts
 from system.films.problems import RIGID
 from system.films.rotor import Rotor, rotor
-from system.inputs.section_writer import section_rows
+from system.inputs.sections.writer import section_rows
 from system.inputs.toml_table import Table, quoted
 from system.inputs.units import Dimension, format_quantity
 from system.pump.chamber.layout import CAVITY_PRESSURE

@@ -12,8 +12,8 @@ from typing import Any
 from system.description.pump import PumpDescription
 from system.films.rotor import Rotor, rotor
 from system.inputs.faults import Fault, InputFaults
-from system.inputs.fields import fields_of
-from system.inputs.json_schema import Schema, section_schema
+from system.inputs.sections.fields import fields_of
+from system.inputs.sections.json_schema import Schema, section_schema
 from system.inputs.toml_table import Table
 from system.points.film_effects import effects_in_films
 from system.pump.operating import operating_point

@@ -13,7 +13,7 @@ from swashfilm.case.gap.physics import physics_rows, read_physics
 from swashfilm.case.gap.pump import CasePump, own_rows, read_case_pump
 from system.description.gap import Gap
 from system.films.rotor import Rotor
-from system.inputs.section_writer import section_rows
+from system.inputs.sections.writer import section_rows
 from system.inputs.toml_table import Table, quoted
 from system.points.floating_gaps import MARCHED, USUAL, FloatingOptions, usual_finer
 

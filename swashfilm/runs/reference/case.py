@@ -10,9 +10,9 @@ from typing import Annotated
 
 from swashfilm.runs.reference.passages import Groove, Orifice, Passage, Slot, Step
 from system.inputs.faults import Fault, InputFaults
-from system.inputs.fields import Length, Limits, Positive, Several
-from system.inputs.json_schema import Schema, file_schema, section_schema
-from system.inputs.section_reader import Reading, read_section
+from system.inputs.sections.fields import Length, Limits, Positive, Several
+from system.inputs.sections.json_schema import Schema, file_schema, section_schema
+from system.inputs.sections.reader import Reading, read_section
 from system.inputs.toml_table import Table, fault_lines, read_toml
 from system.inputs.units import Dimension
 

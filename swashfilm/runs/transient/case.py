@@ -11,10 +11,10 @@ import numpy as np
 
 from swashfilm.case.gap.pump import CasePump, own_rows, pump_tables_schema, read_case_pump
 from system.inputs.faults import InputFaults
-from system.inputs.fields import Points, Positive, Text
-from system.inputs.json_schema import Schema, file_schema, quantity_schema, section_schema
-from system.inputs.section_reader import Reading, read_section
-from system.inputs.section_writer import section_rows
+from system.inputs.sections.fields import Points, Positive, Text
+from system.inputs.sections.json_schema import Schema, file_schema, quantity_schema, section_schema
+from system.inputs.sections.reader import Reading, read_section
+from system.inputs.sections.writer import section_rows
 from system.inputs.toml_table import Table, fault_lines, read_toml
 from system.inputs.units import TURN, Dimension, QuantityError, format_quantity, parse_quantity
 from system.multibody.kinematics import swash_angle

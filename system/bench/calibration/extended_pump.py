@@ -15,7 +15,7 @@ from system.description.pump import PumpDescription
 from system.effects.extension import Extension
 from system.estimation.parameters import Parameter
 from system.estimation.posterior import Posterior
-from system.inputs.section_reader import section_of
+from system.inputs.sections.reader import section_of
 
 _OF_FRICTION: Mapping[str, str] = {
     f"friction.{GUIDE}": "guide_friction",

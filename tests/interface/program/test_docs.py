@@ -24,14 +24,14 @@ from swashfilm.runs.pump.run import PumpCase, solve_pump
 from swashfilm.runs.pump.summary import pump_summary
 from swashfilm.runs.table.gap_case import load_gap_table
 from system.description.gap import Gap
-from system.description.pump import section_models
-from system.inputs.fields import fields_of
-from system.inputs.values import units_shown
+from system.inputs.sections.fields import fields_of
+from system.inputs.sections.values import units_shown
 from system.points.films import FilmsPoint, films_point
 from system.pump.assembly import PointWarning
 from system.pump.laws.friction_pairs import Pair
 from system.pump.operating import operating_point
 from system.pump_file.file import builtin_pumps, load_pump
+from system.pump_file.schema import section_models
 
 ROOT = Path(__file__).parents[3]
 PAGES = [

@@ -12,7 +12,7 @@ from jsonschema import Draft202012Validator
 
 from swashfilm.cli.app import run_command
 from swashfilm.cli.schema import SCHEMAS, schema_of
-from system.inputs.fields import fields_of
+from system.inputs.sections.fields import fields_of
 from system.pump_file.file import load_pump, resolved_toml
 
 ROOT = Path(__file__).parents[3]

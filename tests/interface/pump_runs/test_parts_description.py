@@ -8,17 +8,17 @@ import pytest
 
 from system.description.lines import LineKind
 from system.description.parts import RetainerKind
-from system.description.pump import section_models
 from system.films.parts import BRASS, STEEL, ball_plane_height, floating_parts
 from system.films.places import guide_frame
 from system.films.rotor import rotor, travel
 from system.inputs.faults import InputFaults
-from system.inputs.fields import fields_of
-from system.inputs.values import units_shown
+from system.inputs.sections.fields import fields_of
+from system.inputs.sections.values import units_shown
 from system.pump.operating import operating_point
 from system.pump_file.check import CheckReport
 from system.pump_file.file import builtin_pumps, check_pump, load_pump, resolved_toml
 from system.pump_file.floating import check_floating
+from system.pump_file.schema import section_models
 
 REF90 = files("system.description").joinpath("pumps", "ref90.toml").read_text("utf-8")
 PROFILE = [["0 mm", "3 um"], ["3 mm", "0 um"], ["45 mm", "0.5 um"]]

@@ -18,7 +18,7 @@ from swashfilm.runs.pump.oil_fields import oil_state
 from system.description.effects import PhysicsSection
 from system.effects.effect import EffectId
 from system.films.cycle import SMOOTH
-from system.inputs.section_reader import section_of
+from system.inputs.sections.reader import section_of
 from system.maps.point import LumpedSolver, MapWork
 from system.points.film_effects import SOLVED
 from system.points.films import films_point

@@ -9,7 +9,7 @@ import pytest
 
 from reynolds.errors import FilmInputError
 from system.inputs.faults import InputFaults
-from system.inputs.fields import fields_of
+from system.inputs.sections.fields import fields_of
 from system.maps.compare import compare
 from system.maps.data import LOSSES, best_points, map_data
 from system.maps.duty import Cycle, duty

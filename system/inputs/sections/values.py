@@ -10,8 +10,8 @@ from pathlib import Path
 from typing import Any
 
 from system.inputs.faults import nearest_choice, nearest_path
-from system.inputs.fields import FieldType, Points, Section, Several, Text, fields_of
-from system.inputs.point_files import read_rows, wanted_file
+from system.inputs.sections.fields import FieldType, Points, Section, Several, Text, fields_of
+from system.inputs.sections.point_files import read_rows, wanted_file
 from system.inputs.units import Dimension, QuantityError, format_quantity, parse_quantity, with_point
 
 HERE = Path()

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from system.inputs.fields import Section, fields_of
-from system.inputs.values import written_value
+from system.inputs.sections.fields import Section, fields_of
+from system.inputs.sections.values import written_value
 
 
 def section_rows(path: str, section: Section, base: Section | None = None) -> Iterator[str]:

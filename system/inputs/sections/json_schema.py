@@ -5,8 +5,8 @@ from __future__ import annotations
 import inspect
 from typing import Any
 
-from system.inputs.fields import FieldType, Points, Text, fields_of
-from system.inputs.section_reader import ABSOLUTE
+from system.inputs.sections.fields import FieldType, Points, Text, fields_of
+from system.inputs.sections.reader import ABSOLUTE
 from system.inputs.units import Dimension
 
 DRAFT = "https://json-schema.org/draft/2020-12/schema"

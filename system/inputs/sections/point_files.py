@@ -7,7 +7,7 @@ import re
 from pathlib import Path
 
 from system.inputs.faults import nearest_choice, nearest_path
-from system.inputs.fields import Points
+from system.inputs.sections.fields import Points
 from system.inputs.units import QuantityError, parse_quantity
 
 _HEAD = re.compile(r"\s*(.+?)\s*\[(.+)\]\s*")

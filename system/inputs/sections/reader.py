@@ -8,9 +8,9 @@ from pathlib import Path
 from typing import Any
 
 from system.inputs.faults import Fault, InputFaults, nearest_choice
-from system.inputs.fields import AnySection, FieldType, fields_of, partial_section
+from system.inputs.sections.fields import AnySection, FieldType, fields_of, partial_section
+from system.inputs.sections.values import HERE, broken_limit, read_value, wanted
 from system.inputs.units import Dimension, QuantityError, to_gauge
-from system.inputs.values import HERE, broken_limit, read_value, wanted
 
 ABSOLUTE = "_abs"  # a pressure key that ends so is absolute
 
