@@ -1,4 +1,4 @@
-"""The command: threads, exit codes and the last word on every error. Imports nothing heavy."""
+"""Entry point of the command: threads, exit codes and error messages. Imports nothing heavy."""
 
 from __future__ import annotations
 
@@ -17,14 +17,14 @@ _THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run a command and return its exit code: 0, 2 bad input, 3 not converged, 130 interrupted.
 
-    An error of the program itself ends it with 1 and a line that says so; `--debug` shows the traceback.
+    An internal error ends it with 1 and one line; `--debug` shows the traceback.
     """
     words = list(sys.argv[1:] if arguments is None else arguments)
     if "--debug" in words:
         words.remove("--debug")
     elif arguments is None:
         sys.excepthook = _internal_error
-    for name in _THREADS:  # films are small: threads cost more than they give, and two runs share the cores
+    for name in _THREADS:  # films are small: threads cost more than they gain, and several runs share the cores
         os.environ.setdefault(name, "1")
     from reynolds.errors import FilmInputError, FilmNotConverged
     from swashfilm.cli.app import run_command
@@ -41,20 +41,20 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except Interrupted as stop:
         if stop.again:
             return _end(f"interrupted: {stop.again}", EXIT_INTERRUPTED)
-        kept = f"what was done is kept in {stop.kept}" if stop.kept else "nothing was kept"
+        kept = f"the finished part is kept in {stop.kept}" if stop.kept else "nothing was kept"
         again = " ".join(["swashfilm", *words])
         if stop.kept and (stop.kept / "points").is_dir():
-            return _end(f"interrupted: {kept}. To go on: {_resuming(words, stop.kept)}", EXIT_INTERRUPTED)
-        return _end(f"interrupted: {kept}. The same command starts anew: {again}", EXIT_INTERRUPTED)
+            return _end(f"interrupted: {kept}. To continue: {_resuming(words, stop.kept)}", EXIT_INTERRUPTED)
+        return _end(f"interrupted: {kept}. The same command starts again: {again}", EXIT_INTERRUPTED)
     except KeyboardInterrupt:
         return _end("interrupted: nothing was written", EXIT_INTERRUPTED)
-    except BrokenPipeError:  # the reader of our output has gone, as in `swashfilm ... | head`
+    except BrokenPipeError:  # the reader of the output has ended, as in `swashfilm ... | head`
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 1
 
 
 def _resuming(words: list[str], kept: Path) -> str:
-    """The command that goes on with the points of a study that are kept."""
+    """Return the command that continues from the kept points of a study."""
     before = [word for word in words if not word.startswith("--resume=")]
     if "--resume" in before:
         at = before.index("--resume")
@@ -73,9 +73,9 @@ def _internal_error(kind: type[BaseException], error: BaseException, trace: Trac
         where = where.tb_next
     place = f" ({where.tb_frame.f_code.co_filename}:{where.tb_lineno})" if where else ""
     sys.stderr.write(
-        f"swashfilm: internal error, not yours: {kind.__name__}: {error}{place}\n"
-        "Please report it to whom you have Swashfilm from, with the command, its input file and the output of\n"
-        "`swashfilm doctor`. The same command with --debug shows the whole traceback.\n"
+        f"swashfilm: internal error, not in your input: {kind.__name__}: {error}{place}\n"
+        "Please report it to the source of your copy of Swashfilm, with the command, its input file and the\n"
+        "output of `swashfilm doctor`. The same command with --debug shows the whole traceback.\n"
     )
 
 

@@ -1,6 +1,6 @@
-"""The command line: what the commands are called, what they take, and what they print.
+"""Command line: parser of all commands.
 
-argparse, because the help must stand within 0.3 s; a command's own imports wait until it runs.
+argparse prints the help within 0.3 s; a command imports its own modules when it runs.
 """
 
 from __future__ import annotations
@@ -51,7 +51,7 @@ COMMANDS: dict[str, Command] = {
 
 
 def run_command(words: Sequence[str]) -> int:
-    """Run the command that the words name and return its exit code; raises what its parts raise."""
+    """Run the command that the words name and return its exit code; raise what its parts raise."""
     options = parse(words)
     if options.command is None:
         build_parser().print_help()
@@ -60,11 +60,11 @@ def run_command(words: Sequence[str]) -> int:
 
 
 def parse(words: Sequence[str]) -> argparse.Namespace:
-    """The options of a command line; raises InputFaults with every word that is not known."""
+    """Return the options of a command line; raise InputFaults with every unknown word."""
     _check_command(words)
     options, unknown = build_parser().parse_known_args(list(words))
     if unknown:
-        # A word after an unknown option is most likely its value: no fault of its own.
+        # A word after an unknown option is most likely its value: not a second fault.
         told = [word for word in unknown if word.startswith("-")] or unknown
         known = options_of(options.command)
         faults = [_unknown(known, word) for word in told]
@@ -74,12 +74,12 @@ def parse(words: Sequence[str]) -> argparse.Namespace:
 
 
 class _Parser(argparse.ArgumentParser):
-    """An argument parser that raises its complaint as a fault."""
+    """Argument parser that raises its errors as InputFaults."""
 
     def error(self, message: str) -> NoReturn:
         what, _, rest = message.partition(": ")
         if what == "the following arguments are required":
-            fault = Fault(rest, "nothing", f"see {self.prog} --help")
+            fault = Fault(rest, "missing", f"see {self.prog} --help")
         elif "expected one argument" in rest:
             name = what.removeprefix("argument ").split("/")[-1]
             fault = Fault(name, "no value", "a value", f"one that starts with - is written {name}=VALUE")
@@ -89,7 +89,7 @@ class _Parser(argparse.ArgumentParser):
 
 
 class _Version(argparse.Action):
-    """Print the version, which is looked up only now."""
+    """Print the version, which is read only here."""
 
     def __call__(self, parser: argparse.ArgumentParser, *_: Any) -> None:
         from importlib.metadata import version
@@ -124,7 +124,7 @@ def _check_command(words: Sequence[str]) -> None:
 
 
 def options_of(name: str | None) -> list[str]:
-    """The options of a command, of the program itself where it is None; help last."""
+    """Return the options of a command (None: of the program itself), help last."""
     if name is None:
         return ["--version", "--help"]
     parser = argparse.ArgumentParser(add_help=False)
@@ -133,7 +133,7 @@ def options_of(name: str | None) -> list[str]:
 
 
 def _unknown(known: Sequence[str], word: str) -> Fault:
-    """The fault of a word that no option or argument takes."""
-    kind = "unknown option" if word.startswith("-") else "a word too many"
+    """Return the fault of a word that no option or argument accepts."""
+    kind = "unknown option" if word.startswith("-") else "one word too many"
     name = word.partition("=")[0]
     return Fault(name, kind, f"one of {', '.join(known)}", nearest_choice(name, known))

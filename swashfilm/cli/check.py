@@ -1,4 +1,4 @@
-"""The command `swashfilm check`: what a file says, and what is wrong with it, without running it."""
+"""Command `swashfilm check`: the content of a file with all defaults, or its faults, without a run."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from system.inputs.faults import Fault, InputFaults
 
 
 def run_check_command(options: argparse.Namespace) -> int:
-    """Run `swashfilm check` and return its exit code; raises InputFaults with what is wrong in the file."""
+    """Run `swashfilm check` and return its exit code; raise InputFaults with every fault of the file."""
     from system.inputs.toml_table import read_toml
     from system.pump_file.file import builtin_pumps, check_pump, resolved_toml
 
@@ -55,8 +55,8 @@ def run_check_command(options: argparse.Namespace) -> int:
         for warning in check_pump(known.pump).warnings:
             show(f"warning: {warning}")
         if known.scant:
-            show("a pump of which little is known: what its file leaves out is that of ref90, scaled, as above;")
-            show("diagnose and calibrate take it, all else needs a complete file")
+            show("an incomplete pump file: values that it leaves out are those of ref90, scaled, as above;")
+            show("diagnose and calibrate accept it, all other commands need a complete file")
     else:
         show(_checked_film(Path(options.file), tables))
     show(f"{options.file}: ok")
@@ -64,7 +64,7 @@ def run_check_command(options: argparse.Namespace) -> int:
 
 
 def _checked_film(path: Path, tables: Mapping[str, Any]) -> str:
-    """The film case of a file as resolved, of a study or table at its first point; raises InputFaults."""
+    """Return the resolved film case of a file, of a study or table at its first point; raise InputFaults."""
     from swashfilm.case.study import StudyCase, load_film
     from swashfilm.runs.table.gap_case import load_gap_table
 

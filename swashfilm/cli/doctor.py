@@ -1,4 +1,4 @@
-"""The command `swashfilm doctor`: this machine as a run finds it."""
+"""Command `swashfilm doctor`: examination of this machine."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from swashfilm.console.terminal import show_table
 
 
 def run_doctor(options: argparse.Namespace) -> int:
-    """Run `swashfilm doctor`; return 0, or 1 where something is missing that every run needs."""
+    """Run `swashfilm doctor`; return 0, or 1 where a requirement of every run is missing."""
     from swashfilm.cli.machine import examine, is_well
 
     findings = examine()
@@ -22,7 +22,7 @@ def run_doctor(options: argparse.Namespace) -> int:
 
 
 def _no_options(command: argparse.ArgumentParser) -> None:
-    """Give the parser nothing: the command has no options."""
+    """Add nothing to the parser: the command has no options."""
 
 
 COMMAND = Command(

@@ -1,4 +1,4 @@
-"""What this machine offers to a run: interpreter, packages, caches, memory, graphics."""
+"""Examination of this machine: interpreter, packages, caches, memory, graphics."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from pathlib import Path
 from swashfilm.output.picture3d import REMEDY, draw
 from system.work.processes import cores
 
-LEAST_MEMORY = 2e9  # bytes; a run with films takes half of it
+LEAST_MEMORY = 2e9  # bytes; a run with films needs half of it
 _NEEDED = re.compile(r"[A-Za-z0-9_.\-]+")
 _TRIANGLE = """<VTKFile type="UnstructuredGrid" version="0.1"><UnstructuredGrid>
 <Piece NumberOfPoints="3" NumberOfCells="1"><PointData Scalars="film_pressure">
@@ -30,9 +30,9 @@ _TRIANGLE = """<VTKFile type="UnstructuredGrid" version="0.1"><UnstructuredGrid>
 
 @dataclass(frozen=True)
 class Finding:
-    """One thing looked at: what, how it stands, and what to do where that is not well (else empty).
+    """One examined item: its name, its state, and the remedy where the state is bad (else empty).
 
-    `needed` marks what no run can do without.
+    `needed`: every run needs the item.
     """
 
     what: str
@@ -42,7 +42,7 @@ class Finding:
 
 
 def examine() -> list[Finding]:
-    """Look at the machine; nothing is changed but a temporary folder."""
+    """Return the findings on this machine; write nothing but a temporary folder."""
     return [
         Finding("python", f"{platform.python_version()} ({sys.executable})"),
         Finding("system", f"{platform.system()} {platform.release()} {platform.machine()}"),
@@ -56,12 +56,12 @@ def examine() -> list[Finding]:
 
 
 def is_well(findings: Iterable[Finding]) -> bool:
-    """True when nothing that a run needs is missing."""
+    """Return True when no requirement of a run is missing."""
     return not any(finding.remedy and finding.needed for finding in findings)
 
 
 def _packages() -> list[Finding]:
-    """Swashfilm and what it requires, with their versions."""
+    """Return findings on Swashfilm and its requirements, with their versions."""
     try:
         lines = [line for line in requires("swashfilm") or [] if "extra ==" not in line]
         found = [Finding("swashfilm", version("swashfilm"))]
@@ -82,12 +82,12 @@ def _memory() -> Finding:
         size = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
     except (ValueError, OSError, AttributeError):
         return Finding("memory", "not known")
-    remedy = f"a run with films wants {LEAST_MEMORY / 1e9:g} GB" if size < LEAST_MEMORY else ""
+    remedy = f"a run with films needs {LEAST_MEMORY / 1e9:g} GB" if size < LEAST_MEMORY else ""
     return Finding("memory", f"{size / 1e9:.1f} GB", remedy)
 
 
 def _kernels() -> list[Finding]:
-    """Where numba keeps its compiled kernels: whether they are there, and whether they can be written."""
+    """Return findings on numba's folders of compiled kernels: number of kernels, and write access."""
     import reynolds
     import system
 
@@ -99,14 +99,14 @@ def _kernels() -> list[Finding]:
         nearest = next(folder for folder in (home, *home.parents) if folder.exists())
         writable = os.access(nearest, os.W_OK)
         remedy = (
-            "" if writable else "set NUMBA_CACHE_DIR to a folder that can be written, or every run compiles anew"
+            "" if writable else "set NUMBA_CACHE_DIR to a writable folder; without it every run compiles again"
         )
         found.append(Finding(f"compiled kernels, {package.__name__}", state, remedy))
     return found
 
 
 def _graphics() -> list[Finding]:
-    """Graphics libraries, and whether a 3D picture can be drawn (tried in a child process)."""
+    """Return findings on graphics libraries and on a 3D picture drawn in a child process."""
     libraries = [name for name in ("EGL", "GL", "OSMesa") if find_library(name)]
     with tempfile.TemporaryDirectory() as folder:
         film = Path(folder, "film.vtu")
@@ -115,5 +115,5 @@ def _graphics() -> list[Finding]:
     drawn = "drawn" if pictures.paths else pictures.reason.removesuffix(f"; {REMEDY}")
     return [
         Finding("graphics libraries", ", ".join(libraries) or "none"),
-        Finding("3D picture", drawn, "" if pictures.paths else f"{REMEDY} (runs do without the picture)"),
+        Finding("3D picture", drawn, "" if pictures.paths else f"{REMEDY} (runs work without the picture)"),
     ]

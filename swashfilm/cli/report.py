@@ -1,4 +1,4 @@
-"""The command `swashfilm report`: the page of a run folder made anew, by what kind of run it holds."""
+"""Command `swashfilm report`: the page of a run folder, written again."""
 
 from __future__ import annotations
 
@@ -29,23 +29,23 @@ PAGES = {
     "response_table": "swashfilm.runs.table.page.write_table_page",
     "transient": "swashfilm.runs.transient.page.write_transient_page",
 }
-"""What makes the page of a run, by the `kind` of its summary.json."""
+"""Page writer of a run, by the `kind` in its summary.json."""
 
 
 def run_report(options: argparse.Namespace) -> int:
-    """Run `swashfilm report` and return its exit code; raises InputFaults for a folder of no finished run."""
+    """Run `swashfilm report` and return its exit code; raise InputFaults for a folder without a finished run."""
     folder = options.folder
     try:
         page = _page_of(folder)(folder)
     except (KeyError, OSError) as reason:
-        expected = "the files of a finished run of this version, in a folder that can be written"
+        expected = "the files of a finished run of this version, in a writable folder"
         raise InputFaults(str(folder), [Fault("DIR", repr(reason), expected)]) from None
     show(f"report in {page}")
     return 0
 
 
 def _page_of(folder: Path) -> Callable[[Path], Path]:
-    """What writes the page of a run folder."""
+    """Return the function that writes the page of a run folder."""
     summary = folder / "summary.json"
     try:
         kind = json.loads(summary.read_text("utf-8"))["kind"]
@@ -67,4 +67,4 @@ def _add_options(command: argparse.ArgumentParser) -> None:
     command.add_argument("folder", type=Path, metavar="DIR", help="the run folder")
 
 
-COMMAND = Command("report", "make the report of a run folder anew", _add_options, run_report, in_folder=False)
+COMMAND = Command("report", "write the report of a run folder again", _add_options, run_report, in_folder=False)

@@ -1,4 +1,4 @@
-"""A command of the program: its name, its options, and its function."""
+"""Command of the program: its name, its options, and its function."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from system.inputs.faults import Fault
 
 
 def no_faults(options: argparse.Namespace, words: Sequence[str]) -> list[Fault]:
-    """Return no fault: the command checks nothing beside unknown options."""
+    """Return no fault: the command checks nothing but unknown options."""
     return []
 
 
@@ -19,8 +19,8 @@ def no_faults(options: argparse.Namespace, words: Sequence[str]) -> list[Fault]:
 class Command:
     """A command of `swashfilm`.
 
-    add: gives the parser its options; run: returns the exit code; in_folder: takes -o DIR for its run folder;
-    faults: further faults that are reported beside unknown options.
+    add: adds its options to a parser; run: runs it and returns the exit code; in_folder: it has -o DIR for its run
+    folder; faults: further faults, reported together with unknown options.
     """
 
     name: str
@@ -31,9 +31,13 @@ class Command:
     faults: Callable[[argparse.Namespace, Sequence[str]], list[Fault]] = no_faults
 
     def complete(self, parser: argparse.ArgumentParser) -> None:
-        """Give a parser every option of the command."""
+        """Add every option of the command to a parser."""
         self.add(parser)
         if self.in_folder:
             parser.add_argument(
-                "-o", "--output", type=Path, metavar="DIR", help="run folder (default runs/NAME-N, N fresh)"
+                "-o",
+                "--output",
+                type=Path,
+                metavar="DIR",
+                help="run folder (default runs/NAME-N, the next free N)",
             )

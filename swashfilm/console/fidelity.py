@@ -1,4 +1,4 @@
-"""How the films of a pump are had."""
+"""Fidelity of a pump's films."""
 
 from enum import Enum
 

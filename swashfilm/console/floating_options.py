@@ -1,4 +1,4 @@
-"""What the command line says of a run whose gaps float: its steps, and its physics."""
+"""Options of the command line for runs with floating gaps: steps, mesh and physics."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from system.inputs.faults import Fault
 from system.points.floating_gaps import FloatingOptions, usual_finer
 from system.pump.chamber_kinds import kinds
 
-ALIKE = "chambers that are alike; where they differ: swashfilm run with --fidelity lumped or floating"
+ALIKE = "identical chambers; with differing ones: swashfilm run with --fidelity lumped or floating"
 FEWEST_STEPS, MOST_STEPS = 24, 7200
 _INCLUDED = {"--heat": Effect.HEAT}
 _LEFT_OUT = {
@@ -28,7 +28,7 @@ _LEFT_OUT = {
 
 
 def floating_options(options: argparse.Namespace) -> FloatingOptions:
-    """How the gaps float by a command line without faults: the usual way but for what it states."""
+    """Return the options of the floating gaps by a command line without faults; defaults where it states none."""
     usual = FloatingOptions()
     steps = usual.steps if options.steps is None else int(options.steps)
     switched = _switched(options)
@@ -43,7 +43,7 @@ def floating_options(options: argparse.Namespace) -> FloatingOptions:
 def floating_faults(
     options: argparse.Namespace, pump: PumpDescription, chosen: str, by: str = "--fidelity"
 ) -> list[Fault]:
-    """What is wrong with the options that only floating gaps have, and with what they do not read of the pump.
+    """Return the faults of the options of floating gaps, and of pump values that floating gaps do not read.
 
     Option `by` has chosen a fidelity.
     """
@@ -64,7 +64,7 @@ def _physics_faults(pump: PumpDescription) -> list[Fault]:
 
 
 def alike_faults(pump: PumpDescription) -> list[Fault]:
-    """The single parts of a pump, where what is asked for needs chambers that are alike."""
+    """Return a fault for each single part of a pump, for runs that need identical chambers."""
     singles = [f"{name}.{number}" for name in SINGLE_PARTS for number, _ in getattr(pump, f"single_{name}s")]
     return [] if kinds(pump).alike else [Fault(part, "a single part", ALIKE) for part in singles]
 

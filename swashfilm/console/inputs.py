@@ -1,4 +1,4 @@
-"""Inputs that every command checks: kind of file, the pump file as given."""
+"""Inputs common to all commands: kind of file, text of the pump file."""
 
 from __future__ import annotations
 
@@ -8,11 +8,11 @@ from pathlib import Path
 from system.inputs.faults import Fault, InputFaults
 
 COMMAND_LINE = "command line"
-"""The source that faults of options are reported from."""
+"""Source of the faults of options."""
 
 
 def given_text(pump: str, stated: Mapping[str, object]) -> str:
-    """The pump file as given, under comments that tell what the command line put in place of its entries."""
+    """Return the text of the pump file, headed by comments with the values that the command line sets."""
     from importlib.resources import files
 
     from system.pump_file.file import builtin_pumps
@@ -23,7 +23,7 @@ def given_text(pump: str, stated: Mapping[str, object]) -> str:
 
 
 def expect(path: str | Path, wanted: str, command: str) -> None:
-    """Raise InputFaults for a file of the other kind ("pump" or "film"), with the command that takes it."""
+    """Raise InputFaults for a file of the other kind ("pump" or "film"); name the command that reads it."""
     from system.inputs.toml_table import read_toml
 
     if not Path(path).is_file():

@@ -1,4 +1,4 @@
-"""Levels of an input as a command line has them: `1000,1300,1700rpm`, `500..2500rpm:9`, or both in one list."""
+"""Levels of an input on the command line: `1000,1300,1700rpm`, `500..2500rpm:9`, or both in one list."""
 
 from __future__ import annotations
 
@@ -15,10 +15,9 @@ _MOST = 1000
 
 
 def map_axis(option: str, text: str, given: MapInput, example: str) -> MapAxis | Fault:
-    """The axis that a text means, in rising order, each level once; a fault where it means none.
+    """Return the axis of a text, in rising order, each level once; a fault for an invalid text.
 
-    One unit at the end of an item counts for those before it that have none; `a..b:n` are n levels, evenly from a
-    to b.
+    The unit of an item holds for items before it without a unit; `a..b:n` are n equally spaced levels from a to b.
     """
     try:
         items = _with_units([item.strip() for item in text.split(",")], given.dimension)
@@ -29,7 +28,7 @@ def map_axis(option: str, text: str, given: MapInput, example: str) -> MapAxis |
 
 
 def _with_units(items: list[str], dimension: Dimension | None) -> list[str]:
-    """Items that have no unit with that of the next which has one."""
+    """Return the items, each without a unit completed by the unit of the next item that has one."""
     if dimension is None:
         return items
     found, unit = [], ""
@@ -51,7 +50,7 @@ def _levels(item: str, dimension: Dimension | None) -> list[float]:
     ends, colon, count = item.partition(":")
     low, dots, high = ends.partition("..")
     if bool(dots) != bool(colon):
-        raise QuantityError(repr(item), "a level, or a range with the number of its levels")
+        raise QuantityError(repr(item), "a level, or a range with a number of levels")
     if not dots:
         return [_value(low, dimension)]
     if not (count.strip().isdecimal() and 2 <= int(count) <= _MOST):

@@ -1,4 +1,4 @@
-"""What a run in points ends with, and what it is told on the command line."""
+"""Exit code of a run in points."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ EXIT_NOT_CONVERGED = 3
 
 
 def ended(summary: Mapping[str, Any]) -> int:
-    """The exit code: 1 where an error of the program's own cost a point, 3 where no point has a result, else 0."""
+    """Return the exit code: 1 after an internal error at a point, 3 where no point has a result, else 0."""
     if any(point["status"] == PartStatus.INTERNAL.value for point in summary["failed"]):
         return EXIT_INTERNAL
     return 0 if summary["solved"] else EXIT_NOT_CONVERGED

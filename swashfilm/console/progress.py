@@ -15,10 +15,10 @@ LINE_EVERY = 5.0  # s between two lines in a log
 
 @contextmanager
 def progress(total: int, label: str, stream: TextIO | None = None) -> Iterator[Report]:
-    """A callback that shows how far `label` has come, on the standard error unless `stream` says otherwise.
+    """Yield a callback that shows the progress of `label`, by default on the standard error.
 
-    The computation may correct the total as it goes, and start again from a lower step (a new round). The
-    remaining time is that of the steps so far in this round, extrapolated; before the first it is not shown.
+    The computation may correct the total, and return to a lower step (a new round). The remaining time is
+    extrapolated from the steps of the present round; it is not shown before the first step.
     """
     out = sys.stderr if stream is None else stream
     if not out.isatty():
@@ -42,7 +42,7 @@ def progress(total: int, label: str, stream: TextIO | None = None) -> Iterator[R
 
 
 def _lines(label: str, out: TextIO) -> Report:
-    """Report as lines: the first, the last, and one every few seconds between."""
+    """Return a callback that writes lines: the first step, the last, and one every few seconds between."""
     began = round_began = time.monotonic()
     shown = began - LINE_EVERY
     last = 0

@@ -1,4 +1,4 @@
-"""What the commands print: tables with units, coloured on a terminal and plain in a log."""
+"""Output of the commands: tables with units, coloured on a terminal and plain in a log."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ def show(text: str) -> None:
 
 
 def show_table(title: str, rows: Iterable[Sequence[str]]) -> None:
-    """Print rows of (what, value with its unit): a rich table on a terminal, aligned plain lines elsewhere."""
+    """Print rows of (name, value with its unit): a rich table on a terminal, aligned plain lines elsewhere."""
     listed = [tuple(row) for row in rows]
     if sys.stdout.isatty():
         from rich.console import Console
@@ -36,7 +36,7 @@ def show_table(title: str, rows: Iterable[Sequence[str]]) -> None:
 
 
 def show_result(found: Result, place: Path, added: Sequence[str] = (), before: Sequence[str] = ()) -> None:
-    """Print a run's tables, its warnings and those `added`, but those shown `before`, and where its files are."""
+    """Print a run's tables, its warnings and those `added`, without those shown `before`, and its folder."""
     for title, rows in found.tables():
         show_table(title, rows)
     for warning in [*found.warnings, *added]:

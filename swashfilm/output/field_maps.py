@@ -10,7 +10,7 @@ import numpy as np
 
 @dataclass(frozen=True)
 class MapField:
-    """A field as a page shows it: (value - zero) x scale, under its title; `always`, or only where it varies."""
+    """A field on a page: (value - zero) x scale under its title; drawn `always`, or only where it varies."""
 
     name: str
     title: str
@@ -19,8 +19,8 @@ class MapField:
     colours: str = "viridis"
     always: bool = False
 
-    def shown(self, values: np.ndarray) -> np.ndarray:
-        """Values as the title's unit has them."""
+    def in_unit(self, values: np.ndarray) -> np.ndarray:
+        """Return the values in the title's unit."""
         return np.asarray((values - self.zero) * self.scale)
 
 
@@ -34,9 +34,9 @@ def draw_map(
     colours: str = "viridis",
     limits: tuple[float, float] | None = None,
 ) -> Any:
-    """Draw a field of vertices (smooth) or cells (flat) over `place` with a colour bar; texts carry the units.
+    """Draw a field of vertices (smooth) or cells (flat) over `place` with a colour bar; texts name the units.
 
-    `limits`: ends of the colours' scale, the field's own where left out. Returns what was painted.
+    `limits`: ends of the colour scale, by default those of the field. Returns the artist.
     """
     x, y = place
     drawn = paint(axes, place, cells, values, colours, limits)
@@ -55,7 +55,7 @@ def paint(
     colours: str,
     limits: tuple[float, float] | None = None,
 ) -> Any:
-    """The field alone, as `draw_map` draws it; returns the artist."""
+    """Draw the field alone, without axis titles and colour bar; return the artist."""
     from matplotlib.tri import Triangulation
 
     x, y = place

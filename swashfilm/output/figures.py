@@ -1,4 +1,4 @@
-"""Figures that need no screen, and their pictures."""
+"""Figures that need no screen, and their PNG pictures."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ _BY_PYPLOT: ContextVar[bool] = ContextVar("by_pyplot", default=False)
 
 
 def figure_of(width: float, height: float) -> Figure:
-    """An empty figure of this size in inches whose parts keep clear of each other."""
+    """Return an empty figure of this size in inches with a layout that avoids overlaps."""
     if _BY_PYPLOT.get():
         from matplotlib import pyplot
 
@@ -27,7 +27,7 @@ def figure_of(width: float, height: float) -> Figure:
 
 @contextmanager
 def pyplot_figures() -> Iterator[None]:
-    """Figures made inside belong to pyplot: a notebook shows them, `pyplot.show` opens their windows."""
+    """Create the figures inside by pyplot: a notebook shows them, `pyplot.show` opens their windows."""
     before = _BY_PYPLOT.set(True)
     try:
         yield
@@ -36,7 +36,7 @@ def pyplot_figures() -> Iterator[None]:
 
 
 def png_of(figure: Figure) -> bytes:
-    """The figure as a PNG of 110 dots an inch."""
+    """Return the figure as a PNG of 110 dots per inch."""
     picture = io.BytesIO()
     figure.savefig(picture, format="png", dpi=110)
     return picture.getvalue()

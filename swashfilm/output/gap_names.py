@@ -9,9 +9,9 @@ TITLES = {"piston": "piston-cylinder", "slipper": "slipper-swash plate", "valve_
 
 
 LARGEST_RIGID_PRESSURE = 100e6
-"""Pa. There the viscosity of mineral oil is several times that of the film, and steel gives by micrometres."""
+"""Pa. At it the viscosity of mineral oil is several times its low value, and steel deforms by micrometres."""
 
 
 def vtu_name(gap: str, k: int) -> str:
-    """File name of a gap's film at its k-th angle."""
+    """Return the file name of a gap's film at its k-th angle."""
     return f"{gap}_{k:03d}.vtu"

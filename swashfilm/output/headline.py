@@ -1,4 +1,4 @@
-"""The headline numbers of a film's summary, one by one, each with its name and unit."""
+"""Headline numbers of a film's summary, each with its name and unit."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ EFFORT = (
     "load_rest", "films_solved", "span_deg", "turns", "turn_change_m", "step_error", "steps", "physics_left_out",
     "physics_seconds", "assumptions",
 )  # fmt: skip
-# Numbers that belong together: the largest of them is the size against which round-off counts.
+# Numbers of one family share a scale of round-off: the largest of them.
 _FAMILIES = {
     "moment": "moment",
     "friction_force": "friction",
@@ -27,7 +27,7 @@ _FAMILIES = {
 
 
 def headline_numbers(summary: Mapping[str, Any]) -> dict[str, float]:
-    """Every physical number of a summary by key: `load_N`, `flow_m3_per_s.left`, `friction_force_moving_N.x`.
+    """Return physical numbers of a summary by key: `load_N`, `flow_m3_per_s.left`, `friction_force_moving_N.x`.
 
     Balances, effort and places are left out.
     """
@@ -45,7 +45,7 @@ def headline_numbers(summary: Mapping[str, Any]) -> dict[str, float]:
 
 
 def named(key: str) -> tuple[str, str]:
-    """(words, unit) of a key: `flow_m3_per_s.left` is ("flow, left", "m3/s")."""
+    """Return (words, unit) of a key: `flow_m3_per_s.left` is ("flow, left", "m3/s")."""
     stem, _, part = key.partition(".")
     words, unit = stem, ""
     for ending, symbol in UNITS.items():
@@ -56,16 +56,17 @@ def named(key: str) -> tuple[str, str]:
 
 
 def titled(key: str) -> str:
-    """`load / N`: a column's or an axis' title."""
+    """Return the title of a column or an axis, such as `load / N`."""
     words, unit = named(key)
     shown = f"({unit})" if any(sign in unit for sign in " /") else unit
     return f"{words} / {shown}" if unit else words
 
 
 def sizes(numbers: Mapping[str, float], least: Mapping[str, float]) -> dict[str, float]:
-    """The size of each number for rounding: the largest of its family, and at least what `least` says of it.
+    """Return the scale of round-off of each number: the largest of its family, at least the value in `least`.
 
-    Families: `moment`, `friction` (all forces), `torque`, `flow` (of all boundaries); any other number is its own.
+    Families: `moment`, `friction` (all forces), `torque`, `flow` (of all boundaries); any other number is a family
+    of its own.
     """
     largest = dict(least)
     for key, value in numbers.items():

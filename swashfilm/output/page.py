@@ -1,4 +1,4 @@
-"""The page of a run folder, report.html, and the pictures in it."""
+"""Page of a run folder, report.html, and the pictures in it."""
 
 from __future__ import annotations
 
@@ -19,16 +19,16 @@ PLOTS = "plots"
 
 
 def expect_files(folder: Path, names: Sequence[str], whose: str) -> None:
-    """Raise InputFaults for every file that a page is made from and the folder lacks; `whose` folder it is."""
+    """Raise InputFaults with every file of `names` that the folder lacks; `whose`: the expected kind of folder."""
     missing = [name for name in names if not (folder / name).is_file()]
     if missing:
         raise InputFaults(str(folder), [Fault(name, "no such file", whose) for name in missing])
 
 
 def write_page(folder: Path, template: str, **content: Any) -> Path:
-    """Write report.html from a template of this room, whole in itself; return its path.
+    """Write report.html, one self-contained file, from a template of this room; return its path.
 
-    A link in place of report.html is replaced, never followed.
+    A symbolic link at report.html is replaced, never followed.
     """
     from jinja2 import Environment, PackageLoader
 
@@ -41,13 +41,16 @@ def write_page(folder: Path, template: str, **content: Any) -> Path:
 
 
 def inlined(picture: Figure | bytes) -> str:
-    """A picture (PNG where it is given as bytes) as a page holds it: PNG, base64."""
+    """Return a picture (bytes: a PNG) as a page embeds it: PNG in base64."""
     png = picture if isinstance(picture, bytes) else png_of(picture)
     return base64.b64encode(png).decode("ascii")
 
 
 def keep_pictures(folder: Path, stem: str, pictures: Mapping[str, Figure]) -> dict[str, str]:
-    """Write pictures as plots/STEM-1.png on and captions as plots/STEM.json; return `kept_pictures`."""
+    """Write pictures as plots/STEM-1.png, plots/STEM-2.png, .. and captions as plots/STEM.json.
+
+    Return the same as `kept_pictures`.
+    """
     (folder / PLOTS).mkdir(exist_ok=True)
     captions = {}
     for number, (caption, figure) in enumerate(pictures.items(), start=1):
@@ -59,6 +62,6 @@ def keep_pictures(folder: Path, stem: str, pictures: Mapping[str, Figure]) -> di
 
 
 def kept_pictures(folder: Path, stem: str) -> dict[str, str]:
-    """Pictures written by `keep_pictures`, by caption, base64; raises OSError where there are none."""
+    """Return the pictures of `keep_pictures`, by caption, in base64; raise OSError where there are none."""
     captions = json.loads((folder / PLOTS / f"{stem}.json").read_text("utf-8"))
     return {caption: inlined((folder / PLOTS / name).read_bytes()) for name, caption in captions.items()}

@@ -1,7 +1,7 @@
-"""A 3D picture of a film, drawn by pyvista in a child process.
+"""3D picture of a film, drawn by pyvista in a child process.
 
-VTK ends the whole process with a segmentation fault where the machine lacks graphics libraries; in a child
-that costs the picture and nothing else. The child is this module run as a program.
+VTK ends the whole process with a segmentation fault where the machine lacks graphics libraries. In a child process
+only the picture is lost. The child runs this module as a program.
 """
 
 from __future__ import annotations
@@ -16,25 +16,25 @@ from dataclasses import dataclass
 from pathlib import Path
 
 REMEDY = "install the graphics libraries (Debian: apt-get install libegl1 libgl1-mesa-dri) and run it again"
-PATIENCE = 120.0  # s; drawing takes two, software rendering of a large mesh some ten
+PATIENCE = 120.0  # s; drawing takes about 2 s, software rendering of a large mesh about 10 s
 
 
 @dataclass(frozen=True)
-class Field:
-    """A field of a VTU file as a picture shows it: its name, the factor to the unit shown, and that unit."""
+class PictureField:
+    """A field of a VTU file in a picture: its name, the factor to the unit of the picture, and that unit."""
 
     name: str
     factor: float
     unit: str
 
 
-PRESSURE = Field("film_pressure", 1e-6, "MPa")
-THICKNESS = Field("film_thickness", 1e6, "um")
+PRESSURE = PictureField("film_pressure", 1e-6, "MPa")
+THICKNESS = PictureField("film_thickness", 1e6, "um")
 
 
 @dataclass(frozen=True)
 class Pictures:
-    """What became of the pictures: their files, or none and why not, with what to do."""
+    """Files of the pictures; without any, the reason and the remedy."""
 
     paths: tuple[Path, ...]
     reason: str
@@ -42,15 +42,15 @@ class Pictures:
 
 def draw(
     drawings: Mapping[Path, Sequence[Path]],
-    field: Field = PRESSURE,
+    field: PictureField = PRESSURE,
     *,
     patience: float = PATIENCE,
     child: Sequence[str] = (sys.executable, "-m", "swashfilm.output.picture3d"),
 ) -> Pictures:
-    """Draw PNGs, each of some VTU films, coloured by a field with its unit; never fails but by telling so.
+    """Draw PNGs, each of some VTU films, coloured by a field with its unit; raise nothing.
 
-    Afterwards all pictures are there, or none and `reason` says why: the child died (no graphics libraries), took
-    longer than `patience` s, or could not read the files. `child` is the program that draws.
+    Afterwards all pictures exist, or none exists and `reason` names the cause: the child process died (no graphics
+    libraries), took longer than `patience` s, or could not read the files. `child` is the program that draws.
     """
     jobs = json.dumps({str(picture): [str(film) for film in films] for picture, films in drawings.items()})
     words = [*child, field.name, repr(field.factor), field.unit, jobs]
@@ -71,8 +71,8 @@ def _none(drawings: Iterable[Path], why: str) -> Pictures:
     return Pictures((), f"no 3D picture: {why}; {REMEDY}")
 
 
-def _draw_here(picture: Path, field: Field, films: Sequence[Path]) -> None:
-    """Draw in this process, which VTK may end."""
+def _draw_here(picture: Path, field: PictureField, films: Sequence[Path]) -> None:
+    """Draw in this process; VTK may end it."""
     import pyvista
 
     pyvista.OFF_SCREEN = True
@@ -86,7 +86,7 @@ def _draw_here(picture: Path, field: Field, films: Sequence[Path]) -> None:
     for number, mesh in enumerate(meshes):
         plotter.add_mesh(
             mesh, scalars=field.name, clim=(lowest, highest), cmap="viridis", show_scalar_bar=number == 0,
-            lighting=False,  # a shadow would be read as a value
+            lighting=False,  # a shadow would look like another value
             scalar_bar_args={
                 "title": title, "vertical": True, "fmt": "%.3g", "color": "black", "title_font_size": 18,
                 "label_font_size": 16, "position_x": 0.82, "position_y": 0.2, "height": 0.6, "width": 0.08,
@@ -104,7 +104,7 @@ def _main(words: Sequence[str]) -> None:
     name, factor, unit, jobs = words
     os.environ.setdefault("PYVISTA_OFF_SCREEN", "true")
     for picture, films in json.loads(jobs).items():
-        _draw_here(Path(picture), Field(name, float(factor), unit), [Path(film) for film in films])
+        _draw_here(Path(picture), PictureField(name, float(factor), unit), [Path(film) for film in films])
 
 
 if __name__ == "__main__":

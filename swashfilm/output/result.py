@@ -1,4 +1,4 @@
-"""The result of a run: numbers by attribute, tables, a data set, and its run folder."""
+"""Result of a run: numbers by attribute, tables, a data set, and its run folder."""
 
 from __future__ import annotations
 
@@ -72,8 +72,8 @@ def _shown(key: str, value: Any) -> str:
 class Result:
     """A finished run.
 
-    summary: its summary.json. write: fills an empty folder with the run's files and returns warnings that
-    writing adds. data: the run's data set. Attributes not found here are numbers of the summary, in SI.
+    summary: the content of summary.json. write: writes the run's files into an empty folder and returns the
+    warnings that writing adds. data: the run's data set. Any other attribute is a number of the summary, in SI.
     """
 
     kinds: ClassVar[tuple[str, ...]] = ()
@@ -91,7 +91,7 @@ class Result:
 
     @classmethod
     def opened(cls, folder: Path) -> Self:
-        """The result of a finished run folder; raises InputFaults where one of its files is missing."""
+        """Return the result of a finished run folder; raise InputFaults where one of its files is missing."""
         expect_files(folder, cls.files, "the folder of a finished run")
         summary = json.loads((folder / SUMMARY).read_text("utf-8"))
 
@@ -103,7 +103,7 @@ class Result:
 
     @classmethod
     def ran(cls, run: Callable[[Path], object]) -> Self:
-        """The result of a run that fills a folder as it goes; the folder is a temporary one."""
+        """Return the result of a run that writes its files while it computes, into a temporary folder."""
         place = tempfile.TemporaryDirectory(prefix="swashfilm-")
         run(Path(place.name))
         found = cls.opened(Path(place.name))
@@ -114,7 +114,7 @@ class Result:
 
     @staticmethod
     def read_data(folder: Path) -> xarray.Dataset:
-        """The data set of a run folder."""
+        """Return the data set of a run folder."""
         return read_netcdf(folder / "results.nc")
 
     @cached_property
@@ -175,14 +175,14 @@ class Result:
 
 
 def plotted(draw: Callable[[], Figure | None]) -> list[Axes]:
-    """Axes of a figure of pyplot, which a notebook shows; none where there is nothing to draw."""
+    """Return the axes of a pyplot figure, which a notebook shows; none where there is nothing to draw."""
     with pyplot_figures():
         figure = draw()
     return [] if figure is None else list(figure.axes)
 
 
 def read_netcdf(path: Path) -> xarray.Dataset:
-    """A NetCDF file, loaded whole."""
+    """Return the data set of a NetCDF file, loaded whole."""
     import xarray
 
     with xarray.open_dataset(path, engine="h5netcdf") as data:
@@ -190,7 +190,7 @@ def read_netcdf(path: Path) -> xarray.Dataset:
 
 
 def read_table(path: Path) -> xarray.Dataset:
-    """A CSV file with heads `name [unit]`, a variable a column over `row`; units in the attributes."""
+    """Return a CSV file with heads `name [unit]` as variables over `row`; units in the attributes."""
     import pandas
 
     frame = pandas.read_csv(path).rename_axis("row")
@@ -203,7 +203,7 @@ def read_table(path: Path) -> xarray.Dataset:
 
 
 def framed(data: xarray.Dataset) -> pandas.DataFrame:
-    """Variables over the first dimension as columns, its coordinate as index; the unit in each head."""
+    """Return variables over the first dimension as columns, its coordinate as index; the unit in each head."""
     first = str(next(iter(data.sizes)))
     series = data.drop_dims([dim for dim in data.sizes if dim != first])
     frame = series.to_dataframe()

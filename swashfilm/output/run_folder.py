@@ -1,6 +1,6 @@
-"""Run folders: a fresh one for every run, nothing overwritten, what a break left clearly marked.
+"""Run folders: a new one for every run, nothing overwritten, an interrupted run marked as partial.
 
-A run writes into `<folder>.partial`, which takes its true name when the run is complete.
+A run writes into `<folder>.partial`, which is renamed to `<folder>` when the run is complete.
 """
 
 from __future__ import annotations
@@ -22,9 +22,9 @@ RUNS = Path("runs")
 
 
 class Interrupted(KeyboardInterrupt):
-    """Ctrl-C during a run: `kept` is the folder with what was done, None where there is nothing to keep.
+    """Ctrl-C during a run: `kept` is the folder of the finished part, None where there is nothing to keep.
 
-    `again` says how to go on where what was done is kept elsewhere.
+    `again`: instruction to continue where the finished part is kept elsewhere.
     """
 
     def __init__(self, kept: Path | None, again: str = "") -> None:
@@ -35,12 +35,12 @@ class Interrupted(KeyboardInterrupt):
 
 @contextmanager
 def run_folder(name: str, wanted: Path | None = None) -> Iterator[Path]:
-    """A folder to write a run's files into; afterwards they lie in `wanted`, or in `runs/<name>-<n>`, n fresh.
+    """Yield a folder for a run's files; at the end it becomes `wanted`, or `runs/<name>-<n>` with the next free n.
 
-    Left by an error or Interrupted, nothing stays but points that were solved, and where they lie is told. Left by
-    Ctrl-C, the `.partial` folder stays if it holds results, and Interrupted tells where. Raises InputFaults for a
-    `wanted` that holds files or cannot be made, and where another run has filled it meanwhile (the results then
-    stay in the `.partial` folder).
+    After an error or Interrupted only solved points are kept, and their folder is printed. After Ctrl-C the
+    `.partial` folder is kept if it holds results, and Interrupted names it. Raises InputFaults for a `wanted` that
+    holds files or cannot be created, and where another run has filled it meanwhile (the results then remain in the
+    `.partial` folder).
     """
     final, partial = _claim(name, wanted)
     try:
@@ -57,7 +57,7 @@ def run_folder(name: str, wanted: Path | None = None) -> Iterator[Path]:
         from system.work.kept_results import POINTS
 
         if any((partial / POINTS).glob("*.json")):
-            sys.stderr.write(f"swashfilm: points that were solved are kept in {partial}: --resume {partial}\n")
+            sys.stderr.write(f"swashfilm: solved points are kept in {partial}: --resume {partial}\n")
         else:
             shutil.rmtree(partial)
         raise
@@ -65,29 +65,29 @@ def run_folder(name: str, wanted: Path | None = None) -> Iterator[Path]:
 
 
 def _give_its_name(partial: Path, final: Path) -> None:
-    """A complete run's folder under its true name; raises InputFaults where another run has taken it meanwhile."""
+    """Rename a complete run's folder; raise InputFaults where another run has filled the final one meanwhile."""
     try:
         if final.is_dir():
             final.rmdir()  # empty: `_claim` refused any other
         partial.rename(final)
     except OSError:
         found = f"{final}, which another run has filled meanwhile"
-        fault = Fault("-o", found, "a folder of its own for every run", f"the results are in {partial}")
+        fault = Fault("-o", found, "a separate folder for every run", f"the results are in {partial}")
         raise InputFaults("command line", [fault]) from None
 
 
 def final_folder(partial: Path) -> Path:
-    """The name that a folder under work gets when its run is complete."""
+    """Return the name that a partial folder gets when its run is complete."""
     return partial.with_name(partial.name.rpartition(".partial")[0])
 
 
 def write_json(path: Path, values: Mapping[str, Any]) -> None:
-    """Write values as JSON; raises ValueError for a number that is none (nan, inf), which no summary may hold."""
+    """Write values as JSON; raise ValueError for nan and inf, which no summary may hold."""
     path.write_text(json.dumps(values, indent=2, allow_nan=False) + "\n", encoding="utf-8")
 
 
 def _claim(name: str, wanted: Path | None) -> tuple[Path, Path]:
-    """The final folder and its partial one, which exists from now on and is nobody else's."""
+    """Return the final folder and its partial one, which is created and belongs to this run alone."""
     try:
         if wanted is not None:
             _refuse_filled(wanted)
@@ -103,14 +103,14 @@ def _claim(name: str, wanted: Path | None) -> tuple[Path, Path]:
             if not final.exists() and _made(partial := RUNS / f"{name}-{number}.partial"):
                 return final, partial
     except OSError as reason:
-        fault = Fault("-o", f"{reason.filename}: {reason.strerror}", "a folder that can be made and written")
+        fault = Fault("-o", f"{reason.filename}: {reason.strerror}", "a folder that can be created and written")
         raise InputFaults("command line", [fault]) from None
     raise AssertionError("count() does not end")
 
 
 def _refuse_filled(wanted: Path) -> None:
     if wanted.name in ("", ".."):
-        fault = Fault("-o", f"'{wanted}', which is no name", "the name of a new or an empty folder")
+        fault = Fault("-o", f"'{wanted}', not a folder name", "the name of a new or an empty folder")
         raise InputFaults("command line", [fault])
     if wanted.is_dir() and not any(wanted.iterdir()):
         return

@@ -9,7 +9,7 @@ Table = tuple[str, Sequence[Sequence[str]]]
 
 
 def aligned(rows: Sequence[Sequence[str]]) -> list[str]:
-    """Rows of text as lines of columns, two blanks before and between."""
+    """Return rows of text as lines of aligned columns, two blanks before and between."""
     columns = max((len(row) for row in rows), default=0)
     widths = [max(len(row[k]) for row in rows if len(row) > k) for k in range(columns)]
     return [

@@ -60,7 +60,7 @@ def _caption(data: xarray.Dataset, gap: str) -> str:
 def _beside(data: list[xarray.Dataset], names: tuple[str, str], gap: str, shown: list[MapField]) -> bytes:
     figure = figure_of(10.0, 3.7 * len(shown))
     for line, field in zip(figure.subplots(len(shown), 2, squeeze=False), shown, strict=True):
-        values = [field.shown(_field(one, gap, field.name)) for one in data]
+        values = [field.in_unit(_field(one, gap, field.name)) for one in data]
         limits = min(float(one.min()) for one in values), max(float(one.max()) for one in values)
         for axes, one, own, name in zip(line, data, values, names, strict=True):
             place, labels = gap_place(one, gap, pictured(one, gap))

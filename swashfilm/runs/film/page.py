@@ -90,7 +90,7 @@ def film_figure(fields: xarray.Dataset) -> Figure:
     figure = figure_of(*((8.0, 3.5 * rows) if wide else (10.0, 4.2 * rows)))
     for number, field in enumerate(shown, start=1):
         axes = figure.add_subplot(rows, columns, number)
-        values = field.shown(fields[field.name].values)
+        values = field.in_unit(fields[field.name].values)
         draw_map(axes, place, fields["cells"].values, values, field.title, colours=field.colours)
     return figure
 

@@ -158,6 +158,6 @@ def gap_map(data: xarray.Dataset, gap: str, k: int) -> Figure:
     figure = figure_of(10.0, 3.9 * rows)
     for number, field in enumerate(known, start=1):
         axes = figure.add_subplot(rows, 2, number)
-        values = field.shown(data[f"{gap}_{field.name}"].values[k])
+        values = field.in_unit(data[f"{gap}_{field.name}"].values[k])
         draw_map(axes, place, cells, values, field.title, labels, field.colours)
     return figure

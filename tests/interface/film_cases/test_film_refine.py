@@ -12,7 +12,7 @@ from reynolds.fem.mesh import Cell, annulus, mesh_from_file, rectangle
 from reynolds.fem.mesh_check import mesh_faults
 from reynolds.fem.refine import refine_mesh
 from swashfilm.__main__ import main
-from swashfilm.output.convergence import Verdict, convergence
+from swashfilm.output.convergence import ConvergenceKind, convergence
 
 SLIDER = """
 format = 1
@@ -31,7 +31,7 @@ LOAD = 0.15888308 * 0.03 * 0.01**2 / 1e-5**2 * 0.01  # closed form (Rayleigh 191
 @pytest.mark.parametrize("order", [1.0, 2.0])
 def test_a_power_law_gives_its_order_and_its_limit(order):
     found = convergence([5.0 + 0.3 * 2.0 ** (-order * k) for k in range(4)], (1.0, 2.0), 5.0)
-    assert found.verdict is Verdict.CONVERGING
+    assert found.verdict is ConvergenceKind.CONVERGING
     assert found.order == pytest.approx(order)
     assert found.extrapolated == pytest.approx(5.0)
     assert found.error == pytest.approx(1.25 * 0.3 * 2.0 ** (-3 * order))
@@ -40,20 +40,20 @@ def test_a_power_law_gives_its_order_and_its_limit(order):
 @pytest.mark.parametrize(
     ("values", "verdict", "order"),
     [
-        ([1.0, 1.0, 1.0], Verdict.CONVERGED, None),
-        ([1.0, 2.0, 2.1], Verdict.DOUBTFUL, pytest.approx(3.32, abs=0.01)),
-        ([1.0, 1.5, 1.2], Verdict.OSCILLATING, pytest.approx(0.74, abs=0.01)),
-        ([1.0, 1.5, 1.5], Verdict.OSCILLATING, None),
-        ([1.0, 1.1, 1.2], Verdict.NONE, None),
-        ([1.0, 1.0, 1.2], Verdict.NONE, None),
-        ([1.0, 1.1, 0.9], Verdict.NONE, None),
-        ([1.0, 1.1], Verdict.ASSUMED, None),
+        ([1.0, 1.0, 1.0], ConvergenceKind.CONVERGED, None),
+        ([1.0, 2.0, 2.1], ConvergenceKind.DOUBTFUL, pytest.approx(3.32, abs=0.01)),
+        ([1.0, 1.5, 1.2], ConvergenceKind.OSCILLATING, pytest.approx(0.74, abs=0.01)),
+        ([1.0, 1.5, 1.5], ConvergenceKind.OSCILLATING, None),
+        ([1.0, 1.1, 1.2], ConvergenceKind.NONE, None),
+        ([1.0, 1.0, 1.2], ConvergenceKind.NONE, None),
+        ([1.0, 1.1, 0.9], ConvergenceKind.NONE, None),
+        ([1.0, 1.1], ConvergenceKind.ASSUMED, None),
     ],
 )
 def test_what_does_not_converge_as_expected_says_so(values, verdict, order):
     found = convergence(values, (2.0, 2.0), 1.0)
     assert (found.verdict, found.order) == (verdict, order)
-    if verdict is Verdict.NONE:
+    if verdict is ConvergenceKind.NONE:
         assert found.extrapolated is None
         assert found.error is None
     else:

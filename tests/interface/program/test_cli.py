@@ -86,7 +86,7 @@ def test_the_version_is_that_of_the_package(capsys):
         (["rnu"], ["'rnu'", "run, film", "try:      run"]),
         (["run", "--sped", "2100rpm"], ["--sped", "unknown option", "try:      --speed"]),
         (["run", "--sped", "1rpm", "--presure", "1bar"], ["2 faults", "--speed", "--pressure"]),
-        (["run", "ref90", "more"], ["more", "a word too many"]),
+        (["run", "ref90", "more"], ["more", "one word too many"]),
         (["run", "--speed"], ["--speed", "no value"]),
         (["run", "--temperature", "-5degC"], ["no value", "--temperature=VALUE"]),
         (["run", "--speed", "2100"], ["--speed", "'2100'", "with its unit", "'2100 rpm'"]),
@@ -173,7 +173,7 @@ def test_every_run_gets_a_folder_of_its_own_and_none_is_overwritten(capsys):
 def test_a_folder_that_cannot_be_made_is_bad_input(capsys):
     Path("locked").mkdir(mode=0o500)
     assert main(["film", "pad.toml", "-o", "locked/run"]) == 2
-    assert "can be made and written" in capsys.readouterr().err
+    assert "can be created and written" in capsys.readouterr().err
 
 
 def test_a_film_that_does_not_converge_ends_with_3_and_leaves_no_number(monkeypatch, capsys):

@@ -54,7 +54,7 @@ def test_levels_are_read(text, given, levels):
 
 
 @pytest.mark.parametrize(
-    ("text", "words"), [("1000", "unit"), ("1..2rpm", "number of its levels"), ("1..2rpm:1", "2 to"), ("x", "rpm")]
+    ("text", "words"), [("1000", "unit"), ("1..2rpm", "a number of levels"), ("1..2rpm:1", "2 to"), ("x", "rpm")]
 )
 def test_levels_that_are_none_are_told(text, words):
     found = map_axis("--speeds", text, MapInput.SPEED, "1000,2000rpm")
