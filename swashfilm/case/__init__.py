@@ -1,1 +1,1 @@
-"""A film case file read to a validated problem, and written back."""
+"""Film case files: read to a validated problem, and written back."""

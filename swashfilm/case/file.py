@@ -1,4 +1,4 @@
-"""A film case file: TOML to a validated film problem, and back to TOML with every default filled in."""
+"""Film case file: TOML to a validated film problem, and back to TOML with every default filled in."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ from system.inputs.units import Dimension
 
 @dataclass(frozen=True)
 class FilmCase:
-    """A film case, validated: name, the file's text, the same resolved, what it states, and the problem (SI)."""
+    """A validated film case: name, text of the file, resolved text, statement, and problem (SI)."""
 
     name: str
     text: str
@@ -44,7 +44,7 @@ class FilmCase:
     problem: FilmProblem
 
     def refined(self) -> FilmCase:
-        """The same case on a mesh twice finer; raises FilmInputError where a field has no possible value there."""
+        """Return the case on a mesh twice finer; raise FilmInputError where a field has no valid value there."""
         stated = self.stated.refined()
         return replace(self, stated=stated, problem=film_problem(stated), resolved=resolved_text(stated))
 
@@ -53,17 +53,17 @@ Case = FilmCase | GapCase | RevolutionCase
 
 
 def load_case(path: Path) -> Case:
-    """The case of a file, ready to be solved: a free film, or a pump gap where it names one.
+    """Return the case of a file, ready to be solved: a free film, or a pump gap where the case names one.
 
-    Raises InputFaults with everything that is wrong: form, units, formulas, names of boundaries and data, a
-    film thickness or viscosity that is not positive somewhere, and physics that this version does not have.
+    Raises InputFaults with every fault: form, units, formulas, names of boundaries and data, a film thickness or
+    viscosity that is not positive somewhere, and physics that this version does not model.
     """
     text, tables = read_toml(path)
     return read_case(path, text, tables)
 
 
 def read_case(path: Path, text: str, tables: Mapping[str, Any]) -> Case:
-    """The case of a file's tables; `text` and `path` are for its name, its faults and the files beside it."""
+    """Return the case of a file's tables; `text` and `path` serve its name, its faults and relative paths."""
     top = Table("", tables, [])
     _check_format(top)
     film = top if "gap" in tables else top.table("film", needed="that describes the film")
@@ -80,10 +80,10 @@ def read_case(path: Path, text: str, tables: Mapping[str, Any]) -> Case:
 
 
 def _check_format(top: Table) -> None:
-    """Fault a case file that is not of this version's format, and the parts that it does not have yet."""
+    """List faults of a case file of another format, and of parts that a single case does not have."""
     stated = top.get("format")
     if type(stated) is not int or stated != FORMAT:
-        found = "no such key" if stated is None else repr(stated)
+        found = "missing" if stated is None else repr(stated)
         top.fault("format", found, f"format = {FORMAT}, the case format of this version")
     if top.get("study") is not None:
         top.fault("study", "a table [study]", "a single case; `swashfilm film` runs studies")
@@ -107,7 +107,7 @@ def _free_film(path: Path, text: str, top: Table, film: Table) -> FilmCase | Non
 
 
 def _stated(top: Table, film: Table, reader: FieldReader, order: int | None, folder: Path) -> FilmStatement | None:
-    """What the case states; None where a part of it has a fault, which is told."""
+    """Return the statement of the case; None with its faults listed."""
     faults = len(top.faults)
     thermal, time, load = read_thermal(top), read_time(top), read_load(top, film)
     is_shape = film.get("load") is not None
@@ -151,7 +151,7 @@ def _order(film: Table) -> int | None:
 
 
 def _viscosity(top: Table, film: Table, reader: FieldReader) -> tuple[Field | None, OilStatement | None]:
-    """Viscosity without pressure at the oil's temperature, and the oil; None with the faults told."""
+    """Viscosity without pressure at the oil's temperature, and the oil; None with the faults listed."""
     table = top.table("oil")
     given = film.get("viscosity") is not None
     with_heat = top.get("thermal") is not None
@@ -162,12 +162,12 @@ def _viscosity(top: Table, film: Table, reader: FieldReader) -> tuple[Field | No
         viscosity = oil_viscosity(table, oil)
         return None if viscosity is None else Uniform(viscosity, Dimension.DYNAMIC_VISCOSITY), oil
     if top.get("oil") is None:
-        film.fault("viscosity", "no such key", "a viscosity, such as '30 mPa s', or a table [oil]")
+        film.fault("viscosity", "missing", "a viscosity, such as '30 mPa s', or a table [oil]")
     return None, None
 
 
 def _check_tables(top: Table, film: Table, oil: OilStatement | None, viscosity: Field | None) -> None:
-    """Fault tables that do not go together."""
+    """List faults of tables that exclude or need each other."""
     if top.get("thermal") is None:
         return
     if top.get("oil") is None:
@@ -176,8 +176,8 @@ def _check_tables(top: Table, film: Table, oil: OilStatement | None, viscosity: 
         return
     table = top.get("oil")
     if "temperature_coefficient" not in table:
-        expected = "how the viscosity falls with temperature ('0.03 1/K'), or a grade in place of film.viscosity"
-        top.fault("oil.temperature_coefficient", "no such key", expected)
+        expected = "the decrease of viscosity with temperature ('0.03 1/K'), or a grade in place of film.viscosity"
+        top.fault("oil.temperature_coefficient", "missing", expected)
     if viscosity is not None and not isinstance(viscosity, Uniform):
         film.fault("viscosity", f"'{viscosity}' with a table [thermal]", "one viscosity, at the oil's temperature")
 
@@ -191,4 +191,4 @@ def _check_order(film: Table, parts: Mapping[str, Any], *, with_heat: bool) -> N
             "order = 1, or cavitation = 'none' (quadratic pressure is for full films only)",
         )
     elif parts["order"] == 2 and with_heat:
-        film.fault("order", "2 with a table [thermal]", "order = 1, with which the film's heat is carried")
+        film.fault("order", "2 with a table [thermal]", "order = 1: heat is transported by linear pressure only")

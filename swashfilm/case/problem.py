@@ -1,4 +1,4 @@
-"""From what a film case states to the film problem: fields sampled on the mesh."""
+"""Film problem of a film case: its fields sampled on the mesh."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from swashfilm.case.statement import FilmStatement
 
 
 def film_problem(stated: FilmStatement, space: FilmSpace | None = None, t: float = 0.0) -> FilmProblem:
-    """The problem that a case states at a time (s), on its mesh (`space`, where it is there already).
+    """Return the problem of a case at a time (s); `space`: the space on its mesh, where it exists already.
 
     Raises FilmInputError for a field without a value somewhere, for a thickness or viscosity not above zero, and
     for an elastic body that does not lie under the film.
@@ -43,12 +43,12 @@ def film_problem(stated: FilmStatement, space: FilmSpace | None = None, t: float
 
 
 def held(stated: FilmStatement, t: float) -> dict[str, Held]:
-    """The boundaries at a time (s)."""
+    """Return the boundary values at a time (s)."""
     return {name: Held(entry.pressure.at_time(t), entry.film_fraction) for name, entry in stated.boundary.items()}
 
 
 def _fluid(stated: FilmStatement) -> Fluid:
-    """The oil's laws in pressure; of a film with temperature the viscosity is the thermal solve's."""
+    """Return the oil's laws over pressure; with temperature solved, the thermal solution sets the viscosity."""
     if stated.oil is None:
         return CONSTANT
     fluid = Fluid(density=stated.oil.density_law) if stated.thermal else stated.oil.fluid
@@ -56,7 +56,7 @@ def _fluid(stated: FilmStatement) -> Fluid:
 
 
 def _sampled(where: str, field: Field, space: FilmSpace, t: float, *, positive: bool = False) -> Array:
-    """A field at the quadrature points, found possible there."""
+    """Return a field at the quadrature points; raise FilmInputError where its value is invalid."""
     if fault := field_fault(field, space, t, positive=positive):
         raise FilmInputError(where, *fault)
     return field.sample(space, t)

@@ -1,4 +1,4 @@
-"""A film case written back: every key, defaults filled in, units named."""
+"""Text of a resolved film case: every key, defaults filled in, with units."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from system.inputs.units import Dimension, format_quantity
 
 
 def resolved_text(stated: FilmStatement) -> str:
-    """A case file that gives this very case."""
+    """Return the text of this case."""
     film = {
         "mesh": stated.mesh.text,
         "order": stated.order,
@@ -34,7 +34,7 @@ def resolved_text(stated: FilmStatement) -> str:
         film["viscosity"] = f'"{stated.viscosity}"  # Pa s'
     rows = [f"format = {FORMAT}", "", "[film]", *(f"{key} = {value}" for key, value in film.items())]
     rows += ["", *constant_rows(stated.constants)] if stated.constants else []
-    rows += ["", "[boundary]  # what is not named is closed"]
+    rows += ["", "[boundary]  # boundaries not named are closed"]
     rows += [f'"{name}" = {{ {_boundary(entry)} }}' for name, entry in stated.boundary.items()]
     if stated.oil:
         rows += ["", "[oil]", *stated.oil.rows]

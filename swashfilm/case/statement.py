@@ -1,4 +1,4 @@
-"""What a film case states, read and in SI: the film before it has a mesh's quadrature points."""
+"""Statement of a film case in SI: the film before its fields are sampled on the mesh."""
 
 from __future__ import annotations
 
@@ -24,8 +24,8 @@ Velocity = tuple[Field, Field]
 class FilmStatement:
     """A free film as its case states it, every default filled in; `cavitation_pressure` in Pa.
 
-    `viscosity` is that at the oil's temperature and without pressure. `initial_film_fraction` is that of a
-    transient; tables that a case does not have are None. With `load` the thickness is a shape.
+    `viscosity` is that at the oil's temperature and zero pressure. `initial_film_fraction` belongs to a transient.
+    Tables that a case does not have are None. With `load` the thickness is the shape only.
     """
 
     mesh: CaseMesh
@@ -48,7 +48,7 @@ class FilmStatement:
     constants: Mapping[str, float] = field(default_factory=dict)
 
     def refined(self) -> FilmStatement:
-        """The same film on a mesh twice finer, data of a mesh file carried along."""
+        """Return the film on a mesh twice finer, with the data of a mesh file on it."""
         mesh = self.mesh.finer()
         moved = {part.name: _on(getattr(self, part.name), mesh.data) for part in fields(self)}
         return replace(self, **(moved | {"mesh": mesh}))

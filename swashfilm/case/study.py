@@ -1,4 +1,4 @@
-"""The [study] table of a film case: which keys vary over what, and the cases that come of it."""
+"""Study table of a film case: varied keys, their values, and the resulting cases."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from swashfilm.case.file import Case, read_case
-from swashfilm.case.gap.physics_switches import switch_of
+from swashfilm.case.gap.switches import switch_of
 from system.inputs.faults import Fault, InputFaults, nearest_choice
 from system.inputs.toml_table import Table, fault_lines, quoted, read_toml
 from system.inputs.units import Dimension, QuantityError, format_quantity, parse_quantity
@@ -25,22 +25,22 @@ Point = tuple[int, ...]
 
 
 class Combine(Enum):
-    """How several keys vary: every value of one with every value of the others, or all in step."""
+    """Combination of several keys: every value with every value of the others, or all together."""
 
     ALL = "all"
     TOGETHER = "together"
 
 
-class Spacing(Enum):
-    """Steps of a range: of equal difference or of equal ratio."""
+class RangeSpacing(Enum):
+    """Spacing of a range: equal differences or equal ratios."""
 
     LINEAR = "linear"
     LOG = "log"
 
 
 @dataclass(frozen=True)
-class Axis:
-    """One varied key: its values as a case writes them and, where these are numbers, as SI with their unit."""
+class StudyAxis:
+    """One varied key: its values as written in a case and, for numbers, in SI with their unit."""
 
     key: str
     values: tuple[Any, ...]
@@ -55,22 +55,22 @@ class Axis:
 
 @dataclass(frozen=True)
 class StudyCase:
-    """A study: the case's tables without [study], the varied keys, and how they combine.
+    """A study: the case's tables without [study], the varied keys, and their combination.
 
-    `path` and `text` are those of the file, `where` the table that holds the keys.
+    `path` and `text` are those of the file, `where` is the table of the keys.
     """
 
     name: str
     path: Path
     text: str
     tables: Mapping[str, Any]
-    axes: tuple[Axis, ...]
+    axes: tuple[StudyAxis, ...]
     combine: Combine
     where: str = "study"
 
     @property
     def shape(self) -> tuple[int, ...]:
-        """Number of points along each direction of the study: one a key, or one for all in step."""
+        """Number of points along each direction of the study: a direction per key, or one for all together."""
         lengths = tuple(len(axis.values) for axis in self.axes)
         return lengths if self.combine is Combine.ALL else lengths[:1]
 
@@ -82,15 +82,15 @@ class StudyCase:
         return list(product(*(range(len(axis.values)) for axis in self.axes)))
 
     def values(self, point: Point) -> dict[str, Any]:
-        """The varied keys of a point and their values as a case writes them."""
+        """Return the varied keys of a point and their values as written in a case."""
         return {axis.key: axis.values[k] for axis, k in zip(self.axes, point, strict=True)}
 
     def case(self, point: Point) -> Case:
-        """The case of a point; raises InputFaults with what is wrong with it."""
+        """Return the case of a point; raise InputFaults with its faults."""
         return self.case_with(self.values(point))
 
     def case_with(self, values: Mapping[str, Any]) -> Case:
-        """The case with any values of its keys; raises InputFaults with what is wrong with it."""
+        """Return the case with these values of its keys; raise InputFaults with its faults."""
         tables = copy.deepcopy(dict(self.tables))
         for key, value in values.items():
             _put(tables, key, value)
@@ -99,21 +99,21 @@ class StudyCase:
 
 
 def load_film(path: Path, switched: Mapping[str, str] | None = None) -> Case | StudyCase:
-    """What a film case file holds: a film, a pump gap, or a study of one. Raises InputFaults with every fault.
+    """Return the content of a film case file: a film, a pump gap, or a study. Raise InputFaults with every fault.
 
-    `switched`: values of [revolution], by key, that the command line puts in place of the file's.
+    `switched`: values of [revolution], by key, that the command line sets.
     """
     text, tables = read_switched(path, switched or {})
     if "table" in tables:
-        fault = Fault("table", "ranges to learn over", "no such table beside a film", f"swashfilm table {path}")
+        fault = Fault("table", "ranges of a response table", "a film without [table]", f"swashfilm table {path}")
         raise InputFaults(str(path), [fault], fault_lines(text, [fault]))
     return read_study(path, text, tables) if "study" in tables else read_case(path, text, tables)
 
 
 def read_switched(path: Path, switched: Mapping[str, str]) -> tuple[str, dict[str, Any]]:
-    """Text and tables of a case file with values of [revolution], by key, in place of the file's.
+    """Return text and tables of a case file, values of [revolution] replaced by key with `switched`.
 
-    Raises InputFaults as `read_toml`, and for a case that has no revolution.
+    Raises InputFaults as `read_toml`, and for a case without revolution.
     """
     text, tables = read_toml(path)
     if switched:
@@ -125,7 +125,7 @@ def read_switched(path: Path, switched: Mapping[str, str]) -> tuple[str, dict[st
 
 
 def _switch(tables: dict[str, Any], switched: Mapping[str, str]) -> None:
-    """Put values in [revolution]; raises InputFaults for a case that has no revolution."""
+    """Set values in [revolution]; raise InputFaults for a case without revolution."""
     film = tables.get("film")
     if not isinstance(film, dict) or film.get("revolution") is not True:
         case = "a case with revolution = true in [film]"
@@ -136,10 +136,10 @@ def _switch(tables: dict[str, Any], switched: Mapping[str, str]) -> None:
 
 
 def read_study(path: Path, text: str, tables: Mapping[str, Any]) -> StudyCase:
-    """The study of a file with a table [study].
+    """Return the study of a file with a table [study].
 
-    Raises InputFaults for faults of the table, for a key that no case has, and where not one of the points makes
-    a case; a single point with a fault is no fault of the study.
+    Raises InputFaults for faults of the table, for an unknown key, and where no point is a valid case; a single
+    point with a fault is not a fault of the study.
     """
     table = Table("study", tables["study"] if isinstance(tables["study"], dict) else {}, [])
     if not isinstance(tables["study"], dict):
@@ -147,7 +147,7 @@ def read_study(path: Path, text: str, tables: Mapping[str, Any]) -> StudyCase:
     combine = table.choice("combine", Combine, Combine.ALL)
     axes = [_axis(table, key) for key in table.values if key != "combine"]
     if not axes and not table.faults:
-        table.faults.append(Fault("study", "no key that varies", '"film.KEY" = [...] or { from, to, points }'))
+        table.faults.append(Fault("study", "no varied key", '"film.KEY" = [...] or { from, to, points }'))
     base = {key: value for key, value in tables.items() if key != "study"}
     found = [axis for axis in axes if axis]
     study = StudyCase(path.stem, path, text, base, tuple(found), combine or Combine.ALL)
@@ -158,13 +158,13 @@ def read_study(path: Path, text: str, tables: Mapping[str, Any]) -> StudyCase:
 
 
 def hold_to_case(study: StudyCase, faults: list[Fault]) -> None:
-    """Raise InputFaults with `faults` and, where there are none, for keys that no case has, or no point at all."""
+    """Raise InputFaults with `faults`; where there are none, for unknown keys, or where no point is valid."""
     told = [*faults, *_unknown_constants(study), *_beyond_lists(study)] or _case_faults(study)
     if told:
         raise InputFaults(str(study.path), told, fault_lines(study.text, told))
 
 
-def _axis(table: Table, key: str) -> Axis | None:
+def _axis(table: Table, key: str) -> StudyAxis | None:
     raw = table.get(key)
     if not is_key_of_case(table, key):
         return None
@@ -178,7 +178,7 @@ def _axis(table: Table, key: str) -> Axis | None:
 
 
 def is_key_of_case(table: Table, key: str) -> bool:
-    """Whether a key of [study] or [table] is written as a dotted key of the case; its fault is told."""
+    """Return whether a key of [study] or [table] is a dotted key of the case; its fault is listed."""
     if "." in key and all(_STEP.fullmatch(step) for step in key.split(".")):
         return True
     expected = 'a key of the case in quotes, such as "film.thickness"'
@@ -186,30 +186,33 @@ def is_key_of_case(table: Table, key: str) -> bool:
     return False
 
 
-def _listed(key: str, values: Sequence[Any]) -> Axis:
-    """Values as they are; numbers where all are bare numbers or quantities of one dimension."""
+def _listed(key: str, values: Sequence[Any]) -> StudyAxis:
+    """Return an axis of listed values, with numbers where all are bare numbers or of one dimension."""
     if all(isinstance(value, (int, float)) and not isinstance(value, bool) for value in values):
-        return Axis(key, tuple(values), tuple(float(value) for value in values), "")
+        return StudyAxis(key, tuple(values), tuple(float(value) for value in values), "")
     dimension = _dimension(values)
     if dimension is None:
-        return Axis(key, tuple(values), None, "")
+        return StudyAxis(key, tuple(values), None, "")
     numbers = tuple(parse_quantity(value, dimension) for value in values)
-    return Axis(key, tuple(values), numbers, dimension.si_unit)
+    return StudyAxis(key, tuple(values), numbers, dimension.si_unit)
 
 
 @dataclass(frozen=True)
 class Ends:
-    """A range of one key, SI: its ends, the dimension of both (None: bare numbers), and how it is stepped."""
+    """A range of one key, SI: its ends, the dimension of both (None: bare numbers), and its spacing."""
 
     low: float
     high: float
     dimension: Dimension | None
-    spacing: Spacing
+    spacing: RangeSpacing
 
 
 def read_ends(table: Table) -> Ends | None:
-    """The range that `from`, `to` and `spacing` of a table give; None with the faults told."""
-    ends, spacing = [table.get(end) for end in ("from", "to")], table.choice("spacing", Spacing, Spacing.LINEAR)
+    """Return the range of `from`, `to` and `spacing` in a table; None with the faults listed."""
+    ends, spacing = (
+        [table.get(end) for end in ("from", "to")],
+        table.choice("spacing", RangeSpacing, RangeSpacing.LINEAR),
+    )
     plain = all(isinstance(end, (int, float)) and not isinstance(end, bool) for end in ends)
     dimension = None if plain else _dimension(ends)
     if not plain and dimension is None:
@@ -217,36 +220,36 @@ def read_ends(table: Table) -> Ends | None:
         table.faults.append(Fault(table.path, found, "two quantities of one kind, or two bare numbers"))
         return None
     low, high = (float(end) if dimension is None else parse_quantity(end, dimension) for end in ends)
-    if spacing is Spacing.LOG and min(low, high) <= 0.0:
+    if spacing is RangeSpacing.LOG and min(low, high) <= 0.0:
         table.fault("spacing", "'log' over a range that is not above zero", "'linear', or two ends above zero")
         return None
     return Ends(low, high, dimension, spacing) if spacing else None
 
 
-def _ranged(table: Table, key: str) -> Axis | None:
+def _ranged(table: Table, key: str) -> StudyAxis | None:
     points, ends = table.get("points"), read_ends(table)
     table.close()
     if type(points) is not int or not 2 <= points <= MOST_POINTS:
-        table.fault(
-            "points", "no such key" if points is None else repr(points), f"a whole number, 2 to {MOST_POINTS}"
-        )
+        table.fault("points", "missing" if points is None else repr(points), f"a whole number, 2 to {MOST_POINTS}")
         return None
     if ends is None:
         return None
-    steps = (np.geomspace if ends.spacing is Spacing.LOG else np.linspace)(ends.low, ends.high, points)
+    steps = (np.geomspace if ends.spacing is RangeSpacing.LOG else np.linspace)(ends.low, ends.high, points)
     return stepped(key, [float(f"{step:.12g}") for step in steps], ends.dimension)
 
 
-def stepped(key: str, numbers: Sequence[float], dimension: Dimension | None) -> Axis:
-    """An axis of such numbers, SI, as a case writes them."""
+def stepped(key: str, numbers: Sequence[float], dimension: Dimension | None) -> StudyAxis:
+    """Return an axis of numbers (SI)."""
     if dimension is None:
-        return Axis(key, tuple(numbers), tuple(numbers), "")
+        return StudyAxis(key, tuple(numbers), tuple(numbers), "")
     texts = [format_quantity(number, dimension, digits=12) for number in numbers]
-    return Axis(key, tuple(texts), tuple(parse_quantity(text, dimension) for text in texts), dimension.si_unit)
+    return StudyAxis(
+        key, tuple(texts), tuple(parse_quantity(text, dimension) for text in texts), dimension.si_unit
+    )
 
 
 def _dimension(values: Sequence[Any]) -> Dimension | None:
-    """The first dimension that all the texts are quantities of."""
+    """Return the first dimension that fits all texts as quantities."""
     for dimension in Dimension:
         try:
             for value in values:
@@ -258,10 +261,10 @@ def _dimension(values: Sequence[Any]) -> Dimension | None:
 
 
 def _unknown_constants(study: StudyCase) -> list[Fault]:
-    """Faults of varied constants that the case has not: nothing would come of them."""
+    """Return faults of varied constants that the case does not have: they have no effect."""
     constants = study.tables.get("constants")
     known = [f"constants.{name}" for name in constants] if isinstance(constants, dict) else []
-    expected = f"one of {', '.join(known)}" if known else "a table [constants] that has it"
+    expected = f"one of {', '.join(known)}" if known else "a table [constants] with it"
     return [
         Fault(_named(study.where, axis.key), "no such constant", expected, nearest_choice(axis.key, known))
         for axis in study.axes
@@ -270,7 +273,7 @@ def _unknown_constants(study: StudyCase) -> list[Fault]:
 
 
 def _beyond_lists(study: StudyCase) -> list[Fault]:
-    """Faults of varied entries, such as `film.velocity[7]`, that a list of the case has not."""
+    """Return faults of varied entries beyond a list of the case, such as `film.velocity[7]`."""
     faults = []
     for axis in study.axes:
         at: Any = study.tables
@@ -293,7 +296,7 @@ def _check_size(table: Table, study: StudyCase) -> None:
 
 
 def _case_faults(study: StudyCase) -> list[Fault]:
-    """Faults of the first point, where a varied key is unknown or where no point at all makes a case."""
+    """Return faults of the first point, where a varied key is unknown or where no point is valid."""
     first: list[Fault] = []
     for point in study.points:
         try:
@@ -309,7 +312,7 @@ def _case_faults(study: StudyCase) -> list[Fault]:
 
 
 def _at_study(fault: Fault, study: StudyCase) -> Fault:
-    """A fault of a varied key told at the study's key."""
+    """Return a fault of a varied key at the study's key."""
     for axis in study.axes:
         if axis.key == fault.path:
             near = fault.nearest
@@ -325,7 +328,7 @@ def _at_study(fault: Fault, study: StudyCase) -> Fault:
 
 
 def _put(tables: dict[str, Any], key: str, value: Any) -> None:
-    """Set a dotted key, `film.velocity[0]` too, making the tables on the way to it."""
+    """Set a dotted key, such as `film.velocity[0]`; create the tables above it."""
     at: Any = tables
     steps = [match.groups() for step in key.split(".") if (match := _STEP.fullmatch(step))]
     for name, _ in steps[:-1]:
@@ -338,7 +341,7 @@ def _put(tables: dict[str, Any], key: str, value: Any) -> None:
     elif isinstance(at.get(name), list) and int(index) < len(at[name]):
         at[name][int(index)] = value
     else:
-        # Filled up so that the reader of the key says what is missing.
+        # Filled up so that the reader of the key names the missing entries.
         at[name] = [None] * int(index) + [value]
 
 

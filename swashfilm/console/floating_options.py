@@ -7,8 +7,8 @@ from dataclasses import replace
 
 from gaps.films.physics import Effect
 from reynolds.errors import FilmInputError
-from swashfilm.case.gap.physics_switches import SWITCHES
 from swashfilm.case.gap.revolution import FINER
+from swashfilm.case.gap.switches import SWITCHES
 from swashfilm.console.fidelity import Fidelity
 from system.description.pump import SINGLE_PARTS, PumpDescription
 from system.effects.switched import hold_plain

@@ -1,9 +1,9 @@
-"""Formulas of case files: arithmetic of place, time and constants, checked and evaluated without Python's eval.
+"""Formulas of case files: arithmetic of position, time and constants, evaluated without Python's eval.
 
-The place is x and y or r and phi, polar coordinates about the origin.
+The position is x and y, or r and phi, polar coordinates about the origin.
 
-A formula is parsed once into a tree of which only arithmetic, comparisons, listed functions and listed names
-are taken; everything else is an ExpressionError that says where.
+A formula is parsed once into a tree. Only arithmetic, comparisons, listed functions and listed names are allowed;
+anything else raises an ExpressionError with its column.
 """
 
 from __future__ import annotations
@@ -43,7 +43,7 @@ _JOIN = {ast.And: np.logical_and, ast.Or: np.logical_or}
 
 
 class ExpressionError(ValueError):
-    """A formula that cannot be taken: what was found and where, what was expected, the nearest valid choice."""
+    """An invalid formula: found text and its column, expectation, nearest valid choice."""
 
     def __init__(self, found: str, expected: str, nearest: str = "") -> None:
         super().__init__(f"{found}; expected {expected}")
@@ -52,7 +52,7 @@ class ExpressionError(ValueError):
 
 @dataclass(frozen=True)
 class Expression:
-    """A checked formula of x and y or r (m) and phi (-pi .. pi), and of t (s); calling it gives its value."""
+    """A checked formula of x and y or r (m) and phi (-pi .. pi), and of t (s); a call returns its value."""
 
     text: str
     evaluate: _Evaluate = field(repr=False, compare=False)
@@ -63,7 +63,7 @@ class Expression:
         return {name: np.asarray(value) for name, value in self.constants.items()}
 
     def __call__(self, x: Array, y: Array, t: float = 0.0) -> Array:
-        """The formula at these places, x and y broadcast; not finite where it has no value (1/0, sqrt(-1))."""
+        """Return the value at these positions, x and y broadcast; not finite where undefined (1/0, sqrt(-1))."""
         with np.errstate(all="ignore"):
             place = {"x": x, "y": y, "r": np.hypot(x, y), "phi": np.arctan2(y, x)}
             value = self.evaluate(place | {"t": np.asarray(t)} | self._constants)
@@ -73,10 +73,10 @@ class Expression:
 def parse_expression(
     text: str, variables: Sequence[str] = PLACE, constants: Mapping[str, float] = NO_CONSTANTS
 ) -> Expression:
-    """The formula that `text` writes: numbers, variables, constants, + - * / **, < <= > >=, and or not, FUNCTIONS.
+    """Return the formula of a text: numbers, variables, constants, + - * / **, < <= > >=, and or not, FUNCTIONS.
 
-    Raises ExpressionError for a slip of syntax (with its column), an unknown name (with the nearest known one)
-    and anything that is no arithmetic.
+    Raises ExpressionError for a syntax error (with its column), an unknown name (with the nearest known one) and
+    anything that is not arithmetic.
     """
     if len(text) > LONGEST:
         raise ExpressionError(f"{len(text)} characters", f"a formula of at most {LONGEST} characters")
@@ -87,9 +87,7 @@ def parse_expression(
         formula(np.ones(1), np.ones(1))
     except SyntaxError as slip:
         column = f" at column {slip.offset}" if slip.offset else ""
-        raise ExpressionError(
-            f"'{text}', a slip of syntax{column}", f"a formula of {_listed(variables)}"
-        ) from None
+        raise ExpressionError(f"'{text}', a syntax error{column}", f"a formula of {_listed(variables)}") from None
     except (RecursionError, MemoryError):
         raise ExpressionError("a formula nested too deep", "a simpler formula") from None
     except ValueError as reason:
@@ -100,7 +98,7 @@ def parse_expression(
 
 
 def _check_names(tree: ast.Expression, variables: Sequence[str], constants: Iterable[str]) -> None:
-    """Raise ExpressionError for a name that is no variable, constant or function."""
+    """Raise ExpressionError for a name that is not a variable, constant or function."""
     fixed = (*CONSTANTS, *constants)
     called = {id(node.func) for node in ast.walk(tree) if isinstance(node, ast.Call)}
     for node in ast.walk(tree):
@@ -123,7 +121,7 @@ def _listed(names: Sequence[str]) -> str:
 
 
 def _compile(node: ast.expr) -> _Evaluate:
-    """The function that evaluates a node; raises ExpressionError for a node that is no arithmetic."""
+    """Return the function that evaluates a node; raise ExpressionError for a node that is not arithmetic."""
     match node:
         case ast.Constant(value=bool()):
             pass
@@ -148,7 +146,7 @@ def _compile(node: ast.expr) -> _Evaluate:
         case _:
             pass
     raise ExpressionError(
-        f"'{ast.unparse(node)}'{_at(node)}, which is no arithmetic",
+        f"'{ast.unparse(node)}'{_at(node)}, which is not arithmetic",
         f"numbers, variables, {', '.join(CONSTANTS)}, the functions {', '.join(FUNCTIONS)}, + - * / **",
     )
 
@@ -157,7 +155,7 @@ def _constant(number: float, node: ast.expr) -> _Evaluate:
     try:
         value = np.asarray(float(number))
     except OverflowError:
-        raise ExpressionError(f"a number beyond 1e308{_at(node)}", "a number that a computer holds") from None
+        raise ExpressionError(f"a number beyond 1e308{_at(node)}", "a number below 1e308") from None
     return lambda names: value
 
 
@@ -187,7 +185,7 @@ def _call(function: Callable[..., Array], arguments: list[ast.expr]) -> _Evaluat
 def _comparison(
     node: ast.Compare, left: ast.expr, operators: list[ast.cmpop], others: list[ast.expr]
 ) -> _Evaluate:
-    """A chain such as 0 < x <= 1: every link holds."""
+    """Return the function that evaluates a chain such as 0 < x <= 1: true where every comparison holds."""
     if not all(type(operator) in _COMPARE for operator in operators):
         raise ExpressionError(f"'{ast.unparse(node)}'{_at(node)}", "one of < <= > >=")
     links = [_COMPARE[type(operator)] for operator in operators]

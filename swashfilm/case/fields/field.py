@@ -1,4 +1,4 @@
-"""Fields of a case file: a quantity, a formula of x, y and t, or data that the mesh file brings along."""
+"""Fields of a case file: a quantity, a formula of x, y and t, or data of the mesh file."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ _NAME = re.compile(r"[^\W\d]\w*")
 
 @dataclass(frozen=True)
 class MeshData:
-    """Scalar data of a mesh file by name: at points (vertices,) and in cells (cells,), SI by agreement."""
+    """Scalar data of a mesh file by name: at points (vertices,) and in cells (cells,), in SI units."""
 
     point: Mapping[str, Array] = field(default_factory=dict)
     cell: Mapping[str, Array] = field(default_factory=dict)
@@ -74,7 +74,7 @@ class Uniform:
 
 @dataclass(frozen=True)
 class Formula:
-    """A formula of x, y and t, SI; a jump within a cell is blurred over that cell, along cell edges exact."""
+    """A formula of x, y and t, SI; a jump is exact along cell edges and smeared over a cell that it crosses."""
 
     expression: Expression
 
@@ -88,7 +88,7 @@ class Formula:
         return self.expression(x, y, t)
 
     def at_time(self, t: float) -> float:
-        """The value at a time (s) of a formula that holds no place."""
+        """The value at a time (s) of a formula without position."""
         return float(self.expression(np.zeros(1), np.zeros(1), t)[0])
 
     def on(self, data: MeshData) -> Formula:
@@ -112,7 +112,7 @@ class PointData:
         return space.sample_vertices(self.values)
 
     def at_vertices(self, space: FilmSpace, t: float = 0.0) -> Array | None:
-        """As the file has it, (vertices,)."""
+        """The file's values, (vertices,)."""
         return self.values
 
     def on(self, data: MeshData) -> PointData:
@@ -126,7 +126,7 @@ class PointData:
 
 @dataclass(frozen=True)
 class CellData:
-    """Data of the mesh file's cells, which jumps between cells, SI."""
+    """Data of the mesh file's cells, discontinuous between cells, SI."""
 
     name: str
     values: Array = field(repr=False)
@@ -136,7 +136,7 @@ class CellData:
         return space.sample_cells(self.values)
 
     def at_vertices(self, space: FilmSpace, t: float = 0.0) -> Array | None:
-        """None: it has no one value where cells meet."""
+        """None: the value is not unique where cells meet."""
         return None
 
     def on(self, data: MeshData) -> CellData:
@@ -159,11 +159,10 @@ def read_field(
     variables: Sequence[str] = PLACE,
     constants: Mapping[str, float] = NO_CONSTANTS,
 ) -> Field:
-    """The field that an entry of a case file means.
+    """Return the field of an entry of a case file.
 
-    A number with a unit is a quantity, a name of the mesh file's data that data, everything else a formula of
-    `variables` and `constants` whose value is in the SI unit of `dimension`. Raises QuantityError: what was found
-    and expected.
+    A number with a unit is a quantity, a name of data of the mesh file selects these data, any other text is a
+    formula of `variables` and `constants` with its value in the SI unit of `dimension`. Raises QuantityError.
     """
     expected = (
         f"{dimension.noun} with its unit, such as '{dimension.example}', a formula of "
@@ -186,7 +185,7 @@ def read_field(
         if text in names
     ]
     if len(meanings) > 1:
-        raise QuantityError(f"'{text}', which is {' and '.join(meanings)}", "a name of one meaning", "rename one")
+        raise QuantityError(f"'{text}', which is {' and '.join(meanings)}", "a unique name", "rename one")
     if text in data.point:
         return PointData(text, data.point[text])
     if text in data.cell:
@@ -202,14 +201,14 @@ def read_field(
 
 
 def may_be_data(raw: object) -> bool:
-    """True for a text that can only be the name of data in a mesh file."""
+    """Return True for a text that can only be the name of data in a mesh file."""
     return (
         isinstance(raw, str) and bool(_NAME.fullmatch(raw.strip())) and raw.strip() not in (*IN_TIME, *CONSTANTS)
     )
 
 
 def mesh_data(path: Path, film_mesh: FilmMesh) -> MeshData:
-    """The scalar data of a mesh file that `reynolds.fem.mesh.mesh_from_file` has read."""
+    """Return the scalar data of a mesh file that `reynolds.fem.mesh.mesh_from_file` has read."""
     raw = read_mesh_file(path)
     mesh = film_mesh.mesh
     kind = "triangle" if mesh.t.shape[0] == 3 else "quad"
@@ -241,7 +240,7 @@ def _no_such_data(name: str, data: MeshData, constants: Mapping[str, float]) -> 
             nearest_choice(name, list(constants)),
         )
     return QuantityError(
-        f"'{name}', no data of the mesh file",
+        f"'{name}', which the data of the mesh file do not contain",
         f"point data ({', '.join(data.point) or 'none'}) or cell data ({', '.join(data.cell) or 'none'}) of it",
         nearest_choice(name, [*names, *constants]),
     )

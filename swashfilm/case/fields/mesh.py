@@ -1,4 +1,4 @@
-"""Where a case file's mesh comes from: a built-in shape or a mesh file beside the case."""
+"""Mesh of a case file: a built-in shape, or a mesh file in the folder of the case."""
 
 from __future__ import annotations
 
@@ -15,19 +15,19 @@ from system.inputs.toml_table import Table, quoted
 from system.inputs.units import Dimension, format_quantity
 
 MESH_FILE = "the path of a mesh file in a format that meshio reads"
-MOST_CELLS = 10_000_000  # some 10 GB of memory
+MOST_CELLS = 10_000_000  # about 10 GB of memory
 Cells = tuple[int, int]
 
 
-class Shape(Enum):
+class BuiltInShape(Enum):
     """The built-in meshes."""
 
     RECTANGLE = "rectangle"
     ANNULUS = "annulus"
 
 
-class Periodic(Enum):
-    """The direction in which a rectangle continues on its other side."""
+class PeriodicDirection(Enum):
+    """Direction in which a rectangle is periodic."""
 
     NONE = "none"
     X = "x"
@@ -36,7 +36,7 @@ class Periodic(Enum):
 
 @dataclass(frozen=True)
 class CaseMesh:
-    """A mesh, the data that it brings along, how a case file writes it, and how to make it twice finer."""
+    """A mesh, its file's data, its entry in a case file, and a function that returns it twice finer."""
 
     film_mesh: FilmMesh
     data: MeshData
@@ -45,18 +45,20 @@ class CaseMesh:
 
 
 def read_mesh(film: Table, folder: Path) -> CaseMesh | None:
-    """The mesh of a [film] table; None with its faults told. A file's path is relative to `folder`."""
+    """Return the mesh of a [film] table; None with its faults listed. Paths are relative to `folder`."""
     raw = film.get("mesh")
     if isinstance(raw, str):
         return _from_file(film, folder)
     if isinstance(raw, dict):
         table = Table(film.name("mesh"), raw, film.faults)
-        shape = table.choice("kind", Shape)
-        built = {Shape.RECTANGLE: _rectangle, Shape.ANNULUS: _annulus}[shape](table) if shape else None
+        shape = table.choice("kind", BuiltInShape)
+        built = (
+            {BuiltInShape.RECTANGLE: _rectangle, BuiltInShape.ANNULUS: _annulus}[shape](table) if shape else None
+        )
         if shape:
             table.close()
         return built
-    found = "no such key" if raw is None else repr(raw)
+    found = "missing" if raw is None else repr(raw)
     film.fault("mesh", found, 'the path of a mesh file, or a table such as { kind = "rectangle", ... }')
     return None
 
@@ -94,13 +96,13 @@ def _rectangle(table: Table) -> CaseMesh | None:
     origin = table.pair("origin", Dimension.LENGTH, (0.0, 0.0))
     cells = _cells(table)
     cell = table.choice("cell", Cell, Cell.TRIANGLE)
-    periodic = table.choice("periodic", Periodic, Periodic.NONE)
+    periodic = table.choice("periodic", PeriodicDirection, PeriodicDirection.NONE)
     if size is not None and min(size) <= 0.0:
         table.fault("size", str(table.values["size"]), "two lengths above zero")
         return None
     if size is None or origin is None or cells is None or cell is None or periodic is None:
         return None
-    seams = {f"periodic_{way.value}": periodic is way for way in (Periodic.X, Periodic.Y)}
+    seams = {f"periodic_{way.value}": periodic is way for way in (PeriodicDirection.X, PeriodicDirection.Y)}
     return _built_in(
         lambda count: rectangle(size, count, origin=origin, cell=cell, **seams),
         lambda count: (
@@ -140,7 +142,7 @@ def _cells(table: Table, least_around: int = 1) -> Cells | None:
     raw = table.get("cells")
     wanted = f"two whole numbers from 1 on (the second from {least_around}), such as [24, 96]"
     if not isinstance(raw, list) or len(raw) != 2 or any(type(count) is not int for count in raw):
-        table.fault("cells", "no such key" if raw is None else repr(raw), wanted)
+        table.fault("cells", "missing" if raw is None else repr(raw), wanted)
         return None
     first, second = raw
     if first < 1 or second < least_around:

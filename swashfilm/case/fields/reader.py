@@ -1,4 +1,4 @@
-"""Fields read out of a case's tables, each found to have a value everywhere on the mesh."""
+"""Reader of the fields in a case's tables; each field has a value everywhere on the mesh."""
 
 from __future__ import annotations
 
@@ -17,9 +17,9 @@ from system.inputs.units import Dimension, QuantityError
 
 @dataclass(frozen=True)
 class FieldReader:
-    """Reads fields of one mesh, None where the mesh has a fault of its own.
+    """Reader of fields on one mesh (None where the mesh has a fault itself).
 
-    Formulas are of `variables` and `constants`.
+    Formulas may contain `variables` and `constants`.
     """
 
     mesh: CaseMesh | None
@@ -30,12 +30,12 @@ class FieldReader:
     def field(
         self, table: Table, key: str, dimension: Dimension, default: str | None = None, *, positive: bool = False
     ) -> Field | None:
-        """The field under a key, SI; None with its fault told."""
+        """The field under a key, SI; None with its fault listed."""
         raw = table.get(key)
         return self.entry(table, key, default if raw is None else raw, dimension, positive=positive)
 
     def vector(self, table: Table, key: str, dimension: Dimension, default: str) -> tuple[Field, Field] | None:
-        """Two fields, along x and y, SI; None with the faults told."""
+        """Two fields, along x and y, SI; None with the faults listed."""
         raw = table.get(key)
         parts = [default, default] if raw is None else raw
         if not isinstance(parts, list) or len(parts) != 2:
@@ -48,13 +48,13 @@ class FieldReader:
     def entry(
         self, table: Table, key: str, raw: object, dimension: Dimension, *, positive: bool = False
     ) -> Field | None:
-        """The field that `raw` means, SI; None with its fault told."""
+        """Return the field of an entry, SI; None with its fault listed."""
         if raw is None:
             formula = f"a formula of {', '.join(self.variables)}"
-            table.fault(key, "no such key", f"{dimension.noun}, such as '{dimension.example}', or {formula}")
+            table.fault(key, "missing", f"{dimension.noun}, such as '{dimension.example}', or {formula}")
             return None
         if self.mesh is None and may_be_data(raw) and str(raw).strip() not in self.constants:
-            return None  # of a mesh whose own fault is told
+            return None  # the fault of the mesh is listed already
         try:
             data = self.mesh.data if self.mesh else MeshData()
             found = read_field(raw, dimension, data, self.variables, self.constants)
@@ -70,7 +70,7 @@ class FieldReader:
 def field_fault(
     field: Field, space: FilmSpace, t: float = 0.0, *, positive: bool = False
 ) -> tuple[str, str] | None:
-    """What was found and expected where a field has no value, or none above zero though `positive`; else None."""
+    """Return (found, expected) where a field is not finite, or not above zero if `positive`; else None."""
     x, y = (np.broadcast_to(part, space.area.shape) for part in space.points)
     full = np.broadcast_to(field.sample(space, t), space.area.shape)
     if (corners := field.at_vertices(space, t)) is not None:  # a film may end at zero right at the edge

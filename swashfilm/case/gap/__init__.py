@@ -1,1 +1,1 @@
-"""Cases of a pump gap, at one shaft angle or over the turn."""
+"""Cases of a pump gap at one shaft angle or over the turn."""

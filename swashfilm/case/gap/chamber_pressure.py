@@ -1,4 +1,4 @@
-"""The pressure of a chamber over the turn, as a case gives it: the pump's own cycle, rows, a file, one value."""
+"""Chamber pressure over the turn in a case: the pump's own cycle, rows, a file, or one value."""
 
 from __future__ import annotations
 
@@ -33,17 +33,17 @@ Row = tuple[float, ...]
 
 @dataclass(frozen=True)
 class ChamberPressure:
-    """Rows of shaft angle (rad) and pressure (Pa) of one chamber; none: the pump's own lumped cycle.
+    """Rows of shaft angle (rad) and pressure (Pa) of one chamber; no rows: the pump's own lumped cycle.
 
-    `text` is what gives it in a case. Between rows it is a `gaps.films.over_turn.Course`; one row holds over the
-    turn.
+    `text`: its entry in a case. Between rows the pressure is a `gaps.films.over_turn.Course`; a single row is
+    constant over the turn.
     """
 
     text: str
     rows: tuple[Row, ...] = ()
 
     def over_turn(self, rotor: Rotor) -> tuple[Array, Array]:
-        """Equidistant shaft angles (N,) rad, a multiple of the pistons, and the pressures (N,) Pa there.
+        """Return N equidistant shaft angles (N,) rad, N a multiple of the pistons, and pressures (N,) Pa.
 
         Raises NotConverged where the pump's own cycle does not become periodic.
         """
@@ -58,7 +58,7 @@ class ChamberPressure:
 
 
 def read_chamber_pressure(film: Table, folder: Path) -> ChamberPressure | None:
-    """The pressure that `chamber_pressure` gives, the pump's own cycle where left out; None with faults told."""
+    """Return the pressure of the key `chamber_pressure`, by default the pump's cycle; None with faults listed."""
     raw = film.get("chamber_pressure")
     if raw is None or raw == CYCLE:
         return ChamberPressure(quoted(CYCLE))
@@ -82,7 +82,7 @@ def read_chamber_pressure(film: Table, folder: Path) -> ChamberPressure | None:
 
 
 def _rows(raw: object, folder: Path) -> tuple[Row, ...]:
-    """Angles and pressures as a case states them; raises QuantityError for what is neither of the forms."""
+    """Return angles and pressures of a case's entry; raise QuantityError for an entry of another form."""
     if isinstance(raw, str) and raw.lower().endswith(".csv"):
         return read_rows(folder / raw, LAYOUTS)
     if isinstance(raw, str):
@@ -100,7 +100,7 @@ def _rows(raw: object, folder: Path) -> tuple[Row, ...]:
 
 
 def _checked(film: Table, rows: Sequence[Row]) -> tuple[Row, ...] | None:
-    """The rows of one turn, a last one that closes it left out; None with the faults told."""
+    """Return the rows of one turn without a last row that closes it; None with the faults listed."""
     faults = len(film.faults)
     if len(rows) > 1 and np.isclose(rows[-1][0] - rows[0][0], TURN) and rows[-1][1] == rows[0][1]:
         rows = rows[:-1]

@@ -1,4 +1,4 @@
-"""A pump gap at one instant as a film case: `gap` and `pump` in place of mesh and formulas, position or load."""
+"""Film case of a pump gap at one instant: `gap` and `pump` in place of mesh and formulas, position or load."""
 
 from __future__ import annotations
 
@@ -35,11 +35,11 @@ FORMAT = 1
 
 @dataclass(frozen=True)
 class GapCase:
-    """A gap case, validated: its name, the file's text, the same resolved, the pump with every value taken (SI).
+    """A validated gap case: name, text of the file, resolved text, pump with its assumed values (SI).
 
-    chamber_pressure (1,) Pa, or (z,) by chamber for the valve plate. position (k,) m, as the gap's film counts it;
-    None: the part comes to rest, under `load` or else under the pump's own. `finer`: how many times more cells
-    than usual in each direction its mesh has.
+    chamber_pressure (1,) Pa, or (z,) by chamber for the valve plate. position (k,) m in the coordinates of the
+    gap's film; None: equilibrium position, under `load` or by default under the pump's forces. `finer`: factor on
+    the usual number of cells in each direction.
     """
 
     name: str
@@ -61,10 +61,10 @@ class GapCase:
 
 
 def read_gap_case(name: str, text: str, top: Table, film: Table, folder: Path) -> GapCase | None:
-    """The gap case of a file whose [film] table names a gap; None with its faults told in the tables' list.
+    """Return the gap case of a file whose [film] table names a gap; None with its faults listed.
 
-    What the file leaves out comes from the pump: operating point, chamber pressure of the port that the chamber
-    is at, forces at that instant.
+    Defaults come from the pump: operating point, chamber pressure of the port that the chamber faces, forces at
+    that instant.
     """
     gap = film.choice("gap", Gap)
     film.get("revolution")
@@ -79,12 +79,12 @@ def read_gap_case(name: str, text: str, top: Table, film: Table, folder: Path) -
     switches = top.table("physics") or Table("physics", {}, top.faults)
     physics = read_physics(switches, RIGID)
     if physics.heat:
-        switches.fault("heat", '"solved"', "none: how parts warm is a matter of the whole turn", '"none"')
+        switches.fault("heat", '"solved"', "none: the temperature of parts depends on the whole turn", '"none"')
     if gap is None:
         film.get("chamber_pressure")
         film.close()
         return None
-    # After a fault the built-in pump stands in, so that the rest of the file is read for its faults too.
+    # After a fault the built-in pump replaces the stated one, so that all other faults are found too.
     known = pump.rotor if pump else rotor(load_pump("ref90"), operating_point(load_pump("ref90")))
     pressures = _chamber_pressure(film, gap, known, angle, count_pistons=pump is not None)
     case = GapCase(name, text, "", gap, known, floating_parts(known.pump), angle, pressures, physics, None, None)
@@ -102,9 +102,9 @@ def read_gap_case(name: str, text: str, top: Table, film: Table, folder: Path) -
 
 
 def _chamber_pressure(film: Table, gap: Gap, parts: Rotor, angle: float, *, count_pistons: bool) -> Array:
-    """Chamber pressures (Pa): one, or one of each chamber for the valve plate; by port where none is stated.
+    """Return chamber pressures (Pa): one, or one per chamber for the valve plate; by default those of the ports.
 
-    Faults are told; then the pressures are those of the ports. `count_pistons`: the number of pistons is known.
+    Faults are listed; the pressures are then those of the ports. `count_pistons`: the number of pistons is known.
     """
     count = parts.pump.pump.pistons if gap is Gap.VALVE_PLATE else 1
     angles = (angle + 2.0 * np.pi / parts.pump.pump.pistons * np.arange(count)) % (2.0 * np.pi)
@@ -124,7 +124,7 @@ def _chamber_pressure(film: Table, gap: Gap, parts: Rotor, angle: float, *, coun
 
 
 def _is_possible(top: Table, film: Table, case: GapCase) -> bool:
-    """False, with the faults told, where the parts touch or a chamber is below the pressure of a cavity."""
+    """Return False, with the faults listed, where parts touch or a chamber is below the cavity's pressure."""
     least = touching(case.gap, case.rotor, case.parts, case.shaft_angle, case.position)
     if least is not None:
         found = f"a least film thickness of {least:.4g} m"
@@ -137,7 +137,7 @@ def _is_possible(top: Table, film: Table, case: GapCase) -> bool:
 
 
 def _resolved(case: GapCase, pump: CasePump) -> str:
-    """A case file that gives this very case: operating point, pressures, physics, and the position or the load."""
+    """Return the text of this case: operating point, pressures, physics, and the position or the load."""
     angle = format_quantity(case.shaft_angle, Dimension.ANGLE)
     pressures = [quoted(format_quantity(value, Dimension.PRESSURE)) for value in case.chamber_pressure]
     stated = pressures[0] if len(pressures) == 1 else f"[{', '.join(pressures)}]"

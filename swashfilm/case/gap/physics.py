@@ -1,44 +1,45 @@
-"""Which physics floating gaps have, as the keys of a table choose it."""
+"""Physics of floating gaps: the keys of a case that choose it, and its summary."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from enum import Enum
 
 from gaps.films.physics import Effect, Physics
+from gaps.revolution.march import Leg
 from system.inputs.toml_table import Table
 
 
-class Walls(Enum):
-    """Whether the parts give way under film and contact."""
+class WallChoice(Enum):
+    """Elastic or rigid parts under the pressure of film and contact."""
 
     ELASTIC = "elastic"
     RIGID = "rigid"
 
 
-class Oil(Enum):
-    """Whether oil stiffens with pressure."""
+class OilChoice(Enum):
+    """Viscosity with or without dependence on pressure."""
 
     PRESSURE_VISCOSITY = "pressure_viscosity"
     ISOVISCOUS = "isoviscous"
 
 
-class Surfaces(Enum):
-    """Whether walls are rough: flow factors and contact of asperities."""
+class SurfaceChoice(Enum):
+    """Rough walls (flow factors, contact of asperities) or smooth walls."""
 
     ROUGH = "rough"
     SMOOTH = "smooth"
 
 
-class Rupture(Enum):
-    """Whether the film cavitates, oil conserved, or is pulled below the cavity's pressure."""
+class CavitationChoice(Enum):
+    """Cavitation that conserves oil mass, or full films with tension below the cavity's pressure."""
 
     JFO = "jfo"
     NONE = "none"
 
 
-class Warmth(Enum):
-    """Whether films and parts warm, or keep the case's temperature."""
+class HeatChoice(Enum):
+    """Temperature of films and parts: solved, or that of the case."""
 
     SOLVED = "solved"
     NONE = "none"
@@ -46,18 +47,28 @@ class Warmth(Enum):
 
 # Effect: key, the choice with it, the choice without it.
 _KEYS: dict[Effect, tuple[str, Enum, Enum]] = {
-    Effect.ELASTIC_WALLS: ("walls", Walls.ELASTIC, Walls.RIGID),
-    Effect.PRESSURE_VISCOSITY: ("oil", Oil.PRESSURE_VISCOSITY, Oil.ISOVISCOUS),
-    Effect.ROUGHNESS: ("surfaces", Surfaces.ROUGH, Surfaces.SMOOTH),
-    Effect.CAVITATION: ("cavitation", Rupture.JFO, Rupture.NONE),
-    Effect.HEAT: ("heat", Warmth.SOLVED, Warmth.NONE),
+    Effect.ELASTIC_WALLS: ("walls", WallChoice.ELASTIC, WallChoice.RIGID),
+    Effect.PRESSURE_VISCOSITY: ("oil", OilChoice.PRESSURE_VISCOSITY, OilChoice.ISOVISCOUS),
+    Effect.ROUGHNESS: ("surfaces", SurfaceChoice.ROUGH, SurfaceChoice.SMOOTH),
+    Effect.CAVITATION: ("cavitation", CavitationChoice.JFO, CavitationChoice.NONE),
+    Effect.HEAT: ("heat", HeatChoice.SOLVED, HeatChoice.NONE),
 }
+
+PHYSICS_HEAD = ("physics", "is", "switch", "time of the gaps")
+_SUMMARY = {
+    Effect.CAVITATION: ("mass-conserving cavitation", "--no-cavitation", None),
+    Effect.ROUGHNESS: ("rough walls, contact of asperities", "--smooth", Leg.RIGID),
+    Effect.PRESSURE_VISCOSITY: ("viscosity dependent on pressure", "--isoviscous", None),
+    Effect.ELASTIC_WALLS: ("elastic walls", "--rigid", Leg.ELASTIC),
+    Effect.HEAT: ("temperature of films and parts", "--heat", Leg.HEAT),
+}
+"""Each effect in words, its switch, and the march that ends with it (its time holds all before it)."""
 
 
 def read_physics(table: Table, usual: Physics) -> Physics:
-    """The physics that `walls`, `oil`, `surfaces`, `cavitation` and `heat` of a table choose.
+    """Return the physics of the keys `walls`, `oil`, `surfaces`, `cavitation` and `heat` of a table.
 
-    What is left out is `usual`. Faults are told in the table's list.
+    Defaults are those of `usual`. Faults are listed in the table.
     """
     found = usual
     for effect, (key, on, off) in _KEYS.items():
@@ -67,6 +78,15 @@ def read_physics(table: Table, usual: Physics) -> Physics:
 
 
 def physics_rows(physics: Physics) -> Iterator[str]:
-    """The keys that `read_physics` reads back to this physics."""
+    """Return the keys from which `read_physics` reads this physics."""
     for effect, (key, on, off) in _KEYS.items():
         yield f'{key} = "{(off if effect in physics.left_out else on).value}"'
+
+
+def physics_summary(left_out: Sequence[str], seconds: Mapping[str, float]) -> list[tuple[str, ...]]:
+    """Return a row for each effect; `left_out` and `seconds` (s, by march) are those of summary.json."""
+    rows: list[tuple[str, ...]] = []
+    for effect, (what, switch, leg) in _SUMMARY.items():
+        took = "" if leg is None or leg.value not in seconds else f"{seconds[leg.value]:.1f} s"
+        rows.append((what, "off" if effect.value in left_out else "on", switch, took))
+    return rows

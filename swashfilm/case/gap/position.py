@@ -1,4 +1,4 @@
-"""Position and load of a gap case: the tables [position] and [load], read and written."""
+"""Position and load of a gap case: tables [position] and [load], read and written."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from system.inputs.units import Dimension, format_quantity
 
 @dataclass(frozen=True)
 class PistonLoad:
-    """Side force (x, y) N on the piston, acting `arm` m beyond the bore's case edge."""
+    """Side force (x, y) N on the piston at a distance `arm` (m) beyond the bore's case-side edge."""
 
     force: tuple[float, float]
     arm: float
@@ -28,7 +28,7 @@ class PistonLoad:
 
 @dataclass(frozen=True)
 class FaceLoad:
-    """What a slipper's or the block's film, pocket and kidneys hold: N, and integrals of p y and -p x, N m."""
+    """Load of a slipper's or the block's film, pocket and kidneys: N, and integrals of p y and -p x, N m."""
 
     force: float
     moment_x: float
@@ -41,7 +41,7 @@ Load = PistonLoad | FaceLoad
 def read_position(
     table: Table, gap: Gap, rotor: Rotor, parts: FloatingParts, angle: float, pressures: Array
 ) -> Array | None:
-    """Position (k,) m that a table [position] states; None with its faults told."""
+    """Position (k,) m that a table [position] states; None with its faults listed."""
     if gap is not Gap.PISTON:
         return _tilted(table, rim(gap, rotor))
     if "eccentricity_ratio" in table.values:
@@ -53,7 +53,7 @@ def read_position(
 
 
 def _tilted(table: Table, radius: float) -> Array | None:
-    """Film thickness at the origin and the rises over a radius that the slopes make, (3,) m."""
+    """Return film thickness at the origin and the rises over `radius` by the slopes, (3,) m."""
     thickness = table.positive("film_thickness", Dimension.LENGTH)
     slopes = [table.quantity(f"slope_{axis}", Dimension.ANGLE, 0.0) for axis in ("x", "y")]
     if thickness is None or None in slopes:
@@ -62,7 +62,7 @@ def _tilted(table: Table, radius: float) -> Array | None:
 
 
 def read_load(table: Table, gap: Gap, rotor: Rotor, angle: float) -> Load | None:
-    """The load that a table [load] states; None with its faults told."""
+    """The load that a table [load] states; None with its faults listed."""
     if gap is Gap.PISTON:
         force = table.pair("force", Dimension.FORCE)
         arm = table.quantity("arm", Dimension.LENGTH, rotor.pump.piston.overhang + travel(rotor, angle))
@@ -76,7 +76,7 @@ def read_load(table: Table, gap: Gap, rotor: Rotor, angle: float) -> Load | None
 
 
 def rim(gap: Gap, rotor: Rotor) -> float:
-    """Outer radius (m) over which the rises of a slipper or the block are counted."""
+    """Return the outer radius (m) at which the rises of a slipper or the block are measured."""
     match gap:
         case Gap.SLIPPER:
             return rotor.pump.slipper.lands.outer_radius
@@ -88,7 +88,7 @@ def rim(gap: Gap, rotor: Rotor) -> float:
 
 
 def touching(gap: Gap, rotor: Rotor, parts: FloatingParts, angle: float, position: Array | None) -> float | None:
-    """Least film (m) of plain parts at a position where that is none; None where it is one, or none is stated."""
+    """Return the least film (m) of plain parts that touch at a position; None where they do not touch."""
     if position is None:
         return None
     if gap is Gap.PISTON:
@@ -103,7 +103,7 @@ def touching(gap: Gap, rotor: Rotor, parts: FloatingParts, angle: float, positio
 
 
 def position_rows(gap: Gap, rotor: Rotor, position: Array) -> list[str]:
-    """The table that `read_position` reads back to this position."""
+    """Return the table from which `read_position` reads this position."""
     if gap is Gap.PISTON:
         ends = (("inner", position[:2]), ("case", position[2:]))
         return ["[position]", *(f"eccentricity_{end} = {_both(x, y, Dimension.LENGTH)}" for end, (x, y) in ends)]
@@ -116,7 +116,7 @@ def position_rows(gap: Gap, rotor: Rotor, position: Array) -> list[str]:
 
 
 def load_rows(load: Load) -> list[str]:
-    """The table that `read_load` reads back to this load."""
+    """Return the table from which `read_load` reads this load."""
     match load:
         case PistonLoad(force, arm):
             return [

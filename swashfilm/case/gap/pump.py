@@ -1,4 +1,4 @@
-"""The pump that a gap case is of: a built-in one or a file, with what the case puts in place of its values."""
+"""Pump of a gap case: a built-in one or a file, with the values that the case sets."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ OPERATING = "operating"
 
 @dataclass(frozen=True)
 class CasePump:
-    """A pump at its operating point, what it was read from, and the case's own values by path (`piston.mass`)."""
+    """A pump at its operating point, its source, and the values that the case sets, by path (`piston.mass`)."""
 
     rotor: Rotor
     source: str
@@ -32,16 +32,16 @@ class CasePump:
 
 
 def read_case_pump(top: Table, film: Table, folder: Path) -> CasePump | None:
-    """The pump that a table names, with [operating] and [pump.SECTION] of the case; None with the faults told.
+    """Return the pump of a table, with [operating] and [pump.SECTION] of the case; None with the faults listed.
 
-    A value of the case stands in place of the pump file's, written as it would stand there; a file that it
-    names, of rows or a mesh, lies beside the case.
+    A value of the case replaces that of the pump file and has the same form; paths of files (rows, meshes) are
+    relative to the case's folder.
     """
     source = film.get("pump")
     operating = top.table(OPERATING)
     own = top.table("pump") if top is not film else None
     if not isinstance(source, str):
-        found = "no such key" if source is None else repr(source)
+        found = "missing" if source is None else repr(source)
         film.fault("pump", found, f"a built-in pump ({', '.join(builtin_pumps())}) or a pump file beside the case")
         return None
     if own and OPERATING in own.values:
@@ -57,14 +57,14 @@ def read_case_pump(top: Table, film: Table, folder: Path) -> CasePump | None:
         return None
     if pump.physics.on:
         effects = ", ".join(one.value for one in chain(*effects_in_films(pump)))
-        expected = "none: what a case solves it states itself; swashfilm run --fidelity lumped or films reads them"
+        expected = "none: a case states its own physics; swashfilm run --fidelity lumped or films reads them"
         film.fault("pump", f"effects of [physics], {effects}", expected)
         return None
     return CasePump(rotor(pump, operating_point(pump)), place, stated)
 
 
 def own_rows(stated: Mapping[str, Any]) -> list[str]:
-    """The table [pump] of a resolved case; none where the case has no values of its own."""
+    """Return the table [pump] of a resolved case, empty where the case sets no values."""
     if not stated:
         return []
     return ["", "[pump]", *(f"{path} = {json.dumps(value)}" for path, value in stated.items())]
@@ -82,7 +82,7 @@ def pump_tables_schema() -> Schema:
 
 
 def _flat(tables: Mapping[str, Any], above: str = "") -> Iterator[tuple[str, Any]]:
-    """(dotted path, value) of everything that is no table."""
+    """Yield (dotted path, value) of every entry that is not a table."""
     for key, value in tables.items():
         if isinstance(value, dict):
             yield from _flat(value, f"{above}{key}.")
@@ -91,13 +91,13 @@ def _flat(tables: Mapping[str, Any], above: str = "") -> Iterator[tuple[str, Any
 
 
 def _beside(path: str, value: Any, folder: Path) -> Any:
-    """A value that names a file, of rows or a part's mesh, with its path from the case's folder."""
+    """Return a value; the path of a file (rows, a part's mesh) is completed with the case's folder."""
     names_file = isinstance(value, str) and (value.lower().endswith(".csv") or path.endswith(".body.mesh"))
     return str((folder / value).absolute()) if names_file else value
 
 
 def _at_case(fault: Fault, stated: Mapping[str, Any], source: str) -> Fault:
-    """A fault of the pump told at the key of the case that brought it, or at that of its `source`."""
+    """Return a fault of the pump at the key of the case that causes it, or at that of its `source`."""
     path = fault.path
     if any(own == path or own.startswith(f"{path}.") for own in stated):
         where = f"pump.{path}"

@@ -1,4 +1,4 @@
-"""One gap of a pump over the revolution as a film case: its chamber's pressure, its physics, its steps."""
+"""Film case of one pump gap over the turn: chamber pressure, physics, steps."""
 
 from __future__ import annotations
 
@@ -18,22 +18,22 @@ from system.inputs.toml_table import Table, quoted
 from system.points.floating_gaps import MARCHED, USUAL, FloatingOptions, usual_finer
 
 STEPS = 360
-FILMS, RING_FILMS = 36, 180  # kept of a turn; the ring's repeat with the pitch
+FILMS, RING_FILMS = 36, 180  # kept films of a turn; those of the valve plate repeat with the pitch
 _MOST = 7200  # steps or films of a turn
 FINER = (0.25, 8.0)
 _LARGEST_TOLERANCE = 0.1
 
 
-class GapCase(Protocol):
-    """What a gap over the turn is of: a case, or a gap of a pump that floats as a whole."""
+class GapOverTurn(Protocol):
+    """A gap over the turn: of a case, or of a pump with all gaps floating."""
 
     @property
     def name(self) -> str:
-        """Of the case or pump."""
+        """Name of the case or pump."""
 
     @property
     def gap(self) -> Gap:
-        """Which of the three."""
+        """One of the three gaps."""
 
     @property
     def rotor(self) -> Rotor:
@@ -46,9 +46,9 @@ class GapCase(Protocol):
 
 @dataclass(frozen=True)
 class RevolutionCase:
-    """A gap over the turn, validated: its name, the file's text, the same resolved, and what it is of (SI).
+    """A validated case of a gap over the turn: name, text of the file, resolved text, and its data (SI).
 
-    chamber_pressure: of one chamber over its own angle; options: physics, steps, accuracy and mesh.
+    chamber_pressure: of one chamber over its angle; options: physics, steps, accuracy and mesh.
     """
 
     name: str
@@ -65,9 +65,9 @@ class RevolutionCase:
 
 
 def read_revolution_case(name: str, text: str, top: Table, film: Table, folder: Path) -> RevolutionCase | None:
-    """The case of a file whose [film] names a gap and says `revolution = true`; None with its faults told.
+    """Return the case of a file whose [film] has `gap` and `revolution = true`; None with its faults listed.
 
-    What it leaves out: the pump's operating point, the lumped cycle of its chamber, all physics, STEPS a turn.
+    Defaults: the pump's operating point, the lumped cycle of its chamber, all physics, STEPS per turn.
     """
     gap = film.choice("gap", Gap)
     if film.get("revolution") is not True:
@@ -89,11 +89,13 @@ def read_revolution_case(name: str, text: str, top: Table, film: Table, folder: 
 
 
 def _refuse_instants(top: Table, film: Table) -> None:
-    """Fault what only a single instant has."""
+    """List a fault for each key that only a single instant has."""
     for table, keys in ((film, ("shaft_angle",)), (top, ("position", "load"))):
         for key in keys:
             if table.get(key) is not None:
-                table.fault(key, f"'{key}' beside revolution = true", "none: forces over the turn find the film")
+                table.fault(
+                    key, f"'{key}' beside revolution = true", "none: the forces over the turn determine the film"
+                )
 
 
 def _options(table: Table, gap: Gap | None, pump: CasePump | None) -> FloatingOptions | None:
@@ -127,13 +129,13 @@ def _whole(table: Table, key: str, usual: int, least: int, most: int) -> int | N
 
 
 def _resolved(case: RevolutionCase, pump: CasePump) -> str:
-    """A case file that gives this very case."""
+    """Return the text of this case."""
     options = case.options
     rows = [
         f"format = {FORMAT}", "", "[film]", f'gap = "{case.gap.value}"', f"pump = {quoted(pump.source)}",
         "revolution = true", f"chamber_pressure = {case.chamber_pressure.text}", *own_rows(pump.stated),
         *section_rows("operating", pump.rotor.pump.operating), "", "[revolution]", f"steps = {options.steps}",
-        f"tolerance = {options.accuracy.step!r}  # of the least film, a step's error",
+        f"tolerance = {options.accuracy.step!r}  # error of a step over the least film",
         f"finer = {options.finer!r}  # times the usual cells each way",
         f"films = {options.steps // options.keep}", *physics_rows(options.physics),
     ]  # fmt: skip

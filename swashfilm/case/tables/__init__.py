@@ -1,1 +1,1 @@
-"""Readers of the case file, one a table."""
+"""Readers of the case file, one per table."""

@@ -1,4 +1,4 @@
-"""Bodies of a case's [elastic] table: meshed by name and sizes or from a mesh file, as they lie under the film."""
+"""Bodies of a case's [elastic] table under the film: meshed by name and sizes, or read from a mesh file."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ Faces = tuple[str, ...]
 
 
 class BodyKind(Enum):
-    """Bodies by a name and their sizes.
+    """Bodies with a name and sizes.
 
     Under a plane film: plate (the film's own rectangle), disc, ring, about the origin. Of a film unrolled from a
     cylinder, x around and y along it: bush (the film within) and shaft (the film outside).
@@ -41,14 +41,14 @@ class BodyKind(Enum):
 
 
 class Around(Enum):
-    """Which side of its cylinder a body of a file is on."""
+    """Side of its cylinder on which a body of a file lies."""
 
     BORE = "bore"
     SHAFT = "shaft"
 
 
 def built_body(entry: Table, kind: BodyKind, elastic: Elastic | None, mesh: CaseMesh) -> Body | None:
-    """A body of one of the named kinds under the film of `mesh`; None, its faults told."""
+    """A body of one of the named kinds under the film of `mesh`; None, its faults listed."""
     points = mesh.film_mesh.mesh.p
     if kind is BodyKind.PLATE:
         return _plate(entry, elastic, points)
@@ -67,7 +67,7 @@ def _plate(entry: Table, elastic: Elastic | None, points: np.ndarray) -> Body | 
 
 
 def _flat(entry: Table, kind: BodyKind, elastic: Elastic | None, points: np.ndarray) -> Body | None:
-    """A disc or an annular plate about the origin, of the film's radii where none are stated."""
+    """Return a disc or an annular plate about the origin, by default with the film's radii."""
     reach = np.hypot(*points)
     cells, thickness = _cells(entry), entry.positive("thickness", Dimension.LENGTH)
     outer = entry.positive("outer_radius", Dimension.LENGTH, float(reach.max()))
@@ -86,7 +86,7 @@ def _flat(entry: Table, kind: BodyKind, elastic: Elastic | None, points: np.ndar
 
 
 def _round(entry: Table, kind: BodyKind, elastic: Elastic | None, points: np.ndarray) -> Body | None:
-    """A bush or a hollow shaft as long as the film."""
+    """Return a bush or a hollow shaft as long as the film."""
     bush = kind is BodyKind.BUSH
     cells, radius = _cells(entry), entry.positive("radius", Dimension.LENGTH)
     other = entry.positive("outer_radius" if bush else "inner_radius", Dimension.LENGTH)
@@ -105,7 +105,7 @@ def _round(entry: Table, kind: BodyKind, elastic: Elastic | None, points: np.nda
 
 
 def file_body(entry: Table, elastic: Elastic | None, folder: Path) -> Body | None:
-    """A body from a mesh file, its named face in the plane z = 0 or on a cylinder about z; None, faults told."""
+    """Return a body of a mesh file, its named face at z = 0 or on a cylinder about z; None, faults listed."""
     face, clamped = entry.get("face"), entry.get("clamped") or []
     radius = entry.positive("radius", Dimension.LENGTH) if entry.get("radius") is not None else None
     around = entry.choice("side", Around, Around.BORE)
@@ -144,16 +144,16 @@ def _body(
 def _cells(entry: Table) -> Cells | None:
     raw = entry.get("cells")
     if not isinstance(raw, list) or len(raw) != 3 or any(type(count) is not int or count < 1 for count in raw):
-        found = "no such key" if raw is None else repr(raw)
+        found = "missing" if raw is None else repr(raw)
         entry.fault("cells", found, "three whole numbers from 1 on, such as [8, 8, 2]")
         return None
     return raw[0], raw[1], raw[2]
 
 
 def _support(entry: Table, known: Mapping[str, Faces]) -> Faces | None:
-    """The faces that are held, by the name of a support."""
+    """Return the held faces, by the name of a support."""
     raw = entry.get("support")
     if raw not in known:
-        entry.fault("support", "no such key" if raw is None else repr(raw), f"one of {', '.join(known)}")
+        entry.fault("support", "missing" if raw is None else repr(raw), f"one of {', '.join(known)}")
         return None
     return known[str(raw)]

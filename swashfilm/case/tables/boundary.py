@@ -1,4 +1,4 @@
-"""The [boundary] table of a film case: what holds at the named edges of the film."""
+"""Boundary table of a film case: conditions at the named edges of the film."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from system.inputs.units import Dimension, QuantityError, format_quantity
 
 @dataclass(frozen=True)
 class BoundaryStatement:
-    """What a case states of one boundary: pressure (Pa), film fraction and temperature (K) of what it may send in.
+    """Conditions at one boundary: pressure (Pa), film fraction and temperature (K) of entering oil.
 
     The temperature is None where the inlet temperature of [thermal] holds.
     """
@@ -32,7 +32,7 @@ Boundaries = Mapping[str, BoundaryStatement]
 
 
 def read_boundaries(top: Table, reader: FieldReader, level: float | None) -> Boundaries:
-    """What the file states of its boundaries, by name; their faults are told. `level`: cavitation pressure, Pa."""
+    """Return the conditions at the boundaries, by name; list their faults. `level`: cavitation pressure, Pa."""
     mesh = reader.mesh
     table = top.table("boundary")
     names = mesh.film_mesh.boundary_names if mesh else ()
@@ -42,12 +42,12 @@ def read_boundaries(top: Table, reader: FieldReader, level: float | None) -> Bou
         entry = table.table(name)
         if mesh and name not in names:
             sewn = {side for pair in mesh.film_mesh.seams for side in pair}
-            what = "a side of the periodic seam" if name in sewn else "no boundary of this mesh"
+            what = "a side of the periodic seam" if name in sewn else "not a boundary of this mesh"
             table.fault(name, what, f"one of {', '.join(names)}", nearest_choice(name, names))
         if entry and (stated := _entry(entry, reader, level)) is not None:
             found[name] = stated
     if mesh and not (table and table.values):
-        top.fault("boundary", "no pressure given anywhere", f"a pressure at one of {', '.join(names)} at least")
+        top.fault("boundary", "no pressure at any boundary", f"a pressure at one of {', '.join(names)} at least")
     return found
 
 
@@ -64,7 +64,7 @@ def _entry(entry: Table, reader: FieldReader, level: float | None) -> BoundarySt
 
 
 def _pressure(entry: Table, reader: FieldReader, default: float | None) -> InTime | None:
-    """A pressure, or a formula of constants and, in a transient, of t; None with its fault told."""
+    """Return a pressure, or a formula of constants (in a transient of t too); None with its fault listed."""
     in_time = tuple(name for name in reader.variables if name == "t")
     if (in_time or reader.constants) and isinstance(entry.get("pressure"), str):
         try:
@@ -81,7 +81,7 @@ def _pressure(entry: Table, reader: FieldReader, default: float | None) -> InTim
 def check_boundaries(
     top: Table, reader: FieldReader, boundary: Boundaries, cavitation: Cavitation | None, level: float | None
 ) -> None:
-    """Tell of boundaries that are right alone but not together, or not with the cavitation pressure (Pa)."""
+    """List faults of boundaries that contradict each other or the cavitation pressure (Pa)."""
     _check_shared_edges(top, reader, boundary)
     if cavitation is None or level is None:
         return
@@ -101,7 +101,7 @@ def _check_starved(top: Table, name: str, stated: BoundaryStatement, cavitation:
     fraction = f"{stated.film_fraction:g}"
     if cavitation is not Cavitation.JFO:
         found = f"{fraction} with cavitation = '{cavitation.value}'"
-        top.fault(f"boundary.{name}.film_fraction", found, "1, or cavitation = 'jfo', which carries it along")
+        top.fault(f"boundary.{name}.film_fraction", found, "1, or cavitation = 'jfo', which transports it")
     elif stated.pressure.at_time(0.0) != level:
         top.fault(
             f"boundary.{name}.pressure",
@@ -111,7 +111,7 @@ def _check_starved(top: Table, name: str, stated: BoundaryStatement, cavitation:
 
 
 def _check_shared_edges(top: Table, reader: FieldReader, boundary: Boundaries) -> None:
-    """Fault an edge that two names hold at two pressures; a mesh file may name an edge twice (left and outer)."""
+    """List a fault for an edge with two pressures; a mesh file may name an edge twice (left and outer)."""
     facets = reader.mesh.film_mesh.mesh.boundaries if reader.mesh else {}
     for (one, at), (other, at_other) in combinations(boundary.items(), 2):
         if (
@@ -120,4 +120,4 @@ def _check_shared_edges(top: Table, reader: FieldReader, boundary: Boundaries) -
             and other in facets
             and np.intersect1d(facets[one], facets[other]).size
         ):
-            top.fault(f"boundary.{other}", f"shares edges with {one} at another pressure", "one pressure an edge")
+            top.fault(f"boundary.{other}", f"shares edges with {one} at another pressure", "one pressure per edge")

@@ -1,4 +1,4 @@
-"""The [constants] table of a film case: names that its formulas may use."""
+"""Constants table of a film case: names that its formulas may use."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ _EXAMPLE = "a bare number, or a quantity with its unit, such as '10 um'"
 
 
 def read_constants(top: Table) -> dict[str, float]:
-    """The constants by name, quantities in SI; what has a fault, told, is left out."""
+    """Return the constants by name, quantities in SI, without those at fault; faults are listed."""
     table = top.table("constants")
     found = {}
     for name in table.values if table else ():
@@ -22,7 +22,7 @@ def read_constants(top: Table) -> dict[str, float]:
         if not name.isidentifier() or keyword.iskeyword(name):
             table.fault(name, f"the name '{name}'", "letters, digits and _, a letter first")
         elif name in (*IN_TIME, *CONSTANTS, *FUNCTIONS):
-            table.fault(name, f"the name '{name}', which formulas know already", "another name", f"{name}_0")
+            table.fault(name, f"the name '{name}', which formulas define already", "another name", f"{name}_0")
         elif (value := _value(table, name)) is not None:
             found[name] = value
     return found

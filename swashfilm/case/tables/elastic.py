@@ -1,4 +1,4 @@
-"""The [elastic] table of a film case: walls that give way under the film's pressure."""
+"""Elastic table of a film case: walls that deform under the film's pressure."""
 
 from __future__ import annotations
 
@@ -27,20 +27,20 @@ class WallStatement:
     text: str
 
     def compliance(self, space: FilmSpace) -> Walls:
-        """The wall as the film feels it; raises FilmInputError where it does not lie under the film."""
+        """Return the compliance of the wall; raise FilmInputError where it does not lie under the film."""
         return half_space(space, self.elastic) if self.body is None else body_wall(self.body, space)
 
 
 @dataclass(frozen=True)
 class ElasticStatement:
-    """Springs under the film (Pa/m), the moving and the fixed wall's body; None what is rigid."""
+    """Springs under the film (Pa/m), body of the moving and of the fixed wall; None for a rigid one."""
 
     stiffness: float | None
     moving: WallStatement | None
     fixed: WallStatement | None
 
     def walls(self, space: FilmSpace) -> Walls:
-        """All that gives way together; raises FilmInputError as `WallStatement.compliance`."""
+        """Return the compliance of all walls; raise FilmInputError as `WallStatement.compliance`."""
         parts: list[Walls] = [] if self.stiffness is None else [winkler(space, self.stiffness)]
         parts += [
             _under(wall, key, space) for key, wall in (("moving", self.moving), ("fixed", self.fixed)) if wall
@@ -49,7 +49,7 @@ class ElasticStatement:
 
 
 def _under(wall: WallStatement, key: str, space: FilmSpace) -> Walls:
-    """The wall as the film feels it; a fault is told at its table, `elastic.moving` or `elastic.fixed`."""
+    """Return the compliance of a wall; its fault is reported at `elastic.moving` or `elastic.fixed`."""
     try:
         return wall.compliance(space)
     except FilmInputError as reason:
@@ -57,7 +57,7 @@ def _under(wall: WallStatement, key: str, space: FilmSpace) -> Walls:
 
 
 def read_elastic(top: Table, mesh: CaseMesh | None, folder: Path) -> ElasticStatement | None:
-    """The [elastic] table; None where there is none or, told, where it has a fault."""
+    """The [elastic] table; None where there is none or, listed, where it has a fault."""
     table = top.table("elastic")
     if table is None:
         return None
@@ -66,7 +66,7 @@ def read_elastic(top: Table, mesh: CaseMesh | None, folder: Path) -> ElasticStat
     moving, fixed = (_wall(table, key, mesh, folder) for key in ("moving", "fixed"))
     table.close()
     if not table.values:
-        top.fault("elastic", "nothing in it", 'winkler = "1e13 Pa/m", or bodies: moving = {...}, fixed = {...}')
+        top.fault("elastic", "an empty table", 'winkler = "1e13 Pa/m", or bodies: moving = {...}, fixed = {...}')
     return None if len(table.faults) > before else ElasticStatement(stiffness, moving, fixed)
 
 
@@ -102,7 +102,7 @@ def _elastic(entry: Table) -> Elastic | None:
 
 
 def _text(entry: Table, folder: Path) -> str:
-    """The entry as a case file writes it: as it stands there, with the true path of its mesh."""
+    """Return the entry as written in the case file, with the absolute path of its mesh."""
 
     def shown(key: str, value: object) -> str:
         if isinstance(value, list):

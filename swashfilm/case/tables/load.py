@@ -1,4 +1,4 @@
-"""What a film case asks its film to bear: `film.load`, and moments where its walls may tilt."""
+"""Load of a film case: `film.load`, and moments where its walls may tilt."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ _MOMENTS = ("moment_x", "moment_y")
 
 
 def read_load(top: Table, film: Table) -> RigidLoad | None:
-    """The load of a [film] table, SI; None where there is none or, told, where it has a fault."""
+    """The load of a [film] table, SI; None where there is none or, listed, where it has a fault."""
     if top.get("load") is not None:
         top.fault("load", "a table [load] of a free film", "keys of [film]", 'load = "1 kN" in [film]')
     stated = [key for key in _MOMENTS if film.get(key) is not None]
@@ -21,7 +21,7 @@ def read_load(top: Table, film: Table) -> RigidLoad | None:
         return None
     force = film.positive("load", Dimension.FORCE)
     if top.get("time") is not None:
-        film.fault("load", "a load beside a table [time]", "one of the two: a film in time follows its thickness")
+        film.fault("load", "a load beside a table [time]", "one of the two: a transient states its thickness")
     return None if force is None or None in moments.values() else RigidLoad(force, **moments)
 
 

@@ -1,4 +1,4 @@
-"""The [oil] table of a film case: viscosity over temperature and pressure, density over pressure, heat."""
+"""Oil table of a film case: viscosity over temperature and pressure, density over pressure, heat."""
 
 from __future__ import annotations
 
@@ -56,10 +56,10 @@ class Thinning(Enum):
 
 @dataclass(frozen=True)
 class OilStatement:
-    """An oil as its case states it, SI; None where the case does not say and nothing asks for it.
+    """Oil of a case, SI; None for values that are neither stated nor needed.
 
-    `kinematic`: viscosities at 40 and 100 degC, m2/s (None: the case gives film.viscosity, at `temperature`, which
-    then falls by exp(-temperature_coefficient dT)); `rows`: the table as a case file writes it.
+    `kinematic`: viscosities at 40 and 100 degC, m2/s (None: the case states film.viscosity at `temperature`, and
+    viscosity varies as exp(-temperature_coefficient dT)); `rows`: the table as a case file writes it.
     """
 
     rows: tuple[str, ...]
@@ -76,11 +76,11 @@ class OilStatement:
 
     @property
     def fluid(self) -> Fluid:
-        """The oil's laws in pressure, at one temperature."""
+        """The oil's laws over pressure, at one temperature."""
         return Fluid(self.viscosity_law, self.density_law)
 
     def at_temperature(self, temperature: Array, viscosity: float) -> Array:
-        """Viscosity (Pa s) without pressure at temperatures (K); `viscosity` is the case's own, Pa s.
+        """Return the viscosity (Pa s) at zero pressure at temperatures (K); `viscosity`: that of the case, Pa s.
 
         Raises FilmInputError where the law of the viscosity over temperature does not hold.
         """
@@ -92,37 +92,37 @@ class OilStatement:
 
 @dataclass
 class _Rows:
-    """What was read of a table, as a case file writes it."""
+    """Entries read from a table, as a case file writes them."""
 
     table: Table
     rows: list[str]
 
     def positive(self, key: str, dimension: Dimension, default: float | None = None) -> float | None:
-        """A quantity above zero, its fault told, its row kept."""
+        """Return a quantity above zero; list its fault, keep its row."""
         value = self.table.positive(key, dimension, default)
         if value is not None:
             self.rows.append(f'{key} = "{format_quantity(value, dimension)}"')
         return value
 
     def share(self, key: str) -> float | None:
-        """A bare number from 0 to 1, its fault told, its row kept."""
+        """Return a bare number from 0 to 1; list its fault, keep its row."""
         value = self.table.number(key)
         if value is not None and not 0.0 <= value <= 1.0:
-            self.table.fault(key, f"{value:g}", "a share from 0 to 1")
+            self.table.fault(key, f"{value:g}", "a fraction from 0 to 1")
             return None
         self.rows.append(f"{key} = {value!r}")
         return value
 
     def optional(self, key: str, dimension: Dimension) -> float | None:
-        """A quantity above zero, or None where there is none."""
+        """Return a quantity above zero, or None where none is stated."""
         return self.positive(key, dimension) if self.table.get(key) is not None else None
 
 
 def read_oil(oil: Table, *, with_viscosity: bool, with_heat: bool) -> OilStatement | None:
-    """The oil of a table; None, faults told.
+    """Return the oil of a table; None with its faults listed.
 
-    `with_viscosity`: the case gives film.viscosity itself, so that the table need not; `with_heat`: film
-    temperature is solved for, which needs density, temperature, specific heat and conductivity.
+    `with_viscosity`: the case states film.viscosity, the table need not; `with_heat`: the film temperature is
+    solved, which needs density, temperature, specific heat and conductivity.
     """
     rows = _Rows(oil, [])
     kinematic = _kinematic(rows, needed=not with_viscosity)
@@ -157,7 +157,7 @@ def read_oil(oil: Table, *, with_viscosity: bool, with_heat: bool) -> OilStateme
 
 
 def _check_laws(oil: Table) -> None:
-    """Fault constants of laws that the table does not name."""
+    """List faults of constants whose law the table does not select."""
     for law, keys in _OF_LAWS.items():
         for key in keys:
             if key in oil.values and key not in oil.asked:
@@ -167,12 +167,12 @@ def _check_laws(oil: Table) -> None:
 
 
 def oil_viscosity(oil: Table, stated: OilStatement) -> float | None:
-    """The dynamic viscosity (Pa s) by Walther's law at the table's temperature; None with its fault told."""
+    """Return the viscosity (Pa s) by Walther's law at the table's temperature; None with its fault listed."""
     assert stated.kinematic is not None
     assert stated.density is not None
     assert stated.temperature is not None
     try:
-        # A film at one temperature asks neither bulk modulus nor specific heat: ones stand for them.
+        # An isothermal film needs neither bulk modulus nor specific heat: both are set to 1.
         return dynamic_viscosity(Oil(*stated.kinematic, stated.density, 1.0, 1.0), stated.temperature)
     except FilmInputError as reason:
         oil.fault("temperature", reason.found, f"{reason.expected} of {reason.where}")
@@ -219,7 +219,7 @@ def _density_law(rows: _Rows, temperature: float | None) -> DensityLaw | None:
 
 
 def _shear_law(rows: _Rows) -> ShearLaw | None:
-    """How the oil thins with shear; None where it does not or, told, where the law has a fault."""
+    """Return the law of shear thinning; None without thinning, or with its fault listed."""
     law = rows.table.choice("shear_law", Thinning, Thinning.NONE)
     if law in (None, Thinning.NONE):
         return None
@@ -235,7 +235,7 @@ def _shear_law(rows: _Rows) -> ShearLaw | None:
 
 
 def _kinematic(rows: _Rows, *, needed: bool) -> tuple[float, float] | None:
-    """Kinematic viscosities at 40 and 100 degC (m2/s); None with the fault told, or where they are not needed."""
+    """Return kinematic viscosities at 40 and 100 degC (m2/s); None where not needed, or with a fault listed."""
     oil = rows.table
     grade = oil.get("grade")
     stated = [key for key in _KINEMATIC if oil.get(key) is not None]

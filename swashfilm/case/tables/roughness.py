@@ -1,4 +1,4 @@
-"""The tables [roughness] and [contact] of a film case: rough walls, and where they touch."""
+"""Tables [roughness] and [contact] of a film case: rough walls and contact of their asperities."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from system.inputs.units import Dimension, format_quantity
 
 @dataclass(frozen=True)
 class RoughWalls:
-    """Both walls' roughness, what touches (None: nothing does), and the tables as a case file writes them."""
+    """Roughness of both walls, contact of asperities (None: no contact), and the tables as written in a case."""
 
     surface: Surface
     asperities: Asperities | None
@@ -21,13 +21,13 @@ class RoughWalls:
 
 
 def read_roughness(top: Table) -> RoughWalls | None:
-    """The tables [roughness] and [contact]; None where there are none or, told, where one has a fault."""
+    """Return roughness and contact; None where there are no such tables, or with the faults listed."""
     table, contact = top.table("roughness"), top.table("contact")
     if table is None:
         if contact is not None:
             for key in contact.values:
                 contact.get(key)
-            top.fault("contact", "no table [roughness]", "the roughness of the walls that touch")
+            top.fault("contact", "no table [roughness]", "the roughness of the walls in contact")
         return None
     surface, rows = _surface(table)
     if contact is None or surface is None:
@@ -37,9 +37,9 @@ def read_roughness(top: Table) -> RoughWalls | None:
 
 
 def _surface(table: Table) -> tuple[Surface | None, list[str]]:
-    """Standard deviations of the heights: of both walls together, or of the moving and the fixed one."""
+    """Return the surface by its standard deviations: of both walls together, or of each wall."""
     if table.get("composite") is not None:
-        # One wall's roughness or the other's: the flow factors need to know whose; half of the variance each.
+        # Flow factors depend on which wall is rough: half of a composite variance is assigned to each wall.
         composite = table.positive("composite", Dimension.LENGTH)
         moving = fixed = None if composite is None else composite / 2.0**0.5
         for wall in ("moving", "fixed"):
@@ -70,7 +70,7 @@ def _surface(table: Table) -> tuple[Surface | None, list[str]]:
 
 
 def _height(table: Table, wall: str) -> float | None:
-    """Standard deviation of a wall's heights (m), zero of a smooth one."""
+    """Return the standard deviation of a wall's heights (m), zero for a smooth wall."""
     value = table.quantity(wall, Dimension.LENGTH, 0.0)
     if value is not None and value < 0.0:
         table.fault(wall, str(table.values[wall]), "a height of 0 (smooth) or more")
@@ -113,7 +113,7 @@ def _asperities(table: Table, surface: Surface) -> tuple[Asperities | None, list
 
 
 def _modulus(table: Table) -> float | None:
-    """E' of both walls: stated, or from the moduli and Poisson's ratios of the two."""
+    """Return E' of both walls: stated, or from the moduli and Poisson's ratios of the two."""
     if "youngs_modulus" not in table.values:
         return table.positive("composite_modulus", Dimension.ELASTICITY)
     moduli, ratios = table.pair("youngs_modulus", Dimension.ELASTICITY), table.get("poissons_ratio")

@@ -1,4 +1,4 @@
-"""The [thermal] table of a film case: what the walls do with the film's heat, and what the oil brings along."""
+"""Thermal table of a film case: heat transfer at the walls, and temperature of the entering oil."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ _MOST_LEVELS = 12
 
 @dataclass(frozen=True)
 class ThermalStatement:
-    """Both walls, the temperature (K) of what flows in, and the number of levels across the film."""
+    """Both walls, the temperature (K) of entering oil, and the number of levels across the film."""
 
     fixed_wall: Wall | WarmBody
     moving_wall: Wall | WarmBody
@@ -33,11 +33,11 @@ class ThermalStatement:
 
     @property
     def walls(self) -> Mapping[str, Wall | WarmBody]:
-        """Both walls by the names that [elastic] has for them."""
+        """Both walls by their names in [elastic]."""
         return {"fixed": self.fixed_wall, "moving": self.moving_wall}
 
     def inlet(self, oil: OilStatement) -> float:
-        """Temperature of what flows in, K."""
+        """Return the temperature of entering oil, K."""
         usual = oil.temperature if self.inlet_temperature is None else self.inlet_temperature
         assert usual is not None
         return usual
@@ -49,9 +49,9 @@ class ThermalStatement:
         elastic: ElasticStatement | None,
         space: FilmSpace,
     ) -> Heat:
-        """The core's heat problem; `temperatures` (K) by boundary, None where the inlet temperature holds.
+        """Return the heat problem; `temperatures` (K) by boundary, None where the inlet temperature holds.
 
-        Raises FilmInputError for a warm body that does not lie under the film or whose heat goes nowhere.
+        Raises FilmInputError for a body that does not lie under the film or that loses no heat anywhere.
         """
         assert oil.density is not None
         assert oil.specific_heat is not None
@@ -78,7 +78,7 @@ def _under(wall: Wall | WarmBody, elastic: ElasticStatement | None, key: str, sp
 
 
 def check_bodies(top: Table, stated: ThermalStatement | None, elastic: ElasticStatement | None) -> None:
-    """Fault a warm body that [elastic] has not; a half-space has none."""
+    """List a fault for a conducting body that [elastic] does not have; a half-space is not such a body."""
     for key, wall in stated.walls.items() if stated else ():
         if isinstance(wall, WarmBody) and getattr(getattr(elastic, key, None), "body", None) is None:
             top.fault(
@@ -87,7 +87,7 @@ def check_bodies(top: Table, stated: ThermalStatement | None, elastic: ElasticSt
 
 
 def read_thermal(top: Table) -> ThermalStatement | None:
-    """The [thermal] table; None where there is none or, told, where it has a fault."""
+    """Return the [thermal] table; None where there is none, or with its faults listed."""
     table = top.table("thermal")
     if table is None:
         return None
@@ -111,7 +111,7 @@ def _wall(table: Table, key: str) -> Wall | WarmBody | None:
     if raw == "turning":
         return Turning()
     if not isinstance(raw, dict):
-        table.fault(key, "no such key" if raw is None else repr(raw), _WALLS)
+        table.fault(key, "missing" if raw is None else repr(raw), _WALLS)
         return None
     wall = Table(table.name(key), raw, table.faults)
     if "thermal_conductivity" in raw:

@@ -1,4 +1,4 @@
-"""The [time] table of a film case: how long, in what steps, and how often a film is written."""
+"""Time table of a film case: duration, time step, and number of written films."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ USUAL_OUTPUTS = 50
 
 @dataclass(frozen=True)
 class TimeStatement:
-    """End and step of a transient (s), and how many films of it are written, evenly in time."""
+    """End and step of a transient (s), and number of written films, equally spaced in time."""
 
     end: float
     step: float
@@ -29,7 +29,7 @@ class TimeStatement:
 
     @property
     def step_taken(self) -> float:
-        """The step that divides the time evenly, s."""
+        """The step that divides the duration evenly, s."""
         return self.end / self.steps
 
     def number(self, time: float) -> int:
@@ -37,13 +37,13 @@ class TimeStatement:
         return int(time / self.step_taken + 1e-6)
 
     def is_output(self, time: float, step: float) -> bool:
-        """True for a step ending at `time` (s) of which the film is written; the last always is."""
+        """Return True where the film of the step that ends at `time` (s) is written; the last one always is."""
         every = self.end / self.outputs
         return int(time / every + 1e-6) > int((time - step) / every + 1e-6)
 
 
 def read_time(top: Table) -> TimeStatement | None:
-    """The [time] table; None where there is none or, told, where it has a fault."""
+    """Return the [time] table; None where there is none, or with its faults listed."""
     table = top.table("time")
     if table is None:
         return None
@@ -51,7 +51,7 @@ def read_time(top: Table) -> TimeStatement | None:
     outputs = table.get("outputs")
     wanted = USUAL_OUTPUTS if outputs is None else outputs
     if type(wanted) is not int or wanted < 1:
-        table.fault("outputs", repr(outputs), "how many films are written, a whole number from 1 on")
+        table.fault("outputs", repr(outputs), "the number of written films, a whole number from 1 on")
         wanted = None
     table.close()
     if end is None or step is None or wanted is None:
@@ -70,11 +70,11 @@ def time_rows(stated: TimeStatement) -> list[str]:
 
 
 def initial_film_fraction(top: Table, film: Table, reader: FieldReader) -> Field | None:
-    """Film fraction at the start, full where nothing is said; None with its fault told."""
+    """Return the film fraction at the start, by default 1; None with its fault listed."""
     if film.get("initial_film_fraction") is not None and top.get("time") is None:
-        film.fault("initial_film_fraction", "a beginning without a table [time]", "no such key in a steady film")
+        film.fault("initial_film_fraction", "a start without a table [time]", "a steady film without this key")
     if film.get("squeeze") is not None and top.get("time") is not None:
-        film.fault("squeeze", "dh/dt beside a table [time]", "no such key: a thickness of t has its own")
+        film.fault("squeeze", "dh/dt beside a table [time]", "a transient without this key: dh/dt follows from t")
     raw = film.get("initial_film_fraction")
     expected = "a number above 0 and at most 1, or a formula of x and y (text in quotes)"
     try:

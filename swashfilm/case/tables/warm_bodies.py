@@ -1,4 +1,4 @@
-"""A wall of [thermal] that is the body of [elastic]: how it conducts, expands and gives its heat away."""
+"""Wall of [thermal] that is the body of [elastic]: conduction, expansion and heat loss of its faces."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ class WarmBody:
     text: str
 
     def under(self, body: Body, space: FilmSpace) -> HeatedBody:
-        """The wall as the film's heat feels it; raises FilmInputError for a face that the body has not."""
+        """Return the wall for the film's heat problem; raise FilmInputError for an unknown face."""
         if unknown := [name for name in self.faces if name not in body.mesh.face_names]:
             raise FilmInputError(
                 "thermal wall, faces", f"'{unknown[0]}'", f"one of {', '.join(body.mesh.face_names)}"
@@ -32,7 +32,7 @@ class WarmBody:
 
 
 def read_warm_body(wall: Table) -> WarmBody | None:
-    """A warm body of the entry of a wall; None with its faults told."""
+    """Return the conducting body of a wall's entry; None with its faults listed."""
     conductivity = wall.positive("thermal_conductivity", Dimension.CONDUCTIVITY)
     expansion = wall.quantity("thermal_expansion", Dimension.TEMPERATURE_COEFFICIENT, 0.0)
     unstrained = wall.positive("unstrained_temperature", Dimension.TEMPERATURE)
@@ -40,7 +40,7 @@ def read_warm_body(wall: Table) -> WarmBody | None:
     wall.close()
     faces = {name: _face(table, name) for name in table.values} if table else {}
     if table and not faces:
-        wall.fault("faces", "none", "one at least, through which the heat leaves")
+        wall.fault("faces", "none", "at least one, through which the heat leaves")
     if conductivity is None or expansion is None or unstrained is None or not faces:
         return None
     known = {name: face for name, face in faces.items() if face is not None}

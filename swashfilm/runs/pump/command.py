@@ -1,4 +1,4 @@
-"""The command `swashfilm run`: what it takes, and what it prints."""
+"""Command `swashfilm run`: its options, its faults, its output."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from swashfilm.case.gap.physics_switches import add_switches
+from swashfilm.case.gap.switches import add_switches
 from swashfilm.console.command import Command
 from swashfilm.console.fidelity import Fidelity
 from swashfilm.console.inputs import COMMAND_LINE, expect, given_text
@@ -23,7 +23,7 @@ _TEMPERATURE = "operating.temperature"
 _OVERRIDES = {
     "--speed": ("operating.speed", "2100rpm", "shaft speed"),
     "--pressure": ("operating.pressure", "350bar", "delivery pressure, gauge"),
-    "--displacement": ("operating.displacement_ratio", "1.0", "share of the full displacement"),
+    "--displacement": ("operating.displacement_ratio", "1.0", "fraction of the full displacement"),
     "--temperature": (_TEMPERATURE, "50degC", "temperature of the oil in the case"),
     "--inlet-pressure": ("operating.inlet_pressure", "25bar", "pressure at the inlet, gauge"),
     "--case-pressure": ("operating.case_pressure", "1.5bar", "pressure in the case, gauge"),
@@ -32,24 +32,24 @@ _FIDELITIES = [fidelity.value for fidelity in Fidelity]
 
 
 def add_run_options(command: argparse.ArgumentParser) -> None:
-    """Give the command what it takes."""
+    """Add the arguments of the command to its parser."""
     command.add_argument(
         "pump", nargs="?", default="ref90", metavar="PUMP", help="built-in name (ref90) or pump file"
     )
     for option, (_, example, what) in _OVERRIDES.items():
-        command.add_argument(option, metavar=example, help=f"{what}; the pump's own where left out")
+        command.add_argument(option, metavar=example, help=f"{what}; default: that of the pump file")
     command.add_argument(
         "--fidelity",
         metavar=f"{{{','.join(_FIDELITIES)}}}",
         default=Fidelity.FILMS.value,
-        help="films of given thickness, as a table has learnt them, at given positions (films), or floating",
+        help="lumped: films of given thickness; table: response table; films: solved at given positions; floating",
     )
     command.add_argument(
-        "--table", type=Path, metavar="FILE.json", help="response table in place of the kept one of this pump"
+        "--table", type=Path, metavar="FILE.json", help="response table in place of the stored one of this pump"
     )
-    command.add_argument("--steps", metavar="N", help="floating gaps: angles of a turn that are reported (360)")
+    command.add_argument("--steps", metavar="N", help="floating gaps: reported angles per turn (360)")
     command.add_argument(
-        "--finer", metavar="X", help="floating gaps: times the usual cells each way (.5; --rigid: 1)"
+        "--finer", metavar="X", help="floating gaps: factor on the cells each way (.5; --rigid: 1)"
     )
     command.add_argument(
         "--set",
@@ -62,7 +62,7 @@ def add_run_options(command: argparse.ArgumentParser) -> None:
 
 
 def run_pump_command(options: argparse.Namespace) -> int:
-    """Run `swashfilm run` and return its exit code; raises InputFaults with what is wrong in pump and options."""
+    """Run `swashfilm run` and return its exit code; raise InputFaults with every fault of pump and options."""
     case = pump_case(options)
     from swashfilm.console.progress import progress
     from swashfilm.output.run_folder import run_folder
@@ -71,7 +71,7 @@ def run_pump_command(options: argparse.Namespace) -> int:
 
     name = case.pump.name
     if case.fidelity is Fidelity.FLOATING and (times := work_of(case.pump)) > 1.0:
-        show(f"chambers differ: their floating gaps take about {times:.0f} times as long as alike ones")
+        show(f"chambers differ: their floating gaps take about {times:.0f} times as long as identical ones")
     with run_folder(name, options.output) as folder, progress(1, f"run {name}") as report:
         found = solve_pump(case, report)
         added = found.write(folder)
@@ -80,7 +80,7 @@ def run_pump_command(options: argparse.Namespace) -> int:
 
 
 def pump_case(options: argparse.Namespace) -> PumpCase:
-    """The case of a command line; raises InputFaults with every fault of pump file and options."""
+    """Return the case of a command line; raise InputFaults with every fault of pump file and options."""
     from swashfilm.console.floating_options import alike_faults, floating_faults, floating_options
     from swashfilm.runs.pump.run import PumpCase
     from system.pump.film_thickness import moved_to
@@ -111,10 +111,10 @@ def pump_case(options: argparse.Namespace) -> PumpCase:
 
 
 def pump_faults(options: argparse.Namespace, words: Sequence[str]) -> list[Fault]:
-    """What is wrong with the pump and its options, beside options that are not known."""
+    """Return the faults of the pump and its options, without those of unknown options."""
     before = words[words.index(options.pump) - 1] if options.pump in words else ""
     if before.startswith("-"):
-        options.pump = "ref90"  # the word was the value of an unknown option
+        options.pump = "ref90"  # the word is the value of an unknown option
     try:
         pump_case(options)
     except InputFaults as reason:
@@ -123,7 +123,7 @@ def pump_faults(options: argparse.Namespace, words: Sequence[str]) -> list[Fault
 
 
 def _overrides(options: argparse.Namespace) -> tuple[dict[str, object], list[Fault]]:
-    """What the options put in place of the pump's own operating point, as a pump file would have it."""
+    """Return the entries of the pump file that the options replace, and the faults of the options."""
     stated: dict[str, object] = {}
     faults = []
     for text in options.set:
@@ -148,7 +148,7 @@ def _overrides(options: argparse.Namespace) -> tuple[dict[str, object], list[Fau
 
 
 def toml_value(text: str) -> object:
-    """A value as a TOML file writes it; text that is no TOML value is a string, as `10um`."""
+    """Return the value of a TOML text; text that is not a TOML value, such as `10um`, is a string."""
     try:
         return tomllib.loads(f"value = {text}")["value"]
     except tomllib.TOMLDecodeError:
@@ -156,7 +156,7 @@ def toml_value(text: str) -> object:
 
 
 def _at_options(reason: InputFaults, stated: dict[str, object], faults: list[Fault]) -> InputFaults:
-    """The faults of a pump, those of overridden values told at their options."""
+    """Return the faults of a pump, those of replaced values at their options."""
     option_of = {path: option for option, (path, _, _) in _OVERRIDES.items() if path in stated}
     moved = [Fault(option_of.get(f.path, f.path), f.found, f.expected, f.nearest) for f in reason.faults]
     all_ours = all(fault.path in _OVERRIDES for fault in moved)

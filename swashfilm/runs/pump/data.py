@@ -1,4 +1,4 @@
-"""A pump's operating point as labelled arrays: results.nc, and the tables that are cut from it."""
+"""Labelled arrays of a pump's operating point: results.nc, and the tables derived from it."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 GAPS = ("piston", "slipper", "valve_plate")
 PICTURED_TURN = 0.75
-"""Part of the turn at which gaps are drawn: the middle of delivery, piston at its fastest."""
+"""Fraction of the turn at which gaps are drawn: the middle of delivery, largest piston speed."""
 _GAP_SERIES = {
     "film_thickness_min": ("m", lambda film: film.loads.film_thickness_min),
     "film_thickness_mean": ("m", lambda film: film.film_thickness_mean),
@@ -34,7 +34,7 @@ _GAP_SERIES = {
 
 
 def gap_films(films: FilmsPoint) -> dict[str, tuple[GapFilm, ...]]:
-    """The films of each gap in the order of its shaft angles, by the gap's name."""
+    """Return the films of each gap in the order of its shaft angles, by the gap's name."""
     return {
         "piston": films.gaps.piston,
         "slipper": films.gaps.slipper,
@@ -43,11 +43,11 @@ def gap_films(films: FilmsPoint) -> dict[str, tuple[GapFilm, ...]]:
 
 
 def point_dataset(point: PumpPoint, name: str) -> xarray.Dataset:
-    """Chamber, ports, flows and pair losses over `shaft_angle` (rad), SI units in the attributes.
+    """Return chamber, ports, flows and pair losses over `shaft_angle` (rad), SI units in the attributes.
 
     Chamber quantities belong to one chamber, pair losses to one piston, slipper or socket; port pressures, flows
-    of the lines, torque and the other pairs to the whole pump. pump_delivery_flow is the volume at chamber
-    pressure that passes the delivery port, the line flows what leaves and enters the pump, at port pressure.
+    of the lines, torque and the other pairs to the whole pump. pump_delivery_flow is the volume flow through the
+    delivery port at chamber pressure; line flows leave and enter the pump at port pressure.
     """
     import xarray
 
@@ -84,7 +84,7 @@ def point_dataset(point: PumpPoint, name: str) -> xarray.Dataset:
 
 
 def films_dataset(films: FilmsPoint) -> xarray.Dataset:
-    """Series and fields of the three gaps over their film angles; vertices of each gap in its film plane (m)."""
+    """Return series and fields of the three gaps over their film angles; vertices in the film plane (m)."""
     import xarray
 
     data: dict[str, tuple[object, ...]] = {}
@@ -125,7 +125,7 @@ def _oil_fields(
 
 
 def write_tables(folder: Path, data: xarray.Dataset) -> None:
-    """Write revolution.csv and, where films were solved, one table a gap; units stand in the heads."""
+    """Write revolution.csv and, for solved films, one table per gap, with units in the heads."""
     revolution = data.drop_dims(set(data.dims) - {"shaft_angle"})
     _write_csv(folder / "revolution.csv", revolution, "shaft_angle")
     for gap in GAPS:

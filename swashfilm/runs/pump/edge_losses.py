@@ -1,4 +1,4 @@
-"""What a run tells of the files by which its lands and bores lose: where from, and how far it left their range."""
+"""Files of edge losses of lands and bores in a run: source, range, and warnings beyond the range."""
 
 from __future__ import annotations
 
@@ -18,11 +18,11 @@ from system.pump.assembly import PumpPoint
 from system.pump.land_losses import deepest, land_losses
 
 LARGEST_SHARE_BEYOND = 0.01
-"""Of the turn, from which it is told that losses are those of a file's last row."""
+"""Fraction of the turn beyond a file's last row above which a warning is given."""
 
 
 def loss_records(pump: PumpDescription) -> list[dict[str, Any]]:
-    """Of each file of losses its key, path, source and range; single slippers' too, where they are others."""
+    """Return key, path, source and range of each file of losses, with those of single slippers."""
     stated = [("slipper", pump.slipper), *((f"slipper.{n}", part) for n, part in pump.single_slippers)]
     found: list[dict[str, Any]] = []
     seen: set[tuple[str, Path]] = set()
@@ -35,8 +35,8 @@ def loss_records(pump: PumpDescription) -> list[dict[str, Any]]:
                 )
     plate = pump.valve_plate.kidney_file
     if plate is not None:
-        told = {"file": str(plate.path), "source": plate.source, "range": _steps(plate)}
-        found.append({"key": "valve_plate.kidney_file", **told})
+        record = {"file": str(plate.path), "source": plate.source, "range": _steps(plate)}
+        found.append({"key": "valve_plate.kidney_file", **record})
     return found
 
 
@@ -45,7 +45,7 @@ def _of_slipper(part: SlipperSection) -> Iterator[tuple[str, FileTable, str]]:
     if part.orifice_file is not None:
         table = part.orifice_file
         own = format_quantity(0.25 * np.pi * part.orifice_diameter**2, Dimension.AREA, digits=4)
-        words = f"opening {own} of {table.opening.size} in it, Re {_ends(table.reynolds)}"
+        words = f"opening {own} of {table.opening.size} in the file, Re {_ends(table.reynolds)}"
         yield "orifice_file", table, words
     if part.pocket_file is not None:
         yield "pocket_file", part.pocket_file, _steps(part.pocket_file)
@@ -53,7 +53,7 @@ def _of_slipper(part: SlipperSection) -> Iterator[tuple[str, FileTable, str]]:
         losses = part.groove_file
         ratio, width = losses.sizes.T
         ends = _ends(width[ratio == ratio.max()])
-        words = f"film_ratio {ratio.max():g} taken, width_ratio {ends}, Re {_ends(losses.reynolds)}"
+        words = f"film_ratio {ratio.max():g} used, width_ratio {ends}, Re {_ends(losses.reynolds)}"
         yield "groove_file", losses, words
 
 
@@ -61,7 +61,7 @@ def _steps(losses: LossFactors) -> str:
     """Range of a file of steps, in words."""
     into, out = deepest(losses)
     lengths = f"extra length {losses.extra_length[into]:.3g} and {losses.extra_length[out]:.3g}"
-    ratios = f"film_ratio {losses.sizes[into, 0]:g} and {losses.sizes[out, 0]:g} taken"
+    ratios = f"film_ratio {losses.sizes[into, 0]:g} and {losses.sizes[out, 0]:g} used"
     return f"{ratios}, {lengths}, Re {_ends(losses.reynolds)}"
 
 
@@ -70,9 +70,9 @@ def _ends(values: Array) -> str:
 
 
 def loss_warnings(pump: PumpDescription, point: PumpPoint) -> list[str]:
-    """A warning for each file beyond whose Reynolds numbers flow was for longer than LARGEST_SHARE_BEYOND.
+    """Return a warning for each file whose range the Reynolds number exceeds longer than LARGEST_SHARE_BEYOND.
 
-    Of chambers like the first ones; of floating gaps, which take the files of bores alone, see `losses_left_out`.
+    Valid for the first chamber and those identical to it. Floating gaps read no files of lands: `losses_left_out`.
     """
     losses = land_losses(pump)
     _, slipper, plate = _flows(point)
@@ -95,7 +95,7 @@ def loss_warnings(pump: PumpDescription, point: PumpPoint) -> list[str]:
 
 
 def losses_left_out(pump: PumpDescription) -> list[str]:
-    """A warning with the files that floating gaps do not take."""
+    """Return a warning with the files that floating gaps do not use."""
     stated = {
         "slipper.pocket_file": pump.slipper.pocket_file,
         "slipper.groove_file": pump.slipper.groove_file,
@@ -104,18 +104,18 @@ def losses_left_out(pump: PumpDescription) -> list[str]:
     keys = [key for key, table in stated.items() if table is not None]
     if not keys:
         return []
-    told = ", ".join(keys)
-    return [f"losses_left_out: {told}: floating gaps take no losses of edges; run --fidelity lumped or films"]
+    listed = ", ".join(keys)
+    return [f"losses_left_out: {listed}: floating gaps have no edge losses; run --fidelity lumped or films"]
 
 
 def _flows(point: PumpPoint) -> Array:
-    """Flow (m3/s) of one chamber by pressure into each gap, (3, N), at the angles of its leaks."""
+    """Return the pressure flow (m3/s) of one chamber into each gap, (3, N), at the angles of its leakage."""
     every = point.cycle.pressure.size // point.leaks.conductance.shape[-1]
     return point.leaks.conductance * (point.cycle.pressure[::every] - point.point.case_pressure)
 
 
 def _reynolds(path: LandPath, flow: Array, kinematic_viscosity: float) -> Array:
-    """The largest u h/nu at an edge of each flow."""
+    """Return the largest u h/nu at an edge, for each flow."""
     return np.array([path.largest_reynolds(one, kinematic_viscosity) for one in np.atleast_1d(flow)])
 
 
@@ -125,6 +125,6 @@ def _beyond(key: str, path: Path, reynolds: Array, largest: float) -> list[str]:
         return []
     return [
         f"coefficients_beyond_file: {key}: {share:.0%} of the turn lies at Reynolds numbers up to "
-        f"{reynolds.max():.3g}, beyond {path.name} (Re {largest:.3g}), whose last row is taken (limit "
-        f"{LARGEST_SHARE_BEYOND:.0%} of the turn); give rows for it"
+        f"{reynolds.max():.3g}, beyond {path.name} (Re {largest:.3g}), whose last row is used (limit "
+        f"{LARGEST_SHARE_BEYOND:.0%} of the turn); add rows for it"
     ]

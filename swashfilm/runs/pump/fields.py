@@ -1,4 +1,4 @@
-"""The films of a pump for ParaView: surfaces in their true place, series over the shaft angle."""
+"""Films of a pump for ParaView: surfaces in their position in the pump, series over the shaft angle."""
 
 from __future__ import annotations
 
@@ -18,16 +18,16 @@ from system.points.films import FilmsPoint
 def write_fields(folder: Path, films: FilmsPoint) -> None:
     """Write fields/*.vtu and, beside them, piston.pvd, slipper.pvd, valve_plate.pvd and pump.pvd.
 
-    A gap's PVD follows one piston or slipper, or the ring, over the turn (time = shaft angle in degrees);
-    pump.pvd shows all of them at once. Nine pistons are one piston shifted, so that their files are shared.
+    A gap's PVD follows one piston or slipper, or the valve plate's ring, over the turn (time = shaft angle in
+    degrees); pump.pvd shows all of them. All pistons repeat one piston at shifted angles and share its files.
     """
     place = folder / FIELDS
     place.mkdir()
     viscosity = films.rotor.point.viscosity
     series = {Gap.PISTON: films.gaps.piston, Gap.SLIPPER: films.gaps.slipper}
     series[Gap.VALVE_PLATE] = tuple(ring.gap for ring in films.gaps.valve_plate)
-    for gap, told in series.items():
-        for k, film in enumerate(told):
+    for gap, films_of_gap in series.items():
+        for k, film in enumerate(films_of_gap):
             at = place_of(gap, films.rotor, films.parts, films.gaps.shaft_angle[k])
             oil = oil_state(films.rotor.pump, getattr(films.physics, gap.value), film.solution, viscosity)
             write_vtu(place / vtu_name(gap.value, k), film.solution, at, oil)

@@ -1,4 +1,4 @@
-"""Floating gaps of a run: fields, summary, view on the page."""
+"""Floating gaps of a run: fields, summary, part of the page."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ import numpy as np
 
 from gaps.revolution.march import GapRevolution, Leg
 from reynolds.solve.export import write_pvd
-from swashfilm.case.gap.physics_told import PHYSICS_HEAD, physics_told
+from swashfilm.case.gap.physics import PHYSICS_HEAD, physics_summary
 from swashfilm.console.fidelity import Fidelity
 from swashfilm.output.gap_names import FIELDS, TITLES, vtu_name
 from swashfilm.output.page import inlined
@@ -31,28 +31,28 @@ from system.points.floating_gaps import FloatingOptions
 
 RESULTS = "results.nc"
 Kept = dict[tuple[str, str], np.ndarray]
-"""Shaft angles (rad) of the films that are kept, by place in the run folder and gap."""
+"""Shaft angles (rad) of the kept films, by path in the run folder and gap."""
 _OF_PUMP = ("format", "kind", "name", "gap", "physics_left_out", "physics_seconds", "assumptions", "warnings")
 
 
 SHOWN = ("film", "path", "temperature", "contact", "maps")
 SHOWN_UNLIKE = ("film", "path")
 CAPTIONS = {
-    "film": "film over the shaft angle, the chamber's pressure (dashed), and what limits the film",
-    "path": "where the part stands; the colour is the shaft angle",
+    "film": "film over the shaft angle, chamber pressure (dashed), and the limits of the film",
+    "path": "position of the part; the colour is the shaft angle",
     "temperature": "temperature of film and walls",
     "contact": "contact, cavitation and the largest film pressure",
     "maps": "films at some of the kept angles",
 }
 HEAD = (
-    "gap", "mean film", "least film", "leakage of one", "power of the walls", "of it contact", "contact, largest",
+    "gap", "mean film", "least film", "leakage", "friction power", "of which contact", "largest contact load",
     "turns, multiplier",
 )  # fmt: skip
 
 
 @dataclass(frozen=True)
 class FloatingGap:
-    """One gap of a pump that floats as a whole: a `GapCase`."""
+    """One gap of a pump with all gaps floating: a `GapOverTurn`."""
 
     name: str
     gap: Gap
@@ -61,10 +61,10 @@ class FloatingGap:
 
 
 def floating_studies(found: FloatingPoint) -> dict[str, tuple[RevolutionStudy, ...]]:
-    """The gaps, each as if it were a case of its own, by where they go in the run folder.
+    """Return the gaps, each as a separate case, by their path in the run folder.
 
-    Here (""): piston and slipper of the most common kind of chambers, and the block; of every other kind piston
-    and slipper, in chamber_<number of its first>.
+    Path "": piston and slipper of the most common kind of chamber, and the block; chamber_<number>: piston and
+    slipper of every other kind, by the number of its first chamber.
     """
     most, *others = found.kinds
     here = (Gap.PISTON, most.gaps.piston), (Gap.SLIPPER, most.gaps.slipper), (Gap.VALVE_PLATE, most.gaps.block)
@@ -91,15 +91,15 @@ def _study(found: FloatingPoint, kind: FloatingKind, gap: Gap, revolution: GapRe
 
 
 def floating_summary(found: FloatingPoint, warnings: list[str]) -> dict[str, Any]:
-    """The summary of any fidelity's point with the gaps' own, how gaps and chambers agreed, and what was taken.
+    """Return the summary of the point with those of its gaps, the agreement of gaps and chambers, assumptions.
 
-    `warnings` come before those of the gaps. `unlike`: chambers that are not of the most common kind, their gaps.
+    `warnings` come before those of the gaps. Key `unlike`: gaps of chambers of the less common kinds.
     """
     studies = floating_studies(found)
     by_place = {
         place: {study.case.gap.value: revolution_summary(study) for study in own} for place, own in studies.items()
     }
-    told = warnings + [
+    texts = warnings + [
         f"{one['name']}: {' '.join(filter(None, (place, gap))).replace('_', ' ')}: {one['text']}"
         for place, gaps in by_place.items()
         for gap, own in gaps.items()
@@ -109,7 +109,7 @@ def floating_summary(found: FloatingPoint, warnings: list[str]) -> dict[str, Any
         {gap: {key: own[key] for key in own if key not in _OF_PUMP} for gap, own in gaps.items()}
         for gaps in by_place.values()
     )
-    summary, last = pump_summary(found.rotor.pump, found.pump_point, None, told), found.rounds[-1]
+    summary, last = pump_summary(found.rotor.pump, found.pump_point, None, texts), found.rounds[-1]
     checks = {
         "coupling_rounds": len(found.rounds),
         "coupling_pressure_change": last.pressure_change,
@@ -143,21 +143,21 @@ def floating_summary(found: FloatingPoint, warnings: list[str]) -> dict[str, Any
 
 
 def _spin_ratios(rotor: Rotor) -> dict[str, float]:
-    """Spins of piston and slipper over the shaft's, as pump files state them."""
+    """Return the spin speeds of piston and slipper over the shaft speed, as in pump files."""
     return {part: spin / rotor.point.shaft_speed for part, spin in asdict(rotor.spins).items()}
 
 
 def _spent(found: FloatingPoint) -> dict[Leg, float]:
-    """Time (s) that the gaps spent on each leg, in all rounds."""
+    """Return the time (s) of the gaps for each march, in all rounds."""
     return {leg: sum(taken.spent[leg] for taken in found.rounds) for leg in Leg}
 
 
 def write_floating(folder: Path, found: FloatingPoint) -> dict[Path, list[Path]]:
-    """Write <gap>.csv, <gap>_convergence.csv, a group <gap> of results.nc, fields/ and PVDs; tell what to draw.
+    """Write <gap>.csv, <gap>_convergence.csv, a group <gap> of results.nc, fields/ and PVDs; return the pictures.
 
-    results.nc must be there with the pump's own series. A gap's PVD follows one piston or slipper over the turn,
-    or the block over what repeats; pump.pvd shows all of them. Of chambers that are not of the most common kind
-    the same in chamber_<number>. What to draw: a picture, and the fields on it.
+    results.nc must exist with the pump's series. A gap's PVD follows one piston or slipper over the turn, or the
+    block over one period; pump.pvd shows all of them. Chambers of the less common kinds have the same files in
+    chamber_<number>. Returned: fields of each 3D picture, by its path.
     """
     kept: Kept = {}
     for place, studies in floating_studies(found).items():
@@ -194,7 +194,7 @@ def _write_gap(folder: Path, path: Path, study: RevolutionStudy) -> None:
 
 
 def _in_pump(kept: Kept, shaft_angle: float, of_chamber: list[str]) -> list[str]:
-    """Fields of the block and of all pistons and slippers at a shaft angle (rad), the nearest that are kept."""
+    """Return the fields of the block, all pistons and all slippers at the kept angles nearest to one (rad)."""
     chambers = shaft_angle + 2.0 * np.pi / len(of_chamber) * np.arange(len(of_chamber))
     return [
         _nearest(kept, "", "valve_plate", shaft_angle),
@@ -207,14 +207,14 @@ def _in_pump(kept: Kept, shaft_angle: float, of_chamber: list[str]) -> list[str]
 
 
 def _nearest(kept: Kept, place: str, gap: str, angle: float) -> str:
-    """Field of a gap at the kept angle nearest to one, all repeating after the last."""
+    """Return the field of a gap at the kept angle nearest to one, with the turn periodic."""
     angles = kept[place, gap]
     away = (angles - angle + 0.5 * angles[-1]) % angles[-1] - 0.5 * angles[-1]
     return (Path(place) / FIELDS / vtu_name(gap, int(np.argmin(np.abs(away))))).as_posix()
 
 
 def floating_view(folder: Path, summary: Mapping[str, Any]) -> dict[str, Any]:
-    """What the template shows of floating gaps: rows with their head, pictures with captions, turns."""
+    """Return the floating gaps for the template: rows with their head, pictures with captions, turns."""
     import xarray
 
     pictures = []
@@ -229,12 +229,12 @@ def floating_view(folder: Path, summary: Mapping[str, Any]) -> dict[str, Any]:
     return {
         "head": HEAD, "rows": floating_rows(summary), "pictures": pictures, "turns": turns,
         "physics_head": PHYSICS_HEAD,
-        "physics": physics_told(summary["physics_left_out"], summary["cost"]["physics_seconds"]),
+        "physics": physics_summary(summary["physics_left_out"], summary["cost"]["physics_seconds"]),
     }  # fmt: skip
 
 
 def floating_rows(summary: Mapping[str, Any]) -> list[tuple[str, ...]]:
-    """A row a gap: films, leakage, friction, contact, and how its turn closed; then those of unlike chambers."""
+    """Return a row per gap: films, leakage, friction, contact, convergence; then those of differing chambers."""
     named = [(TITLES[gap], of) for gap, of in summary["gaps"].items()]
     for kind in summary["unlike"].values():
         named += [(f"{TITLES[gap]}, {_numbers(kind)}", of) for gap, of in kind["gaps"].items()]

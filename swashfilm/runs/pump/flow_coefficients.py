@@ -1,4 +1,4 @@
-"""What a run tells of coefficients that came from files: where from, and how far the run left their range."""
+"""Files of flow coefficients in a run: source, range, and warnings beyond the range."""
 
 from __future__ import annotations
 
@@ -13,11 +13,11 @@ from system.inputs.units import Dimension, format_quantity
 from system.pump.assembly import PumpPoint
 
 LARGEST_SHARE_BEYOND = 0.01
-"""Of the time in which a port is open, from which it is told that its coefficients are those of an edge."""
+"""Fraction of a port's open time beyond a file's range above which a warning is given."""
 
 
 def coefficient_records(pump: PumpDescription) -> list[dict[str, Any]]:
-    """Of each file of coefficients its key, path, source and range."""
+    """Return key, path, source and range of each file of coefficients."""
     ports, own = pump.ports, pump.ports.delivery.coefficient_file if pump.ports.delivery else None
     stated = {"ports.coefficient_file": ports.coefficient_file, "ports.delivery.coefficient_file": own}
     found = []
@@ -29,7 +29,7 @@ def coefficient_records(pump: PumpDescription) -> list[dict[str, Any]]:
 
 
 def coefficient_warnings(pump: PumpDescription, point: PumpPoint) -> list[str]:
-    """A warning for each port that stood open beyond its file for longer than LARGEST_SHARE_BEYOND of the time."""
+    """Return a warning for each port beyond its file for longer than LARGEST_SHARE_BEYOND of its open time."""
     found = []
     sides = zip(
         ("suction", "delivery"),

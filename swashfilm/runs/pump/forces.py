@@ -82,7 +82,7 @@ def write_forces(folder: Path, joints: JointForces) -> None:
 
 
 def read_forces(folder: Path) -> dict[str, Array]:
-    """The columns of a folder's forces.csv by name, without their units."""
+    """Return the columns of a folder's forces.csv by name, without units."""
     path = folder / TABLE
     names = path.read_text("utf-8").splitlines()[0].split(",")
     values = np.loadtxt(path, delimiter=",", skiprows=1, ndmin=2)
@@ -90,11 +90,10 @@ def read_forces(folder: Path) -> dict[str, Array]:
 
 
 def forces_summary(joints: JointForces, found: PumpPoint) -> dict[str, Any]:
-    """What the summary tells of the joints: closing errors, sizes over the turn, and what losses are taken by
-    instead.
+    """Return the summary of the joints: closing errors, sizes over the turn, comparison with the law of losses.
 
-    sizes: mean, least and largest of each joint's force or moment. nominal_law: by joints, by the law of the
-    losses.
+    sizes: mean, least and largest of each joint's force or moment. nominal_law: forces by joints, and by the law
+    of the losses.
     """
     torque = found.shaft_torque
     return {
@@ -106,7 +105,7 @@ def forces_summary(joints: JointForces, found: PumpPoint) -> dict[str, Any]:
 
 
 def force_warnings(joints: JointForces) -> list[str]:
-    """Warning of slippers that the plate would have to pull; elsewhere forces are those of parts that touch."""
+    """Return warnings of slippers that lift: the swash plate would have to pull them."""
     pulled = [one.lift < 0.0 for one in joints.sets]
     if not any(one.any() for one in pulled):
         return []
@@ -115,9 +114,9 @@ def force_warnings(joints: JointForces) -> list[str]:
     worst = int(np.argmin(lift))
     share = f"{pulled[number].sum()} of {lift.size} shaft angles"
     return [
-        f"slipper_lifts: the plate would have to pull the slipper of chamber {number + 1} at {share}, most with "
-        f"{-lift[worst]:.0f} N at {degrees[worst]:.0f} deg (limit 0): it lifts, and the retainer bears that "
-        "besides its share of the spring; raise the inlet pressure, or lower the speed"
+        f"slipper_lifts: the slipper of chamber {number + 1} lifts at {share}: it needs a pull of up to "
+        f"{-lift[worst]:.0f} N at {degrees[worst]:.0f} deg (limit 0), which the retainer supports in addition to "
+        "its part of the spring force; raise the inlet pressure, or lower the speed"
     ]
 
 
@@ -127,7 +126,7 @@ def _spread(unit: str, values: Array) -> dict[str, float]:
 
 
 def _sizes(joints: JointForces) -> dict[str, tuple[str, Array]]:
-    """Unit and course over the turn of each joint: a force's size, or with its sign where it has one direction."""
+    """Return unit and series over the turn of each joint: magnitude, or signed value of a one-directional force."""
     one = joints.sets[0]
     forces = {
         "piston_on_slipper": one.ball,
@@ -154,7 +153,7 @@ def _sizes(joints: JointForces) -> dict[str, tuple[str, Array]]:
 
 
 def _laws(joints: JointForces, found: PumpPoint) -> dict[str, dict[str, float]]:
-    """Where REF90's nominal losses take a simpler force: mean over the turn by joints, and by the law."""
+    """Return mean forces over the turn by joints and by the simpler law of REF90's nominal losses."""
     pump, point = joints.group.pump, found.point
     motion, guide = piston_motion(pump, point), pump.ball_guide
     _, side = piston_forces(pump, point, motion, found.cycle)
@@ -179,7 +178,7 @@ def _laws(joints: JointForces, found: PumpPoint) -> dict[str, dict[str, float]]:
 
 @dataclass(frozen=True)
 class ForcesView:
-    """What the page shows: rows of sizes, of laws and of closing errors; the picture, base64."""
+    """Forces on the page: rows of sizes, of laws and of closing errors; the picture, base64."""
 
     sizes: Rows
     laws: Rows
@@ -188,7 +187,7 @@ class ForcesView:
 
 
 def forces_view(folder: Path, summary: Mapping[str, Any]) -> ForcesView | None:
-    """The forces of a run folder; None of one that an earlier version wrote without them."""
+    """Return the forces of a run folder; None where an earlier version wrote it without them."""
     if "forces" not in summary or not (folder / TABLE).is_file():
         return None
     found = summary["forces"]
@@ -200,10 +199,10 @@ def forces_view(folder: Path, summary: Mapping[str, Any]) -> ForcesView | None:
         for part in (found["sizes"], found["nominal_law"])
     )
     shares = {
-        "force_error": "force, of the largest on a slipper",
-        "moment_error": "moment, of that at the pitch radius",
-        "power_error": "power, of the shaft's",
-        "torque_error": "drive torque against the torque of the energy balance",
+        "force_error": "force, relative to the largest slipper force",
+        "moment_error": "moment, relative to that force at the pitch radius",
+        "power_error": "power, relative to the shaft power",
+        "torque_error": "drive torque, difference from the energy balance",
     }
     closing = [(shares[key], f"{value:.2g}") for key, value in found["closure"].items()]
     picture = inlined(forces_plot(read_forces(folder)))

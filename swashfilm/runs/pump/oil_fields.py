@@ -1,4 +1,4 @@
-"""The oil in a pump's films where it is not the case's: its viscosity, and the temperature that goes with it."""
+"""State of the oil in a pump's films: viscosity and the equivalent temperature, where they vary."""
 
 from __future__ import annotations
 
@@ -18,11 +18,11 @@ UNITS: Mapping[str, str] = {"film_viscosity": "Pa s", "film_temperature": "K"}
 
 
 def oil_state(pump: PumpDescription, physics: Physics, solution: FilmSolution, resting: float) -> dict[str, Array]:
-    """Fields of a film's oil at its vertices (vertices,), by name and in `UNITS`; none where it is as in the case.
+    """Return fields of a film's oil at its vertices (vertices,), by name and in `UNITS`; none for uniform oil.
 
-    film_viscosity: by which the film flows, with what pressure and heat make of it; film_temperature: at which the
-    oil under no pressure has what heat makes of it, a mean across the film (Walther's law). Webs over a port are
-    no film: they have the case's oil, of viscosity `resting` (Pa s).
+    film_viscosity: viscosity with the effects of pressure and heat; film_temperature: mean temperature across the
+    film, at which oil at zero pressure has the viscosity due to heat alone (Walther's law). Webs over a port have
+    no film: their oil has the viscosity `resting` (Pa s).
     """
     if not (physics.heat or physics.pressure_viscosity):
         return {}

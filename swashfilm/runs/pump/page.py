@@ -1,4 +1,4 @@
-"""The page of an operating point: report.html from the run folder's own files, self-contained."""
+"""Page of an operating point: self-contained report.html from the files of the run folder."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from swashfilm.runs.pump.data import GAPS
 from swashfilm.runs.pump.floating import floating_view
 from swashfilm.runs.pump.forces import forces_view
 from swashfilm.runs.pump.summary import ABBREVIATION
-from swashfilm.runs.table.summary import TOLD_HEAD, told_rows
+from swashfilm.runs.table.summary import TABLE_POINT_HEAD, table_point_rows
 from system.inputs.units import LPM
 from system.pump.laws.friction_pairs import Pair
 
@@ -28,7 +28,7 @@ Rows = list[tuple[str, ...]]
 def write_pump_page(folder: Path) -> Path:
     """Write report.html of a pump's run folder from its summary.json, resolved.toml and results.nc.
 
-    3D pictures that lie in the folder are taken in. Raises InputFaults where one of the three is missing.
+    The page includes 3D pictures of the folder. Raises InputFaults where one of the three is missing.
     """
     import xarray
 
@@ -48,8 +48,8 @@ def write_pump_page(folder: Path) -> Path:
         power=power_rows(summary),
         gaps=[] if floats else gap_rows(summary),
         floating=floating_view(folder, summary) if floats else None,
-        told=list(told_rows(summary)) if "table" in summary else [],
-        told_head=TOLD_HEAD,
+        table_rows=list(table_point_rows(summary)) if "table" in summary else [],
+        table_head=TABLE_POINT_HEAD,
         ripple=ripple_rows(summary),
         checks=check_rows(summary),
         forces=forces_view(folder, summary),
@@ -61,15 +61,15 @@ def write_pump_page(folder: Path) -> Path:
 
 
 def map_caption(data: Any, gap: str) -> str:
-    """Title of a gap's maps and the shaft angle they stand at; the ring repeats after each pitch."""
+    """Return the title of a gap's maps with their shaft angle; the valve plate's maps repeat after each pitch."""
     k = pump_plots.pictured(data, gap)
     angle = np.degrees(data[f"{gap}_angle"].values[k])
     whose = "block" if gap == "valve_plate" else "shaft"
-    return f"{TITLES[gap]} at {whose} angle {angle:.0f} deg, position given"
+    return f"{TITLES[gap]} at {whose} angle {angle:.0f} deg, given position"
 
 
 def headline_rows(summary: Mapping[str, Any]) -> Rows:
-    """(what, value with its unit): the operating point and what comes out of it."""
+    """Return (name, value with its unit) of the operating point and its results."""
     at, flow, torque = summary["operating_point"], summary["flow"], summary["torque"]
     ripple, errors = summary["ripple"], summary["checks"]
     return [
@@ -102,7 +102,7 @@ def headline_rows(summary: Mapping[str, Any]) -> Rows:
 
 
 def efficiency_rows(summary: Mapping[str, Any]) -> Rows:
-    """(efficiency, paper's in %, ISO's in %); none where the machine does not pump."""
+    """Return (efficiency, paper's in %, ISO's in %); none where the machine does not pump."""
     norms = [summary["efficiency"][key] for key in ("paper", "iso_4409")]
     return [
         (f"{name} efficiency", *("none" if norm[name] is None else f"{100 * norm[name]:.2f} %" for norm in norms))
@@ -111,7 +111,7 @@ def efficiency_rows(summary: Mapping[str, Any]) -> Rows:
 
 
 def bench_rows(summary: Mapping[str, Any]) -> Rows:
-    """(loss, by the paper's Eqs. (1), (2), by the split that leaves the oil its compression energy)."""
+    """Return (loss, by the paper's Eqs. (1), (2), by the split that leaves the oil its compression energy)."""
     paper, exact = summary["paper_loss"], summary["bench_split"]
     return [
         ("volumetric", f"{paper['volumetric_W']:.1f} W", f"{exact['leakage_W']:.1f} W"),
@@ -121,7 +121,7 @@ def bench_rows(summary: Mapping[str, Any]) -> Rows:
 
 
 def pair_rows(summary: Mapping[str, Any]) -> Rows:
-    """(pair, abbreviation, Coulomb, viscous, total, share) of the seven friction pairs and their sum."""
+    """Return (pair, abbreviation, Coulomb, viscous, total, share) of the seven friction pairs and their sum."""
     rows: Rows = []
     for pair in Pair:
         loss = summary["pair_loss"][pair.value]
@@ -135,7 +135,7 @@ def pair_rows(summary: Mapping[str, Any]) -> Rows:
 
 
 def power_rows(summary: Mapping[str, Any]) -> Rows:
-    """(where the shaft power goes, W, share of it)."""
+    """Return (part of the shaft power, W, share of it)."""
     power = summary["power_balance"]
     shaft = power["shaft_W"]
     return [
@@ -145,7 +145,7 @@ def power_rows(summary: Mapping[str, Any]) -> Rows:
 
 
 def gap_rows(summary: Mapping[str, Any]) -> Rows:
-    """(gap, given film, leakage, power of the walls, statement)."""
+    """Return (gap, given film, leakage, friction power, statement)."""
     rows: Rows = []
     for gap, report in summary["gaps"].items():
         rows.append(
@@ -162,7 +162,7 @@ def gap_rows(summary: Mapping[str, Any]) -> Rows:
 
 
 def ripple_rows(summary: Mapping[str, Any]) -> Rows:
-    """(what pulses, peak to peak, its orders z, 2 z and 3 z)."""
+    """Return (ripple, peak to peak, its orders z, 2 z and 3 z)."""
     ripple = summary["ripple"]
     units = {"Pa": (1e-6, "MPa"), "m3_per_s": (LPM, "L/min"), "Nm": (1.0, "N m")}
     rows: Rows = []
@@ -180,7 +180,7 @@ def ripple_rows(summary: Mapping[str, Any]) -> Rows:
 
 
 def check_rows(summary: Mapping[str, Any]) -> Rows:
-    """(check, value): balances, convergence and effort of the solvers, those of the gaps included."""
+    """Return (check, value): balances, convergence and effort of the solvers, with those of the gaps."""
     rows: Rows = [(key.replace("_", " "), f"{value:.3g}") for key, value in summary["checks"].items()]
     for gap, report in summary["gaps"].items():
         for key in ("mass_balance_error_max", "energy_balance_error_max", "unknowns"):

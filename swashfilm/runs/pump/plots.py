@@ -1,4 +1,4 @@
-"""Pictures of an operating point, drawn from results.nc and summary.json alone."""
+"""Pictures of an operating point, drawn from results.nc and summary.json."""
 
 from __future__ import annotations
 
@@ -26,11 +26,11 @@ GAP_FIELDS = (
     MapField("film_viscosity", "viscosity of the oil / mPa s", 1e3, colours="YlGnBu"),
     MapField("film_temperature", "film temperature, mean across / degC", zero=273.15, colours="inferno"),
 )
-"""Fields of a gap that a page draws where results.nc has them."""
+"""Fields of a gap on a page, where results.nc has them."""
 
 
 def loss_bar(summary: Mapping[str, Any]) -> Figure:
-    """Losses of the seven pairs (W) as one stacked bar each for Coulomb and viscous, share written on it."""
+    """Draw losses of the seven pairs (W), stacked Coulomb and viscous parts, with the share of each pair."""
     figure = figure_of(8.4, 3.4)
     axes = figure.subplots()
     names = [f"{ABBREVIATION[pair]}" for pair in Pair]
@@ -47,7 +47,7 @@ def loss_bar(summary: Mapping[str, Any]) -> Figure:
 
 
 def chamber_plot(data: xarray.Dataset, summary: Mapping[str, Any]) -> Figure:
-    """Chamber pressure (MPa) and port openings (mm2) over the shaft angle, the dead-centre regions enlarged."""
+    """Draw chamber pressure (MPa) and port openings (mm2) over the shaft angle, dead-centre regions enlarged."""
     figure = figure_of(10.0, 5.6)
     wide, near = figure.subplots(2, 1)
     angle = np.degrees(data["shaft_angle"].values)
@@ -73,7 +73,7 @@ def chamber_plot(data: xarray.Dataset, summary: Mapping[str, Any]) -> Figure:
 
 
 def flow_plot(data: xarray.Dataset) -> Figure:
-    """Delivery flow of the pump and leakage of one chamber's gaps (L/min) over the shaft angle."""
+    """Draw delivery flow of the pump and leakage of one chamber's gaps (L/min) over the shaft angle."""
     figure = figure_of(10.0, 3.4)
     left, right = figure.subplots(1, 2)
     angle = np.degrees(data["shaft_angle"].values)
@@ -87,7 +87,7 @@ def flow_plot(data: xarray.Dataset) -> Figure:
 
 
 def ripple_plot(data: xarray.Dataset) -> Figure:
-    """Port pressures (MPa, off their means), line flows (L/min) and shaft torque (N m) over two piston pitches."""
+    """Draw port pressures (MPa, less their means), line flows (L/min), shaft torque (N m) over two pitches."""
     figure = figure_of(10.0, 3.4)
     left, middle, right = figure.subplots(1, 3)
     angle = np.degrees(data["shaft_angle"].values)
@@ -97,23 +97,23 @@ def ripple_plot(data: xarray.Dataset) -> Figure:
         left.plot(angle, pressure - pressure.mean(), color=colour, label=label)
         middle.plot(angle, data[f"{name}_line_flow"].values * LPM, color=colour, label=name)
     right.plot(angle, data["shaft_torque"].values, color="#1c2328")
-    left.set(ylabel="port pressure off its mean / MPa", title="ports")
+    left.set(ylabel="port pressure less its mean / MPa", title="ports")
     middle.set(ylabel="flow / L/min", title="lines, at port pressure")
     right.set(ylabel="torque / N m", title="shaft")
     for axes in (left, middle, right):
         axes.set(xlabel="shaft angle / deg", xlim=(0, 2.0 * data.attrs["pitch_deg"]))
-    for axes in (left, middle):  # below, where no curve runs
+    for axes in (left, middle):  # below the curves
         axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.22), ncols=2, fontsize="small", frameon=False)
     return figure
 
 
 def gap_maps(data: xarray.Dataset) -> dict[str, Figure]:
-    """Film pressure, film thickness and what is known of the oil, of each gap at the pictured angle, by gap."""
+    """Draw film pressure, film thickness and state of the oil of each gap at the pictured angle, by gap."""
     return {gap: gap_map(data, gap, pictured(data, gap)) for gap in GAPS if f"{gap}_film_pressure" in data}
 
 
 def film_series(data: xarray.Dataset) -> Figure:
-    """Minimum film, carried share of the load and friction of one piston and one slipper over the turn."""
+    """Draw minimum film, load ratio and friction power of one piston and one slipper over the turn."""
     figure = figure_of(10.0, 3.4)
     left, middle, right = figure.subplots(1, 3)
     for gap in ("piston", "slipper"):
@@ -125,9 +125,9 @@ def film_series(data: xarray.Dataset) -> Figure:
         np.divide(data[f"{gap}_carried_load"].values, required, out=carried, where=required > 0.0)
         middle.plot(angle, np.clip(100.0 * carried, 0.0, 200.0), label=gap)
         right.plot(angle, data[f"{gap}_friction_power"].values, label=gap)
-    left.set(ylabel="minimum film / um", title="position given", ylim=(0, None))
-    middle.set(ylabel="load carried / %", title="cut at 200 %")
-    right.set(ylabel="power of the walls / W", title="one piston, one slipper")
+    left.set(ylabel="minimum film / um", title="given position", ylim=(0, None))
+    middle.set(ylabel="supported load over required load / %", title="shown up to 200 %")
+    right.set(ylabel="friction power / W", title="one piston, one slipper")
     for axes in (left, middle, right):
         axes.set(xlabel="shaft angle / deg", xlim=(0, 360))
         axes.legend()
@@ -135,22 +135,22 @@ def film_series(data: xarray.Dataset) -> Figure:
 
 
 def pictured(data: xarray.Dataset, gap: str) -> int:
-    """Index of a gap's film at PICTURED_TURN; the ring's angles cover one pitch and repeat."""
+    """Return the index of a gap's film at PICTURED_TURN; angles of the valve plate cover one pitch and repeat."""
     return round(PICTURED_TURN * data.sizes["piston_angle"]) % data.sizes[f"{gap}_angle"]
 
 
 def gap_place(data: xarray.Dataset, gap: str, k: int) -> tuple[tuple[Array, Array], tuple[str, str]]:
-    """Vertices of a gap's k-th film as a page draws them, and what its axes are called."""
+    """Return the vertices of a gap's k-th film in its picture, and the titles of its axes."""
     x, y = (data[f"{gap}_{axis}"].values[k] * 1e3 for axis in ("x", "y"))
     if gap != "piston":
         return (x, y), ("x / mm", "y / mm")
-    # Unrolled by the angle: cells across the seam would be drawn around the whole film.
+    # Unrolled by the angle: otherwise cells across the seam cover the whole film.
     named = ("angle from the inner dead centre's side / deg", "from the guide's inner end / mm")
     return (360.0 * x / x.max(), y), named
 
 
 def gap_map(data: xarray.Dataset, gap: str, k: int) -> Figure:
-    """Maps of a gap's k-th film: pressure, thickness, and the oil where its state varies."""
+    """Draw maps of a gap's k-th film: pressure, thickness, and the state of the oil where it varies."""
     place, labels = gap_place(data, gap, k)
     cells = data[f"{gap}_cells"].values
     known = [field for field in GAP_FIELDS if f"{gap}_{field.name}" in data]

@@ -1,4 +1,4 @@
-"""An operating point of a pump as a result: numbers, tables, plots."""
+"""Result of an operating point of a pump: numbers, tables, plots."""
 
 from __future__ import annotations
 
@@ -7,14 +7,14 @@ from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
-from swashfilm.case.gap.physics_told import PHYSICS_HEAD, physics_told
+from swashfilm.case.gap.physics import PHYSICS_HEAD, physics_summary
 from swashfilm.console.fidelity import Fidelity
 from swashfilm.output.result import Numbers, Result, Table, plotted
 from swashfilm.runs.pump import plots
 from swashfilm.runs.pump.data import GAPS
 from swashfilm.runs.pump.floating import HEAD, floating_rows
 from swashfilm.runs.pump.page import efficiency_rows, headline_rows, pair_rows
-from swashfilm.runs.table.summary import TOLD_HEAD, told_rows
+from swashfilm.runs.table.summary import TABLE_POINT_HEAD, table_point_rows
 from system.inputs.faults import Fault, InputFaults, nearest_choice
 from system.inputs.units import Dimension, QuantityError, parse_quantity
 
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 class FilmOfGap:
     """The film of one gap over a turn, SI; None where the fidelity does not compute it.
 
-    load_share: least carried load over required load.
+    load_share: least supported load over required load.
     """
 
     least_thickness: float | None
@@ -99,7 +99,7 @@ class PumpRun(Result):
         )
 
     def tables(self) -> list[Table]:
-        """Operating point, efficiencies, friction pairs, and the gaps where they float or come from a table."""
+        """Operating point, efficiencies, friction pairs; gaps that float or come from a response table."""
         summary = self.summary
         tables: list[Table] = [
             (f"Pump {self.name}", headline_rows(summary)),
@@ -107,43 +107,41 @@ class PumpRun(Result):
             ("Friction pairs: Coulomb, viscous, total, share", pair_rows(summary)),
         ]
         if summary["fidelity"] == Fidelity.FLOATING.value:
-            tables.append(
-                ("Gaps that float: of one piston, one slipper, the block", [HEAD, *floating_rows(summary)])
-            )
-            told = physics_told(summary["physics_left_out"], summary["cost"]["physics_seconds"])
-            tables.append(("Their physics", [PHYSICS_HEAD, *told]))
+            tables.append(("Floating gaps: one piston, one slipper, the block", [HEAD, *floating_rows(summary)]))
+            physics = physics_summary(summary["physics_left_out"], summary["cost"]["physics_seconds"])
+            tables.append(("Physics of the floating gaps", [PHYSICS_HEAD, *physics]))
         if "table" in summary:
             title = f"Gaps by a table of the {summary['table']['source']} fidelity"
-            tables.append((title, [TOLD_HEAD, *told_rows(summary)]))
+            tables.append((title, [TABLE_POINT_HEAD, *table_point_rows(summary)]))
         return tables
 
     def plot_losses(self) -> list[Axes]:
-        """Losses of the seven pairs, Coulomb and viscous."""
+        """Draw losses of the seven pairs, Coulomb and viscous."""
         return plotted(lambda: plots.loss_bar(self.summary))
 
     def plot_chamber(self) -> list[Axes]:
-        """Chamber pressure and port openings over the shaft angle."""
+        """Draw chamber pressure and port openings over the shaft angle."""
         return plotted(lambda: plots.chamber_plot(self.to_xarray(), self.summary))
 
     def plot_flows(self) -> list[Axes]:
-        """Delivery flow and leakage flows over the shaft angle."""
+        """Draw delivery flow and leakage flows over the shaft angle."""
         return plotted(lambda: plots.flow_plot(self.to_xarray()))
 
     def plot_ripple(self) -> list[Axes]:
-        """Port pressures, line flows and shaft torque over the shaft angle."""
+        """Draw port pressures, line flows and shaft torque over the shaft angle."""
         return plotted(lambda: plots.ripple_plot(self.to_xarray()))
 
     def plot_film(self, gap: str, angle: str | float = "270 deg") -> list[Axes]:
-        """Film pressure and thickness of a gap ("piston", "slipper", "valve_plate") at a shaft angle.
+        """Draw film pressure and thickness of a gap ("piston", "slipper", "valve_plate") at a shaft angle.
 
         angle: text with its unit, or rad; the nearest solved angle is drawn. Raises InputFaults for another gap,
-        for an angle that is none, and for a fidelity that solves no films.
+        for an invalid angle, and for a fidelity that solves no films.
         """
         data, faults = self.to_xarray(), []
         if gap not in GAPS:
             faults.append(Fault("gap", repr(gap), f"one of {', '.join(GAPS)}", nearest_choice(gap, GAPS)))
         elif f"{gap}_film_pressure" not in data:
-            found = f"fidelity {self.summary['fidelity']}, without film fields here"
+            found = f"fidelity {self.summary['fidelity']}, without film fields"
             faults.append(Fault("gap", found, "a run of fidelity films"))
         try:
             at = parse_quantity(angle, Dimension.ANGLE) if isinstance(angle, str) else float(angle)

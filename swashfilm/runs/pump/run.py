@@ -21,7 +21,7 @@ from swashfilm.runs.pump.page import write_pump_page
 from swashfilm.runs.pump.result import PumpRun
 from swashfilm.runs.pump.summary import pump_summary
 from swashfilm.runs.pump.validity import films_warnings
-from swashfilm.runs.table.summary import told_point, told_summary, told_warnings
+from swashfilm.runs.table.summary import point_by_table, table_point_summary, table_point_warnings
 from system.description.pump import PumpDescription
 from system.multibody.floating_group import floating_joint_forces
 from system.multibody.rotating_group import JointForces, joint_forces
@@ -46,10 +46,10 @@ def no_fields(folder: Path) -> list[str]:
 
 @dataclass(frozen=True)
 class PumpCase:
-    """One operating point to solve: the pump, its file as given, and how its films are found.
+    """One operating point to solve: the pump, the text of its file, and the fidelity of its films.
 
-    table: file of a response table in place of the kept one; options: of floating gaps; side_by_side: the piston
-    of floating gaps has a process of its own.
+    table: file of a response table in place of the stored one; options: of floating gaps; side_by_side: a second
+    process solves the piston of floating gaps.
     """
 
     pump: PumpDescription
@@ -61,7 +61,7 @@ class PumpCase:
 
 
 def solve_pump(case: PumpCase, report: Report = silent) -> PumpRun:
-    """Solve a pump at its operating point; raises NotConverged and FilmNotConverged."""
+    """Solve a pump at its operating point; raise NotConverged and FilmNotConverged."""
     match case.fidelity:
         case Fidelity.LUMPED:
             return _lumped(case)
@@ -115,12 +115,12 @@ def _floating(case: PumpCase, report: Report) -> PumpRun:
 
 
 def _by_table(case: PumpCase) -> PumpRun:
-    pump, told = case.pump, told_point(case.pump, operating_point(case.pump), case.table)
-    point = told.pump_point
-    floats = told.table.origin.source is Source.FLOATING
+    pump, found = case.pump, point_by_table(case.pump, operating_point(case.pump), case.table)
+    point = found.pump_point
+    floats = found.table.origin.source is Source.FLOATING
     of_lands = losses_left_out(pump) if floats else loss_warnings(pump, point)
-    warnings = [*_warnings(pump, point), *of_lands, *told_warnings(told)]
-    summary = pump_summary(pump, point, None, warnings) | told_summary(pump, told)
+    warnings = [*_warnings(pump, point), *of_lands, *table_point_warnings(found)]
+    summary = pump_summary(pump, point, None, warnings) | table_point_summary(pump, found)
     return _run(case, point, summary, joint_forces(pump, point))
 
 
@@ -132,7 +132,7 @@ def _run(
     films: Callable[[], xarray.Dataset] | None = None,
     fields: Callable[[Path], list[str]] = no_fields,
 ) -> PumpRun:
-    """The run of a solved point: its summary with the forces, its data with those of films, and its files."""
+    """Return the run of a solved point: summary with forces, data with those of films, and files."""
     summary["forces"] = forces_summary(joints, point)
     summary["warnings"] += force_warnings(joints)
     places = [str(taken) for taken in joints.group.places.taken]
@@ -159,13 +159,13 @@ def _run(
 
 
 def _warnings(pump: PumpDescription, point: PumpPoint) -> list[str]:
-    """Warnings of the pump and of its point, whatever the fidelity."""
+    """Return the warnings of the pump and of its point that hold for every fidelity."""
     stated = [*check_pump(pump).warnings, *point.warnings]
     return [*(str(warning) for warning in stated), *coefficient_warnings(pump, point)]
 
 
 def draw_gaps(folder: Path, films: FilmsPoint) -> list[str]:
-    """Draw each gap and the whole pump in 3D (piston.png .. pump.png); return why a picture is missing."""
+    """Draw each gap and the whole pump in 3D (piston.png .. pump.png); return the reason of a missing picture."""
     count, positions = len(films.gaps.shaft_angle), len(films.gaps.valve_plate)
     k = round(PICTURED_TURN * count)
     chambers = [(k + shift) % count for shift in range(0, count, positions)]

@@ -1,4 +1,4 @@
-"""summary.json of an operating point: every headline number in SI, its unit in the key, and the checks."""
+"""Summary of an operating point, summary.json: headline numbers in SI with units in the keys, and checks."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ ABBREVIATION = {
 def pump_summary(
     pump: PumpDescription, point: PumpPoint, films: FilmsPoint | None, warnings: Sequence[str]
 ) -> dict[str, Any]:
-    """The summary of an operating point; `films` is None in the lumped fidelity."""
+    """Return the summary of an operating point; `films` is None in the lumped fidelity."""
     losses = paper_losses(point.bench)
     split = energy_split(point.bench, pump.oil.bulk_modulus)
     return {
@@ -83,7 +83,7 @@ def pump_summary(
 
 
 def _physics(pump: PumpDescription, films: FilmsPoint | None) -> dict[str, list[str]]:
-    """Effects of [physics] by how the fidelity has them: films that solve them, or closed laws."""
+    """Return the effects of [physics], those solved by the films and those of closed laws."""
     solved, laws = effects_in_films(pump)
     if films is None:
         solved, laws = (), (*solved, *laws)
@@ -91,7 +91,7 @@ def _physics(pump: PumpDescription, films: FilmsPoint | None) -> dict[str, list[
 
 
 def gap_report(series: Sequence[GapFilm]) -> dict[str, Any]:
-    """What a gap did over the turn: film, share of the load, leakage and friction, at the positions given."""
+    """Return film, supported share of the load, leakage and friction of a gap over the turn at given positions."""
     fractions = [film.carried_fraction for film in series]
     return {
         "film_thickness_mean_m": float(np.mean([film.film_thickness_mean for film in series])),
@@ -109,16 +109,16 @@ def gap_report(series: Sequence[GapFilm]) -> dict[str, Any]:
 
 
 def gap_statement(series: Sequence[GapFilm]) -> str:
-    """In words: how much of its load the film holds where the description puts the part."""
+    """Return a sentence on the share of the load that the film supports at the described position."""
     worst = max(series, key=lambda film: abs(film.required_load - film.carried_load))
     return (
-        f"position given by the description at {len(series)} angles; the film carries "
-        f"{worst.carried_fraction:.1%} of {worst.required_load:.0f} N at the worst"
+        f"position given by the description at {len(series)} angles; the film supports, at the worst angle, "
+        f"{worst.carried_fraction:.1%} of {worst.required_load:.0f} N"
     )
 
 
 def _efficiency(found: Efficiency | None) -> dict[str, float | None]:
-    """The three efficiencies, null where there is none."""
+    """Return the three efficiencies, None where undefined."""
     return {part.name: getattr(found, part.name) if found else None for part in fields(Efficiency)}
 
 
@@ -137,7 +137,7 @@ def _operating_point(point: PumpPoint) -> dict[str, float]:
 
 
 def _ripple(point: PumpPoint) -> dict[str, float | None]:
-    """What pulses over the turn: peak to peak, and amplitudes of the orders z, 2 z and 3 z."""
+    """Return the ripple over the turn: peak to peak, and amplitudes of the orders z, 2 z and 3 z."""
     series = {
         "delivery_pressure": (point.delivery.pressure, "Pa"),
         "delivery_flow": (point.delivery.line_flow, "m3_per_s"),

@@ -1,4 +1,4 @@
-"""What a reader must doubt about the films of an operating point: each with its number, limit and remedy."""
+"""Validity of the films of an operating point: warnings, each with its number, limit and remedy."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ LARGEST_SAMPLING_ERROR = 0.02
 
 
 def films_warnings(films: FilmsPoint) -> list[str]:
-    """All warnings of a films point, `name: text` each."""
+    """Return all warnings of a films point, `name: text` each."""
     return [
         *uncarried_loads(films),
         *impossible_pressures(films),
@@ -20,17 +20,17 @@ def films_warnings(films: FilmsPoint) -> list[str]:
 
 
 def uncarried_loads(films: FilmsPoint) -> list[str]:
-    """A warning for each gap whose film, at some angle, does not hold its load at the position given."""
+    """Return a warning for each gap whose film, at some angle, does not support its load at the given position."""
     return [
         f"load_not_carried: {gap.replace('_', ' ')}: {gap_statement(series)}; contact, squeeze or another "
-        "position makes up the difference: --fidelity floating finds it"
+        "position supplies the difference: --fidelity floating computes it"
         for gap, series in gap_films(films).items()
         if not all(film.holds_its_load for film in series)
     ]
 
 
 def impossible_pressures(films: FilmsPoint) -> list[str]:
-    """A warning for each gap whose film pressure lies beyond what its rigid walls or plain oil may claim."""
+    """Return a warning for each gap whose film pressure exceeds the limit of rigid walls and isoviscous oil."""
     found = []
     for gap, series in gap_films(films).items():
         physics = getattr(films.physics, gap)
@@ -40,15 +40,15 @@ def impossible_pressures(films: FilmsPoint) -> list[str]:
         if peak > LARGEST_RIGID_PRESSURE:
             found.append(
                 f"film_pressure_beyond_rigid: {gap.replace('_', ' ')}: film pressure up to {peak * 1e-6:.0f} MPa "
-                f"(limit {LARGEST_RIGID_PRESSURE * 1e-6:.0f} MPa: walls give way and oil thickens before); give a "
-                "smaller eccentricity or tilt, a larger clearance, or both effects in [physics]: "
+                f"(limit {LARGEST_RIGID_PRESSURE * 1e-6:.0f} MPa: walls deform and viscosity rises before); state "
+                "a smaller eccentricity or tilt, a larger clearance, or both effects in [physics]: "
                 f"compliance in [physics.elastic_opening.{gap}] and [physics.viscosity_pressure]"
             )
     return found
 
 
 def coarse_angles(films: FilmsPoint) -> list[str]:
-    """A warning where the leakage still depends on the number of film angles."""
+    """Return a warning where the leakage depends on the number of film angles."""
     if films.sampling_error <= LARGEST_SAMPLING_ERROR:
         return []
     return [

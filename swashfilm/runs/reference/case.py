@@ -112,7 +112,7 @@ def load_reference(path: Path) -> ReferenceCase:
     faults: list[Fault] = []
     root = Table("", tables, faults)
     if (stated := root.get("format")) != FORMAT:
-        root.fault("format", "no such key" if stated is None else repr(stated), f"format = {FORMAT}")
+        root.fault("format", "missing" if stated is None else repr(stated), f"format = {FORMAT}")
     table = root.table("reference", needed="with kind and its sizes") or Table("reference", {}, [])
     root.close()
     kind = table.choice("kind", ReferenceKind) if table.values else None

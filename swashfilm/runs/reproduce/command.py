@@ -6,7 +6,7 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from swashfilm.case.gap.physics_switches import SWITCHES, add_switches
+from swashfilm.case.gap.switches import SWITCHES, add_switches
 from swashfilm.console.command import Command
 from swashfilm.console.inputs import COMMAND_LINE
 from swashfilm.console.terminal import show, show_result, show_table

@@ -9,7 +9,7 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from swashfilm.case.gap.physics_switches import add_switches, switched_keys
+from swashfilm.case.gap.switches import add_switches, switched_keys
 from swashfilm.console.command import Command
 from swashfilm.console.inputs import COMMAND_LINE
 from swashfilm.console.terminal import show_result

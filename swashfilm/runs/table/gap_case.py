@@ -9,8 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from gaps.response import Axis
-from gaps.response import Spacing as Scale
+from gaps.response import Axis, Spacing
 from reynolds.numerics.arrays import Array
 from reynolds.numerics.cache import content_key
 from swashfilm.case.file import Case, FilmCase
@@ -18,7 +17,7 @@ from swashfilm.case.gap.revolution import RevolutionCase
 from swashfilm.case.study import (
     Combine,
     Ends,
-    Spacing,
+    RangeSpacing,
     StudyCase,
     hold_to_case,
     is_key_of_case,
@@ -129,7 +128,7 @@ _EXAMPLE = 'a table [table] of ranges, such as "operating.pressure" = { from = "
 
 
 def _ends(ranges: Table, key: str) -> Ends | None:
-    """The range of one key; None with its fault told."""
+    """The range of one key; None with its fault listed."""
     raw = ranges.get(key)
     if not is_key_of_case(ranges, key):
         return None
@@ -146,7 +145,7 @@ def _ends(ranges: Table, key: str) -> Ends | None:
 
 
 def _axis(key: str, ends: Ends) -> Axis:
-    scale = Scale.LOGARITHMIC if ends.spacing is Spacing.LOG else Scale.LINEAR
+    scale = Spacing.LOGARITHMIC if ends.spacing is RangeSpacing.LOG else Spacing.LINEAR
     return Axis(key, ends.low, ends.high, scale)
 
 

@@ -16,17 +16,17 @@ from system.points.table.response_table import LARGE_ERROR, axis_value
 from system.points.table.store import find_table, own_table
 from system.pump.operating import OperatingPoint
 
-TOLD_HEAD = ("", "mean film", "least film", "share of contact", "missed at held-out points, at most")
+TABLE_POINT_HEAD = ("", "mean film", "least film", "share of contact", "missed at held-out points, at most")
 
 
-def told_point(pump: PumpDescription, point: OperatingPoint, path: Path | None) -> TablePoint:
+def point_by_table(pump: PumpDescription, point: OperatingPoint, path: Path | None) -> TablePoint:
     """The point by the table in a file, or by the kept one that fits; raises InputFaults where there is none."""
     return table_point(pump, point, own_table(path, pump) if path else find_table(pump, point))
 
 
-def told_summary(pump: PumpDescription, told: TablePoint) -> dict[str, Any]:
+def table_point_summary(pump: PumpDescription, found: TablePoint) -> dict[str, Any]:
     """Fidelity, the table's origin with the error of each output, the films that it tells, and what was taken."""
-    origin, response = told.table.origin, told.table.response
+    origin, response = found.table.origin, found.table.response
     error = response.held_out_error
     return {
         "fidelity": Fidelity.TABLE.value,
@@ -39,40 +39,40 @@ def told_summary(pump: PumpDescription, told: TablePoint) -> dict[str, Any]:
             "held_out_largest_error": {
                 one.name: float(error.largest[k]) for k, one in enumerate(response.outputs)
             },
-            "numbers_largest_error": _numbers_largest(told),
-            "film_thickness_mean_m": asdict(told.film_mean),
-            "film_thickness_min_m": asdict(told.film_least),
-            "contact_share": asdict(told.contact_share),
+            "numbers_largest_error": _numbers_largest(found),
+            "film_thickness_mean_m": asdict(found.film_mean),
+            "film_thickness_min_m": asdict(found.film_least),
+            "contact_share": asdict(found.contact_share),
         },
     }
 
 
-def told_warnings(told: TablePoint) -> Iterator[str]:
+def table_point_warnings(found: TablePoint) -> Iterator[str]:
     """Outputs that held-out points found more than LARGE_ERROR off, and a failed point next to this one."""
-    response, point = told.table.response, told.pump_point.point
+    response, point = found.table.response, found.pump_point.point
     largest = response.held_out_error.largest
     errors = {output.name: float(largest[k]) for k, output in enumerate(response.outputs)}
-    missed = _numbers_largest(told) | errors
+    missed = _numbers_largest(found) | errors
     off = [f"{name} by up to {error:.2g}" for name, error in missed.items() if error > LARGE_ERROR]
     if off:
         yield (
             f"table_error: held-out points of the table err beyond {LARGE_ERROR:g}: {', '.join(off)}; solve the "
-            f"point by the {told.table.origin.source.value} fidelity to be sure"
+            f"point by the {found.table.origin.source.value} fidelity to be sure"
         )
-    failed = told.table.beside_failed(point)
+    failed = found.table.beside_failed(point)
     if failed:
         at = zip(response.axes, failed.at, strict=True)
         place = ", ".join(f"{axis.name.replace('_', ' ')} {axis_value(axis.name, value)}" for axis, value in at)
         yield f"table_guesses: the nearest point of the table has no result ({place}: {failed.reason})"
 
 
-def _numbers_largest(told: TablePoint) -> dict[str, float]:
+def _numbers_largest(found: TablePoint) -> dict[str, float]:
     """Largest error of runs by the table at its held-out points, by number."""
-    numbers = told.table.numbers
+    numbers = found.table.numbers
     return {} if numbers is None else numbers.largest()
 
 
-def told_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:
+def table_point_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:
     """(gap, mean film, least film, share of contact in its friction, what runs by the table miss at most)."""
     table = summary["table"]
     for gap in GAP_PAIRS:

@@ -321,7 +321,7 @@ def test_a_warm_body_takes_the_heat_and_grows_into_the_film(read):
         (GIVEN + WALLS, "thermal", ["no table [oil]"]),
         (GRADE.replace("specific_heat", "spec_heat") + WALLS, "oil.specific_heat", ["a specific heat"]),
         (GRADE + WALLS.replace('"adiabatic"', '"adiabat"'), "thermal.fixed_wall", ["'adiabat'", "'adiabatic'"]),
-        (GRADE + "[thermal]\nfixed_wall = 'adiabatic'\n", "thermal.moving_wall", ["no such key"]),
+        (GRADE + "[thermal]\nfixed_wall = 'adiabatic'\n", "thermal.moving_wall", ["missing"]),
         (GRADE + WALLS + "levels = 1\n", "thermal.levels", ["2 to 12"]),
         (
             GRADE + WALLS.replace('temperature = "50', 'heat_transfer_coefficient = "50'),
@@ -329,9 +329,9 @@ def test_a_warm_body_takes_the_heat_and_grows_into_the_film(read):
         ),
         (
             GIVEN + "[oil]" + GRADE.partition("[oil]")[2].replace('grade = "ISO VG 46"', "") + WALLS,
-            "oil.temperature_coefficient", ["how the viscosity falls"],
+            "oil.temperature_coefficient", ["the decrease of viscosity"],
         ),
-        (GIVEN + "[elastic]\n", "elastic", ["nothing in it", "winkler"]),
+        (GIVEN + "[elastic]\n", "elastic", ["an empty table", "winkler"]),
         (GIVEN + '[elastic]\nwinkler = "1e13 Pa"\n', "elastic.winkler", ["not a stiffness per area"]),
         (GIVEN + PLATE.replace('"plate"', '"plat"'), "elastic.fixed.kind", ["plate"]),
         (GIVEN + PLATE.replace("[4, 1, 1]", "[4, 1]"), "elastic.fixed.cells", ["three whole numbers"]),

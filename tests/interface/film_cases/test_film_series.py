@@ -138,7 +138,7 @@ def test_an_interrupted_study_goes_on_where_it_stopped(monkeypatch, capsys):
     monkeypatch.setattr(film_series, "solve_case", broken)
     assert main(["film", "slider.toml", "-o", "run"]) == 130
     told = capsys.readouterr().err
-    assert "To go on: swashfilm film slider.toml -o run --resume run.partial" in told
+    assert "To continue: swashfilm film slider.toml -o run --resume run.partial" in told
     assert len(list(Path("run.partial/points").glob("*.json"))) == 2
     monkeypatch.setattr(film_series, "solve_case", lambda case: solved.append(case) or solve(case))
     assert main(["film", "slider.toml", "-o", "run", "--resume", "run.partial"]) == 0
@@ -178,7 +178,7 @@ def test_two_workers_give_what_one_gives():
         ),
         (SPEEDS + '"film.viscosity" = ["1 Pa s"]\ncombine = "together"', "study.combine", ["3 of", "1 of"]),
         (SPEEDS + 'combine = "al"', "study.combine", ["'all', 'together'", "all"]),
-        ("", "study", ["no key that varies"]),
+        ("", "study", ["no varied key"]),
         (SPEEDS + '"film.order" = { from = 1, to = 2, points = 9999 }', "study", ["29997 points", "at most"]),
     ],
 )  # fmt: skip

@@ -98,7 +98,7 @@ def test_a_delivery_line_ripples(lumped, tmp_path):
     )
     assert np.mean(revolution["shaft_torque [N m]"]) == pytest.approx(found["torque"]["shaft_Nm"], rel=1e-3)
     assert found["checks"]["energy_balance_error"] < 1e-3
-    assert "What pulses" in (tmp_path / "run" / "report.html").read_text("utf-8")
+    assert "Ripple" in (tmp_path / "run" / "report.html").read_text("utf-8")
 
 
 def test_a_stated_orifice_sets_the_pressure(lumped, tmp_path, capsys):
@@ -201,7 +201,7 @@ def test_paraview_series_lie_in_their_true_place(films):
 @pytest.mark.slow
 def test_films_report_shows_the_gaps(films):
     page = (films / "report.html").read_text("utf-8")
-    assert "slipper-swash plate at shaft angle 270 deg, position given" in page
+    assert "slipper-swash plate at shaft angle 270 deg, given position" in page
     assert "The three gaps" in page
     assert page.count("data:image/png") >= 7
     assert "load_not_carried" in page

@@ -8,7 +8,7 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
-from swashfilm.case.gap.physics_told import PHYSICS_HEAD, physics_told
+from swashfilm.case.gap.physics import PHYSICS_HEAD, physics_summary
 from swashfilm.output.gap_names import TITLES
 from swashfilm.output.page import expect_files, inlined, write_page
 from swashfilm.runs.film.page import summary_rows
@@ -41,7 +41,7 @@ def write_revolution_page(folder: Path) -> Path:
         gap=TITLES[Gap(summary["gap"]).value],
         pictures={name: inlined(png) for name, png in pictures.items()},
         rows=list(revolution_rows(summary)),
-        physics=[PHYSICS_HEAD, *physics_told(summary["physics_left_out"], summary["physics_seconds"])],
+        physics=[PHYSICS_HEAD, *physics_summary(summary["physics_left_out"], summary["physics_seconds"])],
         refinement=[refinement_head(refinement), *refinement_rows(refinement)] if refinement else [],
         convergence=convergence,
         case=(folder / "resolved.toml").read_text("utf-8"),

@@ -19,7 +19,7 @@ from gaps.revolution.reports import (
 )
 from gaps.revolution.warmth import Warmth
 from reynolds.numerics.arrays import Array
-from swashfilm.case.gap.revolution import GapCase, RevolutionCase
+from swashfilm.case.gap.revolution import GapOverTurn, RevolutionCase
 from swashfilm.runs.film.revolution.validity import revolution_warnings
 from system.description.gap import Gap
 from system.films.drives import Drives, drives, no_rubbing, slipper_shape
@@ -40,7 +40,7 @@ class RevolutionStudy:
     angles; of the block, that of the chamber at shaft angle 0.
     """
 
-    case: GapCase
+    case: GapOverTurn
     parts: FloatingParts
     revolution: GapRevolution[Any] = field(repr=False)
     chamber_pressure: Array

@@ -10,7 +10,7 @@ import numpy as np
 from gaps.films.physics import Effect
 from gaps.films.slipper import retainer_force
 from gaps.revolution.march import GapRevolution
-from swashfilm.case.gap.revolution import GapCase
+from swashfilm.case.gap.revolution import GapOverTurn
 from swashfilm.output.gap_names import LARGEST_RIGID_PRESSURE
 from system.description.gap import Gap
 from system.films.drives import slipper_retainer
@@ -25,7 +25,7 @@ _CHECKS = {Gap.SLIPPER: (slipper_has_a_wedge,), Gap.VALVE_PLATE: (block_tips,), 
 
 
 def revolution_warnings(
-    case: GapCase, parts: FloatingParts, found: GapRevolution[Any], balance: float
+    case: GapOverTurn, parts: FloatingParts, found: GapRevolution[Any], balance: float
 ) -> list[dict[str, str]]:
     """Name and text of each warning; `balance` is the turn's mass balance error."""
     told = [
@@ -39,7 +39,7 @@ def revolution_warnings(
     return [{"name": name, "text": text} for name, text in told]
 
 
-def _contact(case: GapCase, parts: FloatingParts, found: GapRevolution[Any]) -> Iterator[tuple[str, str]]:
+def _contact(case: GapOverTurn, parts: FloatingParts, found: GapRevolution[Any]) -> Iterator[tuple[str, str]]:
     """Mean planes that overlap by more than roughness can be pressed together."""
     laws = {
         Gap.PISTON: parts.piston.laws, Gap.SLIPPER: parts.slipper.laws, Gap.VALVE_PLATE: parts.block.laws,
@@ -57,7 +57,9 @@ def _contact(case: GapCase, parts: FloatingParts, found: GapRevolution[Any]) -> 
         )
 
 
-def pulled_together(case: GapCase, parts: FloatingParts, found: GapRevolution[Any]) -> Iterator[tuple[str, str]]:
+def pulled_together(
+    case: GapOverTurn, parts: FloatingParts, found: GapRevolution[Any]
+) -> Iterator[tuple[str, str]]:
     """Slippers that together pull at a plate that the spring presses with more than tips it."""
     retainer, z = slipper_retainer(case.rotor, parts), case.rotor.pump.pump.pistons
     angles, span = found.angles, float(found.angles[-1])
@@ -72,7 +74,7 @@ def pulled_together(case: GapCase, parts: FloatingParts, found: GapRevolution[An
         )
 
 
-def _pressures(case: GapCase, found: GapRevolution[Any]) -> Iterator[tuple[str, str]]:
+def _pressures(case: GapOverTurn, found: GapRevolution[Any]) -> Iterator[tuple[str, str]]:
     """Pressures that rigid walls and constant viscosity may not claim, and those below a cavity's."""
     left_out, turn = case.options.physics.left_out, found.turn
     peak = max(instant.pressure_max for instant in turn.instants)
@@ -92,7 +94,7 @@ def _pressures(case: GapCase, found: GapRevolution[Any]) -> Iterator[tuple[str, 
         )
 
 
-def _motion(case: GapCase, found: GapRevolution[Any], balance: float) -> Iterator[tuple[str, str]]:
+def _motion(case: GapOverTurn, found: GapRevolution[Any], balance: float) -> Iterator[tuple[str, str]]:
     """A motion that a disturbance would leave, steps that are too long, and oil that is lost between angles."""
     if (grows := found.closing.largest_multiplier) > 1.0:
         yield (
